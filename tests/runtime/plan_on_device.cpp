@@ -45,12 +45,6 @@ float PlanOnDevice::texel(std::string_view resource) {
   return gl::readFloats(texture).at(0);
 }
 
-std::vector<PreparedPass*> PlanOnDevice::all() {
-  std::vector<PreparedPass*> pointers;
-  for (PreparedPass& pass : passes) pointers.push_back(&pass);
-  return pointers;
-}
-
 std::function<double(std::uint32_t)> agedBy(double seconds) {
   return [seconds](std::uint32_t) { return seconds; };
 }

@@ -23,7 +23,6 @@ struct PlanOnDevice {
   PreparedPass& operator[](std::string_view pass) { return passes[step(pass)]; }
   // The first channel of the first texel of a resource's newest copy.
   float texel(std::string_view resource);
-  std::vector<PreparedPass*> all();
 
   Device device;
   PreparedPlan prepared;

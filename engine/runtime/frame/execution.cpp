@@ -18,11 +18,9 @@ std::unique_ptr<Execution> Execution::create(Device& device, std::shared_ptr<con
       preparePlan(device, std::move(plan), before ? &before->prepared_ : nullptr, files, diagnostics);
   if (!prepared || diagnostics.hasErrors()) return nullptr;
   std::unique_ptr<Execution> made(new Execution(device, *std::move(prepared), before));
-  std::vector<PreparedPass*> passes;
-  for (PreparedPass& pass : made->prepared_.passes) passes.push_back(&pass);
   const bool good = made->readBack_.prepare(made->plan(), made->prepared_.passes,
                                             before ? &before->readBack_ : nullptr, diagnostics) &&
-                    made->uniforms_.layOut(passes, diagnostics);
+                    made->uniforms_.layOut(made->prepared_.passes, diagnostics);
   return good ? std::move(made) : nullptr;
 }
 
@@ -31,8 +29,7 @@ Execution::Execution(Device& device, PreparedPlan prepared, const Execution* bef
       prepared_(std::move(prepared)),
       uniforms_(
           plan(), device.imports,
-          static_cast<std::uint32_t>(std::max(16, device.context.device().limits.uniformOffsetAlignment)),
-          before ? &before->uniforms_ : nullptr),
+          static_cast<std::uint32_t>(std::max(16, device.context.device().limits.uniformOffsetAlignment))),
       steps_(plan(), *prepared_.pool, device.imports, prepared_.passes, before ? &before->steps_ : nullptr),
       publications_(plan(), *prepared_.pool, device.imports, steps_.cadence(), prepared_.passes,
                     before ? &before->publications_ : nullptr),

@@ -123,8 +123,7 @@ struct PreparedPass {
   const gl::Block* parametersBlock = nullptr;
   const gl::Block* viewBlock = nullptr;
   const gl::Block* sliceBlock = nullptr;
-  static constexpr std::uint32_t kNoPlace = ~std::uint32_t{0};
-  std::uint32_t parametersOffset = kNoPlace, viewOffset = kNoPlace, sliceOffset = kNoPlace;
+  std::uint32_t parametersOffset = 0, viewOffset = 0, sliceOffset = 0;
   std::vector<DynamicUniform> dynamics;
   std::uint64_t programHash = 0;
   std::vector<std::pair<GLuint, graph::Blend>> blends;  // draw buffer index, mode

@@ -5,14 +5,7 @@
 
 namespace weft::runtime {
 
-FrameUniforms::FrameUniforms(const graph::Plan& plan, Imports& imports, std::uint32_t alignment,
-                             const FrameUniforms* before)
-    : plan_(plan),
-      imports_(imports),
-      arena_(before ? before->arena_ : UniformArena(alignment)),
-      values_(*plan.graph) {}
-
-bool FrameUniforms::layOut(std::span<PreparedPass* const> passes, base::Diagnostics& diagnostics) {
+bool FrameUniforms::layOut(std::span<PreparedPass> passes, base::Diagnostics& diagnostics) {
   if (!arena_.layOut(passes, diagnostics)) return false;
   values_.fill(passes, arena_);
   return true;

@@ -21,14 +21,13 @@ namespace weft::runtime {
 
 class FrameUniforms {
  public:
-  // `plan` and `imports` must outlive this. `alignment` of blocks in bytes, as the device wants it. Shares the buffer of the
-  // execution before, if there is one, some of whose passes are laid out next.
-  FrameUniforms(const graph::Plan& plan, Imports& imports, std::uint32_t alignment,
-                const FrameUniforms* before = nullptr);
+  // `plan` and `imports` must outlive this. `alignment` of blocks in bytes, as the device wants it.
+  FrameUniforms(const graph::Plan& plan, Imports& imports, std::uint32_t alignment)
+      : plan_(plan), imports_(imports), arena_(alignment), values_(*plan.graph) {}
 
   // Gives the blocks of all prepared passes their places, and writes the values that do not change with time. False when the
   // buffer cannot be made; see UniformArena::layOut().
-  bool layOut(std::span<PreparedPass* const> passes, base::Diagnostics& diagnostics);
+  bool layOut(std::span<PreparedPass> passes, base::Diagnostics& diagnostics);
 
   // Writes what changes from frame to frame, the values of age(), the View block and how often draws draw, of all passes or of `always` ones only.
   // `passes` per step; `ageOf(resource)` in seconds.

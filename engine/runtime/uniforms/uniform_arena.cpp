@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <string_view>
 
 #include "engine/base/hash.h"
 
@@ -13,72 +12,25 @@ namespace {
 
 constexpr std::size_t kLargestMember = 32;  // bytes of a vector of four doubles
 
-// Bytes from `at` on that no block has.
-struct Gap {
-  std::uint32_t at = 0, bytes = 0;
-};
-
 }  // namespace
 
-std::vector<UniformArena::Place> UniformArena::placesOf(std::span<PreparedPass* const> passes) const {
-  std::vector<Place> places;
-  const auto add = [&](const gl::Block* block, std::uint32_t& offset) {
-    if (block) places.push_back({&offset, (block->bytes + alignment_ - 1) / alignment_ * alignment_});
+bool UniformArena::layOut(std::span<PreparedPass> passes, base::Diagnostics& diagnostics) {
+  std::uint32_t end = 0;
+  const auto place = [&](const gl::Block* block, std::uint32_t& offset) {
+    offset = end;
+    if (block) end += (block->bytes + alignment_ - 1) / alignment_ * alignment_;
   };
-  for (PreparedPass* pass : passes) {
-    add(pass->parametersBlock, pass->parametersOffset);
-    add(pass->viewBlock, pass->viewOffset);
-    add(pass->sliceBlock, pass->sliceOffset);
+  for (PreparedPass& pass : passes) {
+    place(pass.parametersBlock, pass.parametersOffset);
+    place(pass.viewBlock, pass.viewOffset);
+    place(pass.sliceBlock, pass.sliceOffset);
   }
-  return places;
-}
-
-bool UniformArena::layOut(std::span<PreparedPass* const> passes, base::Diagnostics& diagnostics) {
-  std::vector<Place> places = placesOf(passes);
-  const auto middle = std::ranges::stable_partition(places, [](const Place& place) {
-                        return *place.offset != PreparedPass::kNoPlace;
-                      }).begin();
-  const std::span<Place> kept(places.begin(), middle), fresh(middle, places.end());
-  std::ranges::sort(kept, {}, [](const Place& place) { return *place.offset; });
-  std::vector<Gap> gaps;
-  std::uint32_t end = 0, used = 0;
-  for (const Place& place : kept) {
-    if (*place.offset > end) gaps.push_back({end, *place.offset - end});
-    end = *place.offset + place.bytes;
-    used += place.bytes;
-  }
-  for (const Place& place : fresh) {
-    const auto gap = std::ranges::find_if(gaps, [&](const Gap& each) { return each.bytes >= place.bytes; });
-    std::uint32_t& at = gap == gaps.end() ? end : gap->at;
-    *place.offset = at;
-    at += place.bytes;
-    if (gap != gaps.end()) gap->bytes -= place.bytes;
-    used += place.bytes;
-  }
-  const bool grows = end > bytes_.size(), together = grows && end / 2 > used;
-  const std::size_t needed = together ? used : std::max<std::size_t>(end, bytes_.size());
-  bool made = true;
-  if (needed > (buffer_ ? buffer_->bytes() : 0)) {
-    auto buffer = gl::Buffer::create(needed, GL_DYNAMIC_STORAGE_BIT, "uniforms", diagnostics);
-    made = buffer.has_value();
-    if (made) buffer_ = std::make_shared<const gl::Buffer>(std::move(*buffer));
-    changed_ = true;
-  }
-  if (grows) bytes_.resize(end);
-  for (const Place& place : fresh) std::fill_n(bytes_.begin() + *place.offset, place.bytes, std::byte{0});
-  if (together && made) moveTogether(places);
-  changed_ |= !fresh.empty();
-  return made;
-}
-
-void UniformArena::moveTogether(std::span<const Place> places) {
-  std::vector<std::byte> together;
-  for (const Place& place : places) {
-    const auto from = bytes_.begin() + *place.offset;
-    *place.offset = static_cast<std::uint32_t>(together.size());
-    together.insert(together.end(), from, from + place.bytes);
-  }
-  bytes_ = std::move(together);
+  bytes_.assign(end, std::byte{0});
+  if (end == 0) return true;
+  auto buffer = gl::Buffer::create(end, GL_DYNAMIC_STORAGE_BIT, "uniforms", diagnostics);
+  if (!buffer) return false;
+  buffer_ = std::move(*buffer);
+  return true;
 }
 
 void UniformArena::write(std::uint32_t block, const gl::BlockMember& member, const graph::Value& value) {

@@ -1,11 +1,9 @@
 // The uniform blocks of all passes, one after the other in one buffer. Their bytes are kept on the CPU, and are uploaded
-// to the GPU only when a byte has changed. A block keeps its offset as long as its pass is prepared, also from one
-// execution to the next. Does not: know which value a uniform has (uniform_values.h).
+// to the GPU only when a byte has changed. Does not: know which value a uniform has (uniform_values.h).
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -21,11 +19,10 @@ class UniformArena {
   // `alignment` of offsets in bytes, as the device wants it.
   explicit UniformArena(std::uint32_t alignment) : alignment_(alignment) {}
 
-  // Gives each block of `passes` that has no offset yet the first room that is free, its bytes 0, and makes the buffer
-  // large enough. All others keep offset and bytes, except when the buffer must grow though more than half of it would
-  // be free: then blocks move together, with their bytes. Room of passes that are not named is free. False when the buffer
-  // cannot be made: blocks that had an offset keep it, and the buffer is the one before, which is too small for the others.
-  bool layOut(std::span<PreparedPass* const> passes, base::Diagnostics& diagnostics);
+  // Gives each block of `passes` its offset, its bytes 0, and makes the buffer. To be called once. False when the buffer
+  // cannot be made.
+  bool layOut(std::span<PreparedPass> passes, base::Diagnostics& diagnostics);
+
   // Writes the bytes of one member. `value` must fit it (memberTakes). `block` is the offset of the block.
   void write(std::uint32_t block, const gl::BlockMember& member, const graph::Value& value);
   void writeView(std::uint32_t block, const gl::Block& layout, const scene::ViewData& view,
@@ -34,21 +31,14 @@ class UniformArena {
   // The hash of `seed` and the bytes of a block; `seed` itself when `layout` is null.
   std::uint64_t hash(std::uint32_t block, const gl::Block* layout, std::uint64_t seed) const;
   std::span<const std::byte> bytes() const { return bytes_; }
-  GLuint buffer() const { return buffer_ ? buffer_->id() : 0; }
+  GLuint buffer() const { return buffer_.id(); }
   // Sends the bytes when one has changed since the last call.
   void upload();
 
  private:
-  struct Place {  // of a block, in bytes
-    std::uint32_t* offset = nullptr;
-    std::uint32_t bytes = 0;
-  };
-  std::vector<Place> placesOf(std::span<PreparedPass* const> passes) const;
-  void moveTogether(std::span<const Place> places);
-
   std::uint32_t alignment_;
   std::vector<std::byte> bytes_;
-  std::shared_ptr<const gl::Buffer> buffer_;
+  gl::Buffer buffer_;
   bool changed_ = true;
 };
 

@@ -28,12 +28,12 @@ graph::Value UniformValues::valueOf(const graph::UniformSpec& uniform) const {
   return uniform.dynamic.live() ? uniform.dynamic.evaluateFolded(trialAge, parameters_) : uniform.value;
 }
 
-void UniformValues::fill(std::span<PreparedPass* const> passes, UniformArena& arena) {
+void UniformValues::fill(std::span<PreparedPass> passes, UniformArena& arena) {
   readers_.clear();
   readersOf_.assign(parameters_.size(), {});
-  for (PreparedPass* pass : passes) {
-    fillPass(*pass, arena);
-    listReaders(*pass);
+  for (PreparedPass& pass : passes) {
+    fillPass(pass, arena);
+    listReaders(pass);
   }
   std::size_t most = 0;
   for (const auto& readers : readersOf_) most = std::max(most, readers.size());

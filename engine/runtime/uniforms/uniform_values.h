@@ -24,7 +24,7 @@ class UniformValues {
 
   // Writes all values that do not change with time, and lists in each pass those that do. `passes` must have been laid out
   // in `arena`.
-  void fill(std::span<PreparedPass* const> passes, UniformArena& arena);
+  void fill(std::span<PreparedPass> passes, UniformArena& arena);
   // Writes what changes with time. `ageOf(resource)` in seconds.
   void refresh(const PreparedPass& pass, const std::function<double(std::uint32_t)>& ageOf,
                UniformArena& arena) const;

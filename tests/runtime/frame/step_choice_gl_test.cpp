@@ -27,7 +27,7 @@ struct ChosenSteps {
         steps(*on.plan, *on.pool, on.device.imports, on.passes),
         generations(on.plan->graph->resources.size(), 1) {
     base::Diagnostics diagnostics;
-    uniforms.layOut(on.all(), diagnostics);
+    uniforms.layOut(on.passes, diagnostics);
     REQUIRE_MESSAGE(diagnostics.empty(), diagnostics.text());
   }
   // The names of the steps that a frame runs, in order.

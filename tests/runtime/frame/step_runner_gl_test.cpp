@@ -21,8 +21,8 @@ struct Steps {
 
   explicit Steps(const std::string& graph)
       : prepared(graph), runner(*prepared.plan, prepared.device, *prepared.pool, arena) {
-    arena.layOut(prepared.all(), diagnostics);
-    runtime::UniformValues(*prepared.plan->graph).fill(prepared.all(), arena);
+    arena.layOut(prepared.passes, diagnostics);
+    runtime::UniformValues(*prepared.plan->graph).fill(prepared.passes, arena);
     arena.upload();
     prepared.device.timers.beginFrame(static_cast<std::uint32_t>(prepared.passes.size()));
   }

@@ -19,7 +19,7 @@ struct Filled {
 
   explicit Filled(const std::string& graph) : on(graph), uniforms(*on.plan, on.device.imports, 256) {
     base::Diagnostics diagnostics;
-    uniforms.layOut(on.all(), diagnostics);
+    uniforms.layOut(on.passes, diagnostics);
     REQUIRE_MESSAGE(diagnostics.empty(), diagnostics.text());
   }
   template <class T>
@@ -51,14 +51,6 @@ TEST_CASE("a frame writes what depends on time; a parameter is written when it i
   live.on["timed"].usable = false;
   live.uniforms.refresh(live.on.passes, agedBy(6), false);
   CHECK(live.amountOf("timed") == 20);
-}
-
-TEST_CASE("what follows an execution starts with its bytes") {
-  const CleanScope clean;
-  Filled live("tests/runtime/graphs/live.json");
-  live.uniforms.refresh(live.on.passes, agedBy(3), false);
-  const runtime::FrameUniforms next(*live.on.plan, live.on.device.imports, 256, &live.uniforms);
-  CHECK(std::ranges::equal(next.arena().bytes(), live.uniforms.arena().bytes()));
 }
 
 TEST_CASE("slices: the pass type learns its part, and the shader where that begins") {

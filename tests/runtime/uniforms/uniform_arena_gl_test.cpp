@@ -42,7 +42,8 @@ T readBack(const UniformArena& arena, std::uint32_t at) {
 struct Arena {
   gl::Block first = blockOf(20, {memberOf("wide", GL_FLOAT_VEC4, 0), memberOf("scalar", GL_FLOAT, 16)});
   gl::Block second = blockOf(300, {memberOf("deep", GL_DOUBLE_VEC4, 256)});
-  PreparedPass a, b, none;
+  std::array<PreparedPass, 3> passes;
+  PreparedPass &a = passes[0], &b = passes[2];
   UniformArena arena{kAlignment};
   base::Diagnostics diagnostics;
 
@@ -50,7 +51,6 @@ struct Arena {
     a.parametersBlock = &first;
     b.parametersBlock = &second;
     b.sliceBlock = &first;
-    const std::array<PreparedPass*, 3> passes = {&a, &none, &b};
     arena.layOut(passes, diagnostics);
   }
 };
@@ -119,77 +119,6 @@ TEST_CASE("a hash follows the bytes of its own block alone") {
   CHECK(all.arena.hash(0, &all.first, 1) != first);
   CHECK(all.arena.hash(256, &all.second, 1) == second);
   CHECK(all.arena.hash(0, nullptr, 5) == 5);
-}
-
-TEST_CASE("a pass that stays keeps offset and bytes, a new one gets the room that another left, with zeros") {
-  const CleanScope clean;
-  Arena all;
-  all.arena.write(all.b.sliceOffset, all.first.members[1], graph::Value::number(7));
-  all.arena.write(all.a.parametersOffset, all.first.members[1], graph::Value::number(3));
-  PreparedPass c, d;
-  c.parametersBlock = d.parametersBlock = &all.first;
-  UniformArena next = all.arena;
-  const std::array<PreparedPass*, 3> passes = {&c, &all.b, &d};  // a is gone
-  next.layOut(passes, all.diagnostics);
-  next.upload();
-  CHECK(all.b.parametersOffset == 256);
-  CHECK(all.b.sliceOffset == 256 + 512);
-  CHECK(readBack<float>(next, all.b.sliceOffset + 16) == 7);
-  CHECK(c.parametersOffset == 0);
-  CHECK(readBack<float>(next, 16) == 0);
-  CHECK(d.parametersOffset == 256 + 512 + 256);
-  CHECK(next.bytes().size() == 256 + 512 + 256 + 256);
-  CHECK(all.diagnostics.empty());
-}
-
-TEST_CASE("a copy with the same passes sends nothing") {
-  const CleanScope clean;
-  Arena all;
-  all.arena.upload();
-  UniformArena next = all.arena;
-  const std::array<PreparedPass*, 2> passes = {&all.b, &all.a};
-  next.layOut(passes, all.diagnostics);
-  const float foreign = -1;
-  gl::uploadBuffer(next.buffer(), 16, std::as_bytes(std::span(&foreign, 1)));
-  next.upload();
-  CHECK(readBack<float>(next, 16) == foreign);
-}
-
-TEST_CASE("a buffer that must grow, and would be mostly free, is moved together") {
-  const CleanScope clean;
-  UniformArena arena{kAlignment};
-  base::Diagnostics diagnostics;
-  const gl::Block small = blockOf(20, {memberOf("scalar", GL_FLOAT, 16)}), large = blockOf(2000, {});
-  PreparedPass first, last, huge;
-  first.parametersBlock = &large;
-  last.parametersBlock = &small;
-  huge.parametersBlock = &small;
-  huge.viewBlock = &large;
-  const std::array<PreparedPass*, 2> before = {&first, &last};
-  arena.layOut(before, diagnostics);
-  CHECK(last.parametersOffset == 2048);
-  arena.write(last.parametersOffset, small.members[0], graph::Value::number(7));
-  // Nothing grows: last stays where it is.
-  const std::array<PreparedPass*, 1> alone = {&last};
-  arena.layOut(alone, diagnostics);
-  CHECK(last.parametersOffset == 2048);
-  // 256 bytes go into the gap, 2048 do not fit behind them: 4352 bytes for 2560 are not twice as many.
-  const std::array<PreparedPass*, 2> more = {&last, &huge};
-  arena.layOut(more, diagnostics);
-  CHECK(huge.parametersOffset == 0);
-  CHECK(huge.viewOffset == 2304);
-  CHECK(last.parametersOffset == 2048);
-  // And 4608 for 512 are.
-  PreparedPass tail;
-  const gl::Block odd = blockOf(2300, {});
-  tail.parametersBlock = &odd;
-  huge.parametersBlock = nullptr;
-  huge.viewBlock = nullptr;
-  const std::array<PreparedPass*, 2> grown = {&last, &tail};
-  arena.layOut(grown, diagnostics);
-  arena.upload();
-  CHECK(readBack<float>(arena, last.parametersOffset + 16) == 7);
-  CHECK(diagnostics.empty());
 }
 
 }  // namespace weft::runtime

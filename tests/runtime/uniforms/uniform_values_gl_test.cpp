@@ -20,8 +20,8 @@ struct LiveValues {
 
   LiveValues() {
     base::Diagnostics diagnostics;
-    arena.layOut(prepared.all(), diagnostics);
-    values.fill(prepared.all(), arena);
+    arena.layOut(prepared.passes, diagnostics);
+    values.fill(prepared.passes, arena);
     REQUIRE_MESSAGE(diagnostics.empty(), diagnostics.text());
   }
   float amountOf(const char* pass) {
