@@ -242,8 +242,7 @@ struct FlatGraph {
   std::vector<FlatPass> passes;  // declared order
   std::vector<FlatUse> uses;     // grouped by pass, in slot order
   std::vector<FlatResource> resources;
-  FlatUse
-      present;  // resource kNone: nothing. Kind sampled: a stand-in for an import, which other plans read; else copy
+  FlatUse present;               // resource kNone: nothing
   std::vector<FlatUse> outputs;  // read-backs; which read as passes do
   VersionLinks links;
   // names and places, parallel to passes and resources

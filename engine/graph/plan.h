@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -90,6 +91,23 @@ struct Plan {
   std::uint64_t bytesLowerBound = 0;  // sum over classes of the greatest number alive at once
   std::uint64_t bytesBound = 0;       // sum over steps of the bytes a pass touches
   static constexpr std::uint64_t kNoOffset = ~0ull;
+
+  const FlatPass& passOf(std::size_t step) const { return graph->passes[steps[step].pass]; }
+  std::span<const FlatUse> usesOf(std::size_t step) const {
+    return std::span(graph->uses).subspan(passOf(step).firstUse, passOf(step).useCount);
+  }
+  // f(use), for each use through which a step writes.
+  template <class F>
+  void forEachWrite(std::size_t step, const F& f) const {
+    const FlatPass& pass = passOf(step);
+    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u)
+      if (graph->uses[u].access != Access::read && attached[u] != 0) f(graph->uses[u]);
+  }
+  bool writes(std::size_t step, std::uint32_t resource) const {
+    bool any = false;
+    forEachWrite(step, [&](const FlatUse& use) { any |= use.resource == resource; });
+    return any;
+  }
 
   // Physical copies of a resource: itself, its history, and the one a time-sliced group is writing.
   std::uint32_t copiesOf(std::uint32_t resource) const {

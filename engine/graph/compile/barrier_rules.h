@@ -61,12 +61,9 @@ inline std::uint16_t clearBit(const ClearOp& clear, bool buffer) {
                                    : kBarrierTextureUpdate;
 }
 
-// What follows the last step: the present blit and glReadPixels, and a buffer is copied out. Where `present` says sampled, the
-// picture goes to other plans instead, which may do with it all that may be done with an import: sample, load and copy it.
-inline std::uint16_t endBits(const FlatUse& use, bool buffer) {
-  if (buffer) return kBarrierBufferUpdate;
-  if (use.kind != Kind::sampled) return kBarrierFramebuffer;
-  return kBarrierTexture | kBarrierImage | kBarrierFramebuffer | kBarrierTextureUpdate;
+// What follows the last step: the present blit and glReadPixels, and a buffer is copied out.
+inline std::uint16_t endBits(bool buffer) {
+  return buffer ? kBarrierBufferUpdate : kBarrierFramebuffer;
 }
 
 }  // namespace weft::graph

@@ -192,7 +192,7 @@ class Collector {
         if (plan_.outputLive[i] != 0) f(graph_.outputs[i]);
     };
     if constexpr (collecting) {
-      atEnd([&](const FlatUse& use) { need(use, endBits(use, isBufferUse(use)), false); });
+      atEnd([&](const FlatUse& use) { need(use, endBits(isBufferUse(use)), false); });
       settle(end_);
     }
     atEnd([&](const FlatUse& use) { mark(use, false, 2 * end_ + 2); });

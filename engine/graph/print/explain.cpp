@@ -185,7 +185,7 @@ bool Explainer::eachAccess(std::uint32_t step, F&& f) const {
   const auto buffer = [&](const FlatUse& use) { return isBuffer(graph_.resources[use.resource]); };
   if (step == plan_.steps.size()) {
     const auto end = [&](const FlatUse& use) {
-      return f(Touch{kNone, use, false, 0}, endBits(use, buffer(use)), false);
+      return f(Touch{kNone, use, false, 0}, endBits(buffer(use)), false);
     };
     if (graph_.present.resource != kNone && plan_.firstStep[graph_.present.resource] != kNone &&
         end(graph_.present))

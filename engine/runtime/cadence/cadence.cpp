@@ -6,31 +6,8 @@ namespace weft::runtime {
 
 using graph::Access;
 using graph::Cadence;
-using graph::FlatPass;
 using graph::FlatUse;
 using graph::kNone;
-
-namespace {
-
-template <class Visit>
-void forEachUse(const graph::Plan& plan, std::size_t step, Visit visit) {
-  const FlatPass& pass = plan.graph->passes[plan.steps[step].pass];
-  for (std::uint32_t i = 0; i < pass.useCount; ++i)
-    visit(plan.graph->uses[pass.firstUse + i], pass.firstUse + i);
-}
-
-template <class Visit>
-void forEachWrite(const graph::Plan& plan, std::size_t step, Visit visit) {
-  forEachUse(plan, step, [&](const FlatUse& use, std::size_t index) {
-    if (use.access != Access::read && plan.attached[index]) visit(use.resource);
-  });
-}
-
-const FlatPass& passOf(const graph::Plan& plan, std::size_t step) {
-  return plan.graph->passes[plan.steps[step].pass];
-}
-
-}  // namespace
 
 FrameCadence::FrameCadence(const graph::Plan& plan) : plan_(plan) {
   const std::size_t steps = plan.steps.size();
@@ -46,8 +23,8 @@ FrameCadence::FrameCadence(const graph::Plan& plan) : plan_(plan) {
   groupOf_.assign(steps, kNone);
   groups_.resize(plan.groups.sliced.size());
   for (std::uint32_t s = 0; s < steps; ++s) {
-    if (passOf(plan, s).cadence == Cadence::always)
-      forEachWrite(plan, s, [&](std::uint32_t r) { alwaysWritten_[r] = 1; });
+    if (plan.passOf(s).cadence == Cadence::always)
+      plan.forEachWrite(s, [&](const FlatUse& use) { alwaysWritten_[use.resource] = 1; });
     groupOf_[s] = plan.groups.groupOf(plan.steps[s].pass);
     if (groupOf_[s] != kNone) groups_[groupOf_[s]].steps.push_back(s);
   }
@@ -66,18 +43,18 @@ bool FrameCadence::differs(std::size_t step, const PassMemory& memory, bool inpu
   if (!inputs) return false;
   bool changed = false;
   std::size_t input = 0;
-  forEachUse(plan_, step, [&](const FlatUse& use, std::size_t) {
-    if (use.access != Access::read) return;
+  for (const FlatUse& use : plan_.usesOf(step)) {
+    if (use.access != Access::read) continue;
     const bool counts = use.history > 0 || !isInside(step, use.resource);
     changed |= counts && (input >= memory.inputs.size() || memory.inputs[input] != generations[use.resource]);
     ++input;
-  });
+  }
   return changed;
 }
 
 bool FrameCadence::wants(std::size_t step, const std::vector<std::uint64_t>& own,
                          const std::vector<std::uint64_t>& generations) const {
-  const Cadence cadence = passOf(plan_, step).cadence;
+  const Cadence cadence = plan_.passOf(step).cadence;
   if (cadence == Cadence::always) return true;
   // While a group is under way, any change of what it has read would make the rest of its result another picture, also for
   // `once`.
@@ -95,19 +72,19 @@ bool FrameCadence::sweep(bool ahead) {
     blocked_[r] = (group != kNone && !groups_[group].published) || (ahead && alwaysWritten_[r]);
   }
   for (std::size_t s = 0; s < run_.size(); ++s) {
-    const Cadence cadence = passOf(plan_, s).cadence;
+    const Cadence cadence = plan_.passOf(s).cadence;
     if (cadence == Cadence::always) {
       run_[s] = !ahead;
-      if (run_[s]) forEachWrite(plan_, s, [&](std::uint32_t r) { written_[r] = 1; });
+      if (run_[s]) plan_.forEachWrite(s, [&](const FlatUse& use) { written_[use.resource] = 1; });
       continue;
     }
     Group* group = groupOf_[s] == kNone ? nullptr : &groups_[groupOf_[s]];
     bool woken = false, blocked = false;
-    forEachUse(plan_, s, [&](const FlatUse& use, std::size_t) {
-      if (use.access != Access::read || use.history > 0 || isInside(s, use.resource)) return;
+    for (const FlatUse& use : plan_.usesOf(s)) {
+      if (use.access != Access::read || use.history > 0 || isInside(s, use.resource)) continue;
       woken |= written_[use.resource] != 0;
       blocked |= blocked_[use.resource] != 0;
-    });
+    }
     if (cadence == Cadence::once && !(group && (group->active || group->finished))) woken = false;
     bool want = wants_[s] || woken;
     if (group) {
@@ -119,8 +96,8 @@ bool FrameCadence::sweep(bool ahead) {
     }
     run_[s] = want && !blocked;
     if (group && group->sliced) continue;  // what it writes is seen when it is published
-    if (run_[s]) forEachWrite(plan_, s, [&](std::uint32_t r) { written_[r] = 1; });
-    if (want && blocked) forEachWrite(plan_, s, [&](std::uint32_t r) { blocked_[r] = 1; });
+    if (run_[s]) plan_.forEachWrite(s, [&](const FlatUse& use) { written_[use.resource] = 1; });
+    if (want && blocked) plan_.forEachWrite(s, [&](const FlatUse& use) { blocked_[use.resource] = 1; });
   }
   return again;
 }
@@ -152,7 +129,7 @@ void FrameCadence::settle(const std::vector<std::uint64_t>& own,
 
 // Lets the group's next slice run, with the passes without slices that follow it; `whole`: all of its passes.
 void FrameCadence::takeTurn(Group& group, bool whole) {
-  const auto slicesOf = [&](std::uint32_t at) { return passOf(plan_, group.steps[at]).slices; };
+  const auto slicesOf = [&](std::uint32_t at) { return plan_.passOf(group.steps[at]).slices; };
   const auto end = static_cast<std::uint32_t>(group.steps.size());
   do {
     const std::uint32_t step = group.steps[group.at], of = std::max(1u, slicesOf(group.at));
@@ -190,11 +167,11 @@ void FrameCadence::take(std::size_t step, PassMemory& memory, std::uint64_t own,
                         const std::vector<std::uint64_t>& before,
                         const std::vector<std::uint64_t>& after) const {
   std::size_t input = 0;
-  forEachUse(plan_, step, [&](const FlatUse& use, std::size_t) {
-    if (use.access != Access::read) return;
+  for (const FlatUse& use : plan_.usesOf(step)) {
+    if (use.access != Access::read) continue;
     if (input == memory.inputs.size()) memory.inputs.push_back(0);
     memory.inputs[input++] = (use.history ? before : after)[use.resource];
-  });
+  }
   memory.ran = true;
   memory.own = own;
 }
@@ -220,6 +197,34 @@ void FrameCadence::markPublished(std::uint32_t index) {
     memories_[s].own = latches_[s].own;
     memories_[s].inputs.assign(latches_[s].inputs.begin(), latches_[s].inputs.end());
   }
+}
+
+std::vector<std::uint8_t> findFrameHistories(const graph::Plan& plan) {
+  std::vector<std::uint8_t> found;
+  for (const graph::FlatResource& resource : plan.graph->resources) found.push_back(resource.history > 0);
+  for (std::size_t step = 0; step < plan.steps.size(); ++step) {
+    if (plan.passOf(step).cadence == Cadence::always) continue;
+    for (const FlatUse& use : plan.usesOf(step))
+      if (use.access != Access::read) found[use.resource] = 0;
+  }
+  return found;
+}
+
+std::vector<std::uint8_t> findLastingSteps(const graph::Plan& plan) {
+  std::vector<std::uint8_t> lasting(plan.steps.size(), 0);
+  std::vector<std::uint8_t> wanted(plan.persistent.begin(), plan.persistent.end());  // per resource
+  const std::vector<std::uint8_t> ofOneFrame = findFrameHistories(plan);
+  for (std::size_t r = 0; r < wanted.size(); ++r)
+    if (ofOneFrame[r]) wanted[r] = 0;
+  for (std::size_t step = plan.steps.size(); step-- > 0;) {
+    bool lasts = plan.passOf(step).cadence != Cadence::always || plan.passOf(step).sideEffect;
+    plan.forEachWrite(step, [&](const FlatUse& use) { lasts |= wanted[use.resource] != 0; });
+    lasting[step] = lasts;
+    if (!lasts) continue;
+    for (const FlatUse& use : plan.usesOf(step))
+      if (use.access != Access::write) wanted[use.resource] = 1;
+  }
+  return lasting;
 }
 
 }  // namespace weft::runtime

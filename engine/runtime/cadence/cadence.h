@@ -91,4 +91,12 @@ class FrameCadence {
   std::vector<std::uint8_t> alwaysWritten_;  // per resource
 };
 
+// Per resource: a history that only `always` passes write, so that it is made anew in each frame.
+std::vector<std::uint8_t> findFrameHistories(const graph::Plan& plan);
+
+// Per step: later frames depend on it even when nobody sees this one. Its results are kept, it is a slice, or one of those
+// needs what it makes. The other steps serve only the picture of their frame: they may be left out of a frame that is
+// dropped, whose histories go back to what they were before it. What is read back for display does not count.
+std::vector<std::uint8_t> findLastingSteps(const graph::Plan& plan);
+
 }  // namespace weft::runtime

@@ -37,21 +37,15 @@ bool remembersFrames(const graph::Plan& plan, std::span<const PreparedPass> pass
   for (std::size_t r = 0; r < still.size(); ++r)
     if (const std::uint32_t import = graph.resources[r].import; import != graph::kNone)
       still[r] = imports.isStill(graph.imports[import], world);
-  const auto passOf = [&](std::size_t step) -> const graph::FlatPass& {
-    return graph.passes[plan.steps[step].pass];
-  };
-  const auto usesOf = [&](std::size_t step) {
-    return std::span(graph.uses).subspan(passOf(step).firstUse, passOf(step).useCount);
-  };
   for (std::size_t step = 0; step < passes.size(); ++step)
-    for (const graph::FlatUse& use : usesOf(step))
-      if (use.access != graph::Access::read && passOf(step).cadence == graph::Cadence::always)
+    for (const graph::FlatUse& use : plan.usesOf(step))
+      if (use.access != graph::Access::read && plan.passOf(step).cadence == graph::Cadence::always)
         still[use.resource] = 0;
   // What is still was published before the first frame and never again, so its history is the same in every frame, and a
   // draw that counts its instances by the age of such things draws the same number in every frame.
   for (std::size_t step = 0; step < passes.size(); ++step) {
     if (drawsNothing(passes[step].context.spec->timedInstances, still)) continue;
-    for (const graph::FlatUse& use : usesOf(step))
+    for (const graph::FlatUse& use : plan.usesOf(step))
       if (use.history > 0 && !still[use.resource]) return true;
   }
   for (const graph::HistorySpec& history : graph.histories) {
@@ -69,7 +63,7 @@ bool remembersFrames(const graph::Plan& plan, std::span<const PreparedPass> pass
   for (std::size_t step = 0; step < passes.size(); ++step) {
     const PreparedPass& pass = passes[step];
     if (pass.viewBlock && remembers(pass.context.spec->view)) return true;
-    for (const graph::FlatUse& use : usesOf(step))
+    for (const graph::FlatUse& use : plan.usesOf(step))
       if (remembers(graph.resources[use.resource].import)) return true;
     bool unsteady = false;
     const auto look = [&](const graph::Expr& expr) {
@@ -79,9 +73,10 @@ bool remembersFrames(const graph::Plan& plan, std::span<const PreparedPass> pass
     for (const graph::UniformSpec& uniform : pass.context.spec->uniforms) look(uniform.dynamic);
     look(pass.context.spec->timedInstances);
     if (unsteady) return true;
-    if (passOf(step).cadence == graph::Cadence::always) continue;
+    if (plan.passOf(step).cadence == graph::Cadence::always) continue;
     // A result that is kept must be made of what is still; otherwise it matters in which frame it was made.
-    if (std::ranges::any_of(usesOf(step), [&](const graph::FlatUse& use) { return !still[use.resource]; }))
+    if (std::ranges::any_of(plan.usesOf(step),
+                            [&](const graph::FlatUse& use) { return !still[use.resource]; }))
       return true;
     if (pass.meshes
             ? scene::isMoving(world.scene())
@@ -98,10 +93,9 @@ bool readsPointer(const graph::Plan& plan, Imports& imports) {
     const std::uint32_t import = graph.resources[use.resource].import;
     return import != graph::kNone && imports.followsPointer(graph.imports[import]);
   };
-  return std::ranges::any_of(plan.steps, [&](const graph::Step& step) {
-    const graph::FlatPass& pass = graph.passes[step.pass];
-    return std::ranges::any_of(std::span(graph.uses).subspan(pass.firstUse, pass.useCount), follows);
-  });
+  for (std::size_t step = 0; step < plan.steps.size(); ++step)
+    if (std::ranges::any_of(plan.usesOf(step), follows)) return true;
+  return false;
 }
 
 }  // namespace weft::runtime

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "engine/base/hash.h"
-#include "engine/runtime/cadence/lasting.h"
 
 namespace weft::runtime {
 
@@ -66,15 +65,12 @@ Publications::Publications(const graph::Plan& plan, ResourcePool& pool, Imports&
 // An import that an `on_change` pass of a group reads is shown with what the group makes of it; a time-sliced
 // group goes before others.
 void Publications::findPublishers() {
-  const graph::FlatGraph& graph = *plan_.graph;
-  for (const graph::Step& step : plan_.steps) {
-    const graph::FlatPass& pass = graph.passes[step.pass];
-    const std::uint32_t group = plan_.groups.groupOf(step.pass);
-    if (group == kNone || pass.cadence != Cadence::on_change) continue;
-    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
-      const graph::FlatUse& use = graph.uses[u];
+  for (std::size_t step = 0; step < plan_.steps.size(); ++step) {
+    const std::uint32_t group = plan_.groups.groupOf(plan_.steps[step].pass);
+    if (group == kNone || plan_.passOf(step).cadence != Cadence::on_change) continue;
+    for (const graph::FlatUse& use : plan_.usesOf(step)) {
       GpuResource& resource = pool_[use.resource];
-      const bool import = graph.resources[use.resource].kind == ResourceKind::imported_texture;
+      const bool import = plan_.graph->resources[use.resource].kind == ResourceKind::imported_texture;
       if (!import || use.history > 0) continue;
       if (resource.publisher == kNone ||
           (plan_.groups.sliced[group] && !plan_.groups.sliced[resource.publisher]))
@@ -174,7 +170,7 @@ void Publications::resetHistories(base::Diagnostics& diagnostics) {
 bool Publications::announce() {
   bool any = false;
   for (std::size_t step = 0; step < passes_.size(); ++step) {
-    if (!cadence_.runs(step) || cadenceOf(step) == Cadence::always) continue;
+    if (!cadence_.runs(step) || plan_.passOf(step).cadence == Cadence::always) continue;
     for (const std::uint32_t r : passes_[step].written)
       if (pool_[r].group == kNone) {
         publishing_[r] = 1;

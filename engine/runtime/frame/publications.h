@@ -68,9 +68,6 @@ class Publications {
   void continueGroups();
   void continueHistories(const Publications& before);
   void continueImports(const Publications& before);
-  graph::Cadence cadenceOf(std::size_t step) const {
-    return plan_.graph->passes[plan_.steps[step].pass].cadence;
-  }
   const graph::ImportSpec& importOf(std::size_t resource) const {
     return plan_.graph->imports[plan_.graph->resources[resource].import];
   }

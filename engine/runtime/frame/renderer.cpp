@@ -130,42 +130,27 @@ bool Renderer::prepareStandIns(const graph::FlatGraph& graph, const World& world
     // No resource has this import when a list of alternatives has something else in its place.
     if (std::ranges::find(graph.resources, i, &graph::FlatResource::import) == graph.resources.end())
       continue;
-    const std::string path = device_.imports.standInGraph(import, world);
-    if (path.empty()) continue;
-    const StandIn* standIn = prepareStandIn(path, world, diagnostics);
-    if (!standIn) return false;
-    device_.imports.setStandIn(import, standIn->execution->presentedWhole());
+    const std::string name = device_.imports.standInGraph(import, world);
+    if (name.empty()) continue;
+    std::unique_ptr<Renderer>& standIn = standIns_[name];
+    if (!standIn) {
+      Options options = options_;
+      options.presets.clear();
+      options.compile = {};
+      auto made = std::make_unique<Renderer>(
+          device_.context, (std::filesystem::path(options_.dataFolder) / name).string(), std::move(options));
+      graph::Settings settings;
+      settings.software = device_.context.device().software;
+      if (!made->load(settings, world, diagnostics)) return false;
+      made->frame(world, headlessFrame(world, 0, 60), diagnostics);
+      // Its plan does not know the readers.
+      glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                      GL_FRAMEBUFFER_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+      standIn = std::move(made);
+    }
+    device_.imports.setStandIn(import, standIn->execution_->presentedWhole());
   }
   return true;
-}
-
-const Renderer::StandIn* Renderer::prepareStandIn(const std::string& name, const World& world,
-                                                  base::Diagnostics& diagnostics) {
-  const std::string path = (std::filesystem::path(options_.dataFolder) / name).string();
-  const auto known = std::ranges::find(standIns_, path, &StandIn::path);
-  if (known != standIns_.end()) return &*known;
-  base::Diagnostics said;
-  const auto desc = graph::readGraph(path, said);
-  graph::Settings settings;
-  settings.software = device_.context.device().software;
-  const auto flat =
-      desc && !said.hasErrors()
-          ? graph::expandGraph(*desc, makeRegistry(device_.plugIns, world.facts()), settings, said)
-          : nullptr;
-  StandIn made{.path = path, .device = nullptr, .execution = nullptr};
-  if (flat && !said.hasErrors()) {
-    auto given = std::make_shared<graph::FlatGraph>(*flat);
-    given->present.kind = graph::Kind::sampled;
-    made.device = std::make_unique<Device>(device_.context, shaderRootsOf(desc->files, options_.dataFolder),
-                                           options_.cacheFolder, options_.trial, options_.plugIns);
-    made.execution =
-        Execution::create(*made.device, std::make_shared<const graph::Plan>(graph::compile(given)), nullptr,
-                          ShaderFiles::read, said);
-  }
-  if (made.execution) made.execution->frame(world, headlessFrame(world, 0, 60), said);
-  diagnostics.append(said);
-  if (!made.execution || said.hasErrors()) return nullptr;
-  return &standIns_.emplace_back(std::move(made));
 }
 
 FrameReport Renderer::frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics) {

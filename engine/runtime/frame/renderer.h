@@ -3,6 +3,7 @@
 // Does not: own the window, decode assets, or decide the time.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -81,14 +82,7 @@ class Renderer {
   std::unique_ptr<Execution> makeExecution(const graph::GraphDesc& desc, ShaderFiles files,
                                            const graph::Settings& settings, const World& world,
                                            base::Diagnostics& diagnostics);
-  // What stands in for imports that the world lacks: pictures of graphs that are run once.
   bool prepareStandIns(const graph::FlatGraph& graph, const World& world, base::Diagnostics& diagnostics);
-  struct StandIn {
-    std::string path;
-    std::unique_ptr<Device> device;
-    std::unique_ptr<Execution> execution;
-  };
-  const StandIn* prepareStandIn(const std::string& path, const World& world, base::Diagnostics& diagnostics);
   const graph::Registry& registryOf(const World& world);
   void blackOut();
 
@@ -100,7 +94,8 @@ class Renderer {
   std::shared_ptr<const graph::GraphDesc> desc_;  // what runs
   std::vector<std::string> runningFiles_, triedFiles_;
   std::vector<graph::Refusal> refused_;
-  std::vector<StandIn> standIns_;
+  // Graphs whose pictures stand in for imports that the world lacks. Each has run one frame.
+  std::map<std::string, std::unique_ptr<Renderer>> standIns_;
   gl::Framebuffer presentSource_;
   GLuint presentTexture_ = 0;
   std::uint64_t plansBuilt_ = 0;

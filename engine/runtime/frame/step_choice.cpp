@@ -5,7 +5,6 @@
 #include <unordered_map>
 
 #include "engine/base/hash.h"
-#include "engine/runtime/cadence/lasting.h"
 
 namespace weft::runtime {
 
@@ -66,7 +65,7 @@ bool StepChoice::chooseAhead(const std::vector<std::uint64_t>& generations) {
 }
 
 bool StepChoice::isAlways(std::size_t step) const {
-  return plan_.graph->passes[plan_.steps[step].pass].cadence == graph::Cadence::always;
+  return plan_.passOf(step).cadence == graph::Cadence::always;
 }
 
 void StepChoice::endRound(const std::vector<std::uint64_t>& before, const std::vector<std::uint64_t>& after) {

@@ -33,15 +33,12 @@ bool isThere(const Execution& execution, const CaptureItem& item) {
   const graph::Plan& plan = execution.plan();
   bool written = false;
   for (std::uint32_t step = 0; step <= item.step; ++step) {
-    const graph::FlatPass& pass = plan.graph->passes[plan.steps[step].pass];
-    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
-      const graph::FlatUse& use = plan.graph->uses[u];
-      if (use.access == graph::Access::read || !plan.attached[u] ||
-          plan.graph->resourceNames[use.resource] != item.target.resource)
-        continue;
-      if (execution.steps().hasResults(step)) return true;
-      written = true;
-    }
+    bool writes = false;
+    plan.forEachWrite(step, [&](const graph::FlatUse& use) {
+      writes |= plan.graph->resourceNames[use.resource] == item.target.resource;
+    });
+    if (writes && execution.steps().hasResults(step)) return true;
+    written |= writes;
   }
   return !written;
 }
@@ -57,13 +54,9 @@ std::vector<CaptureItem> captureItems(const graph::Plan& plan, std::span<const s
   std::vector<CaptureItem> items;
   for (std::uint32_t step = 0; step < plan.steps.size(); ++step) {
     const std::uint32_t p = plan.steps[step].pass;
-    const graph::FlatPass& pass = graph.passes[p];
     const auto begin = static_cast<std::ptrdiff_t>(items.size());
-    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
-      const graph::FlatUse& use = graph.uses[u];
-      if (use.access == graph::Access::read || !plan.attached[u] ||
-          !isWanted(graph.resourceNames[use.resource], patterns))
-        continue;
+    plan.forEachWrite(step, [&](const graph::FlatUse& use) {
+      if (!isWanted(graph.resourceNames[use.resource], patterns)) return;
       const graph::FlatResource& resource = graph.resources[use.resource];
       const bool buffer = resource.kind == graph::ResourceKind::buffer;
       const auto add = [&](std::uint32_t mip, std::uint32_t layer, bool stencil) {
@@ -75,10 +68,7 @@ std::vector<CaptureItem> captureItems(const graph::Plan& plan, std::span<const s
                                 .stencil = stencil}};
         if (std::find(items.begin() + begin, items.end(), item) == items.end()) items.push_back(item);
       };
-      if (buffer) {
-        add(0, 0, false);
-        continue;
-      }
+      if (buffer) return add(0, 0, false);
       const bool volume = resource.target == graph::Target::texture_3d;
       for (std::uint32_t mip = use.mip; mip < std::uint32_t{use.mip} + use.mips; ++mip) {
         const std::uint32_t first = volume ? 0 : use.layer,
@@ -88,7 +78,7 @@ std::vector<CaptureItem> captureItems(const graph::Plan& plan, std::span<const s
           if (graph::hasStencil(resource.format) && (use.planes & 2)) add(mip, layer, true);
         }
       }
-    }
+    });
   }
   return items;
 }
@@ -99,14 +89,10 @@ std::optional<CaptureItem> captureItemOf(const graph::Plan& plan, const graph::P
   const auto found = graph::findPick(graph, pick, diagnostics);
   if (!found) return std::nullopt;
   std::uint32_t last = graph::kNone;
-  for (std::uint32_t step = 0; step < plan.steps.size(); ++step) {
-    const std::uint32_t p = plan.steps[step].pass;
-    const graph::FlatPass& pass = graph.passes[p];
-    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u)
-      if (graph.uses[u].resource == found->resource && graph.uses[u].access != graph::Access::read &&
-          plan.attached[u] && (found->pass == graph::kNone || found->pass == p))
-        last = step;
-  }
+  for (std::uint32_t step = 0; step < plan.steps.size(); ++step)
+    if (plan.writes(step, found->resource) &&
+        (found->pass == graph::kNone || found->pass == plan.steps[step].pass))
+      last = step;
   // No pass writes it: it is an import, or has version zero only.
   if (last == graph::kNone && found->pass == graph::kNone && plan.firstStep[found->resource] != graph::kNone)
     last = std::min(plan.firstStep[found->resource], static_cast<std::uint32_t>(plan.steps.size() - 1));

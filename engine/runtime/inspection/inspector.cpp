@@ -25,21 +25,12 @@ GLenum attachmentPointOf(GLenum format) {
                                                   : GL_COLOR_ATTACHMENT0;
 }
 
-bool writes(const graph::Plan& plan, std::uint32_t pass, std::uint32_t resource) {
-  const graph::FlatPass& flat = plan.graph->passes[pass];
-  for (std::uint32_t u = flat.firstUse; u < flat.firstUse + flat.useCount; ++u) {
-    const graph::FlatUse& use = plan.graph->uses[u];
-    if (use.resource == resource && use.access != graph::Access::read && plan.attached[u]) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 std::vector<std::string> Inspector::writersOf(const graph::Plan& plan, std::uint32_t resource) {
   std::vector<std::string> names;
-  for (const graph::Step& step : plan.steps)
-    if (writes(plan, step.pass, resource)) names.push_back(plan.graph->passNames[step.pass]);
+  for (std::size_t step = 0; step < plan.steps.size(); ++step)
+    if (plan.writes(step, resource)) names.push_back(plan.graph->passNames[plan.steps[step].pass]);
   return names;
 }
 
@@ -68,8 +59,9 @@ std::uint32_t Inspector::aim(Execution& execution, const InspectTarget& target) 
   if (desc.kind == graph::ResourceKind::imported_buffer || plan.firstStep[resource] == kNone) return kNone;
   std::uint32_t step = kNone;
   for (std::uint32_t s = 0; s < plan.steps.size(); ++s) {
-    const std::uint32_t pass = plan.steps[s].pass;
-    if (target.pass.empty() ? writes(plan, pass, resource) : graph.passNames[pass] == target.pass) step = s;
+    const bool fits =
+        target.pass.empty() ? plan.writes(s, resource) : graph.passNames[plan.steps[s].pass] == target.pass;
+    if (fits) step = s;
   }
   if (step == kNone && !target.pass.empty()) return kNone;
   // No pass writes it: it is an import, or has version zero only.

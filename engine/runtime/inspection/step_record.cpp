@@ -177,20 +177,18 @@ void StepRecorder::add(Execution& execution, const graph::FlatUse& use, Sum& sum
 
 void StepRecorder::prepare(Execution& execution, std::uint32_t step) {
   const graph::FlatGraph& graph = *execution.plan().graph;
-  const graph::FlatPass& pass = graph.passes[execution.plan().steps[step].pass];
   bool filled = false;
-  for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
-    const graph::FlatUse& use = graph.uses[u];
-    if (use.access != graph::Access::write || !execution.plan().attached[u] ||
+  execution.plan().forEachWrite(step, [&](const graph::FlatUse& use) {
+    if (use.access != graph::Access::write ||
         graph.resources[use.resource].kind != graph::ResourceKind::buffer)
-      continue;
+      return;
     std::uint64_t offset = 0;
     const BufferRef buffer = execution.buffer(use.resource, offset);
-    if (buffer.id == 0) continue;
+    if (buffer.id == 0) return;
     if (!filled) glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     filled = true;
     clearBuffer(buffer.id, offset, buffer.bytes, graph::Value::number(0));
-  }
+  });
   if (filled) glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
@@ -200,12 +198,9 @@ void StepRecorder::look(Execution& execution, std::uint32_t step) {
   const graph::Plan& plan = execution.plan();
   const graph::FlatGraph& graph = *plan.graph;
   const std::uint32_t index = plan.steps[step].pass;
-  const graph::FlatPass& pass = graph.passes[index];
   glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
   std::vector<std::pair<std::string, Sum>> sums;  // in the order of the slots
-  for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
-    const graph::FlatUse& use = graph.uses[u];
-    if (use.access == graph::Access::read || !plan.attached[u]) continue;
+  plan.forEachWrite(step, [&](const graph::FlatUse& use) {
     const std::string name = nameWithoutVersion(graph.resourceNames[use.resource]);
     auto sum = std::ranges::find(sums, name, &std::pair<std::string, Sum>::first);
     if (sum == sums.end()) {
@@ -214,7 +209,7 @@ void StepRecorder::look(Execution& execution, std::uint32_t step) {
       if (sum->second.keep) kept_.reset();
     }
     add(execution, use, sum->second);
-  }
+  });
   for (const auto& [name, sum] : sums)
     records_.push_back({.pass = graph.passNames[index],
                         .resource = name,

@@ -48,14 +48,11 @@ TEST_CASE("a use after a store waits for its own bit") {
   CHECK(bitsBefore(Kind::storage, Kind::sampled, true) == kBarrierTexture);
 }
 
-TEST_CASE("what is presented waits for the blit, and a stand-in for all that other plans may do with it") {
+TEST_CASE("what is presented waits for the blit") {
   FlatBuilder b = emptyGraph();
   const auto shown = b.texture("shown");
   b.pass("store").write(shown, Kind::image).present(shown);
   CHECK(b.compiled().finalBarriers == kBarrierFramebuffer);
-  b.graph.present.kind = Kind::sampled;
-  CHECK(b.compiled().finalBarriers ==
-        (kBarrierTexture | kBarrierImage | kBarrierFramebuffer | kBarrierTextureUpdate));
 }
 
 TEST_CASE("rendering and then sampling, image-loading or blitting needs no barrier") {

@@ -1,6 +1,4 @@
 // What an obsolete frame still has to do.
-#include "engine/runtime/cadence/lasting.h"
-
 #include <doctest/doctest.h>
 
 #include <memory>
@@ -9,6 +7,7 @@
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/expand/expand.h"
 #include "engine/graph/read/read.h"
+#include "engine/runtime/cadence/cadence.h"
 
 using namespace weft;
 
