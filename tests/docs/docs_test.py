@@ -279,7 +279,8 @@ def main():
                 problems += [f"{name}: {p}" for p in check_references(page, text)]
             here = folder / str(pages.index(page))
             here.mkdir()
-            sandbox = Sandbox(here) if {"run", "view"} & set(WANTED) else None
+            runs = {"run", "view"} & set(WANTED) & {part for match in FENCE.finditer(text) for part in parts_of(*(word.strip() for word in match.group(1).strip().partition(" ")[::2]), match.group(2))}
+            sandbox = Sandbox(here) if runs else None
             for number, match in enumerate(FENCE.finditer(text)):
                 language, _, info = match.group(1).strip().partition(" ")
                 if not parts_of(language, info.strip(), match.group(2)) & set(WANTED):

@@ -88,14 +88,17 @@ namespace {
 std::array<double, 3> meanAt(double blur, std::shared_ptr<const weft::assets::ImageF> map) {
   std::array<double, 3> sum{};
   double weights = 0;
-  for (const glm::dvec3 to :
-       {glm::dvec3{1, 0, 0}, {-1, 0, 0}, {0, 0, 1}, {0, 0, -1}, {0, 1, 0}, {0, -1, 0}}) {
-    Setup setup = studio(0, 25, blur);
-    setup.environment = map;
-    setup.width = setup.height = 64;
-    setup.balls = {{.center = {0, 0, 1000}, .radius = 0.001f}};
-    setup.camera = {.position = {0, 0, 0}, .target = to, .fovDegrees = 90, .nearPlane = 0.1};
-    const Picture face = draw(setup);
+  Setup setup = studio(0, 25, blur);
+  setup.environment = std::move(map);
+  setup.width = setup.height = 64;
+  setup.balls = {{.center = {0, 0, 1000}, .radius = 0.001f}};
+  setup.camera = {.position = {0, 0, 0}, .target = {1, 0, 0}, .fovDegrees = 90, .nearPlane = 0.1};
+  for (const glm::dvec3 to : {glm::dvec3{1, 0, 0}, {-1, 0, 0}, {0, 0, 1}, {0, 0, -1}, {0, 1, 0}, {0, -1, 0}})
+    setup.path.push_back({double(setup.path.size()) / 60, {0, 0, 0}, to, 90});
+  Lab lab(setup);
+  for (std::uint32_t i = 0; i < setup.path.size(); ++i) {
+    lab.frame(i);
+    const Picture face = lab.read("hdr");
     for (std::uint32_t y = 0; y < face.height; ++y)
       for (std::uint32_t x = 0; x < face.width; ++x) {
         const double u = (x + 0.5) / face.width * 2 - 1, v = (y + 0.5) / face.height * 2 - 1;
@@ -104,6 +107,7 @@ std::array<double, 3> meanAt(double blur, std::shared_ptr<const weft::assets::Im
         weights += weight;
       }
   }
+  CHECK(lab.reports() == "");
   for (double& s : sum) s /= weights;
   return sum;
 }

@@ -32,7 +32,9 @@ Difference differenceOf(const Radiance& a, const Radiance& b) {
   return result;
 }
 
-std::shared_ptr<const assets::ImageF> coarseEnvironment() {
+namespace {
+
+std::shared_ptr<const assets::ImageF> loadCoarse() {
   base::Diagnostics diagnostics;
   auto sky = assets::loadEnvironment(
       std::string(WEFT_SOURCE_DIR) + "/scenes/environments/spiaggia_di_mondello_1k.hdr", diagnostics);
@@ -47,6 +49,13 @@ std::shared_ptr<const assets::ImageF> coarseEnvironment() {
             std::min(sky->texels[std::size_t(y * sky->width + x) * 4 + std::size_t(c)], 20.0f) /
             (kCoarser * kCoarser);
   return std::make_shared<const assets::ImageF>(std::move(coarse));
+}
+
+}  // namespace
+
+std::shared_ptr<const assets::ImageF> coarseEnvironment() {
+  static const std::shared_ptr<const assets::ImageF> once = loadCoarse();
+  return once;
 }
 
 }  // namespace weft::theory

@@ -17,13 +17,14 @@ OnePicture::OnePicture(std::vector<Ball> balls, const scene::CameraKey& camera, 
       width_(int(width)),
       height_(int(height)),
       view_(viewOf(camera)),
+      targets_(targetsFrom(view_.eye, 0)),
       picture_(std::move(picture)),
       true_colors_(picture_.size()),
       its_colors_(picture_.size()) {
   std::vector<int> seen;
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x)
-      seen.push_back(hitOf(view_.eye, rayOf(view_, {x + 0.5, y + 0.5}), 0).ball);
+      seen.push_back(hitOf(targets_, view_.eye, rayOf(view_, {x + 0.5, y + 0.5})).ball);
   balls_seen_ = seen;
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x)
@@ -47,13 +48,20 @@ glm::dvec3 OnePicture::rayOf(const View& view, glm::dvec2 pixel) const {
   return view.ahead + slope.x * view.right + slope.y * view.up;
 }
 
-OnePicture::Hit OnePicture::hitOf(glm::dvec3 eye, glm::dvec3 ray, double seconds) const {
+std::vector<OnePicture::Target> OnePicture::targetsFrom(glm::dvec3 eye, double seconds) const {
+  std::vector<Target> targets;
+  for (const Ball& ball : balls_) {
+    const glm::dvec3 to = glm::dvec3(ball.center) + seconds * glm::dvec3(ball.velocity) - eye;
+    targets.push_back({to, glm::dot(to, to) - double(ball.radius) * double(ball.radius)});
+  }
+  return targets;
+}
+
+OnePicture::Hit OnePicture::hitOf(const std::vector<Target>& targets, glm::dvec3 eye, glm::dvec3 ray) {
   Hit hit{kSky, 1e30, ray};
   const double squared = glm::dot(ray, ray);
-  for (std::size_t i = 0; i < balls_.size(); ++i) {
-    const glm::dvec3 to = glm::dvec3(balls_[i].center) + seconds * glm::dvec3(balls_[i].velocity) - eye;
-    const double along = glm::dot(to, ray), radius = double(balls_[i].radius);
-    const double root = along * along - squared * (glm::dot(to, to) - radius * radius);
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const double along = glm::dot(targets[i].to, ray), root = along * along - squared * targets[i].outside;
     if (root < 0) continue;
     const double distance = (along - std::sqrt(root)) / squared;
     if (distance > 0 && distance < hit.distance) hit = {int(i), distance, eye + distance * ray};
@@ -69,7 +77,7 @@ bool OnePicture::isVisible(const Hit& hit, glm::dvec2& pixel) const {
   pixel = glm::dvec2(width_, height_) / 2.0 +
           view_.focal / deep * glm::dvec2(glm::dot(ray, view_.right), glm::dot(ray, view_.up));
   if (pixel.x < 0 || pixel.y < 0 || pixel.x >= width_ || pixel.y >= height_) return false;
-  const Hit first = hitOf(view_.eye, ray, 0);
+  const Hit first = hitOf(targets_, view_.eye, ray);
   return first.ball == hit.ball && (hit.ball == kSky || first.distance > 1 - 1e-6);
 }
 
@@ -94,9 +102,10 @@ int OnePicture::guess(int ball, glm::dvec2 pixel) const {
 
 void OnePicture::add(double seconds, const scene::CameraKey& camera, const Picture& sharp, double weight) {
   const View view = viewOf(camera);
+  const std::vector<Target> targets = targetsFrom(view.eye, seconds);
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x) {
-      Hit hit = hitOf(view.eye, rayOf(view, {x + 0.5, y + 0.5}), seconds);
+      Hit hit = hitOf(targets, view.eye, rayOf(view, {x + 0.5, y + 0.5}));
       if (hit.ball != kSky) hit.position -= seconds * glm::dvec3(balls_[std::size_t(hit.ball)].velocity);
       glm::dvec2 pixel(x + 0.5, y + 0.5);
       const bool visible = isVisible(hit, pixel);

@@ -38,13 +38,20 @@ class OnePicture {
   };
   View viewOf(const scene::CameraKey& camera) const;
   glm::dvec3 rayOf(const View& view, glm::dvec2 pixel) const;
-  Hit hitOf(glm::dvec3 eye, glm::dvec3 ray, double seconds) const;
+  // The balls as they lie `seconds` after the picture's moment, seen from `eye`.
+  struct Target {
+    glm::dvec3 to;
+    double outside = 0;  // the distance squared, less the radius squared
+  };
+  std::vector<Target> targetsFrom(glm::dvec3 eye, double seconds) const;
+  static Hit hitOf(const std::vector<Target>& targets, glm::dvec3 eye, glm::dvec3 ray);
   bool isVisible(const Hit& hit, glm::dvec2& pixel) const;
   int guess(int ball, glm::dvec2 pixel) const;
 
   std::vector<Ball> balls_;
   int width_, height_;
   View view_;
+  std::vector<Target> targets_;  // from the picture's eye, at its moment
   std::vector<int> balls_seen_;  // of each pixel; kMixed where a neighbour sees another
   Radiance picture_, true_colors_, its_colors_;
   double hidden_ = 0;

@@ -144,6 +144,8 @@ Shape shapeOf(const Light& light) {
   // Seen from one place on the lens, what lies behind the focus is moved towards that place, and what lies before it away from it: so the
   // outline is upright behind the focus and upside down before it.
   const double side = light.near ? -1 : 1;
+  const double inner =
+      light.blades < 3 ? radius : radius * std::cos(M_PI / light.blades);  // wholly inside the outline
   std::vector<double> ideal, found;
   double sharp = 0, sumIdeal = 0, sumFound = 0;
   for (std::uint32_t y = 0; y < light.height; ++y)
@@ -156,8 +158,10 @@ Shape shapeOf(const Light& light) {
         for (int k = 0; k < 16; ++k)
           for (const auto& [sx, sy] : emitter.points) {
             const double px = side * (x + (k % 4 + 0.5) / 4 - emitter.x - sx),
-                         py = side * (y + (k / 4 + 0.5) / 4 - emitter.y - sy);
-            here += std::hypot(px, py) <= radius * outlineOf(light.blades, std::atan2(py, px));
+                         py = side * (y + (k / 4 + 0.5) / 4 - emitter.y - sy), square = px * px + py * py;
+            if (square > radius * radius) continue;
+            here += square <= inner * inner ||
+                    std::sqrt(square) <= radius * outlineOf(light.blades, std::atan2(py, px));
           }
       ideal.push_back(here);
       sumIdeal += here;
