@@ -1,4 +1,4 @@
-// Back-to-front draw order on the CPU, and the contract it shares with shaders/sort/order.glsl.
+// Back-to-front draw order on the CPU, and the contract it shares with shaders/spheres/sort/order.glsl.
 //
 // What is compared, d, in float, in exactly this order without fused operations (`precise` in GLSL):
 //   power: d = ((x * x + y * y) + z * z) - r * r, with (x, y, z) = centre - eye: the squared length of a tangent from the eye.

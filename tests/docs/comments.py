@@ -15,7 +15,7 @@ OUTSIDE = {"linux/magic.h", "GL/gl.h", "osmesa.h"}  # headers of the system and 
 
 def main() -> int:
     top = pathlib.Path(sys.argv[1])
-    parts = ("app", "cmake", "docs", "engine", "graphs", "materials", "scenes", "shaders", "tests")
+    parts = ("app", "cmake", "docs", "engine", "graphs", "materials", "scenes", "shaders", "tests", "words")
     files = [f"/{path.relative_to(top).as_posix()}" for part in parts for path in (top / part).rglob("*") if path.is_file()]
     files += [f"/{path.name}" for path in top.iterdir() if path.is_file()]
     known, problems, names = {file.rsplit("/", 1)[1] for file in files}, [], 0

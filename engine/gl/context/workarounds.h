@@ -25,7 +25,7 @@ inline bool timerQueriesLie(const DeviceInfo& device) {
 
 // source-numbers-lost: Mesa's log names source string 0 for some expressions whatever #line said, beside the
 // right line (seen; the cause was not looked for); so lines are numbered through the whole text
-// (shaders/source.h). Mesa 22.3.6, 2026-11-21.
+// (glsl/source.h). Mesa 22.3.6, 2026-11-21.
 
 // columns-after-preprocessing: the columns of Mesa's log count a run of blanks as one (seen on lines with and
 // without such runs), as its preprocessor would leave them; mapLog counts back, in lines without macros.

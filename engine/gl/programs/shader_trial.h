@@ -2,7 +2,7 @@
 // only that process. The process is this executable again, started with kTrialWord, or one that an embedder names. It
 // opens a context of the same driver, compiles, links, and makes the driver generate machine code by a draw or a
 // dispatch that covers nothing, so that no loop of the shader runs. The caller only learns how the process ended.
-// Does not: decide which programs to try (shaders/bounds.h does).
+// Does not: decide which programs to try (glsl/bounds.h does).
 #pragma once
 
 #include <span>

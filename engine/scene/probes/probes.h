@@ -1,7 +1,7 @@
 // Light probes: a grid of points, each with the light that spheres throw back to it, as irradiance in spherical harmonics
 // up to band 2. In units of the environment: a sphere's diffuse colour, albedo * (1 - metallic), is its radiance, as it is
 // under an environment of radiance 1; whoever reads a probe multiplies by the environment (bounceOf), so that a black one gives nothing.
-// Spheres hide neither each other nor the sky. Pure functions; shaders/gi/bake.comp.glsl computes the same on a GPU. Does
+// Spheres hide neither each other nor the sky. Pure functions; shaders/spheres/probes/bake.comp.glsl computes the same on a GPU. Does
 // not: run beside frames, or know the environment.
 #pragma once
 
