@@ -141,7 +141,7 @@ def words_of(command, crop):
 
 def page(family):
     out = [f"# Gallery: {family['title']}", "", family["about"], "",
-           "All families are in the [gallery](../gallery.md), what each parameter means is in [effects.md](../effects.md).", ""]
+           f"All families are in the [gallery](../gallery.md), parameters in [effects.md](../effects.md). Commands go on with `--environment {GALLERY['environment']} --size {GALLERY['size']} -o FILE`.", ""]
     chapter = None
     for entry in family["entries"]:
         if entry.get("chapter") != chapter:
@@ -152,7 +152,7 @@ def page(family):
         shown = [f"Shown: {crop[2]} x {crop[3]} pixels from ({crop[0]}, {crop[1]}), {scale_of(crop)} times as large.", ""] if crop else []
         out += [f"{'###' if chapter else '##'} {entry['effect']}", "", entry["says"], "",
                 "| " + " | ".join(f"`{entry.get(side) or 'as it is'}`" for side in SIDES) + " |", "|---|---|", f"| {pictures} |", "", *shown,
-                "```text", command_of(entry, "on"), "```", ""]
+                "```text", f"./run render {arguments(entry, 'on')}", "```", ""]
     return "\n".join(out).rstrip() + "\n"
 
 
