@@ -80,7 +80,7 @@ class GlslText {
 std::string identifierOf(std::string_view text);
 // `wanted`, or with a number behind it where `used` has it; from then on `used` has it.
 std::string freshName(std::set<std::string, std::less<>>& used, const std::string& wanted);
-// `text` with every NAME of `words` replaced by its value; for the templates of glsl.h.
+// `text` with every NAME of `words` replaced by its value; for the templates in app/import/glsl.
 std::string fillTemplate(std::string text,
                          std::initializer_list<std::pair<std::string_view, std::string_view>> words);
 // What a shader of Weft is compiled with where the slot has something: HAS_INPUTIMAGE.
