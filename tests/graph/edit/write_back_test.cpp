@@ -77,7 +77,8 @@ std::string around(const std::string& text, const std::vector<std::string>& poin
   REQUIRE(root);
   std::vector<std::pair<std::size_t, std::size_t>> ranges;
   for (const std::string& pointer : pointers)
-    if (const auto* value = weft::test::findPointer(*root, pointer)) ranges.emplace_back(value->begin, value->end);
+    if (const auto* value = weft::test::findPointer(*root, pointer))
+      ranges.emplace_back(value->begin, value->end);
   std::ranges::sort(ranges);
   std::string out;
   std::size_t at = 0;
@@ -362,9 +363,12 @@ TEST_CASE("random tweaks of the bundled graph come back from its files, and only
         CHECK(value == each.value);
     }
     for (const WriteBack::File& file : written.plan->files) {
+      const base::JsonTree before = base::parseJsonTree(file.before);
       std::vector<std::string> pointers;
       for (const ParameterSpec& each : start->parameters)
-        if (*each.desc.initialPlace.file == file.path) pointers.push_back(each.desc.initialPointer);
+        if (*each.desc.initialPlace.file == file.path)
+          pointers.push_back(
+              base::pointerAt(before.root, base::offsetOf(file.before, each.desc.initialPlace)));
       CHECK(around(file.before, pointers) == around(contents(file.path), pointers));
     }
   }
