@@ -229,7 +229,8 @@ TEST_CASE("keys: unknown, missing, misspelt") {
   CHECK(wrong(R"({"passes": [{}]})") == "W005 1:13 /passes/0; W005 1:13 /passes/0");
   CHECK(wrong(R"({"passes": [{"name": "p", "tpye": "compute"}]})") == "W004 1:27 /passes/0/tpye");
   // It is read as what is meant; that the file is not there is another mistake.
-  CHECK(wrong(R"({"passes": [{"incldue": "no.json"}]})") == "W004 1:14 /passes/0/incldue; W001 1:25 ");
+  CHECK(wrong(R"({"passes": [{"incldue": "no.json"}]})") ==
+        "W004 1:14 /passes/0/incldue; W001 1:25 /passes/0/incldue");
   CHECK(wrong(R"({"passes": [{"name": "p", "type": "draw", "state": {"cul": "back"}}]})") ==
         "W004 1:53 /passes/0/state/cul");
 }
