@@ -24,7 +24,7 @@ vec3 reflectedEnvironment(Point point, Response response, Lobe lobe, vec3 axis) 
   vec3 sharp = sampleEquirect(environment, uv, vec2(lobe.environment_level, lobe.environment_pole)).rgb;
   // The spot is not to be seen twice.
   float cut = dot(point.mirror, lobe.spot) > kNearCosine ? lobe.spot_cut : 0.0;
-  sharp -= cut * max(sharp - brightest_at.w, 0.0);
+  sharp -= cut * max(sharp - lobe.spot_limit, 0.0);
   radiance = mix(sharp, radiance, lobe.specular_weight);
 #endif
   return radiance;
@@ -47,7 +47,7 @@ float spotStrength(Point point, Lobe lobe) {
 vec3 reflectedSpot(Point point, Response response, Lobe lobe, float strength) {
   float m = 1.0 - 0.5 * sqrt(spotHalf2(point, lobe)), m2 = m * m;
   vec3 fresnel = response.f0 + (1.0 - response.f0) * (m2 * m2 * m);
-  return fresnel * brightest_light.rgb * (lobe.spot_share * strength);
+  return fresnel * lobe.spot_light * strength;
 }
 #endif
 

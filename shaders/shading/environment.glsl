@@ -38,8 +38,9 @@ struct Lobe {
   float irradiance_pole;
   vec3 spot;              // unit, towards the brightest spot
   SpotShape spot_shape;
-  float spot_share;       // share of the spot's light that is reflected in closed form, over 2 pi
-  float spot_cut;         // share by which the spot is cut out of lookups of `environment`
+  vec3 spot_light;        // the spot's irradiance that is reflected in closed form, over 2 pi
+  float spot_limit;       // radiance above which the spot is cut out of lookups of `environment`,
+  float spot_cut;         // and the share of it that is cut
 };
 
 #endif

@@ -17,7 +17,7 @@
 #include "spheres/billboard_varyings.glsl"
 #include "spheres/light.glsl"
 
-mat3 to_world = mat3(right_eye.xyz, up_eye.xyz, back_eye.xyz);
+mat3 to_world = mat3(right_eye.xyz, up_eye.xyz, cross(right_eye.xyz, up_eye.xyz));
 #include "spheres/silhouettes.glsl"
 
 #ifdef HAS_FRONT_DEPTH
@@ -101,11 +101,11 @@ void main() {
   vec3 v = to_world * hit.to_eye, from_eye = v * -hit.along;
 #ifdef HAS_RADIANCE
   vec3 n = to_world * hit.normal;
-  vec3 position = from_eye + vec3(right_eye.w, up_eye.w, back_eye.w);
+  vec3 position = from_eye + vec3(right_eye.w, up_eye.w, before_eye.w);
   Point point = Point(position, n, v, 2.0 * hit.nv * n - v, hit.nv, 1.0);
   Surface surface = Surface(albedo_roughness.rgb, edge_metallic.z, albedo_roughness.w);
   float glint = glintStrength(readGlint(), gl_FragCoord.xy, hit.coverage);
-  Light light = sphereLight(point, surface, readLobe(), glint, uint(before_row.w), sphere.w);
+  Light light = sphereLight(point, surface, readLobe(), glint, readRow(), sphere.w);
 #ifdef HAS_AIR
   light.radiance = mix(fog_light.rgb, light.radiance, throughFog(from_eye));
 #endif
@@ -117,7 +117,7 @@ void main() {
 #ifdef HAS_VELOCITY
   // x, y and w in last frame's clip space.
   mat3 turn = mat3(previous_view_projection[0].xyw, previous_view_projection[1].xyw, previous_view_projection[2].xyw);
-  vec3 before = turn * from_eye + before_row.xyz;
+  vec3 before = turn * from_eye + before_eye.xyz;
   velocity = gl_FragCoord.xy / viewport - (before.xy / max(before.z, 1e-3) * 0.5 + 0.5);
 #endif
 #ifdef HAS_DEPTH

@@ -49,7 +49,7 @@ void main() {
   float bend = max(z, 0.0) / r;
   Lobe lobe = lobeOf(self.roughness, lookupAngle() * bend);
   Glint glint = glintOf(lobe, self.center, r, pixelAngle() * bend);
-  writeLobe(lobe, glint);
+  writeLobe(lobe, glint, row);
 
   vec2 focal = vec2(projection[0].x, projection[1].y) * 0.5 * viewport;  // pixels per unit of slope
   bool in_front = z > r * 1.0001;
@@ -69,10 +69,9 @@ void main() {
   anchor_slope = vec4(anchor_pixel, 1.0 / focal);
   right_eye = vec4(to_world[0], eye.x);
   up_eye = vec4(to_world[1], eye.y);
-  back_eye = vec4(to_world[2], eye.z);
-  before_row = vec4(0.0, 0.0, 0.0, float(row));
+  before_eye = vec4(0.0, 0.0, 0.0, eye.z);
 #ifdef HAS_VELOCITY
-  before_row.xyz = (previous_view_projection * vec4(eye - (self.center - self.previous_center), 1.0)).xyw;
+  before_eye.xyz = (previous_view_projection * vec4(eye - (self.center - self.previous_center), 1.0)).xyw;
 #endif
 
   // Slopes between the tangent planes along x and y, a pixel wider on each side.

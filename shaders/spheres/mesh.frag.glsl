@@ -14,9 +14,9 @@ in vec3 outwards;
 flat in vec4 albedo_roughness;
 flat in vec4 motion_metallic;
 #ifdef HAS_NEIGHBORS
-flat in vec2 row_radius;
+flat in float sphere_radius;
 #else
-const vec2 row_radius = vec2(0.0);
+const float sphere_radius = 0.0;
 #endif
 
 #ifdef HAS_RADIANCE
@@ -33,7 +33,7 @@ void main() {
   Point point = Point(eye + from_eye, n, -v, v + 2.0 * nv * n, nv, 1.0);
   Surface surface = Surface(albedo_roughness.rgb, motion_metallic.w, albedo_roughness.w);
   float glint = glintStrength(readGlint(), gl_FragCoord.xy, 1.0);
-  vec3 light = sphereLight(point, surface, readLobe(), glint, uint(row_radius.x), row_radius.y).radiance;
+  vec3 light = sphereLight(point, surface, readLobe(), glint, readRow(), sphere_radius).radiance;
 #ifdef HAS_AIR
   light = mix(fog_light.rgb, light, throughFog(from_eye));
 #endif

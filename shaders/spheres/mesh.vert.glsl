@@ -16,14 +16,14 @@ out vec3 outwards;          // world, not normalized
 flat out vec4 albedo_roughness;
 flat out vec4 motion_metallic;
 #ifdef HAS_NEIGHBORS
-flat out vec2 row_radius;       // row in the draw list; radius
+flat out float sphere_radius;
 #endif
 out float gl_CullDistance[1];   // a triangle goes when all of its corners are below 0
 
 void main() {
   Instance self = instance[gl_InstanceID];
 #ifdef HAS_NEIGHBORS
-  row_radius = vec2(gl_InstanceID, self.radius);
+  sphere_radius = self.radius;
 #endif
   from_eye = self.center - eye + self.radius * position;
   outwards = normal;
@@ -33,7 +33,7 @@ void main() {
   float bend = max(depth, 0.0) / self.radius;
   Lobe lobe = lobeOf(self.roughness, lookupAngle() * bend);
   Glint glint = glintOf(lobe, self.center, self.radius, pixelAngle() * bend);
-  writeLobe(lobe, glint);
+  writeLobe(lobe, glint, uint(gl_InstanceID));
   // The inside of a sphere is visible when the eye is in it or the near plane cuts it. Of all others, back faces are culled.
   float near_corner = near_plane * length(vec3(1.0 / projection[0].x, 1.0 / projection[1].y, 1.0));
   bool open = length(self.center - eye) < self.radius + near_corner;

@@ -16,7 +16,7 @@ float leftBehind(float inside, vec2 outwards, vec3 v, float vv) {
   float left = 1.0;
   // First and number of the spheres in front. They are not valid when the buffer belongs to another list than the one drawn.
   uint rows = uint(silhouette.length());
-  uvec2 in_front = silhouette[min(uint(before_row.w), rows - 1u)].xy;
+  uvec2 in_front = silhouette[min(readRow(), rows - 1u)].xy;
   if (in_front.x >= rows || in_front.y > min(rows - in_front.x, 32u)) in_front.y = 0u;
   for (uint i = 0u; i < in_front.y; ++i) {
     vec4 other = uintBitsToFloat(silhouette[in_front.x + i]);
