@@ -3,12 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <span>
-#include <unordered_map>
 
 #include "engine/graph/expand/copies.h"
-#include "engine/graph/expand/names/limits.h"
 
 namespace weft::graph::expansion {
 
@@ -48,10 +44,84 @@ Kind defaultKind(const PassType* type, Access access, const FlatResource& shape)
                                                                            : type->defaultWriteTexture;
 }
 
+namespace {
+
+// A use, and the words for what is wrong with it.
+struct Use {
+  const Entity& entity;
+  const FlatResource& shape;
+  Kind kind;
+  Access access;
+  const PassType* type;  // null: present, outputs, resets
+  const SlotWork& work;
+
+  ShaderShape shader() const { return type ? type->shader : ShaderShape::none; }
+  bool hasShader() const { return type && type->shader != ShaderShape::none; }
+  bool attaches() const { return kind == Kind::color || kind == Kind::depth; }
+  bool ofBuffers() const { return kind == Kind::uniform || kind == Kind::storage || isCommandInput(kind); }
+  bool filters() const {
+    return work.sampler.linear || work.sampler.wrap != Wrap::clamp || work.sampler.compare;
+  }
+  bool mayFilter() const {  // a blit filters too, and says no more
+    return kind == Kind::sampled ||
+           (kind == Kind::copy && type && type->framebuffers && isTexture(shape) && access == Access::read &&
+            work.sampler.wrap == Wrap::clamp && !work.sampler.compare);
+  }
+};
+
+// What a kind must fit: the resource, the access and the type of pass. The first that applies is the mistake.
+struct KindRule {
+  bool (*broken)(const Use& use);
+  const char* expected;  // null: the kind that the type of pass uses
+};
+constexpr KindRule kKindRules[] = {
+    {[](const Use& u) { return isTexture(u.shape) && u.ofBuffers(); },
+     "sampled, image, color, depth or copy for a texture"},
+    {[](const Use& u) { return !isTexture(u.shape) && !u.ofBuffers() && u.kind != Kind::copy; },
+     "uniform, storage or copy for a buffer"},
+    {[](const Use& u) {
+       return u.type && !u.hasShader() && u.kind != defaultKind(u.type, u.access, u.shape);
+     },
+     nullptr},
+    {[](const Use& u) { return u.hasShader() && u.kind == Kind::copy; },
+     "a kind that a shader has; copies are made by blit passes"},
+    {[](const Use& u) { return u.attaches() && u.shader() == ShaderShape::compute; },
+     "image in a pass without attachments"},
+    {[](const Use& u) {
+       return (u.kind == Kind::sampled || u.kind == Kind::uniform) && u.access != Access::read;
+     },
+     "reading only for this kind"},
+    {[](const Use& u) { return u.kind == Kind::color && u.access == Access::read; },
+     "writing or modifying for color"},
+};
+
+// What a format must have, where it is known.
+struct FormatRule {
+  bool (*broken)(const Use& use);
+  const char *expected, *hint;
+};
+constexpr FormatRule kFormatRules[] = {
+    {[](const Use& u) { return u.kind == Kind::color && !infoOf(u.shape.format).colorRenderable; },
+     "a format that can be rendered to", ""},
+    {[](const Use& u) { return u.kind == Kind::image && !infoOf(u.shape.format).imageStorable; },
+     "a format that images can have", ""},
+    {[](const Use& u) { return u.kind == Kind::depth && !isDepth(u.shape.format); }, "a depth format", ""},
+    {[](const Use& u) {
+       return u.kind == Kind::sampled && u.work.sampler.compare && !isDepth(u.shape.format);
+     },
+     "a depth format for compare", "name a depth texture, or leave 'compare' out"},
+    {[](const Use& u) {
+       return u.work.sampler.linear && (isInteger(u.shape.format) || u.work.use.planes == 2 ||
+                                        (u.kind == Kind::copy && isDepth(u.shape.format)));
+     },
+     "a format that can be filtered, or no linear", "leave 'linear' out"},
+};
+
+}  // namespace
+
 bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, const SlotWork& work) {
   const Entity& entity = context.model.entities[work.entity];
-  const FlatResource& shape = entity.shape;
-  const Kind kind = work.use.kind;
+  const Use use{entity, entity.shape, work.use.kind, access, context.type, work};
   const auto report = [&](Code code, std::string message, std::string expected, std::string hint = {}) {
     auto& d = context.model.diagnostics.error(code, ref.place, std::move(message));
     d.pass = context.pass;
@@ -61,72 +131,40 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
     d.hint = std::move(hint);
     return false;
   };
-  const auto kindMisfit = [&](std::string expected) {
-    return report(
-        Code::badKind,
-        fmt::format("{} cannot {} '{}' as {}", context.user, nameOf(access), entity.name, nameOf(kind)),
-        std::move(expected));
-  };
   if (entity.import != kNone && context.model.graph.imports[entity.import].kind == ImportKind::event)
     return report(Code::badKind,
                   fmt::format("{} uses '{}', which is an event and holds nothing", context.user, entity.name),
-                  "a texture or a buffer; events stand in \"reset\"");
-  const bool texture = isTexture(shape);
-  const bool bufferKind = kind == Kind::uniform || kind == Kind::storage || isCommandInput(kind);
-  if (texture && bufferKind) return kindMisfit("sampled, image, color, depth or copy for a texture");
-  if (!texture && !bufferKind && kind != Kind::copy)
-    return kindMisfit("uniform, storage or copy for a buffer");
-  const ShaderShape shader = context.type ? context.type->shader : ShaderShape::none;
-  if (context.type && shader == ShaderShape::none && kind != defaultKind(context.type, access, shape))
-    return kindMisfit(fmt::format("a {} pass uses {}", context.type->name,
-                                  nameOf(defaultKind(context.type, access, shape))));
-  const bool draws = shader == ShaderShape::fragment || shader == ShaderShape::draw;
-  if (context.type && shader != ShaderShape::none) {
-    if (kind == Kind::copy) return kindMisfit("a kind that a shader has; copies are made by blit passes");
-    if ((kind == Kind::color || kind == Kind::depth) && !draws)
-      return kindMisfit("image in a pass without attachments");
-  }
-  if (isCommandInput(kind))
+                  "a texture or a buffer; name events in \"reset\"");
+  for (const KindRule& rule : kKindRules)
+    if (rule.broken(use))
+      return report(
+          Code::badKind,
+          fmt::format("{} cannot {} '{}' as {}", context.user, nameOf(access), entity.name, nameOf(use.kind)),
+          rule.expected ? rule.expected
+                        : fmt::format("a {} pass uses {}", context.type->name,
+                                      nameOf(defaultKind(context.type, access, use.shape))));
+  if (isCommandInput(use.kind))
     return report(Code::unusedKind,
                   fmt::format("{} uses '{}' as {}, which no type of pass does yet", context.user, entity.name,
-                              nameOf(kind)),
+                              nameOf(use.kind)),
                   "uniform, storage or copy for a buffer", "read it as storage; the shader indexes it");
-  const bool readOnly = kind == Kind::sampled || kind == Kind::uniform;
-  if (readOnly && access != Access::read) return kindMisfit("reading only for this kind");
-  if (kind == Kind::color && access == Access::read) return kindMisfit("writing or modifying for color");
-
-  const bool known = shape.format != Format::none;
-  const auto formatMisfit = [&](std::string expected, std::string hint = {}) {
-    return report(Code::badFormat,
-                  fmt::format("{}: the format {} of '{}' does not fit the use as {}", context.user,
-                              infoOf(shape.format).name, entity.name, nameOf(kind)),
-                  std::move(expected), std::move(hint));
-  };
-  if (known && kind == Kind::color && !infoOf(shape.format).colorRenderable)
-    return formatMisfit("a format that can be rendered to");
-  if (known && kind == Kind::image && !infoOf(shape.format).imageStorable)
-    return formatMisfit("a format that images can have");
-  if (known && kind == Kind::depth && !isDepth(shape.format)) return formatMisfit("a depth format");
-  const Sampler& sampler = work.sampler;
-  const bool blit = kind == Kind::copy && context.type && context.type->framebuffers && texture &&
-                    access == Access::read && sampler.wrap == Wrap::clamp && !sampler.compare;  // may filter
-  if (context.type && (sampler.linear || sampler.wrap != Wrap::clamp || sampler.compare) &&
-      kind != Kind::sampled && !blit)
+  if (context.type && use.filters() && !use.mayFilter())
     return report(Code::badKind,
                   fmt::format("{}: '{}' is not sampled, it has no filter", context.user, entity.name),
                   "linear, wrap, mirror, border and compare for sampled textures");
-  if (known && kind == Kind::sampled && sampler.compare && !isDepth(shape.format))
-    return formatMisfit("a depth format for compare", "name a depth texture, or leave 'compare' out");
-  const bool depths = kind == Kind::copy && isDepth(shape.format);
-  if (known && sampler.linear && (isInteger(shape.format) || work.use.planes == 2 || depths))
-    return formatMisfit("a format that can be filtered, or no linear", "leave 'linear' out");
-  if (shape.samples > 1 && sampler.linear)
+  for (const FormatRule& rule : kFormatRules)
+    if (use.shape.format != Format::none && rule.broken(use))
+      return report(Code::badFormat,
+                    fmt::format("{}: the format {} of '{}' does not fit the use as {}", context.user,
+                                infoOf(use.shape.format).name, entity.name, nameOf(use.kind)),
+                    rule.expected, rule.hint);
+  if (use.shape.samples > 1 && work.sampler.linear)
     return report(
         Code::badKind,
         fmt::format("{}: '{}' has several samples, it cannot be filtered", context.user, entity.name),
         "no linear",
         "leave 'linear' out: the shader declares a sampler2DMS and reads one sample by texelFetch");
-  if (work.array && (kind == Kind::color || kind == Kind::depth))
+  if (work.array && use.attaches())
     return report(
         Code::badKind,
         fmt::format("{}: '{}' is an array, an attachment is one texture", context.user, entity.name),
@@ -209,67 +247,38 @@ bool checkAttachments(const SlotContext& context, const std::vector<SlotWork>& s
 bool checkPassUses(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots) {
   bool good = checkAttachments(context, slots);
   if (context.type && context.type->shader == ShaderShape::none) good = checkCopy(context, slots) && good;
-  const auto writes = [](const SlotWork& work) {
-    return work.state == SlotWork::State::connected && work.use.access != Access::read;
-  };
-  const auto writers = static_cast<std::size_t>(std::ranges::count_if(slots, writes));
-  if (writers == 0 || !good) return good;
-  // Those that use what is written: of a few slots by a look at each, else by resource, as a pass may have thousands.
-  constexpr std::size_t kFew = 32;
-  std::array<std::size_t, kFew> room;
-  std::unordered_map<std::uint32_t, std::vector<std::size_t>> sharing;
-  if (slots.size() > kFew) {
-    for (const SlotWork& work : slots)
-      if (writes(work)) sharing.try_emplace(work.entity);
-    for (std::size_t i = 0; i < slots.size(); ++i)
-      if (const auto found = sharing.find(slots[i].entity); found != sharing.end())
-        found->second.push_back(i);
-  }
-  const auto usersOf = [&](std::uint32_t entity) -> std::span<const std::size_t> {
-    if (slots.size() > kFew) return sharing[entity];
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < slots.size(); ++i)
-      if (slots[i].entity == entity) room[count++] = i;
-    return {room.data(), count};
+  const auto report = [&](Code code, const SlotWork& slot, std::string message, const char* hint) {
+    auto& d = context.model.diagnostics.error(code, slot.slot->ref.place, std::move(message));
+    d.pass = context.pass;
+    d.resource = context.model.entities[slot.entity].name;
+    d.hint = hint;
+    good = false;
   };
   for (std::size_t i = 0; i < slots.size() && good; ++i) {
     const SlotWork& a = slots[i];
-    if (!writes(a)) continue;
-    const std::span<const std::size_t> others = usersOf(a.entity);
-    if (!compare(context.model, others.size(), a.slot->place)) return false;
-    for (const std::size_t j : others) {
-      if (!good) break;
+    if (a.state != SlotWork::State::connected || a.use.access == Access::read) continue;
+    for (std::size_t j = 0; j < slots.size() && good; ++j) {
       const SlotWork& b = slots[j];
       if (i == j || b.state != SlotWork::State::connected || !overlaps(a, b)) continue;
-      const std::string& name = context.model.entities[a.entity].name;
+      const bool modifies = a.use.access == Access::modify;
       if (b.use.access != Access::read) {
-        if (j < i) continue;
-        auto& d = context.model.diagnostics.error(
-            Code::writtenTwice, b.slot->ref.place,
-            fmt::format("{} writes '{}' by slot '{}' and by slot '{}'", context.user, b.slot->ref.text,
-                        a.slot->name, b.slot->name));
-        d.pass = context.pass;
-        d.resource = name;
-        d.hint = "one pass writes a sub-resource once";
-        good = false;
-      } else if (b.use.history == 0 && !(a.use.access == Access::write && a.whole) &&
-                 !(a.use.access == Access::modify && desc.feedback)) {
+        if (j > i)
+          report(Code::writtenTwice, b,
+                 fmt::format("{} writes '{}' by slot '{}' and by slot '{}'", context.user, b.slot->ref.text,
+                             a.slot->name, b.slot->name),
+                 "one pass writes a sub-resource once");
+      } else if (b.use.history == 0 && (modifies ? !desc.feedback : !a.whole)) {
         // Both attachments of one kind: depth tested by a read slot and modified by another.
-        auto& d = context.model.diagnostics.error(
-            Code::readAndWritten, b.slot->ref.place,
-            fmt::format("{} reads '{}' and {} '{}' in one go", context.user, b.slot->ref.text,
-                        a.use.access == Access::write ? "writes" : "modifies", a.slot->ref.text));
-        d.pass = context.pass;
-        d.resource = name;
-        d.hint = a.use.access == Access::modify && a.whole && b.whole
-                     ? "say \"write\" instead of \"modify\": the pass then reads the version before it and "
-                       "makes the next "
-                       "one; or \"feedback\": true, to read its own texel only"
-                 : a.use.access == Access::modify
-                     ? "\"feedback\": true lets a pass read its own texel of what it modifies"
-                     : "write another level or layer, or read and write the whole resource, which makes its "
-                       "next version";
-        good = false;
+        report(Code::readAndWritten, b,
+               fmt::format("{} reads '{}' and {} '{}' in one go", context.user, b.slot->ref.text,
+                           modifies ? "modifies" : "writes", a.slot->ref.text),
+               modifies && a.whole && b.whole
+                   ? "say \"write\" instead of \"modify\": the pass then reads the version before it and "
+                     "makes the next "
+                     "one; or \"feedback\": true, to read its own texel only"
+               : modifies ? "\"feedback\": true lets a pass read its own texel of what it modifies"
+                          : "write another level or layer, or read and write the whole resource, which makes "
+                            "its next version");
       }
     }
   }
