@@ -77,7 +77,8 @@ std::string around(const std::string& text, const std::vector<std::string>& poin
   REQUIRE(root);
   std::vector<std::pair<std::size_t, std::size_t>> ranges;
   for (const std::string& pointer : pointers)
-    if (const auto* value = weft::test::findPointer(*root, pointer)) ranges.emplace_back(value->begin, value->end);
+    if (const auto* value = weft::test::findPointer(*root, pointer))
+      ranges.emplace_back(value->begin, value->end);
   std::ranges::sort(ranges);
   std::string out;
   std::size_t at = 0;
