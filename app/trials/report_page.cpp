@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "engine/assets/images/encode_png.h"
+#include "engine/assets/images/image.h"
 #include "engine/base/counted.h"
 
 namespace weft::app {

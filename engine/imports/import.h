@@ -12,7 +12,7 @@
 #include "engine/gl/objects/objects.h"
 #include "engine/graph/registry.h"
 #include "engine/imports/frame.h"
-#include "engine/imports/row_layout.h"
+#include "engine/imports/row_table.h"
 #include "engine/imports/world.h"
 #include "engine/scene/camera.h"
 

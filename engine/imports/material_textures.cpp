@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <span>
 
-#include "engine/assets/images/image_resize.h"
+#include "engine/assets/images/image.h"
 
 namespace weft::imports {
 

@@ -1,5 +1,8 @@
-// Tables of rows on the device. A column is written in one place: its name, what graphs are told of it, and how its value is
-// found in a row. A table is held in as many layouts as shaders ask for; each is filled when it is older than the rows.
+// Tables of rows on the device, which shaders read as an array of structs in a storage block, or their first row in a uniform
+// block. Introspection tells which fields of a row a shader declares, and where, so no struct is written twice; a shader may
+// leave fields out and put them in any order. A column is written in one place: its name, what graphs are told of it, and how
+// its value is found in a row. A table is held in as many layouts as shaders ask for; each is filled when it is older than
+// the rows.
 #pragma once
 
 #include <algorithm>
@@ -17,10 +20,25 @@
 
 #include "engine/base/diagnostic.h"
 #include "engine/gl/objects/objects.h"
+#include "engine/gl/programs/program.h"
+#include "engine/graph/registry.h"
 #include "engine/imports/frame.h"
-#include "engine/imports/row_layout.h"
 
 namespace weft::imports {
+
+// The storage block that has the rows of a draw pass's list, although no slot names it.
+constexpr const char* kInstancesBlock = "instances";
+
+// Byte offsets of a table's columns within one element of a storage block, in the order of the columns; -1: the shader has no
+// such field.
+struct RowLayout {
+  std::uint32_t stride = 0;
+  std::vector<std::int32_t> offsets;
+  friend bool operator==(const RowLayout&, const RowLayout&) = default;
+};
+// False, with the problem, when the block is no array of a struct with fields among `columns`.
+bool rowLayoutOf(const gl::Block& block, std::span<const graph::TableColumn> columns, RowLayout& layout,
+                 std::string& problem);
 
 template <class Value>
 constexpr const char* glslTypeOf() {

@@ -12,7 +12,6 @@
 #include "engine/imports/frame.h"
 #include "engine/imports/material_textures.h"
 #include "engine/imports/mesh_draws.h"
-#include "engine/imports/row_layout.h"
 #include "engine/imports/row_table.h"
 #include "engine/imports/world.h"
 #include "engine/scene/frame/mesh_frame.h"

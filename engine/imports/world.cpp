@@ -18,18 +18,6 @@ double WorldFacts::meshesOf(std::string_view list) const {
   return found == lists.end() ? 0 : static_cast<double>(found->meshes);
 }
 
-bool operator==(const WorldFacts& a, const WorldFacts& b) {
-  const auto same = [](const WorldFacts::List& x, const WorldFacts::List& y) {
-    return x.name == y.name && x.count == y.count && x.meshes == y.meshes;
-  };
-  return a.environment == b.environment && a.environmentWidth == b.environmentWidth &&
-         a.environmentHeight == b.environmentHeight && std::ranges::equal(a.lists, b.lists, same) &&
-         a.unusual == b.unusual && a.materials == b.materials && a.maps == b.maps && a.skins == b.skins &&
-         a.coloredVertices == b.coloredVertices && a.sun == b.sun && a.castingSun == b.castingSun &&
-         a.ground == b.ground && a.lamps == b.lamps && a.castingLamps == b.castingLamps &&
-         a.cameras == b.cameras;
-}
-
 World::World(scene::Scene scene) : scene_(std::move(scene)) {}
 
 void World::setScene(scene::Scene scene) {

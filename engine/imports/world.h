@@ -26,6 +26,7 @@ struct WorldFacts {
     std::string name;         // draw list: "spheres"
     std::uint64_t count = 0;  // spheres
     std::uint64_t meshes = 0;
+    friend bool operator==(const List&, const List&) = default;
   };
   std::vector<List> lists;
   // How many things stand in each combination of lists (maskOf) that is not the usual one for their kind.
@@ -43,7 +44,7 @@ struct WorldFacts {
   std::vector<std::string> cameras;
   double countOf(std::string_view list) const;  // spheres; 0 for a list that is not there
   double meshesOf(std::string_view list) const;
-  friend bool operator==(const WorldFacts&, const WorldFacts&);
+  friend bool operator==(const WorldFacts&, const WorldFacts&) = default;
 };
 
 class World {

@@ -6,8 +6,6 @@
 
 #if defined(__x86_64__)
 #include <immintrin.h>
-#elif defined(__aarch64__)
-#include <arm_neon.h>
 #endif
 
 namespace weft::assets {
@@ -56,7 +54,7 @@ bool hasF16c() {
   return has;
 }
 
-// Both return how many elements they did: the greatest multiple of 8.
+// How many elements it did: the greatest multiple of 8.
 __attribute__((target("avx,f16c"))) std::size_t toHalvesF16c(const float* from, std::uint16_t* to,
                                                              std::size_t count) {
   std::size_t i = 0;
@@ -64,28 +62,6 @@ __attribute__((target("avx,f16c"))) std::size_t toHalvesF16c(const float* from, 
     const __m128i halves = _mm256_cvtps_ph(_mm256_loadu_ps(from + i), _MM_FROUND_TO_NEAREST_INT);
     _mm_storeu_si128(reinterpret_cast<__m128i*>(to + i), halves);
   }
-  return i;
-}
-
-__attribute__((target("avx,f16c"))) std::size_t toFloatsF16c(const std::uint16_t* from, float* to,
-                                                             std::size_t count) {
-  std::size_t i = 0;
-  for (; i + 8 <= count; i += 8)
-    _mm256_storeu_ps(to + i, _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from + i))));
-  return i;
-}
-
-#elif defined(__aarch64__)
-
-std::size_t toHalvesNeon(const float* from, std::uint16_t* to, std::size_t count) {
-  std::size_t i = 0;
-  for (; i + 4 <= count; i += 4) vst1_u16(to + i, vreinterpret_u16_f16(vcvt_f16_f32(vld1q_f32(from + i))));
-  return i;
-}
-
-std::size_t toFloatsNeon(const std::uint16_t* from, float* to, std::size_t count) {
-  std::size_t i = 0;
-  for (; i + 4 <= count; i += 4) vst1q_f32(to + i, vcvt_f32_f16(vreinterpret_f16_u16(vld1_u16(from + i))));
   return i;
 }
 
@@ -98,31 +74,8 @@ void floatsToHalves(std::span<const float> from, std::span<std::uint16_t> to) {
   std::size_t done = 0;
 #if defined(__x86_64__)
   if (hasF16c()) done = toHalvesF16c(from.data(), to.data(), from.size());
-#elif defined(__aarch64__)
-  done = toHalvesNeon(from.data(), to.data(), from.size());
 #endif
   for (std::size_t i = done; i < from.size(); ++i) to[i] = floatToHalf(from[i]);
-}
-
-void halvesToFloats(std::span<const std::uint16_t> from, std::span<float> to) {
-  assert(from.size() == to.size());
-  std::size_t done = 0;
-#if defined(__x86_64__)
-  if (hasF16c()) done = toFloatsF16c(from.data(), to.data(), from.size());
-#elif defined(__aarch64__)
-  done = toFloatsNeon(from.data(), to.data(), from.size());
-#endif
-  for (std::size_t i = done; i < from.size(); ++i) to[i] = halfToFloat(from[i]);
-}
-
-const char* halfConversionPath() {
-#if defined(__x86_64__)
-  return hasF16c() ? "f16c" : "scalar";
-#elif defined(__aarch64__)
-  return "neon";
-#else
-  return "scalar";
-#endif
 }
 
 }  // namespace weft::assets

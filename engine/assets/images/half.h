@@ -1,5 +1,5 @@
 // IEEE 754 binary16 <-> binary32. To half rounds to nearest even, overflows to infinity, keeps subnormals; a
-// NaN stays a quiet NaN with the top ten bits of its payload (what F16C and NEON do, so that every path gives
+// NaN stays a quiet NaN with the top ten bits of its payload (what F16C does, so that every path gives
 // the same bits).
 #pragma once
 
@@ -13,11 +13,7 @@ constexpr float kHalfMax = 65504.0f;
 std::uint16_t floatToHalf(float value);
 float halfToFloat(std::uint16_t half);
 
-// Element by element; both spans have the same length. F16C or NEON when the machine has it.
+// Element by element; both spans have the same length.
 void floatsToHalves(std::span<const float> from, std::span<std::uint16_t> to);
-void halvesToFloats(std::span<const std::uint16_t> from, std::span<float> to);
-
-// "f16c", "neon" or "scalar": what the two functions above use on this machine.
-const char* halfConversionPath();
 
 }  // namespace weft::assets

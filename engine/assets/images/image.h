@@ -51,12 +51,18 @@ std::optional<ImageF> decodeEnvironment(std::string_view bytes, const std::strin
 // The cleaning step alone: the colour channels of `image`, RGB or RGBA and equirectangular, in place.
 void sanitizeRadiance(ImageF& image, const std::string& name, base::Diagnostics& diagnostics);
 
+// A picture as the bytes of a PNG file. Empty when it cannot be encoded.
+std::string encodePng8(int width, int height, int channels, std::span<const std::uint8_t> texels);
 bool savePng8(const std::string& path, int width, int height, int channels,
               std::span<const std::uint8_t> texels, base::Diagnostics& diagnostics);
 // 32-bit float, ZIP scanlines; 1, 3 or 4 channels.
 bool saveExr(const std::string& path, const ImageF& image, base::Diagnostics& diagnostics);
 // Radiance RGBE with 3 channels.
 bool saveHdr(const std::string& path, const ImageF& image, base::Diagnostics& diagnostics);
+
+// `image` with 4 channels, `width` x `height` texels over 0; repeated at its edges. `srgb`: colour is averaged as light, alpha
+// never is encoded.
+Image8 resize(const Image8& image, int width, int height, bool srgb);
 
 float decodeSrgb(float encoded);  // IEC 61966-2-1; input and output 0..1
 float encodeSrgb(float linear);

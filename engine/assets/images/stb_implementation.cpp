@@ -8,8 +8,22 @@
 #define STBI_MAX_DIMENSIONS 32768  // kMaxImageSide
 #include <stb/stb_image.h>
 
-#include "engine/assets/images/zlib_stream.h"
-#define STBIW_ZLIB_COMPRESS weft::assets::compressFast
+// In place of stb's own compressor: zlib, at its fastest level. A stream allocated by malloc, null when memory is short.
+#include <zlib.h>
+
+#include <cstdlib>
+
+static unsigned char* compressFast(unsigned char* bytes, int size, int* packed, int /*quality*/) {
+  uLongf length = ::compressBound(static_cast<uLong>(size));
+  auto* stream = static_cast<unsigned char*>(std::malloc(length));
+  if (stream && ::compress2(stream, &length, bytes, static_cast<uLong>(size), Z_BEST_SPEED) != Z_OK) {
+    std::free(stream);
+    stream = nullptr;
+  }
+  *packed = stream ? static_cast<int>(length) : 0;
+  return stream;
+}
+#define STBIW_ZLIB_COMPRESS compressFast
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <stb/stb_image_write.h>
 

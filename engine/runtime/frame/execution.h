@@ -54,8 +54,8 @@ class Execution {
   const StepChoice& steps() const { return steps_; }
   bool ran(std::string_view pass) const;
 
-  // Whether a frame may depend on the frames before it: by a live history, or by results that are kept and were made of
-  // something that moves. If not, headless frame n may be the first to run.
+  // Whether a frame may differ by which frames ran before it: by a live history, by an import that remembers, or by results
+  // that are kept and were made of something that moves. If not, headless frame n may be the first to run.
   bool remembers(const World& world) const;
   // Whether anything in the draw lists that are drawn can have another place in another frame of the last frame's world, in
   // view or not.

@@ -14,7 +14,7 @@
 #include "engine/gl/programs/program_cache.h"
 #include "engine/graph/plan.h"
 #include "engine/imports/mesh_draws.h"
-#include "engine/imports/row_layout.h"
+#include "engine/imports/row_table.h"
 #include "engine/passes/pass_registry.h"
 #include "engine/runtime/imports/import_part.h"
 #include "engine/runtime/storage/block_writer.h"

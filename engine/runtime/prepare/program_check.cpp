@@ -13,7 +13,7 @@
 #include "engine/gl/programs/glsl_type.h"
 #include "engine/glsl/interface.h"
 #include "engine/graph/subresource.h"
-#include "engine/imports/row_layout.h"
+#include "engine/imports/row_table.h"
 #include "engine/passes/compute/work_groups.h"
 #include "engine/runtime/prepare/pass_errors.h"
 #include "engine/runtime/prepare/program_request.h"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "engine/assets/images/encode_png.h"
+#include "engine/assets/images/image.h"
 
 using namespace weft::assets;
 

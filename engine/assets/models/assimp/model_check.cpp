@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstring>
+#include <map>
 #include <unordered_map>
 #include <vector>
 
@@ -182,42 +183,21 @@ class FbxWalk {
     for (std::uint64_t i = 0; i < count; ++i) {
       if (at >= end) return false;
       const char kind = bytes_[at++];
+      // Bytes of a value, of a text after its length, and of each element of a packed array.
+      static const std::map<char, std::size_t> kPlain = {{'C', 1}, {'B', 1}, {'Y', 2}, {'I', 4},
+                                                         {'F', 4}, {'D', 8}, {'L', 8}},
+                                               kPacked = {{'b', 1}, {'c', 1}, {'f', 4},
+                                                          {'i', 4}, {'d', 8}, {'l', 8}};
       std::size_t size = 0, packed = 0;
-      switch (kind) {
-        case 'C':
-        case 'B':
-          size = 1;
-          break;
-        case 'Y':
-          size = 2;
-          break;
-        case 'I':
-        case 'F':
-          size = 4;
-          break;
-        case 'D':
-        case 'L':
-          size = 8;
-          break;
-        case 'S':
-        case 'R':
-          if (end - at < 4) return false;
-          size = std::size_t{4} + load<std::uint32_t>(bytes_, at);
-          break;
-        case 'f':
-        case 'i':
-          packed = 4;
-          break;
-        case 'd':
-        case 'l':
-          packed = 8;
-          break;
-        case 'b':
-        case 'c':
-          packed = 1;
-          break;
-        default:
-          return false;
+      if (const auto plain = kPlain.find(kind); plain != kPlain.end()) {
+        size = plain->second;
+      } else if (kind == 'S' || kind == 'R') {
+        if (end - at < 4) return false;
+        size = std::size_t{4} + load<std::uint32_t>(bytes_, at);
+      } else if (const auto array = kPacked.find(kind); array != kPacked.end()) {
+        packed = array->second;
+      } else {
+        return false;
       }
       if (packed != 0) {
         if (end - at < 12) return false;

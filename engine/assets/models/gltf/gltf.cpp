@@ -7,7 +7,6 @@
 #include <map>
 #include <tuple>
 
-#include "engine/assets/models/gltf/gltf_lights.h"
 #include "engine/assets/models/gltf/gltf_materials.h"
 #include "engine/assets/models/gltf/gltf_nodes.h"
 #include "engine/assets/models/parts/mesh_builder.h"

@@ -1,4 +1,4 @@
-// Nodes, skins and animations of a glTF document. Internal to the folder.
+// Nodes, skins, animations and lights (KHR_lights_punctual) of a glTF document. Internal to the folder.
 #pragma once
 
 #include <cstdint>
@@ -18,5 +18,10 @@ struct GltfNodes {
 bool readGltfNodes(GltfDocument& document, Model& model, GltfNodes& nodes);
 bool readGltfSkins(GltfDocument& document, const GltfNodes& nodes, Model& model);
 bool readGltfAnimations(GltfDocument& document, ModelFiles& files, const GltfNodes& nodes, Model& model);
+
+// One light for each node that is shown and names one. A scene has one sun: of several the brightest stays, the others are
+// left out, with W168. False after errors: an index that is none, a number that no light can have.
+bool readGltfLights(GltfDocument& document, const GltfNodes& nodes, base::Diagnostics& diagnostics,
+                    Model& model);
 
 }  // namespace weft::assets

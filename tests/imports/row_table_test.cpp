@@ -1,11 +1,9 @@
-#include "engine/imports/row_layout.h"
+#include "engine/imports/row_table.h"
 
 #include <doctest/doctest.h>
 
 #include <array>
 #include <cstring>
-
-#include "engine/imports/row_table.h"
 
 using namespace weft;
 
