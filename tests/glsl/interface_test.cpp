@@ -81,7 +81,7 @@ TEST_CASE("each name of a shader has the role that its declaration gives it") {
   CHECK(std::ranges::find(picture.layout, "rgba8") != picture.layout.end());
   CHECK_FALSE(picture.reads);
   CHECK(picture.writes);
-  CHECK(picture.at.line == 13);
+  CHECK(picture.at.line == 14);
 }
 
 TEST_CASE("sizes of an array stand behind the type, behind the name, or behind both") {

@@ -259,7 +259,7 @@ TEST_CASE_FIXTURE(Fixture, "names are held against the source, not against what 
   const auto variant = cache.get(request, diagnostics);
   REQUIRE(variant);
   CHECK_FALSE(variant->program.reflection().findSampler("unused_slot"));
-  const Interface& interface = variant->stages[0].source->interfaceWith(variant->defines);
+  const weft::glsl::Interface& interface = variant->stages[0].source->interfaceWith(variant->defines);
   CHECK(interface.find("unused_slot"));
   CHECK_FALSE(interface.find("no_slot"));
 }
