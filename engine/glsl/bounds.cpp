@@ -47,7 +47,7 @@ bool checkShaderSize(const ShaderSize& size, const ShaderSource& source, base::D
 }
 
 bool isUnusual(const Interface& interface) {
-  constexpr std::uint64_t kUsualTokens = 15'000, kUsualDepth = 60, kUsualCases = 50, kUsualElements = 128;
+  constexpr std::uint64_t kUsualTokens = 25'000, kUsualDepth = 60, kUsualCases = 50, kUsualElements = 128;
   const ShaderSize& size = interface.size;
   return interface.unsure || size.tokens.count > kUsualTokens || size.inlined > kUsualTokens ||
          size.depth.count > kUsualDepth || size.cases > kUsualCases || size.elements > kUsualElements;
