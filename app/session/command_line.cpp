@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <sstream>
 
 #include "app/output/standard_streams.h"
@@ -30,6 +31,10 @@ void addCommon(CLI::App& command) {
   const auto confine = [](const std::string& folder) { return base::confineTo(folder).value_or(""); };
   const auto limit = [](const std::string& text) -> std::string {
     const std::size_t at = text.find('=');
+    std::uint64_t times = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), times);
+    if (error == std::errc() && end == text.data() + text.size() && times >= 1 && times <= base::kMostRaise)
+      return base::raiseLimits(times), "";
     if (at == std::string::npos || at == 0) return "expected NAME=VALUE, found '" + text + "'";
     return base::setLimit(text.substr(0, at), text.substr(at + 1)).value_or("");
   };

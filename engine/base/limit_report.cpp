@@ -15,4 +15,12 @@ Diagnostic& reportLimit(Diagnostics& diagnostics, Limit limit, Where place, std:
   return d;
 }
 
+Diagnostic& reportLimit(Diagnostics& diagnostics, Where place, std::string message, std::uint64_t bound,
+                        std::string_view counts, std::uint64_t needed) {
+  Diagnostic& d = diagnostics.error(Code::limitExceeded, std::move(place), std::move(message));
+  d.expected = fmt::format("at most {} {}", raised(bound), counts);
+  d.hint = hintToRaise(bound, needed);
+  return d;
+}
+
 }  // namespace weft::base

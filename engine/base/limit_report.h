@@ -13,4 +13,8 @@ namespace weft::base {
 Diagnostic& reportLimit(Diagnostics& diagnostics, Limit limit, Where place, std::string message,
                         std::uint64_t needed = 0);
 
+// The same for a bound that is no row of the table; `counts` says of what it is one.
+Diagnostic& reportLimit(Diagnostics& diagnostics, Where place, std::string message, std::uint64_t bound,
+                        std::string_view counts, std::uint64_t needed = 0);
+
 }  // namespace weft::base

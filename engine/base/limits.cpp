@@ -36,6 +36,8 @@ std::optional<std::uint64_t> parseCount(std::string_view text) {
   return count << shift;
 }
 
+std::uint64_t raisedTimes = 1;
+
 }  // namespace
 
 const std::vector<LimitInfo>& allLimits() {
@@ -59,9 +61,6 @@ std::uint64_t mostOf(Limit limit) {
   switch (limit) {
     case Limit::include_depth:
     case Limit::extends_depth:
-    case Limit::alternatives_depth:
-    case Limit::definition_depth:
-    case Limit::repeat_indices:
       return 256;
     default:
       return ~std::uint64_t{0} >> 1;
@@ -92,6 +91,20 @@ std::string hintToRaise(Limit limit, std::uint64_t needed) {
     return fmt::format("{} cannot be raised further: deeper walks would overflow the stack", nameOf(limit));
   return fmt::format("raise it with --limit {}={}, if that is meant", nameOf(limit),
                      std::min(std::max(2 * now, needed), most));
+}
+
+std::uint64_t raised(std::uint64_t bound) {
+  return bound * raisedTimes;
+}
+
+void raiseLimits(std::uint64_t times) {
+  raisedTimes = times;
+}
+
+std::string hintToRaise(std::uint64_t bound, std::uint64_t needed) {
+  const std::uint64_t times = std::max(2 * raisedTimes, (needed + bound - 1) / bound);
+  if (times > kMostRaise) return {};
+  return fmt::format("raise the limits with --limit {}, if that is meant", times);
 }
 
 }  // namespace weft::base

@@ -18,16 +18,9 @@ namespace weft::base {
   X(include_files,       1000,          "files that one graph includes, each use counted")      \
   X(include_depth,       64,            "files that include each other in a row")               \
   X(extends_depth,       64,            "overlays that extend each other in a row")             \
-  X(alternatives_depth,  64,            "alternatives that lead to alternatives in a row")      \
-  X(alternatives,        1000000,       "alternatives of one graph, looked at in all")          \
-  X(definition_depth,    64,            "definitions that depend on each other in a row")       \
-  X(repeat_indices,      16,            "indices of one repeat")                                \
   X(json_bytes,          32ull << 20,   "bytes of one JSON or .cube file")                      \
   X(json_values,         1500000,       "values of all JSON files of one graph, each use counted") \
   X(name_bytes,          255,           "bytes of one name or key")                             \
-  X(uses,                2000000,       "slots, parameters and defines of all passes of one graph") \
-  X(graph_bytes,         640ull << 20,  "bytes of all passes of one graph, its repeats counted") \
-  X(terms,               10000000,      "operators and operands that passes evaluate, in all")  \
   X(texture_bytes,       4ull << 30,    "bytes of all textures and buffers of one plan")        \
   X(diagnostics,         100,           "messages that are printed")                            \
   X(shader_bytes,        1ull << 20,    "bytes of one shader with what it includes")            \
@@ -71,5 +64,13 @@ std::optional<std::string> setLimit(std::string_view name, std::string_view valu
 // "raise it with --limit include_files=2000": the fix of a message about a limit. Names twice the present value, at most
 // mostOf(), and never less than `needed` where that is known.
 std::string hintToRaise(Limit limit, std::uint64_t needed = 0);
+
+// A bound as it is now: times what `--limit N` said, 1 unless set before anything is read.
+std::uint64_t raised(std::uint64_t bound);
+// Up to kMostRaise.
+void raiseLimits(std::uint64_t times);
+constexpr std::uint64_t kMostRaise = 64;
+// "raise the limits with --limit 2, if that is meant": at least so that `needed` is allowed. "" when that cannot be.
+std::string hintToRaise(std::uint64_t bound, std::uint64_t needed = 0);
 
 }  // namespace weft::base

@@ -115,8 +115,7 @@ struct VersionLinks {
 
 // ---- carried for the executor -------------------------------------------------------------------------------------
 
-// A declared slot of a pass instance. Slots that are not connected have useCount 0 (compiled without HAS_<NAME>). There may
-// be a million of them, so that nothing in here is padding.
+// A declared slot of a pass instance. Slots that are not connected have useCount 0 (compiled without HAS_<NAME>).
 struct SlotSpec {
   std::string name;
   Place place;
@@ -129,11 +128,10 @@ struct SlotSpec {
   Access access = Access::read;
   Kind kind = Kind::sampled;
   Sampler sampler;
-  bool array : 1 = false;  // true when the resource was declared with "array", even of one element
-  bool optional : 1 = false;
-  bool inherited : 1 = false;  // by "like", and the pass has another shader: `place` is that of "like"
+  bool array = false;  // true when the resource was declared with "array", even of one element
+  bool optional = false;
+  bool inherited = false;  // by "like", and the pass has another shader: `place` is that of "like"
 };
-static_assert(sizeof(void*) != 8 || sizeof(SlotSpec) <= 80, "the limit graph_bytes counts slots");
 
 struct UniformSpec {
   std::string name;

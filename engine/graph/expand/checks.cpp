@@ -3,12 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <span>
-#include <unordered_map>
 
 #include "engine/graph/expand/copies.h"
-#include "engine/graph/expand/names/limits.h"
 
 namespace weft::graph::expansion {
 
@@ -209,67 +205,38 @@ bool checkAttachments(const SlotContext& context, const std::vector<SlotWork>& s
 bool checkPassUses(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots) {
   bool good = checkAttachments(context, slots);
   if (context.type && context.type->shader == ShaderShape::none) good = checkCopy(context, slots) && good;
-  const auto writes = [](const SlotWork& work) {
-    return work.state == SlotWork::State::connected && work.use.access != Access::read;
-  };
-  const auto writers = static_cast<std::size_t>(std::ranges::count_if(slots, writes));
-  if (writers == 0 || !good) return good;
-  // Those that use what is written: of a few slots by a look at each, else by resource, as a pass may have thousands.
-  constexpr std::size_t kFew = 32;
-  std::array<std::size_t, kFew> room;
-  std::unordered_map<std::uint32_t, std::vector<std::size_t>> sharing;
-  if (slots.size() > kFew) {
-    for (const SlotWork& work : slots)
-      if (writes(work)) sharing.try_emplace(work.entity);
-    for (std::size_t i = 0; i < slots.size(); ++i)
-      if (const auto found = sharing.find(slots[i].entity); found != sharing.end())
-        found->second.push_back(i);
-  }
-  const auto usersOf = [&](std::uint32_t entity) -> std::span<const std::size_t> {
-    if (slots.size() > kFew) return sharing[entity];
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < slots.size(); ++i)
-      if (slots[i].entity == entity) room[count++] = i;
-    return {room.data(), count};
+  const auto report = [&](Code code, const SlotWork& slot, std::string message, const char* hint) {
+    auto& d = context.model.diagnostics.error(code, slot.slot->ref.place, std::move(message));
+    d.pass = context.pass;
+    d.resource = context.model.entities[slot.entity].name;
+    d.hint = hint;
+    good = false;
   };
   for (std::size_t i = 0; i < slots.size() && good; ++i) {
     const SlotWork& a = slots[i];
-    if (!writes(a)) continue;
-    const std::span<const std::size_t> others = usersOf(a.entity);
-    if (!compare(context.model, others.size(), a.slot->place)) return false;
-    for (const std::size_t j : others) {
-      if (!good) break;
+    if (a.state != SlotWork::State::connected || a.use.access == Access::read) continue;
+    for (std::size_t j = 0; j < slots.size() && good; ++j) {
       const SlotWork& b = slots[j];
       if (i == j || b.state != SlotWork::State::connected || !overlaps(a, b)) continue;
-      const std::string& name = context.model.entities[a.entity].name;
+      const bool modifies = a.use.access == Access::modify;
       if (b.use.access != Access::read) {
-        if (j < i) continue;
-        auto& d = context.model.diagnostics.error(
-            Code::writtenTwice, b.slot->ref.place,
-            fmt::format("{} writes '{}' by slot '{}' and by slot '{}'", context.user, b.slot->ref.text,
-                        a.slot->name, b.slot->name));
-        d.pass = context.pass;
-        d.resource = name;
-        d.hint = "one pass writes a sub-resource once";
-        good = false;
-      } else if (b.use.history == 0 && !(a.use.access == Access::write && a.whole) &&
-                 !(a.use.access == Access::modify && desc.feedback)) {
+        if (j > i)
+          report(Code::writtenTwice, b,
+                 fmt::format("{} writes '{}' by slot '{}' and by slot '{}'", context.user, b.slot->ref.text,
+                             a.slot->name, b.slot->name),
+                 "one pass writes a sub-resource once");
+      } else if (b.use.history == 0 && (modifies ? !desc.feedback : !a.whole)) {
         // Both attachments of one kind: depth tested by a read slot and modified by another.
-        auto& d = context.model.diagnostics.error(
-            Code::readAndWritten, b.slot->ref.place,
-            fmt::format("{} reads '{}' and {} '{}' in one go", context.user, b.slot->ref.text,
-                        a.use.access == Access::write ? "writes" : "modifies", a.slot->ref.text));
-        d.pass = context.pass;
-        d.resource = name;
-        d.hint = a.use.access == Access::modify && a.whole && b.whole
-                     ? "say \"write\" instead of \"modify\": the pass then reads the version before it and "
-                       "makes the next "
-                       "one; or \"feedback\": true, to read its own texel only"
-                 : a.use.access == Access::modify
-                     ? "\"feedback\": true lets a pass read its own texel of what it modifies"
-                     : "write another level or layer, or read and write the whole resource, which makes its "
-                       "next version";
-        good = false;
+        report(Code::readAndWritten, b,
+               fmt::format("{} reads '{}' and {} '{}' in one go", context.user, b.slot->ref.text,
+                           modifies ? "modifies" : "writes", a.slot->ref.text),
+               modifies && a.whole && b.whole
+                   ? "say \"write\" instead of \"modify\": the pass then reads the version before it and "
+                     "makes the next "
+                     "one; or \"feedback\": true, to read its own texel only"
+               : modifies ? "\"feedback\": true lets a pass read its own texel of what it modifies"
+                          : "write another level or layer, or read and write the whole resource, which makes "
+                            "its next version");
       }
     }
   }

@@ -11,11 +11,11 @@
 #include "engine/graph/expand/judge/unnamed.h"
 #include "engine/graph/expand/judge/unused.h"
 #include "engine/graph/expand/names/apply_settings.h"
-#include "engine/graph/expand/names/limits.h"
 #include "engine/graph/expand/names/resources.h"
 #include "engine/graph/expand/names/scope.h"
 #include "engine/graph/expand/names/unread.h"
 #include "engine/graph/expand/passes.h"
+#include "engine/graph/language/enough.h"
 #include "engine/graph/pick/find_pick.h"
 
 namespace weft::graph {
@@ -28,7 +28,7 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
   Model model{desc, registry, settings, own};
   model.incomplete = diagnostics.hasErrors();  // of the reader
   buildScopes(model);
-  applySettings(model);
+  if (!isOver(model)) applySettings(model);
   for (std::uint32_t i = 0; i < model.entities.size() && !isOver(model); ++i) {
     const auto kind = model.entities[i].kind;
     // An import's arguments are checked here; so is an input of the root, which nobody may read.
@@ -61,8 +61,9 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
 std::vector<Refusal> findRefused(const GraphDesc& desc, const Registry& registry, const Settings& settings) {
   base::Diagnostics said;
   expansion::Model model{desc, registry, settings, said};
-  expansion::buildScopes(model);
   std::vector<Refusal> refused;
+  expansion::buildScopes(model);
+  if (model.stopped) return refused;
   const auto note = [&](bool disable, std::size_t index) {
     const auto error = std::ranges::find(said.items(), base::Severity::error, &base::Diagnostic::severity);
     if (error != said.items().end()) refused.push_back({disable, index, *error});

@@ -19,10 +19,8 @@ std::optional<FlatUse> resolveFinal(Model& model, Scope& scope, const RefDesc& r
                                     const std::string& name) {
   Names names(model, scope);
   markStructural(model, scope, ref);
-  SlotDesc slot;
-  slot.name = name;
-  slot.place = ref.place;
-  slot.ref = ref;
+  const SlotDesc slot{
+      .name = name, .place = ref.place, .access = Access::read, .ref = ref};
   const SlotContext context{model, names, nullptr, user, {}};
   if (ref.wordsSize > 0) {
     auto& d = model.diagnostics.error(Code::badKind, ref.place,
@@ -31,9 +29,7 @@ std::optional<FlatUse> resolveFinal(Model& model, Scope& scope, const RefDesc& r
     d.hint = fmt::format("leave '{}' out", ref.words());
     return std::nullopt;
   }
-  SlotWork work = resolveSlot(context, slot, kNone);
-  // resolveSlot mentions the copy of the reference; keep the original for messages.
-  if (!model.missing.empty() && model.missing.back().ref == &slot.ref) model.missing.back().ref = &ref;
+  const SlotWork work = resolveSlot(context, slot, kNone);
   if (work.state != SlotWork::State::connected) return std::nullopt;
   if (work.array) {
     auto& d = model.diagnostics.error(Code::badKind, ref.place,
@@ -145,9 +141,9 @@ void addResets(Model& model, const Entity& entity, HistorySpec& spec) {
       d.found = ref.text;
       d.hint = fmt::format("write '{}{}'", ref.import ? "@" : "", ref.name);
     }
-    const auto holds = evaluateCondition(names, ref.condition, true, {"a reset of '{}'", entity.name});
-    const std::uint32_t found = findEntityOrReport(model, *entity.scope, ref.name, ref.import, ref.place,
-                                                   {"the reset of '{}' names the", entity.name});
+    const auto holds = evaluateCondition(names, ref.condition, true, "the condition of a reset");
+    const std::uint32_t found =
+        findEntityOrReport(model, *entity.scope, ref.name, ref.import, ref.place, {"\"reset\""});
     if (found == kNone) continue;
     if (!holds || !*holds) continue;
     // An import that has nothing now may have something later.

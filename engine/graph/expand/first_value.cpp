@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "engine/graph/expand/checks.h"
-#include "engine/graph/expand/names/limits.h"
 #include "engine/graph/expand/names/versions.h"
 #include "engine/graph/subresource.h"
 
@@ -79,12 +78,9 @@ SlotWork resolveFirst(const SlotContext& context, const SlotWork& work, std::uin
   Names names(model, *entity.firstScope);
   const SlotContext inside{
       model, names, context.type, context.user, context.pass, context.versions, context.ranges, context.room};
+  const std::size_t missed = model.missing.size();
   SlotWork first = resolveSlot(inside, slot, pass);
-  // The copy that was mentioned does not last.
-  if (!model.missing.empty() && model.missing.back().ref == &slot.ref) {
-    model.missing.back().ref = &ref;
-    model.missing.back().first = true;
-  }
+  if (model.missing.size() > missed) model.missing.back().first = true;
   if (first.state != SlotWork::State::connected) return {};
 
   const Entity& source = model.entities[first.entity];
@@ -138,14 +134,12 @@ const std::vector<SlotWork>& FirstValues::with(const std::vector<SlotWork>& slot
   return all_;
 }
 
-bool FirstValues::emit(Model& model, const SlotWork& work, std::uint32_t pass, SlotSpec& spec) const {
+void FirstValues::emit(Model& model, const SlotWork& work, std::uint32_t pass, SlotSpec& spec) const {
   for (const auto& [slot, first] : works_) {
     if (slot != work.slot) continue;
-    if (!mayUse(model, first.entity, first.use, 1, spec.place)) return false;
     spec.firstValue = static_cast<std::uint32_t>(model.graph.uses.size());
     addUse(model, first.entity, first.firstElement, first.use, pass);
   }
-  return true;
 }
 
 }  // namespace weft::graph::expansion

@@ -16,8 +16,8 @@ class FirstValues {
   void resolve(const SlotContext& context, const std::vector<SlotWork>& slots, std::uint32_t pass);
   // `slots` and these, for the checks of a whole pass.
   const std::vector<SlotWork>& with(const std::vector<SlotWork>& slots);
-  // Adds the use that belongs to `work`, if there is one, to the graph. False when the graph has too many.
-  bool emit(Model& model, const SlotWork& work, std::uint32_t pass, SlotSpec& spec) const;
+  // Adds the use that belongs to `work`, if there is one, to the graph.
+  void emit(Model& model, const SlotWork& work, std::uint32_t pass, SlotSpec& spec) const;
 
  private:
   std::vector<std::pair<const SlotDesc*, SlotWork>> works_;  // by the slot that reads the history

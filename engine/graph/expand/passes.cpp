@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <iterator>
 
+#include "engine/base/limits.h"
 #include "engine/graph/expand/checks.h"
 #include "engine/graph/expand/first_value.h"
 #include "engine/graph/expand/judge/remedy.h"
-#include "engine/graph/expand/names/limits.h"
 #include "engine/graph/expand/names/unread.h"
 #include "engine/graph/expand/names/versions.h"
 #include "engine/graph/expand/spec.h"
@@ -21,6 +20,14 @@ namespace {
 
 using State = SlotWork::State;
 
+// The slots, parameters and defines of one instance; a choice makes a define of each of its words.
+std::uint64_t slotsOf(const PassDesc& desc) {
+  std::uint64_t count = desc.slots.size() + desc.parameters.size() + desc.defines.size();
+  for (const PassParameterDesc& parameter : desc.parameters)
+    if (parameter.declared) count += parameter.declared->choices.size();
+  return count;
+}
+
 class PassWalk {
  public:
   PassWalk(Model& model, std::vector<DeferredUniform>& deferred)
@@ -29,7 +36,7 @@ class PassWalk {
   void walk(Scope& scope, const std::string& outerWhy) {
     const std::string& why = outerWhy.empty() ? scope.disabledBy : outerWhy;
     for (const PassDesc& desc : scope.desc->passes) {
-      if (tooMany_ || isOver(model_)) return;
+      if (isOver(model_)) return;
       if (desc.include)
         walkInclude(scope, desc, why);
       else if (scope.passes.find(desc.name)->second == &desc)
@@ -44,8 +51,7 @@ class PassWalk {
     checkExpr(model_, scope, desc.enabled);
     markStructural(model_, scope, desc.enabled);
     Names names(model_, scope);
-    const auto enabled =
-        evaluateCondition(names, desc.enabled, true, {"'enabled' of include '{}'", desc.include->as});
+    const auto enabled = evaluateCondition(names, desc.enabled, true, "'enabled' of an include");
     model_.incomplete = model_.incomplete || !enabled;  // nobody knows whether its passes are there
     if (enabled) walk(*child->second, why.empty() && !*enabled ? whyFalse(desc.enabled) : why);
   }
@@ -61,7 +67,11 @@ class PassWalk {
     const auto rules = model_.disables.find(declared_);
     rules_ = rules == model_.disables.end() ? nullptr : &rules->second;
     failed_ = false;
-    cost_ = costOf(desc, declared_);
+    slotsOfInstance_ = slotsOf(desc);
+    if (slotsOfInstance_ > base::raised(kMostSlotsOfPass))
+      return stopAt(model_, desc.place,
+                    fmt::format("pass '{}' has too many slots, parameters and defines", declared_),
+                    kMostSlotsOfPass, "slots, parameters and defines of one pass");
     stanzaGood_ = checkStanza(model_, scope, desc, type_, declared_);
     Names names(model_, scope);
     repeat(names, 0);
@@ -70,18 +80,32 @@ class PassWalk {
       if (slot.access != Access::read) leaveOutWrite(model_, scope, slot.ref);
   }
 
+  // Whether `more` passes may follow; reports otherwise.
+  bool mayMake(std::uint64_t more, const Place& place) {
+    if (made_ + more <= base::raised(kMostPasses)) return true;
+    auto& d = model_.diagnostics.error(Code::tooManyPasses, place,
+                                       fmt::format("with pass '{}' the graph has more than {} passes",
+                                                   declared_, base::raised(kMostPasses)));
+    d.pass = declared_;
+    d.hint = base::hintToRaise(kMostPasses, made_ + more);
+    if (d.hint.empty()) d.hint = "let one compute pass have more threads";
+    model_.stopped = model_.incomplete = true;
+    return false;
+  }
+
   void repeat(Names& names, std::size_t depth) {
     if (depth == desc_->repeat.size()) {
+      if (!mayMake(1, desc_->place)) return;
+      ++made_;
       instance(names);
       ++model_.position;
       return;
     }
     const RangeDesc& range = desc_->repeat[depth];
-    const std::string what = fmt::format("a bound of '{}' in pass '{}'", range.index, declared_);
     constexpr std::int64_t kFar = 1'000'000'000;
-    const auto first = evaluateWhole(names, range.first, 0, -kFar, kFar, what);
-    const auto last = evaluateWhole(names, range.last, 0, -kFar, kFar, what);
-    const auto step = evaluateWhole(names, range.step, 1, -kFar, kFar, what);
+    const auto first = evaluateWhole(names, range.first, 0, -kFar, kFar, "a bound of a repeat");
+    const auto last = evaluateWhole(names, range.last, 0, -kFar, kFar, "a bound of a repeat");
+    const auto step = evaluateWhole(names, range.step, 1, -kFar, kFar, "the step of a repeat");
     if (!first || !last || !step || *step == 0) {
       if (step && *step == 0)
         model_.diagnostics
@@ -91,25 +115,18 @@ class PassWalk {
       failed_ = true;
       return;
     }
-    // Counted before the innermost range runs, and outer ranges around empty ones.
     const std::int64_t steps = (*last - *first) / *step + 1;
-    if (steps <= 0)
+    // Each step makes a pass, or ends at an empty range within.
+    if (!mayMake(static_cast<std::uint64_t>(std::max<std::int64_t>(steps, 1)), range.place)) return;
+    if (steps <= 0) {
+      ++made_;
       noteEmptyRepeat(model_, *scope_, *desc_, range,
                       {declared_, range.index, *first, *last, *step, range.place, scopeWhy_.empty()});
-    if (steps > 0 && depth + 1 == desc_->repeat.size()) planned_ += steps;
-    walked_ += std::max<std::int64_t>(steps, 1);
-    if (planned_ > kMaxInstances || walked_ > 4 * static_cast<std::int64_t>(kMaxInstances)) {
-      auto& d = model_.diagnostics.error(
-          Code::tooManyPasses, range.place,
-          fmt::format("pass '{}' makes more than {} passes in all", declared_, kMaxInstances));
-      d.pass = declared_;
-      d.hint = "a graph that repeats this often belongs into one compute pass with more threads";
-      tooMany_ = model_.incomplete = true;
       return;
     }
     names.indices.push_back({range.index, 0});
-    for (std::int64_t i = *first;
-         (*step > 0 ? i <= *last : i >= *last) && !failed_ && !tooMany_ && !isOver(model_); i += *step) {
+    for (std::int64_t i = *first; (*step > 0 ? i <= *last : i >= *last) && !failed_ && !isOver(model_);
+         i += *step) {
       names.indices.back().value = static_cast<double>(i);
       repeat(names, depth + 1);
     }
@@ -128,9 +145,18 @@ class PassWalk {
 
   // ---- one instance ----
 
+  // Whether there are not too many slots, and versions that they read.
+  bool maySee() {
+    if (slotsMade_ + graph_.uses.size() + graph_.links.runs.size() <= base::raised(kMostSlots)) return true;
+    stopAt(model_, desc_->place,
+           fmt::format("with pass '{}' the graph has too many slots, parameters and defines", declared_),
+           kMostSlots, "slots, parameters, defines and versions that are read, of all passes");
+    return false;
+  }
+
   // Why it is disabled; empty: it is not. nullopt after a report.
   std::optional<std::string> whyDisabled(Names& names, const std::string& name, bool& byItself) {
-    const auto enabled = evaluateCondition(names, desc_->enabled, true, {"'enabled' of pass '{}'", name});
+    const auto enabled = evaluateCondition(names, desc_->enabled, true, "'enabled'");
     if (!enabled) return std::nullopt;
     byItself = !*enabled;
     if (rules_)
@@ -142,7 +168,8 @@ class PassWalk {
   }
 
   void instance(Names& names) {
-    if (!mayExpand(model_, cost_, desc_->place, declared_)) return;
+    slotsMade_ += slotsOfInstance_;
+    if (!maySee()) return;
     const std::size_t before = model_.diagnostics.errorCount();
     nameInstance(names);
     bool byItself = false;
@@ -224,7 +251,7 @@ class PassWalk {
     flat.sideEffect = desc_->sideEffect;
     if (type_) flat.touches = type_->touches;
     flat.group = groupOf();
-    const auto slices = evaluateWhole(names, desc_->slices, 1, 0, 65536, {"the slices of {}", context.user});
+    const auto slices = evaluateWhole(names, desc_->slices, 1, 0, 65536, "the number of slices");
     if (!slices) return;
     flat.slices = static_cast<std::uint32_t>(*slices);
     if (flat.slices > 1 && type_ && type_->shader == ShaderShape::none) {
@@ -264,50 +291,50 @@ class PassWalk {
     record(slots, work, pass, kNone);
   }
 
+  // The slot as the executor needs it, with its uses. False when the graph has too many.
+  bool emitSlot(const SlotWork& work, std::uint32_t pass) {
+    SlotSpec& slot = graph_.slots.emplace_back();
+    slot.name = work.slot->name;
+    slot.access = work.slot->access;
+    slot.kind = work.use.kind;
+    slot.sampler = work.sampler;
+    if (work.sampler.wrap == Wrap::border && work.border != BorderColor{}) {
+      slot.border = static_cast<std::uint32_t>(graph_.borders.size());
+      graph_.borders.push_back(work.border);
+    }
+    slot.array = work.array;
+    slot.optional = work.slot->ref.optional;
+    slot.place = work.slot->place;
+    slot.inherited = base::isSamePlace(slot.place, desc_->likePlace);
+    slot.firstUse = static_cast<std::uint32_t>(graph_.uses.size());
+    const bool used =
+        work.state == State::connected ||
+        (work.state == State::missing && work.entity != kNone && work.slot->access != Access::write);
+    if (used && model_.entities[work.entity].state == Progress::done) emitUses(work, pass);
+    slot.useCount = static_cast<std::uint32_t>(graph_.uses.size()) - slot.firstUse;
+    if (slot.useCount > 0) firsts_.emit(model_, work, pass, slot);
+    return maySee();
+  }
+
   void emit(const SlotContext& context, const std::vector<SlotWork>& slots, Names& names) {
+    const auto pass = static_cast<std::uint32_t>(graph_.passes.size());
     FlatPass flat;
     addCadence(context, names, flat);
-    const auto pass = static_cast<std::uint32_t>(graph_.passes.size());
-    PassSpec spec;
+    PassSpec spec{.name = name_,
+                  .declared = declared_,
+                  .type = desc_->type,
+                  .shader = desc_->shader,
+                  .vertexShader = desc_->vertexShader,
+                  .place = desc_->place,
+                  .shaderPlace = desc_->shaderPlace,
+                  .firstSlot = static_cast<std::uint32_t>(graph_.slots.size()),
+                  .slotCount = static_cast<std::uint32_t>(slots.size())};
     values_.clear();
     if (stanzaGood_) fillSpec(context, *desc_, slots, spec, values_);
     flat.firstUse = static_cast<std::uint32_t>(graph_.uses.size());
-    spec.name = context.pass;
-    spec.declared = declared_;
-    spec.type = desc_->type;
-    spec.shader = desc_->shader;
-    spec.vertexShader = desc_->vertexShader;
-    spec.place = desc_->place;
-    spec.shaderPlace = desc_->shaderPlace;
-    spec.firstSlot = static_cast<std::uint32_t>(graph_.slots.size());
-    for (const SlotWork& work : slots) {
-      SlotSpec slot;
-      slot.name = work.slot->name;
-      slot.access = work.slot->access;
-      slot.kind = work.use.kind;
-      slot.sampler = work.sampler;
-      if (work.sampler.wrap == Wrap::border && work.border != BorderColor{}) {
-        slot.border = static_cast<std::uint32_t>(graph_.borders.size());
-        graph_.borders.push_back(work.border);
-      }
-      slot.firstUse = static_cast<std::uint32_t>(graph_.uses.size());
-      slot.array = work.array;
-      slot.optional = work.slot->ref.optional;
-      slot.place = work.slot->place;
-      slot.inherited = base::isSamePlace(slot.place, desc_->likePlace);
-      const bool used =
-          work.state == State::connected ||
-          (work.state == State::missing && work.entity != kNone && work.slot->access != Access::write);
-      if (used && model_.entities[work.entity].state == Progress::done) {
-        if (!mayUse(model_, work.entity, work.use, work.elementCount, slot.place)) return;
-        emitUses(work, pass);
-      }
-      slot.useCount = static_cast<std::uint32_t>(graph_.uses.size()) - slot.firstUse;
-      if (slot.useCount > 0 && !firsts_.emit(model_, work, pass, slot)) return;
-      graph_.slots.push_back(std::move(slot));
-    }
+    for (const SlotWork& work : slots)
+      if (!emitSlot(work, pass)) return;
     flat.useCount = static_cast<std::uint32_t>(graph_.uses.size()) - flat.firstUse;
-    spec.slotCount = static_cast<std::uint32_t>(slots.size());
     for (std::size_t i = 0; i < slots.size(); ++i) {
       const SlotSpec& slot = graph_.slots[spec.firstSlot + i];
       if (slot.useCount == 0 || slot.access == Access::read) continue;
@@ -317,7 +344,7 @@ class PassWalk {
     }
     for (const DeferredValue& value : values_) deferred_.push_back({pass, value, scope_, names.indices});
     graph_.passes.push_back(flat);
-    graph_.passNames.push_back(context.pass);
+    graph_.passNames.push_back(name_);
     graph_.specs.push_back(std::move(spec));
     model_.positionOf.push_back(model_.position);
   }
@@ -326,15 +353,14 @@ class PassWalk {
   FlatGraph& graph_;
   std::vector<DeferredUniform>& deferred_;
   NameMap<std::uint32_t> groups_;
-  bool tooMany_ = false;
-  std::int64_t planned_ = 0, walked_ = 0;  // instances, and steps of all ranges, so far
+  std::uint64_t made_ = 0, slotsMade_ = 0;  // passes, disabled ones and empty ranges counted; their slots
   // of the stanza
   Scope* scope_ = nullptr;
   const PassDesc* desc_ = nullptr;
   const PassType* type_ = nullptr;
   const std::vector<DisableRule>* rules_ = nullptr;
   std::string declared_, scopeWhy_;
-  StanzaCost cost_;
+  std::uint64_t slotsOfInstance_ = 0;
   bool failed_ = false, stanzaGood_ = true;
   // of the instance; kept from one to the next for their memory
   std::string name_, user_;  // "glow_down[3]", "pass 'glow_down[3]'"
@@ -356,13 +382,11 @@ void expandPasses(Model& model, std::vector<DeferredUniform>& deferred) {
       values += pass.parameters.size();
     }
   }
-  // Powers of two, as far as repeats go on from there by doubling: just below the limits of instances and slots they are full.
-  for (std::size_t* count : {&slots, &passes}) *count = std::bit_ceil(*count);
   model.graph.slots.reserve(slots);
   model.graph.uses.reserve(slots);
   model.graph.passes.reserve(passes);
   model.graph.passNames.reserve(passes);
-  model.graph.specs.reserve(std::min<std::size_t>(passes, 4096));  // there may be a million that are disabled
+  model.graph.specs.reserve(passes);
   deferred.reserve(values);
   PassWalk(model, deferred).walk(model.scopes[0], {});
 }

@@ -7,7 +7,11 @@
 
 namespace weft::graph::expansion {
 
-constexpr std::uint32_t kMaxInstances = 1'000'000;
+// Of a graph, each instance of a repeat counted; `--limit` raises them.
+constexpr std::uint64_t kMostPasses = 4096;
+constexpr std::uint64_t kMostSlotsOfPass = 1024;  // slots, parameters and defines
+constexpr std::uint64_t kMostSlots = std::uint64_t{1}
+                                     << 18;  // of all passes, and the versions that they read
 
 // A uniform or define of a pass, and the scope and indices with which its expression is evaluated.
 struct DeferredUniform {

@@ -6,7 +6,6 @@
 
 #include "engine/graph/expand/checks.h"
 #include "engine/graph/expand/judge/remedy.h"
-#include "engine/graph/expand/names/limits.h"
 #include "engine/graph/expand/names/versions.h"
 
 namespace weft::graph::expansion {
@@ -14,6 +13,7 @@ namespace weft::graph::expansion {
 namespace {
 
 using base::Diagnostic;
+using State = SlotWork::State;
 
 Diagnostic& report(const SlotContext& context, Code code, const Place& place, std::string message,
                    const std::string& resource) {
@@ -26,47 +26,34 @@ Diagnostic& report(const SlotContext& context, Code code, const Place& place, st
 // Further out than any limit; ranges are checked against shapes later.
 constexpr std::int64_t kFar = 1'000'000;
 
-bool evaluateSpan(Names& names, const SpanDesc& desc, const char* word, std::optional<Selection::Span>& out) {
-  Selection::Span span;
-  span.openFirst = desc.range && !desc.first.present();
-  span.openLast = desc.range && !desc.last.present();
+std::optional<Selection::Span> evaluateSpan(Names& names, const SpanDesc& desc, const char* word) {
   const auto first = evaluateWhole(names, desc.first, 0, -kFar, kFar, word);
   const auto last = evaluateWhole(names, desc.last, 0, -kFar, kFar, word);
-  if (!first || !last) return false;
-  span.first = *first, span.last = desc.range ? *last : *first;
-  span.place = desc.first.present() ? desc.first.place() : desc.last.place();
-  out = span;
-  return true;
+  if (!first || !last) return std::nullopt;
+  return Selection::Span{*first, desc.range ? *last : *first, desc.range && !desc.first.present(),
+                         desc.range && !desc.last.present(),
+                         desc.first.present() ? desc.first.place() : desc.last.place()};
 }
 
 // Adds the selectors of `ref` to what is selected already (from outside: a slot that selects in an alternative).
 bool addSelection(const SlotContext& context, Names& names, const RefDesc& ref, Selection& into) {
-  Selection own;
-  if (ref.mip && !evaluateSpan(names, *ref.mip, "the level", own.mip)) return false;
-  if (ref.layer && !evaluateSpan(names, *ref.layer, "the layer", own.layer)) return false;
-  if (ref.face && !evaluateSpan(names, *ref.face, "the face", own.face)) return false;
-  if (ref.element) {
-    const auto element = evaluateWhole(names, *ref.element, 0, -kFar, kFar, "the element");
-    if (!element) return false;
-    own.element = *element;
-  }
-  const bool clash = (own.mip && into.mip) || (own.layer && into.layer) || (own.face && into.face) ||
-                     (own.element && into.element) || (own.stencil && into.stencil);
-  if (clash) {
-    auto& d = report(context, Code::badSelector, ref.place,
-                     fmt::format("{} selects twice in '{}'", context.user, ref.text), ref.name);
-    d.hint = "the list of alternatives selects this already";
-    return false;
-  }
-  if (own.mip) into.mip = own.mip;
-  if (own.layer) into.layer = own.layer;
-  if (own.face) into.face = own.face;
-  if (own.element) {
-    into.element = own.element;
-    into.elementPlace = ref.element->place();
-  }
+  const auto add = [&](std::optional<Selection::Span>& selected, const SpanDesc& said, const char* word) {
+    const auto span = evaluateSpan(names, said, word);
+    if (!span) return false;
+    if (selected) {
+      auto& d = report(context, Code::badSelector, ref.place,
+                       fmt::format("{} selects twice in '{}'", context.user, ref.text), ref.name);
+      d.hint = "the list of alternatives selects this already";
+      return false;
+    }
+    selected = span;
+    return true;
+  };
   into.stencil = into.stencil || ref.stencil;
-  return true;
+  return (!ref.mip || add(into.mip, *ref.mip, "the level")) &&
+         (!ref.layer || add(into.layer, *ref.layer, "the layer")) &&
+         (!ref.face || add(into.face, *ref.face, "the face")) &&
+         (!ref.element || add(into.element, {.first = *ref.element}, "the element"));
 }
 
 bool selectorMisfit(const SlotContext& context, const RefDesc& ref, const Entity& entity, std::string message,
@@ -78,47 +65,54 @@ bool selectorMisfit(const SlotContext& context, const RefDesc& ref, const Entity
   return false;
 }
 
-// Fills open ends and holds a span against `count`. `written` is what the file says: levels between the two
-// were removed by the clamp to the size. False after a report; `empty` when nothing of the span is there.
-bool closeSpan(const SlotContext& context, const RefDesc& ref, const Entity& entity, const char* word,
-               std::int64_t count, std::int64_t written, const Selection::Span& span, std::int64_t& first,
-               std::int64_t& size, bool& empty) {
-  first = span.openFirst ? 0 : span.first;
-  std::int64_t last = span.openLast ? count - 1 : span.last;
+// A kind of part of a resource: its word, how many there are, and as the file says: levels between the two were removed by the
+// clamp to the size.
+struct Extent {
+  const char* word;
+  std::int64_t count, written;
+  bool levels = false;
+};
+struct Range {
+  std::int64_t first = 0, size = 1;
+  bool empty = false;  // nothing of the span is there at this size
+};
+
+// Fills open ends and holds a span against what there is; all of it without a span. nullopt after a report.
+std::optional<Range> closeSpan(const SlotContext& context, const RefDesc& ref, const Entity& entity,
+                               const Extent& extent, const std::optional<Selection::Span>& said) {
+  const auto& [word, count, written, levels] = extent;
+  if (!said) return Range{0, count};
+  const std::int64_t first = said->openFirst ? 0 : said->first;
+  std::int64_t last = said->openLast ? count - 1 : said->last;
   const bool clamped = first >= 0 && first < written && last >= first && last < written;
   if (clamped) last = std::min(last, count - 1);
-  size = last - first + 1;
+  const std::int64_t size = last - first + 1;
   const bool nothingLeft =
-      clamped ? first >= count : span.openLast && first >= count && first <= std::max(count, written);
-  if (nothingLeft || (!context.ranges && (first < 0 || last >= count || size < 1))) {
-    empty = true;
-    first = 0;
-    size = 1;
-    return true;
-  }
-  if (first >= 0 && last < count && size >= 1) return true;
+      clamped ? first >= count : said->openLast && first >= count && first <= std::max(count, written);
+  const bool there = first >= 0 && last < count && size >= 1;
+  if (nothingLeft || (!context.ranges && !there)) return Range{.empty = true};
+  if (there) return Range{first, size};
   auto& d = report(
-      context, Code::missingSubresource, span.place.line ? span.place : ref.place,
+      context, Code::missingSubresource, said->place.line ? said->place : ref.place,
       fmt::format("{} uses {} {} of '{}', which is not there", context.user, word,
                   first == last ? fmt::format("{}", first) : fmt::format("{}..{}", first, last), entity.name),
       entity.name);
   d.expected =
       count == 1 ? fmt::format("{} 0, the only one", word) : fmt::format("{} 0 to {}", word, count - 1);
   d.found = ref.text;
-  if (std::string_view(word) == "level")
+  if (levels)
     d.hint =
         fmt::format("\"mips\" says how many levels there are; bounds can be written with mips({})", ref.name);
-  return false;
+  return std::nullopt;
 }
 
-}  // namespace
-
+// All concrete candidates of a reference whose conditions hold, in order. False after a report.
 bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref, const Leaf& outer,
                    std::vector<Leaf>& leaves) {
   Model& model = context.model;
   Leaf leaf = outer;
   leaf.entity = findEntityOrReport(model, names.scope(), ref.name, ref.import, ref.place,
-                                   {"{} uses the", context.user}, context.pass);
+                                   {context.user, "uses", context.pass});
   if (leaf.entity == kNone) return false;
   if (!addSelection(context, names, ref, leaf.selection)) return false;
   if (!leaf.kind) leaf.kind = ref.kind;
@@ -138,7 +132,6 @@ bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref,
   for (std::size_t i = 0; i < entity.candidates.size(); ++i) {
     if (entity.candidates[i] == kNone) continue;
     const RefDesc& alternative = entity.desc->alternatives[i];
-    if (!lookAt(model, costOf(alternative), alternative.place)) return false;
     const auto holds =
         evaluateCondition(listNames, alternative.condition, true, "the condition of an alternative");
     if (!holds) good = false;
@@ -151,6 +144,8 @@ bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref,
   return good;
 }
 
+// The selected rectangle of a leaf, checked. `work` gets entity, elements, use (without kind), whole, and the state `empty`
+// when none of the levels is there at this size. False after a report.
 bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc& ref, SlotWork& work) {
   Model& model = context.model;
   work.entity = leaf.entity;
@@ -158,8 +153,7 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
   const Entity& entity = model.entities[leaf.entity];
   const FlatResource& shape = entity.shape;
   const Selection& selection = leaf.selection;
-  const bool texture = shape.kind == ResourceKind::texture || shape.kind == ResourceKind::imported_texture;
-  const bool cube = isCube(shape);
+  const bool texture = isTexture(shape), cube = isCube(shape);
   const auto misfit = [&](std::string message, std::string hint = {}) {
     return selectorMisfit(context, ref, entity, fmt::format("'{}' {}", entity.name, message),
                           std::move(hint));
@@ -167,7 +161,8 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
   if (!texture && (selection.mip || selection.layer || selection.face || selection.stencil))
     return misfit("is no texture, it has no levels, layers or planes");
   if (selection.element && entity.arrayCount == 0)
-    return misfit("is no array", hintForElement(entity.name, *selection.element, texture && shape.mips > 1));
+    return misfit("is no array",
+                  hintForElement(entity.name, selection.element->first, texture && shape.mips > 1));
   if (selection.layer && shape.target == Target::texture_3d)
     return misfit("is a 3d texture, it has no layers");
   if (selection.face && !cube) return misfit("is no cube, it has no faces");
@@ -176,48 +171,39 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
         fmt::format("({}) has no stencil", infoOf(shape.format).name),
         isDepth(shape.format) ? "formats with a stencil are depth24_stencil8 and depth32f_stencil8" : "");
 
-  bool empty = false;
-  std::int64_t mip = 0, mips = shape.mips, layer = 0, layers = cube ? shape.layers / 6 : shape.layers;
-  if (selection.mip && !closeSpan(context, ref, entity, "level", shape.mips, entity.writtenMips,
-                                  *selection.mip, mip, mips, empty))
-    return false;
-  if (selection.layer &&
-      !closeSpan(context, ref, entity, "layer", layers, layers, *selection.layer, layer, layers, empty))
-    return false;
+  const auto close = [&](const char* word, std::uint32_t count, const std::optional<Selection::Span>& said) {
+    return closeSpan(context, ref, entity, {word, count, count}, said);
+  };
+  const std::uint32_t layerCount = cube ? shape.layers / 6 : shape.layers;
+  const auto mips =
+      closeSpan(context, ref, entity, {"level", shape.mips, entity.writtenMips, true}, selection.mip);
+  if (!mips) return false;
+  auto layers = close("layer", layerCount, selection.layer);
+  if (!layers) return false;
   if (cube) {
-    std::int64_t face = 0, faces = 6;
-    if (selection.face && !closeSpan(context, ref, entity, "face", 6, 6, *selection.face, face, faces, empty))
-      return false;
-    if (faces < 6 && layers > 1)
+    const auto faces = close("face", 6, selection.face);
+    if (!faces) return false;
+    if (faces->size < 6 && layers->size > 1)
       return misfit("has faces of several cubes, which are not next to each other");
-    layer = layer * 6 + face;
-    layers = faces < 6 ? faces : layers * 6;
+    layers = Range{layers->first * 6 + faces->first, faces->size < 6 ? faces->size : layers->size * 6,
+                   layers->empty || faces->empty};
   }
+  const auto elements = close("element", entity.arrayCount, selection.element);
+  if (!elements) return false;
   work.array = entity.arrayCount > 0 && !selection.element;
-  work.firstElement = 0;
-  work.elementCount = std::max(1u, entity.arrayCount);
-  if (selection.element) {
-    Selection::Span span{*selection.element, *selection.element, false, false, selection.elementPlace};
-    std::int64_t first = 0, size = 0;
-    if (!closeSpan(context, ref, entity, "element", entity.arrayCount, entity.arrayCount, span, first, size,
-                   empty))
-      return false;
-    work.firstElement = static_cast<std::uint32_t>(first);
-    work.elementCount = 1;
-  }
+  work.firstElement = static_cast<std::uint32_t>(elements->first);
+  work.elementCount = static_cast<std::uint32_t>(std::max<std::int64_t>(1, elements->size));
   work.whole = !selection.mip && !selection.layer && !selection.face && !selection.stencil;
-  work.use.mip = static_cast<std::uint16_t>(mip);
-  work.use.mips = static_cast<std::uint16_t>(mips);
-  work.use.layer = static_cast<std::uint16_t>(layer);
-  work.use.layers = static_cast<std::uint16_t>(layers);
+  work.use.mip = static_cast<std::uint16_t>(mips->first);
+  work.use.mips = static_cast<std::uint16_t>(mips->size);
+  work.use.layer = static_cast<std::uint16_t>(layers->first);
+  work.use.layers = static_cast<std::uint16_t>(layers->size);
   work.use.planes = selection.stencil ? 2 : planeMask(shape);
   work.sampler = leaf.sampler;
   work.border = leaf.border;
-  work.state = empty ? SlotWork::State::empty : SlotWork::State::connected;
+  work.state = mips->empty || layers->empty || elements->empty ? State::empty : State::connected;
   return true;
 }
-
-namespace {
 
 // Kind and planes, once the rectangle is known.
 bool finishUse(const SlotContext& context, const Leaf& leaf, const RefDesc& ref, Access access,
@@ -258,114 +244,139 @@ bool isWritable(const SlotContext& context, const SlotDesc& slot, std::uint32_t 
 void noteWould(Model& model, const SlotWork& work, WouldUse::Why why) {
   wouldUse(model, {why, work.entity, work.firstElement, work.elementCount, work.use});
 }
-// The alternatives of a slot that is off, from `first` on.
-void noteOthers(Model& model, const std::vector<Leaf>& leaves, Access access, std::size_t first) {
-  for (std::size_t i = first; i < leaves.size(); ++i)
-    wouldUse(model, leaves[i].entity, access, leaves[i].history);
-}
+
+// A slot whose condition, or that of each of its alternatives, may leave it without a resource.
+class SlotChoice {
+ public:
+  // `context`: of the slot. `pass`: whose it is, for what is missing.
+  SlotChoice(const SlotContext& context, const SlotDesc& slot, std::uint32_t pass,
+             const std::vector<Leaf>& leaves)
+      : context_(context), model_(context.model), slot_(slot), pass_(pass), leaves_(leaves) {}
+
+  // Its condition is false.
+  SlotWork off() {
+    SlotWork work = none(State::failed);
+    if (!leaves_.empty()) {
+      if (!place(leaves_[0], work)) return none(State::failed);
+      const bool placed = work.state == State::connected;
+      if (placed && context_.versions) noteWould(model_, work, WouldUse::Why::off);
+      if (context_.versions) noteOthers(placed ? 1 : 0);
+    }
+    work.state = slot_.access == Access::read && !slot_.ref.optional ? State::missing : State::absent;
+    if (work.state == State::missing) addMissing(MissingRead::Cause::condition);
+    return work;
+  }
+
+  // The first alternative that has a version, or the first with no more than version zero, or nothing.
+  SlotWork choose() {
+    bool onlyImports = !leaves_.empty(), byCondition = false;
+    std::optional<SlotWork> zero, first;
+    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+      SlotWork work = none(State::failed);
+      if (!place(leaves_[i], work)) return none(State::failed);
+      if (work.state == State::empty) {
+        if (slot_.ref.optional) work.state = State::absent;
+        return work;
+      }
+      const bool import = model_.entities[work.entity].kind == ResourceDesc::Kind::import;
+      const bool asks = context_.versions && slot_.access != Access::write && work.use.history == 0;
+      const VersionCheck found = asks ? versionsOf(work) : VersionCheck{.real = true};
+      // Those behind one that is there by a condition, or from outside, are off as long as it is.
+      byCondition = byCondition || leaves_[i].conditional || import;
+      if (found.complete && found.real) {
+        if (byCondition || !context_.versions) noteOthers(i + 1);
+        return work;
+      }
+      onlyImports = onlyImports && import;
+      if (slot_.access == Access::read)
+        noteWould(model_, work,
+                  found.complete && !slot_.ref.optional ? WouldUse::Why::zero : WouldUse::Why::empty);
+      if (found.complete && !zero) zero = work;
+      if (!first) first = std::move(work);
+    }
+    if (zero && !slot_.ref.optional) return *zero;
+    SlotWork work = first.value_or(none(State::failed));
+    work.state = slot_.ref.optional || !context_.versions ? State::absent : State::missing;
+    if (work.state == State::missing)
+      addMissing(leaves_.empty() ? MissingRead::Cause::condition
+                 : onlyImports   ? MissingRead::Cause::import
+                                 : MissingRead::Cause::version);
+    return work;
+  }
+
+ private:
+  SlotWork none(State state) const {
+    SlotWork work;
+    work.slot = &slot_;
+    work.state = state;
+    work.use.access = slot_.access;
+    return work;
+  }
+
+  bool place(const Leaf& leaf, SlotWork& work) const {
+    if (!placeSelection(context_, leaf, slot_.ref, work) ||
+        !finishUse(context_, leaf, slot_.ref, slot_.access, work))
+      return false;
+    work.use.history = static_cast<std::uint8_t>(leaf.history);
+    return leaf.history == 0 || checkHistory(context_, slot_.ref, leaf.history, model_.entities[work.entity]);
+  }
+
+  // Of all elements together. Notes what is not there.
+  VersionCheck versionsOf(const SlotWork& work) {
+    VersionCheck all;
+    for (std::uint32_t e = work.firstElement; e < work.firstElement + work.elementCount; ++e) {
+      const VersionCheck check = checkVersion(model_, work.entity, e, work.use);
+      all.real = all.real || check.real;
+      if (all.complete && !check.complete) wanted_.push_back({work.entity, e, check.missing, work.use});
+      all.complete = all.complete && check.complete;
+    }
+    return all;
+  }
+
+  // The alternatives from `first` on, which are off.
+  void noteOthers(std::size_t first) const {
+    for (std::size_t i = first; i < leaves_.size(); ++i)
+      wouldUse(model_, leaves_[i].entity, slot_.access, leaves_[i].history);
+  }
+
+  void addMissing(MissingRead::Cause cause) {
+    if (context_.versions)
+      model_.missing.push_back(
+          {cause, pass_, model_.position, slot_.name, slot_.ref, false, slot_.access, std::move(wanted_)});
+  }
+
+  const SlotContext& context_;
+  Model& model_;
+  const SlotDesc& slot_;
+  const std::uint32_t pass_;
+  const std::vector<Leaf>& leaves_;
+  std::vector<MissingRead::Wanted> wanted_;
+};
 
 }  // namespace
 
 SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint32_t pass) {
-  using State = SlotWork::State;
-  Model& model = context.model;
   const RefDesc& ref = slot.ref;
-  SlotWork work;
-  work.slot = &slot;
-  work.use.access = slot.access;
-
-  const std::uint32_t found =
-      findEntityOrReport(model, context.names.scope(), ref.name, ref.import, ref.place,
-                         {slot.access == Access::read    ? "{} reads the"
-                          : slot.access == Access::write ? "{} writes the"
-                                                         : "{} modifies the",
-                          context.user},
-                         context.pass, slot.name);
-  if (found == kNone) return work;
-  if (slot.access != Access::read && !isWritable(context, slot, found)) return work;
-
-  const auto holds =
-      evaluateCondition(context.names, ref.condition, true, {"the condition of slot '{}'", slot.name});
-  if (!holds) return work;
-  // A slot whose condition is false may select what is not there; the rest of it must make sense all the
-  // same.
+  SlotWork failed;
+  failed.slot = &slot;
+  failed.use.access = slot.access;
+  const char* const verb = slot.access == Access::read    ? "reads"
+                           : slot.access == Access::write ? "writes"
+                                                          : "modifies";
+  const std::uint32_t found = findEntityOrReport(context.model, context.names.scope(), ref.name, ref.import,
+                                                 ref.place, {context.user, verb, context.pass, slot.name});
+  if (found == kNone || (slot.access != Access::read && !isWritable(context, slot, found))) return failed;
+  const auto holds = evaluateCondition(context.names, ref.condition, true, "the condition of a slot");
+  if (!holds) return failed;
+  // A slot whose condition is false may select what is not there; the rest of it must make sense all the same.
   SlotContext checked = context;
-  if (!*holds) checked.ranges = false;
-
+  checked.ranges = checked.ranges && *holds;
   std::vector<Leaf> own;
   std::vector<Leaf>& leaves = context.room ? *context.room : own;
   leaves.clear();
-  if (!collectLeaves(checked, context.names, ref, Leaf{}, leaves)) return work;
-
-  std::vector<MissingRead::Wanted> wanted;
-  const auto addMissing = [&](MissingRead::Cause cause) {
-    model.missing.push_back(
-        {cause, pass, model.position, slot.name, &ref, false, slot.access, std::move(wanted)});
-  };
-  const bool looksForVersions = context.versions && *holds && slot.access != Access::write;
-  bool onlyImports = !leaves.empty(), byCondition = false;
-  const SlotWork blank = work;
-  std::optional<SlotWork> zero;  // the first candidate that has no more than version zero
-  for (const Leaf& leaf : leaves) {
-    SlotWork candidate = blank;
-    if (!placeSelection(checked, leaf, ref, candidate) ||
-        !finishUse(checked, leaf, ref, slot.access, candidate))
-      return work;
-    const Entity& entity = model.entities[candidate.entity];
-    const bool earlier = leaf.history > 0;
-    if (earlier && !checkHistory(context, ref, leaf.history, entity)) return work;
-    candidate.use.history = static_cast<std::uint8_t>(leaf.history);
-    if (!*holds) {
-      if (context.versions) {
-        const bool placed = candidate.state == State::connected;
-        if (placed) noteWould(model, candidate, WouldUse::Why::off);
-        noteOthers(model, leaves, slot.access, placed ? 1 : 0);
-      }
-      candidate.state = slot.access == Access::read && !ref.optional ? State::missing : State::absent;
-      work = std::move(candidate);
-      if (work.state == State::missing && context.versions) addMissing(MissingRead::Cause::condition);
-      return work;
-    }
-    if (candidate.state == State::empty) {
-      if (ref.optional) candidate.state = State::absent;
-      return candidate;
-    }
-    // Those behind one that is there by a condition, or from outside, are off as long as it is.
-    byCondition = byCondition || leaf.conditional || entity.kind == ResourceDesc::Kind::import;
-    const auto chosen = [&] {
-      if (byCondition || !context.versions)
-        noteOthers(model, leaves, slot.access, static_cast<std::size_t>(&leaf - leaves.data()) + 1);
-      return candidate;
-    };
-    if (!looksForVersions || earlier) return chosen();
-    bool complete = true, real = false;
-    for (std::uint32_t e = candidate.firstElement; e < candidate.firstElement + candidate.elementCount; ++e) {
-      const VersionCheck check = checkVersion(model, candidate.entity, e, candidate.use);
-      real = real || check.real;
-      if (complete && !check.complete) wanted.push_back({candidate.entity, e, check.missing, candidate.use});
-      complete = complete && check.complete;
-    }
-    if (complete && real) return chosen();
-    onlyImports = onlyImports && entity.kind == ResourceDesc::Kind::import;
-    if (slot.access == Access::read)
-      noteWould(model, candidate, complete && !ref.optional ? WouldUse::Why::zero : WouldUse::Why::empty);
-    if (complete && !zero) zero = candidate;
-    if (work.entity == kNone) work = std::move(candidate);
-  }
-  if (!context.versions) {
-    work.state = State::absent;
-    return work;
-  }
-  if (zero && !ref.optional) return *zero;
-  if (ref.optional) {
-    work.state = State::absent;
-    return work;
-  }
-  work.state = State::missing;
-  addMissing(leaves.empty() ? MissingRead::Cause::condition
-             : onlyImports  ? MissingRead::Cause::import
-                            : MissingRead::Cause::version);
-  return work;
+  if (!collectLeaves(checked, context.names, ref, Leaf{}, leaves)) return failed;
+  SlotChoice choice(checked, slot, pass, leaves);
+  return *holds ? choice.choose() : choice.off();
 }
 
 }  // namespace weft::graph::expansion

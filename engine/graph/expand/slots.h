@@ -17,9 +17,7 @@ struct Selection {
     bool openFirst = false, openLast = false;
     Place place;
   };
-  std::optional<Span> mip, layer, face;
-  std::optional<std::int64_t> element;
-  Place elementPlace;
+  std::optional<Span> mip, layer, face, element;
   bool stencil = false;
 };
 
@@ -72,14 +70,6 @@ struct SlotContext {
   std::vector<Leaf>* room =
       nullptr;  // for candidates, so that not every slot takes memory of its own for them
 };
-
-// All concrete candidates of a reference whose conditions hold, in order. False after a report.
-bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref, const Leaf& outer,
-                   std::vector<Leaf>& leaves);
-
-// The selected rectangle of a leaf, checked. `work` gets entity, elements, use (without kind), whole, and the
-// state `empty` when none of the levels is there at this size. False after a report.
-bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc& ref, SlotWork& work);
 
 // Resolves one slot. Reads and modifies look for versions; a required slot without one is recorded in
 // model.missing (with `pass` as its pass) and comes back as `missing`.

@@ -238,7 +238,7 @@ class SpecFiller {
       std::optional<std::int64_t> value = argument.initial;
       if (i < desc_.geometryArguments.size())
         value = evaluateWhole(names_, desc_.geometryArguments[i], argument.initial, argument.min,
-                              argument.max, fmt::format("the {} of '{}'", argument.name, desc_.geometry));
+                              argument.max, "an argument of the geometry");
       if (value) spec_.geometryArguments.push_back(static_cast<double>(*value));
     }
   }

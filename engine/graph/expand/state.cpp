@@ -124,7 +124,7 @@ class StateFiller {
       }
     } else if (said.name == "depth_write") {
       state_.depthWrite =
-          evaluateCondition(context_.names, said.expr, true, {"the state '{}'", said.name}).value_or(true);
+          evaluateCondition(context_.names, said.expr, true, "the state 'depth_write'").value_or(true);
     } else if (said.name == "cull") {
       if (const int found = word(said); found >= 0) state_.cull = static_cast<Cull>(found);
     } else if (said.name == "polygon") {

@@ -39,7 +39,7 @@ std::optional<std::uint32_t> resolveView(const SlotContext& context, const PassD
     return std::nullopt;
   };
   std::uint32_t found = findEntityOrReport(model, context.names.scope(), ref.name, ref.import, ref.place,
-                                           {"{} is seen from the", context.user}, context.pass, "view");
+                                           {context.user, "is seen from", context.pass, "view"});
   if (found == kNone || !ensureShape(model, found)) return std::nullopt;
   const Entity& entity = model.entities[found];
   if (entity.kind != ResourceDesc::Kind::import || !givesViews(model, entity.import)) {

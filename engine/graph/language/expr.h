@@ -84,9 +84,6 @@ class Expr {
   // Every size(x), mips(x), count(x), has(x), age(x) it asks, with the name as written (an @ included), in
   // order.
   std::vector<std::pair<Fact, std::string>> facts() const;
-  // How many operators and operands it has, and how deep they are nested.
-  std::uint32_t terms() const;
-  int height() const;
   // True when evaluating it needs no scope: a literal of the file, or a folded expression without age() and
   // live parameters.
   bool isConstant() const;
@@ -111,5 +108,9 @@ class Expr {
  private:
   std::shared_ptr<const ExprNode> root_;
 };
+
+// What to write for a size in another format's spelling: "50%", "1920x1080", "512px", and for a number
+// with a unit or a color of the web; "" for anything else.
+std::string hintForSize(std::string_view text);
 
 }  // namespace weft::graph

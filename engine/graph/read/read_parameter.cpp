@@ -8,7 +8,6 @@
 
 #include "engine/base/files/file.h"
 #include "engine/base/nearest.h"
-#include "engine/graph/language/expr_token.h"
 #include "engine/graph/read/read_context.h"
 
 namespace weft::graph {

@@ -19,6 +19,8 @@ using Type = JsonValue::Type;
 // Slots, parameters and defines of a pass are spelled alike in its shader.
 constexpr const char* kSharedName = "the slot, parameter or define";
 
+constexpr std::uint64_t kMostIndices = 8;  // of one repeat
+
 class PassReader {
  public:
   PassReader(ReadContext& context, const JsonValue& value) : context_(context), value_(value) {
@@ -204,11 +206,14 @@ class PassReader {
           "write { \"i\": [0, 3] }";
     for (const JsonMember& member : ranges.members) {
       const JsonValue& value = member.value;
-      if (seen.size() >= base::limitOf(base::Limit::repeat_indices) && !seen.contains(member.key)) {
-        if (!std::exchange(tooManyIndices_, true))
-          context_.limit(base::Limit::repeat_indices, value,
-                         fmt::format("\"repeat\" has more indices than a pass can have, '{}' is one too many",
-                                     member.key));
+      if (seen.size() >= base::raised(kMostIndices) && !seen.contains(member.key)) {
+        if (std::exchange(tooManyIndices_, true)) return;
+        auto& d = context_.error(
+            Code::limitExceeded, value,
+            fmt::format("\"repeat\" has more indices than a pass can have, '{}' is one too many",
+                        member.key));
+        d.expected = fmt::format("at most {} indices of one repeat", base::raised(kMostIndices));
+        d.hint = base::hintToRaise(kMostIndices);
         return;
       }
       bool good = context_.checkName(member.key, member.place, "an index");

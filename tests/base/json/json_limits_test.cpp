@@ -106,5 +106,5 @@ TEST_CASE("limits of what goes down the stack have a maximum") {
   CHECK(limitOf(Limit::include_depth) == 200);
   CHECK(!setLimit("include_depth", "256"));
   CHECK(hintToRaise(Limit::include_depth).starts_with("include_depth cannot be raised further"));
-  CHECK(mostOf(Limit::uses) > std::uint64_t{1} << 60);
+  CHECK(mostOf(Limit::frames) > std::uint64_t{1} << 60);
 }

@@ -149,13 +149,13 @@ TEST_CASE("live: a branch that means nothing now leaves its parameters structura
 
 TEST_CASE("live: lets that double in length are no tree without end") {
   std::string lets = R"J("l0": "$k")J";
-  for (int i = 1; i <= 60; ++i) {
+  for (int i = 1; i <= 30; ++i) {
     const std::string before = "$l" + std::to_string(i - 1);
     lets += R"J(, "l)J" + std::to_string(i) + R"J(": "()J" + before + " + " + before + R"J() / 2")J";
   }
   const Expanded e = expandPass(
       R"J("parameters": { "k": { "default": 1.5 }, "j": { "default": 1.0 } }, "let": { )J" + lets + " }",
-      R"J("parameters": { "a": "$l60", "b": "$l5", "c": "$j" })J");
+      R"J("parameters": { "a": "$l30", "b": "$l5", "c": "$j" })J");
   CHECK(e.text() == "");
   CHECK(e.uniform("p", "a").value == Value::number(1.5));
   CHECK(liveOf(e) == "j");
@@ -163,12 +163,12 @@ TEST_CASE("live: lets that double in length are no tree without end") {
 
 TEST_CASE("lets over age() that double in length end in one message") {
   std::string lets = R"J("l0": "age(in)")J";
-  for (int i = 1; i <= 40; ++i) {
+  for (int i = 1; i <= 30; ++i) {
     const std::string before = "$l" + std::to_string(i - 1);
     lets += R"J(, "l)J" + std::to_string(i) + R"J(": ")J" + before + " + " + before + R"J(")J";
   }
   const Expanded e =
-      expandPass(R"J("let": { )J" + lets + " }", R"J("parameters": { "a": "$l40", "b": "$l5" })J");
+      expandPass(R"J("let": { )J" + lets + " }", R"J("parameters": { "a": "$l30", "b": "$l5" })J");
   CHECK(e.has(base::Code::badExpression));
   CHECK(e.diagnostics.errorCount() == 1);
 }

@@ -342,7 +342,7 @@ TEST_CASE("enabled of an include: none of its passes without it, and what decide
   CHECK(top(R"("$dimm")").of(Code::unknownVariable).hint == "did you mean '$dim'?");
   CHECK(top(R"("$dim || $dimm")").of(Code::unknownVariable).hint ==
         "did you mean '$dim'?");  // also where it is not evaluated
-  CHECK(top(R"("a")").of(Code::wrongValueType).message == "'enabled' of include 'dim' is no condition");
+  CHECK(top(R"("a")").of(Code::wrongValueType).message == "'enabled' of an include is no condition");
 }
 
 TEST_CASE("mipmap and blit hold their two slots against each other") {

@@ -8,7 +8,6 @@
 #include <tuple>
 
 #include "engine/graph/expand/judge/remedy.h"
-#include "engine/graph/expand/names/limits.h"
 #include "engine/graph/expand/names/resources.h"
 #include "engine/graph/versions/live.h"
 
@@ -61,7 +60,6 @@ class Judge {
       writers.incomplete = writers.incomplete || model_.entities[wanted.entity].incomplete;
       const auto records = byEntity_.find(wanted.entity);
       if (records == byEntity_.end()) continue;
-      if (!compare(model_, records->second.size(), missing.ref->place)) break;
       for (const std::uint32_t index : records->second) {
         const WriteRecord& write = model_.writes[index];
         if (!touches(model_, write, wanted)) continue;
@@ -86,7 +84,7 @@ class Judge {
   }
 
   std::string what(const MissingRead& missing) const {
-    if (missing.wanted.empty()) return fmt::format("'{}'", missing.ref->text);
+    if (missing.wanted.empty()) return fmt::format("'{}'", missing.ref.text);
     const MissingRead::Wanted& wanted = missing.wanted.front();
     const Entity& entity = model_.entities[wanted.entity];
     const std::string element = entity.arrayCount > 0 ? fmt::format("[{}]", wanted.element) : "";
@@ -95,11 +93,11 @@ class Judge {
                                           : fmt::format("{} of '{}{}'", part, entity.name, element);
     return missing.wanted.size() == 1
                ? text
-               : fmt::format("'{}' ({} and its other alternatives)", missing.ref->text, text);
+               : fmt::format("'{}' ({} and its other alternatives)", missing.ref.text, text);
   }
 
   base::Diagnostic* report(const MissingRead& missing, Code code, std::string message) {
-    const Place& place = missing.ref->place;
+    const Place& place = missing.ref.place;
     const bool live = isLive(missing);
     const std::string key =
         fmt::format("{} {} {} {} {}", static_cast<int>(code), place.line, place.column, live,
@@ -112,8 +110,8 @@ class Judge {
     d.place = place;
     if (missing.pass != kNone) d.pass = graph_.passNames[missing.pass];
     d.resource =
-        missing.wanted.empty() ? missing.ref->name : model_.entities[missing.wanted.front().entity].name;
-    d.found = missing.ref->text;
+        missing.wanted.empty() ? missing.ref.name : model_.entities[missing.wanted.front().entity].name;
+    d.found = missing.ref.text;
     return &model_.diagnostics.add(std::move(d));
   }
 
@@ -126,7 +124,7 @@ class Judge {
   // What else would help. A first value has no earlier publication: nothing comes before it.
   static std::string orBefore(const MissingRead& missing, const char* when) {
     return missing.first ? std::string(", or name another texture or buffer as \"first\"")
-                         : fmt::format(", or read '{}@-1' for what it was {}", missing.ref->name, when);
+                         : fmt::format(", or read '{}@-1' for what it was {}", missing.ref.name, when);
   }
 
   void judge(const MissingRead& missing, const Writers& writers) {
@@ -137,14 +135,14 @@ class Judge {
         return;  // what the reference stands for is bound by the file that includes this one
       if (auto* d = report(missing, Code::conditionLeavesSlotEmpty,
                            fmt::format("{}: slot '{}' is left empty, the condition of '{}' is false", subject,
-                                       missing.slot, missing.ref->text)))
+                                       missing.slot, missing.ref.text)))
         d->hint =
             "end it with '?' if the shader can do without (no HAS_…), or read a resource that is a list of "
             "alternatives";
     } else if (missing.cause == MissingRead::Cause::import) {
       if (auto* d = report(
               missing, Code::emptyImport,
-              fmt::format("{} {} '{}', which has nothing now", subject, verb(missing), missing.ref->text)))
+              fmt::format("{} {} '{}', which has nothing now", subject, verb(missing), missing.ref.text)))
         d->hint =
             "provide it, or end the reference with '?', or read a resource that is a list of alternatives";
     } else if (const RemovedPass* removed = removedWriter(missing)) {
@@ -205,7 +203,7 @@ class Judge {
                                                reading ? "read" : "need");
     const std::string head = fmt::format("{}{} {}", who(first), more, group.thing);
     const std::string resource =
-        first.wanted.empty() ? first.ref->name : model_.entities[first.wanted.front().entity].name;
+        first.wanted.empty() ? first.ref.name : model_.entities[first.wanted.front().entity].name;
     std::vector<std::string> fixes;
     if (const std::string shown =
             first.wanted.empty() ? "" : otherPresent(model_, first.wanted.front().entity, first.position);
@@ -319,7 +317,7 @@ class Judge {
     d->hint = fmt::format(
         "name one, such as '{}.mip[i-1]' in a pass that writes '{}.mip[i]', or read '{}@-1' "
         "for what it was in the frame before",
-        missing.ref->name, missing.ref->name, missing.ref->name);
+        missing.ref.name, missing.ref.name, missing.ref.name);
   }
 
   void judgeLater(const MissingRead& missing, const WriteRecord& writer, const std::string& thing,
@@ -331,7 +329,7 @@ class Judge {
             "'{}' would write {}{}", later, thing,
             missing.first
                 ? std::string(": name another texture or buffer as \"first\"")
-                : fmt::format("; read '{}@-1' for what it was in the frame before", missing.ref->name));
+                : fmt::format("; read '{}@-1' for what it was in the frame before", missing.ref.name));
       return;
     }
     if (auto* d =

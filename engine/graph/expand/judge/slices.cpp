@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "engine/graph/expand/names/limits.h"
 #include "engine/graph/versions/groups.h"
 
 namespace weft::graph::expansion {
@@ -113,10 +112,8 @@ void checkSlices(Model& model) {
     }
   std::vector<std::uint32_t> from(graph.resources.size(), kNone);
   for (std::uint32_t group = 0; group < groups.sliced.size(); ++group)
-    if (const auto [first, last] = rangeOf[group]; groups.sliced[group] != 0 && first < last) {
-      if (!compare(model, last - first, model.graph.specs[first].place)) return;
+    if (const auto [first, last] = rangeOf[group]; groups.sliced[group] != 0 && first < last)
       checkWayBack(model, groups, group, first, last, from);
-    }
 }
 
 }  // namespace weft::graph::expansion

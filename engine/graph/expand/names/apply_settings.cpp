@@ -7,7 +7,6 @@
 
 #include "engine/base/files/file.h"
 #include "engine/base/nearest.h"
-#include "engine/graph/expand/names/limits.h"
 #include "engine/graph/expand/names/names.h"
 #include "engine/graph/expand/names/parameter_check.h"
 #include "engine/graph/expand/names/scope.h"
@@ -182,17 +181,14 @@ void applySet(Model& model, const std::string& wanted, const SetPlace& origin, c
   // Only those of its last part can be meant.
   if (const auto leaves = model.parametersByLeaf.find(std::string_view(wanted).substr(wanted.rfind('.') + 1));
       leaves != model.parametersByLeaf.end()) {
-    if (!compare(model, leaves->second.count, origin.place)) return;
     for (std::uint32_t i = leaves->second.first; i != kNone; i = model.parameters[i].nextOfLeaf) add(i);
   }
   const std::vector<std::size_t> found = suffixMatches(names, wanted);
   if (found.empty()) {
     if (mayBeUnread(origin.scope, wanted)) return;
     names.clear();
-    const bool few = maySuggest(model, model.parameters.size());
-    if (few)
-      for (std::size_t i = 0; i < model.parameters.size(); ++i) add(i);
-    std::string hint = few ? hintAtFixedValue(model, wanted) : "";
+    for (std::size_t i = 0; i < model.parameters.size(); ++i) add(i);
+    std::string hint = hintAtFixedValue(model, wanted);
     if (hint.empty()) hint = suffixHint(wanted, names);
     const bool near = !hint.empty() && !hint.starts_with("known");
     if (strangers && !near) {

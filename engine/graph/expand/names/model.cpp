@@ -3,11 +3,33 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
+
+#include "engine/base/limit_report.h"
+#include "engine/graph/language/enough.h"
 
 namespace weft::graph::expansion {
 
-std::string Called::text() const {
-  return named_ ? fmt::format(fmt::runtime(words_), name_) : std::string(words_);
+bool isOver(const Model& model) {
+  return model.stopped || enoughErrors(model.diagnostics);
+}
+
+void stopAt(Model& model, const Where& place, std::string message, std::uint64_t bound, const char* counts) {
+  if (!std::exchange(model.stopped, true))
+    base::reportLimit(model.diagnostics, place, std::move(message), bound, counts);
+  model.incomplete = true;
+}
+
+Descent::Descent(Model& model, const Place& place, std::string_view label, bool quiet) : depth_(model.depth) {
+  ++depth_;
+  if (good() || quiet) return;
+  model.incomplete = true;
+  if (std::exchange(model.stopped, true)) return;
+  auto& d = model.diagnostics.error(
+      Code::limitExceeded, place,
+      fmt::format("definitions depend on each other in too long a row, which ends at '{}'", label));
+  d.expected = fmt::format("at most {} in a row", kMost);
+  d.hint = "let some of them use fewer others";
 }
 
 std::string cyclePath(const Model& model, const std::string& again) {

@@ -42,21 +42,6 @@ struct Variable {
   std::uint32_t index = 0;  // into Model::parameters or Model::lets
 };
 
-// What a message calls a thing: `words`, with `name` in the place of their {}. It becomes text only for a message, because
-// most things are right. Both must outlive it.
-class Called {
- public:
-  Called(const char* words) : words_(words) {}
-  Called(std::string_view words) : words_(words) {}
-  Called(const std::string& words) : words_(words) {}
-  Called(std::string_view words, std::string_view name) : words_(words), name_(name), named_(true) {}
-  std::string text() const;
-
- private:
-  std::string_view words_, name_;
-  bool named_ = false;
-};
-
 // For lazy evaluation: a definition that is needed while it is `active` depends on itself.
 enum class Progress : std::uint8_t { fresh, active, done, failed };
 
@@ -140,6 +125,7 @@ struct Scope {
   std::string group;                    // full name of the group that the include puts its passes into, or ""
   KnownNames<std::uint32_t> resources;  // entities
   KnownNames<Variable> variables;       // parameters, lets, and parameters of passes: "composite.fog"
+  KnownNames<Variable> below;           // found in the files that are included below, so far
   KnownNames<Scope*> includes;
   KnownNames<const PassDesc*> passes;
   std::string disabledBy;  // "--disable post"; empty: not disabled
@@ -211,24 +197,10 @@ struct MissingRead {
   std::uint32_t pass = kNone;  // kNone: present or an output
   std::uint32_t position = kNone;
   std::string slot;
-  const RefDesc* ref = nullptr;
+  RefDesc ref;
   bool first = false;  // `ref` is the "first" of what the slot reads
   Access access = Access::read;
   std::vector<Wanted> wanted;
-};
-
-// What the expansion has done so far, to be compared with the limits (limits.h).
-struct Effort {
-  bool stopped = false;         // a limit was exceeded and reported: nothing more is expanded
-  bool tooDeep = false;         // definitions depend on each other in too long a row, which was reported
-  std::uint32_t depth = 0;      // definitions that are being evaluated, each for the one before
-  std::uint32_t height = 0;     // operators of their expressions, nested in each other
-  std::uint64_t looked = 0;     // alternatives looked at
-  std::uint64_t uses = 0;       // slots, parameters and defines
-  std::uint64_t bytes = 0;      // of passes
-  std::uint64_t terms = 0;      // operators and operands evaluated
-  std::uint64_t compared = 0;   // slots, writes and passes compared with each other
-  std::uint64_t suggested = 0;  // names gathered to find the nearest among
 };
 
 struct Model {
@@ -271,7 +243,37 @@ struct Model {
   std::uint32_t position = 0;             // of the instance being expanded
   std::uint32_t slot = kNone;             // of it, while it is resolved
   std::vector<std::string> evaluating{};  // what is being evaluated now, for the path of a cycle
-  Effort effort{};
+  std::uint32_t depth = 0;                // definitions that are being evaluated, each for the one before
+  bool stopped = false;                   // a bound was exceeded and reported: nothing more is expanded
+};
+
+// True when nothing more is worth expanding.
+bool isOver(const Model& model);
+// W201: more than a bound allows, of `counts`. Ends the expansion.
+void stopAt(Model& model, const Where& place, std::string message, std::uint64_t bound, const char* counts);
+
+// Lives while one definition (a let, a size, what an input stands for, a list of alternatives) is evaluated for another. This
+// recurses, so it is not good when there are too many; that is reported with `label`, unless `quiet`, and ends the expansion.
+class Descent {
+ public:
+  static constexpr std::uint32_t kMost = 32;
+  Descent(Model& model, const Place& place, std::string_view label, bool quiet = false);
+  ~Descent() { --depth_; }
+  Descent(const Descent&) = delete;
+  Descent& operator=(const Descent&) = delete;
+  bool good() const { return depth_ <= kMost; }
+
+ private:
+  std::uint32_t& depth_;
+};
+
+// Who names something, for the message when it is not there: "pass 'blur' reads the unknown resource 'hdr'".
+struct NamedBy {
+  std::string_view user;       // "pass 'blur'"
+  const char* verb = "names";  // "reads"
+  std::string_view pass = {};  // "blur"
+  std::string_view slot = {};
+  bool orPass = false;  // the name may be one of a pass
 };
 
 // "a -> b -> a" from the stack of what is being evaluated, closed by `again`.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/graph/expand/names/limits.h"
 #include "engine/graph/expand/names/resources.h"
 #include "engine/graph/expand/names/scope.h"
 #include "engine/graph/expand/names/unread.h"
@@ -26,7 +25,7 @@ std::optional<Value> letValue(Model& model, Let& let) {
     let.state = Progress::failed;
     return Value{};
   }
-  const Descent descent(model, let.desc->expr.height(), let.desc->place, label);
+  const Descent descent(model, let.desc->place, label);
   if (!descent.good()) {
     let.state = Progress::failed;
     return Value{};
@@ -88,7 +87,7 @@ std::optional<Value> Names::variable(std::string_view name) {
   Let& let = model_.lets[found.index];
   if (let.dynamic) {
     if (dynamicAllowed_) return Value::number(1);
-    if (model_.effort.tooDeep) return Value{};
+    if (model_.stopped) return Value{};
     if (!model_.evaluating.empty() && let.state == Progress::active) return letValue(model_, let);
     auto& d = model_.diagnostics.error(Code::badTime, let.desc->place,
                                        fmt::format("'${}' contains age() and changes from frame to frame, "
@@ -166,7 +165,7 @@ std::optional<Value> Names::fact(Fact fact, std::string_view resource, const Pla
   const bool isImport = model_.entities[index].kind == ResourceDesc::Kind::import;
   const std::uint32_t target = isImport && fact != Fact::has ? index : staticTarget(model_, index, &mip);
   if (fact == Fact::has) return Value::boolean(target != kNone);
-  if (target == kNone && (model_.effort.stopped || model_.effort.tooDeep)) return Value{};
+  if (target == kNone && model_.stopped) return Value{};
   if (target == kNone &&
       std::ranges::find(model_.entities[index].candidates, kNone) != model_.entities[index].candidates.end())
     return Value{};  // one of its alternatives was reported
@@ -227,8 +226,6 @@ std::vector<std::string> Names::choicesOf(std::string_view variable) {
 
 std::vector<std::string> Names::candidates(NameKind kind) {
   std::vector<std::string> names;
-  if (kind == NameKind::variable && !maySuggest(model_, model_.parameters.size() + model_.lets.size()))
-    return names;
   switch (kind) {
     case NameKind::builtin:
       return {"screen", "device.software"};
@@ -272,7 +269,7 @@ const Expr* Names::folded(std::string_view variable) {
     return nullptr;
   }
   if (!let.folded) {
-    const Descent descent(model_, let.desc->expr.height(), let.desc->place, label);
+    const Descent descent(model_, let.desc->place, label);
     if (!descent.good()) return nullptr;
     let.state = Progress::active;
     model_.evaluating.push_back(label);
@@ -287,7 +284,7 @@ const Expr* Names::folded(std::string_view variable) {
 const Expr* Names::foldedLive(Let& let) {
   if (!let.dynamic && !let.live) return nullptr;
   if (!let.liveFolded) {
-    const Descent descent(model_, let.desc->expr.height(), let.desc->place, "$" + let.path);
+    const Descent descent(model_, let.desc->place, let.path, true);
     let.liveFolded = Expr();    // met again in a circle, which nobody may have evaluated, it fails
     base::Diagnostics ignored;  // a branch that is not taken now
     Names names(model_, *let.scope);
@@ -306,13 +303,13 @@ std::optional<std::uint32_t> Names::parameterKey(std::string_view name) {
   return leaf ? std::optional(found.index) : std::nullopt;
 }
 
-std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absent, const Called& what) {
+std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absent, const char* what) {
   if (!expr.present()) return absent;
   const Value value = expr.evaluate(names, names.model().diagnostics);
   if (value.type == Value::Type::none) return std::nullopt;
   if (value.isNumeric()) return value.truth();
   auto& d = names.model().diagnostics.error(Code::wrongValueType, expr.place(),
-                                            fmt::format("{} is no condition", what.text()));
+                                            fmt::format("{} is no condition", what));
   d.expected = "true, false or a number";
   d.found = toText(value);
   const bool on = d.found == "on" || d.found == "yes";
@@ -321,14 +318,14 @@ std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absen
   return std::nullopt;
 }
 
-std::optional<double> evaluateNumber(Names& names, const Expr& expr, double absent, const Called& what) {
+std::optional<double> evaluateNumber(Names& names, const Expr& expr, double absent, const char* what) {
   if (!expr.present()) return absent;
   const Value value = expr.evaluate(names, names.model().diagnostics);
   if (value.type == Value::Type::none) return std::nullopt;
   if (value.isNumeric() && std::isfinite(value.v[0])) return value.v[0];
   auto& d = names.model().diagnostics.error(
       Code::wrongValueType, expr.place(),
-      fmt::format("{} is {}", what.text(), value.isNumeric() ? "not finite" : wordFor(value)));
+      fmt::format("{} is {}", what, value.isNumeric() ? "not finite" : wordFor(value)));
   d.expected = "a number";
   d.found = toText(value);
   d.hint = hintForWord(names, value);
@@ -336,7 +333,7 @@ std::optional<double> evaluateNumber(Names& names, const Expr& expr, double abse
 }
 
 std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::int64_t absent,
-                                          std::int64_t low, std::int64_t high, const Called& what,
+                                          std::int64_t low, std::int64_t high, const char* what,
                                           bool floors) {
   if (!expr.present()) return absent;
   std::optional<double> number = evaluateNumber(names, expr, 0, what);
@@ -348,7 +345,7 @@ std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::i
   const bool whole = *number == std::floor(*number);
   auto& d = names.model().diagnostics.error(
       whole ? Code::numberOutOfRange : Code::wrongValueType, expr.place(),
-      fmt::format("{} is {}", what.text(), whole ? "out of its range" : "not a whole number"));
+      fmt::format("{} is {}", what, whole ? "out of its range" : "not a whole number"));
   d.expected = fmt::format("a whole number from {} to {}", low, high);
   d.found = numberText(*number);
   return std::nullopt;

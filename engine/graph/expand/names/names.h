@@ -48,12 +48,12 @@ class Names final : public EvalScope {
   bool dynamicAllowed_;  // a let with age() answers 1 instead of an error (checks of uniforms)
 };
 
-// Evaluation with the expected type held: nullopt after a report. An absent expression yields `absent`.
-std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absent, const Called& what);
-std::optional<double> evaluateNumber(Names& names, const Expr& expr, double absent, const Called& what);
+// Evaluation with the expected type held: nullopt after a report, which calls it `what`. An absent expression yields `absent`.
+std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absent, const char* what);
+std::optional<double> evaluateNumber(Names& names, const Expr& expr, double absent, const char* what);
 // A whole number from `low` to `high`, floored first when `floors`.
 std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::int64_t absent,
-                                          std::int64_t low, std::int64_t high, const Called& what,
+                                          std::int64_t low, std::int64_t high, const char* what,
                                           bool floors = false);
 
 }  // namespace weft::graph::expansion

@@ -1,26 +1,209 @@
 #include "engine/graph/expand/names/resources.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <set>
 
 #include "engine/base/nearest.h"
 #include "engine/base/words/foreign_words.h"
-#include "engine/graph/expand/names/limits.h"
+#include "engine/graph/expand/names/apply_settings.h"
 #include "engine/graph/language/expr_node.h"
 
 namespace weft::graph::expansion {
 
+// ---- imports: their arguments, and what the registry says of them ----
+
+namespace {
+
+bool evaluateArgument(Model& model, Names& names, const Entity& entity, const ImportArgument& argument,
+                      const Expr& expr, Value& out) {
+  out = expr.evaluate(names, model.diagnostics);
+  if (out.type == Value::Type::none) return false;
+  const auto report = [&](std::string expected, std::string hint) {
+    auto& d = model.diagnostics.error(
+        Code::badImportArgument, expr.place(),
+        fmt::format("import '{}': argument '{}' does not fit", entity.name, argument.name));
+    d.resource = entity.name;
+    d.expected = std::move(expected);
+    d.found = toText(out);
+    d.hint = std::move(hint);
+    return false;
+  };
+  if (argument.drawList && out.type == Value::Type::symbol) {
+    const auto& lists = model.registry.drawLists;
+    if (std::find(lists.begin(), lists.end(), out.symbol) == lists.end()) {
+      auto& d = model.diagnostics.error(
+          Code::unknownDrawList, expr.place(),
+          fmt::format("import '{}' names the unknown draw list '{}'", entity.name, out.symbol));
+      d.hint = base::nearestHint(out.symbol, lists);
+      return false;
+    }
+  }
+  if (!argument.choices.empty()) {
+    std::string all;
+    for (const std::string& choice : argument.choices) all += (all.empty() ? "" : ", ") + choice;
+    if (out.type != Value::Type::symbol ||
+        std::find(argument.choices.begin(), argument.choices.end(), out.symbol) == argument.choices.end())
+      return report("one of " + all, base::nearestHint(out.symbol, argument.choices));
+  }
+  const Value& initial = argument.initial;
+  if (initial.type == Value::Type::none) return true;
+  const bool fits = initial.isNumeric() ? out.isNumeric()
+                                        : initial.type == out.type && (initial.type != Value::Type::list ||
+                                                                       initial.count == out.count);
+  if (fits) return true;
+  return report(initial.isNumeric()                 ? "a number"
+                : initial.type == Value::Type::list ? fmt::format("a list of {}", initial.count)
+                                                    : "a word",
+                "");
+}
+
+}  // namespace
+
+std::string hintForImport(std::string_view name, const std::vector<std::string>& types) {
+  for (const base::Foreign kind : {base::Foreign::value, base::Foreign::import_type})
+    if (std::string foreign = base::hintForForeign(kind, name); !foreign.empty()) return foreign;
+  std::string hint = base::nearestHint(name, types);
+  return hint.empty() ? fmt::format("imports are {}", fmt::join(types, ", ")) : hint;
+}
+
+bool evaluateImport(Model& model, Entity& entity) {
+  const std::string typeName = entity.desc ? entity.desc->import.type : entity.name.substr(1);
+  const ImportType* type = findImportType(model.registry, typeName);
+  if (!type) {
+    std::vector<std::string> types;
+    for (const ImportType& known : model.registry.imports) types.push_back(known.name);
+    auto& d = model.diagnostics.error(
+        Code::unknownImport, entity.desc->place,
+        fmt::format("resource '{}' is of the unknown import '{}'", entity.name, typeName));
+    d.resource = entity.name;
+    d.hint = hintForImport(typeName, types);
+    return false;
+  }
+  ImportRequest request;
+  request.type = typeName;
+  static const std::vector<NamedExpr> kNoArguments;
+  const std::vector<NamedExpr>& given = entity.desc ? entity.desc->import.arguments : kNoArguments;
+  Names names(model, *entity.scope);
+  bool good = true;
+  for (const NamedExpr& argument : given) {
+    markStructural(model, *entity.scope, argument.expr);
+    if (std::any_of(type->arguments.begin(), type->arguments.end(),
+                    [&](const ImportArgument& a) { return a.name == argument.name; }))
+      continue;
+    std::vector<std::string> known;
+    for (const ImportArgument& a : type->arguments) known.push_back(a.name);
+    auto& d =
+        model.diagnostics.error(Code::badImportArgument, argument.place,
+                                fmt::format("import '{}' has no argument '{}'", typeName, argument.name));
+    d.resource = entity.name;
+    d.hint = base::nearestHint(argument.name, known);
+    if (std::string theirs = base::hintForForeign(base::Foreign::import_argument, argument.name);
+        !theirs.empty() && std::ranges::find(known, "file") != known.end())
+      d.hint = std::move(theirs);
+    good = false;
+  }
+  for (const ImportArgument& argument : type->arguments) {
+    const auto found =
+        std::find_if(given.begin(), given.end(), [&](const NamedExpr& g) { return g.name == argument.name; });
+    Value value = argument.initial;
+    if (found != given.end()) {
+      good = evaluateArgument(model, names, entity, argument, found->expr, value) && good;
+    } else if (argument.initial.type == Value::Type::none) {
+      if (!good) continue;  // one misspelling is one mistake
+      auto& d = model.diagnostics.error(
+          Code::badImportArgument, entity.desc ? entity.desc->place : Place{},
+          fmt::format("import '{}' needs the argument '{}'", typeName, argument.name));
+      d.resource = entity.name;
+      if (!entity.desc)
+        d.hint = fmt::format("declare it: \"{}\": {{ \"import\": \"{}\", \"{}\": … }}", typeName, typeName,
+                             argument.name);
+      good = false;
+    }
+    request.arguments.emplace_back(argument.name, std::move(value));
+  }
+  if (!good) return false;
+  const ImportFacts facts = model.registry.factsOf ? model.registry.factsOf(request) : ImportFacts{};
+  for (const base::Diagnostic& problem : facts.problems) {
+    base::Diagnostic& d = model.diagnostics.add(placedAtArgument(model, *entity.scope, given, problem));
+    d.resource = entity.name;
+    // When a file may not be read, what matters is who names it.
+    if (d.code == Code::outsideConfinement && d.place.line == 0 && entity.desc) d.place = entity.desc->place;
+    if (!isKnown(d.place) && entity.desc) d.place = entity.desc->place;  // of the arguments
+    good = good && problem.severity != base::Severity::error;
+  }
+  if (!good) return false;
+  entity.exists = facts.exists;
+  entity.fallback = facts.fallback;
+  entity.count = facts.count;
+  FlatResource& shape = entity.shape;
+  shape.kind =
+      type->kind == ImportKind::texture ? ResourceKind::imported_texture : ResourceKind::imported_buffer;
+  shape.format = facts.format;
+  shape.width = std::max(1u, facts.width);
+  shape.height = std::max(1u, facts.height);
+  shape.depth = std::max(1u, facts.depth);
+  shape.layers = static_cast<std::uint16_t>(std::clamp(facts.layers, 1u, kMaxLayers));
+  shape.mips = static_cast<std::uint16_t>(std::clamp(facts.mips, 1u, kMaxMips));
+  shape.bytes = facts.bytes;
+  shape.target = shape.depth > 1                     ? Target::texture_3d
+                 : shape.layers > 1 || facts.layered ? Target::texture_2d_array
+                                                     : Target::texture_2d;
+  // The elements of an array stand side by side in FlatGraph::imports.
+  entity.arrayCount = type->array;
+  entity.elements.resize(std::max(1u, type->array));
+  for (std::uint32_t element = 0; element < entity.elements.size(); ++element) {
+    ImportRequest one = request;
+    if (type->array > 0) one.arguments.emplace_back("element", Value::number(element));
+    const std::uint32_t import = internImport(model, std::move(one), type->kind, entity.name);
+    if (element == 0) entity.import = import;
+    assert(import == entity.import + element);
+    ImportSpec& spec = model.graph.imports[import];
+    spec.count = facts.count;
+    spec.changing = facts.changing;
+    if (!spec.place.file && entity.desc) spec.place = entity.desc->place;
+  }
+  shape.import = entity.import;
+  return true;
+}
+
+const ImportType* findImportType(const Registry& registry, std::string_view name) {
+  for (const ImportType& type : registry.imports)
+    if (type.name == name) return &type;
+  return nullptr;
+}
+
+std::uint32_t internImport(Model& model, ImportRequest request, ImportKind kind, const std::string& name) {
+  auto& imports = model.graph.imports;
+  const std::uint64_t key = keyOf(request);
+  const auto [known, fresh] = model.importIndex.try_emplace(key, static_cast<std::uint32_t>(imports.size()));
+  if (!fresh) return known->second;
+  const ImportType* type = findImportType(model.registry, request.type);
+  imports.push_back({.request = std::move(request),
+                     .key = key,
+                     .kind = kind,
+                     .name = name,
+                     .columns = type ? type->columns : std::vector<TableColumn>{},
+                     .standIns = {}});
+  model.importResource.push_back(kNone);
+  return static_cast<std::uint32_t>(imports.size() - 1);
+}
+
+// ---- textures and buffers ----
+
 namespace {
 
 // A clear or first value: a number or a list.
-Value evaluateTexel(Names& names, const Expr& expr, const Called& what) {
+Value evaluateTexel(Names& names, const Expr& expr, const std::string& name, const char* what) {
   if (!expr.present()) return {};
   Value value = expr.evaluate(names, names.model().diagnostics);
   if (value.type == Value::Type::symbol) {
-    auto& d = names.model().diagnostics.error(Code::wrongValueType, expr.place(), what.text() + " is a word");
+    auto& d = names.model().diagnostics.error(Code::wrongValueType, expr.place(),
+                                              fmt::format("the {} value of '{}' is a word", what, name));
     d.expected = "a number or a list of numbers";
     d.found = value.symbol;
     d.hint = value.symbol == "white"         ? "write [1, 1, 1, 1]"
@@ -169,12 +352,9 @@ bool evaluateTexture(Model& model, Names& names, Entity& entity) {
     good = false;
   }
   good = evaluateSize(model, names, entity) && good;
-  const auto mips =
-      evaluateWhole(names, desc.mips, 1, 1, kMaxMips, {"the number of mips of '{}'", entity.name}, true);
-  const auto layers = evaluateWhole(names, desc.layers, 1, 0, kMaxLayers,
-                                    {"the number of layers of '{}'", entity.name}, true);
-  const auto samples =
-      evaluateWhole(names, desc.samples, 1, 1, 32, {"the number of samples of '{}'", entity.name});
+  const auto mips = evaluateWhole(names, desc.mips, 1, 1, kMaxMips, "the number of mips", true);
+  const auto layers = evaluateWhole(names, desc.layers, 1, 0, kMaxLayers, "the number of layers", true);
+  const auto samples = evaluateWhole(names, desc.samples, 1, 1, 32, "the number of samples");
   if (!mips || !layers || !samples) return false;
   if ((*samples & (*samples - 1)) != 0) {
     rangeError(model, desc.samples, fmt::format("the number of samples of '{}'", entity.name),
@@ -199,12 +379,12 @@ bool evaluateTexture(Model& model, Names& names, Entity& entity) {
 bool evaluateBuffer(Model& model, Names& names, Entity& entity) {
   const ResourceDesc& desc = *entity.desc;
   entity.shape.kind = ResourceKind::buffer;
-  const Called what("the size of buffer '{}'", entity.name);
-  const std::optional<double> bytes = evaluateNumber(names, desc.bytes, 0, what);
+  const std::optional<double> bytes = evaluateNumber(names, desc.bytes, 0, "the size of a buffer");
   if (!bytes) return false;
   const bool low = *bytes < 0 || (*bytes < 1 && desc.bytes.isConstant());
   if (low || *bytes > static_cast<double>(kMaxBufferBytes)) {
-    rangeError(model, desc.bytes, what.text(), fmt::format("1 to {} bytes", kMaxBufferBytes), *bytes);
+    rangeError(model, desc.bytes, fmt::format("the size of buffer '{}'", entity.name),
+               fmt::format("1 to {} bytes", kMaxBufferBytes), *bytes);
     return false;
   }
   entity.shape.bytes = static_cast<std::uint64_t>(std::max(1.0, std::floor(*bytes)));
@@ -219,7 +399,7 @@ void takeFirst(Model& model, Entity& entity, const ResourceDesc& desc, Scope& sc
     entity.firstRef = &*desc.firstRef;
     entity.firstScope = &scope;
   } else {
-    entity.first = evaluateTexel(names, desc.first, {"the first value of '{}'", entity.name});
+    entity.first = evaluateTexel(names, desc.first, entity.name, "first");
   }
 }
 
@@ -232,12 +412,10 @@ bool evaluateDeclared(Model& model, Entity& entity) {
   for (const Expr* expr : {&desc.clear, &desc.first}) markStructural(model, *entity.scope, *expr);
   const bool shaped = entity.kind == ResourceDesc::Kind::texture ? evaluateTexture(model, names, entity)
                                                                  : evaluateBuffer(model, names, entity);
-  const auto array =
-      evaluateWhole(names, desc.array, 0, 1, kMaxArray, {"the array size of '{}'", entity.name});
-  const auto depth =
-      evaluateWhole(names, desc.history, 0, 0, kMaxHistory, {"the history of '{}'", entity.name});
+  const auto array = evaluateWhole(names, desc.array, 0, 1, kMaxArray, "the array size");
+  const auto depth = evaluateWhole(names, desc.history, 0, 0, kMaxHistory, "the history");
   const std::size_t before = model.diagnostics.errorCount();
-  entity.clear = evaluateTexel(names, desc.clear, {"the clear value of '{}'", entity.name});
+  entity.clear = evaluateTexel(names, desc.clear, entity.name, "clear");
   takeFirst(model, entity, desc, *entity.scope);
   if (!shaped || !array || !depth || model.diagnostics.errorCount() > before) return false;
   entity.arrayCount = static_cast<std::uint32_t>(*array);
@@ -245,22 +423,6 @@ bool evaluateDeclared(Model& model, Entity& entity) {
   entity.shape.hasClear = entity.clear.type != Value::Type::none;
   entity.elements.resize(std::max(1u, entity.arrayCount));
   return true;
-}
-
-}  // namespace
-
-namespace {
-
-// The greatest height of the expressions that say what the entity is.
-int heightOf(const Entity& entity) {
-  if (!entity.desc) return 0;
-  int height = 0;
-  const ResourceDesc& d = *entity.desc;
-  for (const Expr* expr :
-       {&d.size, &d.mips, &d.layers, &d.array, &d.samples, &d.bytes, &d.history, &d.clear, &d.first})
-    height = std::max(height, expr->height());
-  for (const NamedExpr& argument : d.import.arguments) height = std::max(height, argument.expr.height());
-  return height;
 }
 
 }  // namespace
@@ -278,7 +440,7 @@ bool ensureShape(Model& model, std::uint32_t index) {
     entity.state = Progress::failed;
     return false;
   }
-  const Descent descent(model, heightOf(entity), entity.desc ? entity.desc->place : Place{}, entity.name);
+  const Descent descent(model, entity.desc ? entity.desc->place : Place{}, entity.name);
   if (!descent.good()) {
     entity.state = Progress::failed;
     return false;
@@ -325,8 +487,7 @@ void takeInputHistories(Model& model) {
     Names names(model, *entity.scope);
     markStructural(model, *entity.scope, entity.desc->history);
     markStructural(model, *entity.scope, entity.desc->first);
-    const auto depth =
-        evaluateWhole(names, entity.desc->history, 0, 0, kMaxHistory, {"the history of '{}'", entity.name});
+    const auto depth = evaluateWhole(names, entity.desc->history, 0, 0, kMaxHistory, "the history");
     entity.badHistory = !depth;
     std::set<std::uint32_t> seen;
     if (depth && *depth > 0) deepen(model, entity.bound, i, static_cast<std::uint32_t>(*depth), seen);
@@ -339,7 +500,7 @@ std::uint32_t staticTarget(Model& model, std::uint32_t index, std::uint32_t* mip
     return ensureShape(model, index) && entity.exists ? index : kNone;
   if (entity.kind != ResourceDesc::Kind::alternatives) return index;
   if (entity.listState == Progress::active) return kNone;  // its own condition asks for its size
-  const Descent descent(model, 0, entity.desc->place, entity.name, false);
+  const Descent descent(model, entity.desc->place, entity.name);
   if (!descent.good()) return kNone;
   const Progress before = std::exchange(entity.listState, Progress::active);
   std::uint32_t result = kNone;
@@ -347,7 +508,6 @@ std::uint32_t staticTarget(Model& model, std::uint32_t index, std::uint32_t* mip
   for (std::size_t i = 0; i < entity.candidates.size() && result == kNone; ++i) {
     if (entity.candidates[i] == kNone) continue;
     const RefDesc& ref = entity.desc->alternatives[i];
-    if (!lookAt(model, costOf(ref), ref.place)) break;
     const auto holds = evaluateCondition(names, ref.condition, true, "the condition of an alternative");
     if (!holds || !*holds) continue;
     result = staticTarget(model, entity.candidates[i], mip);

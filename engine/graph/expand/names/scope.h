@@ -15,21 +15,22 @@
 
 namespace weft::graph::expansion {
 
+// Of a graph with all that it includes; `--limit` raises them. Names: parameters, resources, values in "set", each.
+constexpr std::uint64_t kMostNames = 4096, kMostLets = 256, kMostAlternatives = 64;
+
 // Fills scopes, parameters with their defaults (the reader has checked those), lets and entities.
 void buildScopes(Model& model);
 // The steps of buildScopes() after the scopes. The first marks lets that contain age(), perhaps through another let. The
-// second finds what alternatives refer to, and reports lists that contain themselves (W050) or are nested too deeply.
+// second finds what alternatives refer to, and reports lists that contain themselves (W050) or lead to too many.
 void findDynamicLets(Model& model);
 void linkAlternatives(Model& model);
 
 // The entity that a name stands for; an input stands for what is bound to it. kNone when there is none (which is not
 // reported), or when nothing is bound to an input (which is reported once).
 std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool import);
-// The same, but reports W040 or W043 at `place`, with the nearest name, of the file's passes, too, when `orPass`. `slot` is the
-// slot that asks, if any.
+// The same, but reports W040 or W043 at `place`, with the nearest name.
 std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view name, bool import,
-                                 const Place& place, const Called& user, const std::string& pass = {},
-                                 std::string_view slot = {}, bool orPass = false);
+                                 const Place& place, const NamedBy& by);
 // A pass of the scope's own file; null: there is none.
 const PassDesc* findPass(const Scope& scope, std::string_view name);
 // What has(name) is about where no resource has the name: a pass of the scope's own file, or `include.pass` of one included below.
@@ -38,10 +39,8 @@ struct AskedPass {
   const Scope* scope = nullptr;    // whose file declares it
 };
 AskedPass findAskedPass(const Scope& scope, std::string_view name);
-// The `user` of a name in size(name) and other facts.
-constexpr const char* kAsksOf = "an expression asks of the";
-// False when so many names were gathered for suggestions that further messages make none.
-bool maySuggest(Model& model, std::size_t names);
+// Of a name in size(name) and other facts.
+constexpr NamedBy kAsksOf{"an expression", "asks of"};
 // The import type's entity with default arguments; kNone when there is no such type.
 std::uint32_t implicitImport(Model& model, std::string_view type);
 
@@ -75,6 +74,6 @@ bool checkExpr(Model& model, Scope& scope, const Expr& expr, bool dynamicAllowed
                std::span<const RangeDesc> repeat = {});
 
 // The nearest names for hints.
-std::vector<std::string> resourceNames(Model& model, const Scope& scope);
+std::vector<std::string> resourceNames(const Model& model, const Scope& scope);
 
 }  // namespace weft::graph::expansion

@@ -28,7 +28,7 @@ const PassDesc* failedInclude(const Scope& scope) {
   return nullptr;
 }
 
-std::string hintFor(Model& model, const Unincluded& group) {
+std::string hintFor(const Model& model, const Unincluded& group) {
   const Scope& scope = *group.scope;
   if (group.uses.size() == 1)
     if (const std::string near = base::nearestName(group.uses[0].resource, resourceNames(model, scope));
@@ -88,8 +88,7 @@ bool isPicturePath(std::string_view name) {
 namespace {
 
 // The resource of this name in a file that is included below, as the scope calls it: "post.ldr". "" when there is none.
-std::string resourceBelow(Model& model, const Scope& scope, std::string_view name) {
-  if (!maySuggest(model, model.scopes.size())) return {};
+std::string resourceBelow(const Model& model, const Scope& scope, std::string_view name) {
   std::string shortest;
   for (const Scope& each : model.scopes) {
     if (&each == &scope || !each.prefix.starts_with(scope.prefix) || !each.resources.contains(name)) continue;
@@ -112,8 +111,9 @@ std::string hintForPart(std::string_view name, std::string_view part, std::strin
 
 }  // namespace
 
-std::string hintForResource(Model& model, const Scope& scope, std::string_view name, std::string_view slot,
-                            bool orPass, const Place& place) {
+std::string hintForResource(const Model& model, const Scope& scope, std::string_view name, const NamedBy& by,
+                            const Place& place) {
+  const std::string_view slot = by.slot == "view" ? std::string_view() : by.slot;
   if (isPicturePath(name)) {
     const std::string_view file = name.substr(name.rfind('/') + 1);
     return fmt::format(
@@ -121,7 +121,7 @@ std::string hintForResource(Model& model, const Scope& scope, std::string_view n
         "here",
         file.substr(0, file.find('.')), name);
   }
-  if (const PassDesc* pass = orPass ? nullptr : findPass(scope, name)) {
+  if (const PassDesc* pass = by.orPass ? nullptr : findPass(scope, name)) {
     std::string made;
     for (const SlotDesc& each : pass->slots)
       if (each.access != Access::read)
@@ -129,7 +129,7 @@ std::string hintForResource(Model& model, const Scope& scope, std::string_view n
     if (!made.empty()) return fmt::format("'{}' is a pass: name what it writes, {}", name, made);
   }
   std::vector<std::string> names = resourceNames(model, scope);
-  if (orPass && maySuggest(model, scope.desc->passes.size()))
+  if (by.orPass)
     for (const PassDesc& each : scope.desc->passes)
       if (!each.include) names.push_back(each.name);
   std::string hint = base::nearestHint(name, names);
@@ -156,8 +156,7 @@ std::string hintForResource(Model& model, const Scope& scope, std::string_view n
   return hint;
 }
 
-bool isUnincluded(Model& model, Scope& scope, std::string_view name, const Place& place,
-                  std::string_view user, const std::string& pass) {
+bool isUnincluded(Model& model, Scope& scope, std::string_view name, const Place& place, const NamedBy& by) {
   const std::string_view first = firstPart(name);
   if (first.size() == name.size() || scope.includes.contains(first) || scope.resources.contains(first) ||
       scope.passes.contains(first))
@@ -173,8 +172,8 @@ bool isUnincluded(Model& model, Scope& scope, std::string_view name, const Place
   // The instances of a repeat come here one after another.
   if (std::ranges::none_of(group->uses,
                            [&](const Unincluded::Use& use) { return base::isSamePlace(use.place, place); }))
-    group->uses.push_back(
-        {place, fmt::format("{} unknown resource '{}'", user, name), std::string(name), pass});
+    group->uses.push_back({place, fmt::format("{} {} the unknown resource '{}'", by.user, by.verb, name),
+                           std::string(name), std::string(by.pass)});
   return true;
 }
 

@@ -18,11 +18,10 @@ bool mayBeUnread(const Scope& from, std::string_view name);
 // "noise.png": a file in the place of a resource.
 bool isPicturePath(std::string_view name);
 // The fix for a resource that is not there; the arguments are those of findEntityOrReport().
-std::string hintForResource(Model& model, const Scope& scope, std::string_view name, std::string_view slot,
-                            bool orPass, const Place& place);
+std::string hintForResource(const Model& model, const Scope& scope, std::string_view name, const NamedBy& by,
+                            const Place& place);
 // True when `name` is dotted and this file includes nothing under its first part: kept for reportUnincluded.
-bool isUnincluded(Model& model, Scope& scope, std::string_view name, const Place& place,
-                  std::string_view user, const std::string& pass = {});
+bool isUnincluded(Model& model, Scope& scope, std::string_view name, const Place& place, const NamedBy& by);
 // A pass that writes by this slot was left out for its mistakes: what is missing of the resource is no second mistake.
 void leaveOutWrite(Model& model, Scope& scope, const RefDesc& ref);
 // The "repeat" of a pass is empty, by `range`: what it would write says so when it is missing.

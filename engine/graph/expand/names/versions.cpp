@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "engine/graph/expand/names/limits.h"
 #include "engine/graph/expand/names/resources.h"
 #include "engine/graph/subresource.h"
 
@@ -116,7 +115,7 @@ void wouldUse(Model& model, WouldUse use) {
 void wouldUse(Model& model, std::uint32_t index, Access access, int history) {
   const Entity& entity = model.entities[index];
   for (std::size_t i = 0; i < entity.candidates.size(); ++i)
-    if (entity.candidates[i] != kNone && lookAt(model, 1, entity.desc->place))
+    if (entity.candidates[i] != kNone)
       wouldUse(model, entity.candidates[i], access, history + entity.desc->alternatives[i].history);
   const bool own = entity.kind == ResourceDesc::Kind::texture || entity.kind == ResourceDesc::Kind::buffer;
   if (!own || entity.state != Progress::done) return;
