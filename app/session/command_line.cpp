@@ -30,13 +30,12 @@ std::vector<CLI::App*> commandsOf(CLI::App& app) {
 void addCommon(CLI::App& command) {
   const auto confine = [](const std::string& folder) { return base::confineTo(folder).value_or(""); };
   const auto limit = [](const std::string& text) -> std::string {
-    const std::size_t at = text.find('=');
     std::uint64_t times = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), times);
-    if (error == std::errc() && end == text.data() + text.size() && times >= 1 && times <= base::kMostRaise)
-      return base::raiseLimits(times), "";
-    if (at == std::string::npos || at == 0) return "expected NAME=VALUE, found '" + text + "'";
-    return base::setLimit(text.substr(0, at), text.substr(at + 1)).value_or("");
+    if (error != std::errc() || end != text.data() + text.size() || times < 1 || times > base::kMostRaise)
+      return fmt::format("expected a whole number from 1 to {}, found '{}'", base::kMostRaise, text);
+    base::raiseLimits(times);
+    return "";
   };
   const auto ignore = [](const std::vector<std::string>&) {};  // the checks take them
   command
@@ -46,8 +45,8 @@ void addCommon(CLI::App& command) {
       ->check(CLI::Validator(confine, "FOLDER"));
   command
       .add_option_function<std::vector<std::string>>(
-          "--limit", ignore, "raise or lower a limit of docs/limits.md for this run; repeatable")
-      ->check(CLI::Validator(limit, "NAME=VALUE"));
+          "--limit", ignore, "make the limits of docs/limits.md this many times as large")
+      ->check(CLI::Validator(limit, "N"));
   for (CLI::App* inner : commandsOf(command)) addCommon(*inner);
 }
 

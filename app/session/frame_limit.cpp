@@ -8,12 +8,13 @@ namespace weft::app {
 
 bool checkFrameCount(std::uint64_t count, const base::Where& place, const std::string& why,
                      base::Diagnostics& diagnostics, const std::string& instead) {
-  const std::uint64_t limit = base::limitOf(base::Limit::frames);
-  if (count <= limit) return true;
-  diagnostics
-      .error(base::Code::limitExceeded, place,
-             fmt::format("{} frames would run{}, the limit 'frames' is {}", count, why, limit))
-      .hint = base::hintToRaise(base::Limit::frames, count) + instead;
+  constexpr std::uint64_t kMostFrames = 1'000'000;
+  const std::uint64_t most = base::raised(kMostFrames);
+  if (count <= most) return true;
+  auto& d = diagnostics.error(base::Code::limitExceeded, place,
+                              fmt::format("{} frames would run{}, and at most {} may", count, why, most));
+  d.hint = base::hintToRaise(kMostFrames, count);
+  if (d.hint.empty() || !instead.empty()) d.hint = instead.empty() ? "let fewer run" : instead;
   return false;
 }
 

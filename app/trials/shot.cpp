@@ -9,6 +9,7 @@
 #include "app/session/session.h"
 #include "engine/base/counted.h"
 #include "engine/base/limits.h"
+#include "engine/graph/compile/plan_memory.h"
 
 namespace weft::app {
 
@@ -23,19 +24,17 @@ bool checkPresents(const Options& options, runtime::Renderer& renderer, base::Di
   return false;
 }
 
-// Whether the pictures of all frames may be held at once: the limit `texture_bytes`.
+// Whether the pictures of all frames may be held at once: kMostTextureBytes.
 bool checkPictures(const Options& options, std::uint64_t count, runtime::Renderer& renderer,
                    base::Diagnostics& diagnostics) {
   const gl::TextureDesc& desc = renderer.execution()->presented().desc;
-  const std::uint64_t limit = base::limitOf(base::Limit::texture_bytes);
+  const std::uint64_t limit = base::raised(graph::kMostTextureBytes);
   const std::uint64_t bytes = count * desc.width * desc.height * 4;
   if (count == 1 || bytes <= limit) return true;
   diagnostics
       .error(base::Code::limitExceeded, {std::make_shared<const std::string>(options.graph), 0, 0},
-             fmt::format("the pictures of {} frames take {} bytes, the limit 'texture_bytes' is {}", count,
-                         bytes, limit))
-      .hint = "compare fewer frames in a case, or smaller ones; " +
-              base::hintToRaise(base::Limit::texture_bytes, bytes);
+             fmt::format("the pictures of {} frames take {} bytes, and at most {} may", count, bytes, limit))
+      .hint = "compare fewer frames in a case, or smaller ones";
   return false;
 }
 

@@ -39,7 +39,7 @@ bool canBeFixed(const ViewOptions& options, const base::Diagnostics& diagnostics
 // Runs before the window opens. The frames of a recording have no end unless --max-frames gives one.
 bool checkOutputs(const ViewOptions& options, base::Diagnostics& diagnostics) {
   checkFrameCount(options.maxFrames, base::placeOfOption(fmt::format("--max-frames {}", options.maxFrames)),
-                  {}, diagnostics, ", or leave --max-frames out: the window then stays until it is closed");
+                  {}, diagnostics, "leave --max-frames out: the window then stays until it is closed");
   if (!options.screenshot.empty()) checkOutput(options.screenshot, lastFrameOf(options), false, diagnostics);
   if (!options.record.empty()) checkOutput(options.record, 0, true, diagnostics);
   return !diagnostics.hasErrors();

@@ -19,7 +19,7 @@ std::string countText(std::size_t count, const char* one, const char* many) {
 }  // namespace
 
 std::uint64_t mostErrors() {
-  return std::max<std::uint64_t>(1000, limitOf(Limit::diagnostics));
+  return std::max<std::uint64_t>(1000, raised(kMostMessages));
 }
 
 Diagnostics chooseMessages(const Diagnostics& all, bool notes) {
@@ -29,7 +29,7 @@ Diagnostics chooseMessages(const Diagnostics& all, bool notes) {
   std::array<std::size_t, 3> there{}, room{};
   for (const Diagnostic& each : sorted.items())
     if (notes || each.severity != Severity::note) ++there[static_cast<std::size_t>(each.severity)];
-  std::size_t left = limitOf(Limit::diagnostics);
+  std::size_t left = raised(kMostMessages);
   for (const Severity severity : kOrder) {
     const auto i = static_cast<std::size_t>(severity);
     room[i] = std::min(there[i], left);
@@ -56,7 +56,8 @@ Diagnostics chooseMessages(const Diagnostics& all, bool notes) {
                         countText(at(Severity::warning), "warning", "warnings"),
                         countText(at(Severity::note), "note", "notes")),
                     .place = {}});
-    d.hint = fmt::format("correct these first, or {}", hintToRaise(Limit::diagnostics));
+    const std::string raise = hintToRaise(kMostMessages);
+    d.hint = raise.empty() ? "correct these first" : "correct these first, or " + raise;
   }
   if (all.errorCount() >= mostErrors())
     chosen

@@ -1,4 +1,4 @@
-// Which of many messages are printed, when a run has more than anybody reads (limit "diagnostics"). Does not:
+// Which of many messages are printed, when a run has more than anybody reads (kMostMessages). Does not:
 // print.
 #pragma once
 
@@ -7,6 +7,8 @@
 #include "engine/base/diagnostic.h"
 
 namespace weft::base {
+
+constexpr std::uint64_t kMostMessages = 100;
 
 // After so many errors nothing more is looked for: ten times what is printed by default, and what is printed where that
 // is more.

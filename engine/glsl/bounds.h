@@ -13,7 +13,7 @@ namespace weft::glsl {
 // Reports each count that is above its limit (W203). True when there is none.
 bool checkShaderSize(const ShaderSize& size, const ShaderSource& source, base::Diagnostics& diagnostics);
 
-// The same for a file so large that it is not read: `bytes` is above Limit::shader_bytes.
+// The same for a file so large that it is not read: `bytes` is above kMostShaderBytes.
 void reportShaderBytes(std::uint64_t bytes, const base::Place& place, base::Diagnostics& diagnostics);
 
 // Whether the driver may not survive the shader, or must work long.

@@ -461,11 +461,10 @@ void measure(Words tokens, ShaderSize& size) {
 }
 
 Interface readExpanded(std::string_view text, std::span<const Define> defines, Branches branches) {
-  using base::Limit;
-  const std::uint64_t most = base::limitOf(Limit::shader_tokens);
+  const std::uint64_t most = base::raised(kMostShaderTokens);
   const auto deepest =
-      static_cast<std::uint32_t>(std::min<std::uint64_t>(base::limitOf(Limit::shader_depth), 5000));
-  if (text.size() > base::limitOf(Limit::shader_bytes)) {
+      static_cast<std::uint32_t>(std::min<std::uint64_t>(base::raised(kMostShaderDepth), 5000));
+  if (text.size() > base::raised(kMostShaderBytes)) {
     Interface none;
     none.unsure = true;
     none.size.bytes = text.size();

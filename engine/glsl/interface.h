@@ -15,6 +15,10 @@
 
 namespace weft::glsl {
 
+// Of one shader with what it includes; `--limit` raises them. Tokens: after its macros. Depth: of brackets, operators or blocks
+// around one another.
+constexpr std::uint64_t kMostShaderBytes = 1ull << 20, kMostShaderTokens = 200'000, kMostShaderDepth = 500;
+
 enum class Role : std::uint8_t {
   sampler,
   image,

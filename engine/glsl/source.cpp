@@ -424,7 +424,7 @@ std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, 
   // The stamps are taken before reading: a file that changes meanwhile is read again next time.
   const FileState state = stateOf(*where);
   const Stamp own{*where, state.time, state.bytes};
-  const std::uint64_t most = std::max<std::uint64_t>(kMostText, base::limitOf(base::Limit::shader_bytes));
+  const std::uint64_t most = std::max<std::uint64_t>(kMostText, base::raised(kMostShaderBytes));
   std::uint64_t bytes = 0;
   const std::optional<std::string> text =
       readWithin(*where, most, bytes, diagnostics, Code::unreadableShader, place);

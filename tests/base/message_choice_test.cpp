@@ -15,11 +15,6 @@ Place at(std::uint32_t line) {
   return {file, line, 1};
 }
 
-struct LimitSet {
-  explicit LimitSet(const char* value) { setLimit("diagnostics", value); }
-  ~LimitSet() { setLimit("diagnostics", "100"); }
-};
-
 }  // namespace
 
 TEST_CASE("up to the limit everything is reported, in order") {
@@ -49,12 +44,13 @@ TEST_CASE("beyond it errors stay before warnings, from the first place on, and t
   CHECK(last.code == Code::messagesLeftOut);
   CHECK(last.severity == Severity::note);
   CHECK(last.message == "907 further messages are left out: 400 errors, 500 warnings, 7 notes");
-  CHECK(last.hint == "correct these first, or raise it with --limit diagnostics=200, if that is meant");
+  CHECK(last.hint == "correct these first, or raise the limits with --limit 2, if that is meant");
   CHECK(chooseMessages(all, false).items().back().message ==
         "900 further messages are left out: 400 errors, 500 warnings, 0 notes");
 
-  const LimitSet more("1000");
+  raiseLimits(10);
   const Diagnostics most = chooseMessages(all);
+  raiseLimits(1);
   CHECK(most.size() == 1001);
   CHECK(most.items().back().message == "7 further messages are left out: 0 errors, 0 warnings, 7 notes");
   CHECK(most.items()[0].severity == Severity::warning);  // in the order of places again

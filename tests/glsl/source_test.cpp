@@ -287,7 +287,7 @@ TEST_CASE("a shader that is too large is not read, and is watched until it is sm
   CHECK(*large.place.file == folder.at("x/large.frag.glsl"));
   CHECK(large.expected == "at most 1048576 bytes of one shader with what it includes");
   CHECK(large.found == "16777217");
-  CHECK(large.hint.ends_with("raise it with --limit shader_bytes=2097152, if that is meant"));
+  CHECK(large.hint.ends_with("raise the limits with --limit 2, if that is meant"));
   CHECK(loader.touched() == std::set{folder.at("x/large.frag.glsl")});
 
   diagnostics.clear();

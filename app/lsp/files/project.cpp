@@ -6,7 +6,7 @@
 
 #include "app/session/session.h"
 #include "engine/base/files/file_access.h"
-#include "engine/base/limits.h"
+#include "engine/graph/read/overlay.h"
 #include "engine/runtime/frame/renderer.h"
 
 namespace weft::app::lsp {
@@ -34,7 +34,7 @@ class FileList {
     if (isFull() || !known_.insert(path).second) return;
     all_.push_back(path);
   }
-  bool isFull() const { return all_.size() >= base::limitOf(base::Limit::include_files); }
+  bool isFull() const { return all_.size() >= graph::kMostIncludes; }
   const std::vector<std::string>& all() const { return all_; }
 
  private:

@@ -6,24 +6,19 @@
 #include <memory>
 
 #include "engine/base/files/file.h"
-#include "engine/base/files/file_access.h"
-#include "engine/base/limit_report.h"
+#include "engine/base/limits.h"
 
 namespace weft::base {
 
-std::uint64_t limitFor(Limit limit, const std::string* file) {
-  const std::uint64_t initial = allLimits()[static_cast<std::size_t>(limit)].initial;
-  return limitOf(limit) < initial && file && isOwnData(*file) ? initial : limitOf(limit);
-}
-
 void reportTooLarge(const Place& place, std::uint64_t bytes, Diagnostics& diagnostics) {
-  reportLimit(diagnostics, Limit::json_bytes, place, "the file is too large", bytes).found =
-      fmt::format("{} bytes", bytes);
+  reportLimit(diagnostics, place, "the file is too large", kMostTextBytes, "bytes of one JSON or .cube file",
+              bytes)
+      .found = fmt::format("{} bytes", bytes);
 }
 
 std::optional<std::string> readTextFile(const std::string& path, Diagnostics& diagnostics, Code code,
                                         const Place& place) {
-  const std::uint64_t most = limitFor(Limit::json_bytes, &path);
+  const std::uint64_t most = raised(kMostTextBytes);
   bool tooLarge = false;
   std::uint64_t found = 0;  // of a pipe: so far
   const auto within = [&](std::uint64_t bytes, std::uint64_t total) {

@@ -11,12 +11,11 @@
 
 namespace weft::base {
 
-// Does what readFile (file.h) does. Reports Code::limitExceeded for a file beyond the limit json_bytes, and reads only its beginning.
+constexpr std::uint64_t kMostTextBytes = 32ull << 20;
+
+// Does what readFile (file.h) does. Reports Code::limitExceeded for a file of more than kMostTextBytes, and reads only its beginning.
 std::optional<std::string> readTextFile(const std::string& path, Diagnostics& diagnostics,
                                         Code code = Code::unreadableFile, const Place& place = {});
-
-// The limit for `file`, which may be null. For Weft's own data (file_access.h) it is never below the default.
-std::uint64_t limitFor(Limit limit, const std::string* file);
 
 // The same report for a text that is in memory already.
 void reportTooLarge(const Place& place, std::uint64_t bytes, Diagnostics& diagnostics);

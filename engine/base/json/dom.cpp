@@ -13,7 +13,7 @@
 #include "engine/base/chars.h"
 #include "engine/base/files/file_kind.h"
 #include "engine/base/files/text_file.h"
-#include "engine/base/limit_report.h"
+#include "engine/base/limits.h"
 
 namespace weft::base {
 
@@ -68,11 +68,7 @@ class Parser {
         comments_(comments),
         first_(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0),
         at_(first_),
-        lineStart_(first_) {
-    if (!diagnostics_) return;
-    mostValues_ = limitFor(Limit::json_values, file_.get());
-    mostOfName_ = limitFor(Limit::name_bytes, file_.get());
-  }
+        lineStart_(first_) {}
 
   // False when it stopped.
   bool run(JsonValue& root) {
@@ -302,9 +298,9 @@ class Parser {
             ->error(Code::nestedTooDeeply, out.place,
                     fmt::format("objects and arrays are nested more than {} levels deep", kMaxJsonDepth))
             .hint = "look for a bracket that is never closed";
-    } else if (++count_ > mostValues_) {
+    } else if (++count_ > raised(kMostValues) && !tolerant()) {
       stopped_ = true;
-      reportLimit(*diagnostics_, Limit::json_values, out.place, "the file has too many values");
+      reportLimit(*diagnostics_, out.place, "the file has too many values", kMostValues, "values");
     } else if (container) {
       members(out);
     } else {
@@ -360,10 +356,11 @@ class Parser {
     read.begin = static_cast<std::uint32_t>(at_);
     string(read.key, read.closed);
     read.end = static_cast<std::uint32_t>(at_);
-    if (!stopped_ && read.key.size() > mostOfName_) {
+    if (!stopped_ && !tolerant() && read.key.size() > kMostNameBytes) {
       stopped_ = true;
-      reportLimit(*diagnostics_, Limit::name_bytes, read.place, "a key is too long").found =
-          fmt::format("{} bytes", read.key.size());
+      auto& d = diagnostics_->error(Code::limitExceeded, read.place, "a key is too long");
+      d.expected = fmt::format("at most {} bytes", kMostNameBytes);
+      d.found = fmt::format("{} bytes", read.key.size());
     }
     if (!stopped_) blank();
     if (stopped_) return;
@@ -564,7 +561,7 @@ class Parser {
   std::vector<std::size_t> open_;                // brackets around at_
   const std::string* key_ = nullptr;             // that has no colon
   std::size_t stringBegin_ = 0, stringEnd_ = 0;  // of the last string
-  std::uint64_t count_ = 0, mostValues_ = ~std::uint64_t{0}, mostOfName_ = ~std::uint64_t{0};
+  std::uint64_t count_ = 0;
 };
 
 // valueAt(), and the pointer to there.
@@ -612,7 +609,7 @@ JsonTree parseJsonTree(std::string_view text) {
 std::optional<JsonValue> parseJson(std::string_view text, const std::shared_ptr<const std::string>& file,
                                    Diagnostics& diagnostics) {
   const std::size_t mark = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
-  if (text.size() - mark > limitFor(Limit::json_bytes, file.get())) {
+  if (text.size() - mark > raised(kMostTextBytes)) {
     reportTooLarge({file, 0, 0}, text.size() - mark, diagnostics);
     return std::nullopt;
   }

@@ -66,6 +66,8 @@ JsonTree parseJsonTree(std::string_view text);
 
 // How deep objects and arrays may be nested.
 constexpr int kMaxJsonDepth = 64;
+constexpr std::uint64_t kMostValues = 1'500'000;  // of all JSON files of one graph, each use counted
+constexpr std::uint64_t kMostNameBytes = 255;     // of a name or a key
 
 // Empty after Code::notJson, Code::nestedTooDeeply or Code::limitExceeded (a text beyond the limit json_bytes, more values
 // than json_values, a key beyond name_bytes). A duplicate key is reported as Code::duplicateKey, its later value is dropped,

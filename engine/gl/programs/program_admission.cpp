@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/limits.h"
 #include "engine/gl/programs/shader_trial.h"
 #include "engine/glsl/bounds.h"
 
@@ -14,7 +13,6 @@ namespace weft::gl {
 
 using base::Code;
 using base::Diagnostics;
-using base::Limit;
 
 bool checkProgramSize(std::span<const StageSource> stages, std::span<const glsl::Define> defines,
                       Diagnostics& diagnostics) {
@@ -37,10 +35,9 @@ bool survivesTrial(std::span<const std::string> command, const DeviceInfo& devic
   const Backend backend = device.backend != Backend::glfw ? device.backend
                           : device.software               ? Backend::osmesa
                                                           : Backend::egl;
-  const auto all = static_cast<double>(base::limitOf(Limit::shader_seconds));
   TrialResult result{
       .survived = false, .what = "unusual shaders before it took all of it", .during = "", .bytes = 0};
-  if (const double left = all - time.spent; left > 0) {
+  if (const double left = time.all - time.spent; left > 0) {
     result =
         tryProgram(command, backend, stages, defines, outputs, static_cast<std::uint64_t>(std::ceil(left)));
     time.spent += result.seconds;
@@ -54,14 +51,12 @@ bool survivesTrial(std::span<const std::string> command, const DeviceInfo& devic
       Code::driverDied, {largest.source->file, 0, 0},
       result.during.empty() ? "there is no time left to try this shader"
                             : fmt::format("the driver did not survive {} this shader", result.during));
-  error.expected = fmt::format("at most {} s of processor time for all unusual shaders ({}) and {} MiB ({})",
-                               base::limitOf(Limit::shader_seconds), base::nameOf(Limit::shader_seconds),
-                               base::limitOf(Limit::shader_memory) >> 20, base::nameOf(Limit::shader_memory));
+  error.expected = fmt::format("at most {} s of processor time for all unusual shaders and {} MiB", time.all,
+                               kMostTrialBytes >> 20);
   error.found = result.during.empty() ? result.what
                                       : fmt::format("{}, after {:.1f} s of processor time and with {} MiB",
                                                     result.what, result.seconds, result.bytes >> 20);
-  error.hint = fmt::format("make it smaller, or raise {} on a slow or busy machine",
-                           base::nameOf(Limit::shader_seconds));
+  error.hint = "make it smaller, or give it more time with --limit 2 on a slow or busy machine";
   return false;
 }
 

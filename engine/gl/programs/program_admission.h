@@ -18,9 +18,9 @@ bool checkProgramSize(std::span<const StageSource> stages, std::span<const glsl:
 // Whether the driver may not survive the program, or must work long.
 bool isUnusual(std::span<const StageSource> stages, std::span<const glsl::Define> defines);
 
-// Processor time that trials have taken since a graph began to load: all of them together have shader_seconds.
+// Processor time that trials have taken since a graph began to load, and that all of them together have.
 struct TrialTime {
-  double spent = 0;
+  double spent = 0, all = 0;
 };
 
 // False after an error (W204): the driver did not survive the program, or no time is left to try it.

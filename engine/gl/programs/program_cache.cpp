@@ -9,7 +9,6 @@
 
 #include "engine/base/files/file.h"
 #include "engine/base/hash.h"
-#include "engine/base/limits.h"
 #include "engine/gl/programs/binary_folder.h"
 #include "engine/gl/programs/program_admission.h"
 
@@ -61,6 +60,7 @@ void appendFor(const ProgramRequest& request, const Diagnostics& from, Diagnosti
 ProgramCache::ProgramCache(const DeviceInfo& device, glsl::SourceLoader& loader, Options options)
     : device_(device), loader_(loader), options_(std::move(options)) {
   assert(options_.capacity >= 1);
+  trialTime_.all = options_.trialSeconds;
   if (!device_.hasProgramBinaries) options_.folder.clear();
   std::error_code ignored;  // a folder that cannot be made is a cache that always misses
   if (!options_.folder.empty()) std::filesystem::create_directories(options_.folder, ignored);
@@ -234,7 +234,7 @@ void ProgramCache::storeBinary(const std::string& key, bool compute, const Progr
 
 // Looks at the folder with the first binary of this process, then when what it knows of and wrote itself is too much.
 void ProgramCache::boundFolder(std::uint64_t written) {
-  const std::uint64_t most = base::limitOf(base::Limit::program_cache_bytes);
+  const std::uint64_t most = options_.folderBytes;
   if (folderBytes_) *folderBytes_ += written;
   if (folderBytes_.value_or(~0ull) <= most) return;
   const BinaryFolderUse use = pruneBinaries(options_.folder, most);

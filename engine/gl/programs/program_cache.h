@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "engine/base/diagnostic.h"
+#include "engine/base/limits.h"
 #include "engine/gl/context/context.h"
 #include "engine/gl/programs/program.h"
 #include "engine/gl/programs/program_admission.h"
@@ -67,6 +68,9 @@ class ProgramCache {
     // Starts a process that compiles first what is unusually large (shader_trial.h); empty: none, and what kills the
     // driver kills this process.
     std::vector<std::string> trial{};
+    double trialSeconds =
+        static_cast<double>(base::raised(5));  // of processor time, for all trials of a graph
+    std::uint64_t folderBytes = 256ull << 20;  // the least recently used binaries go
   };
   // `device` and `loader` must outlive the cache.
   ProgramCache(const DeviceInfo& device, glsl::SourceLoader& loader, Options options);
@@ -74,8 +78,8 @@ class ProgramCache {
   // The variant, or null after errors. It stays valid when evicted or when its sources change.
   std::shared_ptr<const Variant> get(const ProgramRequest& request, base::Diagnostics& diagnostics);
 
-  // A graph begins to load: trials have all of shader_seconds again.
-  void startTrials() { trialTime_ = {}; }
+  // A graph begins to load: trials have all of their time again.
+  void startTrials() { trialTime_.spent = 0; }
 
   // Does what get() does for the request that `variant` answers, and does not look at its sources. It is for a pass that is
   // known to be unchanged.

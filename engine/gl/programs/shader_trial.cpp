@@ -14,7 +14,6 @@
 #include <chrono>
 #include <cstring>
 
-#include "engine/base/limits.h"
 #include "engine/gl/programs/shader_trial_text.h"
 
 extern char** environ;
@@ -111,7 +110,7 @@ TrialResult tryProgram(std::span<const std::string> command, Backend backend,
   if (command.empty() || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return result;
   Descriptor mine(ends[0]), its(ends[1]);
   const std::vector<std::string> arguments{kTrialWord, nameOf(backend), std::to_string(seconds),
-                                           std::to_string(base::limitOf(base::Limit::shader_memory))};
+                                           std::to_string(kMostTrialBytes)};
   const pid_t pid = start(command, arguments, its.id());
   its.close();
   if (pid < 0) return result;

@@ -17,6 +17,8 @@ namespace weft::gl {
 // First argument of the process that is started; its main() hands over to runTrial().
 constexpr const char* kTrialWord = "try-program";
 
+constexpr std::uint64_t kMostTrialBytes = 1ull << 30;  // that a program may take to compile
+
 struct TrialResult {
   bool survived = true;     // also when no process or context could be had: then nothing is known
   std::string what;         // "signal 11 (Segmentation fault)"

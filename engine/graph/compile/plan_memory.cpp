@@ -38,7 +38,7 @@ std::vector<Piece> piecesOf(const Plan& plan) {
 }  // namespace
 
 bool checkMemory(const Plan& plan, base::Diagnostics& diagnostics) {
-  const std::uint64_t most = base::limitOf(base::Limit::texture_bytes);
+  const std::uint64_t most = base::raised(kMostTextureBytes);
   if (plan.bytesAllocated <= most) return true;
   const FlatGraph& graph = *plan.graph;
   std::vector<Piece> pieces = piecesOf(plan);
@@ -54,14 +54,15 @@ bool checkMemory(const Plan& plan, base::Diagnostics& diagnostics) {
                         fmt::format("the textures and buffers of '{}' need {} bytes, more than they may",
                                     graph.name, plan.bytesAllocated));
   d.resource = graph.resourceNames[largest];
-  d.expected = fmt::format("at most {} bytes (limit {})", most, base::nameOf(base::Limit::texture_bytes));
+  d.expected = fmt::format("at most {} bytes", most);
   for (std::size_t i = 0; i < named; ++i)
     d.found += fmt::format(
         "{}'{}' {} bytes{}", i == 0 ? "the largest are " : ", ", graph.resourceNames[pieces[i].resource],
         pieces[i].bytes,
         pieces[i].sharing > 1 ? fmt::format(" (shared with {} others)", pieces[i].sharing - 1) : "");
-  d.hint = "make them smaller or keep less history; " +
-           base::hintToRaise(base::Limit::texture_bytes, plan.bytesAllocated);
+  d.hint = "make them smaller or keep less history";
+  if (const std::string raise = base::hintToRaise(kMostTextureBytes, plan.bytesAllocated); !raise.empty())
+    d.hint += "; " + raise;
   return false;
 }
 

@@ -6,6 +6,8 @@
 
 namespace weft::graph {
 
+constexpr std::uint64_t kMostTextureBytes = 4ull << 30;  // of all textures and buffers of one plan
+
 // False after Code::texturesTooLarge, at the declaration of the largest texture or buffer.
 bool checkMemory(const Plan& plan, base::Diagnostics& diagnostics);
 

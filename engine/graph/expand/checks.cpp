@@ -44,10 +44,84 @@ Kind defaultKind(const PassType* type, Access access, const FlatResource& shape)
                                                                            : type->defaultWriteTexture;
 }
 
+namespace {
+
+// A use, and the words for what is wrong with it.
+struct Use {
+  const Entity& entity;
+  const FlatResource& shape;
+  Kind kind;
+  Access access;
+  const PassType* type;  // null: present, outputs, resets
+  const SlotWork& work;
+
+  ShaderShape shader() const { return type ? type->shader : ShaderShape::none; }
+  bool hasShader() const { return type && type->shader != ShaderShape::none; }
+  bool attaches() const { return kind == Kind::color || kind == Kind::depth; }
+  bool ofBuffers() const { return kind == Kind::uniform || kind == Kind::storage || isCommandInput(kind); }
+  bool filters() const {
+    return work.sampler.linear || work.sampler.wrap != Wrap::clamp || work.sampler.compare;
+  }
+  bool mayFilter() const {  // a blit filters too, and says no more
+    return kind == Kind::sampled ||
+           (kind == Kind::copy && type && type->framebuffers && isTexture(shape) && access == Access::read &&
+            work.sampler.wrap == Wrap::clamp && !work.sampler.compare);
+  }
+};
+
+// What a kind must fit: the resource, the access and the type of pass. The first that applies is the mistake.
+struct KindRule {
+  bool (*broken)(const Use& use);
+  const char* expected;  // null: the kind that the type of pass uses
+};
+constexpr KindRule kKindRules[] = {
+    {[](const Use& u) { return isTexture(u.shape) && u.ofBuffers(); },
+     "sampled, image, color, depth or copy for a texture"},
+    {[](const Use& u) { return !isTexture(u.shape) && !u.ofBuffers() && u.kind != Kind::copy; },
+     "uniform, storage or copy for a buffer"},
+    {[](const Use& u) {
+       return u.type && !u.hasShader() && u.kind != defaultKind(u.type, u.access, u.shape);
+     },
+     nullptr},
+    {[](const Use& u) { return u.hasShader() && u.kind == Kind::copy; },
+     "a kind that a shader has; copies are made by blit passes"},
+    {[](const Use& u) { return u.attaches() && u.shader() == ShaderShape::compute; },
+     "image in a pass without attachments"},
+    {[](const Use& u) {
+       return (u.kind == Kind::sampled || u.kind == Kind::uniform) && u.access != Access::read;
+     },
+     "reading only for this kind"},
+    {[](const Use& u) { return u.kind == Kind::color && u.access == Access::read; },
+     "writing or modifying for color"},
+};
+
+// What a format must have, where it is known.
+struct FormatRule {
+  bool (*broken)(const Use& use);
+  const char *expected, *hint;
+};
+constexpr FormatRule kFormatRules[] = {
+    {[](const Use& u) { return u.kind == Kind::color && !infoOf(u.shape.format).colorRenderable; },
+     "a format that can be rendered to", ""},
+    {[](const Use& u) { return u.kind == Kind::image && !infoOf(u.shape.format).imageStorable; },
+     "a format that images can have", ""},
+    {[](const Use& u) { return u.kind == Kind::depth && !isDepth(u.shape.format); }, "a depth format", ""},
+    {[](const Use& u) {
+       return u.kind == Kind::sampled && u.work.sampler.compare && !isDepth(u.shape.format);
+     },
+     "a depth format for compare", "name a depth texture, or leave 'compare' out"},
+    {[](const Use& u) {
+       return u.work.sampler.linear && (isInteger(u.shape.format) || u.work.use.planes == 2 ||
+                                        (u.kind == Kind::copy && isDepth(u.shape.format)));
+     },
+     "a format that can be filtered, or no linear", "leave 'linear' out"},
+};
+
+}  // namespace
+
 bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, const SlotWork& work) {
   const Entity& entity = context.model.entities[work.entity];
-  const FlatResource& shape = entity.shape;
-  const Kind kind = work.use.kind;
+  const Use use{entity, entity.shape, work.use.kind, access, context.type, work};
   const auto report = [&](Code code, std::string message, std::string expected, std::string hint = {}) {
     auto& d = context.model.diagnostics.error(code, ref.place, std::move(message));
     d.pass = context.pass;
@@ -57,72 +131,40 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
     d.hint = std::move(hint);
     return false;
   };
-  const auto kindMisfit = [&](std::string expected) {
-    return report(
-        Code::badKind,
-        fmt::format("{} cannot {} '{}' as {}", context.user, nameOf(access), entity.name, nameOf(kind)),
-        std::move(expected));
-  };
   if (entity.import != kNone && context.model.graph.imports[entity.import].kind == ImportKind::event)
     return report(Code::badKind,
                   fmt::format("{} uses '{}', which is an event and holds nothing", context.user, entity.name),
-                  "a texture or a buffer; events stand in \"reset\"");
-  const bool texture = isTexture(shape);
-  const bool bufferKind = kind == Kind::uniform || kind == Kind::storage || isCommandInput(kind);
-  if (texture && bufferKind) return kindMisfit("sampled, image, color, depth or copy for a texture");
-  if (!texture && !bufferKind && kind != Kind::copy)
-    return kindMisfit("uniform, storage or copy for a buffer");
-  const ShaderShape shader = context.type ? context.type->shader : ShaderShape::none;
-  if (context.type && shader == ShaderShape::none && kind != defaultKind(context.type, access, shape))
-    return kindMisfit(fmt::format("a {} pass uses {}", context.type->name,
-                                  nameOf(defaultKind(context.type, access, shape))));
-  const bool draws = shader == ShaderShape::fragment || shader == ShaderShape::draw;
-  if (context.type && shader != ShaderShape::none) {
-    if (kind == Kind::copy) return kindMisfit("a kind that a shader has; copies are made by blit passes");
-    if ((kind == Kind::color || kind == Kind::depth) && !draws)
-      return kindMisfit("image in a pass without attachments");
-  }
-  if (isCommandInput(kind))
+                  "a texture or a buffer; name events in \"reset\"");
+  for (const KindRule& rule : kKindRules)
+    if (rule.broken(use))
+      return report(
+          Code::badKind,
+          fmt::format("{} cannot {} '{}' as {}", context.user, nameOf(access), entity.name, nameOf(use.kind)),
+          rule.expected ? rule.expected
+                        : fmt::format("a {} pass uses {}", context.type->name,
+                                      nameOf(defaultKind(context.type, access, use.shape))));
+  if (isCommandInput(use.kind))
     return report(Code::unusedKind,
                   fmt::format("{} uses '{}' as {}, which no type of pass does yet", context.user, entity.name,
-                              nameOf(kind)),
+                              nameOf(use.kind)),
                   "uniform, storage or copy for a buffer", "read it as storage; the shader indexes it");
-  const bool readOnly = kind == Kind::sampled || kind == Kind::uniform;
-  if (readOnly && access != Access::read) return kindMisfit("reading only for this kind");
-  if (kind == Kind::color && access == Access::read) return kindMisfit("writing or modifying for color");
-
-  const bool known = shape.format != Format::none;
-  const auto formatMisfit = [&](std::string expected, std::string hint = {}) {
-    return report(Code::badFormat,
-                  fmt::format("{}: the format {} of '{}' does not fit the use as {}", context.user,
-                              infoOf(shape.format).name, entity.name, nameOf(kind)),
-                  std::move(expected), std::move(hint));
-  };
-  if (known && kind == Kind::color && !infoOf(shape.format).colorRenderable)
-    return formatMisfit("a format that can be rendered to");
-  if (known && kind == Kind::image && !infoOf(shape.format).imageStorable)
-    return formatMisfit("a format that images can have");
-  if (known && kind == Kind::depth && !isDepth(shape.format)) return formatMisfit("a depth format");
-  const Sampler& sampler = work.sampler;
-  const bool blit = kind == Kind::copy && context.type && context.type->framebuffers && texture &&
-                    access == Access::read && sampler.wrap == Wrap::clamp && !sampler.compare;  // may filter
-  if (context.type && (sampler.linear || sampler.wrap != Wrap::clamp || sampler.compare) &&
-      kind != Kind::sampled && !blit)
+  if (context.type && use.filters() && !use.mayFilter())
     return report(Code::badKind,
                   fmt::format("{}: '{}' is not sampled, it has no filter", context.user, entity.name),
                   "linear, wrap, mirror, border and compare for sampled textures");
-  if (known && kind == Kind::sampled && sampler.compare && !isDepth(shape.format))
-    return formatMisfit("a depth format for compare", "name a depth texture, or leave 'compare' out");
-  const bool depths = kind == Kind::copy && isDepth(shape.format);
-  if (known && sampler.linear && (isInteger(shape.format) || work.use.planes == 2 || depths))
-    return formatMisfit("a format that can be filtered, or no linear", "leave 'linear' out");
-  if (shape.samples > 1 && sampler.linear)
+  for (const FormatRule& rule : kFormatRules)
+    if (use.shape.format != Format::none && rule.broken(use))
+      return report(Code::badFormat,
+                    fmt::format("{}: the format {} of '{}' does not fit the use as {}", context.user,
+                                infoOf(use.shape.format).name, entity.name, nameOf(use.kind)),
+                    rule.expected, rule.hint);
+  if (use.shape.samples > 1 && work.sampler.linear)
     return report(
         Code::badKind,
         fmt::format("{}: '{}' has several samples, it cannot be filtered", context.user, entity.name),
         "no linear",
         "leave 'linear' out: the shader declares a sampler2DMS and reads one sample by texelFetch");
-  if (work.array && (kind == Kind::color || kind == Kind::depth))
+  if (work.array && use.attaches())
     return report(
         Code::badKind,
         fmt::format("{}: '{}' is an array, an attachment is one texture", context.user, entity.name),

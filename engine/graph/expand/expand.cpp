@@ -23,7 +23,8 @@ namespace weft::graph {
 std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Registry& registry,
                                              const Settings& settings, base::Diagnostics& diagnostics) {
   using namespace expansion;
-  if (enoughErrors(diagnostics)) return nullptr;
+  // Of a file beyond a limit not all was read.
+  if (enoughErrors(diagnostics) || diagnostics.contains(base::Code::limitExceeded)) return nullptr;
   base::Diagnostics own;
   Model model{desc, registry, settings, own};
   model.incomplete = diagnostics.hasErrors();  // of the reader

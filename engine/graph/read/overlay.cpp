@@ -8,7 +8,7 @@
 
 #include "engine/base/files/file_access.h"
 #include "engine/base/files/text_file.h"
-#include "engine/base/limit_report.h"
+#include "engine/base/limits.h"
 #include "engine/graph/language/enough.h"
 #include "engine/graph/read/misspelt_keys.h"
 #include "engine/graph/read/overlay_apply.h"
@@ -127,11 +127,12 @@ std::shared_ptr<const Source> SourceLoader::text(std::string_view text, const st
 
 bool SourceLoader::mayCopy(const Source& source, const base::Place& place) {
   values_ += source.values;
-  if (values_ <= base::limitOf(base::Limit::json_values)) return true;
+  if (values_ <= base::raised(base::kMostValues)) return true;
   if (!std::exchange(tooMany_, true)) {
     auto& d =
-        base::reportLimit(diagnostics_, base::Limit::json_values, place,
-                          "the files of the graph and the copies that overlays change hold too many values");
+        base::reportLimit(diagnostics_, place,
+                          "the files of the graph and the copies that overlays change hold too many values",
+                          base::kMostValues, "values");
     d.found = fmt::format("{} with '{}'", values_, source.path);
   }
   return false;
@@ -197,9 +198,10 @@ std::shared_ptr<const Source> SourceLoader::openBase(const JsonValue& written) {
 
 bool SourceLoader::mayExtend(const JsonValue& written, const std::string& below) {
   const std::string identity = identityOf(below);
-  if (open_.size() > base::limitOf(base::Limit::extends_depth)) {
-    auto& limit = base::reportLimit(diagnostics_, base::Limit::extends_depth, written.place,
-                                    "overlays extend each other in too long a row");
+  if (open_.size() > kMostInRow) {
+    auto& limit = diagnostics_.error(Code::limitExceeded, written.place,
+                                     "overlays extend each other in too long a row");
+    limit.expected = fmt::format("at most {}", kMostInRow);
     limit.found = fmt::format("'{}', one more", below);
     return false;
   }

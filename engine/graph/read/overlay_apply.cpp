@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "engine/base/limit_report.h"
+#include "engine/base/limits.h"
 #include "engine/base/nearest.h"
 #include "engine/graph/language/enough.h"
 #include "engine/graph/language/suffix.h"
@@ -68,9 +68,9 @@ class Applier {
   // False after the report.
   bool lookThrough(std::size_t names, const base::Place& place) {
     looked_ += names;
-    if (tooMuch_ || looked_ <= kNamesPerValue * base::limitOf(base::Limit::json_values)) return !tooMuch_;
-    base::reportLimit(diagnostics_, base::Limit::json_values, place,
-                      "the overlay changes too much of a graph with too many names")
+    if (tooMuch_ || looked_ <= kNamesPerValue * base::raised(base::kMostValues)) return !tooMuch_;
+    base::reportLimit(diagnostics_, place, "the overlay changes too much of a graph with too many names",
+                      kNamesPerValue * base::kMostValues, "names looked through")
         .found = fmt::format("{} names looked through so far", looked_);
     tooMuch_ = true;
     return false;

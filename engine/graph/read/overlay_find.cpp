@@ -44,10 +44,10 @@ class Lister {
     open_.push_back(source.identity);
     for (const JsonValue& stanza : passes->items) {
       // Too many of them, and too many in a row, are the reader's to report; so is a circle.
-      if (open_.size() >= base::limitOf(base::Limit::include_depth)) break;
+      if (open_.size() >= kMostInRow) break;
       const std::shared_ptr<const Source> child = fileOf(loader_, source, stanza);
       if (!child || std::ranges::find(open_, child->identity) != open_.end()) continue;
-      if (++looked_ >= base::limitOf(base::Limit::include_files)) break;
+      if (++looked_ >= base::raised(kMostIncludes)) break;
       look(*child, prefix + includePrefix(stanza) + ".");
     }
     open_.pop_back();

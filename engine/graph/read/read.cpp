@@ -18,7 +18,6 @@ namespace {
 
 using base::Code;
 using base::Diagnostics;
-using base::Limit;
 using Type = JsonValue::Type;
 
 // One file of a chain of includes, innermost last.
@@ -219,18 +218,16 @@ class GraphReader {
       d.hint = "remove one of these includes";
       return;
     }
-    if (exceeds(Limit::include_depth, open_.size() + 1, stanza, "files include each other in too long a row"))
-      return;
+    if (isTooDeep(open_.size() + 1, stanza)) return;
     const auto changed = source.changed.find(include.as);
     Weighed below =
         changed != source.changed.end() ? readSource(*changed->second) : readBelow(path, stanza.place);
     if (tooMuch_) return;
     // A file that was read before may stand deeper here.
-    if (exceeds(Limit::include_depth, open_.size() + below.depth, stanza,
-                "files include each other in too long a row") ||
-        exceeds(Limit::include_files, weight_.files + below.files, stanza,
+    if (isTooDeep(open_.size() + below.depth, stanza) ||
+        exceeds(kMostIncludes, "files", weight_.files + below.files, stanza,
                 "the graph includes too many files") ||
-        exceeds(Limit::json_values, weight_.values + below.values, stanza,
+        exceeds(base::kMostValues, "values", weight_.values + below.values, stanza,
                 "the included files hold too many values"))
       return;
     weight_.files += below.files;
@@ -241,10 +238,20 @@ class GraphReader {
   }
 
   // True after a report; then no further include is followed, and the graph is not expanded.
-  bool exceeds(Limit limit, std::uint64_t count, const JsonValue& stanza, const char* message) {
-    if (count <= base::limitOf(limit)) return false;
+  bool isTooDeep(std::size_t count, const JsonValue& stanza) {
+    if (count <= kMostInRow) return false;
     tooMuch_ = true;
-    auto& d = base::reportLimit(diagnostics_, limit, stanza.place, message);
+    auto& d =
+        diagnostics_.error(Code::limitExceeded, stanza.place, "files include each other in too long a row");
+    d.expected = fmt::format("at most {}", kMostInRow);
+    d.found = fmt::format("{} with '{}'", count, stanza.text);
+    return true;
+  }
+  bool exceeds(std::uint64_t bound, const char* counts, std::uint64_t count, const JsonValue& stanza,
+               const char* message) {
+    if (count <= base::raised(bound)) return false;
+    tooMuch_ = true;
+    auto& d = base::reportLimit(diagnostics_, stanza.place, message, bound, counts, count);
     d.found = fmt::format("{} with '{}'", count, stanza.text);
     return true;
   }

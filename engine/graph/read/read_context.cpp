@@ -23,13 +23,6 @@ base::Diagnostic& ReadContext::errorAt(Code code, const Place& place, std::strin
   return d;
 }
 
-base::Diagnostic& ReadContext::limit(base::Limit limit, const JsonValue& value, std::string message) {
-  auto& d = base::reportLimit(diagnostics_, limit, value.place, std::move(message));
-  d.pass = pass;
-  d.resource = resource;
-  return d;
-}
-
 base::Diagnostic& ReadContext::error(Code code, const JsonValue& value, std::string message) {
   return errorAt(code, value.place, std::move(message));
 }
@@ -85,11 +78,11 @@ void ReadContext::checkKeys(const JsonValue& object, std::span<const KeySpec> ke
 }
 
 bool ReadContext::checkName(std::string_view name, const Place& place, std::string_view what) {
-  const std::size_t longest = base::limitFor(base::Limit::name_bytes, place.file.get());
-  if (isIdent(name) && !isReservedWord(name) && name.size() <= longest) return true;
-  if (name.size() > longest && goesOn()) {
-    auto& d = base::reportLimit(diagnostics_, base::Limit::name_bytes, place,
-                                fmt::format("the name of {} is too long", what));
+  const bool tooLong = name.size() > base::kMostNameBytes;
+  if (isIdent(name) && !isReservedWord(name) && !tooLong) return true;
+  if (tooLong && goesOn()) {
+    auto& d = errorAt(Code::limitExceeded, place, fmt::format("the name of {} is too long", what));
+    d.expected = fmt::format("at most {} bytes", base::kMostNameBytes);
     d.found = fmt::format("{} bytes", name.size());
     return false;
   }

@@ -11,7 +11,7 @@
 #include <unordered_map>
 
 #include "engine/base/json/dom.h"
-#include "engine/base/limit_report.h"
+#include "engine/base/limits.h"
 #include "engine/base/words/foreign_words.h"
 #include "engine/graph/desc.h"
 #include "engine/graph/language/enough.h"
@@ -69,8 +69,6 @@ class ReadContext {
 
   // False once there are enough errors (enough.h): further ones are not kept.
   bool goesOn() const { return !enoughErrors(diagnostics_); }
-  // Code::limitExceeded.
-  base::Diagnostic& limit(base::Limit limit, const JsonValue& value, std::string message);
 
  private:
   base::Diagnostics& diagnostics_;

@@ -121,9 +121,10 @@ const JsonValue* LikePasses::at(std::size_t index) {
   };
   if (!other) return keep(nullptr);
   values_ += countOf(*other);
-  if (values_ > base::limitOf(base::Limit::json_values)) {
-    context_.limit(base::Limit::json_values, *like, "passes that are like others hold too many values")
-        .found = fmt::format("{} so far", values_);
+  if (values_ > base::raised(base::kMostValues)) {
+    auto& d = context_.error(Code::limitExceeded, *like, "passes that are like others hold too many values");
+    d.expected = fmt::format("at most {} values", base::raised(base::kMostValues));
+    d.hint = base::hintToRaise(base::kMostValues);
     return keep(nullptr);
   }
   JsonValue& made = made_.emplace_back(*other);

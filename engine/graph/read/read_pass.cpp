@@ -30,7 +30,7 @@ class PassReader {
   std::optional<PassDesc> run() {
     if (!context_.expect(value_, Type::object, "a pass")) return std::nullopt;
     if (const JsonValue* name = value_.find("name"); name && name->is(Type::string))
-      context_.pass = name->text.substr(0, base::limitOf(base::Limit::name_bytes));
+      context_.pass = name->text.substr(0, base::kMostNameBytes);
     return isInclude() ? readInclude() : readPass();
   }
 

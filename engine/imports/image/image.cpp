@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "engine/assets/images/stored_image.h"
-#include "engine/base/limits.h"
 #include "engine/imports/builtin.h"
 #include "engine/imports/files.h"
 #include "engine/imports/image/image_sequence.h"
@@ -208,22 +207,6 @@ std::string firstFileOf(const ImageRequest& request, Files& files, base::Diagnos
   return pattern->nameOf(nearest);
 }
 
-bool fitsMemory(const StoredHeader& header, const ImageRequest& request, const std::string& path,
-                base::Diagnostics& diagnostics) {
-  const std::uint64_t texels = std::uint64_t(header.width) * std::uint64_t(header.height);
-  const std::uint64_t level = texels * graph::infoOf(formatOf(header.type, request.srgb)).bytes;
-  const std::uint64_t bytes = request.mips ? level + level / 3 : level;
-  const std::uint64_t most = base::limitOf(base::Limit::texture_bytes);
-  if (bytes <= most) return true;
-  base::Diagnostic& d =
-      diagnostics.error(base::Code::limitExceeded, {std::make_shared<const std::string>(path)},
-                        fmt::format("the image '{}' needs {} bytes as a texture", path, bytes));
-  d.expected = fmt::format("at most {} bytes (limit {})", most, base::nameOf(base::Limit::texture_bytes));
-  d.found = shapeText(header);
-  d.hint = base::hintToRaise(base::Limit::texture_bytes, bytes);
-  return false;
-}
-
 class Image : public Import {
  public:
   graph::ImportType reflect() const override {
@@ -278,7 +261,7 @@ class Image : public Import {
     const std::string path = firstFileOf(image, files, said);
     const auto header =
         path.empty() ? nullptr : files.get<StoredHeader>(path, assets::loadStoredHeader, said);
-    if (header && fitsMemory(*header, image, path, said)) {
+    if (header) {
       result.exists = true;
       result.format = formatOf(header->type, image.srgb);
       result.width = static_cast<std::uint32_t>(header->width);

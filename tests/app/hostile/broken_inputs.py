@@ -292,14 +292,6 @@ def main():
             run(weft, *rendered("good.json", "-o", same), folder=folder)
             written = folder / name.replace("%d", "0")
             report.check(written.exists() and written.read_bytes() == (folder / same).read_bytes(), f"{name} is not {same}")
-        # Limits bind what others wrote, not Weft's own scene and materials; the same scene of a stranger is bound.
-        small = ("--limit", "json_bytes=1200", "--limit", "json_values=90", "--limit", "name_bytes=12")
-        bound = run(weft, *rendered("good.json", *small), folder=folder)
-        report.check(bound.code == 0, f"limits below Weft's own files: {bound.code}\n{bound.err}")
-        for what, own in (("--scene", "scenes/spheres.json"), ("--materials", "materials/pbr_materials.json")):
-            (folder / "own.json").write_bytes((TOP / own).read_bytes())
-            bound = run(weft, *rendered("good.json", "--limit", "json_bytes=500", what, "own.json"), folder=folder)
-            report.check(bound.code == 1 and "W201" in bound.codes() and "own.json: " in bound.err, f"{what}: {bound.code}\n{bound.err}")
     report.end()
 
 

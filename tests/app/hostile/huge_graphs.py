@@ -235,6 +235,11 @@ def values_of(n):
     return {"g.json": '{"resources":{"a":[' + ",".join(["0"] * n) + "]}}"}
 
 
+def passes_alike(n, defines):
+    first = {**PASS, "name": "p0", "write": {"o": "ldr"}, "defines": {f"D{i}": 1 for i in range(defines)}}
+    return {"g.json": graph({}, [first, *({"name": f"p{i}", "like": f"p{i - 1}"} for i in range(1, n))])}
+
+
 def parameters_of_one_pass(n, repeats):
     stanza = {**PASS, "name": "p", "repeat": {"i": [1, repeats]}, "side_effect": True, "write": {"o": "ldr"}, "parameters": {f"k{i}": "i" for i in range(n)}}
     return {"g.json": graph({}, [stanza])}

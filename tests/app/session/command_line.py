@@ -30,7 +30,7 @@ def main():
     report.check(done.code == 2 and done.err.startswith("weft new pass: unknown option '--bogus'") and "'--graph'" not in done.err, done.err)
     done = run(weft, "new", "pass", "tint", "--grap", "g.json")
     report.check(done.code == 2 and "did you mean '--graph'?" in done.err, done.err)
-    done = run(weft, "new", "pass", "9", "--confine", ".", "--limit", "frames=7")
+    done = run(weft, "new", "pass", "9", "--confine", ".", "--limit", "7")
     report.check(done.code == 1 and done.codes() == ["W012"], f"new pass --confine --limit: {done.code} {done.err}")
     report.end()
 

@@ -6,7 +6,6 @@
 #include <random>
 #include <set>
 
-#include "engine/base/limits.h"
 #include "engine/gl/programs/program_cache.h"
 #include "engine/glsl/interface.h"
 #include "tests/gl/documented.h"
@@ -259,29 +258,12 @@ TEST_CASE_FIXTURE(Fixture, "names are held against the source, not against what 
   const auto variant = cache.get(request, diagnostics);
   REQUIRE(variant);
   CHECK_FALSE(variant->program.reflection().findSampler("unused_slot"));
-  const Interface& interface = variant->stages[0].source->interfaceWith(variant->defines);
+  const weft::glsl::Interface& interface = variant->stages[0].source->interfaceWith(variant->defines);
   CHECK(interface.find("unused_slot"));
   CHECK_FALSE(interface.find("no_slot"));
 }
 
 namespace {
-
-// Sets a limit for one test.
-class LimitScope {
- public:
-  LimitScope(weft::base::Limit limit, std::uint64_t value)
-      : limit_(limit), before_(weft::base::limitOf(limit)) {
-    set(value);
-  }
-  ~LimitScope() { set(before_); }
-
- private:
-  void set(std::uint64_t value) {
-    CHECK_FALSE(weft::base::setLimit(weft::base::nameOf(limit_), std::to_string(value)));
-  }
-  weft::base::Limit limit_;
-  std::uint64_t before_;
-};
 
 ProgramRequest fragmentOf(const std::string& text) {
   ProgramRequest request;
@@ -350,10 +332,11 @@ TEST_CASE_FIXTURE(Fixture, "a process that dies over a program is reported, one 
 TEST_CASE_FIXTURE(Fixture, "a process that does not come to an end is ended") {
   std::string cases = "out vec4 result;\nvoid main() {\n  switch (int(gl_FragCoord.x)) {\n";
   for (int i = 0; i < 60; ++i) cases += "    case " + std::to_string(i) + ": result = vec4(1.0); break;\n";
-  const LimitScope second(weft::base::Limit::shader_seconds, 1);
-  ProgramCache cache(
-      context().device(), loader,
-      {.capacity = 2, .folder = "", .trial = {"/bin/sh", "-c", "printf o; cat >/dev/null; exec sleep 1000"}});
+  ProgramCache cache(context().device(), loader,
+                     {.capacity = 2,
+                      .folder = "",
+                      .trial = {"/bin/sh", "-c", "printf o; cat >/dev/null; exec sleep 1000"},
+                      .trialSeconds = 1});
   CHECK_FALSE(cache.get(fragmentOf(cases + "  }\n}\n"), diagnostics));
   CHECK(diagnostics.contains(Code::driverDied));
 }
@@ -380,8 +363,8 @@ TEST_CASE_FIXTURE(Fixture, "the folder of binaries stays below its limit, and wh
     each = fs::file_size(filesIn(disk).at(0));
   }
   const fs::path first = filesIn(disk).at(0);
-  const LimitScope limit(weft::base::Limit::program_cache_bytes, 8 * each + each / 2);
-  ProgramCache cache(context().device(), loader, {.capacity = 1, .folder = disk});
+  ProgramCache cache(context().device(), loader,
+                     {.capacity = 1, .folder = disk, .folderBytes = 8 * each + each / 2});
   for (int n = 1; n <= 40; ++n) {
     REQUIRE(cache.get(variantOf(n), diagnostics));
     REQUIRE(cache.get(variantOf(0), diagnostics));  // from disk, as memory holds one

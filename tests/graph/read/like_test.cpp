@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "engine/base/limits.h"
 #include "engine/graph/edit/write_back.h"
 #include "tests/graph/expand/support.h"
 #include "tests/graph/test_folder.h"
@@ -39,14 +38,6 @@ std::string slotsOf(const Expanded& e, std::string_view pass) {
     all += (all.empty() ? "" : " ") + e.graph->slots[i].name;
   return all;
 }
-
-// As the limit was, once the test is over.
-struct FewValues {
-  explicit FewValues(std::uint64_t most) : before(base::limitOf(base::Limit::json_values)) { set(most); }
-  ~FewValues() { set(before); }
-  static void set(std::uint64_t most) { REQUIRE(!base::setLimit("json_values", std::to_string(most))); }
-  std::uint64_t before;
-};
 
 }  // namespace
 
@@ -115,21 +106,6 @@ TEST_CASE("like: mistakes are reported once, where they stand") {
   CHECK(twice.items()[1].place.line == 9);
   CHECK(twice.items()[2].place.line == 10);
   CHECK(twice.items()[2].hint == "did you mean \"state\"?");
-}
-
-TEST_CASE("like: passes that multiply each other's values end in W201") {
-  const FewValues few(20'000);
-  std::string text =
-      R"J({ "passes": [ { "name": "p0", "type": "compute", "shader": "a.comp.glsl", "defines": {)J";
-  for (int i = 0; i < 1000; ++i) text += (i ? ", \"D" : " \"D") + std::to_string(i) + "\": 1";
-  text += " } }";
-  for (int i = 1; i < 100; ++i)
-    text += ", { \"name\": \"p" + std::to_string(i) + "\", \"like\": \"p" + std::to_string(i - 1) + "\" }";
-  base::Diagnostics diagnostics;
-  readGraphText(text + " ] }", "test.json", diagnostics);
-  REQUIRE(diagnostics.contains(Code::limitExceeded));
-  CHECK(diagnostics.size() == 1);
-  CHECK(diagnostics.items()[0].pointer == "/passes/20/like");
 }
 
 TEST_CASE("like: overlays change the other for both, and take away what is written there") {

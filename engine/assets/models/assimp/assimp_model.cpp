@@ -14,7 +14,7 @@
 #include "engine/assets/models/assimp/assimp_scene.h"
 #include "engine/assets/models/assimp/model_check.h"
 #include "engine/assets/models/parts/mesh_builder.h"
-#include "engine/base/limit_report.h"
+#include "engine/base/limits.h"
 
 namespace weft::assets {
 
@@ -33,9 +33,9 @@ bool isObj(const std::string& path) {
 bool checkBefore(const std::string& bytes, bool obj, ModelCounts& counts, ModelFiles& files,
                  Diagnostics& diagnostics) {
   const bool text = obj || !isBinaryFbx(bytes);
-  if (text && bytes.size() > base::limitOf(base::Limit::model_text_bytes)) {
-    base::reportLimit(diagnostics, base::Limit::model_text_bytes, files.place(),
-                      "the model's text is too large", bytes.size())
+  if (text && bytes.size() > base::raised(kMostModelTextBytes)) {
+    base::reportLimit(diagnostics, files.place(), "the model's text is too large", kMostModelTextBytes,
+                      "bytes of one OBJ or text FBX file", bytes.size())
         .found = fmt::format("{} bytes", bytes.size());
     return false;
   }

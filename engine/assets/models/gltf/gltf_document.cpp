@@ -6,7 +6,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "engine/base/limit_report.h"
+#include "engine/assets/models/parts/model_files.h"
+#include "engine/base/limits.h"
 
 namespace weft::assets {
 
@@ -278,11 +279,11 @@ bool GltfDocument::readAccessor(const JsonValue& value) {
     d.found = fmt::format("count {}, type \"{}\", componentType {}", *count, out.kind, *type);
     return false;
   }
-  const std::uint64_t most = base::limitOf(base::Limit::model_vertices) * 3;
+  const std::uint64_t most = base::raised(kMostVertices) * 3;
   if (*count > most) {
-    base::reportLimit(diagnostics_, base::Limit::model_vertices, value.place,
+    base::reportLimit(diagnostics_, value.place,
                       fmt::format("accessor {} has more elements than a model may have corners", number),
-                      *count / 3)
+                      kMostVertices, "vertices of one model, and a third of its corners", *count / 3)
         .found = fmt::format("{} elements", *count);
     return false;
   }

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "engine/assets/models/parts/model_files.h"
 #include "engine/base/hash.h"
-#include "engine/base/limit_report.h"
 #include "engine/base/limits.h"
 
 namespace weft::assets {
@@ -197,12 +197,12 @@ bool MeshBuilder::hasRoom(std::uint64_t vertices, std::uint64_t corners, const b
                           base::Diagnostics& diagnostics) {
   vertices_ += vertices;
   corners_ += corners;
-  const std::uint64_t most = base::limitOf(base::Limit::model_vertices);
+  const std::uint64_t most = base::raised(kMostVertices);
   const std::uint64_t counted = std::max(vertices_, corners_ / 3);
   if (counted <= most) return true;
   if (!full_)
-    base::reportLimit(diagnostics, base::Limit::model_vertices, place, "the model has too many vertices",
-                      counted)
+    base::reportLimit(diagnostics, place, "the model has too many vertices", kMostVertices,
+                      "vertices of one model, and a third of its corners", counted)
         .found = fmt::format("{} vertices and {} corners of triangles", vertices_, corners_);
   full_ = true;
   return false;

@@ -10,7 +10,7 @@
 
 #include "engine/base/files/file.h"
 #include "engine/base/files/file_access.h"
-#include "engine/base/limit_report.h"
+#include "engine/base/limits.h"
 
 namespace weft::assets {
 
@@ -126,16 +126,16 @@ bool ModelFiles::hasBeside(const std::string& name) const {
 
 bool ModelFiles::count(std::uint64_t bytes, const Place& place) {
   bytes_ += bytes;
-  if (bytes_ <= base::limitOf(base::Limit::model_bytes)) return true;
-  base::reportLimit(diagnostics_, base::Limit::model_bytes, place, "the model is too large", bytes_).found =
-      fmt::format("{} bytes", bytes_);
+  if (bytes_ <= base::raised(kMostModelBytes)) return true;
+  base::reportLimit(diagnostics_, place, "the model is too large", kMostModelBytes,
+                    "bytes of all files of one model, and of what is packed in them", bytes_)
+      .found = fmt::format("{} bytes", bytes_);
   return false;
 }
 
 std::optional<std::string> ModelFiles::readCounted(const std::string& path, const Place& place, Code code,
                                                    base::Diagnostics& diagnostics) {
-  const std::uint64_t left =
-      base::limitOf(base::Limit::model_bytes) - std::min(bytes_, base::limitOf(base::Limit::model_bytes));
+  const std::uint64_t left = base::raised(kMostModelBytes) - std::min(bytes_, base::raised(kMostModelBytes));
   std::uint64_t found = 0;
   bool tooLarge = false;
   const auto goOn = [&](std::uint64_t done, std::uint64_t total) {

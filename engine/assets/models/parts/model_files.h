@@ -1,5 +1,5 @@
 // What a model reads: its own file and those beside it. One door for glTF, OBJ, FBX and Assimp, so that a model never
-// reads anything outside its folder, whatever it names, and never more than the limit model_bytes in all. The rest of what
+// reads anything outside its folder, whatever it names, and never more than kMostModelBytes in all. The rest of what
 // holds for files (pipes, --confine) is engine/base/files/file_access.h. Does not: decode anything.
 #pragma once
 
@@ -14,6 +14,10 @@
 #include "engine/base/limits.h"
 
 namespace weft::assets {
+
+// Of one model. Bytes: of all its files, and of what is packed in them.
+constexpr std::uint64_t kMostModelBytes = 512ull << 20, kMostModelTextBytes = 24ull << 20,
+                        kMostVertices = 8ull << 20, kMostTexels = 64ull << 20;
 
 class ModelFiles {
  public:

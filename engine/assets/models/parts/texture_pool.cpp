@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "engine/assets/images/image_codecs.h"
+#include "engine/assets/models/parts/model_files.h"
 #include "engine/base/hash.h"
-#include "engine/base/limit_report.h"
 #include "engine/base/limits.h"
 
 namespace weft::assets {
@@ -37,10 +37,11 @@ std::uint32_t TexturePool::put(std::string bytes, const std::string& name, const
   if (const auto size = readImageSize(entry.bytes, name, entry.found)) {
     const std::uint64_t texels =
         texels_ + static_cast<std::uint64_t>(size->first) * static_cast<std::uint64_t>(size->second);
-    if (texels > base::limitOf(base::Limit::model_texels)) {
+    if (texels > base::raised(kMostTexels)) {
       if (!full_)
-        base::reportLimit(diagnostics_, base::Limit::model_texels, place,
-                          fmt::format("with '{}' the model's textures are too large", name), texels)
+        base::reportLimit(diagnostics_, place,
+                          fmt::format("with '{}' the model's textures are too large", name), kMostTexels,
+                          "texels of all textures of one model", texels)
             .found = fmt::format("{} texels", texels);
       full_ = true;
       return kNoRow;

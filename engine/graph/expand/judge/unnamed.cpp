@@ -7,7 +7,6 @@
 #include <map>
 #include <set>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 #include "engine/base/nearest.h"
@@ -23,14 +22,24 @@ namespace {
 // The declarations that the files name, whatever the conditions say now.
 class Named {
  public:
-  explicit Named(Model& model) : model_(model) {
+  explicit Named(Model& model) : model_(model), walked_(model.entities.size(), 0) {
     for (Scope& scope : model_.scopes) addFile(scope);
+    for (std::size_t i = 0; i < walked_.size(); ++i) {
+      if (walked_[i] != 0) named_.push_back(model_.entities[i].desc);
+      if ((walked_[i] & kBack) != 0) looksBack_.push_back(model_.entities[i].desc);
+    }
+    std::ranges::sort(named_);
+    std::ranges::sort(looksBack_);
   }
 
-  bool has(const ResourceDesc& resource) const { return named_.contains(&resource); }
-  bool looksBack(const ResourceDesc& resource) const { return looksBack_.contains(&resource); }
+  bool has(const ResourceDesc& resource) const { return std::ranges::binary_search(named_, &resource); }
+  bool looksBack(const ResourceDesc& resource) const {
+    return std::ranges::binary_search(looksBack_, &resource);
+  }
 
  private:
+  static constexpr std::uint8_t kNow = 1, kBack = 2;
+
   void addFile(Scope& scope) {
     visitMentions(
         *scope.desc, [&](const Expr& expr) { add(scope, expr); },
@@ -56,7 +65,7 @@ class Named {
     for (Scope* at = &scope; at; at = import ? at->parent : nullptr)
       if (const auto found = at->resources.find(name); found != at->resources.end()) {
         const Entity& entity = model_.entities[found->second];
-        if (!import || entity.kind == ResourceDesc::Kind::import) return take(*at, *entity.desc, back);
+        if (!import || entity.kind == ResourceDesc::Kind::import) return take(found->second, back);
       }
     const std::size_t dot = name.find('.');
     if (dot == std::string_view::npos) return;
@@ -64,10 +73,12 @@ class Named {
       nameOne(*child->second, name.substr(dot + 1), false, back);
   }
 
-  void take(Scope& scope, const ResourceDesc& resource, bool back) {
-    named_.insert(&resource);
-    if (back) looksBack_.insert(&resource);
-    if (!walked_.emplace(&scope, &resource, back).second) return;
+  void take(std::uint32_t index, bool back) {
+    const std::uint8_t how = back ? kBack : kNow;
+    if ((walked_[index] & how) != 0) return;
+    walked_[index] = static_cast<std::uint8_t>(walked_[index] | how);
+    const ResourceDesc& resource = *model_.entities[index].desc;
+    Scope& scope = *model_.entities[index].scope;
     if (back)
       for (const RefDesc& ref : resource.alternatives) nameOne(scope, ref.name, ref.import, true);
     if (resource.kind != ResourceDesc::Kind::input || !scope.parent) return;
@@ -80,8 +91,8 @@ class Named {
   }
 
   Model& model_;
-  std::set<const ResourceDesc*> named_, looksBack_;
-  std::set<std::tuple<const Scope*, const ResourceDesc*, bool>> walked_;  // a file may be included twice
+  std::vector<std::uint8_t> walked_;                    // per entity
+  std::vector<const ResourceDesc*> named_, looksBack_;  // a file may be included twice
 };
 
 // A view that is declared under the name of its type is that of all passes.

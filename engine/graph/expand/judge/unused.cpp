@@ -8,6 +8,7 @@
 
 #include "engine/graph/desc_walk.h"
 #include "engine/graph/expand/names/scope.h"
+#include "engine/graph/language/expr_node.h"
 
 namespace weft::graph::expansion {
 
@@ -43,12 +44,16 @@ class Uses {
  public:
   explicit Uses(Model& model) : model_(model) {
     for (Scope& scope : model_.scopes) addFile(scope);
+    std::ranges::sort(variables_);
   }
 
   bool reads(const ParameterDesc& parameter) const {
-    return variables_.contains(&parameter) || below_.contains(parameter.name);
+    return std::ranges::binary_search(variables_, static_cast<const void*>(&parameter)) ||
+           below_.contains(parameter.name);
   }
-  bool reads(const NamedExpr& let) const { return variables_.contains(&let); }
+  bool reads(const NamedExpr& let) const {
+    return std::ranges::binary_search(variables_, static_cast<const void*>(&let));
+  }
   // Null when nothing refers to it.
   const Parts* partsOf(const ResourceDesc& resource) const {
     const auto found = parts_.find(&resource);
@@ -64,12 +69,12 @@ class Uses {
 
   void add(Scope& scope, const Expr& expr) {
     if (!expr.present() || expr.isConstant()) return;
-    for (const std::string& name : expr.variables()) {
+    for (const std::string& name : variablesOf(expr)) {
       const Variable found = findVariableFrom(scope, name);
       if (found.kind == Variable::Kind::parameter)
-        variables_.insert(model_.parameters[found.index].desc);
+        variables_.push_back(model_.parameters[found.index].desc);
       else if (found.kind == Variable::Kind::let)
-        variables_.insert(model_.lets[found.index].desc);
+        variables_.push_back(model_.lets[found.index].desc);
       else
         below_.insert(name.substr(name.rfind('.') + 1));
     }
@@ -87,8 +92,8 @@ class Uses {
   }
 
   Model& model_;
-  std::set<const void*> variables_;  // declarations of parameters and lets
-  std::set<std::string> below_;      // last parts of names that are looked for in included files
+  std::vector<const void*> variables_;  // declarations of parameters and lets, sorted
+  std::set<std::string> below_;         // last parts of names that are looked for in included files
   std::unordered_map<const ResourceDesc*, Parts> parts_;
 };
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/base/limit_report.h"
+#include "engine/base/limits.h"
 #include "engine/graph/language/enough.h"
 
 namespace weft::graph::expansion {

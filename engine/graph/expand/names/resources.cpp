@@ -71,35 +71,20 @@ std::string hintForImport(std::string_view name, const std::vector<std::string>&
   return hint.empty() ? fmt::format("imports are {}", fmt::join(types, ", ")) : hint;
 }
 
-bool evaluateImport(Model& model, Entity& entity) {
-  const std::string typeName = entity.desc ? entity.desc->import.type : entity.name.substr(1);
-  const ImportType* type = findImportType(model.registry, typeName);
-  if (!type) {
-    std::vector<std::string> types;
-    for (const ImportType& known : model.registry.imports) types.push_back(known.name);
-    auto& d = model.diagnostics.error(
-        Code::unknownImport, entity.desc->place,
-        fmt::format("resource '{}' is of the unknown import '{}'", entity.name, typeName));
-    d.resource = entity.name;
-    d.hint = hintForImport(typeName, types);
-    return false;
-  }
-  ImportRequest request;
-  request.type = typeName;
-  static const std::vector<NamedExpr> kNoArguments;
-  const std::vector<NamedExpr>& given = entity.desc ? entity.desc->import.arguments : kNoArguments;
-  Names names(model, *entity.scope);
+namespace {
+
+// Reports arguments that the type does not have.
+bool checkArgumentNames(Model& model, const Entity& entity, const ImportType& type,
+                        const std::vector<NamedExpr>& given) {
   bool good = true;
+  std::vector<std::string> known;
+  for (const ImportArgument& argument : type.arguments) known.push_back(argument.name);
   for (const NamedExpr& argument : given) {
     markStructural(model, *entity.scope, argument.expr);
-    if (std::any_of(type->arguments.begin(), type->arguments.end(),
-                    [&](const ImportArgument& a) { return a.name == argument.name; }))
-      continue;
-    std::vector<std::string> known;
-    for (const ImportArgument& a : type->arguments) known.push_back(a.name);
+    if (std::ranges::find(known, argument.name) != known.end()) continue;
     auto& d =
         model.diagnostics.error(Code::badImportArgument, argument.place,
-                                fmt::format("import '{}' has no argument '{}'", typeName, argument.name));
+                                fmt::format("import '{}' has no argument '{}'", type.name, argument.name));
     d.resource = entity.name;
     d.hint = base::nearestHint(argument.name, known);
     if (std::string theirs = base::hintForForeign(base::Foreign::import_argument, argument.name);
@@ -107,42 +92,42 @@ bool evaluateImport(Model& model, Entity& entity) {
       d.hint = std::move(theirs);
     good = false;
   }
-  for (const ImportArgument& argument : type->arguments) {
-    const auto found =
-        std::find_if(given.begin(), given.end(), [&](const NamedExpr& g) { return g.name == argument.name; });
+  return good;
+}
+
+// Fills in what is asked for, with the defaults of what is not given. `good`: the names are, one misspelling is one mistake.
+bool evaluateArguments(Model& model, const Entity& entity, const ImportType& type,
+                       const std::vector<NamedExpr>& given, bool good, ImportRequest& request) {
+  Names names(model, *entity.scope);
+  for (const ImportArgument& argument : type.arguments) {
+    const auto found = std::ranges::find(given, argument.name, &NamedExpr::name);
     Value value = argument.initial;
     if (found != given.end()) {
       good = evaluateArgument(model, names, entity, argument, found->expr, value) && good;
     } else if (argument.initial.type == Value::Type::none) {
-      if (!good) continue;  // one misspelling is one mistake
+      if (!good) continue;
       auto& d = model.diagnostics.error(
           Code::badImportArgument, entity.desc ? entity.desc->place : Place{},
-          fmt::format("import '{}' needs the argument '{}'", typeName, argument.name));
+          fmt::format("import '{}' needs the argument '{}'", type.name, argument.name));
       d.resource = entity.name;
       if (!entity.desc)
-        d.hint = fmt::format("declare it: \"{}\": {{ \"import\": \"{}\", \"{}\": … }}", typeName, typeName,
+        d.hint = fmt::format("declare it: \"{}\": {{ \"import\": \"{}\", \"{}\": … }}", type.name, type.name,
                              argument.name);
       good = false;
     }
     request.arguments.emplace_back(argument.name, std::move(value));
   }
-  if (!good) return false;
-  const ImportFacts facts = model.registry.factsOf ? model.registry.factsOf(request) : ImportFacts{};
-  for (const base::Diagnostic& problem : facts.problems) {
-    base::Diagnostic& d = model.diagnostics.add(placedAtArgument(model, *entity.scope, given, problem));
-    d.resource = entity.name;
-    // When a file may not be read, what matters is who names it.
-    if (d.code == Code::outsideConfinement && d.place.line == 0 && entity.desc) d.place = entity.desc->place;
-    if (!isKnown(d.place) && entity.desc) d.place = entity.desc->place;  // of the arguments
-    good = good && problem.severity != base::Severity::error;
-  }
-  if (!good) return false;
+  return good;
+}
+
+void takeFacts(Model& model, Entity& entity, const ImportType& type, const ImportRequest& request,
+               const ImportFacts& facts) {
   entity.exists = facts.exists;
   entity.fallback = facts.fallback;
   entity.count = facts.count;
   FlatResource& shape = entity.shape;
   shape.kind =
-      type->kind == ImportKind::texture ? ResourceKind::imported_texture : ResourceKind::imported_buffer;
+      type.kind == ImportKind::texture ? ResourceKind::imported_texture : ResourceKind::imported_buffer;
   shape.format = facts.format;
   shape.width = std::max(1u, facts.width);
   shape.height = std::max(1u, facts.height);
@@ -154,12 +139,12 @@ bool evaluateImport(Model& model, Entity& entity) {
                  : shape.layers > 1 || facts.layered ? Target::texture_2d_array
                                                      : Target::texture_2d;
   // The elements of an array stand side by side in FlatGraph::imports.
-  entity.arrayCount = type->array;
-  entity.elements.resize(std::max(1u, type->array));
+  entity.arrayCount = type.array;
+  entity.elements.resize(std::max(1u, type.array));
   for (std::uint32_t element = 0; element < entity.elements.size(); ++element) {
     ImportRequest one = request;
-    if (type->array > 0) one.arguments.emplace_back("element", Value::number(element));
-    const std::uint32_t import = internImport(model, std::move(one), type->kind, entity.name);
+    if (type.array > 0) one.arguments.emplace_back("element", Value::number(element));
+    const std::uint32_t import = internImport(model, std::move(one), type.kind, entity.name);
     if (element == 0) entity.import = import;
     assert(import == entity.import + element);
     ImportSpec& spec = model.graph.imports[import];
@@ -168,7 +153,38 @@ bool evaluateImport(Model& model, Entity& entity) {
     if (!spec.place.file && entity.desc) spec.place = entity.desc->place;
   }
   shape.import = entity.import;
-  return true;
+}
+
+}  // namespace
+
+bool evaluateImport(Model& model, Entity& entity) {
+  static const std::vector<NamedExpr> kNoArguments;
+  const std::vector<NamedExpr>& given = entity.desc ? entity.desc->import.arguments : kNoArguments;
+  ImportRequest request{.type = entity.desc ? entity.desc->import.type : entity.name.substr(1)};
+  const ImportType* type = findImportType(model.registry, request.type);
+  if (!type) {
+    std::vector<std::string> types;
+    for (const ImportType& known : model.registry.imports) types.push_back(known.name);
+    auto& d = model.diagnostics.error(
+        Code::unknownImport, entity.desc->place,
+        fmt::format("resource '{}' is of the unknown import '{}'", entity.name, request.type));
+    d.resource = entity.name;
+    d.hint = hintForImport(request.type, types);
+    return false;
+  }
+  bool good = checkArgumentNames(model, entity, *type, given);
+  if (!evaluateArguments(model, entity, *type, given, good, request)) return false;
+  const ImportFacts facts = model.registry.factsOf ? model.registry.factsOf(request) : ImportFacts{};
+  for (const base::Diagnostic& problem : facts.problems) {
+    base::Diagnostic& d = model.diagnostics.add(placedAtArgument(model, *entity.scope, given, problem));
+    d.resource = entity.name;
+    // When a file may not be read, what matters is who names it.
+    if (d.code == Code::outsideConfinement && d.place.line == 0 && entity.desc) d.place = entity.desc->place;
+    if (!isKnown(d.place) && entity.desc) d.place = entity.desc->place;  // of the arguments
+    good = good && problem.severity != base::Severity::error;
+  }
+  if (good) takeFacts(model, entity, *type, request, facts);
+  return good;
 }
 
 const ImportType* findImportType(const Registry& registry, std::string_view name) {
