@@ -6,7 +6,7 @@
 
 #include "app/session/session.h"
 #include "engine/base/files/file_access.h"
-#include "engine/graph/read/read.h"
+#include "engine/graph/read/overlay.h"
 #include "engine/runtime/frame/renderer.h"
 
 namespace weft::app::lsp {

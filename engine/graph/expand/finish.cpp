@@ -19,8 +19,7 @@ std::optional<FlatUse> resolveFinal(Model& model, Scope& scope, const RefDesc& r
                                     const std::string& name) {
   Names names(model, scope);
   markStructural(model, scope, ref);
-  const SlotDesc slot{
-      .name = name, .place = ref.place, .access = Access::read, .ref = ref};
+  const SlotDesc slot{.name = name, .place = ref.place, .access = Access::read, .ref = ref};
   const SlotContext context{model, names, nullptr, user, {}};
   if (ref.wordsSize > 0) {
     auto& d = model.diagnostics.error(Code::badKind, ref.place,

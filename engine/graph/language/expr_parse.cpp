@@ -11,6 +11,7 @@
 
 #include "engine/base/nearest.h"
 #include "engine/base/words/foreign_words.h"
+#include "engine/graph/language/expr.h"
 #include "engine/graph/language/expr_node.h"
 #include "engine/graph/language/names.h"
 

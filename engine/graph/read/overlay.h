@@ -15,6 +15,9 @@
 
 namespace weft::graph {
 
+constexpr std::uint64_t kMostIncludes = 1000;  // files of one graph, each use counted
+constexpr std::size_t kMostInRow = 64;  // files that include each other, and overlays that extend each other
+
 // A file, extended and overlaid.
 struct Source {
   std::string path;                // as opened
