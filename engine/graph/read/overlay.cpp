@@ -12,7 +12,6 @@
 #include "engine/graph/language/enough.h"
 #include "engine/graph/read/misspelt_keys.h"
 #include "engine/graph/read/overlay_apply.h"
-#include "engine/graph/read/read.h"
 
 namespace weft::graph {
 

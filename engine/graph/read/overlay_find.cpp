@@ -4,7 +4,6 @@
 #include "engine/base/limits.h"
 #include "engine/graph/language/suffix.h"
 #include "engine/graph/read/overlay_apply.h"
-#include "engine/graph/read/read.h"
 
 namespace weft::graph {
 

@@ -13,9 +13,6 @@
 
 namespace weft::graph {
 
-constexpr std::uint64_t kMostIncludes = 1000;  // files of one graph, each use counted
-constexpr std::size_t kMostInRow = 64;  // files that include each other, and overlays that extend each other
-
 // Reads `path` and its includes (paths relative to the including file), with presets on top, in this order (overlay.h). Takes
 // the text of a file from `given` where that has its path. Comments are allowed. Null after an error that leaves nothing to
 // expand; otherwise a description, perhaps partial, with the errors in `diagnostics`. A preset that cannot be read is an error
