@@ -1,4 +1,4 @@
-// Real spherical harmonics up to band 2, in the order of engine/scene/probes/sh.h; and the coefficients of a cap.
+// Real spherical harmonics up to band 2, in the order of engine/scene/probes/probes.h; and the coefficients of a cap.
 #ifndef GI_SH_GLSL
 #define GI_SH_GLSL
 

@@ -43,6 +43,6 @@ elif [ -x "$folder/prefix/bin/weft" ]; then
   exit 1
 fi
 if [ -x "$folder/prefix/bin/weft" ]; then
-  grep -q '-F _weft weft' "$folder/prefix/share/bash-completion/completions/weft"
+  grep -q -e '-F _weft weft' "$folder/prefix/share/bash-completion/completions/weft"
   WEFT_DATA="$folder/prefix/share/weft" "$folder/prefix/bin/weft" check "$folder/prefix/share/weft/graphs/studio.json"
 fi

@@ -17,7 +17,7 @@ namespace weft::gl {
 // First argument of the process that is started; its main() hands over to runTrial().
 constexpr const char* kTrialWord = "try-program";
 
-constexpr std::uint64_t kMostTrialBytes = 1ull << 30;  // that a program may take to compile
+constexpr std::uint64_t kMostTrialBytes = 768ull << 20;  // that a program may take to compile
 
 struct TrialResult {
   bool survived = true;     // also when no process or context could be had: then nothing is known

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "engine/base/limits.h"
+#include "engine/base/nearest.h"
 #include "engine/graph/expand/checks.h"
 #include "engine/graph/expand/first_value.h"
 #include "engine/graph/expand/judge/remedy.h"
@@ -73,11 +74,18 @@ class PassWalk {
                     fmt::format("pass '{}' has too many slots, parameters and defines", declared_),
                     kMostSlotsOfPass, "slots, parameters and defines of one pass");
     stanzaGood_ = checkStanza(model_, scope, desc, type_, declared_);
+    if (!type_) type_ = typeMeantBy(desc.type);  // so that nothing else is reported because of it
     Names names(model_, scope);
     repeat(names, 0);
     if (!failed_ && stanzaGood_) return;
     for (const SlotDesc& slot : desc.slots)
       if (slot.access != Access::read) leaveOutWrite(model_, scope, slot.ref);
+  }
+
+  const PassType* typeMeantBy(const std::string& name) const {
+    std::vector<std::string> types;
+    for (const PassType& known : model_.registry.passTypes) types.push_back(known.name);
+    return findPassType(model_.registry, base::nearestName(name, types));
   }
 
   // Whether `more` passes may follow; reports otherwise.

@@ -166,9 +166,10 @@ std::optional<std::string> ReadContext::word(const JsonValue* value, std::span<c
       d.hint = fmt::format("write \"{}\"", ours);
   if (!d.hint.empty()) return std::nullopt;
   const std::vector<std::string> known(words.begin(), words.end());
-  if (const std::string nearest = base::nearestName(value->text, known); !nearest.empty())
-    d.hint = fmt::format("did you mean \"{}\"?", nearest);
-  return std::nullopt;
+  const std::string nearest = base::nearestName(value->text, known);
+  if (nearest.empty()) return std::nullopt;
+  d.hint = fmt::format("did you mean \"{}\"?", nearest);
+  return nearest;  // read as what is meant, so that nothing else is reported because of it
 }
 
 Expr ReadContext::expr(const JsonValue* value, std::string_view what) {

@@ -120,7 +120,7 @@ def rendered(graph_file, *more):
 # usage, reported by the parser of the command line, where the place is the name of the option.
 # A fifth element is text of the message.
 CASES = [
-    (rendered("truncated.json"), 1, "W002", r"truncated\.json:5:41"),
+    (rendered("truncated.json"), 1, "W002", r"truncated\.json:5:44"),
     (rendered("empty.json"), 1, "W002", r"empty\.json:1:1"),
     (rendered("binary.json"), 1, "W002", r"binary\.json:\d:1"),
     (rendered("deep.json"), 1, "W007", r"deep\.json:1:6\d"),
@@ -129,8 +129,8 @@ CASES = [
     (rendered("shaders"), 1, "W001", "shaders"),
     (["check", "shaders"], 1, "W001", "shaders"),
     (["check", "/dev/zero"], 1, "W001", "/dev/zero"),
-    (["plan", "truncated.json"], 1, "W002", r"truncated\.json:5:41"),
-    (["dot", "truncated.json"], 1, "W002", r"truncated\.json:5:41"),
+    (["plan", "truncated.json"], 1, "W002", r"truncated\.json:5:44"),
+    (["dot", "truncated.json"], 1, "W002", r"truncated\.json:5:44"),
     (rendered("number_for_string.json"), 1, "W003", r"number_for_string\.json:1:11"),
     (rendered("list_for_object.json"), 1, "W003", r"list_for_object\.json:6:15"),
     (rendered("object_for_size.json"), 1, "W003", r"object_for_size\.json:3:42"),

@@ -218,5 +218,5 @@ TEST_CASE("morph targets that lie") {
   primitive(maker)["targets"] = json(100000, {{"POSITION", primitive(maker)["attributes"]["POSITION"]}});
   const base::Diagnostic d = failureOf(maker);
   CHECK(d.code == Code::limitExceeded);
-  CHECK(d.hint.find("model_bytes") != std::string::npos);
+  CHECK(d.hint.find("--limit") != std::string::npos);
 }

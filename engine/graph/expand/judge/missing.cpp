@@ -9,6 +9,7 @@
 
 #include "engine/graph/expand/judge/remedy.h"
 #include "engine/graph/expand/names/resources.h"
+#include "engine/graph/expand/names/unread.h"
 #include "engine/graph/versions/live.h"
 
 namespace weft::graph::expansion {
@@ -133,6 +134,7 @@ class Judge {
     if (missing.cause == MissingRead::Cause::condition) {
       if (model_.toInclude)
         return;  // what the reference stands for is bound by the file that includes this one
+      if (std::ranges::any_of(model_.scopes, failedInclude)) return;  // which may have what it waits for
       if (auto* d = report(missing, Code::conditionLeavesSlotEmpty,
                            fmt::format("{}: slot '{}' is left empty, the condition of '{}' is false", subject,
                                        missing.slot, missing.ref.text)))

@@ -365,7 +365,13 @@ bool evaluateTexture(Model& model, Names& names, Entity& entity) {
         findFormat(meant) ? fmt::format("write '{}'", meant) : base::nearestHint(desc.format, formatNames());
     if (d.hint.empty())
       d.hint = "channels, bits and kind: r8, rg16f, rgba16f, rgba32ui, srgb8_a8, depth32f, …";
-    good = false;
+    // What is meant, so that nothing else is reported because of it.
+    const auto nearest =
+        findFormat(findFormat(meant) ? meant : base::nearestName(desc.format, formatNames()));
+    if (nearest)
+      shape.format = *nearest;
+    else
+      good = false;
   }
   good = evaluateSize(model, names, entity) && good;
   const auto mips = evaluateWhole(names, desc.mips, 1, 1, kMaxMips, "the number of mips", true);

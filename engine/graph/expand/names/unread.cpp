@@ -22,12 +22,6 @@ std::string_view firstPart(std::string_view name) {
   return name.substr(0, name.find('.'));
 }
 
-const PassDesc* failedInclude(const Scope& scope) {
-  for (const PassDesc& pass : scope.desc->passes)
-    if (pass.include && !pass.include->graph) return &pass;
-  return nullptr;
-}
-
 std::string hintFor(const Model& model, const Unincluded& group) {
   const Scope& scope = *group.scope;
   if (group.uses.size() == 1)
@@ -54,6 +48,12 @@ std::string hintFor(const Model& model, const Unincluded& group) {
 }
 
 }  // namespace
+
+const PassDesc* failedInclude(const Scope& scope) {
+  for (const PassDesc& pass : scope.desc->passes)
+    if (pass.include && !pass.include->graph) return &pass;
+  return nullptr;
+}
 
 bool isUnread(const Scope& from, std::string_view name) {
   const std::string_view leaf = name.substr(name.rfind('.') + 1);

@@ -9,6 +9,8 @@
 
 namespace weft::graph::expansion {
 
+// The first stanza that includes a file that could not be read, or null.
+const PassDesc* failedInclude(const Scope& scope);
 // True when the reader reported the declaration of this name and left it out: a use of it is no second
 // mistake.
 bool isUnread(const Scope& from, std::string_view name);
