@@ -141,10 +141,10 @@ def children(pid):
 def viewer(weft, folder, report):
     composite = folder / "shaders/composite/composite.frag.glsl"
     good = composite.read_text()
-    bomb = good.replace("void main() {", "void main() {\n  float zero = 0.0;\n  result = vec4(" + "zero + " * 100000 + "zero);", 1)
     greener = good[:good.rindex("}")] + "  result.rgb *= vec3(0.2, 1.0, 0.2);\n}\n"
 
-    def session(code, *options):
+    def session(code, terms, *options):
+        bomb = good.replace("void main() {", "void main() {\n  float zero = 0.0;\n  result = vec4(" + "zero + " * terms + "zero);", 1)
         live = Session(weft, folder, *options, graph="graphs/glow.json")
         try:
             first = live.opened(report)
@@ -162,8 +162,8 @@ def viewer(weft, folder, report):
             live.stop()
             save(composite, good)
 
-    session("W203")
-    session("W204", *UNBOUND)
+    session("W203", 100000)
+    session("W204", 30000, *UNBOUND)
     # Whoever ends the viewer ends the process with it.
     live = Session(weft, folder, *UNBOUND, graph="graphs/glow.json")
     try:
