@@ -3,7 +3,8 @@
 include(CMakePackageConfigHelpers)
 
 install(DIRECTORY engine DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/weft FILES_MATCHING PATTERN "*.h")
-install(DIRECTORY graphs shaders materials scenes words DESTINATION ${CMAKE_INSTALL_DATADIR}/weft)
+install(DIRECTORY graphs shaders materials scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/weft)
+install(FILES engine/base/words/foreign.json DESTINATION ${CMAKE_INSTALL_DATADIR}/weft/engine/base/words)
 install(FILES docs/errors.md DESTINATION ${CMAKE_INSTALL_DATADIR}/weft/docs)
 set(weft_package ${CMAKE_INSTALL_LIBDIR}/cmake/weft)
 install(EXPORT weft_core NAMESPACE weft:: FILE weftCore.cmake DESTINATION ${weft_package})

@@ -31,7 +31,7 @@ struct RenderOptions : Options {
   std::string present;
   std::string output;  // the presented picture; empty: only `picked`
   std::vector<PickedOutput> picked;
-  bool stats = false, profile = false, quiet = false;
+  bool quiet = false;
 };
 
 // Whether what stands before a '=' names a texture, and is not the beginning of a path.
@@ -174,9 +174,7 @@ void addRender(CommandLine& line) {
       line.add("render", "render frames of a graph to image files, without a display", runRender);
   options.addGraph(command);
   options.addBackend(command);
-  command.add_flag("--stats", options.stats, "print counters and times as JSON on standard error when done");
-  command.add_flag("--profile", options.profile,
-                   "measure each pass (slower: waits for the GPU after every pass on software)");
+  options.addMeasurements(command);
   addPath(
       command, "-o,--output", options.outputs,
       "image to write, .png or .exr; for several frames a pattern: f_%04d.png; NAME=FILE writes a texture "

@@ -84,6 +84,12 @@ void Options::addPresetFolder(CLI::App& command) {
       ->check(CLI::Validator(checkFolder, "FOLDER"));
 }
 
+void Options::addMeasurements(CLI::App& command) {
+  command.add_flag("--stats", stats, "print counters and times as JSON on standard error when done");
+  command.add_flag("--profile", profile,
+                   "measure each pass (slower: waits for the GPU after every pass on software)");
+}
+
 CLI::Option* Options::addFrame(CLI::App& command, const char* name) {
   return command.add_option(name, lastFrame, "number of the frame to look at (default: 0)")
       ->check(CLI::Validator(checkFrame, "FRAME"));

@@ -37,6 +37,7 @@ struct Options {
   std::string backend = "auto";
   std::string cacheFolder;            // program binaries; empty: the user's cache folder, "none": none
   bool window = false, vsync = true;  // of the context
+  bool stats = false, profile = false;
 
   // The graph, its settings and its surroundings. Returns the option of the graph's file.
   CLI::Option* addGraph(CLI::App& command);
@@ -46,6 +47,7 @@ struct Options {
   void addFps(CLI::App& command, const char* doc = "frames per second of the clock");
   void addPointer(CLI::App& command);
   void addBackend(CLI::App& command);
+  void addMeasurements(CLI::App& command);  // --stats and --profile
 
   // Once all is read: names of presets become files.
   void finish();

@@ -138,9 +138,7 @@ void addView(CommandLine& line) {
       line.add("view", "open a window and run a graph in it (without a display: xvfb-run -a)", runView);
   options.addGraph(command);
   options.addBackend(command);
-  command.add_flag("--stats", options.stats, "print counters and times as JSON on standard error when done");
-  command.add_flag("--profile", options.profile,
-                   "measure each pass (slower: waits for the GPU after every pass on software)");
+  options.addMeasurements(command);
   const auto checkCount = [](const std::string& text) {
     std::uint32_t count = 0;
     return parseNumber(text, count)

@@ -13,7 +13,7 @@ struct ViewOptions : Options {
   std::string record;               // pattern of a recording from the first frame on; empty: none
   bool waitForAssets = false;       // before the first frame
   bool events = false;              // says what happens, for scripts
-  bool idle = false, stats = false, profile = false;
+  bool idle = false;
   double renderScale = 1;  // pixels of the scene per pixel of the window
   double uiScale = 0;      // 0: as the screen says
 };

@@ -1,8 +1,7 @@
 // A shader's text as the tokens that a compiler gets: comments and directives gone, conditionals decided,
 // macros expanded, each token with the line of the text that it comes from. The work is bounded, so that
 // macros which double again and again cost what the bound allows. Where a condition hangs on what only the
-// driver knows (a macro GL_…), all its branches are taken. Does not: check that the text is right; the
-// compiler does. Of other rooms only engine/convert needs it, to translate shaders.
+// driver knows (a macro GL_…), all its branches are taken. Whether the text is right, the compiler says.
 #pragma once
 
 #include <cstdint>

@@ -14,7 +14,7 @@
 using namespace weft::base;
 
 TEST_CASE("the table of foreign words: what is to be written, then the words that mean it, each once") {
-  std::ifstream file(dataFolder() + "/words/foreign.json");
+  std::ifstream file(dataFolder() + "/engine/base/words/foreign.json");
   const auto table = nlohmann::json::parse(file);
   for (const auto& [kind, rows] : table.items()) {
     std::set<std::string> seen;

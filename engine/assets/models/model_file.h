@@ -1,6 +1,6 @@
 // Model files to Model: .gltf and .glb (engine/assets/models/gltf/gltf.h), .obj and .fbx (through Assimp). Everything that a model
 // names is looked for in its own folder and nowhere else. Failures are values: W164 (cannot be read), W165 (a value that
-// cannot be), W166 (a file outside the folder), W201 (limits model_bytes, model_vertices, model_texels); warnings W167 (a
+// cannot be), W166 (a file outside the folder), W201 (too many bytes, vertices or texels); warnings W167 (a
 // texture is missing) and W168 (a part was left out). Thread safe: no state is shared between calls.
 #pragma once
 

@@ -19,7 +19,7 @@ using Words = std::unordered_map<std::string, ForeignWord>;  // by theirs
 const std::unordered_map<std::string, Words>& foreignTable() {
   static const auto table = [] {
     std::unordered_map<std::string, Words> kinds;
-    std::ifstream file(dataFolder() + "/words/foreign.json");
+    std::ifstream file(dataFolder() + "/engine/base/words/foreign.json");
     const auto json = nlohmann::json::parse(file, nullptr, false);
     if (!json.is_object()) return kinds;
     for (const auto& [kind, rows] : json.items())

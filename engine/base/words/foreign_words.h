@@ -1,6 +1,6 @@
 // Words that authors bring from other engines, APIs and shading languages, with what Weft and GLSL call the same thing.
-// For hints: nothing is accepted that is not spelled as the format says. The table is words/foreign.json of the data folder,
-// read when the first hint is asked for; without it there are no such hints.
+// For hints: nothing is accepted that is not spelled as the format says. The table is foreign.json beside
+// this file, read from the data folder when the first hint is asked for; without it there are no such hints.
 #pragma once
 
 #include <cstdint>
