@@ -83,9 +83,10 @@ class Checker : PassErrors {
         spec_(graph_.specs[pass]),
         pass_(pass),
         stages_(stages),
-        defines_(defines),
         linked_(linked),
-        diagnostics_(diagnostics) {}
+        diagnostics_(diagnostics) {
+    for (const gl::StageSource& stage : stages) interfaces_.push_back(&stage.source->interfaceWith(defines));
+  }
 
   bool run() {
     for (std::uint32_t i = 0; i < spec_.slotCount; ++i) checkSlot(graph_.slots[spec_.firstSlot + i]);
@@ -103,7 +104,7 @@ class Checker : PassErrors {
 
  private:
   const glsl::Interface& of(const gl::StageSource& stage) const {
-    return stage.source->interfaceWith(defines_);
+    return *interfaces_[static_cast<std::size_t>(&stage - stages_.data())];
   }
 
   // The stages that may declare something of that role for the pass: outputs are those of the last.
@@ -654,7 +655,7 @@ class Checker : PassErrors {
   const PassSpec& spec_;
   const std::uint32_t pass_;
   const std::span<const gl::StageSource> stages_;
-  const std::span<const glsl::Define> defines_;
+  std::vector<const glsl::Interface*> interfaces_;  // of each stage, under the defines of the program
   const LinkedProgram* const linked_;
   base::Diagnostics& diagnostics_;
   // For messages, between quotes.
