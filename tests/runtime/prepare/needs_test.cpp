@@ -1,6 +1,8 @@
 // What the programs of every bundled graph need of a device, held to the least that OpenGL 4.5 gives (gl::kLeastDevice). Without GL:
 // every graph and preset, with each boolean and choice at each of its values and each pass disabled, over two scenes; with
-// WEFT_ALL_VARIANTS=1 in the environment all pairs of those, too. Prints the table of what each graph needs at most.
+// WEFT_ALL_VARIANTS=1 in the environment all pairs of those, too. Prints the table of what each graph needs at most. The count, which
+// is made from the source, is judged by a driver: each stage of each graph's defaults is linked as a separable program, and what it
+// then has active is within the same limits and, but for varyings, never more than was counted.
 #include "engine/gl/programs/needs.h"
 
 #include <doctest/doctest.h>
@@ -14,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/gl/context/context.h"
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/expand/expand.h"
 #include "engine/graph/read/read.h"
@@ -50,10 +53,114 @@ struct Variation {
   std::vector<graph::Disable> disables;
 };
 
+// What a driver finds active in one stage after linking it alone.
+class Linked {
+ public:
+  Linked(GLenum stage, const std::string& text) {
+    const char* const source = text.c_str();
+    program_ = glCreateShaderProgramv(stage, 1, &source);
+    GLint linked = 0;
+    glGetProgramiv(program_, GL_LINK_STATUS, &linked);
+    GLchar log[512] = "";
+    if (!linked) glGetProgramInfoLog(program_, sizeof log, nullptr, log);
+    REQUIRE_MESSAGE(linked, std::string(log));
+  }
+  ~Linked() { glDeleteProgram(program_); }
+  Linked(const Linked&) = delete;
+  Linked& operator=(const Linked&) = delete;
+
+  // locations, components: of inputs of a fragment shader.
+  gl::ProgramNeeds needs(GLenum stage) const {
+    gl::ProgramNeeds found;
+    each(GL_PROGRAM_INPUT, [&](const std::string& name, GLenum type, std::uint32_t elements) {
+      if (stage != GL_FRAGMENT_SHADER || name.starts_with("gl_")) return;
+      const auto [columns, rows] = extentOf(type);
+      found.locations += columns * elements;
+      found.components += columns * rows * elements;
+    });
+    each(GL_UNIFORM, [&](const std::string&, GLenum type, std::uint32_t elements) {
+      const std::string word = wordOf(type);
+      if (word == "sampler") found.samplers += elements;
+      if (word == "image") found.together += elements;
+    });
+    GLint blocks = 0;
+    glGetProgramInterfaceiv(program_, GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &blocks);
+    found.together += static_cast<std::uint32_t>(blocks);
+    if (stage == GL_FRAGMENT_SHADER)
+      each(GL_PROGRAM_OUTPUT, [&](const std::string& name, GLenum, std::uint32_t elements) {
+        if (!name.starts_with("gl_")) found.together += elements;
+      });
+    return found;
+  }
+
+ private:
+  template <class F>
+  void each(GLenum interface, F&& use) const {
+    GLint count = 0;
+    glGetProgramInterfaceiv(program_, interface, GL_ACTIVE_RESOURCES, &count);
+    for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
+      const GLenum asked[] = {GL_TYPE, GL_ARRAY_SIZE};
+      GLint told[2] = {};
+      glGetProgramResourceiv(program_, interface, i, 2, asked, 2, nullptr, told);
+      GLchar name[256] = "";
+      glGetProgramResourceName(program_, interface, i, sizeof name, nullptr, name);
+      use(std::string(name), static_cast<GLenum>(told[0]), static_cast<std::uint32_t>(std::max(1, told[1])));
+    }
+  }
+
+  // Columns and rows of a type of a varying.
+  static std::pair<std::uint32_t, std::uint32_t> extentOf(GLenum type) {
+    switch (type) {
+      case GL_FLOAT:
+      case GL_INT:
+      case GL_UNSIGNED_INT:
+        return {1, 1};
+      case GL_FLOAT_VEC2:
+      case GL_INT_VEC2:
+      case GL_UNSIGNED_INT_VEC2:
+        return {1, 2};
+      case GL_FLOAT_VEC3:
+      case GL_INT_VEC3:
+      case GL_UNSIGNED_INT_VEC3:
+        return {1, 3};
+      case GL_FLOAT_VEC4:
+      case GL_INT_VEC4:
+      case GL_UNSIGNED_INT_VEC4:
+        return {1, 4};
+      case GL_FLOAT_MAT3:
+        return {3, 3};
+      case GL_FLOAT_MAT4:
+        return {4, 4};
+      case GL_FLOAT_MAT4x3:
+        return {4, 3};
+    }
+    FAIL(fmt::format("a varying of the type {:#x}", type));
+    return {};
+  }
+
+  // The ranges of the enumerants of OpenGL 4.5 core.
+  static std::string wordOf(GLenum type) {
+    if (type >= GL_IMAGE_1D && type <= GL_UNSIGNED_INT_IMAGE_2D_MULTISAMPLE_ARRAY) return "image";
+    for (const GLenum sampler :
+         {GL_SAMPLER_1D, GL_SAMPLER_2D, GL_SAMPLER_3D, GL_SAMPLER_CUBE, GL_SAMPLER_2D_SHADOW,
+          GL_SAMPLER_2D_ARRAY, GL_SAMPLER_2D_ARRAY_SHADOW, GL_SAMPLER_CUBE_SHADOW, GL_SAMPLER_CUBE_MAP_ARRAY,
+          GL_SAMPLER_CUBE_MAP_ARRAY_SHADOW, GL_SAMPLER_BUFFER, GL_SAMPLER_2D_MULTISAMPLE, GL_INT_SAMPLER_2D,
+          GL_INT_SAMPLER_2D_ARRAY, GL_INT_SAMPLER_3D, GL_UNSIGNED_INT_SAMPLER_2D,
+          GL_UNSIGNED_INT_SAMPLER_2D_ARRAY, GL_UNSIGNED_INT_SAMPLER_3D, GL_UNSIGNED_INT_SAMPLER_BUFFER})
+      if (type == sampler) return "sampler";
+    return "";
+  }
+
+  GLuint program_ = 0;
+};
+
 class Survey {
  public:
-  Survey(const std::string& graph, std::vector<std::string> presets, const std::string& scene)
-      : sources_(runtime::shaderRootsOf(std::vector<std::string>{kTop + graph}, WEFT_SOURCE_DIR)) {
+  // With `driver`, each program is linked, too; a context is current then.
+  Survey(const std::string& graph, std::vector<std::string> presets, const std::string& scene,
+         bool driver = false)
+      : driver_(driver),
+        sources_(runtime::shaderRootsOf(std::vector<std::string>{kTop + graph}, WEFT_SOURCE_DIR)) {
     base::Diagnostics diagnostics;
     auto loaded = scene::loadScene(kTop + scene, diagnostics);
     REQUIRE_MESSAGE(loaded.has_value(), diagnostics.text());
@@ -100,6 +207,7 @@ class Survey {
     row.components.raise(needs.components, request.pass);
     row.samplers.raise(needs.samplers, request.pass);
     row.together.raise(needs.together, request.pass);
+    if (driver_) askDriver(stages, request);
     const auto excess = gl::excessOf(needs, gl::kLeastDevice);
     row.beyond += excess.has_value();
     CHECK_MESSAGE(!excess,
@@ -107,6 +215,20 @@ class Survey {
                               excess ? excess->what : "", excess ? excess->allowed : 0, key));
   }
 
+  static void askDriver(const std::vector<gl::StageSource>& stages, const gl::ProgramRequest& request) {
+    for (const gl::StageSource& stage : stages) {
+      const gl::StageNeeds counted = gl::needsOf(stage, request.defines);
+      const gl::ProgramNeeds active =
+          Linked(stage.stage, glsl::assembleSource(*stage.source, request.defines)).needs(stage.stage);
+      CAPTURE(request.pass);
+      // Of varyings the device's limits alone are asked: linked alone, a stage keeps inputs that it does not read.
+      CHECK(active.samplers <= counted.samplers);
+      CHECK(active.together <= counted.images + counted.storageBlocks + counted.outputs);
+      CHECK(!gl::excessOf(active, gl::kLeastDevice));
+    }
+  }
+
+  const bool driver_;
   glsl::SourceLoader sources_;
   graph::Registry registry_;
   std::shared_ptr<const graph::GraphDesc> desc_;
@@ -183,6 +305,20 @@ TEST_CASE("needs: no program of a bundled graph asks for more than OpenGL 4.5 pr
   add("graphs/presets", presets);
   MESSAGE(table);
   CHECK(surveyed >= 8);
+}
+
+TEST_CASE("needs: a driver finds no more active than is counted") {
+  base::Diagnostics diagnostics;
+  const auto context = gl::createContext({.backend = gl::Backend::osmesa}, diagnostics);
+  REQUIRE_MESSAGE(context, diagnostics.text());
+  std::size_t programs = 0;
+  for (const std::string& graph : filesIn("graphs")) {
+    Row row;
+    Survey(graph, {}, "tests/runtime/scenes/everything.json", true).measure({}, row);
+    programs += row.programs.size();
+  }
+  MESSAGE(programs << " programs");
+  CHECK(programs >= 100);
 }
 
 TEST_CASE("needs: what is counted, by hand") {
