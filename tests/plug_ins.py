@@ -11,21 +11,16 @@ import sys
 
 # The same word for something else, as (file, word): what it is there.
 OTHER_MEANINGS = {
-    ("engine/scene/frame/mesh_frame.cpp", "joints"): "a table of the tasks of a frame",
-    ("engine/scene/frame/mesh_frame.cpp", "spheres"): "a table of the tasks of a frame",
-    ("engine/scene/frame/mesh_views.cpp", "meshes"): "a table of the tasks of a frame",
-    ("engine/scene/probes/probe_work.cpp", "probes"): "a task, and the table that it writes",
     ("engine/assets/models/gltf/gltf.cpp", "mesh"): "a key of glTF",
     ("engine/assets/models/gltf/gltf.cpp", "meshes"): "a key of glTF",
     ("engine/assets/models/gltf/gltf.cpp", "materials"): "a key of glTF",
-    ("engine/assets/models/gltf/gltf_materials.cpp", "materials"): "a key of glTF",
-    ("engine/assets/models/gltf/gltf_nodes.cpp", "joints"): "a key of glTF",
+    ("engine/assets/models/gltf/gltf.cpp", "joints"): "a key of glTF",
     ("engine/scene/scene.cpp", "spheres"): "a draw list",
     ("engine/scene/files/scene_file.cpp", "spheres"): "a key of scene files",
     ("engine/scene/files/scene_file.cpp", "materials"): "a key of scene files",
     ("engine/scene/files/lights.cpp", "sun"): "a key of scene files",
     ("engine/scene/files/lights.cpp", "lamps"): "a key of scene files",
-    ("engine/scene/files/ground.cpp", "ground"): "a key of scene files",
+    ("engine/scene/files/scene_file.cpp", "ground"): "a key of scene files",
     ("engine/imports/mesh_draws.cpp", "joints"): "an attribute of vertices",
     ("engine/passes/draw/geometry.cpp", "position"): "an attribute of vertices",
     ("engine/graph/read/overlay_apply.cpp", "name"): "a key of passes",
@@ -41,7 +36,7 @@ OTHER_MEANINGS = {
     ("engine/graph/read/read_resource.cpp", "file"): "a rule of the language: arguments of this name, and of names that end so, hold paths",
 }
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
-ARGUMENT = re.compile(r'\.name = "(\w+)", *\.initial')
+ARGUMENT = re.compile(r'\bargument\("(\w+)"')
 COMPARED = re.compile(r'[=!]= "(\w+)"|"(\w+)" [=!]=')
 GEOMETRY = re.compile(r'\{"(\w+)", \{')
 

@@ -7,7 +7,6 @@
 #include "app/trials/divergence.h"
 #include "app/trials/fuzz.h"
 #include "app/trials/work_lines.h"
-#include "engine/assets/images/compare.h"
 #include "engine/assets/images/flip.h"
 #include "engine/base/counted.h"
 #include "engine/base/printable.h"

@@ -11,7 +11,6 @@
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
 #include "engine/assets/images/image.h"
-#include "engine/assets/images/stored_image.h"
 #include "engine/base/chars.h"
 #include "engine/base/files/file_access.h"
 #include "engine/base/printable.h"

@@ -69,7 +69,7 @@ std::optional<LiveEnvironment::Event> LiveEnvironment::poll(imports::Environment
                                                             base::Diagnostics& diagnostics) {
   if (auto result = loader_.poll()) {
     ticket_ = 0;
-    incoming_ = std::move(result->map);
+    incoming_ = result->as<assets::EnvironmentMap>();
     said_ = std::move(result->diagnostics);
     if (!incoming_) {
       diagnostics.append(said_);

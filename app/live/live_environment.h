@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/environments/loader.h"
-#include "engine/imports/environment/environment_texture.h"
+#include "engine/assets/environments/environment_map.h"
+#include "engine/imports/environment/environment.h"
 
 namespace weft::app {
 

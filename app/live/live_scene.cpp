@@ -69,7 +69,7 @@ bool LiveScene::arrived() {
   while (auto result = loader_.poll()) {
     if (result->ticket != ticket_) continue;
     ticket_ = 0;
-    take(std::static_pointer_cast<const Loaded>(std::move(result->product)), std::move(result->diagnostics));
+    take(result->as<Loaded>(), std::move(result->diagnostics));
     return true;
   }
   return false;

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "app/output/standard_streams.h"
-#include "engine/assets/environments/loader.h"
+#include "engine/assets/environments/environment_map.h"
 #include "engine/base/message_choice.h"
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/compile/plan_memory.h"
@@ -81,7 +81,7 @@ std::optional<runtime::World> loadWorld(const Options& options, base::Diagnostic
     scene = scene::loadScene(scenePathOf(options), diagnostics, nullptr, sceneChoiceOf(options));
     if (auto loaded = loader.wait(ticket)) {
       diagnostics.append(loaded->diagnostics);
-      environment = std::move(loaded->map);
+      environment = loaded->as<assets::EnvironmentMap>();
     }
   } else {
     scene = scene::loadScene(scenePathOf(options), diagnostics, nullptr, sceneChoiceOf(options));

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/images/compare.h"
 #include "engine/assets/images/flip.h"
 
 namespace weft::app {

@@ -68,7 +68,7 @@ class Reader {
     const char first = key[0];
     if ((first >= '0' && first <= '9') || first == '-' || first == '+' || first == '.')
       return readTriple(words, 0, "a table row", nullptr);
-    if (key == "TITLE") return readTitle(line);
+    if (key == "TITLE") return;
     if (!lut_.texels.empty())
       return fail(words[0].column, fmt::format("keyword '{}' stands after the table began", key));
     if (key == "LUT_1D_SIZE") return readSize(words, 1, kMaxSize1d);
@@ -78,16 +78,7 @@ class Reader {
     if (key == "LUT_1D_INPUT_RANGE" || key == "LUT_3D_INPUT_RANGE") return readRange(words);
     fail(words[0].column, fmt::format("unknown keyword '{}'", key));
     // A file of another kind altogether is reported once.
-    if (lut_.size == 0 && lut_.title.empty()) errors_ = kMaxMessages;
-  }
-
-  void readTitle(std::string_view line) {
-    const std::size_t open = line.find('"');
-    const std::size_t close = line.rfind('"');
-    if (open != std::string_view::npos && close > open)
-      lut_.title = line.substr(open + 1, close - open - 1);
-    else
-      fail(1, "TITLE has no text in double quotes");
+    if (lut_.size == 0) errors_ = kMaxMessages;
   }
 
   void readSize(const std::vector<Word>& words, int dimensions, int largest) {

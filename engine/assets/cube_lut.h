@@ -1,6 +1,5 @@
 // .cube colour tables (Adobe "Cube LUT Specification" 1.0): 1D or 3D of any legal size, DOMAIN_MIN/MAX,
-// comments. Errors are W154 with line and column; an unreadable file is W001. Does not apply the table: that is
-// a shader's work.
+// comments. Errors are W154 with line and column; an unreadable file is W001.
 #pragma once
 
 #include <array>
@@ -14,7 +13,6 @@
 namespace weft::assets {
 
 struct CubeLut {
-  std::string title;
   int dimensions = 3;                       // 1: three curves; 3: a cube
   int size = 0;                             // entries per axis, 2..65536 (1D) or 2..256 (3D)
   std::array<float, 3> domainMin{0, 0, 0};  // input that hits the first entry

@@ -1,8 +1,18 @@
 #include "engine/graph/registry.h"
 
+#include <algorithm>
+#include <cassert>
+
 #include "engine/base/hash.h"
 
 namespace weft::graph {
+
+const Value& ImportRequest::at(std::string_view argument) const {
+  const auto found =
+      std::ranges::find_if(arguments, [&](const auto& each) { return each.first == argument; });
+  assert(found != arguments.end());
+  return found->second;
+}
 
 std::uint64_t keyOf(const ImportRequest& request) {
   std::uint64_t key = base::hashBytes(request.type);

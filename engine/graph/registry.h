@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -75,6 +76,7 @@ struct ImportRequest {
   std::string type;
   std::vector<std::pair<std::string, Value>>
       arguments;  // in the order of ImportType::arguments, defaults filled in
+  const Value& at(std::string_view argument) const;  // one that the type has
   friend bool operator==(const ImportRequest&, const ImportRequest&) = default;
 };
 // A hash of the request, by which an import is found again without comparing words.

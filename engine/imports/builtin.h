@@ -1,8 +1,6 @@
 // The imports that come with Weft. Each is in a folder of its own, which alone knows its name.
 #pragma once
 
-#include <memory>
-
 #include "engine/imports/import.h"
 
 namespace weft::imports {

@@ -1,7 +1,5 @@
 #include "engine/imports/camera_views.h"
 
-#include "engine/imports/world.h"
-
 namespace weft::imports {
 
 std::pair<scene::CameraPose, scene::CameraPose> CameraViews::posesOf(const Frame& frame) const {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/imports/frame.h"
+#include "engine/imports/world.h"
 #include "engine/scene/camera.h"
 
 namespace weft::imports {

@@ -7,13 +7,10 @@ std::shared_ptr<const void> Files::getAny(
     const std::function<std::shared_ptr<const void>(base::Diagnostics&)>& read,
     base::Diagnostics& diagnostics) {
   touched_.insert(path);
-  Stamp stamp;
   std::error_code ec;
-  stamp.time = std::filesystem::last_write_time(path, ec);
-  stamp.exists = !ec;
-  if (ec) stamp.time = {};
-  stamp.size = std::filesystem::file_size(path, ec);
-  if (ec) stamp.size = 0;
+  Stamp stamp{std::filesystem::last_write_time(path, ec), 0};
+  if (ec) stamp = {};
+  if (const auto size = std::filesystem::file_size(path, ec); !ec) stamp.second = size;
   const auto [found, fresh] = entries_.try_emplace({path, type});
   Entry& entry = found->second;
   if (fresh || entry.stamp != stamp) {

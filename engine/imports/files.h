@@ -1,6 +1,5 @@
 // What imports read from files, by path: read again only when the file's time or size is another, and kept for both those
 // who ask for facts and those who upload. Knows which paths were asked for, so that they can be watched.
-// Does not: know formats (whoever asks brings the function that reads).
 #pragma once
 
 #include <cstdint>
@@ -37,12 +36,7 @@ class Files {
   void forgetTouched() { touched_.clear(); }
 
  private:
-  struct Stamp {
-    bool exists = false;
-    std::filesystem::file_time_type time{};
-    std::uintmax_t size = 0;
-    friend bool operator==(const Stamp&, const Stamp&) = default;
-  };
+  using Stamp = std::pair<std::filesystem::file_time_type, std::uintmax_t>;  // time and size; of none, zeros
   struct Entry {
     Stamp stamp;
     std::shared_ptr<const void> made;

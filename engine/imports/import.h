@@ -7,14 +7,18 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "engine/base/diagnostic.h"
 #include "engine/gl/objects/objects.h"
 #include "engine/graph/registry.h"
-#include "engine/imports/frame.h"
+#include "engine/imports/camera_views.h"
 #include "engine/imports/row_table.h"
 #include "engine/imports/world.h"
 #include "engine/scene/camera.h"
+#include "engine/scene/scene.h"
 
 namespace weft::imports {
 
@@ -36,9 +40,11 @@ class Provider {
   // The newest texture. Id 0: there is none.
   virtual gl::TextureRef texture(const Frame&, base::Diagnostics&) { return {}; }
   // `layout` is for types that reflect `columns`: how the reading shader lays a row out.
-  virtual BufferRef buffer(const Frame&, const RowLayout& layout, base::Diagnostics&);
+  virtual BufferRef buffer(const Frame&, const RowLayout&, base::Diagnostics&) { return {}; }
   // Valid until the next call.
-  virtual const scene::ViewData& view(const Frame& frame, const ViewPart& part);
+  virtual const scene::ViewData& view(const Frame& frame, const ViewPart& part) {
+    return frame.camera.view(frame, part.width, part.height);
+  }
   // Another number whenever the import has changed, and only then: then `on_change` passes run, and histories that it resets
   // begin again. Unless overridden, it changes in every frame, as for what moves all the time.
   virtual std::uint64_t generation(const Frame& frame) { return frame.number; }
@@ -70,12 +76,62 @@ class Import {
   virtual graph::ImportType reflect() const = 0;
   // Called while graphs are expanded, without a device. Files must be read through `files`, so that each is watched and
   // read once. Unless overridden, the import exists, and nothing else is known of it.
-  virtual graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,
-                                   Files& files) const;
+  virtual graph::ImportFacts facts(const graph::ImportRequest&, const WorldFacts&, Files&) const {
+    return {.exists = true};
+  }
   // A graph whose picture stands in for a texture that the world lacks: a path from the folder that holds graphs/, or "".
   virtual std::string standInGraph() const { return {}; }
   // Must make no GL call, because the provider may never be used.
   virtual std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const = 0;
 };
+
+// An import whose providers are made of their request, or of nothing.
+template <class Made>
+class ImportOf : public Import {
+ public:
+  std::unique_ptr<Provider> provide([[maybe_unused]] const graph::ImportRequest& request) const override {
+    if constexpr (std::is_constructible_v<Made, const graph::ImportRequest&>)
+      return std::make_unique<Made>(request);
+    else
+      return std::make_unique<Made>();
+  }
+};
+
+// Gives a table of rows. `Table` has functions without an object: columns(), rows(frame), and, where the table changes with
+// more than the scene, generation(frame) and isStill(world).
+template <class Table>
+class TableProvider : public Provider {
+ public:
+  BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
+    const auto rows = [&] { return Table::rows(frame); };
+    return table_.get(layout, generation(frame), rows, diagnostics);
+  }
+  std::uint64_t generation(const Frame& frame) override { return Table::generation(frame); }
+  bool isStill(const World& world) const override { return Table::isStill(world); }
+
+ private:
+  RowTable<typename Table::Row> table_{Table::kLabel, Table::columns()};
+};
+
+template <class Of>
+struct SceneTable {
+  using Row = Of;
+  static std::uint64_t generation(const Frame& frame) { return frame.world.sceneGeneration(); }
+  static bool isStill(const World&) { return true; }
+};
+
+// For reflect().
+inline graph::ImportArgument argument(std::string name, graph::Value initial, std::string doc,
+                                      std::vector<std::string> choices = {}) {
+  return {std::move(name), std::move(initial), std::move(choices), std::move(doc)};
+}
+inline graph::ImportArgument drawListArgument(scene::DrawList initial = scene::DrawList::spheres) {
+  const std::string& name = scene::drawListNames()[static_cast<std::size_t>(initial)];
+  return {"list", graph::Value::text(name), {}, "a draw list", true};
+}
+// That a request names: expansion lets known ones through only.
+inline scene::DrawList drawListOf(const graph::ImportRequest& request) {
+  return scene::findDrawList(request.at("list").symbol).value_or(scene::DrawList::spheres);
+}
 
 }  // namespace weft::imports

@@ -74,12 +74,6 @@ MeshPass::MeshPass(const gl::Reflection& reflection, std::string label)
       instance_(wantedOf(reflection, kInstance)),
       vertexArray_(gl::VertexArray::create(label_)) {}
 
-bool MeshPass::isAttribute(std::string_view name) {
-  const auto named = [name](const Attribute& each) { return each.name == name; };
-  return std::ranges::any_of(kVertex, named) || std::ranges::any_of(kSkin, named) ||
-         std::ranges::any_of(kInstance, named);
-}
-
 void MeshPass::attach(const MeshBuffers& buffers) {
   if (serial_ != buffers.serial()) {
     serial_ = buffers.serial();
@@ -95,22 +89,12 @@ void MeshPass::attach(const MeshBuffers& buffers) {
   vertexArray_.setVertices(2, attachedRows_, 0, sizeof(std::uint32_t), instance_, 1);
 }
 
-bool MeshPass::send(gl::Buffer& buffer, std::span<const std::byte> bytes, base::Diagnostics& diagnostics) {
-  if (!buffer || buffer.bytes() < bytes.size()) {
-    auto made = gl::Buffer::create(bytes.size(), GL_DYNAMIC_STORAGE_BIT, label_, diagnostics);
-    if (!made) return false;
-    buffer = std::move(*made);
-  }
-  gl::uploadBuffer(buffer.id(), 0, bytes);
-  return true;
-}
-
 MeshDraw MeshPass::draw(const MeshBuffers& buffers, base::Diagnostics& diagnostics) {
   const std::span<const scene::DrawCommand> commands = view_.commands();
   if (commands.empty()) return {};
   if (sent_ != view_.generation()) {
-    if (!send(visibleRows_, std::as_bytes(view_.visible()), diagnostics) ||
-        !send(commandBuffer_, std::as_bytes(commands), diagnostics))
+    if (!sendTo(visibleRows_, std::as_bytes(view_.visible()), label_, true, diagnostics) ||
+        !sendTo(commandBuffer_, std::as_bytes(commands), label_, true, diagnostics))
       return {};
     sent_ = view_.generation();
   }

@@ -1,5 +1,5 @@
 // Meshes on the device: the vertices and indices of all of a scene, once, and of each draw pass what its view sees of a list,
-// as commands for one glMultiDrawElementsIndirect. Does not: know materials, or when a list changed.
+// as commands for one glMultiDrawElementsIndirect.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,7 @@
 #include "engine/base/diagnostic.h"
 #include "engine/gl/objects/objects.h"
 #include "engine/gl/programs/program.h"
+#include "engine/imports/row_table.h"
 #include "engine/scene/frame/mesh_views.h"
 #include "engine/scene/scene.h"
 
@@ -44,7 +45,6 @@ class MeshPass {
  public:
   // The names of vertex attributes: position, normal, tangent, uv, joints, weights; and `instance`, the row.
   MeshPass(const gl::Reflection& reflection, std::string label);
-  static bool isAttribute(std::string_view name);
 
   scene::MeshView& view() { return view_; }
   // Draws what its view sees now.
@@ -52,7 +52,6 @@ class MeshPass {
 
  private:
   void attach(const MeshBuffers& buffers);
-  bool send(gl::Buffer& buffer, std::span<const std::byte> bytes, base::Diagnostics& diagnostics);
 
   std::string label_;
   std::vector<gl::VertexAttribute> vertex_, skin_, instance_;

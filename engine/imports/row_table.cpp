@@ -46,14 +46,15 @@ RowBuffers::Copy& RowBuffers::copyOf(const RowLayout& layout) {
   return *copies_.emplace_back(std::make_unique<Copy>(Copy{.layout = layout, .buffer = {}}));
 }
 
-bool RowBuffers::send(Copy& copy, std::vector<std::byte>& bytes, base::Diagnostics& diagnostics) {
-  bytes.resize(std::max<std::size_t>(bytes.size(), 16));
-  if (!copy.buffer || copy.buffer.bytes() != bytes.size()) {
-    auto buffer = gl::Buffer::create(bytes.size(), GL_DYNAMIC_STORAGE_BIT, label_, diagnostics);
+bool sendTo(gl::Buffer& buffer, std::span<const std::byte> bytes, const std::string& label, bool grows,
+            base::Diagnostics& diagnostics) {
+  if (!buffer || (grows ? buffer.bytes() < bytes.size() : buffer.bytes() != bytes.size())) {
+    auto made = gl::Buffer::create(bytes.size() + (grows ? bytes.size() / 2 : 0), GL_DYNAMIC_STORAGE_BIT,
+                                   label, diagnostics);
+    buffer = made ? std::move(*made) : gl::Buffer();  // one that is too small must not be given out
     if (!buffer) return false;
-    copy.buffer = std::move(*buffer);
   }
-  gl::uploadBuffer(copy.buffer.id(), 0, bytes);
+  gl::uploadBuffer(buffer.id(), 0, bytes);
   return true;
 }
 

@@ -22,7 +22,7 @@
 #include "engine/gl/objects/objects.h"
 #include "engine/gl/programs/program.h"
 #include "engine/graph/registry.h"
-#include "engine/imports/frame.h"
+#include "engine/imports/world.h"
 
 namespace weft::imports {
 
@@ -99,6 +99,11 @@ void writeRows(const RowLayout& layout, const Columns<Row>& columns, std::span<c
   }
 }
 
+// Sends bytes to a buffer, which is made anew where it has another size; or, if it `grows`, where it is too small, with half as much
+// again. False after an error, and the buffer is none.
+bool sendTo(gl::Buffer& buffer, std::span<const std::byte> bytes, const std::string& label, bool grows,
+            base::Diagnostics& diagnostics);
+
 // The buffers of a table, one for each layout.
 class RowBuffers {
  public:
@@ -109,7 +114,10 @@ class RowBuffers {
     std::uint64_t generation = 0;
   };
   Copy& copyOf(const RowLayout& layout);
-  bool send(Copy& copy, std::vector<std::byte>& bytes, base::Diagnostics& diagnostics);
+  bool send(Copy& copy, std::vector<std::byte>& bytes, base::Diagnostics& diagnostics) {
+    bytes.resize(std::max<std::size_t>(bytes.size(), 16));
+    return sendTo(copy.buffer, bytes, label_, false, diagnostics);
+  }
 
  private:
   std::string label_;
@@ -119,8 +127,8 @@ class RowBuffers {
 template <class Row>
 class RowTable {
  public:
-  // `columns` must outlive this.
-  RowTable(std::string label, const Columns<Row>& columns) : columns_(&columns), buffers_(std::move(label)) {}
+  RowTable(std::string label, Columns<Row> columns)
+      : columns_(std::move(columns)), buffers_(std::move(label)) {}
 
   // `rows()` gives all rows; it is called when a layout is of another generation. Id 0 after an error.
   template <class Rows>
@@ -129,7 +137,7 @@ class RowTable {
     RowBuffers::Copy& copy = buffers_.copyOf(layout);
     if (copy.generation != generation) {
       const auto& all = rows();
-      writeRows(copy.layout, *columns_, std::span<const Row>(all), bytes_);
+      writeRows(copy.layout, columns_, std::span<const Row>(all), bytes_);
       if (!buffers_.send(copy, bytes_, diagnostics)) return {};
       copy.generation = generation;
     }
@@ -137,7 +145,7 @@ class RowTable {
   }
 
  private:
-  const Columns<Row>* columns_;
+  Columns<Row> columns_;
   RowBuffers buffers_;
   std::vector<std::byte> bytes_;
 };

@@ -4,26 +4,22 @@
 
 namespace weft::imports {
 
-const Columns<scene::Instance>& sphereColumns() {
+Columns<scene::Instance> sphereColumns() {
   using Row = scene::Instance;
-  static const Columns<Row> columns = {
-      column<Row, &Row::center>("center", "world"),
-      column<Row, &Row::radius>("radius", "world units"),
-      column<Row, &Row::previous_center>("previous_center", "of the frame before"),
-      column<Row, &Row::roughness>("roughness", "perceptual"),
-      column<Row, &Row::albedo>("albedo", "linear; F0 of a metal"),
-      column<Row, &Row::metallic>("metallic", "0 to 1")};
-  return columns;
+  return {column<Row, &Row::center>("center", "world"),
+          column<Row, &Row::radius>("radius", "world units"),
+          column<Row, &Row::previous_center>("previous_center", "of the frame before"),
+          column<Row, &Row::roughness>("roughness", "perceptual"),
+          column<Row, &Row::albedo>("albedo", "linear; F0 of a metal"),
+          column<Row, &Row::metallic>("metallic", "0 to 1")};
 }
 
-const Columns<scene::MeshRow>& meshColumns() {
+Columns<scene::MeshRow> meshColumns() {
   using Row = scene::MeshRow;
-  static const Columns<Row> columns = {
-      column<Row, &Row::transform>("transform", "model to world"),
-      column<Row, &Row::previous_transform>("previous_transform", "of the frame before"),
-      column<Row, &Row::material>("material", "row of @materials"),
-      column<Row, &Row::first_joint>("first_joint", "of @joints; of a mesh whose weights are not 0")};
-  return columns;
+  return {column<Row, &Row::transform>("transform", "model to world"),
+          column<Row, &Row::previous_transform>("previous_transform", "of the frame before"),
+          column<Row, &Row::material>("material", "row of @materials"),
+          column<Row, &Row::first_joint>("first_joint", "of @joints; of a mesh whose weights are not 0")};
 }
 
 SceneTables::SceneTables() {
@@ -85,13 +81,10 @@ const scene::MeshFrame& SceneTables::meshFrame() {
   return meshFrame_;
 }
 
-std::uint64_t SceneTables::meshGeneration(scene::DrawList list) {
-  return meshFrame().generation(list);
-}
-
 BufferRef SceneTables::meshes(scene::DrawList list, const RowLayout& layout, base::Diagnostics& diagnostics) {
   const auto all = [&] { return meshFrame().rows(list); };
-  return meshTables_[static_cast<std::size_t>(list)].get(layout, meshGeneration(list), all, diagnostics);
+  return meshTables_[static_cast<std::size_t>(list)].get(layout, meshFrame().generation(list), all,
+                                                         diagnostics);
 }
 
 void SceneTables::see(std::span<scene::MeshView* const> views) {

@@ -9,7 +9,6 @@
 
 #include "engine/base/diagnostic.h"
 #include "engine/graph/registry.h"
-#include "engine/imports/frame.h"
 #include "engine/imports/material_textures.h"
 #include "engine/imports/mesh_draws.h"
 #include "engine/imports/row_table.h"
@@ -21,8 +20,8 @@
 namespace weft::imports {
 
 // The columns of a list's spheres, and of its meshes.
-const Columns<scene::Instance>& sphereColumns();
-const Columns<scene::MeshRow>& meshColumns();
+Columns<scene::Instance> sphereColumns();
+Columns<scene::MeshRow> meshColumns();
 
 class SceneTables {
  public:
@@ -41,7 +40,6 @@ class SceneTables {
 
   // Its meshes.
   BufferRef meshes(scene::DrawList list, const RowLayout& layout, base::Diagnostics& diagnostics);
-  std::uint64_t meshGeneration(scene::DrawList list);
   // Finds out what the views of these passes see of meshes, of all at once. Before draw() of any of them.
   void see(std::span<scene::MeshView* const> views);
   // What the view of `pass` saw in the last see().
@@ -49,8 +47,6 @@ class SceneTables {
   // How many threads may place and see meshes; 0, the default: as many as the machine has.
   void setThreads(int threads);
   const scene::MeshFrame& meshFrame();
-  std::uint64_t jointGeneration() { return meshFrame().jointsGeneration(); }
-  scene::Box bounds() { return meshFrame().sceneBounds(); }  // of everything, world
 
   MaterialTextures& textures() { return textures_; }
 

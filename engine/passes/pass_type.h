@@ -1,12 +1,12 @@
 // A pass type: what a graph may write of it (reflect), and the GL calls of such a pass (execute). When execute() is called,
 // the executor has bound program, vertex array, textures, buffers, framebuffer, viewport and fixed-function state.
-// Knows nothing of windows, input, scheduling or files. To add a pass type, make a folder here with a class, and add a
-// line to pass_registry.cpp.
+// CONTRIBUTING.md says how to add one.
 #pragma once
 
 #include <glad/gl.h>
 
 #include <cstdint>
+#include <memory>
 
 #include "engine/graph/flat_graph.h"
 #include "engine/graph/registry.h"

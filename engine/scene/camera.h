@@ -1,8 +1,7 @@
 // Cameras: where they stand at a time, and the matrices a shader's View block wants. Right-handed world, +Y
 // up, view space looks along -Z; perspective is reversed-Z with an infinite far plane and [0,1] clip depth:
 // the near plane maps to 1, infinity to 0 (glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE), depth test
-// "greater"). Everything is a pure function of its arguments. Does not: read input devices or keep the last
-// frame.
+// "greater"). Everything is a pure function of its arguments.
 #pragma once
 
 #include <cstdint>

@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "engine/scene/camera.h"
-#include "engine/scene/mesh.h"
 #include "engine/scene/scene.h"
 
 namespace weft::scene {

@@ -24,6 +24,16 @@ glm::mat4 matrixOf(const Transform& transform) {
           glm::vec4(rotation[2] * transform.scale.z, 0), glm::vec4(transform.translation, 1)};
 }
 
+float rangeOf(glm::vec3 intensity) {
+  return std::sqrt(std::max({intensity.x, intensity.y, intensity.z}) / kLeastIrradiance);
+}
+
+glm::vec3 turnDirection(const glm::mat4& node, glm::vec3 direction) {
+  const glm::vec3 turned = glm::mat3(node) * direction;
+  const float length = glm::length(turned);
+  return length > 1e-30f ? turned / length : direction;
+}
+
 const Camera* findCamera(const Scene& scene, std::string_view name) {
   for (const Camera& camera : scene.cameras.rows())
     if (name.empty() || camera.name == name) return &camera;
@@ -31,9 +41,8 @@ const Camera* findCamera(const Scene& scene, std::string_view name) {
 }
 
 std::size_t countInstances(const Scene& scene, DrawList list) {
-  const std::span<const Sphere> spheres = scene.spheres.rows();
-  return static_cast<std::size_t>(std::count_if(
-      spheres.begin(), spheres.end(), [&](const Sphere& s) { return (s.lists & maskOf(list)) != 0; }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      scene.spheres.rows(), [&](const Sphere& s) { return (s.lists & maskOf(list)) != 0; }));
 }
 
 std::size_t countMeshInstances(const Scene& scene, DrawList list) {
@@ -42,8 +51,7 @@ std::size_t countMeshInstances(const Scene& scene, DrawList list) {
 }
 
 bool isMoving(const Scene& scene, DrawList list) {
-  const std::span<const Sphere> spheres = scene.spheres.rows();
-  return std::any_of(spheres.begin(), spheres.end(), [&](const Sphere& s) {
+  return std::ranges::any_of(scene.spheres.rows(), [&](const Sphere& s) {
     return (s.lists & maskOf(list)) != 0 && s.velocity != glm::vec3(0);
   });
 }

@@ -1,4 +1,4 @@
-// The scene as tables with stable ids. Rows are plain values; nothing here owns GPU memory or knows a clock:
+// The scene as tables. Rows are plain values; nothing here owns GPU memory or knows a clock:
 // motion is a function of the time that the caller gives. What of it depends on time is worked out in engine/scene/frame.
 #pragma once
 
@@ -7,22 +7,122 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "engine/assets/model.h"
 #include "engine/scene/camera.h"
-#include "engine/scene/ground.h"
-#include "engine/scene/light.h"
-#include "engine/scene/mesh.h"
-#include "engine/scene/node.h"
-#include "engine/scene/table.h"
 
 namespace weft::scene {
 
+using assets::Box;
 using assets::Material;
+using assets::Mesh;
+using assets::MeshData;
+using assets::SkinVertex;
 using assets::Texture;
-using MaterialId = Table<Material>::Id;
+using assets::Transform;
+using assets::Vertex;
+
+// A row of the table of such rows.
+template <class Row>
+struct Id {
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  std::uint32_t index = kNone;
+  constexpr bool valid() const { return index != kNone; }
+  friend constexpr auto operator<=>(const Id&, const Id&) = default;
+};
+
+// Rows in the order in which they were added.
+template <class Row>
+class Table {
+ public:
+  Id<Row> add(Row row) {
+    rows_.push_back(std::move(row));
+    return idOf(rows_.size() - 1);
+  }
+  Id<Row> idOf(std::size_t row) const { return {static_cast<std::uint32_t>(row)}; }
+  // Null for the id of nothing.
+  const Row* find(Id<Row> id) const { return id.index < rows_.size() ? &rows_[id.index] : nullptr; }
+  Row& edit(Id<Row> id) { return rows_[id.index]; }
+  std::span<const Row> rows() const { return rows_; }
+  std::size_t size() const { return rows_.size(); }
+  void reserve(std::size_t count) { rows_.reserve(count); }
+
+ private:
+  std::vector<Row> rows_;
+};
+
+using MaterialId = Id<Material>;
+using MeshId = Id<Mesh>;
+
+// Where a node stands is a function of time (engine/scene/frame/transforms.h).
+glm::mat4 matrixOf(const Transform& transform);
+
+struct Node;
+using NodeId = Id<Node>;
+struct Node {
+  std::string name;
+  NodeId parent;      // stands before this row; none: the world
+  Transform local;    // at time 0, unless an animation says otherwise
+  glm::vec3 spin{0};  // turns about this axis, through the node's origin, by its length in radians per second
+  glm::vec3 velocity{0};  // of the parent's units per second
+};
+
+struct Skin {
+  std::vector<NodeId> joints;
+  std::vector<glm::mat4> inverseBind;  // parallel to joints: from the mesh to the joint
+};
+using SkinId = Id<Skin>;
+
+// An animation that plays, round and round. Copies of a model share the tracks and have nodes of their own.
+struct Animation {
+  std::shared_ptr<const assets::ModelAnimation> tracks;
+  std::vector<NodeId> nodes;  // the node that a track moves, parallel to tracks->tracks
+  float speed = 1;
+};
+
+// Quantities of light are in scene units: Scene::nits cd/m² are one unit of radiance, so that an irradiance is lux / nits and an
+// intensity candela / nits, per colour channel.
+struct Sun {
+  glm::vec3 direction{0, 1, 0};  // unit, from the scene towards the sun
+  glm::vec3 irradiance{1};       // linear RGB, on a surface that faces it
+  float angle = 0.53f;           // degrees: diameter of the disc
+  bool shadow = true;
+  NodeId node{};  // that turns it, as a lamp's does
+};
+
+struct Lamp {
+  std::string name;
+  glm::vec3 position{0};
+  glm::vec3 intensity{1};  // linear RGB radiant intensity: irradiance at distance d is intensity / d²
+  float range =
+      0;  // over 0: no light beyond. A scene file without it: where irradiance falls below kLeastIrradiance
+  glm::vec3 direction{0, -1, 0};  // unit, from the lamp; of a spot
+  float cosInner = -1,
+        cosOuter = -1;  // full light within the inner, none outside the outer half angle; -1: all round
+  bool shadow = false;
+  float radius = 0;  // world units: of the ball that shines, for soft shadows
+  // What it stands on: position and direction are in this node's coordinates then. Lengths are not scaled. None: the world.
+  NodeId node{};
+};
+
+constexpr float kLeastIrradiance = 1e-3f;  // scene units
+float rangeOf(glm::vec3 intensity);        // where its brightest channel falls to kLeastIrradiance
+
+// A direction of a light in the world, by the matrix of its node; where a scale is 0 as it is in the node.
+glm::vec3 turnDirection(const glm::mat4& node, glm::vec3 direction);
+
+// A horizontal plane that things stand on. It takes their shadows; what it shows beside them is the environment, or a surface of
+// its own that ends in the environment.
+struct Ground {
+  float height = 0;                 // world Y
+  std::optional<glm::vec3> albedo;  // linear, of a diffuse surface; empty: it shows the environment
+  float radius = 100;               // of that surface, about the world's Y axis; it fades in the outer half
+};
 
 // The draw lists a graph may name. A list holds spheres and mesh instances; each may stand in several.
 enum class DrawList : std::uint8_t { spheres, opaque, shadow_casters, transparent_spheres, transparent };
@@ -40,7 +140,6 @@ struct Sphere {
   MaterialId material;
   std::uint8_t lists = maskOf(DrawList::spheres);
 };
-using SphereId = Table<Sphere>::Id;
 
 struct MeshInstance {
   NodeId node;
@@ -49,7 +148,6 @@ struct MeshInstance {
   SkinId skin;  // of a skinned mesh; its joints place it then, and not its node
   std::uint8_t lists = static_cast<std::uint8_t>(maskOf(DrawList::opaque) | maskOf(DrawList::shadow_casters));
 };
-using MeshInstanceId = Table<MeshInstance>::Id;
 
 struct Scene {
   std::string name;

@@ -31,32 +31,7 @@ void sortRadix(std::vector<SortElement>& elements, std::vector<SortElement>& scr
   }
 }
 
-template <typename Choice>
-std::optional<Choice> findChoice(const std::vector<std::string>& names, std::string_view name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return {};
-  return static_cast<Choice>(found - names.begin());
-}
-
 }  // namespace
-
-const std::vector<std::string>& sortMethodNames() {
-  static const std::vector<std::string> names = {"cpu_std", "cpu_radix"};
-  return names;
-}
-
-std::optional<SortMethod> findSortMethod(std::string_view name) {
-  return findChoice<SortMethod>(sortMethodNames(), name);
-}
-
-const std::vector<std::string>& sortByNames() {
-  static const std::vector<std::string> names = {"power", "depth"};
-  return names;
-}
-
-std::optional<SortBy> findSortBy(std::string_view name) {
-  return findChoice<SortBy>(sortByNames(), name);
-}
 
 float viewDepth(const glm::mat4& view, glm::vec3 center) {
   return -(((view[0].z * center.x + view[1].z * center.y) + view[2].z * center.z) + view[3].z);

@@ -15,10 +15,7 @@
 #include <bit>
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <optional>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "engine/scene/camera.h"
@@ -32,8 +29,6 @@ struct SortElement {  // uvec2 of the GPU buffer
 };
 
 enum class SortMethod : std::uint8_t { cpu_std, cpu_radix };
-const std::vector<std::string>& sortMethodNames();  // "cpu_std", "cpu_radix"
-std::optional<SortMethod> findSortMethod(std::string_view name);
 
 constexpr std::uint32_t depthKey(float depth) {
   if (depth != depth) return 0xffffffffu;
@@ -44,8 +39,6 @@ float viewDepth(const glm::mat4& view, glm::vec3 center);
 float powerOf(glm::vec3 eye, glm::vec3 center, float radius);
 
 enum class SortBy : std::uint8_t { power, depth };
-const std::vector<std::string>& sortByNames();  // "power", "depth"
-std::optional<SortBy> findSortBy(std::string_view name);
 
 // Sorts by (key, index) ascending. `elements` must come with ascending indices (as makeKeys leaves them):
 // both methods are stable and look at the key only. `scratch` is working memory, reused from call to call;

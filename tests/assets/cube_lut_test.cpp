@@ -30,7 +30,6 @@ TEST_CASE("a 3D table with comments, a title, a domain and carriage returns") {
   const auto lut = read(text, diagnostics);
   REQUIRE(lut);
   CHECK(diagnostics.empty());
-  CHECK(lut->title == "warm look");
   CHECK(lut->dimensions == 3);
   CHECK(lut->size == 2);
   CHECK(lut->domainMin == std::array<float, 3>{0, -1, 0});
@@ -69,7 +68,6 @@ TEST_CASE("every mistake names its line") {
   CHECK(failureOf("LUT_1D_SIZE 2\nDOMAIN_MIN 1 1 1\n0 0 0\n1 1 1\n").message.find("DOMAIN_MIN") !=
         std::string::npos);
   CHECK(failureOf("LUT_1D_SIZE 2\n0 0 0\nDOMAIN_MIN 0 0 0\n1 1 1\n").place.line == 3);
-  CHECK(failureOf("TITLE no quotes\n").place.line == 1);
 }
 
 TEST_CASE("a file of another kind is reported once, a table full of rubbish with a bounded list") {

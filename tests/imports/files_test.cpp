@@ -1,3 +1,5 @@
+#include "engine/imports/files.h"
+
 #include <doctest/doctest.h>
 
 #include <chrono>
@@ -6,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "engine/imports/cube_lut/lut_texture.h"
+#include "engine/assets/cube_lut.h"
 #include "tests/temporary_folder.h"
 
 using namespace weft;
@@ -17,7 +19,9 @@ TEST_CASE("a table is parsed once, again when its file changed, and its mistakes
   const std::string path = folder.at("a.cube");
   const auto write = [&](const std::string& text) { std::ofstream(path) << text; };
   Files files;
-  const auto table = [&](base::Diagnostics& said) { return tableOf(files, path, said); };
+  const auto table = [&](base::Diagnostics& said) {
+    return files.get<assets::CubeLut>(path, assets::loadCubeLut, said);
+  };
   base::Diagnostics diagnostics;
   for (int i = 0; i < 2; ++i) {
     CHECK(!table(diagnostics));
@@ -28,7 +32,6 @@ TEST_CASE("a table is parsed once, again when its file changed, and its mistakes
   const auto first = table(diagnostics);
   REQUIRE(first);
   CHECK(table(diagnostics) == first);
-  CHECK(lutExtent(*first).width != lutExtent(*first).layers);
   write("LUT_3D_SIZE 2\n" + std::string("0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n"));
   const auto second = table(diagnostics);
   REQUIRE(second);

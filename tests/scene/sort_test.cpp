@@ -147,9 +147,3 @@ TEST_CASE("by power, no sphere that hides another comes before it; by depth, som
   CHECK(wrongByPower == 0);
   CHECK(wrongByDepth > 0);
 }
-
-TEST_CASE("methods are found by name") {
-  CHECK(findSortMethod("cpu_radix") == SortMethod::cpu_radix);
-  CHECK(findSortMethod("cpu_std") == SortMethod::cpu_std);
-  CHECK_FALSE(findSortMethod("gpu_bitonic"));
-}

@@ -4,48 +4,15 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cassert>
 #include <exception>
-#include <span>
+#include <memory>
+#include <utility>
 
 #include "engine/assets/images/half.h"
 #include "engine/assets/images/image_codecs.h"
 #include "engine/base/files/file.h"
 
 namespace weft::assets {
-
-namespace {
-
-// Between two looks at the observer: about a millisecond's work.
-constexpr std::size_t kTexelsPerPortion = std::size_t{1} << 17;
-// What comes without a size (a pipe) fills half of its part of the bar with so much, and never all of it.
-constexpr double kTypicalBytes = 1 << 20;
-
-// Empty when `goOn` gave up.
-std::optional<EnvironmentMap> convert(const ImageF& image, const std::function<bool(double)>& goOn) {
-  assert(image.channels == 3 || image.channels == 4);
-  const std::size_t channels = static_cast<std::size_t>(image.channels);
-  const std::size_t count = image.texels.size() / channels;
-  EnvironmentMap map{static_cast<std::uint32_t>(image.width), static_cast<std::uint32_t>(image.height), {}};
-  map.texels.resize(count * 4);
-  std::vector<float> wide;
-  for (std::size_t at = 0; at < count; at += kTexelsPerPortion) {
-    if (!goOn(static_cast<double>(at) / static_cast<double>(count))) return {};
-    const std::size_t texels = std::min(kTexelsPerPortion, count - at);
-    std::span<const float> from(image.texels.data() + at * channels, texels * channels);
-    if (channels == 3) {
-      wide.assign(texels * 4, 1.0f);
-      for (std::size_t i = 0; i < texels; ++i)
-        std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(i * 3), 3,
-                    wide.begin() + static_cast<std::ptrdiff_t>(i * 4));
-      from = wide;
-    }
-    floatsToHalves(from, std::span(map.texels).subspan(at * 4, texels * 4));
-  }
-  return map;
-}
-
-}  // namespace
 
 std::uint64_t newEnvironmentId() {
   static std::atomic<std::uint64_t> last{0};
@@ -60,19 +27,28 @@ std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, base::
   {
     const auto bytes = base::readFile(
         path, diagnostics, base::Code::unreadableImage, {}, [&](std::uint64_t done, std::uint64_t total) {
-          const double size =
-              total == 0 ? static_cast<double>(done) + kTypicalBytes : static_cast<double>(total);
+          // What comes without a size (a pipe) fills half of its part of the bar with a MiB, and never all of it.
+          const auto size = static_cast<double>(total > 0 ? total : done + (1u << 20));
           return goOn(LoadStage::reading, std::min(1.0, static_cast<double>(done) / size));
         });
     if (!bytes || !goOn(LoadStage::decoding, 0)) return {};
     image = decodeEnvironment(*bytes, path, diagnostics);
   }
   if (!image || !goOn(LoadStage::converting, 0)) return {};
-  return convert(*image, [&](double done) { return goOn(LoadStage::converting, done); });
+  return toEnvironmentMap(*image);
 } catch (const std::exception& error) {  // out of memory
   reportUnreadable(diagnostics, path, fmt::format("decoding failed ({})", error.what()));
   return {};
 }
+
+Loader::Loader(StageHook hook)
+    : LoadQueue(
+          [](const std::string& path, base::Diagnostics& diagnostics,
+             const LoadObserver& observer) -> std::shared_ptr<const void> {
+            auto map = loadEnvironmentMap(path, diagnostics, observer);
+            return map ? std::make_shared<const EnvironmentMap>(std::move(*map)) : nullptr;
+          },
+          std::move(hook)) {}
 
 bool isEnvironmentName(const std::string& name) {
   const ImageKind kind = kindOfName(name);
@@ -80,7 +56,12 @@ bool isEnvironmentName(const std::string& name) {
 }
 
 EnvironmentMap toEnvironmentMap(const ImageF& image) {
-  return *convert(image, [](double) { return true; });
+  EnvironmentMap map{static_cast<std::uint32_t>(image.width), static_cast<std::uint32_t>(image.height), {}};
+  const ImageF wide = image.channels == 4 ? ImageF{} : widenToRgba(image);
+  const std::vector<float>& texels = image.channels == 4 ? image.texels : wide.texels;
+  map.texels.resize(texels.size());
+  floatsToHalves(texels, map.texels);
+  return map;
 }
 
 }  // namespace weft::assets

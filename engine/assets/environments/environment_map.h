@@ -1,7 +1,6 @@
 // An environment as the GPU takes it: equirectangular RGBA halves, and the way there from a file. What the
 // loader thread runs, and anyone else may call. Errors and warnings are those of loadEnvironment (image.h),
-// with file and reason. Thread safe: no state is shared between calls. Does not: know GL, build mips, or
-// start threads (loader.h does).
+// with file and reason. Thread safe: no state is shared between calls.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +9,7 @@
 #include <vector>
 
 #include "engine/assets/images/image.h"
-#include "engine/assets/loading/load_observer.h"
+#include "engine/assets/loading/load_queue.h"
 
 namespace weft::assets {
 
@@ -28,6 +27,12 @@ struct EnvironmentMap {
 // Empty after errors, and without any when `observer` gave up.
 std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, base::Diagnostics& diagnostics,
                                                  const LoadObserver& observer = {});
+
+// Loads them on a thread of its own: what it makes is an EnvironmentMap.
+class Loader : public LoadQueue {
+ public:
+  explicit Loader(StageHook hook = {});
+};
 
 // Whether a name is that of an environment, by its end: .hdr or .exr.
 bool isEnvironmentName(const std::string& name);

@@ -4,86 +4,58 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
+#include <glm/glm.hpp>
 #include <numbers>
 
 namespace weft::assets {
 
 namespace {
 
-using Color = std::array<double, 3>;
+using Color = glm::dvec3;
 constexpr double kPi = std::numbers::pi;
 
-// Linear sRGB to CIE XYZ under D65, as exact fractions; rows sum to the white point below.
-constexpr double kToXyz[3][3] = {
-    {10135552.0 / 24577794, 8788810.0 / 24577794, 4435075.0 / 24577794},
-    {2613072.0 / 12288897, 8788810.0 / 12288897, 887015.0 / 12288897},
-    {1425312.0 / 73733382, 8788810.0 / 73733382, 70074185.0 / 73733382},
-};
-constexpr Color kWhite = {kToXyz[0][0] + kToXyz[0][1] + kToXyz[0][2],
-                          kToXyz[1][0] + kToXyz[1][1] + kToXyz[1][2],
-                          kToXyz[2][0] + kToXyz[2][1] + kToXyz[2][2]};
-
-Color toXyz(const Color& rgb) {
-  Color xyz{};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t k = 0; k < 3; ++k) xyz[i] += kToXyz[i][k] * rgb[k];
-  return xyz;
-}
-
-// Solves by Cramer's rule, so that the two directions agree to the last bits.
-Color fromXyz(const Color& xyz) {
-  const auto& m = kToXyz;
-  const auto minor = [&](std::size_t r, std::size_t c) {
-    const std::size_t a = (r + 1) % 3, b = (r + 2) % 3, d = (c + 1) % 3, e = (c + 2) % 3;
-    return m[a][d] * m[b][e] - m[a][e] * m[b][d];
-  };
-  const double whole = m[0][0] * minor(0, 0) + m[0][1] * minor(0, 1) + m[0][2] * minor(0, 2);
-  Color rgb{};
-  for (std::size_t c = 0; c < 3; ++c)
-    for (std::size_t r = 0; r < 3; ++r) rgb[c] += minor(r, c) / whole * xyz[r];
-  return rgb;
-}
+// Linear sRGB to CIE XYZ under D65, as exact fractions; rows sum to the white point.
+const glm::dmat3 kToXyz = glm::transpose(glm::dmat3(                    //
+    10135552.0 / 24577794, 8788810.0 / 24577794, 4435075.0 / 24577794,  //
+    2613072.0 / 12288897, 8788810.0 / 12288897, 887015.0 / 12288897,    //
+    1425312.0 / 73733382, 8788810.0 / 73733382, 70074185.0 / 73733382));
+const glm::dmat3 kFromXyz = glm::inverse(kToXyz);
+const Color kWhite = kToXyz * Color(1);
 
 // YCxCz: the linear opponent space in which contrast sensitivity is known (section 4.1).
 Color toOpponent(const Color& rgb) {
-  Color xyz = toXyz(rgb);
-  for (std::size_t i = 0; i < 3; ++i) xyz[i] /= kWhite[i];
-  return {116 * xyz[1] - 16, 500 * (xyz[0] - xyz[1]), 200 * (xyz[1] - xyz[2])};
+  const Color xyz = kToXyz * rgb / kWhite;
+  return {116 * xyz.y - 16, 500 * (xyz.x - xyz.y), 200 * (xyz.y - xyz.z)};
 }
 
 Color fromOpponent(const Color& c) {
   const double y = (c[0] + 16) / 116;
-  return fromXyz({(y + c[1] / 500) * kWhite[0], y * kWhite[1], (y - c[2] / 200) * kWhite[2]});
+  return kFromXyz * (Color(y + c[1] / 500, y, y - c[2] / 200) * kWhite);
 }
 
 // L*a*b* with the chroma scaled by the lightness: the Hunt effect (section 4.1.3).
 Color toHuntLab(const Color& rgb) {
-  Color xyz = toXyz(rgb);
+  Color xyz = kToXyz * rgb / kWhite;
   constexpr double kDelta = 6.0 / 29;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double t = xyz[i] / kWhite[i];
-    xyz[i] = t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0 / 29;
-  }
-  const double l = 116 * xyz[1] - 16;
-  return {l, 0.01 * l * 500 * (xyz[0] - xyz[1]), 0.01 * l * 200 * (xyz[1] - xyz[2])};
+  for (int i = 0; i < 3; ++i)
+    xyz[i] =
+        xyz[i] > kDelta * kDelta * kDelta ? std::cbrt(xyz[i]) : xyz[i] / (3 * kDelta * kDelta) + 4.0 / 29;
+  const double l = 116 * xyz.y - 16;
+  return {l, 0.01 * l * 500 * (xyz.x - xyz.y), 0.01 * l * 200 * (xyz.y - xyz.z)};
 }
 
 double distanceOf(const Color& a, const Color& b) {  // HyAB
   return std::abs(a[0] - b[0]) + std::hypot(a[1] - b[1], a[2] - b[2]);
 }
 
-// A plane of the picture and filters along one axis; both axes make a separable filter. Beyond the edge the picture repeats its
-// outermost pixels.
 using Plane = std::vector<double>;
-struct Kernel {
-  int radius = 0;
-  std::vector<double> weights{};  // 2 * radius + 1
-};
+using Kernel = std::vector<double>;  // an odd number of weights
 
 template <class Weight>
 Kernel makeKernel(int radius, Weight&& weight) {
-  Kernel kernel{radius, {}};
-  for (int i = -radius; i <= radius; ++i) kernel.weights.push_back(weight(i));
+  Kernel kernel;
+  for (int i = -radius; i <= radius; ++i) kernel.push_back(weight(i));
   return kernel;
 }
 
@@ -91,41 +63,27 @@ Kernel makeKernel(int radius, Weight&& weight) {
 // derivative, so that normalizing the factors normalizes the product.
 void normalize(Kernel& kernel) {
   double positive = 0, negative = 0;
-  for (const double w : kernel.weights) (w > 0 ? positive : negative) += std::abs(w);
-  for (double& w : kernel.weights) w /= w > 0 ? positive : negative > 0 ? negative : 1;
+  for (const double w : kernel) (w > 0 ? positive : negative) += std::abs(w);
+  for (double& w : kernel) w /= w > 0 ? positive : negative > 0 ? negative : 1;
 }
 
-class Filter {
- public:
-  Filter(int width, int height) : width_(width), height_(height) {}
-
-  Plane apply(const Plane& plane, const Kernel& alongX, const Kernel& alongY) {
-    Plane middle(plane.size()), out(plane.size());
-    pass(plane, middle, alongX, width_, 1, height_, width_);
-    pass(middle, out, alongY, height_, width_, width_, 1);
-    return out;
-  }
-
- private:
-  // Along `count` pixels that are `step` apart, for `lines` lines that begin `lineStep` apart.
-  static void pass(const Plane& from, Plane& to, const Kernel& kernel, int count, int step, int lines,
-                   int lineStep) {
-    for (int line = 0; line < lines; ++line) {
-      const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(line) * lineStep;
-      for (int i = 0; i < count; ++i) {
-        double sum = 0;
-        for (int k = -kernel.radius; k <= kernel.radius; ++k) {
-          const int at = std::clamp(i + k, 0, count - 1);
-          sum += kernel.weights[static_cast<std::size_t>(k + kernel.radius)] *
-                 from[static_cast<std::size_t>(begin + static_cast<std::ptrdiff_t>(at) * step)];
-        }
-        to[static_cast<std::size_t>(begin + static_cast<std::ptrdiff_t>(i) * step)] = sum;
-      }
+// Filters along one axis: along `count` pixels that are `step` apart, for `lines` lines that begin `lineStep` apart. Beyond the edge
+// the picture repeats its outermost pixels.
+Plane filter(const Plane& from, const Kernel& kernel, int count, int step, int lines, int lineStep) {
+  Plane to(from.size());
+  const int radius = static_cast<int>(kernel.size() / 2);
+  for (int line = 0; line < lines; ++line) {
+    const std::ptrdiff_t begin = std::ptrdiff_t{line} * lineStep;
+    for (int i = 0; i < count; ++i) {
+      double sum = 0;
+      for (int k = -radius; k <= radius; ++k)
+        sum += kernel[static_cast<std::size_t>(k + radius)] *
+               from[static_cast<std::size_t>(begin + std::ptrdiff_t{std::clamp(i + k, 0, count - 1)} * step)];
+      to[static_cast<std::size_t>(begin + std::ptrdiff_t{i} * step)] = sum;
     }
   }
-
-  int width_, height_;
-};
+  return to;
+}
 
 // Contrast sensitivity (table 1): sums of a * sqrt(pi / b) * exp(-pi^2 d^2 / b) at a distance of d degrees.
 struct Gaussian {
@@ -141,7 +99,7 @@ struct Features {
 class Side {
  public:
   Side(const Image8& image, double pixelsPerDegree)
-      : filter_(image.width, image.height), density_(pixelsPerDegree) {
+      : width_(image.width), height_(image.height), density_(pixelsPerDegree) {
     const auto channels = static_cast<std::size_t>(image.channels);
     const std::size_t pixels = image.texels.size() / channels;
     std::array<double, 256> linear{};
@@ -153,7 +111,7 @@ class Side {
     for (std::size_t p = 0; p < pixels; ++p) {
       const std::uint8_t* texel = &image.texels[p * channels];
       const Color c = toOpponent({linear[texel[0]], linear[texel[1]], linear[texel[2]]});
-      for (std::size_t i = 0; i < 3; ++i) opponent_[i][p] = c[i];
+      for (int i = 0; i < 3; ++i) opponent_[static_cast<std::size_t>(i)][p] = c[i];
     }
   }
 
@@ -163,9 +121,7 @@ class Side {
                 z = blur(opponent_[2], {kBlueYellow, kBlueYellow2});
     std::vector<Color> out(y.size());
     for (std::size_t p = 0; p < out.size(); ++p) {
-      Color rgb = fromOpponent({y[p], x[p], z[p]});
-      for (double& c : rgb) c = std::clamp(c, 0.0, 1.0);
-      out[p] = toHuntLab(rgb);
+      out[p] = toHuntLab(glm::clamp(fromOpponent({y[p], x[p], z[p]}), 0.0, 1.0));
     }
     return out;
   }
@@ -187,6 +143,10 @@ class Side {
   }
 
  private:
+  Plane apply(const Plane& plane, const Kernel& alongX, const Kernel& alongY) const {
+    return filter(filter(plane, alongX, width_, 1, height_, width_), alongY, height_, width_, width_, 1);
+  }
+
   Plane blur(const Plane& plane, const std::vector<Gaussian>& sums) {
     const int radius = static_cast<int>(std::ceil(3 * std::sqrt(kBlueYellow.b / (2 * kPi * kPi)) * density_));
     Plane out(plane.size(), 0.0);
@@ -197,10 +157,10 @@ class Side {
         return std::exp(-kPi * kPi * d * d / g.b);
       });
       double side = 0;
-      for (const double w : kernel.weights) side += w;
+      for (const double w : kernel) side += w;
       const double height = g.a * std::sqrt(kPi / g.b);
       whole += height * side * side;
-      const Plane part = filter_.apply(plane, kernel, kernel);
+      const Plane part = apply(plane, kernel, kernel);
       for (std::size_t p = 0; p < out.size(); ++p) out[p] += height * part[p];
     }
     for (double& v : out) v /= whole;
@@ -208,13 +168,13 @@ class Side {
   }
 
   Plane lengths(const Plane& y, const Kernel& derivative, const Kernel& smooth) {
-    Plane x = filter_.apply(y, derivative, smooth);
-    const Plane other = filter_.apply(y, smooth, derivative);
+    Plane x = apply(y, derivative, smooth);
+    const Plane other = apply(y, smooth, derivative);
     for (std::size_t p = 0; p < x.size(); ++p) x[p] = std::hypot(x[p], other[p]);
     return x;
   }
 
-  Filter filter_;
+  int width_, height_;
   double density_;
   std::array<Plane, 3> opponent_;
 };
@@ -229,6 +189,25 @@ double redistribute(double error, double largest) {
 }
 
 }  // namespace
+
+Comparison compareImages(const Image8& a, const Image8& b, double tolerance) {
+  Comparison result;
+  result.sameShape = a.width == b.width && a.height == b.height && a.channels == b.channels &&
+                     a.texels.size() == b.texels.size();
+  if (!result.sameShape || a.texels.empty()) return result;
+  const auto channels = static_cast<std::size_t>(a.channels), width = static_cast<std::size_t>(a.width);
+  for (std::size_t pixel = 0; pixel < a.texels.size() / channels; ++pixel) {
+    int largest = 0;
+    for (std::size_t i = pixel * channels; i < (pixel + 1) * channels; ++i)
+      largest = std::max(largest, std::abs(int{a.texels[i]} - int{b.texels[i]}));
+    if (largest > tolerance) ++result.differingPixels;
+    if (largest <= result.maxDifference) continue;
+    result.maxDifference = largest;
+    result.worstX = static_cast<int>(pixel % width);
+    result.worstY = static_cast<int>(pixel / width);
+  }
+  return result;
+}
 
 FlipMap computeFlip(const Image8& reference, const Image8& test, double pixelsPerDegree) {
   FlipMap map;
@@ -271,7 +250,7 @@ FlipSummary summarizeFlip(const FlipMap& map, const std::vector<std::uint8_t>& w
 
 Image8 colorFlip(const FlipMap& map) {
   // Matt Zucker's fit of degree 6 to the table of magma (https://www.shadertoy.com/view/WlfXRN, CC0).
-  static constexpr Color kMagma[7] = {
+  static const Color kMagma[7] = {
       {-0.002136485053939582, -0.000749655052795221, -0.005386127855323933},
       {0.2516605407371642, 0.6775232436837668, 2.494026599312351},
       {8.353717279216625, -3.577719514958484, 0.3144679030132573},
@@ -282,13 +261,13 @@ Image8 colorFlip(const FlipMap& map) {
   };
   Image8 out{map.width, map.height, 3, {}};
   out.texels.reserve(map.errors.size() * 3);
-  for (const float error : map.errors)
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double x = std::clamp(static_cast<double>(error), 0.0, 1.0);
-      double value = 0;
-      for (std::size_t i = 7; i-- > 0;) value = value * x + kMagma[i][c];
-      out.texels.push_back(static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 1.0) * 255)));
-    }
+  for (const float error : map.errors) {
+    Color value(0);
+    for (std::size_t i = 7; i-- > 0;)
+      value = value * std::clamp(static_cast<double>(error), 0.0, 1.0) + kMagma[i];
+    for (int c = 0; c < 3; ++c)
+      out.texels.push_back(static_cast<std::uint8_t>(std::lround(std::clamp(value[c], 0.0, 1.0) * 255)));
+  }
   return out;
 }
 

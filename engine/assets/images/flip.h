@@ -1,14 +1,24 @@
-// LDR FLIP: how different two pictures look to a person who flips between them. Andersson, Nilsson, Akenine-Möller, Oskarsson,
-// Åström, Fairchild: "FLIP: A Difference Evaluator for Alternating Images", Proceedings of the ACM on Computer Graphics and
-// Interactive Techniques 3(2), 2020. Every pixel gets an error from 0 (looks the same) to 1. Does not: compare scene-referred values,
-// or look at alpha.
+// How two pictures differ: byte by byte, and to a person who flips between them, as LDR FLIP. Andersson, Nilsson, Akenine-Möller,
+// Oskarsson, Åström, Fairchild: "FLIP: A Difference Evaluator for Alternating Images", Proceedings of the ACM on Computer Graphics
+// and Interactive Techniques 3(2), 2020. Every pixel gets an error from 0 (looks the same) to 1. Alpha is not looked at.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "engine/assets/images/image.h"
 
 namespace weft::assets {
+
+struct Comparison {
+  bool sameShape = false;    // width, height and channels agree; everything below is 0 when they do not
+  double maxDifference = 0;  // of any component
+  std::size_t differingPixels = 0;  // with a component that differs by more than the tolerance
+  int worstX = 0, worstY = 0;       // where maxDifference is; y counts from the top
+  bool equal() const { return sameShape && maxDifference == 0; }
+};
+
+Comparison compareImages(const Image8& a, const Image8& b, double tolerance = 0);
 
 // Pixels per degree of visual angle: a screen of 3840 pixels and 0.7 m width, seen from 0.7 m, as in the paper.
 constexpr double kFlipPixelsPerDegree = 67.02064327658226;

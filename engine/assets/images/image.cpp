@@ -6,8 +6,11 @@
 #include <cassert>
 #include <cctype>
 #include <cmath>
+#include <cstring>
+#include <limits>
 #include <memory>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "engine/assets/images/half.h"
@@ -40,23 +43,6 @@ void reportUnknownKind(Diagnostics& diagnostics, const std::string& name, std::s
                                           fmt::format("'{}' is no kind of image that is known", name));
   d.expected = std::move(expected);
   d.found = extensionOf(name).empty() ? "no extension" : extensionOf(name);
-}
-
-// Grey, grey-alpha and RGB become RGBA; a missing alpha is 1.
-ImageF widenToRgba(ImageF image) {
-  if (image.channels == 4) return image;
-  const std::size_t from = static_cast<std::size_t>(image.channels);
-  const std::size_t count = image.texels.size() / from;
-  ImageF wide{image.width, image.height, 4, std::vector<float>(count * 4)};
-  for (std::size_t i = 0; i < count; ++i) {
-    const float* in = &image.texels[i * from];
-    float* out = &wide.texels[i * 4];
-    out[0] = in[0];
-    out[1] = from >= 3 ? in[1] : in[0];
-    out[2] = from >= 3 ? in[2] : in[0];
-    out[3] = from == 2 ? in[1] : 1.0f;
-  }
-  return wide;
 }
 
 // Solid angle of a texel of row `y` of an equirectangular map, in units of one at the equator.
@@ -98,6 +84,22 @@ double spreadLight(ImageF& image, int x, int y) {
 
 }  // namespace
 
+ImageF widenToRgba(ImageF image) {
+  if (image.channels == 4) return image;
+  const std::size_t from = static_cast<std::size_t>(image.channels);
+  const std::size_t count = image.texels.size() / from;
+  ImageF wide{image.width, image.height, 4, std::vector<float>(count * 4)};
+  for (std::size_t i = 0; i < count; ++i) {
+    const float* in = &image.texels[i * from];
+    float* out = &wide.texels[i * 4];
+    out[0] = in[0];
+    out[1] = from >= 3 ? in[1] : in[0];
+    out[2] = from >= 3 ? in[2] : in[0];
+    out[3] = from == 2 ? in[1] : 1.0f;
+  }
+  return wide;
+}
+
 ImageKind kindOfName(const std::string& name) {
   const std::string extension = extensionOf(name);
   if (extension == ".hdr") return ImageKind::hdr;
@@ -133,18 +135,60 @@ bool checkSize(Diagnostics& diagnostics, const std::string& name, long long widt
   return false;
 }
 
+namespace {
+
+// Rows of `texels`, top row first, into bytes with the bottom row first.
+template <class T>
+std::vector<std::byte> turnedOver(std::span<const T> texels, int height) {
+  const auto bytes = std::as_bytes(texels);
+  const std::size_t rows = static_cast<std::size_t>(height), row = bytes.size() / rows;
+  std::vector<std::byte> out(bytes.size());
+  for (std::size_t y = 0; y < rows; ++y) std::memcpy(&out[(rows - 1 - y) * row], &bytes[y * row], row);
+  return out;
+}
+
+// Colour is decoded from sRGB, alpha is not.
+template <class T>
+ImageF linearize(const ImageOf<T>& encoded) {
+  static const std::vector<float> kTable = [] {  // of every value that there is
+    std::vector<float> values(std::size_t{std::numeric_limits<T>::max()} + 1);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] = decodeSrgb(static_cast<float>(i) / static_cast<float>(values.size() - 1));
+    return values;
+  }();
+  ImageF image{encoded.width, encoded.height, encoded.channels, std::vector<float>(encoded.texels.size())};
+  const auto channels = static_cast<std::size_t>(encoded.channels);
+  for (std::size_t i = 0; i < encoded.texels.size(); ++i) {
+    const bool alpha = channels % 2 == 0 && i % channels == channels - 1;
+    image.texels[i] = alpha ? static_cast<float>(encoded.texels[i]) / static_cast<float>(kTable.size() - 1)
+                            : kTable[encoded.texels[i]];
+  }
+  return image;
+}
+
+template <class T>
+std::optional<ImageF> decodeLinear(std::string_view bytes, const std::string& name,
+                                   Diagnostics& diagnostics) {
+  const auto encoded = decodePicture<T>(bytes, 0, name, diagnostics);
+  return encoded ? std::optional(linearize(*encoded)) : std::nullopt;
+}
+
+}  // namespace
+
 std::optional<ImageF> decodeImage(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
   const ImageKind kind = checkKind(bytes, name, diagnostics);
   if (kind == ImageKind::unknown) return {};
   if (kind == ImageKind::hdr) return decodeHdr(bytes, name, diagnostics);
   if (kind == ImageKind::exr) return decodeExr(bytes, name, diagnostics);
-  return decodeLinear(bytes, name, diagnostics);
+  const std::optional<ImageHeader> header = readPictureHeader(bytes, name, diagnostics);
+  if (!header) return {};
+  return header->shorts ? decodeLinear<std::uint16_t>(bytes, name, diagnostics)
+                        : decodeLinear<std::uint8_t>(bytes, name, diagnostics);
 }
 
 std::optional<ImageF> loadImage(const std::string& path, Diagnostics& diagnostics) {
   const std::optional<std::string> bytes = base::readFile(path, diagnostics, Code::unreadableImage);
-  if (!bytes) return {};
-  return decodeImage(*bytes, path, diagnostics);
+  return bytes ? decodeImage(*bytes, path, diagnostics) : std::nullopt;
 }
 
 std::optional<Image8> loadImage8(const std::string& path, int channels, Diagnostics& diagnostics) {
@@ -154,34 +198,28 @@ std::optional<Image8> loadImage8(const std::string& path, int channels, Diagnost
     reportUnknownKind(diagnostics, path, ".png, .jpg, .jpeg or .tga");
     return {};
   }
-  return decodeBytes(*bytes, channels, path, diagnostics);
+  return decodePicture<std::uint8_t>(*bytes, channels, path, diagnostics);
 }
 
 std::optional<ImageF> loadEnvironment(const std::string& path, Diagnostics& diagnostics) {
   const std::optional<std::string> bytes = base::readFile(path, diagnostics, Code::unreadableImage);
-  if (!bytes) return {};
-  return decodeEnvironment(*bytes, path, diagnostics);
+  return bytes ? decodeEnvironment(*bytes, path, diagnostics) : std::nullopt;
 }
-
-namespace {
-
-// A picture of a screen as a map of light: white is 1, however bright the sun was.
-void warnDisplayReferred(const std::string& name, Diagnostics& diagnostics) {
-  base::Diagnostic& d = diagnostics.warning(
-      Code::displayReferred, placeOf(name),
-      fmt::format("the environment '{}' holds colours of a screen: no light in it is brighter than 1", name));
-  d.expected = "radiance, as .hdr and .exr hold it";
-  d.found = "sRGB, which was decoded to linear light";
-  d.hint = "take an .hdr or .exr of the place, in which the sun is as bright as it was";
-}
-
-}  // namespace
 
 std::optional<ImageF> decodeEnvironment(std::string_view bytes, const std::string& name,
                                         Diagnostics& diagnostics) {
   std::optional<ImageF> image = decodeImage(bytes, name, diagnostics);
   if (!image) return {};
-  if (kindOfName(name) == ImageKind::eight_bit) warnDisplayReferred(name, diagnostics);
+  if (kindOfName(name) == ImageKind::eight_bit)
+    diagnostics.add(
+        {.severity = base::Severity::warning,
+         .code = Code::displayReferred,
+         .message = fmt::format(
+             "the environment '{}' holds colours of a screen: no light in it is brighter than 1", name),
+         .place = placeOf(name),
+         .expected = "radiance, as .hdr and .exr hold it",
+         .found = "sRGB, which was decoded to linear light",
+         .hint = "take an .hdr or .exr of the place, in which the sun is as bright as it was"});
   ImageF wide = widenToRgba(std::move(*image));
   for (std::size_t i = 3; i < wide.texels.size(); i += 4) wide.texels[i] = 1;
   sanitizeRadiance(wide, name, diagnostics);
@@ -252,8 +290,59 @@ float decodeSrgb(float encoded) {
   return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
-float encodeSrgb(float linear) {
-  return linear <= 0.0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+namespace {
+
+std::optional<StoredHeader> readStoredHeader(std::string_view bytes, const std::string& name,
+                                             Diagnostics& diagnostics) {
+  const ImageKind kind = checkKind(bytes, name, diagnostics);
+  if (kind == ImageKind::unknown) return {};
+  const auto header = kind == ImageKind::hdr   ? readHdrHeader(bytes, name, diagnostics)
+                      : kind == ImageKind::exr ? readExrHeader(bytes, name, diagnostics)
+                                               : readPictureHeader(bytes, name, diagnostics);
+  if (!header) return {};
+  const StoredType type = kind != ImageKind::eight_bit ? StoredType::real
+                          : header->shorts             ? StoredType::word
+                                                       : StoredType::byte;
+  return StoredHeader{header->width, header->height, type};
+}
+
+}  // namespace
+
+std::optional<StoredHeader> loadStoredHeader(const std::string& path, Diagnostics& diagnostics) {
+  const auto bytes = base::readFile(path, diagnostics, Code::unreadableImage);
+  return bytes ? readStoredHeader(*bytes, path, diagnostics) : std::nullopt;
+}
+
+std::optional<StoredImage> loadStored(const std::string& path, Diagnostics& diagnostics) {
+  const auto bytes = base::readFile(path, diagnostics, Code::unreadableImage);
+  const auto header = bytes ? readStoredHeader(*bytes, path, diagnostics) : std::nullopt;
+  if (!header) return {};
+  const auto stored = [&](const auto& picture) -> std::optional<StoredImage> {
+    if (!picture) return {};
+    return StoredImage{*header, turnedOver(std::span(picture->texels), header->height)};
+  };
+  if (header->type == StoredType::byte)
+    return stored(decodePicture<std::uint8_t>(*bytes, 4, path, diagnostics));
+  if (header->type == StoredType::word)
+    return stored(decodePicture<std::uint16_t>(*bytes, 4, path, diagnostics));
+  std::optional<ImageF> picture = decodeImage(*bytes, path, diagnostics);
+  if (picture) picture = widenToRgba(std::move(*picture));
+  return stored(picture);
+}
+
+StoredImage decodeSrgbWords(const StoredImage& image) {
+  assert(image.header.type == StoredType::word);
+  const std::size_t count = image.texels.size() / sizeof(std::uint16_t);
+  StoredImage out{{image.header.width, image.header.height, StoredType::real}};
+  out.texels.resize(count * sizeof(float));
+  for (std::size_t i = 0; i < count; ++i) {
+    std::uint16_t word = 0;
+    std::memcpy(&word, &image.texels[i * sizeof word], sizeof word);
+    const float encoded = static_cast<float>(word) / 65535.0f;
+    const float value = i % 4 == 3 ? encoded : decodeSrgb(encoded);
+    std::memcpy(&out.texels[i * sizeof value], &value, sizeof value);
+  }
+  return out;
 }
 
 }  // namespace weft::assets

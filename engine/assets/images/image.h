@@ -1,8 +1,7 @@
 // Pictures as CPU data: decoding, saving, cleaning an environment map. Row 0 is the top row, as in the files.
 // Every failure is a Diagnostic: W150 (cannot be read), W151 (unknown kind of file), W152 (empty or too
 // large), W153 (warning, or note when none was worse than too bright: texels were replaced), W180 (cannot be written). Nothing throws, corrupt bytes never
-// crash. Thread safe: no state is shared between calls. Does not: know GL, build mips, convert colour spaces
-// other than sRGB.
+// crash. Thread safe: no state is shared between calls.
 #pragma once
 
 #include <cstddef>
@@ -17,17 +16,13 @@
 
 namespace weft::assets {
 
-// width * height * channels floats, interleaved; linear light.
-struct ImageF {
+template <class T>
+struct ImageOf {
   int width = 0, height = 0, channels = 0;
-  std::vector<float> texels{};
+  std::vector<T> texels{};  // width * height * channels, interleaved
 };
-
-// width * height * channels bytes, interleaved, as stored (sRGB encoded for pictures).
-struct Image8 {
-  int width = 0, height = 0, channels = 0;
-  std::vector<std::uint8_t> texels{};
-};
+using ImageF = ImageOf<float>;         // linear light
+using Image8 = ImageOf<std::uint8_t>;  // as stored: sRGB encoded for pictures
 
 constexpr int kMaxImageSide = 32768;
 constexpr std::size_t kMaxImageTexels = std::size_t{1} << 27;  // 16384 x 8192
@@ -51,20 +46,40 @@ std::optional<ImageF> decodeEnvironment(std::string_view bytes, const std::strin
 // The cleaning step alone: the colour channels of `image`, RGB or RGBA and equirectangular, in place.
 void sanitizeRadiance(ImageF& image, const std::string& name, base::Diagnostics& diagnostics);
 
+// A picture file as a texture can hold it: the numbers of the file, four channels, bottom row first as OpenGL counts rows. Grey
+// becomes equal red, green and blue; a missing alpha is 1.
+// What a channel is in the file: .png .jpg .tga of 8 bits, .png of 16 bits, .hdr and .exr.
+enum class StoredType : std::uint8_t { byte, word, real };
+
+struct StoredHeader {
+  int width = 0, height = 0;
+  StoredType type = StoredType::byte;
+  friend bool operator==(const StoredHeader&, const StoredHeader&) = default;
+};
+
+struct StoredImage {
+  StoredHeader header;
+  std::vector<std::byte> texels{};  // of 1, 2 or 4 bytes a channel
+};
+
+// Walks the file but decodes no texels.
+std::optional<StoredHeader> loadStoredHeader(const std::string& path, base::Diagnostics& diagnostics);
+std::optional<StoredImage> loadStored(const std::string& path, base::Diagnostics& diagnostics);
+
+// Red, green and blue of 16 bits decoded from sRGB, as real numbers; alpha stays linear.
+StoredImage decodeSrgbWords(const StoredImage& image);
+
 // A picture as the bytes of a PNG file. Empty when it cannot be encoded.
 std::string encodePng8(int width, int height, int channels, std::span<const std::uint8_t> texels);
 bool savePng8(const std::string& path, int width, int height, int channels,
               std::span<const std::uint8_t> texels, base::Diagnostics& diagnostics);
 // 32-bit float, ZIP scanlines; 1, 3 or 4 channels.
 bool saveExr(const std::string& path, const ImageF& image, base::Diagnostics& diagnostics);
-// Radiance RGBE with 3 channels.
-bool saveHdr(const std::string& path, const ImageF& image, base::Diagnostics& diagnostics);
 
 // `image` with 4 channels, `width` x `height` texels over 0; repeated at its edges. `srgb`: colour is averaged as light, alpha
 // never is encoded.
 Image8 resize(const Image8& image, int width, int height, bool srgb);
 
 float decodeSrgb(float encoded);  // IEC 61966-2-1; input and output 0..1
-float encodeSrgb(float linear);
 
 }  // namespace weft::assets

@@ -1,11 +1,10 @@
-// The decoders and encoders behind image.h, one pair per library. Internal to the room.
-// `name` is the path as the person wrote it; failures are added with the place set to it.
+// The decoders behind image.h, one file per library. Internal to the room. `name` is the path as the person wrote it; failures are
+// added with the place set to it.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "engine/assets/images/image.h"
 
@@ -13,33 +12,36 @@ namespace weft::assets {
 
 enum class ImageKind : std::uint8_t { unknown, hdr, exr, eight_bit };
 ImageKind kindOfName(const std::string& name);
+// The kind of a file that holds something; unknown after W150 or W151.
+ImageKind checkKind(std::string_view bytes, const std::string& name, base::Diagnostics& diagnostics);
 
-// Adds "cannot read NAME: WHY" as W150, or W152 for sizes.
+// Adds "cannot read NAME: WHY" as W150.
 void reportUnreadable(base::Diagnostics& diagnostics, const std::string& name, const std::string& why);
 // True when the size is sound; else adds W152.
 bool checkSize(base::Diagnostics& diagnostics, const std::string& name, long long width, long long height);
 
-// Width and height of what decodeBytes would take, without decoding texels.
-std::optional<std::pair<int, int>> readImageSize(std::string_view bytes, const std::string& name,
-                                                 base::Diagnostics& diagnostics);
-// The same for an .hdr and an .exr.
-std::optional<std::pair<int, int>> readHdrSize(std::string_view bytes, const std::string& name,
-                                               base::Diagnostics& diagnostics);
-std::optional<std::pair<int, int>> readExrSize(std::string_view bytes, const std::string& name,
-                                               base::Diagnostics& diagnostics);
+struct ImageHeader {
+  int width = 0, height = 0, channels = 0;
+  bool shorts = false;  // 16 bits a channel
+};
+
+// What the decoders take, without decoding texels: .png, .jpg and .tga; .hdr; .exr.
+std::optional<ImageHeader> readPictureHeader(std::string_view bytes, const std::string& name,
+                                             base::Diagnostics& diagnostics);
+std::optional<ImageHeader> readHdrHeader(std::string_view bytes, const std::string& name,
+                                         base::Diagnostics& diagnostics);
+std::optional<ImageHeader> readExrHeader(std::string_view bytes, const std::string& name,
+                                         base::Diagnostics& diagnostics);
+// `channels` 1 to 4, or 0 for what the file has; T is std::uint8_t or std::uint16_t, whatever the file has.
+template <class T>
+std::optional<ImageOf<T>> decodePicture(std::string_view bytes, int channels, const std::string& name,
+                                        base::Diagnostics& diagnostics);
 std::optional<ImageF> decodeHdr(std::string_view bytes, const std::string& name,
                                 base::Diagnostics& diagnostics);
 std::optional<ImageF> decodeExr(std::string_view bytes, const std::string& name,
                                 base::Diagnostics& diagnostics);
-std::optional<ImageF> decodeLinear(std::string_view bytes, const std::string& name,
-                                   base::Diagnostics& diagnostics);
-std::optional<Image8> decodeBytes(std::string_view bytes, int channels, const std::string& name,
-                                  base::Diagnostics& diagnostics);
-// Whether a file that decodeBytes takes has 16 bits a channel; and those, as stored, RGBA.
-bool hasShorts(std::string_view bytes);
-std::optional<std::vector<std::uint16_t>> decodeShorts(std::string_view bytes, const std::string& name,
-                                                       base::Diagnostics& diagnostics);
-// The kind of a file that holds something; unknown after W150 or W151.
-ImageKind checkKind(std::string_view bytes, const std::string& name, base::Diagnostics& diagnostics);
+
+// Grey, grey-alpha and RGB become RGBA; a missing alpha is 1.
+ImageF widenToRgba(ImageF image);
 
 }  // namespace weft::assets

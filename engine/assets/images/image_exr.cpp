@@ -36,11 +36,6 @@ class Bytes {
     rest_.remove_prefix(count);
     return taken;
   }
-  std::optional<std::uint8_t> byte() {
-    const auto taken = take(1);
-    if (!taken) return {};
-    return static_cast<std::uint8_t>((*taken)[0]);
-  }
   std::optional<std::uint32_t> word() {
     const auto taken = take(4);
     if (!taken) return {};
@@ -136,20 +131,13 @@ std::string takeMessage(const char* message) {
   return text;
 }
 
-struct HeaderOwner {
-  EXRHeader header;
-  HeaderOwner() { InitEXRHeader(&header); }
-  ~HeaderOwner() { FreeEXRHeader(&header); }
-  HeaderOwner(const HeaderOwner&) = delete;
-  HeaderOwner& operator=(const HeaderOwner&) = delete;
-};
-
-struct PictureOwner {
-  EXRImage image;
-  PictureOwner() { InitEXRImage(&image); }
-  ~PictureOwner() { FreeEXRImage(&image); }
-  PictureOwner(const PictureOwner&) = delete;
-  PictureOwner& operator=(const PictureOwner&) = delete;
+template <class T, void (*init)(T*), int (*release)(T*)>
+struct Owner {
+  T value;
+  Owner() { init(&value); }
+  ~Owner() { release(&value); }
+  Owner(const Owner&) = delete;
+  Owner& operator=(const Owner&) = delete;
 };
 
 const unsigned char* dataOf(std::string_view bytes) {
@@ -212,7 +200,7 @@ std::string reasonOf(const std::vector<Layer>& layers) {
 
 // What the header says of the picture, and which channels are wanted as floats. Nothing after errors.
 struct Opening {
-  HeaderOwner owner;
+  Owner<EXRHeader, InitEXRHeader, FreeEXRHeader> owner;
   long long width = 0, height = 0;
   std::array<int, 4> channels{};
 };
@@ -228,7 +216,7 @@ std::unique_ptr<Opening> openExr(std::string_view bytes, const std::string& name
     return {};
   }
   auto opening = std::make_unique<Opening>();
-  EXRHeader& header = opening->owner.header;
+  EXRHeader& header = opening->owner.value;
   const char* message = nullptr;
   if (ParseEXRHeaderFromMemory(&header, &version, dataOf(bytes), bytes.size(), &message) != TINYEXR_SUCCESS) {
     reportUnreadable(diagnostics, name, takeMessage(message));
@@ -260,52 +248,50 @@ std::unique_ptr<Opening> openExr(std::string_view bytes, const std::string& name
   return opening;
 }
 
-std::optional<ImageF> decode(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
-  const std::unique_ptr<Opening> opening = openExr(bytes, name, diagnostics);
-  if (!opening) return {};
-  EXRHeader& header = opening->owner.header;
-  const std::array<int, 4>& channels = opening->channels;
-  const char* message = nullptr;
-  PictureOwner picture;
-  picture.image.num_channels =
-      header.num_channels;  // on failure the library frees so many planes, else it leaks them
-  if (LoadEXRImageFromMemory(&picture.image, &header, dataOf(bytes), bytes.size(), &message) !=
-      TINYEXR_SUCCESS) {
-    InitEXRImage(&picture.image);  // on failure the library has freed what it points to
-    reportUnreadable(diagnostics, name, takeMessage(message));
-    return {};
-  }
-  ImageF image{static_cast<int>(opening->width), static_cast<int>(opening->height), 4, {}};
-  image.texels.assign(static_cast<std::size_t>(opening->width * opening->height) * 4, 1.0f);
-  for (std::size_t c = 0; c < 4; ++c) {
-    if (channels[c] < 0) continue;
-    const float* plane = reinterpret_cast<const float*>(picture.image.images[channels[c]]);
-    for (std::size_t i = 0; i * 4 < image.texels.size(); ++i) image.texels[i * 4 + c] = plane[i];
-  }
-  return image;
+// The library's own containers throw.
+template <class Result, class Work>
+std::optional<Result> guarded(const std::string& name, Diagnostics& diagnostics, const Work& work) try {
+  return work();
+} catch (const std::exception& error) {
+  reportUnreadable(diagnostics, name, fmt::format("decoding failed ({})", error.what()));
+  return {};
 }
 
 }  // namespace
 
 std::optional<ImageF> decodeExr(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
-  try {
-    return decode(bytes, name, diagnostics);
-  } catch (const std::exception& error) {  // the library's own containers
-    reportUnreadable(diagnostics, name, fmt::format("decoding failed ({})", error.what()));
-    return {};
-  }
-}
-
-std::optional<std::pair<int, int>> readExrSize(std::string_view bytes, const std::string& name,
-                                               Diagnostics& diagnostics) {
-  try {
+  return guarded<ImageF>(name, diagnostics, [&]() -> std::optional<ImageF> {
     const std::unique_ptr<Opening> opening = openExr(bytes, name, diagnostics);
     if (!opening) return {};
-    return std::pair{static_cast<int>(opening->width), static_cast<int>(opening->height)};
-  } catch (const std::exception& error) {
-    reportUnreadable(diagnostics, name, fmt::format("its header cannot be read ({})", error.what()));
-    return {};
-  }
+    EXRHeader& header = opening->owner.value;
+    const char* message = nullptr;
+    Owner<EXRImage, InitEXRImage, FreeEXRImage> picture;
+    picture.value.num_channels =
+        header.num_channels;  // on failure the library frees so many planes, else it leaks them
+    if (LoadEXRImageFromMemory(&picture.value, &header, dataOf(bytes), bytes.size(), &message) !=
+        TINYEXR_SUCCESS) {
+      InitEXRImage(&picture.value);  // on failure the library has freed what it points to
+      reportUnreadable(diagnostics, name, takeMessage(message));
+      return {};
+    }
+    ImageF image{static_cast<int>(opening->width), static_cast<int>(opening->height), 4, {}};
+    image.texels.assign(static_cast<std::size_t>(opening->width * opening->height) * 4, 1.0f);
+    for (std::size_t c = 0; c < 4; ++c) {
+      if (opening->channels[c] < 0) continue;
+      const float* plane = reinterpret_cast<const float*>(picture.value.images[opening->channels[c]]);
+      for (std::size_t i = 0; i * 4 < image.texels.size(); ++i) image.texels[i * 4 + c] = plane[i];
+    }
+    return image;
+  });
+}
+
+std::optional<ImageHeader> readExrHeader(std::string_view bytes, const std::string& name,
+                                         Diagnostics& diagnostics) {
+  return guarded<ImageHeader>(name, diagnostics, [&]() -> std::optional<ImageHeader> {
+    const std::unique_ptr<Opening> opening = openExr(bytes, name, diagnostics);
+    if (!opening) return {};
+    return ImageHeader{static_cast<int>(opening->width), static_cast<int>(opening->height), 4};
+  });
 }
 
 bool saveExr(const std::string& path, const ImageF& image, Diagnostics& diagnostics) {

@@ -1,9 +1,9 @@
 // A thread that loads: runs requests one after another, off the thread that draws. Requests wait in a bounded queue and finish
 // in the order they were made; a request of a channel replaces what that channel asked for before and has not fetched yet, so
 // that only the last choice of a person costs anything. What a request makes is the job's business, given to the constructor:
-// environments (engine/assets/environments/loader.h), scenes with their models (app/live/live_scene.h). Failure is a value: a result
+// environments (engine/assets/environments/environment_map.h), scenes with their models (app/live/live_scene.h). Failure is a value: a result
 // without a product, with Diagnostics. Progress is read without locks. Destroying the queue stops at the next look of the job
-// at its observer. Does not: know what is loaded, watch files, or cache.
+// at its observer.
 #pragma once
 
 #include <atomic>
@@ -43,6 +43,10 @@ class LoadQueue {
     std::uint64_t ticket = 0;
     std::string path;  // as it was asked for
     std::shared_ptr<const void> product;
+    template <class T>
+    std::shared_ptr<const T> as() const {
+      return std::static_pointer_cast<const T>(product);
+    }
     base::Diagnostics diagnostics;
   };
 

@@ -22,16 +22,11 @@ std::string lowerExtension(const std::string& name) {
   return extension;
 }
 
-bool isGltfName(const std::string& name) {
-  const std::string extension = lowerExtension(name);
-  return extension == ".gltf" || extension == ".glb";
-}
-
 }  // namespace
 
 bool isModelName(const std::string& name) {
   const std::string extension = lowerExtension(name);
-  return isGltfName(name) || extension == ".obj" || extension == ".fbx";
+  return extension == ".gltf" || extension == ".glb" || extension == ".obj" || extension == ".fbx";
 }
 
 std::optional<Model> loadModel(const std::string& path, base::Diagnostics& diagnostics,
@@ -41,14 +36,17 @@ std::optional<Model> loadModel(const std::string& path, base::Diagnostics& diagn
   Model model;
   model.name = std::filesystem::path(path).stem().string();
   bool good = false;
+  const std::string kind = lowerExtension(path);
   if (!isModelName(path)) {
     base::Diagnostic& d = diagnostics.error(base::Code::unreadableModel, mine.place(),
                                             fmt::format("'{}' is no kind of model that is known", path));
     d.expected = ".gltf, .glb, .obj or .fbx";
-    d.found = lowerExtension(path).empty() ? "no extension" : lowerExtension(path);
+    d.found = kind.empty() ? "no extension" : kind;
   } else if (auto bytes = mine.readModel()) {
-    good = isGltfName(path) ? readGltf(std::move(*bytes), mine, observer, decode, diagnostics, model)
-                            : readWithAssimp(std::move(*bytes), mine, observer, decode, diagnostics, model);
+    good =
+        kind == ".gltf" || kind == ".glb"
+            ? readGltf(std::move(*bytes), mine, observer, decode, diagnostics, model)
+            : readWithAssimp(std::move(*bytes), kind == ".obj", mine, observer, decode, diagnostics, model);
   }
   model.files = mine.files();
   if (files) *files = model.files;

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/loading/decode_job.h"
 #include "engine/assets/loading/load_observer.h"
 #include "engine/assets/model.h"
 #include "engine/base/diagnostic.h"

@@ -4,7 +4,6 @@
 
 #include "engine/base/nearest.h"
 #include "engine/imports/builtin.h"
-#include "engine/imports/camera_views.h"
 
 namespace weft::imports {
 
@@ -12,27 +11,11 @@ namespace {
 
 using graph::Value;
 
-// In the order of reflect().
-enum Argument : std::size_t {
-  kJitter,
-  kFocalLength,
-  kSensorHeight,
-  kName,
-  kPosition,
-  kTarget,
-  kAngle,
-  kHeight
-};
-
-std::uint32_t jitterOf(const graph::ImportRequest& request) {
-  return static_cast<std::uint32_t>(std::clamp(request.arguments[kJitter].second.v[0], 0.0, 4294967295.0));
-}
-
 double fovOf(const graph::ImportRequest& request) {
-  const double focal = request.arguments[kFocalLength].second.v[0];
-  const double sensor = std::clamp(request.arguments[kSensorHeight].second.v[0], 1e-3, 1e5);
+  const double focal = request.at("focal_length").v[0];
+  const double sensor = std::clamp(request.at("sensor_height").v[0], 1e-3, 1e5);
   if (focal > 0) return scene::fovOfLens(std::clamp(focal, 0.01 * sensor, 1e4 * sensor), sensor);
-  const double angle = request.arguments[kAngle].second.v[0];
+  const double angle = request.at("angle").v[0];
   return angle > 0 ? std::clamp(angle, 1.0, 170.0) : 0;
 }
 
@@ -42,10 +25,10 @@ glm::dvec3 pointOf(const Value& value) {
 
 // Where a graph's own camera stands; empty: where the scene's does.
 CameraViews::Poses posesOf(const graph::ImportRequest& request) {
-  const std::string name = request.arguments[kName].second.symbol;
-  const glm::dvec3 position = pointOf(request.arguments[kPosition].second);
-  const glm::dvec3 target = pointOf(request.arguments[kTarget].second);
-  const double fov = fovOf(request), height = std::max(request.arguments[kHeight].second.v[0], 0.0);
+  const std::string name = request.at("name").symbol;
+  const glm::dvec3 position = pointOf(request.at("position"));
+  const glm::dvec3 target = pointOf(request.at("target"));
+  const double fov = fovOf(request), height = std::max(request.at("height").v[0], 0.0);
   const bool placed = position != target;
   if (name.empty() && !placed && fov == 0 && height == 0) return {};
   return [=](const Frame& frame) {
@@ -69,41 +52,21 @@ CameraViews::Poses posesOf(const graph::ImportRequest& request) {
 std::vector<graph::ImportArgument> arguments() {
   const Value number = Value::number(0), origin = Value{Value::Type::list, 3, {}, {}};
   return {
-      {.name = "jitter",
-       .initial = number,
-       .choices = {},
-       .doc = "length of the sub-pixel Halton sequence; 0 for none"},
-      {.name = "focal_length",
-       .initial = number,
-       .choices = {},
-       .doc = "of its lens in mm: sets the angle of view; 0 for the scene's angle"},
-      {.name = "sensor_height",
-       .initial = Value::number(24),
-       .choices = {},
-       .doc = "mm that the picture's height stands for"},
-      {.name = "name",
-       .initial = Value::text(""),
-       .choices = {},
-       .doc = "of a camera of the scene; empty for the one that is looked through"},
-      {.name = "position",
-       .initial = origin,
-       .choices = {},
-       .doc = "world; it stands there when `target` differs"},
-      {.name = "target", .initial = origin, .choices = {}, .doc = "world; what it looks at from `position`"},
-      {.name = "angle",
-       .initial = number,
-       .choices = {},
-       .doc = "of view, vertical, degrees; 0 for the camera's"},
-      {.name = "height",
-       .initial = number,
-       .choices = {},
-       .doc = "over 0: orthographic, this many world units from bottom to top"}};
+      argument("jitter", number, "length of the sub-pixel Halton sequence; 0 for none"),
+      argument("focal_length", number, "of its lens in mm: sets the angle of view; 0 for the scene's angle"),
+      argument("sensor_height", Value::number(24), "mm that the picture's height stands for"),
+      argument("name", Value::text(""), "of a camera of the scene; empty for the one that is looked through"),
+      argument("position", origin, "world; it stands there when `target` differs"),
+      argument("target", origin, "world; what it looks at from `position`"),
+      argument("angle", number, "of view, vertical, degrees; 0 for the camera's"),
+      argument("height", number, "over 0: orthographic, this many world units from bottom to top")};
 }
 
 class CameraProvider : public Provider {
  public:
   explicit CameraProvider(const graph::ImportRequest& request)
-      : views_(jitterOf(request), posesOf(request)) {}
+      : views_(static_cast<std::uint32_t>(std::clamp(request.at("jitter").v[0], 0.0, 4294967295.0)),
+               posesOf(request)) {}
   const scene::ViewData& view(const Frame& frame, const ViewPart& part) override {
     return views_.view(frame, part.width, part.height);
   }
@@ -113,7 +76,7 @@ class CameraProvider : public Provider {
   CameraViews views_;
 };
 
-class Camera : public Import {
+class Camera : public ImportOf<CameraProvider> {
  public:
   graph::ImportType reflect() const override {
     return {
@@ -129,7 +92,7 @@ class Camera : public Import {
   graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,
                            Files&) const override {
     graph::ImportFacts facts{.exists = true};
-    const std::string& name = request.arguments[kName].second.symbol;
+    const std::string& name = request.at("name").symbol;
     if (name.empty() || world.cameras.empty() ||
         std::ranges::find(world.cameras, name) != world.cameras.end())
       return facts;
@@ -139,10 +102,6 @@ class Camera : public Import {
     d.hint = base::nearestHint(name, world.cameras);
     facts.problems = said.items();
     return facts;
-  }
-
-  std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override {
-    return std::make_unique<CameraProvider>(request);
   }
 };
 

@@ -10,17 +10,13 @@ class CutProvider : public Provider {
   bool isStill(const World&) const override { return true; }
 };
 
-class Cut : public Import {
+class Cut : public ImportOf<CutProvider> {
  public:
   graph::ImportType reflect() const override {
     return {.name = "cut",
             .kind = graph::ImportKind::event,
             .doc = "Changes when the camera jumps.",
             .arguments = {}};
-  }
-
-  std::unique_ptr<Provider> provide(const graph::ImportRequest&) const override {
-    return std::make_unique<CutProvider>();
   }
 };
 

@@ -1,12 +1,39 @@
 #include "engine/imports/environment/environment.h"
 
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <span>
+#include <utility>
+
 #include "engine/imports/builtin.h"
 
 namespace weft::imports {
 
 namespace {
 
-class Environment : public Import {
+// Shares of a transfer: sending the rows; that and making the levels. The rest is the GPU.
+constexpr float kShareOfRows = 0.7f, kShareOfTransfer = 0.99f;
+
+// Row 0 of the map is its top row, and row 0 of the texture is +Y: the same order.
+std::span<const std::byte> bytesOf(const assets::EnvironmentMap& map) {
+  return std::as_bytes(std::span(map.texels));
+}
+
+// Levels of a full mip chain.
+std::uint32_t fullMips(std::uint32_t width, std::uint32_t height) {
+  return static_cast<std::uint32_t>(std::bit_width(std::max({width, height, 1u})));
+}
+
+std::optional<gl::Texture> makeTexture(const assets::EnvironmentMap& map, base::Diagnostics& diagnostics) {
+  const gl::TextureDesc desc{.format = GL_RGBA16F,
+                             .width = map.width,
+                             .height = map.height,
+                             .mips = fullMips(map.width, map.height)};
+  return gl::Texture::create(desc, "@environment", diagnostics);
+}
+
+class Environment : public ImportOf<EnvironmentProvider> {
  public:
   graph::ImportType reflect() const override {
     return {.name = "environment",
@@ -25,13 +52,60 @@ class Environment : public Import {
   }
 
   std::string standInGraph() const override { return "graphs/daylight.json"; }
-
-  std::unique_ptr<Provider> provide(const graph::ImportRequest&) const override {
-    return std::make_unique<EnvironmentProvider>();
-  }
 };
 
 }  // namespace
+
+std::optional<float> EnvironmentTextures::send(const Map& map, base::Diagnostics& diagnostics) {
+  if (incoming_.map != map) {
+    incoming_ = {};
+    auto texture = makeTexture(*map, diagnostics);
+    if (!texture) return std::nullopt;
+    const std::size_t rowBytes = std::size_t{map->width} * 4 * sizeof(std::uint16_t);
+    auto stream = gl::PixelStream::create(
+        texture->ref(), 0, GL_RGBA, GL_HALF_FLOAT,
+        static_cast<std::uint32_t>(std::max<std::size_t>(1, kBytesPerFrame / rowBytes)), "@environment",
+        diagnostics);
+    if (!stream) return std::nullopt;
+    incoming_.map = map;
+    incoming_.texture = std::move(*texture);
+    incoming_.stream = std::move(stream);
+  }
+  if (incoming_.stream) {
+    incoming_.stream->advance(bytesOf(*map));
+    const float sent = static_cast<float>(incoming_.stream->rows()) / static_cast<float>(map->height);
+    if (!incoming_.stream->sentAll()) return sent * kShareOfRows;
+    incoming_.levels.emplace(incoming_.texture.ref(), kLevelTexelsPerFrame);
+    incoming_.stream.reset();
+    return kShareOfRows;
+  }
+  if (!incoming_.last) {
+    if (!incoming_.levels->advance(diagnostics)) return std::nullopt;
+    if (!incoming_.levels->madeAll())
+      return kShareOfRows + (kShareOfTransfer - kShareOfRows) * incoming_.levels->done();
+    incoming_.last = gl::Fence::insert();
+  }
+  return incoming_.last.isSignalled() ? 1.0f : kShareOfTransfer;
+}
+
+bool EnvironmentTextures::use(const Map& map, base::Diagnostics& diagnostics) {
+  if (isNewest(*map)) return true;
+  assert(!map->texels.empty() && "dropped before they were used here");
+  gl::Texture next;
+  if (incoming_.map == map && incoming_.last) {
+    next = std::move(incoming_.texture);
+  } else {
+    auto texture = makeTexture(*map, diagnostics);
+    if (!texture) return false;
+    gl::uploadTexture(texture->ref(), 0, 0, GL_RGBA, GL_HALF_FLOAT, bytesOf(*map));
+    glGenerateTextureMipmap(texture->id());
+    next = std::move(*texture);
+  }
+  if (incoming_.map == map) incoming_ = {};
+  current_ = std::make_shared<const gl::Texture>(std::move(next));
+  currentId_ = map->id;
+  return true;
+}
 
 std::unique_ptr<Import> makeEnvironment() {
   return std::make_unique<Environment>();

@@ -1,9 +1,54 @@
+// The environment on the GPU, and one being sent beside it. A new one is sent in portions, one per frame, and taken into use
+// whole: with all its levels, and when the GPU has them. When to switch is decided from outside (app/live/live_environment.h).
 #pragma once
 
-#include "engine/imports/environment/environment_texture.h"
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "engine/assets/environments/environment_map.h"
+#include "engine/base/diagnostic.h"
+#include "engine/gl/objects/level_stream.h"
+#include "engine/gl/objects/objects.h"
+#include "engine/gl/objects/pixel_stream.h"
 #include "engine/imports/import.h"
 
 namespace weft::imports {
+
+class EnvironmentTextures {
+ public:
+  using Map = std::shared_ptr<const assets::EnvironmentMap>;
+  // One frame's portion. Copying 4 MiB takes about a millisecond, little beside a frame of 16; a 1k map is
+  // there in one frame, an 8k map (256 MiB) in 64 frames, about a second at 60 Hz.
+  static constexpr std::size_t kBytesPerFrame = std::size_t{4} << 20;
+  // One frame's portion of the levels below, made once all rows are sent: 2 MiB of texels, of an 8k map 43
+  // frames.
+  static constexpr std::uint32_t kLevelTexelsPerFrame = 1u << 18;
+
+  // Call once per frame with the same map: sends the next portion beside the texture in use. 1 when use()
+  // will take it without another upload. Another map drops what was sent of the one before. Empty when the
+  // GPU has no room: W116, W117.
+  std::optional<float> send(const Map& map, base::Diagnostics& diagnostics);
+  void stopSending() { incoming_ = {}; }
+
+  // Makes `map` the newest: the texture that was sent, or one uploaded here and now. False after errors, and
+  // the newest stays. Cheap when it is the newest already; then `map` needs no texels any more.
+  bool isNewest(const assets::EnvironmentMap& map) const { return current_ && currentId_ == map.id; }
+  bool use(const Map& map, base::Diagnostics& diagnostics);
+  const std::shared_ptr<const gl::Texture>& current() const { return current_; }  // null: none was used yet
+
+ private:
+  struct Incoming {
+    Map map;
+    gl::Texture texture;
+    std::optional<gl::PixelStream> stream;
+    std::optional<gl::LevelStream> levels;  // once all rows are sent
+    gl::Fence last;                         // behind the last level
+  };
+  Incoming incoming_;
+  std::uint64_t currentId_ = 0;
+  std::shared_ptr<const gl::Texture> current_;
+};
 
 class EnvironmentProvider : public Provider {
  public:

@@ -1,3 +1,5 @@
+#include "engine/assets/images/image.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,7 +7,6 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/assets/images/stored_image.h"
 #include "engine/imports/builtin.h"
 #include "engine/imports/files.h"
 #include "engine/imports/image/image_sequence.h"
@@ -18,9 +19,6 @@ using assets::StoredHeader;
 using assets::StoredType;
 using graph::Value;
 
-// In the order of reflect().
-enum ImageArgument : std::size_t { kImageFile, kImageFrame, kImageFps, kImageEnd, kImageSrgb, kImageMips };
-
 struct ImageRequest {
   std::string file;
   double frame = -1;  // below 0: the sequence plays
@@ -29,26 +27,24 @@ struct ImageRequest {
 };
 
 ImageRequest imageRequestOf(const graph::ImportRequest& request) {
-  const auto number = [&](ImageArgument which) { return request.arguments[which].second.v[0]; };
-  return {.file = request.arguments[kImageFile].second.symbol,
-          .frame = number(kImageFrame),
-          .fps = number(kImageFps),
-          .hold = request.arguments[kImageEnd].second.symbol == "hold",
-          .srgb = number(kImageSrgb) != 0,
-          .mips = number(kImageMips) != 0};
+  return {.file = request.at("file").symbol,
+          .frame = request.at("frame").v[0],
+          .fps = request.at("fps").v[0],
+          .hold = request.at("end").symbol == "hold",
+          .srgb = request.at("srgb").truth(),
+          .mips = request.at("mips").truth()};
 }
 
-graph::Format formatOf(StoredType type, bool srgb) {
-  switch (type) {
-    case StoredType::byte:
-      return srgb ? graph::Format::srgb8_a8 : graph::Format::rgba8;
-    case StoredType::word:
-      // OpenGL decodes sRGB of 8 bits only.
-      return srgb ? graph::Format::rgba32f : graph::Format::rgba16;
-    case StoredType::real:
-      break;
-  }
-  return graph::Format::rgba32f;
+struct TexelLayout {
+  graph::Format format;
+  GLenum stored, sent;
+};
+TexelLayout layoutOf(StoredType type, bool srgb) {
+  if (type == StoredType::byte && srgb) return {graph::Format::srgb8_a8, GL_SRGB8_ALPHA8, GL_UNSIGNED_BYTE};
+  if (type == StoredType::byte) return {graph::Format::rgba8, GL_RGBA8, GL_UNSIGNED_BYTE};
+  // OpenGL decodes sRGB of 8 bits only.
+  if (type == StoredType::word && !srgb) return {graph::Format::rgba16, GL_RGBA16, GL_UNSIGNED_SHORT};
+  return {graph::Format::rgba32f, GL_RGBA32F, GL_FLOAT};
 }
 
 std::uint32_t levelsOf(const StoredHeader& header, bool mips) {
@@ -58,24 +54,16 @@ std::uint32_t levelsOf(const StoredHeader& header, bool mips) {
 }
 
 gl::TextureDesc textureDescOf(const StoredHeader& header, const ImageRequest& request) {
-  const graph::Format format = formatOf(header.type, request.srgb);
-  return {.format = format == graph::Format::srgb8_a8 ? GLenum{GL_SRGB8_ALPHA8}
-                    : format == graph::Format::rgba8  ? GLenum{GL_RGBA8}
-                    : format == graph::Format::rgba16 ? GLenum{GL_RGBA16}
-                                                      : GLenum{GL_RGBA32F},
+  return {.format = layoutOf(header.type, request.srgb).stored,
           .width = static_cast<std::uint32_t>(header.width),
           .height = static_cast<std::uint32_t>(header.height),
           .mips = levelsOf(header, request.mips)};
 }
 
 // The file that is shown for the number `wanted` of a sequence; in a gap, the last file before it.
-std::uint32_t numberAt(const std::vector<std::uint32_t>& numbers, std::uint64_t wanted) {
-  const auto after = std::ranges::upper_bound(numbers, wanted);
+std::uint32_t numberAt(const std::vector<std::uint32_t>& numbers, double wanted) {
+  const auto after = std::upper_bound(numbers.begin(), numbers.end(), wanted);
   return after == numbers.begin() ? numbers.front() : *(after - 1);
-}
-
-std::uint64_t wantedOf(const ImageRequest& request) {
-  return static_cast<std::uint64_t>(std::min(request.frame, 1e15));
 }
 
 // Which number of a playing sequence a frame shows.
@@ -87,15 +75,8 @@ std::uint32_t numberNow(const std::vector<std::uint32_t>& numbers, const ImageRe
       request.fps > 0 ? std::max(0.0, std::floor(input.time * request.fps + kRounding)) : input.frame;
   const std::uint64_t first = numbers.front(), count = numbers.back() - first + 1;
   const auto steps = static_cast<std::uint64_t>(std::min(step, 1e15));
-  return numberAt(numbers, first + (request.hold ? std::min(steps, count - 1) : steps % count));
-}
-
-// "1024 x 512 with 8 bits a channel".
-std::string shapeText(const StoredHeader& header) {
-  const char* const bits = header.type == StoredType::byte   ? "8"
-                           : header.type == StoredType::word ? "16"
-                                                             : "32";
-  return fmt::format("{} x {} with {} bits a channel", header.width, header.height, bits);
+  return numberAt(numbers,
+                  static_cast<double>(first + (request.hold ? std::min(steps, count - 1) : steps % count)));
 }
 
 class ImageProvider : public Provider {
@@ -121,7 +102,7 @@ class ImageProvider : public Provider {
 
  private:
   std::uint32_t numberOf(const Frame& frame) const {
-    return request_.frame >= 0 ? numberAt(numbers_, wantedOf(request_))
+    return request_.frame >= 0 ? numberAt(numbers_, request_.frame)
                                : numberNow(numbers_, request_, frame.input);
   }
 
@@ -144,9 +125,7 @@ class ImageProvider : public Provider {
       if (!texture) return;
       texture_ = std::move(*texture);
     }
-    const GLenum type = image->header.type == StoredType::byte   ? GL_UNSIGNED_BYTE
-                        : image->header.type == StoredType::word ? GL_UNSIGNED_SHORT
-                                                                 : GL_FLOAT;
+    const GLenum type = layoutOf(image->header.type, request_.srgb).sent;
     gl::uploadTexture(texture_.ref(), 0, 0, GL_RGBA, type, image->texels);
     if (desc.mips > 1) glGenerateTextureMipmap(texture_.id());
     generation_ = frame.newGeneration();
@@ -160,7 +139,7 @@ class ImageProvider : public Provider {
                           fmt::format("a picture of the sequence '{}' has another size", pattern_->text));
     d.expected =
         fmt::format("{} x {}, as the pictures before", texture_.desc().width, texture_.desc().height);
-    d.found = shapeText(header);
+    d.found = fmt::format("{} x {}, or other bits a channel", header.width, header.height);
     d.hint = "save all pictures of a sequence in one size and with equally many bits";
     return false;
   }
@@ -194,7 +173,7 @@ std::string firstFileOf(const ImageRequest& request, Files& files, base::Diagnos
   for (const std::uint32_t number : numbers) files.touch(pattern->nameOf(number));
   files.touch(pattern->nameOf(numbers.back() + 1));
   if (request.frame < 0) return pattern->nameOf(numbers.front());
-  const std::uint32_t nearest = numberAt(numbers, wantedOf(request));
+  const std::uint32_t nearest = numberAt(numbers, request.frame);
   if (nearest != std::floor(request.frame)) {
     base::Diagnostic& d =
         diagnostics.error(base::Code::badImportArgument, {},
@@ -207,7 +186,7 @@ std::string firstFileOf(const ImageRequest& request, Files& files, base::Diagnos
   return pattern->nameOf(nearest);
 }
 
-class Image : public Import {
+class Image : public ImportOf<ImageProvider> {
  public:
   graph::ImportType reflect() const override {
     return {
@@ -215,36 +194,21 @@ class Image : public Import {
         .kind = graph::ImportKind::texture,
         .doc =
             "A picture file as a 2D texture of its size, upright, with four channels: .png .jpg .tga as "
-            "rgba8 "
-            "or rgba16, "
-            ".hdr .exr as rgba32f; or a sequence of numbered files. Not there when `file` is empty.",
+            "rgba8 or rgba16, .hdr .exr as rgba32f; or a sequence of numbered files. Not there when `file` "
+            "is empty.",
         .arguments = {
-            {.name = "file",
-             .initial = Value::text(""),
-             .choices = {},
-             .doc = "path of the file; of a sequence with #### or %04d for the number"},
-            {.name = "frame",
-             .initial = Value::number(-1),
-             .choices = {},
-             .doc = "number of the picture of a sequence; -1: it plays from its first number on"},
-            {.name = "fps",
-             .initial = Value::number(0),
-             .choices = {},
-             .doc = "pictures per second of a sequence that plays; 0: one per frame"},
-            {.name = "end",
-             .initial = Value::text("loop"),
-             .choices = {"loop", "hold"},
-             .doc = "what follows the last picture of a sequence: the first, or itself"},
-            {.name = "srgb",
-             .initial = Value::boolean(false),
-             .choices = {},
-             .doc =
-                 "decode red, green and blue from sRGB, as pictures are stored; not for .hdr and .exr, which "
-                 "are linear"},
-            {.name = "mips",
-             .initial = Value::boolean(false),
-             .choices = {},
-             .doc = "all levels down to one texel"}}};
+            argument("file", Value::text(""),
+                     "path of the file; of a sequence with #### or %04d for the number"),
+            argument("frame", Value::number(-1),
+                     "number of the picture of a sequence; -1: it plays from its first number on"),
+            argument("fps", Value::number(0),
+                     "pictures per second of a sequence that plays; 0: one per frame"),
+            argument("end", Value::text("loop"),
+                     "what follows the last picture of a sequence: the first, or itself", {"loop", "hold"}),
+            argument("srgb", Value::boolean(false),
+                     "decode red, green and blue from sRGB, as pictures are stored; not for .hdr and .exr, "
+                     "which are linear"),
+            argument("mips", Value::boolean(false), "all levels down to one texel")}};
   }
 
   graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts&,
@@ -263,7 +227,7 @@ class Image : public Import {
         path.empty() ? nullptr : files.get<StoredHeader>(path, assets::loadStoredHeader, said);
     if (header) {
       result.exists = true;
-      result.format = formatOf(header->type, image.srgb);
+      result.format = layoutOf(header->type, image.srgb).format;
       result.width = static_cast<std::uint32_t>(header->width);
       result.height = static_cast<std::uint32_t>(header->height);
       result.mips = levelsOf(*header, image.mips);
@@ -271,10 +235,6 @@ class Image : public Import {
     result.changing = image.frame < 0 && sequencePatternOf(image.file).has_value();
     result.problems = said.items();
     return result;
-  }
-
-  std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override {
-    return std::make_unique<ImageProvider>(request);
   }
 };
 

@@ -1,4 +1,4 @@
-// Numbered pictures: which files a name with #### or %04d stands for. Does not: read pictures, or know frames and times.
+// Numbered pictures: which files a name with #### or %04d stands for.
 #pragma once
 
 #include <cstdint>

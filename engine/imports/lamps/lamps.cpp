@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "engine/imports/builtin.h"
-#include "engine/imports/row_table.h"
 #include "engine/imports/scene_tables.h"
 #include "engine/scene/light_views.h"
 
@@ -12,34 +11,28 @@ namespace weft::imports {
 
 namespace {
 
-bool isCasting(const graph::ImportRequest& request) {
-  return request.arguments[0].second.truth();
-}
-
 struct LampRow : scene::Lamp {
   float nearPlane = 0;
   std::int32_t caster = -1;
 };
 
-const Columns<LampRow>& lampColumns() {
+Columns<LampRow> lampColumns() {
   using Row = LampRow;
-  static const Columns<Row> columns = {
-      column<Row, &Row::position>("position", "world"),
-      column<Row, &Row::range>("range", "world units; nothing beyond is lit"),
-      column<Row, &Row::intensity>("intensity",
-                                   "linear RGB; irradiance times squared distance, scene-referred"),
-      column<Row, &Row::cosInner>("cos_inner", "of a spot: cosine within which it is full; -1 all round"),
-      column<Row, &Row::direction>("direction", "unit, away from it, of a spot"),
-      column<Row, &Row::cosOuter>("cos_outer", "cosine beyond which nothing is lit"),
-      column<Row, &Row::nearPlane>("near_plane", "of its views"),
-      column<Row, &Row::radius>("radius", "world units: its own, for soft shadows"),
-      column<Row, &Row::caster>("shadow", "index among those that cast shadows, or -1")};
-  return columns;
+  return {column<Row, &Row::position>("position", "world"),
+          column<Row, &Row::range>("range", "world units; nothing beyond is lit"),
+          column<Row, &Row::intensity>("intensity",
+                                       "linear RGB; irradiance times squared distance, scene-referred"),
+          column<Row, &Row::cosInner>("cos_inner", "of a spot: cosine within which it is full; -1 all round"),
+          column<Row, &Row::direction>("direction", "unit, away from it, of a spot"),
+          column<Row, &Row::cosOuter>("cos_outer", "cosine beyond which nothing is lit"),
+          column<Row, &Row::nearPlane>("near_plane", "of its views"),
+          column<Row, &Row::radius>("radius", "world units: its own, for soft shadows"),
+          column<Row, &Row::caster>("shadow", "index among those that cast shadows, or -1")};
 }
 
 class LampsProvider : public Provider {
  public:
-  explicit LampsProvider(bool casting) : casting_(casting) {}
+  explicit LampsProvider(const graph::ImportRequest& request) : casting_(request.at("casting").truth()) {}
 
   BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
     follow(frame);
@@ -101,7 +94,7 @@ class LampsProvider : public Provider {
   RowTable<LampRow> table_{"lamps", lampColumns()};
 };
 
-class Lamps : public Import {
+class Lamps : public ImportOf<LampsProvider> {
  public:
   graph::ImportType reflect() const override {
     return {.name = "lamps",
@@ -109,22 +102,15 @@ class Lamps : public Import {
             .doc =
                 "The scene's point and spot lights, one row each, and views of 90 degrees from them: "
                 "@lamps[l].face[f], faces as of a cube map.",
-            .arguments = {{.name = "casting",
-                           .initial = graph::Value::boolean(false),
-                           .choices = {},
-                           .doc = "only those that cast shadows"}},
+            .arguments = {argument("casting", graph::Value::boolean(false), "only those that cast shadows")},
             .columns = tell(lampColumns()),
             .views = true};
   }
 
   graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,
                            Files&) const override {
-    const std::uint32_t count = isCasting(request) ? world.castingLamps : world.lamps;
+    const std::uint32_t count = request.at("casting").truth() ? world.castingLamps : world.lamps;
     return {.exists = count > 0, .count = static_cast<double>(count)};
-  }
-
-  std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override {
-    return std::make_unique<LampsProvider>(isCasting(request));
   }
 };
 

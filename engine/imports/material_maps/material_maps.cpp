@@ -8,7 +8,7 @@ namespace {
 
 class MaterialMapsProvider : public Provider {
  public:
-  explicit MaterialMapsProvider(std::uint32_t element) : element_(element) {}
+  explicit MaterialMapsProvider(const graph::ImportRequest& request) : element_(graph::elementOf(request)) {}
   gl::TextureRef texture(const Frame& frame, base::Diagnostics& diagnostics) override {
     return frame.tables.textures().array(frame.world.scene(), frame.world.sceneGeneration(), element_,
                                          diagnostics);
@@ -20,15 +20,15 @@ class MaterialMapsProvider : public Provider {
   std::uint32_t element_;
 };
 
-class MaterialMaps : public Import {
+class MaterialMaps : public ImportOf<MaterialMapsProvider> {
  public:
   graph::ImportType reflect() const override {
     return {.name = "material_maps",
             .kind = graph::ImportKind::texture,
             .doc =
                 "The textures of the scene's materials, all levels, batched by size: an array of 8 "
-                "sampler2DArray, which shaders/scene/materials.glsl looks up. Not there when no material has "
-                "one.",
+                "sampler2DArray, which shaders/scene/materials.glsl looks up. Not there when no material "
+                "has one.",
             .array = kMaterialArrays};
   }
 
@@ -42,10 +42,6 @@ class MaterialMaps : public Import {
             .mips = maps.mips,
             .layered = true,
             .count = static_cast<double>(maps.arrays)};
-  }
-
-  std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override {
-    return std::make_unique<MaterialMapsProvider>(graph::elementOf(request));
   }
 };
 

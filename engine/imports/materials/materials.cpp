@@ -1,34 +1,10 @@
 // The import `materials`: the scene's materials as a table. A mesh's row says which one it has.
 #include "engine/imports/builtin.h"
 #include "engine/imports/material_textures.h"
-#include "engine/imports/row_table.h"
 
 namespace weft::imports {
 
 namespace {
-
-const Columns<scene::Material>& materialColumns() {
-  using Row = scene::Material;
-  static const Columns<Row> columns = {
-      column<Row, &Row::albedo>("albedo", "linear; factor of its map; F0 of a metal"),
-      column<Row, &Row::metallic>("metallic", "factor of its map"),
-      column<Row, &Row::emissive>("emissive", "radiance, scene-referred; factor of its map"),
-      column<Row, &Row::roughness>("roughness", "perceptual; factor of its map"),
-      column<Row, &Row::specular>("specular", "Blinn–Phong: linear"),
-      column<Row, &Row::shininess>("shininess", "Blinn–Phong: exponent"),
-      column<Row, &Row::alpha>("alpha", "factor of the map's"),
-      column<Row, &Row::alphaCutoff>("alpha_cutoff", "over 0: holes where alpha is below"),
-      column<Row, &Row::normalScale>("normal_scale", "of the map's x and y"),
-      column<Row, &Row::occlusionStrength>("occlusion_strength", "0 to 1"),
-      column<Row, &Row::albedoMap>("albedo_map", "array << 16 | layer of @material_maps; 0xffffffff: none"),
-      column<Row, &Row::normalMap>("normal_map", "tangent space"),
-      column<Row, &Row::metallicRoughnessMap>("metallic_roughness_map", "metallic in b, roughness in g"),
-      column<Row, &Row::occlusionMap>("occlusion_map", "in r"),
-      column<Row, &Row::emissiveMap>("emissive_map", ""),
-      column<Row, &Row::blinnPhong>("blinn_phong", "1: specular and shininess are what the file has"),
-      column<Row, &Row::doubleSided>("double_sided", "0 or 1")};
-  return columns;
-}
 
 // With maps as @material_maps has them.
 std::vector<scene::Material> rowsOf(const scene::Scene& scene) {
@@ -41,34 +17,42 @@ std::vector<scene::Material> rowsOf(const scene::Scene& scene) {
   return rows;
 }
 
-class MaterialsProvider : public Provider {
- public:
-  BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
-    const auto rows = [&] { return rowsOf(frame.world.scene()); };
-    return table_.get(layout, frame.world.sceneGeneration(), rows, diagnostics);
+struct MaterialTable : SceneTable<scene::Material> {
+  static constexpr const char* kLabel = "materials";
+  static Columns<Row> columns() {
+    return {
+        column<Row, &Row::albedo>("albedo", "linear; factor of its map; F0 of a metal"),
+        column<Row, &Row::metallic>("metallic", "factor of its map"),
+        column<Row, &Row::emissive>("emissive", "radiance, scene-referred; factor of its map"),
+        column<Row, &Row::roughness>("roughness", "perceptual; factor of its map"),
+        column<Row, &Row::specular>("specular", "Blinn–Phong: linear"),
+        column<Row, &Row::shininess>("shininess", "Blinn–Phong: exponent"),
+        column<Row, &Row::alpha>("alpha", "factor of the map's"),
+        column<Row, &Row::alphaCutoff>("alpha_cutoff", "over 0: holes where alpha is below"),
+        column<Row, &Row::normalScale>("normal_scale", "of the map's x and y"),
+        column<Row, &Row::occlusionStrength>("occlusion_strength", "0 to 1"),
+        column<Row, &Row::albedoMap>("albedo_map", "array << 16 | layer of @material_maps; 0xffffffff: none"),
+        column<Row, &Row::normalMap>("normal_map", "tangent space"),
+        column<Row, &Row::metallicRoughnessMap>("metallic_roughness_map", "metallic in b, roughness in g"),
+        column<Row, &Row::occlusionMap>("occlusion_map", "in r"),
+        column<Row, &Row::emissiveMap>("emissive_map", ""),
+        column<Row, &Row::blinnPhong>("blinn_phong", "1: specular and shininess are what the file has"),
+        column<Row, &Row::doubleSided>("double_sided", "0 or 1")};
   }
-  std::uint64_t generation(const Frame& frame) override { return frame.world.sceneGeneration(); }
-  bool isStill(const World&) const override { return true; }
-
- private:
-  RowTable<scene::Material> table_{"materials", materialColumns()};
+  static std::vector<Row> rows(const Frame& frame) { return rowsOf(frame.world.scene()); }
 };
 
-class Materials : public Import {
+class Materials : public ImportOf<TableProvider<MaterialTable>> {
  public:
   graph::ImportType reflect() const override {
     return {.name = "materials",
             .kind = graph::ImportKind::buffer,
             .doc = "The scene's materials, one row each; shaders/scene/materials.glsl reads them.",
-            .columns = tell(materialColumns())};
+            .columns = tell(MaterialTable::columns())};
   }
 
   graph::ImportFacts facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const override {
     return {.exists = true, .count = static_cast<double>(world.materials)};
-  }
-
-  std::unique_ptr<Provider> provide(const graph::ImportRequest&) const override {
-    return std::make_unique<MaterialsProvider>();
   }
 };
 

@@ -6,29 +6,21 @@ namespace weft::imports {
 
 namespace {
 
-const std::string kOpaque = scene::drawListNames()[static_cast<std::size_t>(scene::DrawList::opaque)];
-
-const std::string& listOf(const graph::ImportRequest& request) {
-  return request.arguments[0].second.symbol;
-}
-
 class MeshesProvider : public Provider {
  public:
-  // Expansion lets known lists through only.
-  explicit MeshesProvider(const std::string& list)
-      : list_(scene::findDrawList(list).value_or(scene::DrawList::opaque)) {}
+  explicit MeshesProvider(const graph::ImportRequest& request) : list_(drawListOf(request)) {}
 
   BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
     return frame.tables.meshes(list_, layout, diagnostics);
   }
-  std::uint64_t generation(const Frame& frame) override { return frame.tables.meshGeneration(list_); }
+  std::uint64_t generation(const Frame& frame) override { return frame.tables.meshFrame().generation(list_); }
   bool isStill(const World& world) const override { return !scene::isMoving(world.scene()); }
 
  private:
   scene::DrawList list_;
 };
 
-class Meshes : public Import {
+class Meshes : public ImportOf<MeshesProvider> {
  public:
   graph::ImportType reflect() const override {
     return {
@@ -37,22 +29,13 @@ class Meshes : public Import {
         .doc =
             "The meshes of a draw list, one row each, as a draw of them has in its block `instances`. Not "
             "there when there are none.",
-        .arguments = {{.name = "list",
-                       .initial = graph::Value::text(kOpaque),
-                       .choices = {},
-                       .doc = "a draw list",
-                       .drawList = true}},
+        .arguments = {drawListArgument(scene::DrawList::opaque)},
         .columns = tell(meshColumns())};
   }
-
   graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,
                            Files&) const override {
-    const double count = world.meshesOf(listOf(request));
+    const double count = world.meshesOf(request.at("list").symbol);
     return {.exists = count > 0, .count = count};
-  }
-
-  std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override {
-    return std::make_unique<MeshesProvider>(listOf(request));
   }
 };
 

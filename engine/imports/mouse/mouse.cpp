@@ -1,29 +1,25 @@
 #include <array>
 
 #include "engine/imports/builtin.h"
-#include "engine/imports/row_table.h"
 
 namespace weft::imports {
 
 namespace {
 
-const Columns<Pointer>& mouseColumns() {
+Columns<Pointer> mouseColumns() {
   using Row = Pointer;
-  static const Columns<Row> columns = {
-      column<Row, &Row::position>("position", "pixels, where it was last over the picture"),
-      column<Row, &Row::dragged>("dragged", "pixels, where it was last while the button was held"),
-      column<Row, &Row::pressed>("pressed", "pixels, where the button last went down"),
-      column<Row, &Row::down>("down", "1 while the button is held, else 0"),
-      column<Row, &Row::clicked>("clicked", "1 in the frame in which the button went down, else 0")};
-  return columns;
+  return {column<Row, &Row::position>("position", "pixels, where it was last over the picture"),
+          column<Row, &Row::dragged>("dragged", "pixels, where it was last while the button was held"),
+          column<Row, &Row::pressed>("pressed", "pixels, where the button last went down"),
+          column<Row, &Row::down>("down", "1 while the button is held, else 0"),
+          column<Row, &Row::clicked>("clicked", "1 in the frame in which the button went down, else 0")};
 }
 
 class MouseProvider : public Provider {
  public:
   BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
-    const std::uint64_t current = generation(frame);
-    return table_.get(
-        layout, current, [this] { return std::array{shown_}; }, diagnostics);
+    const auto row = [this] { return std::array{shown_}; };
+    return table_.get(layout, generation(frame), row, diagnostics);
   }
   std::uint64_t generation(const Frame& frame) override {
     if (generation_ == 0 || frame.input.pointer != shown_) {
@@ -40,7 +36,7 @@ class MouseProvider : public Provider {
   RowTable<Pointer> table_{"mouse", mouseColumns()};
 };
 
-class Mouse : public Import {
+class Mouse : public ImportOf<MouseProvider> {
  public:
   graph::ImportType reflect() const override {
     return {
@@ -52,13 +48,8 @@ class Mouse : public Import {
         .arguments = {},
         .columns = tell(mouseColumns())};
   }
-
   graph::ImportFacts facts(const graph::ImportRequest&, const WorldFacts&, Files&) const override {
     return {.exists = true, .count = 1, .changing = true};
-  }
-
-  std::unique_ptr<Provider> provide(const graph::ImportRequest&) const override {
-    return std::make_unique<MouseProvider>();
   }
 };
 

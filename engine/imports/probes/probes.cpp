@@ -1,15 +1,17 @@
+#include "engine/scene/probes/probes.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
-#include <cstring>
-#include <optional>
+#include <future>
 #include <span>
 #include <vector>
 
 #include "engine/graph/language/value.h"
 #include "engine/imports/builtin.h"
-#include "engine/imports/probes/probe_worker.h"
 #include "engine/imports/scene_tables.h"
 
 namespace weft::imports {
@@ -26,21 +28,8 @@ struct Header {
   glm::uvec4 count;
 };
 
-// In the order of reflect().
-const std::string& litList(const graph::ImportRequest& request) {
-  return request.arguments[0].second.symbol;
-}
-const Value& gridOf(const graph::ImportRequest& request) {
-  return request.arguments[1].second;
-}
-double nearOf(const graph::ImportRequest& request) {
-  return request.arguments[2].second.v[0];
-}
-double farOf(const graph::ImportRequest& request) {
-  return request.arguments[3].second.v[0];
-}
-
-glm::uvec3 countOf(const Value& grid) {
+glm::uvec3 countOf(const graph::ImportRequest& request) {
+  const Value& grid = request.at("grid");
   glm::uvec3 count;
   for (int axis = 0; axis < 3; ++axis)
     count[axis] =
@@ -49,12 +38,11 @@ glm::uvec3 countOf(const Value& grid) {
 }
 
 scene::ProbeRules rulesOf(const graph::ImportRequest& request) {
-  return {.near = static_cast<float>(nearOf(request)),
-          .far = static_cast<float>(farOf(request)),
-          .shape = request.arguments[4].second.symbol == "point" ? scene::ProbeShape::point
-                                                                 : scene::ProbeShape::cap,
-          .window = request.arguments[5].second.symbol == "hard" ? scene::ProbeWindow::hard
-                                                                 : scene::ProbeWindow::smooth};
+  return {.near = static_cast<float>(request.at("near").v[0]),
+          .far = static_cast<float>(request.at("far").v[0]),
+          .shape = request.at("shape").symbol == "point" ? scene::ProbeShape::point : scene::ProbeShape::cap,
+          .window =
+              request.at("window").symbol == "hard" ? scene::ProbeWindow::hard : scene::ProbeWindow::smooth};
 }
 
 std::uint64_t bytesOf(glm::uvec3 count) {
@@ -68,9 +56,8 @@ bool lightAlike(const scene::Instance& a, const scene::Instance& b) {
 class ProbesProvider : public Provider {
  public:
   explicit ProbesProvider(const graph::ImportRequest& request)
-      : list_(scene::findDrawList(litList(request))),
-        rules_(rulesOf(request)),
-        count_(countOf(gridOf(request))) {}
+      : list_(drawListOf(request)), rules_(rulesOf(request)), count_(countOf(request)) {}
+  ~ProbesProvider() override { stop_ = true; }
 
   BufferRef buffer(const Frame& frame, const RowLayout&, base::Diagnostics& diagnostics) override {
     refresh(frame);
@@ -86,62 +73,67 @@ class ProbesProvider : public Provider {
     refresh(frame);
     return generation_;
   }
-  bool isStill(const World& world) const override {
-    return !list_ || !scene::isMoving(world.scene(), *list_);
-  }
+  bool isStill(const World& world) const override { return !scene::isMoving(world.scene(), list_); }
 
  private:
-  // Once a frame: takes what is ready, and gives the worker what changed. A headless frame waits until it has both.
+  struct Computed {
+    scene::ProbeGrid grid;
+    std::vector<scene::Probe> probes;
+  };
+
+  // Once a frame: takes what is ready, and has computed what changed, on a thread beside the frames. A headless frame waits for
+  // both.
   void refresh(const Frame& frame) {
-    if (frame_ == frame.number || !list_) return;
+    if (frame_ == frame.number) return;
     frame_ = frame.number;
     const bool waits = frame.input.headless;
-    takeResult(frame, waits);
-    const std::uint64_t rows = frame.tables.generation(*list_);
-    if (worker_.isBusy() || rows == rows_) return;
+    take(frame, waits);
+    const std::uint64_t rows = frame.tables.generation(list_);
+    if (pending_.valid() || rows == rows_) return;
     rows_ = rows;
-    if (generation_ != 0 && std::ranges::equal(frame.tables.rows(*list_), given_, lightAlike)) return;
-    given_ = frame.tables.rows(*list_);
-    job_.rules = rules_;
-    job_.count = count_;
-    job_.spheres = given_;
-    job_.threads = waits ? 0 : 1;  // beside frames, one is enough
-    worker_.start(job_);
-    if (waits) takeResult(frame, true);
+    if (generation_ != 0 && std::ranges::equal(frame.tables.rows(list_), given_, lightAlike)) return;
+    given_ = frame.tables.rows(list_);
+    pending_ = std::async(std::launch::async, [this, threads = waits ? 0 : 1] {
+      Computed made{.grid = scene::placeProbes(given_, count_), .probes = {}};
+      made.probes.resize(made.grid.size());
+      scene::computeProbes(made.grid, rules_, given_, made.probes, &stop_, threads);
+      return made;
+    });
+    if (waits) take(frame, true);
   }
 
-  void takeResult(const Frame& frame, bool waits) {
-    if (!worker_.isBusy()) return;
-    if (waits) worker_.wait();
-    if (!worker_.take(result_)) return;
+  void take(const Frame& frame, bool waits) {
+    if (!pending_.valid()) return;
+    if (!waits && pending_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+    computed_ = pending_.get();
     generation_ = frame.newGeneration();
     stale_ = true;
   }
 
   // Zeros before the first result: no bounce yet.
   void upload() {
-    const Header header{.low = glm::vec4(result_.grid.low, 0),
-                        .high = glm::vec4(result_.grid.high, 0),
+    const Header header{.low = glm::vec4(computed_.grid.low, 0),
+                        .high = glm::vec4(computed_.grid.high, 0),
                         .count = glm::uvec4(count_, 0)};
     gl::uploadBuffer(buffer_.id(), 0, std::as_bytes(std::span(&header, 1)));
-    result_.probes.resize(std::size_t{count_.x} * count_.y * count_.z);
-    gl::uploadBuffer(buffer_.id(), sizeof header, std::as_bytes(std::span(result_.probes)));
+    computed_.probes.resize(std::size_t{count_.x} * count_.y * count_.z);
+    gl::uploadBuffer(buffer_.id(), sizeof header, std::as_bytes(std::span(computed_.probes)));
     stale_ = false;
   }
 
-  std::optional<scene::DrawList> list_;
+  scene::DrawList list_;
   scene::ProbeRules rules_;
   glm::uvec3 count_;
-  ProbeWorker worker_;
-  ProbeWorker::Job job_;  // memory for the next
-  ProbeWorker::Result result_;
-  std::vector<scene::Instance> given_;  // what the newest job is made of
+  Computed computed_;
+  std::vector<scene::Instance> given_;  // of what the newest are computed
   std::uint64_t frame_ = 0, rows_ = 0, generation_ = 0;
   gl::Buffer buffer_;
   bool stale_ = true;
+  std::atomic<bool> stop_ = false;
+  std::future<Computed> pending_;  // goes first, and waits for its thread
 };
 
-class Probes : public Import {
+class Probes : public ImportOf<ProbesProvider> {
  public:
   graph::ImportType reflect() const override {
     return {
@@ -149,65 +141,45 @@ class Probes : public Import {
         .kind = graph::ImportKind::buffer,
         .doc =
             "A grid of light probes over the box of `list`: what its spheres throw back of the "
-            "environment, computed "
-            "on the CPU beside the frames, in the layout of gi/probes.glsl.",
+            "environment, computed on the CPU beside the frames, in the layout of gi/probes.glsl.",
         .arguments = {
-            {.name = "list",
-             .initial = Value::text(scene::drawListNames().front()),
-             .choices = {},
-             .doc = "a draw list",
-             .drawList = true},
-            {.name = "grid",
-             .initial = {Value::Type::list, 3, {21, 21, 3, 0}, {}},
-             .choices = {},
-             .doc = "probes along x, y and z: 1 to 256, together at most 262144"},
-            {.name = "near",
-             .initial = Value::number(1.05),
-             .choices = {},
-             .doc = "a sphere lights no probe nearer than that to its centre, in radii; 1 at least"},
-            {.name = "far",
-             .initial = Value::number(10),
-             .choices = {},
-             .doc = "nor one that is as far as that, in radii; more than `near`"},
-            {.name = "shape",
-             .initial = Value::text("cap"),
-             .choices = {"cap", "point"},
-             .doc = "how a sphere is seen: as the cap of the sky that it covers, or as a point as strong"},
-            {.name = "window",
-             .initial = Value::text("smooth"),
-             .choices = {"smooth", "hard"},
-             .doc = "how its light ends at `far`"}}};
+            drawListArgument(),
+            argument("grid", {Value::Type::list, 3, {21, 21, 3, 0}, {}},
+                     "probes along x, y and z: 1 to 256, together at most 262144"),
+            argument("near", Value::number(1.05),
+                     "a sphere lights no probe nearer than that to its centre, in radii; 1 at least"),
+            argument("far", Value::number(10), "nor one that is as far as that, in radii; more than `near`"),
+            argument("shape", Value::text("cap"),
+                     "how a sphere is seen: as the cap of the sky that it covers, or as a point as strong",
+                     {"cap", "point"}),
+            argument("window", Value::text("smooth"), "how its light ends at `far`", {"smooth", "hard"})}};
   }
 
   graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts&, Files&) const override {
     graph::ImportFacts facts{.exists = true};
     const auto refuse = [&](const char* argument, const char* expected, std::string found) {
-      base::Diagnostic problem;
-      problem.code = base::Code::badImportArgument;
-      problem.message = fmt::format("import 'probes': argument '{}' does not fit", argument);
-      problem.expected = expected;
-      problem.found = std::move(found);
-      problem.hint = fmt::format("give \"{}\" such a value, or leave it out", argument);
-      facts.problems.push_back(std::move(problem));
+      facts.problems.push_back(
+          {.code = base::Code::badImportArgument,
+           .message = fmt::format("import 'probes': argument '{}' does not fit", argument),
+           .expected = expected,
+           .found = std::move(found),
+           .hint = fmt::format("give \"{}\" such a value, or leave it out", argument)});
     };
-    const Value& grid = gridOf(request);
+    const Value& grid = request.at("grid");
+    const double near = request.at("near").v[0], far = request.at("far").v[0];
     const bool whole = std::ranges::all_of(std::span(grid.v).first(3), [](double along) {
       return along >= 1 && along <= kMostAlong && along == std::floor(along);
     });
     if (!whole || grid.v[0] * grid.v[1] * grid.v[2] > kMostProbes)
       refuse("grid", "three whole numbers from 1 to 256 whose product is at most 262144",
              graph::toText(grid));
-    if (!(nearOf(request) >= 1)) refuse("near", "1 or more", fmt::format("{}", nearOf(request)));
-    if (!(farOf(request) > nearOf(request)) || !(farOf(request) <= 1e6))
-      refuse("far", "more than `near`, at most 1000000", fmt::format("{}", farOf(request)));
-    const glm::uvec3 count = countOf(grid);
+    if (!(near >= 1)) refuse("near", "1 or more", fmt::format("{}", near));
+    if (!(far > near) || !(far <= 1e6))
+      refuse("far", "more than `near`, at most 1000000", fmt::format("{}", far));
+    const glm::uvec3 count = countOf(request);
     facts.count = static_cast<double>(std::size_t{count.x} * count.y * count.z);
     facts.bytes = bytesOf(count);
     return facts;
-  }
-
-  std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override {
-    return std::make_unique<ProbesProvider>(request);
   }
 };
 

@@ -1,28 +1,16 @@
 #include "engine/scene/silhouettes.h"
 
 #include <algorithm>
-#include <optional>
 #include <span>
 
 #include "engine/imports/builtin.h"
-#include "engine/imports/camera_views.h"
 #include "engine/imports/scene_tables.h"
 
 namespace weft::imports {
 
 namespace {
 
-using graph::Value;
-
 constexpr double kHighest = 65536;  // pixels
-
-// In the order of reflect().
-const std::string& listOf(const graph::ImportRequest& request) {
-  return request.arguments[0].second.symbol;
-}
-double heightOf(const graph::ImportRequest& request) {
-  return std::clamp(request.arguments[1].second.v[0], 1.0, kHighest);
-}
 
 // Pixels that two silhouettes may be apart and still meet: the diagonal of one, and what a lens wider than the scene's makes of it.
 constexpr float kPixels = 3;
@@ -30,33 +18,22 @@ constexpr float kPixels = 3;
 class SilhouettesProvider : public Provider {
  public:
   explicit SilhouettesProvider(const graph::ImportRequest& request)
-      : list_(scene::findDrawList(listOf(request))), height_(static_cast<float>(heightOf(request))) {}
+      : list_(drawListOf(request)),
+        height_(static_cast<float>(std::clamp(request.at("height").v[0], 1.0, kHighest))) {}
 
   BufferRef buffer(const Frame& frame, const RowLayout&, base::Diagnostics& diagnostics) override {
-    if (!list_) return {};
     const std::uint64_t now = generation(frame);
     if (buffer_ && sent_ == now) return {buffer_.id(), buffer_.bytes()};
-    found_.find(frame.tables.rows(*list_), eye_, kPixels * pixel_);
-    const std::span<const std::byte> bytes = std::as_bytes(std::span(found_.rows()));
-    if (!buffer_ || buffer_.bytes() < bytes.size()) {
-      // Half as much again, so that spheres which move do not make it anew in every frame.
-      auto buffer = gl::Buffer::create(bytes.size() + bytes.size() / 2, GL_DYNAMIC_STORAGE_BIT, "silhouettes",
-                                       diagnostics);
-      if (!buffer) {
-        buffer_ = {};  // one that is too small must not be given out
-        return {};
-      }
-      buffer_ = std::move(*buffer);
-    }
-    gl::uploadBuffer(buffer_.id(), 0, bytes);
+    found_.find(frame.tables.rows(list_), eye_, kPixels * pixel_);
+    if (!sendTo(buffer_, std::as_bytes(std::span(found_.rows())), "silhouettes", true, diagnostics))
+      return {};
     sent_ = now;
     return {buffer_.id(), buffer_.bytes()};
   }
   std::uint64_t generation(const Frame& frame) override {
-    if (!list_) return 0;
     const scene::ViewData& view = frame.camera.view(frame, 1, 1);
     const float pixel = 2 / (view.projection[1].y * height_);
-    const std::uint64_t rows = frame.tables.generation(*list_);
+    const std::uint64_t rows = frame.tables.generation(list_);
     if (generation_ == 0 || rows != rows_ || view.eye != eye_ || pixel != pixel_)
       generation_ = frame.newGeneration();
     rows_ = rows;
@@ -66,7 +43,7 @@ class SilhouettesProvider : public Provider {
   }
 
  private:
-  std::optional<scene::DrawList> list_;
+  scene::DrawList list_;
   float height_;
   scene::Silhouettes found_;
   gl::Buffer buffer_;
@@ -76,45 +53,32 @@ class SilhouettesProvider : public Provider {
   float pixel_ = 0;
 };
 
-class Silhouettes : public Import {
+class Silhouettes : public ImportOf<SilhouettesProvider> {
  public:
   graph::ImportType reflect() const override {
-    return {
-        .name = "silhouettes",
-        .kind = graph::ImportKind::buffer,
-        .doc =
-            "Of each sphere of `list`, those before it whose silhouettes meet its own in the picture. "
-            "uvec4(first, number, 0, 0) per "
-            "instance, then per such sphere the bits of vec4(centre from the eye, radius); empty with more "
-            "than 4096, or 131072 pairs that meet.",
-        .arguments = {{.name = "list",
-                       .initial = Value::text(scene::drawListNames().front()),
-                       .choices = {},
-                       .doc = "a draw list",
-                       .drawList = true},
-                      {.name = "height",
-                       .initial = Value::number(720),
-                       .choices = {},
-                       .doc = "of the picture, pixels"}}};
+    return {.name = "silhouettes",
+            .kind = graph::ImportKind::buffer,
+            .doc =
+                "Of each sphere of `list`, those before it whose silhouettes meet its own in the picture. "
+                "uvec4(first, number, 0, 0) per instance, then per such sphere the bits of vec4(centre from "
+                "the eye, radius); empty with more than 4096, or 131072 pairs that meet.",
+            .arguments = {drawListArgument(),
+                          argument("height", graph::Value::number(720), "of the picture, pixels")}};
   }
 
   graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,
                            Files&) const override {
-    graph::ImportFacts facts{.exists = true, .count = world.countOf(listOf(request))};
-    const double height = request.arguments[1].second.v[0];
+    graph::ImportFacts facts{.exists = true, .count = world.countOf(request.at("list").symbol)};
+    const double height = request.at("height").v[0];
     if (height >= 1 && height <= kHighest) return facts;
     base::Diagnostics said;
     base::Diagnostic& d =
         said.error(base::Code::badImportArgument, {}, "import 'silhouettes': argument 'height' does not fit");
     d.expected = "the height of the picture, 1 to 65536 pixels";
-    d.found = graph::toText(request.arguments[1].second);
+    d.found = graph::toText(request.at("height"));
     d.hint = "write \"height\": \"size(hdr).y\", with the picture's name in place of hdr";
     facts.problems = said.items();
     return facts;
-  }
-
-  std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override {
-    return std::make_unique<SilhouettesProvider>(request);
   }
 };
 

@@ -16,7 +16,7 @@ class SpheresProvider : public Provider {
   bool isStill(const World& world) const override { return !scene::isMoving(world.scene(), kList); }
 };
 
-class Spheres : public Import {
+class Spheres : public ImportOf<SpheresProvider> {
  public:
   graph::ImportType reflect() const override {
     return {.name = "spheres",
@@ -25,13 +25,8 @@ class Spheres : public Import {
             .arguments = {},
             .columns = tell(sphereColumns())};
   }
-
   graph::ImportFacts facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const override {
     return {.exists = true, .count = world.countOf(scene::drawListNames()[static_cast<std::size_t>(kList)])};
-  }
-
-  std::unique_ptr<Provider> provide(const graph::ImportRequest&) const override {
-    return std::make_unique<SpheresProvider>();
   }
 };
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "engine/imports/builtin.h"
-#include "engine/imports/row_table.h"
 #include "engine/imports/scene_tables.h"
 #include "engine/scene/light_views.h"
 
@@ -18,7 +18,7 @@ constexpr double kMostTexels = 16384;
 
 // Where a graph's own sun stands; empty: where the scene's does.
 std::optional<glm::vec3> directionOf(const graph::ImportRequest& request) {
-  const graph::Value& value = request.arguments[1].second;
+  const graph::Value& value = request.at("direction");
   const glm::dvec3 towards(value.v[0], value.v[1], value.v[2]);
   const double length = glm::length(towards);
   if (!(length > 0 && std::isfinite(length))) return {};
@@ -30,22 +30,22 @@ struct SunRow : scene::Sun {
   glm::mat4 shadowMatrix{1};
 };
 
-const Columns<SunRow>& sunColumns() {
+Columns<SunRow> sunColumns() {
   using Row = SunRow;
-  static const Columns<Row> columns = {
-      column<Row, &Row::direction>("direction", "unit, towards it, world"),
-      column<Row, &Row::cosAngle>("cos_angle", "of half its diameter in the sky"),
-      column<Row, &Row::irradiance>("irradiance", "linear RGB on what faces it, scene-referred"),
-      column<Row, &Row::texel>("texel", "world units across a texel of its map"),
-      column<Row, &Row::shadowMatrix>("shadow_matrix",
-                                      "world to u, v and reversed-Z depth of its map, 0 to 1")};
-  return columns;
+  return {column<Row, &Row::direction>("direction", "unit, towards it, world"),
+          column<Row, &Row::cosAngle>("cos_angle", "of half its diameter in the sky"),
+          column<Row, &Row::irradiance>("irradiance", "linear RGB on what faces it, scene-referred"),
+          column<Row, &Row::texel>("texel", "world units across a texel of its map"),
+          column<Row, &Row::shadowMatrix>("shadow_matrix",
+                                          "world to u, v and reversed-Z depth of its map, 0 to 1")};
 }
 
 class SunProvider : public Provider {
  public:
-  SunProvider(std::uint32_t texels, std::optional<glm::vec3> direction)
-      : texels_(texels), direction_(direction) {}
+  explicit SunProvider(const graph::ImportRequest& request)
+      : texels_(
+            static_cast<std::uint32_t>(std::clamp(std::floor(request.at("texels").v[0]), 1.0, kMostTexels))),
+        direction_(directionOf(request)) {}
 
   BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
     follow(frame);
@@ -70,19 +70,16 @@ class SunProvider : public Provider {
     if (frame_ == frame.number) return;
     frame_ = frame.number;
     const std::uint64_t changed = frame.world.sceneGeneration();
-    const scene::Box bounds = frame.tables.bounds();
+    const scene::Box bounds = frame.tables.meshFrame().sceneBounds();
     scene::Sun sun = frame.tables.meshFrame().sun().value_or(scene::Sun{.irradiance = glm::vec3(0)});
     sun.direction = direction_.value_or(sun.direction);
-    if (scene_ == changed && sun.direction == sun_.direction && bounds.low == bounds_.low &&
-        bounds.high == bounds_.high)
-      return;
-    scene_ = changed;
+    if (scene_ == changed && sun.direction == sun_.direction && bounds == bounds_) return;
+    const bool another = std::exchange(scene_, changed) != changed;
     bounds_ = bounds;
     sun_ = sun;
     const scene::SunView fitted = scene::sunView(sun_, bounds, texels_);
     // The generation rises only when a value has changed: the fit follows the bounds in steps.
-    if (generation_ != 0 && sceneSeen_ == changed && fitted.shadowMatrix == fitted_.shadowMatrix) return;
-    sceneSeen_ = changed;
+    if (!another && fitted.shadowMatrix == fitted_.shadowMatrix) return;
     fitted_ = fitted;
     generation_ = frame.newGeneration();
   }
@@ -92,11 +89,11 @@ class SunProvider : public Provider {
   scene::Sun sun_;
   scene::SunView fitted_;
   scene::Box bounds_;
-  std::uint64_t frame_ = 0, scene_ = 0, sceneSeen_ = 0, generation_ = 0;
+  std::uint64_t frame_ = 0, scene_ = 0, generation_ = 0;
   RowTable<SunRow> table_{"sun", sunColumns()};
 };
 
-class Sun : public Import {
+class Sun : public ImportOf<SunProvider> {
  public:
   graph::ImportType reflect() const override {
     return {
@@ -104,33 +101,22 @@ class Sun : public Import {
         .kind = graph::ImportKind::buffer,
         .doc = "The scene's sun: one row, and an orthographic view of everything from it.",
         .arguments =
-            {{.name = "texels",
-              .initial = graph::Value::number(2048),
-              .choices = {},
-              .doc = "a side of the map that its shadow is drawn into"},
-             {.name = "direction",
-              .initial = graph::Value{graph::Value::Type::list, 3, {}, {}},
-              .choices = {},
-              .doc = "towards it, in place of the scene's; then it is there without a sun, too, and gives no "
-                     "light then. [0, 0, 0]: the scene's"},
-             {.name = "casting",
-              .initial = graph::Value::boolean(false),
-              .choices = {},
-              .doc = "true: there only if the scene's sun casts shadows"}},
+            {argument("texels", graph::Value::number(2048),
+                      "a side of the map that its shadow is drawn into"),
+             argument("direction", graph::Value{graph::Value::Type::list, 3, {}, {}},
+                      "towards it, in place of the scene's; then it is there without a sun, too, and gives "
+                      "no light then. [0, 0, 0]: the scene's"),
+             argument("casting", graph::Value::boolean(false),
+                      "true: there only if the scene's sun casts shadows")},
         .columns = tell(sunColumns()),
         .views = true};
   }
 
   graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,
                            Files&) const override {
-    const bool casting = request.arguments[2].second.truth();
+    const bool casting = request.at("casting").truth();
     const bool exists = directionOf(request) || (casting ? world.castingSun : world.sun);
     return {.exists = exists, .count = exists ? 1.0 : 0.0};
-  }
-
-  std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override {
-    const double texels = std::clamp(std::floor(request.arguments[0].second.v[0]), 1.0, kMostTexels);
-    return std::make_unique<SunProvider>(static_cast<std::uint32_t>(texels), directionOf(request));
   }
 };
 

@@ -1,40 +1,54 @@
-#include "engine/passes/blit/blit.h"
+// Copies, and scales, one texture level to another with the fixed-function blit.
+#include "engine/passes/builtin.h"
 
 namespace weft::passes {
 
-graph::PassType Blit::reflect() const {
-  return {
-      .name = "blit",
-      .doc =
-          "Copies `source` to `destination`: one level and layer of a texture, scaling when the sizes differ "
-          "(`\"source\": \"x as linear\"` filters), or a buffer to one of the same size.",
-      .shader = graph::ShaderShape::none,
-      .defaultReadTexture = graph::Kind::copy,
-      .defaultWriteTexture = graph::Kind::copy,
-      .fixedSlots = {{"source", graph::Access::read, "the level and layer, or the buffer, to copy from"},
-                     {"destination", graph::Access::write, "the level and layer, or the buffer, to copy to"}},
-      .framebuffers = true,
-      .exactCopies = true};
-}
+namespace {
 
-void Blit::execute(const PassContext& context) const {
-  if (const BoundBuffer& from = context.sourceBuffer, &to = context.destinationBuffer; from.name && to.name) {
-    glCopyNamedBufferSubData(from.name, to.name, from.offset, to.offset, to.bytes);
-    return;
+class Blit final : public PassType {
+ public:
+  graph::PassType reflect() const override {
+    return {
+        .name = "blit",
+        .doc =
+            "Copies `source` to `destination`: one level and layer of a texture, scaling when the sizes "
+            "differ (`\"source\": \"x as linear\"` filters), or a buffer to one of the same size.",
+        .shader = graph::ShaderShape::none,
+        .defaultReadTexture = graph::Kind::copy,
+        .defaultWriteTexture = graph::Kind::copy,
+        .fixedSlots = {{"source", graph::Access::read, "the level and layer, or the buffer, to copy from"},
+                       {"destination", graph::Access::write,
+                        "the level and layer, or the buffer, to copy to"}},
+        .framebuffers = true,
+        .exactCopies = true};
   }
-  const BoundTexture& from = context.source;
-  const BoundTexture& to = context.destination;
-  if (context.exact) {
-    glCopyImageSubData(from.texture, from.target, from.level, 0, 0, from.layer, to.texture, to.target,
-                       to.level, 0, 0, to.layer, static_cast<GLsizei>(from.width),
-                       static_cast<GLsizei>(from.height), 1);
-    return;
+
+  void execute(const PassContext& context) const override {
+    if (const BoundBuffer& from = context.sourceBuffer, &to = context.destinationBuffer;
+        from.name && to.name) {
+      glCopyNamedBufferSubData(from.name, to.name, from.offset, to.offset, to.bytes);
+      return;
+    }
+    const BoundTexture& from = context.source;
+    const BoundTexture& to = context.destination;
+    if (context.exact) {
+      glCopyImageSubData(from.texture, from.target, from.level, 0, 0, from.layer, to.texture, to.target,
+                         to.level, 0, 0, to.layer, static_cast<GLsizei>(from.width),
+                         static_cast<GLsizei>(from.height), 1);
+      return;
+    }
+    const bool linear = context.linear && from.planes == GL_COLOR_BUFFER_BIT;
+    glBlitNamedFramebuffer(from.framebuffer, to.framebuffer, 0, 0, static_cast<GLint>(from.width),
+                           static_cast<GLint>(from.height), 0, 0, static_cast<GLint>(to.width),
+                           static_cast<GLint>(to.height), from.planes & to.planes,
+                           linear ? GL_LINEAR : GL_NEAREST);
   }
-  const bool linear = context.linear && from.planes == GL_COLOR_BUFFER_BIT;
-  glBlitNamedFramebuffer(from.framebuffer, to.framebuffer, 0, 0, static_cast<GLint>(from.width),
-                         static_cast<GLint>(from.height), 0, 0, static_cast<GLint>(to.width),
-                         static_cast<GLint>(to.height), from.planes & to.planes,
-                         linear ? GL_LINEAR : GL_NEAREST);
+};
+
+}  // namespace
+
+std::unique_ptr<PassType> makeBlit() {
+  return std::make_unique<Blit>();
 }
 
 }  // namespace weft::passes

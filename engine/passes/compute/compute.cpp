@@ -1,25 +1,36 @@
-#include "engine/passes/compute/compute.h"
-
+// A dispatch of `threads` invocations, rounded up to the program's local size.
+#include "engine/passes/builtin.h"
 #include "engine/passes/compute/work_groups.h"
 
 namespace weft::passes {
 
-graph::PassType Compute::reflect() const {
-  return {.name = "compute",
-          .doc =
-              "Runs a compute shader over `threads` invocations (a number or a list of up to three; default "
-              "the size of "
-              "the first written texture), rounded up to the shader's local size. Written textures are "
-              "images, buffers storage.",
-          .shader = graph::ShaderShape::compute,
-          .defaultWriteTexture = graph::Kind::image,
-          .keys = {"threads", "view"}};
-}
+namespace {
 
-void Compute::execute(const PassContext& context) const {
-  const WorkGroups groups = workGroupsOf(context);
-  if (groups.count[0] == 0 || groups.count[1] == 0 || groups.count[2] == 0) return;
-  glDispatchCompute(groups.count[0], groups.count[1], groups.count[2]);
+class Compute final : public PassType {
+ public:
+  graph::PassType reflect() const override {
+    return {
+        .name = "compute",
+        .doc =
+            "Runs a compute shader over `threads` invocations (a number or a list of up to three; default "
+            "the size of the first written texture), rounded up to the shader's local size. Written "
+            "textures are images, buffers storage.",
+        .shader = graph::ShaderShape::compute,
+        .defaultWriteTexture = graph::Kind::image,
+        .keys = {"threads", "view"}};
+  }
+
+  void execute(const PassContext& context) const override {
+    const WorkGroups groups = workGroupsOf(context);
+    if (groups.count[0] == 0 || groups.count[1] == 0 || groups.count[2] == 0) return;
+    glDispatchCompute(groups.count[0], groups.count[1], groups.count[2]);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<PassType> makeCompute() {
+  return std::make_unique<Compute>();
 }
 
 }  // namespace weft::passes

@@ -1,19 +1,29 @@
-#include "engine/passes/fullscreen/fullscreen.h"
+// One triangle over the whole target; the shader is a single .frag.glsl file.
+#include "engine/passes/builtin.h"
 
 namespace weft::passes {
 
-graph::PassType Fullscreen::reflect() const {
-  return {.name = "fullscreen",
-          .doc =
-              "Runs a fragment shader once per pixel of what it writes. `in vec2 uv` is 0..1 from the lower "
-              "left. Written "
-              "slots are colour attachments; `state` sets blending and the depth test.",
-          .shader = graph::ShaderShape::fragment,
-          .keys = {"state", "view", "feedback"}};
-}
+namespace {
 
-void Fullscreen::execute(const PassContext&) const {
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+class Fullscreen final : public PassType {
+ public:
+  graph::PassType reflect() const override {
+    return {
+        .name = "fullscreen",
+        .doc =
+            "Runs a fragment shader once per pixel of what it writes. `in vec2 uv` is 0..1 from the lower "
+            "left. Written slots are colour attachments; `state` sets blending and the depth test.",
+        .shader = graph::ShaderShape::fragment,
+        .keys = {"state", "view", "feedback"}};
+  }
+
+  void execute(const PassContext&) const override { glDrawArrays(GL_TRIANGLES, 0, 3); }
+};
+
+}  // namespace
+
+std::unique_ptr<PassType> makeFullscreen() {
+  return std::make_unique<Fullscreen>();
 }
 
 }  // namespace weft::passes

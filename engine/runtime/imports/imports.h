@@ -56,7 +56,7 @@ class Imports {
                               std::uint32_t height);
   // Moves when what a draw list draws may be another: its spheres or its meshes.
   std::uint64_t generation(scene::DrawList list, bool meshes) {
-    return meshes ? tables_.meshGeneration(list) : tables_.generation(list);
+    return meshes ? tables_.meshFrame().generation(list) : tables_.generation(list);
   }
   // Whether its spheres, or its meshes, can be elsewhere in another frame of this world.
   bool isMoving(scene::DrawList list, bool meshes) {

@@ -1,9 +1,9 @@
-#include "engine/scene/files/lights.h"
-
+// The lights of a scene file. Declared in reading.h.
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "engine/scene/files/reading.h"
 
@@ -13,7 +13,6 @@ namespace {
 
 using base::Code;
 using base::Diagnostics;
-using base::JsonFields;
 using base::JsonMember;
 using base::JsonValue;
 using base::NumberRange;
@@ -27,8 +26,8 @@ class LightReader {
  public:
   LightReader(Scene& scene, Diagnostics& diagnostics) : scene_(scene), diagnostics_(diagnostics) {}
 
-  void read(JsonFields& fields) {
-    scene_.nits = static_cast<float>(fields.number("nits", kNits).value_or(10000));
+  void read(SceneFields& fields) {
+    fields.read("nits", kNits, scene_.nits);
     if (const JsonValue* sun = fields.find("sun")) readSun(*sun);
     if (const JsonValue* lamps = fields.object("lamps"))
       for (const JsonMember& member : lamps->members) readLamp(member.key, member.value);
@@ -37,85 +36,78 @@ class LightReader {
   }
 
  private:
-  // A unit vector; empty after an error or when the key is absent.
-  std::optional<glm::vec3> readDirection(JsonFields& fields, const std::string& what) {
-    const auto direction = fields.triple("direction", kWorld);
-    if (!direction) return {};
-    const double length = glm::length(toDvec3(*direction));
-    if (length >= 1e-6) return glm::vec3(toDvec3(*direction) / length);
-    failAt(diagnostics_, Code::badSceneValue, *fields.find("direction"),
-           fmt::format("the direction of {} has no length", what))
-        .hint = "give a vector such as [0, 1, 0]";
-    return {};
+  // A unit vector; as it is after an error or when the key is absent.
+  void readDirection(SceneFields& fields, const std::string& what, glm::vec3& out) {
+    glm::dvec3 direction(out);
+    fields.read("direction", kWorld, direction);
+    if (const double length = glm::length(direction); length >= 1e-6)
+      out = glm::vec3(direction / length);
+    else
+      failAt(diagnostics_, Code::badSceneValue, *fields.find("direction"),
+             fmt::format("the direction of {} has no length", what), "give a vector such as [0, 1, 0]");
   }
 
   glm::vec3 toUnits(double photometric, glm::vec3 color) const {
     return color * static_cast<float>(photometric / static_cast<double>(scene_.nits));
   }
 
-  static glm::vec3 readColor(JsonFields& fields) {
-    return toVec3(fields.triple("color", kUnit).value_or(std::array<double, 3>{1, 1, 1}));
-  }
-
   void readSun(const JsonValue& value) {
-    JsonFields fields(value, "the sun", Code::badSceneValue, diagnostics_);
+    SceneFields fields(value, "the sun", Code::badSceneValue, diagnostics_);
     fields.require({"direction", "lux"});
     Sun sun;
-    if (const auto direction = readDirection(fields, "the sun")) sun.direction = *direction;
-    const glm::vec3 color = readColor(fields);
-    sun.irradiance = toUnits(fields.number("lux", kPhotometric).value_or(0), color);
-    sun.angle = static_cast<float>(fields.number("angle", kSunAngle).value_or(0.53));
-    sun.shadow = fields.boolean("shadow").value_or(true);
+    glm::vec3 color(1);
+    double lux = 0;
+    readDirection(fields, "the sun", sun.direction);
+    fields.read("color", kUnit, color);
+    fields.read("lux", kPhotometric, lux);
+    fields.read("angle", kSunAngle, sun.angle);
+    fields.read("shadow", sun.shadow);
     fields.finish();
+    sun.irradiance = toUnits(lux, color);
     scene_.sun = sun;
   }
 
   bool hasRoom(const JsonValue& value, std::size_t more) {
     if (scene_.lamps.size() + more <= kMaxLamps) return true;
-    if (!full_) {
-      base::Diagnostic& d = failAt(diagnostics_, Code::badSceneValue, value, "the scene has too many lamps");
-      d.expected = fmt::format("at most {} in all", kMaxLamps);
-      d.found = fmt::format("{}", scene_.lamps.size() + more);
-    }
-    full_ = true;
+    if (!std::exchange(full_, true))
+      failTooMany(diagnostics_, value, "the scene has too many lamps", kMaxLamps,
+                  fmt::format("{}", scene_.lamps.size() + more));
     return false;
   }
 
   void readLamp(const std::string& name, const JsonValue& value) {
     const std::string what = fmt::format("lamp '{}'", name);
-    JsonFields fields(value, what, Code::badSceneValue, diagnostics_);
+    SceneFields fields(value, what, Code::badSceneValue, diagnostics_);
     fields.require({"position", "candela"});
     Lamp lamp;
     lamp.name = name;
-    lamp.position = toVec3(fields.triple("position", kWorld).value_or(std::array<double, 3>{}));
-    const glm::vec3 color = readColor(fields);
-    setStrength(readStrength(fields), color, lamp);
-    const auto direction = readDirection(fields, what);
+    glm::vec3 color(1);
+    fields.read("position", kWorld, lamp.position);
+    fields.read("color", kUnit, color);
+    setIntensity(readStrength(fields, lamp), color, lamp);
+    readDirection(fields, what, lamp.direction);
     const auto inner = fields.number("inner", kConeAngle), outer = fields.number("outer", kConeAngle);
-    if (direction) lamp.direction = *direction;
-    lamp.shadow = fields.boolean("shadow").value_or(false);
+    fields.read("shadow", lamp.shadow);
     const bool aimed = fields.find("direction") != nullptr;
     fields.finish();
     if ((inner || outer) && !aimed)
-      failAt(diagnostics_, Code::badSceneValue, value, fmt::format("{} has a cone but no 'direction'", what))
-          .hint = "say where the lamp shines: \"direction\": [0, -1, 0]";
+      failAt(diagnostics_, Code::badSceneValue, value, fmt::format("{} has a cone but no 'direction'", what),
+             "say where the lamp shines: \"direction\": [0, -1, 0]");
     if (aimed) setCone(value, what, inner.value_or(0), outer.value_or(45), lamp);
     if (hasRoom(value, 1)) scene_.lamps.add(std::move(lamp));
   }
 
-  struct Strength {
+  // Candela; range and radius go to the lamp.
+  static double readStrength(SceneFields& fields, Lamp& lamp) {
     double candela = 0;
-    float range = 0, radius = 0;
-  };
-  Strength readStrength(JsonFields& fields) {
-    return {fields.number("candela", kPhotometric).value_or(0),
-            static_cast<float>(fields.number("range", kSize).value_or(0)),
-            static_cast<float>(fields.number("radius", kAmount).value_or(0))};
+    fields.read("candela", kPhotometric, candela);
+    fields.read("range", kSize, lamp.range);
+    fields.read("radius", kAmount, lamp.radius);
+    return candela;
   }
-  void setStrength(const Strength& strength, glm::vec3 color, Lamp& lamp) const {
-    lamp.intensity = toUnits(strength.candela, color);
-    lamp.range = strength.range > 0 ? strength.range : rangeOf(lamp.intensity);
-    lamp.radius = strength.radius;
+  void setIntensity(double candela, glm::vec3 color, Lamp& lamp) const {
+    lamp.intensity = toUnits(candela, color);
+    if (lamp.range == 0) lamp.range = rangeOf(lamp.intensity);
   }
 
   void setCone(const JsonValue& value, const std::string& what, double inner, double outer, Lamp& lamp) {
@@ -132,35 +124,29 @@ class LightReader {
 
   void readGrid(const std::string& name, const JsonValue& value) {
     const std::string what = fmt::format("lamp grid '{}'", name);
-    JsonFields fields(value, what, Code::badSceneValue, diagnostics_);
+    SceneFields fields(value, what, Code::badSceneValue, diagnostics_);
     fields.require({"count", "candela"});
-    const auto count = fields.triple("count", kGridCount);
-    const float spacing = static_cast<float>(fields.number("spacing", kSize).value_or(2.5));
-    const glm::vec3 center = toVec3(fields.triple("center", kWorld).value_or(std::array<double, 3>{}));
+    SceneGrid grid;
+    grid.read(fields);
+    fields.read("center", kWorld, grid.center);
     std::vector<glm::vec3> colors;
     if (const JsonValue* list = fields.array("colors"))
       for (const JsonValue& item : list->items)
         if (const auto color = base::readTriple(item, fmt::format("a color of {}", what), kUnit,
                                                 Code::badSceneValue, diagnostics_))
-          colors.push_back(toVec3(*color));
+          colors.emplace_back((*color)[0], (*color)[1], (*color)[2]);
     if (colors.empty()) colors.emplace_back(1);
-    const Strength strength = readStrength(fields);
+    Lamp strength;
+    const double candela = readStrength(fields, strength);
     fields.finish();
-    if (!count) return;
-    const double total = (*count)[0] * (*count)[1] * (*count)[2];
-    if (!hasRoom(*value.find("count"), static_cast<std::size_t>(total))) return;
-    Lamp lamp;
-    const glm::ivec3 n((*count)[0], (*count)[1], (*count)[2]);
-    std::size_t index = 0;
-    for (int z = 0; z < n.z; ++z)
-      for (int y = 0; y < n.y; ++y)
-        for (int x = 0; x < n.x; ++x, ++index) {
-          setStrength(strength, colors[index % colors.size()], lamp);
-          lamp.name = fmt::format("{}[{}]", name, index);
-          lamp.position =
-              center + (glm::vec3(x, -y, -z) - glm::vec3(n.x - 1, 1 - n.y, 1 - n.z) / 2.0f) * spacing;
-          scene_.lamps.add(lamp);
-        }
+    if (grid.total() == 0 || !hasRoom(*value.find("count"), static_cast<std::size_t>(grid.total()))) return;
+    grid.forEach([&](std::size_t index, glm::vec3 place) {
+      Lamp lamp = strength;
+      setIntensity(candela, colors[index % colors.size()], lamp);
+      lamp.name = fmt::format("{}[{}]", name, index);
+      lamp.position = place;
+      scene_.lamps.add(std::move(lamp));
+    });
   }
 
   Scene& scene_;
@@ -170,7 +156,7 @@ class LightReader {
 
 }  // namespace
 
-void readLights(JsonFields& fields, Scene& scene, Diagnostics& diagnostics) {
+void readLights(SceneFields& fields, Scene& scene, Diagnostics& diagnostics) {
   LightReader(scene, diagnostics).read(fields);
 }
 

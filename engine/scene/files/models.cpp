@@ -3,19 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <numbers>
 
 #include "engine/assets/models/model_file.h"
 #include "engine/base/nearest.h"
-#include "engine/scene/files/lights.h"
-#include "engine/scene/files/lists.h"
-#include "engine/scene/files/reading.h"
+#include "engine/scene/frame/mesh_frame.h"
 
 namespace weft::scene {
 
 using base::Code;
-using base::JsonFields;
 using base::JsonMember;
 using base::JsonValue;
 using base::NumberRange;
@@ -30,7 +28,7 @@ float toRadians(double degrees) {
 }
 
 // About X, then Y, then Z.
-glm::quat rotationOf(const std::array<double, 3>& degrees) {
+glm::quat rotationOf(glm::dvec3 degrees) {
   return glm::angleAxis(toRadians(degrees[2]), glm::vec3(0, 0, 1)) *
          glm::angleAxis(toRadians(degrees[1]), glm::vec3(0, 1, 0)) *
          glm::angleAxis(toRadians(degrees[0]), glm::vec3(1, 0, 0));
@@ -38,7 +36,7 @@ glm::quat rotationOf(const std::array<double, 3>& degrees) {
 
 }  // namespace
 
-void SceneModels::read(JsonFields& fields, const FindMaterial& findMaterial) {
+void SceneModels::read(SceneFields& fields, const FindMaterial& findMaterial) {
   const JsonValue* models = fields.object("models");
   if (!models) return;
   for (const JsonMember& member : models->members) readModel(member.key, member.value, findMaterial);
@@ -48,8 +46,9 @@ const SceneModels::Loaded* SceneModels::load(const std::string& path) {
   if (const auto known = loaded_.find(path); known != loaded_.end()) return known->second.get();
   std::unique_ptr<Loaded>& loaded = loaded_[path];
   std::vector<std::string> files;
-  std::optional<assets::Model> model = assets::loadModel(
-      path, diagnostics_, observer_, &files, [this](assets::DecodeJob& job) { decoding_.run(job, 0); });
+  std::optional<assets::Model> model =
+      assets::loadModel(path, diagnostics_, observer_, &files,
+                        [](std::size_t count, const auto& decode) { decodeOnThreads(0, count, decode); });
   for (std::string& file : files)
     if (std::ranges::find(files_, file) == files_.end()) files_.push_back(std::move(file));
   failed_ = failed_ || !model;
@@ -61,59 +60,61 @@ const SceneModels::Loaded* SceneModels::load(const std::string& path) {
   return loaded.get();
 }
 
-void SceneModels::readPlace(JsonFields& fields, const std::string& what, ModelCopy& copy) {
-  Node& root = copy.root;
-  root.local.translation = toVec3(fields.triple("position", kWorld).value_or(std::array<double, 3>{}));
-  root.local.rotation = rotationOf(fields.triple("rotation", kDegrees).value_or(std::array<double, 3>{}));
-  root.local.scale = glm::vec3(static_cast<float>(fields.number("scale", kSize).value_or(1)));
-  root.spin = {0, toRadians(fields.number("spin", kDegrees).value_or(0)), 0};
-  root.velocity = toVec3(fields.triple("velocity", kWorld).value_or(std::array<double, 3>{}));
-  copy.lists = readLists(fields, what, diagnostics_);
-  copy.speed = static_cast<float>(fields.number("speed", kSpeed).value_or(1));
-  copy.lights = fields.boolean("lights").value_or(true);
-  copy.lampShadows = fields.boolean("lamp_shadows").value_or(false);
-}
-
 void SceneModels::readModel(const std::string& name, const JsonValue& value,
                             const FindMaterial& findMaterial) {
   const std::string what = fmt::format("model '{}'", name);
-  JsonFields fields(value, what, Code::badSceneValue, diagnostics_);
+  SceneFields fields(value, what, Code::badSceneValue, diagnostics_);
   fields.require({"file"});
   ModelCopy copy;
-  readPlace(fields, what, copy);
+  Node& root = copy.root;
+  SceneGrid grid;
+  glm::dvec3 rotation(0);
+  float scale = 1;
+  double spin = 0;
+  fields.read("position", kWorld, grid.center);
+  fields.read("rotation", kDegrees, rotation);
+  fields.read("scale", kSize, scale);
+  fields.read("spin", kDegrees, spin);
+  fields.read("velocity", kWorld, root.velocity);
+  root.local.rotation = rotationOf(rotation);
+  root.local.scale = glm::vec3(scale);
+  root.spin = {0, toRadians(spin), 0};
+  copy.lists = readLists(fields, what, diagnostics_);
+  fields.read("speed", kSpeed, copy.speed);
+  fields.read("lights", copy.lights);
+  fields.read("lamp_shadows", copy.lampShadows);
   const auto file = fields.text("file");
-  const auto count =
-      fields.find("count") ? fields.triple("count", kGridCount) : std::array<double, 3>{1, 1, 1};
-  const float spacing = static_cast<float>(fields.number("spacing", kSize).value_or(2.5));
+  if (!fields.find("count")) grid.count = {1, 1, 1};
+  grid.read(fields);
   if (const JsonValue* material = fields.find("material"))
     copy.material = findMaterial(*material, fmt::format("'material' of {}", what));
   const JsonValue* animation = fields.find("animation");
   fields.finish();
-  if (!file || !count) return;
+  if (!file || grid.total() == 0) return;
   const Loaded* loaded =
       load((std::filesystem::path(sceneFile_).parent_path() / *file).lexically_normal().string());
   if (!loaded) return;
   if (animation) readAnimation(*animation, what, loaded->model, copy);
   if (copy.material && !scene_.materials.find(*copy.material)) return;
-  addCopies(value, name, *loaded, std::move(copy), *count, spacing);
+  addCopies(value, name, *loaded, std::move(copy), grid);
 }
 
 void SceneModels::readAnimation(const JsonValue& value, const std::string& what, const assets::Model& model,
                                 ModelCopy& copy) {
   std::vector<std::string> names;
   for (const auto& animation : model.animations) names.push_back(animation->name);
-  if (value.is(JsonValue::Type::number) && value.number >= 0 &&
-      value.number < static_cast<double>(names.size()) && value.whole) {
-    copy.animation = static_cast<std::uint32_t>(value.number);
+  std::size_t row = names.size();
+  if (value.is(JsonValue::Type::number)) {
+    if (value.whole && value.number >= 0 && value.number < static_cast<double>(row))
+      row = static_cast<std::size_t>(value.number);
+  } else if (const auto name = base::readText(value, fmt::format("'animation' of {}", what), diagnostics_)) {
+    row = static_cast<std::size_t>(std::ranges::find(names, *name) - names.begin());
+  } else {
     return;
   }
-  if (!value.is(JsonValue::Type::number)) {
-    const auto name = base::readText(value, fmt::format("'animation' of {}", what), diagnostics_);
-    if (!name) return;
-    if (const auto found = std::ranges::find(names, *name); found != names.end()) {
-      copy.animation = static_cast<std::uint32_t>(found - names.begin());
-      return;
-    }
+  if (row < names.size()) {
+    copy.animation = static_cast<std::uint32_t>(row);
+    return;
   }
   base::Diagnostic& d =
       failAt(diagnostics_, Code::unknownAnimation, value, fmt::format("{} has no such animation", what));
@@ -123,28 +124,20 @@ void SceneModels::readAnimation(const JsonValue& value, const std::string& what,
 }
 
 void SceneModels::addCopies(const JsonValue& value, const std::string& name, const Loaded& loaded,
-                            ModelCopy copy, const std::array<double, 3>& count, float spacing) {
-  const double total = count[0] * count[1] * count[2];
-  const double rows =
-      total * static_cast<double>(1 + std::max(loaded.model.nodes.size(), loaded.model.instances.size()));
-  if (rows + static_cast<double>(scene_.nodes.size()) > static_cast<double>(kMaxNodes)) {
-    base::Diagnostic& d = failAt(diagnostics_, Code::badSceneValue, value,
-                                 fmt::format("with model '{}' the scene has too many nodes", name));
-    d.expected = fmt::format("at most {} in all", kMaxNodes);
-    d.found = fmt::format("{} copies of {} nodes", total, loaded.model.nodes.size() + 1);
-    return;
-  }
+                            ModelCopy copy, const SceneGrid& grid) {
+  const assets::Model& model = loaded.model;
+  const double total = grid.total();
   const auto suns = static_cast<std::size_t>(
-      std::ranges::count(loaded.model.lights, assets::ModelLightKind::sun, &assets::ModelLight::kind));
-  const double lamps = copy.lights ? total * static_cast<double>(loaded.model.lights.size() - suns) : 0;
-  if (lamps + static_cast<double>(scene_.lamps.size()) > static_cast<double>(kMaxLamps)) {
-    base::Diagnostic& d = failAt(diagnostics_, Code::badSceneValue, value,
-                                 fmt::format("with model '{}' the scene has too many lamps", name));
-    d.expected = fmt::format("at most {} in all", kMaxLamps);
-    d.found = fmt::format("{} copies of {} lamps", total, loaded.model.lights.size() - suns);
-    d.hint = "leave them out: \"lights\": false";
-    return;
-  }
+      std::ranges::count(model.lights, assets::ModelLightKind::sun, &assets::ModelLight::kind));
+  const double rows = total * static_cast<double>(1 + std::max(model.nodes.size(), model.instances.size())),
+               lamps = copy.lights ? total * static_cast<double>(model.lights.size() - suns) : 0;
+  if (rows + static_cast<double>(scene_.nodes.size()) > static_cast<double>(kMaxNodes))
+    return failTooMany(diagnostics_, value, fmt::format("with model '{}' the scene has too many nodes", name),
+                       kMaxNodes, fmt::format("{} copies of {} nodes", total, model.nodes.size() + 1));
+  if (lamps + static_cast<double>(scene_.lamps.size()) > static_cast<double>(kMaxLamps))
+    return failTooMany(diagnostics_, value, fmt::format("with model '{}' the scene has too many lamps", name),
+                       kMaxLamps, fmt::format("{} copies of {} lamps", total, model.lights.size() - suns),
+                       "leave them out: \"lights\": false");
   if (copy.lights && suns > 0 && !scene_.sun) {
     sunOf_ = name;
   } else if (copy.lights && suns > 0 && !sunOf_.empty()) {  // a sun of the scene file takes the place of all
@@ -154,27 +147,21 @@ void SceneModels::addCopies(const JsonValue& value, const std::string& name, con
     d.found = fmt::format("the sun of model '{}'", sunOf_);
     d.hint = "\"lights\": false leaves the lights of a model out";
   }
-  const glm::ivec3 n(count[0], count[1], count[2]);
-  const glm::vec3 center = copy.root.local.translation;
-  std::size_t index = 0;
-  for (int z = 0; z < n.z; ++z)
-    for (int y = 0; y < n.y; ++y)
-      for (int x = 0; x < n.x; ++x, ++index) {
-        copy.root.name = total > 1 ? fmt::format("{}[{}]", name, index) : name;
-        copy.root.local.translation =
-            center + (glm::vec3(x, -y, -z) - glm::vec3(n.x - 1, 1 - n.y, 1 - n.z) / 2.0f) * spacing;
-        addModelCopy(scene_, loaded.rows, loaded.model, copy);
-      }
+  grid.forEach([&](std::size_t index, glm::vec3 place) {
+    copy.root.name = total > 1 ? fmt::format("{}[{}]", name, index) : name;
+    copy.root.local.translation = place;
+    addModelCopy(scene_, loaded.rows, model, copy);
+  });
 }
 
 bool SceneModels::addWhole(const std::string& path) {
   const Loaded* loaded = load(path);
   if (!loaded) return false;
   if (loaded->model.lights.size() > kMaxLamps) {
-    base::Diagnostic& d = diagnostics_.error(Code::badSceneValue, {std::make_shared<const std::string>(path)},
-                                             fmt::format("the model '{}' has too many lights", path));
-    d.expected = fmt::format("at most {}", kMaxLamps);
-    d.found = fmt::format("{}", loaded->model.lights.size());
+    JsonValue whole;
+    whole.place.file = std::make_shared<const std::string>(path);
+    failTooMany(diagnostics_, whole, fmt::format("the model '{}' has too many lights", path), kMaxLamps,
+                fmt::format("{}", loaded->model.lights.size()));
     return false;
   }
   ModelCopy copy;
@@ -188,6 +175,57 @@ void SceneModels::finish() {
   for (const std::string& file : files_)
     if (std::ranges::find(scene_.files, file) == scene_.files.end()) scene_.files.push_back(file);
   if (!data_->vertices.empty()) scene_.meshData = data_;
+}
+
+namespace {
+
+constexpr double kFovDegrees = 35;
+constexpr float kSunLux = 50000;  // a bright day
+
+// Looks along `towards`, a unit vector, at the whole of `box`.
+CameraPose framePose(const Box& box, glm::dvec3 towards) {
+  const glm::dvec3 center = (glm::dvec3(box.low) + glm::dvec3(box.high)) * 0.5;
+  const double radius = std::max(glm::length(glm::dvec3(box.high) - glm::dvec3(box.low)) / 2, 1e-6);
+  const double distance = radius / std::sin(kFovDegrees / 2 * std::numbers::pi / 180);
+  CameraPose pose;
+  pose.target = center;
+  pose.position = center - towards * distance;
+  pose.fovDegrees = kFovDegrees;
+  pose.nearPlane = distance / 1000;
+  return pose;
+}
+
+}  // namespace
+
+std::optional<Scene> loadModelScene(const std::string& path, base::Diagnostics& diagnostics,
+                                    std::vector<std::string>* files, const assets::LoadObserver& observer) {
+  Scene scene;
+  scene.name = std::filesystem::path(path).stem().string();
+  SceneModels models(scene, path, diagnostics, observer);
+  const bool good = models.addWhole(path);
+  if (files) *files = models.files();
+  if (!good) return {};
+  models.finish();
+  MeshFrame frame;
+  frame.update(scene, 1, 0, 0);
+  const Box box = frame.sceneBounds();
+  const std::pair<const char*, glm::dvec3> kViews[] = {{"front", {0, 0, -1}},
+                                                       {"left", {1, 0, 0}},
+                                                       {"right", {-1, 0, 0}},
+                                                       {"back", {0, 0, 1}},
+                                                       {"top", {0, -1, 0}}};
+  for (const auto& [name, towards] : kViews) {
+    Camera camera;
+    camera.name = name;
+    camera.pose = framePose(box, towards);
+    scene.cameras.add(std::move(camera));
+  }
+  if (scene.sun || scene.lamps.size() > 0) return scene;
+  Sun sun;
+  sun.direction = glm::normalize(glm::vec3(0.4f, 0.8f, 0.6f));
+  sun.irradiance = glm::vec3(kSunLux / scene.nits);
+  scene.sun = sun;
+  return scene;
 }
 
 }  // namespace weft::scene

@@ -6,14 +6,14 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "engine/assets/environments/environment_map.h"
+#include "engine/assets/loading/load_observer.h"
 #include "engine/base/diagnostic.h"
-#include "engine/base/json/fields.h"
+#include "engine/scene/files/reading.h"
 #include "engine/scene/models/add_model.h"
-#include "engine/scene/models/decode_work.h"
 #include "engine/scene/scene.h"
 
 namespace weft::scene {
@@ -30,7 +30,7 @@ class SceneModels {
               const assets::LoadObserver& observer)
       : scene_(scene), sceneFile_(sceneFile), diagnostics_(diagnostics), observer_(observer) {}
 
-  void read(base::JsonFields& fields, const FindMaterial& findMaterial);
+  void read(SceneFields& fields, const FindMaterial& findMaterial);
   // One model at its own coordinates, with its first animation. False after errors.
   bool addWhole(const std::string& path);
   // Puts the vertices into the scene: once everything is read.
@@ -48,11 +48,10 @@ class SceneModels {
   };
   const Loaded* load(const std::string& path);
   void readModel(const std::string& name, const base::JsonValue& value, const FindMaterial& findMaterial);
-  void readPlace(base::JsonFields& fields, const std::string& what, ModelCopy& copy);
   void readAnimation(const base::JsonValue& value, const std::string& what, const assets::Model& model,
                      ModelCopy& copy);
   void addCopies(const base::JsonValue& value, const std::string& name, const Loaded& loaded, ModelCopy copy,
-                 const std::array<double, 3>& count, float spacing);
+                 const SceneGrid& grid);
 
   Scene& scene_;
   const std::string& sceneFile_;
@@ -60,10 +59,15 @@ class SceneModels {
   const assets::LoadObserver& observer_;
   std::map<std::string, std::unique_ptr<Loaded>> loaded_;  // by path; null: it failed
   std::shared_ptr<MeshData> data_ = std::make_shared<MeshData>();
-  DecodeWork decoding_;
   std::vector<std::string> files_;
   std::string sunOf_;  // the model that gave the scene its sun
   bool failed_ = false;
 };
+
+// A model file as a scene: the model at its own coordinates with its first animation, cameras that frame its box (`front`,
+// `left`, `right`, `back`, `top`), and its lights; a sun where it has none. `files`, when given, is set to everything that was read
+// or should have been, also after errors.
+std::optional<Scene> loadModelScene(const std::string& path, base::Diagnostics& diagnostics,
+                                    std::vector<std::string>* files, const assets::LoadObserver& observer);
 
 }  // namespace weft::scene

@@ -1,12 +1,15 @@
-// What the readers of scene files share: ranges of numbers, vectors, messages with a place.
+// What the readers of scene files share: ranges of numbers, vectors, grids, draw lists, messages with a place.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "engine/base/json/fields.h"
+#include "engine/scene/scene.h"
 
 namespace weft::scene {
 
@@ -14,19 +17,58 @@ inline constexpr base::NumberRange kUnit{.min = 0, .max = 1};
 inline constexpr base::NumberRange kWorld{.min = -1e9, .max = 1e9};  // float keeps 64 units apart there
 inline constexpr base::NumberRange kSize{.min = 0, .max = 1e9, .aboveMin = true};
 inline constexpr base::NumberRange kAmount{.min = 0, .max = 1e9};
-inline constexpr base::NumberRange kFov{.min = 1, .max = 170};
-inline constexpr base::NumberRange kGridCount{.min = 1, .max = 65536, .whole = true};
 
-inline glm::vec3 toVec3(const std::array<double, 3>& v) {
-  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-}
-inline glm::dvec3 toDvec3(const std::array<double, 3>& v) {
-  return {v[0], v[1], v[2]};
-}
+// Reads members in place: one that is absent or wrong stays as it is.
+class SceneFields : public base::JsonFields {
+ public:
+  using JsonFields::JsonFields;
+  template <class T>
+  void read(std::string_view key, const base::NumberRange& range, T& out) {
+    if constexpr (std::is_arithmetic_v<T>) {
+      if (const auto number = JsonFields::number(key, range)) out = static_cast<T>(*number);
+    } else if (const auto triple = JsonFields::triple(key, range)) {
+      out = T((*triple)[0], (*triple)[1], (*triple)[2]);
+    }
+  }
+  void read(std::string_view key, bool& out) { out = boolean(key).value_or(out); }
+};
 
-inline base::Diagnostic& failAt(base::Diagnostics& diagnostics, base::Code code, const base::JsonValue& value,
-                                std::string message) {
-  return diagnostics.error(code, value.place, std::move(message));
-}
+base::Diagnostic& failAt(base::Diagnostics& diagnostics, base::Code code, const base::JsonValue& value,
+                         std::string message, std::string hint = "");
+// What is more than `most`.
+void failTooMany(base::Diagnostics& diagnostics, const base::JsonValue& value, std::string message,
+                 std::size_t most, std::string found, std::string hint = "");
+
+// The key `lists`: which draw lists something is in, as a mask of maskOf(). Empty when it is absent; W162 for a name that is none.
+// `what` names the object in messages.
+std::optional<std::uint8_t> readLists(base::JsonFields& fields, const std::string& what,
+                                      base::Diagnostics& diagnostics);
+
+// The keys `count` and `spacing`, and places around a center row by row, from the upper left one in front.
+struct SceneGrid {
+  std::array<int, 3> count{};
+  float spacing = 2.5f;
+  glm::vec3 center{0};
+
+  void read(SceneFields& fields);
+  double total() const { return 1.0 * count[0] * count[1] * count[2]; }  // 0: `count` is absent or wrong
+  // Calls `put(index, place)`.
+  template <class Put>
+  void forEach(const Put& put) const {
+    std::size_t index = 0;
+    const glm::vec3 n(count[0], count[1], count[2]);
+    for (int z = 0; z < count[2]; ++z)
+      for (int y = 0; y < count[1]; ++y)
+        for (int x = 0; x < count[0]; ++x)
+          put(index++,
+              center + (glm::vec3(x, -y, -z) - glm::vec3(n.x - 1, 1 - n.y, 1 - n.z) / 2.0f) * spacing);
+  }
+};
+
+constexpr std::size_t kMaxLamps = 65536;
+
+// The keys `nits`, `sun`, `lamps` and `lamp_grids` of a scene file, with their units. What is wrong is W160, or what JsonFields
+// reports.
+void readLights(SceneFields& fields, Scene& scene, base::Diagnostics& diagnostics);
 
 }  // namespace weft::scene

@@ -7,16 +7,11 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 
-#include "engine/assets/material_library.h"
 #include "engine/assets/models/model_file.h"
 #include "engine/base/files/text_file.h"
-#include "engine/base/json/fields.h"
 #include "engine/base/nearest.h"
-#include "engine/scene/files/ground.h"
-#include "engine/scene/files/lights.h"
-#include "engine/scene/files/lists.h"
-#include "engine/scene/files/model_scene.h"
 #include "engine/scene/files/models.h"
 #include "engine/scene/files/reading.h"
 
@@ -24,13 +19,47 @@ namespace weft::scene {
 
 using base::Code;
 using base::Diagnostics;
-using base::JsonFields;
 using base::JsonMember;
 using base::JsonValue;
 
 namespace {
 
-constexpr double kMaxSpheres = 1 << 24;
+constexpr base::NumberRange kFov{.min = 1, .max = 170};
+constexpr std::size_t kMaxSpheres = 1 << 24;
+
+void failNoGrid(const SceneChoice& choice, const JsonValue& where, Diagnostics& diagnostics) {
+  failAt(diagnostics, Code::unknownMaterial, where,
+         fmt::format("there is no grid to give the materials of '{}' to", choice.materials));
+}
+
+// The chosen camera becomes the first one. False after W160: there is none of that name.
+bool chooseCamera(Scene& scene, const SceneChoice& choice, const JsonValue& where, Diagnostics& diagnostics) {
+  std::vector<Camera> cameras(scene.cameras.rows().begin(), scene.cameras.rows().end());
+  const auto chosen =
+      choice.camera.empty() ? cameras.begin() : std::ranges::find(cameras, choice.camera, &Camera::name);
+  if (chosen == cameras.end() && !choice.camera.empty()) {
+    std::vector<std::string> names;
+    for (const Camera& camera : cameras) names.push_back(camera.name);
+    failAt(diagnostics, Code::badSceneValue, where,
+           fmt::format("the scene has no camera '{}'", choice.camera),
+           names.empty() ? "name one under \"cameras\"" : base::nearestHint(choice.camera, names));
+    return false;
+  }
+  if (chosen != cameras.begin()) {
+    std::rotate(cameras.begin(), chosen, chosen + 1);
+    scene.cameras = {};
+    for (Camera& camera : cameras) scene.cameras.add(std::move(camera));
+  }
+  return true;
+}
+
+Material readMaterial(SceneFields& fields) {
+  Material material;
+  fields.read("albedo", kUnit, material.albedo);
+  fields.read("metallic", kUnit, material.metallic);
+  fields.read("roughness", kUnit, material.roughness);
+  return material;
+}
 
 class Reader {
  public:
@@ -46,31 +75,33 @@ class Reader {
     const base::PointerScope pointers(name_, text, diagnostics_);
     const auto root = base::parseJson(text, std::make_shared<const std::string>(name_), diagnostics_);
     if (!root) return {};
-    if (isGraph(*root)) return {};
+    for (const char* key : {"passes", "extends"})
+      if (root->find(key)) {
+        fail(Code::wrongType, *root, fmt::format("this file has \"{}\": it is a graph, not a scene", key),
+             fmt::format("a graph stands without --scene: weft render {} --scene SCENE", name_))
+            .expected = "a scene, with \"cameras\", \"grid\", \"spheres\", \"models\", \"sun\" or \"lamps\"";
+        return {};
+      }
     scene_.files.push_back(name_);
-    JsonFields fields(*root, "the scene", Code::badSceneValue, diagnostics_);
+    SceneFields fields(*root, "the scene", Code::badSceneValue, diagnostics_);
     scene_.name = fields.text("name").value_or(std::filesystem::path(name_).stem().string());
     if (const JsonValue* library = fields.find("library")) readLibrary(*library, "'library' of the scene");
     if (const JsonValue* materials = fields.object("materials"))
       for (const JsonMember& member : materials->members) addMaterial(member.key, member.value, member.place);
     const JsonValue* cameras = fields.object("cameras");
-    if (cameras) readCameras(*cameras);
-    if (!choice_.camera.empty() && !findCamera(scene_, choice_.camera))
-      failCamera(cameras ? *cameras : *root);
+    if (cameras)
+      for (const JsonMember& member : cameras->members) readCamera(member.key, member.value);
+    chooseCamera(scene_, choice_, cameras ? *cameras : *root, diagnostics_);
     if (scene_.cameras.size() == 0) scene_.cameras.add({.name = "default", .pose = {.position = {0, 0, 20}}});
     const JsonValue* grid = fields.find("grid");
     if (grid) readGrid(*grid);
-    if (!grid && !choice_.materials.empty())
-      fail(Code::unknownMaterial, *root,
-           fmt::format("there is no grid to give the materials of '{}' to", choice_.materials));
+    if (!grid && !choice_.materials.empty()) failNoGrid(choice_, *root, diagnostics_);
     if (const JsonValue* spheres = fields.array("spheres"))
       for (std::size_t i = 0; i < spheres->items.size(); ++i) readSphere(spheres->items[i], i);
     readLights(fields, scene_, diagnostics_);
-    readGround(fields, scene_, diagnostics_);
-    models_.read(fields, [this](const JsonValue& value, const std::string& what) {
-      return value.is(JsonValue::Type::object) ? addMaterial("", value, value.place)
-                                               : findMaterial(value, what);
-    });
+    if (const JsonValue* ground = fields.find("ground")) readGround(*ground);
+    models_.read(fields,
+                 [this](const JsonValue& value, const std::string& what) { return materialOf(value, what); });
     models_.finish();
     fields.finish();
     if (diagnostics_.errorCount() > errorsBefore || models_.failed()) return {};
@@ -86,21 +117,25 @@ class Reader {
   }
 
  private:
-  // A graph in the place of a scene: one report says what it is.
-  bool isGraph(const JsonValue& root) {
-    for (const char* key : {"passes", "extends"}) {
-      if (!root.find(key)) continue;
-      auto& d =
-          fail(Code::wrongType, root, fmt::format("this file has \"{}\": it is a graph, not a scene", key));
-      d.expected = "a scene, with \"cameras\", \"grid\", \"spheres\", \"models\", \"sun\" or \"lamps\"";
-      d.hint = fmt::format("a graph stands without --scene: weft render {} --scene SCENE", name_);
-      return true;
-    }
-    return false;
+  base::Diagnostic& fail(Code code, const JsonValue& value, std::string message, std::string hint = "") {
+    return failAt(diagnostics_, code, value, std::move(message), std::move(hint));
   }
 
-  base::Diagnostic& fail(Code code, const JsonValue& value, std::string message) {
-    return failAt(diagnostics_, code, value, std::move(message));
+  void readGround(const JsonValue& value) {
+    SceneFields fields(value, "the ground", Code::badSceneValue, diagnostics_);
+    Ground ground;
+    fields.read("height", kWorld, ground.height);
+    fields.read("radius", kSize, ground.radius);
+    if (fields.find("albedo")) fields.read("albedo", kUnit, ground.albedo.emplace());
+    if (fields.find("radius") && !fields.find("albedo")) {
+      base::Diagnostic& d =
+          fail(Code::badSceneValue, *fields.find("radius"), "the ground has a radius but no surface",
+               "give it an \"albedo\", or leave \"radius\" out");
+      d.expected = "an albedo beside it";
+      d.found = "a ground that shows the environment, which ends nowhere";
+    }
+    fields.finish();
+    scene_.ground = ground;
   }
 
   MaterialId add(Material material) {
@@ -123,36 +158,28 @@ class Reader {
     std::vector<MaterialId>& ids = libraries_[path];
     const auto text = base::readTextFile(path, diagnostics_, Code::unreadableFile, value.place);
     if (text) scene_.files.push_back(path);
-    const auto library = text ? assets::readMaterialLibrary(*text, path, diagnostics_) : std::nullopt;
+    auto library = text ? readMaterialLibrary(*text, path, diagnostics_) : std::nullopt;
     unread_ = unread_ || !library;
     if (!library) return {};
-    if (library->materials.empty())
+    if (library->empty())
       fail(Code::unknownMaterial, value, fmt::format("the material library '{}' is empty", path));
-    for (const assets::MaterialPreset& preset : library->materials) {
+    for (Material& preset : *library) {
       if (byName_.contains(preset.name)) {
         fail(Code::duplicateMaterial, value,
              fmt::format("a second material '{}', from '{}'", preset.name, path));
         continue;
       }
-      Material material;
-      material.name = preset.name;
-      material.albedo = {preset.albedo[0], preset.albedo[1], preset.albedo[2]};
-      material.metallic = preset.metallic;
-      material.roughness = preset.roughness;
-      ids.push_back(add(std::move(material)));
+      ids.push_back(add(std::move(preset)));
     }
     return ids;
   }
 
   MaterialId addMaterial(const std::string& name, const JsonValue& value, const base::Place& place) {
-    JsonFields fields(value, name.empty() ? "a material" : fmt::format("material '{}'", name),
-                      Code::badMaterialValue, diagnostics_);
+    SceneFields fields(value, name.empty() ? "a material" : fmt::format("material '{}'", name),
+                       Code::badMaterialValue, diagnostics_);
     fields.require({"albedo"});
-    Material material;
+    Material material = readMaterial(fields);
     material.name = name;
-    if (const auto albedo = fields.triple("albedo", kUnit)) material.albedo = toVec3(*albedo);
-    material.metallic = static_cast<float>(fields.number("metallic", kUnit).value_or(0));
-    material.roughness = static_cast<float>(fields.number("roughness", kUnit).value_or(0.5));
     fields.finish();
     if (byName_.contains(name)) {
       diagnostics_.error(Code::duplicateMaterial, place, fmt::format("a second material '{}'", name)).hint =
@@ -170,22 +197,34 @@ class Reader {
     if (unread_) return {};  // it may be one of a library that could not be read
     std::vector<std::string> names;
     for (const auto& [known, id] : byName_) names.push_back(known);
-    fail(Code::unknownMaterial, value, fmt::format("unknown material '{}'", *name)).hint =
-        names.empty() ? "name a \"library\", or define it under \"materials\""
-                      : base::nearestHint(*name, names);
+    fail(Code::unknownMaterial, value, fmt::format("unknown material '{}'", *name),
+         names.empty() ? "name a \"library\", or define it under \"materials\""
+                       : base::nearestHint(*name, names));
     return {};
   }
 
-  void readGrid(const JsonValue& value) {
-    JsonFields fields(value, "the grid", Code::badSceneValue, diagnostics_);
-    fields.require({"count", "materials"});
-    const auto count = fields.triple("count", kGridCount);
-    const float spacing = static_cast<float>(fields.number("spacing", kSize).value_or(2.5));
-    const glm::vec3 center = toVec3(fields.triple("center", kWorld).value_or(std::array<double, 3>{}));
+  // A name, or a material of its own.
+  MaterialId materialOf(const JsonValue& value, const std::string& what) {
+    return value.is(JsonValue::Type::object) ? addMaterial("", value, value.place)
+                                             : findMaterial(value, what);
+  }
+
+  // What a sphere has in common with those of a grid.
+  Sphere sphereOf(SceneFields& fields, const std::string& what) {
     Sphere sphere;
-    sphere.radius = static_cast<float>(fields.number("radius", kSize).value_or(1));
-    sphere.velocity = toVec3(fields.triple("velocity", kWorld).value_or(std::array<double, 3>{}));
-    sphere.lists = readLists(fields, "the grid", diagnostics_).value_or(maskOf(DrawList::spheres));
+    fields.read("radius", kSize, sphere.radius);
+    fields.read("velocity", kWorld, sphere.velocity);
+    sphere.lists = readLists(fields, what, diagnostics_).value_or(sphere.lists);
+    return sphere;
+  }
+
+  void readGrid(const JsonValue& value) {
+    SceneFields fields(value, "the grid", Code::badSceneValue, diagnostics_);
+    fields.require({"count", "materials"});
+    SceneGrid grid;
+    grid.read(fields);
+    fields.read("center", kWorld, grid.center);
+    Sphere sphere = sphereOf(fields, "the grid");
     const JsonValue* materials = fields.find("materials");
     fields.finish();
 
@@ -199,78 +238,45 @@ class Reader {
     } else if (materials) {
       ids = readLibrary(*materials, "'materials' of the grid");
     }
-    if (!count || ids.empty()) return;
-    const double total = (*count)[0] * (*count)[1] * (*count)[2];
-    if (total > kMaxSpheres) {
-      base::Diagnostic& d = fail(Code::badSceneValue, *value.find("count"), "the grid has too many spheres");
-      d.expected = fmt::format("at most {} in all", kMaxSpheres);
-      d.found = fmt::format("{}", total);
-      return;
-    }
-    const std::array<int, 3> n = {static_cast<int>((*count)[0]), static_cast<int>((*count)[1]),
-                                  static_cast<int>((*count)[2])};
-    scene_.spheres.reserve(scene_.spheres.size() + static_cast<std::size_t>(total));
-    std::size_t index = 0;
-    const auto offset = [&](int i, int axis) {
-      return (static_cast<float>(i) - static_cast<float>(n[static_cast<std::size_t>(axis)] - 1) / 2) *
-             spacing;
-    };
-    for (int z = 0; z < n[2]; ++z)
-      for (int y = 0; y < n[1]; ++y)
-        for (int x = 0; x < n[0]; ++x) {
-          sphere.center = center + glm::vec3(offset(x, 0), -offset(y, 1), -offset(z, 2));
-          sphere.material = ids[index++ % ids.size()];
-          scene_.spheres.add(sphere);
-        }
+    if (grid.total() == 0 || ids.empty()) return;
+    if (grid.total() > static_cast<double>(kMaxSpheres))
+      return failTooMany(diagnostics_, *value.find("count"), "the grid has too many spheres", kMaxSpheres,
+                         fmt::format("{}", grid.total()));
+    scene_.spheres.reserve(scene_.spheres.size() + static_cast<std::size_t>(grid.total()));
+    grid.forEach([&](std::size_t index, glm::vec3 place) {
+      sphere.center = place;
+      sphere.material = ids[index % ids.size()];
+      scene_.spheres.add(sphere);
+    });
   }
 
   void readSphere(const JsonValue& value, std::size_t index) {
     const std::string what = fmt::format("sphere {}", index);
-    JsonFields fields(value, what, Code::badSceneValue, diagnostics_);
+    SceneFields fields(value, what, Code::badSceneValue, diagnostics_);
     fields.require({"center", "material"});
-    Sphere sphere;
-    sphere.center = toVec3(fields.triple("center", kWorld).value_or(std::array<double, 3>{}));
-    sphere.radius = static_cast<float>(fields.number("radius", kSize).value_or(1));
-    sphere.velocity = toVec3(fields.triple("velocity", kWorld).value_or(std::array<double, 3>{}));
-    sphere.lists = readLists(fields, what, diagnostics_).value_or(maskOf(DrawList::spheres));
+    Sphere sphere = sphereOf(fields, what);
+    fields.read("center", kWorld, sphere.center);
     if (const JsonValue* material = fields.find("material"))
-      sphere.material = material->is(JsonValue::Type::object)
-                            ? addMaterial("", *material, material->place)
-                            : findMaterial(*material, fmt::format("'material' of {}", what));
+      sphere.material = materialOf(*material, fmt::format("'material' of {}", what));
     fields.finish();
     scene_.spheres.add(sphere);
   }
 
-  // The chosen one first.
-  void readCameras(const JsonValue& cameras) {
-    for (const JsonMember& member : cameras.members)
-      if (member.key == choice_.camera) readCamera(member.key, member.value);
-    for (const JsonMember& member : cameras.members)
-      if (member.key != choice_.camera) readCamera(member.key, member.value);
-  }
-
-  void failCamera(const JsonValue& where) {
-    std::vector<std::string> names;
-    for (const Camera& camera : scene_.cameras.rows()) names.push_back(camera.name);
-    fail(Code::badSceneValue, where, fmt::format("the scene has no camera '{}'", choice_.camera)).hint =
-        names.empty() ? "name one under \"cameras\"" : base::nearestHint(choice_.camera, names);
-  }
-
   void readCamera(const std::string& name, const JsonValue& value) {
     const std::string what = fmt::format("camera '{}'", name);
-    JsonFields fields(value, what, Code::badSceneValue, diagnostics_);
+    SceneFields fields(value, what, Code::badSceneValue, diagnostics_);
     Camera camera{.name = name};
-    if (const auto position = fields.triple("position", kWorld)) camera.pose.position = toDvec3(*position);
-    if (const auto target = fields.triple("target", kWorld)) camera.pose.target = toDvec3(*target);
-    camera.pose.fovDegrees = fields.number("fov", kFov).value_or(60);
-    camera.pose.nearPlane = fields.number("near", kSize).value_or(0.1);
-    camera.orbitDegreesPerSecond = fields.number("orbit", kWorld).value_or(0);
+    fields.read("position", kWorld, camera.pose.position);
+    fields.read("target", kWorld, camera.pose.target);
+    fields.read("fov", kFov, camera.pose.fovDegrees);
+    fields.read("near", kSize, camera.pose.nearPlane);
+    fields.read("orbit", kWorld, camera.orbitDegreesPerSecond);
     const JsonValue* path = fields.array("path");
     if (!path) fields.require({"position"});
     fields.finish();
     if (!path) checkDirection(value, what, camera.pose.position, camera.pose.target);
     if (path && camera.orbitDegreesPerSecond != 0)
-      fail(Code::badSceneValue, *path, fmt::format("{} has both 'path' and 'orbit'", what)).hint = "keep one";
+      fail(Code::badSceneValue, *path, fmt::format("{} has both 'path' and 'orbit'", what), "keep one");
     if (path) readPath(*path, what, camera);
     scene_.cameras.add(std::move(camera));
   }
@@ -278,21 +284,21 @@ class Reader {
   void checkDirection(const JsonValue& value, const std::string& what, glm::dvec3 position,
                       glm::dvec3 target) {
     if (glm::length(position - target) < 1e-6)
-      fail(Code::badSceneValue, value, fmt::format("{} stands on its target", what)).hint =
-          "move 'position' or 'target'";
+      fail(Code::badSceneValue, value, fmt::format("{} stands on its target", what),
+           "move 'position' or 'target'");
   }
 
   void readPath(const JsonValue& path, const std::string& what, Camera& camera) {
     if (path.items.empty()) fail(Code::badSceneValue, path, fmt::format("the path of {} is empty", what));
     for (std::size_t i = 0; i < path.items.size(); ++i) {
       const std::string keyName = fmt::format("key {} of {}", i, what);
-      JsonFields fields(path.items[i], keyName, Code::badSceneValue, diagnostics_);
+      SceneFields fields(path.items[i], keyName, Code::badSceneValue, diagnostics_);
       fields.require({"time", "position"});
       CameraKey key{.target = camera.pose.target, .fovDegrees = camera.pose.fovDegrees};
-      key.time = fields.number("time", kWorld).value_or(0);
-      if (const auto position = fields.triple("position", kWorld)) key.position = toDvec3(*position);
-      if (const auto target = fields.triple("target", kWorld)) key.target = toDvec3(*target);
-      if (const auto fov = fields.number("fov", kFov)) key.fovDegrees = *fov;
+      fields.read("time", kWorld, key.time);
+      fields.read("position", kWorld, key.position);
+      fields.read("target", kWorld, key.target);
+      fields.read("fov", kFov, key.fovDegrees);
       fields.finish();
       checkDirection(path.items[i], keyName, key.position, key.target);
       if (!camera.path.empty() && key.time <= camera.path.back().time)
@@ -316,42 +322,46 @@ class Reader {
   SceneModels models_;
 };
 
-}  // namespace
-
-namespace {
-
-// `camera` becomes the first one. False when there is none of that name.
-bool putFirst(Scene& scene, const std::string& camera) {
-  const Camera* chosen = findCamera(scene, camera);
-  if (!chosen) return false;
-  Table<Camera> cameras;
-  cameras.add(*chosen);
-  for (const Camera& each : scene.cameras.rows())
-    if (&each != chosen) cameras.add(each);
-  scene.cameras = std::move(cameras);
-  return true;
-}
-
 std::optional<Scene> loadModelFile(const std::string& path, Diagnostics& diagnostics,
                                    std::vector<std::string>* files, const SceneChoice& choice,
                                    const assets::LoadObserver& observer) {
   std::optional<Scene> scene = loadModelScene(path, diagnostics, files, observer);
-  if (!scene) return {};
-  const base::Place place{std::make_shared<const std::string>(path)};
-  if (!choice.materials.empty()) {
-    diagnostics.error(Code::unknownMaterial, place,
-                      fmt::format("there is no grid to give the materials of '{}' to", choice.materials));
+  JsonValue whole;
+  whole.place.file = std::make_shared<const std::string>(path);
+  if (scene && !choice.materials.empty()) {
+    failNoGrid(choice, whole, diagnostics);
     return {};
   }
-  if (putFirst(*scene, choice.camera)) return scene;
-  std::vector<std::string> names;
-  for (const Camera& camera : scene->cameras.rows()) names.push_back(camera.name);
-  diagnostics.error(Code::badSceneValue, place, fmt::format("the scene has no camera '{}'", choice.camera))
-      .hint = base::nearestHint(choice.camera, names);
-  return {};
+  if (!scene || !chooseCamera(*scene, choice, whole, diagnostics)) return {};
+  return scene;
 }
 
 }  // namespace
+
+std::optional<std::vector<Material>> readMaterialLibrary(std::string_view text, const std::string& name,
+                                                         Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.errorCount();
+  const base::PointerScope pointers(name, text, diagnostics);
+  const auto root = base::parseJson(text, std::make_shared<const std::string>(name), diagnostics);
+  if (!root || !base::expectType(*root, "a material library", JsonValue::Type::array, diagnostics)) return {};
+  std::vector<Material> materials;
+  std::set<std::string> names;
+  for (const JsonValue& item : root->items) {
+    SceneFields fields(item, fmt::format("material {}", materials.size()), Code::badMaterialValue,
+                       diagnostics);
+    fields.require({"name", "albedo", "metallic", "roughness"});
+    Material material = readMaterial(fields);
+    material.name = fields.text("name").value_or("");
+    for (const char* told : {"category", "source"}) fields.text(told);  // to people
+    fields.finish();
+    if (!material.name.empty() && !names.insert(material.name).second)
+      failAt(diagnostics, Code::duplicateMaterial, item, fmt::format("a second material '{}'", material.name),
+             "rename one");
+    materials.push_back(std::move(material));
+  }
+  if (diagnostics.errorCount() > before) return {};
+  return materials;
+}
 
 std::optional<Scene> readScene(std::string_view text, const std::string& name, Diagnostics& diagnostics,
                                const SceneChoice& choice) {

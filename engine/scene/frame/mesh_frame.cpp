@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "engine/scene/frame/parallel.h"
+
 namespace weft::scene {
 
 namespace {
@@ -12,12 +14,6 @@ constexpr std::size_t kLeastRows = 1024;   // that are worth a task
 constexpr std::size_t kLeastSkins = 4;     // the same
 constexpr std::size_t kBoxes = 4096;       // that are added up together, on however many threads
 constexpr std::size_t kLittleWork = 4096;  // nodes and rows: below, threads cost more than they bring
-
-template <class Row>
-std::uint32_t rowOf(const Table<Row>& table, typename Table<Row>::Id id) {
-  const Row* row = table.find(id);
-  return row ? static_cast<std::uint32_t>(row - table.rows().data()) : kNone;
-}
 
 }  // namespace
 
@@ -29,7 +25,7 @@ void MeshFrame::rebuild(const Scene& scene) {
     firstJoint_.push_back(static_cast<std::uint32_t>(jointNodes_.size()));
     bool moves = false;
     for (const NodeId joint : skin.joints) {
-      jointNodes_.push_back(rowOf(scene.nodes, joint));
+      jointNodes_.push_back(joint.index);
       assert(jointNodes_.back() != kNone && "joints are nodes of the scene");
       moves = moves || transforms_.isMoving(jointNodes_.back());
     }
@@ -40,10 +36,10 @@ void MeshFrame::rebuild(const Scene& scene) {
   facts_.clear();
   for (const MeshInstance& instance : scene.meshInstances.rows()) {
     InstanceFacts facts;
-    facts.node = rowOf(scene.nodes, instance.node);
-    facts.mesh = rowOf(scene.meshes, instance.mesh);
-    facts.material = rowOf(scene.materials, instance.material);
-    facts.skin = rowOf(scene.skins, instance.skin);
+    facts.node = instance.node.index;
+    facts.mesh = instance.mesh.index;
+    facts.material = instance.material.index;
+    facts.skin = instance.skin.index;
     assert(facts.node != kNone && facts.mesh != kNone && facts.material != kNone &&
            "an instance names rows of its scene");
     if (!scene.meshes.rows()[facts.mesh].skinned) facts.skin = kNone;
@@ -79,19 +75,15 @@ void MeshFrame::fillJoints(const Scene& scene, bool all) {
   if (!all && std::ranges::find(skinMoves_, 1) == skinMoves_.end()) return;
   jointsGeneration_ = count_;
   forRanges(skinMoves_.size(), kLeastSkins, [&](std::size_t from, std::size_t to) {
-    for (std::size_t s = from; s < to; ++s)
-      if (all || skinMoves_[s] != 0) fillSkin(scene, s);
+    for (std::size_t s = from; s < to; ++s) {
+      const std::vector<glm::mat4>& inverseBind = scene.skins.rows()[s].inverseBind;
+      for (std::size_t j = 0; (all || skinMoves_[s] != 0) && j < inverseBind.size(); ++j) {
+        const std::size_t joint = firstJoint_[s] + j;
+        joints_[joint].now = transforms_.now()[jointNodes_[joint]] * inverseBind[j];
+        joints_[joint].previous = transforms_.previous()[jointNodes_[joint]] * inverseBind[j];
+      }
+    }
   });
-}
-
-void MeshFrame::fillSkin(const Scene& scene, std::size_t row) {
-  const Skin& skin = scene.skins.rows()[row];
-  for (std::size_t j = 0; j < skin.joints.size(); ++j) {
-    const std::size_t joint = firstJoint_[row] + j;
-    const std::uint32_t node = jointNodes_[joint];
-    joints_[joint].now = transforms_.now()[node] * skin.inverseBind[j];
-    joints_[joint].previous = transforms_.previous()[node] * skin.inverseBind[j];
-  }
 }
 
 void MeshFrame::fillRow(const Scene& scene, ListTable& table, std::uint32_t row) const {
@@ -156,8 +148,8 @@ void MeshFrame::fillLights(const Scene& scene, bool all) {
     lamps_.assign(lamps.begin(), lamps.end());
     sun_ = scene.sun;
     lampNodes_.clear();
-    for (const Lamp& lamp : lamps) lampNodes_.push_back(rowOf(scene.nodes, lamp.node));
-    sunNode_ = sun_ ? rowOf(scene.nodes, sun_->node) : kNone;
+    for (const Lamp& lamp : lamps) lampNodes_.push_back(lamp.node.index);
+    sunNode_ = sun_ ? sun_->node.index : kNone;
     const auto moves = [&](std::uint32_t node) { return node != kNone && transforms_.isMoving(node); };
     lightsMove_ = moves(sunNode_) || std::ranges::any_of(lampNodes_, moves);
   }
@@ -165,48 +157,11 @@ void MeshFrame::fillLights(const Scene& scene, bool all) {
   lightsGeneration_ = count_;
   for (std::size_t i = 0; i < lamps_.size(); ++i) {
     if (lampNodes_[i] == kNone) continue;
-    const LightPose pose =
-        placeLight({lamps[i].position, lamps[i].direction}, transforms_.now()[lampNodes_[i]]);
-    lamps_[i].position = pose.position;
-    lamps_[i].direction = pose.direction;
+    const glm::mat4& node = transforms_.now()[lampNodes_[i]];
+    lamps_[i].position = glm::vec3(node * glm::vec4(lamps[i].position, 1));
+    lamps_[i].direction = turnDirection(node, lamps[i].direction);
   }
-  if (sunNode_ != kNone)
-    sun_->direction = placeLight({{}, scene.sun->direction}, transforms_.now()[sunNode_]).direction;
-}
-
-MeshFrame::MeshFrame() : job_(std::make_unique<Job>()), tasks_(makeTasks()) {}
-
-std::vector<FrameTask> MeshFrame::makeTasks() {
-  using Moment = WorldTransforms::Moment;
-  Job* job = job_.get();
-  const auto animate = [job](Moment moment) {
-    return [job, moment] { job->frame->transforms_.animate(*job->scene, moment); };
-  };
-  const auto place = [job](Moment moment) {
-    return [job, moment] { job->frame->transforms_.place(*job->scene, moment); };
-  };
-  return {
-      {"animation", {"animations"}, {"locals"}, animate(Moment::now)},
-      {"animation before", {"animations"}, {"locals before"}, animate(Moment::previous)},
-      {"transforms", {"nodes", "locals"}, {"world"}, place(Moment::now)},
-      {"transforms before", {"nodes", "locals before"}, {"world before"}, place(Moment::previous)},
-      {"joints",
-       {"skins", "world", "world before"},
-       {"joints"},
-       [job] { job->frame->fillJoints(*job->scene, job->another); }},
-      {"rows",
-       {"instances", "world", "world before", "joints"},
-       {"rows", "boxes"},
-       [job] { job->frame->fillRows(*job->scene, job->another); }},
-      {"scene box",
-       {"spheres", "boxes"},
-       {"scene box"},
-       [job] { job->frame->fillBounds(*job->scene, job->time, job->another); }},
-      {"lights",
-       {"lights", "world"},
-       {"lights in the world"},
-       [job] { job->frame->fillLights(*job->scene, job->another); }},
-  };
+  if (sunNode_ != kNone) sun_->direction = turnDirection(transforms_.now()[sunNode_], scene.sun->direction);
 }
 
 void MeshFrame::update(const Scene& scene, std::uint64_t sceneGeneration, double time, double previousTime) {
@@ -215,10 +170,15 @@ void MeshFrame::update(const Scene& scene, std::uint64_t sceneGeneration, double
   transforms_.prepare(scene, sceneGeneration, time, previousTime);
   ++count_;
   if (another) rebuild(scene);
-  *job_ = {this, &scene, time, another};
   std::size_t work = transforms_.movingCount();
   for (const ListTable& table : tables_) work += another ? table.rows.size() : table.moving.size();
-  tasks_.run(work < kLittleWork ? 1 : threads_);
+  onThreads(work < kLittleWork ? 1 : threads_, [&] {
+    using Moment = WorldTransforms::Moment;
+    both([&] { transforms_.place(scene, Moment::now); }, [&] { transforms_.place(scene, Moment::previous); });
+    fillJoints(scene, another);
+    fillRows(scene, another);
+    both([&] { fillBounds(scene, time, another); }, [&] { fillLights(scene, another); });
+  });
   sceneGeneration_ = sceneGeneration;
   time_ = time;
   previousTime_ = previousTime;

@@ -1,16 +1,13 @@
 // What a frame draws of the scene's mesh instances: a row per instance and draw list with its matrices of this frame and of
-// the one before, boxes to cull, the matrices of joints, and lights. Owns its tables and works out again only what moved. Does not:
-// cull (engine/scene/frame/cull.h), know views or GL.
+// the one before, boxes to cull, the matrices of joints, and lights. Owns its tables and works out again only what moved.
 #pragma once
 
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "engine/scene/frame/tasks.h"
 #include "engine/scene/frame/transforms.h"
 #include "engine/scene/scene.h"
 
@@ -32,7 +29,6 @@ struct Joint {
 
 class MeshFrame {
  public:
-  MeshFrame();
   // How many threads update() may use; 0, the default: as many as the machine has. The tables are the same, byte for byte.
   // Little work is done on one in any case.
   void setThreads(int threads) { threads_ = threads; }
@@ -56,11 +52,6 @@ class MeshFrame {
   std::span<const Lamp> lamps() const { return lamps_; }
   const std::optional<Sun>& sun() const { return sun_; }
   std::uint64_t lightsGeneration() const { return lightsGeneration_; }
-  // What update() consists of, with the tables that each part reads and writes, and how long each took the last time.
-  const FrameTasks& tasks() const { return tasks_; }
-  FrameTasks& tasks() { return tasks_; }
-  // How many nodes can ever stand elsewhere.
-  std::size_t movingNodes() const { return transforms_.movingCount(); }
   // How many times a node was placed since this was made.
   std::uint64_t nodeUpdates() const { return transforms_.updates(); }
 
@@ -80,22 +71,11 @@ class MeshFrame {
   const ListTable& tableOf(DrawList list) const { return tables_[tableOf_[static_cast<std::size_t>(list)]]; }
   void rebuild(const Scene& scene);
   void fillJoints(const Scene& scene, bool all);
-  void fillSkin(const Scene& scene, std::size_t row);
   void fillRow(const Scene& scene, ListTable& table, std::uint32_t row) const;
   void fillRows(const Scene& scene, bool all);
   void fillBounds(const Scene& scene, double time, bool all);
   void fillLights(const Scene& scene, bool all);
-  std::vector<FrameTask> makeTasks();
 
-  // What the tasks work on in the present update(). Stands still when a MeshFrame moves.
-  struct Job {
-    MeshFrame* frame = nullptr;
-    const Scene* scene = nullptr;
-    double time = 0;
-    bool another = false;  // scene than at the last update
-  };
-  std::unique_ptr<Job> job_;
-  FrameTasks tasks_;
   int threads_ = 0;
 
   std::uint64_t sceneGeneration_ = 0;  // 0: none yet

@@ -1,6 +1,9 @@
 #include "engine/scene/frame/mesh_views.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "engine/scene/frame/parallel.h"
 
 namespace weft::scene {
 
@@ -12,18 +15,64 @@ constexpr std::size_t kLittleViewWork = 8192;  // rows of all views: below, thre
 
 }  // namespace
 
+Frustum frustumOf(const glm::mat4& m) {
+  const auto row = [&](int i) { return glm::vec4(m[0][i], m[1][i], m[2][i], m[3][i]); };
+  const glm::vec4 x = row(0), y = row(1), z = row(2), w = row(3);
+  Frustum frustum;
+  for (const glm::vec4& plane : {w + x, w - x, w + y, w - y, z, w - z}) {
+    const float length = glm::length(glm::vec3(plane));
+    const float largest = std::max({std::abs(plane.x), std::abs(plane.y), std::abs(plane.z)});
+    if (!(largest > 1e-7f * std::abs(plane.w))) continue;
+    frustum.planes[frustum.count++] = plane / length;
+  }
+  return frustum;
+}
+
+std::size_t cull(const Frustum& frustum, std::span<const Box> boxes, std::size_t from, std::size_t to,
+                 std::uint32_t* visible) {
+  std::size_t count = 0;
+  for (std::size_t i = from; i < to; ++i) {
+    const Box& box = boxes[i];
+    if (box.empty()) continue;
+    bool outside = false;
+    for (int p = 0; p < frustum.count && !outside; ++p) {
+      const glm::vec4& plane = frustum.planes[p];
+      const glm::vec3 farthest(plane.x >= 0 ? box.high.x : box.low.x, plane.y >= 0 ? box.high.y : box.low.y,
+                               plane.z >= 0 ? box.high.z : box.low.z);
+      const glm::vec3 terms = glm::vec3(plane) * farthest;
+      const float rounding =
+          4e-6f * (std::abs(terms.x) + std::abs(terms.y) + std::abs(terms.z) + std::abs(plane.w));
+      outside = terms.x + terms.y + terms.z + plane.w < -rounding;
+    }
+    if (!outside) visible[count++] = static_cast<std::uint32_t>(i);
+  }
+  return count;
+}
+
+void makeCommands(const Scene& scene, std::span<const MeshRow> rows, std::span<const std::uint32_t> visible,
+                  std::vector<DrawCommand>& commands) {
+  commands.clear();
+  for (std::size_t i = 0; i < visible.size(); ++i) {
+    const std::uint32_t mesh = rows[visible[i]].mesh;
+    if (i == 0 || rows[visible[i - 1]].mesh != mesh) {
+      const Mesh& of = scene.meshes.rows()[mesh];
+      commands.push_back({of.indexCount, 0, of.firstIndex, static_cast<std::int32_t>(of.firstVertex),
+                          static_cast<std::uint32_t>(i)});
+    }
+    ++commands.back().instanceCount;
+  }
+}
+
 void MeshView::look(DrawList list, const glm::mat4& view, const glm::mat4& viewProjection, MeshOrder order) {
   wish_ = {list, view, viewProjection, order};
 }
 
-MeshViews::MeshViews() : job_(std::make_unique<Job>()), tasks_(makeTasks(job_.get())) {}
-
-void MeshViews::cullPart(const Job& job, Part part) {
-  MeshView& view = *job.due[part.view];
-  const std::span<const Box> boxes = job.frame->bounds(view.wish_.list);
+void MeshViews::cullPart(const MeshFrame& frame, Part part) {
+  MeshView& view = *due_[part.view];
+  const std::span<const Box> boxes = frame.bounds(view.wish_.list);
   const std::size_t from = std::size_t{part.part} * kPart, to = std::min(from + kPart, boxes.size());
   view.partCounts_[part.part] =
-      static_cast<std::uint32_t>(cullRows(view.frustum_, boxes, from, to, view.visible_.data() + from));
+      static_cast<std::uint32_t>(cull(view.frustum_, boxes, from, to, view.visible_.data() + from));
 }
 
 // Moves together what the parts found, each at its own place.
@@ -38,8 +87,8 @@ void MeshViews::join(MeshView& view) {
   view.visible_.resize(count);
 }
 
-void MeshViews::makeKeys(const Job& job, MeshView& view) {
-  const std::span<const Box> boxes = job.frame->bounds(view.wish_.list);
+void MeshViews::sort(const MeshFrame& frame, MeshView& view) {
+  const std::span<const Box> boxes = frame.bounds(view.wish_.list);
   view.keys_.resize(view.visible_.size());
   forRanges(view.keys_.size(), kLeastKeys, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
@@ -47,62 +96,13 @@ void MeshViews::makeKeys(const Job& job, MeshView& view) {
       view.keys_[i] = {depthKey(viewDepth(view.wish_.view, boxes[row].center())), row};
     }
   });
-}
-
-void MeshViews::sort(MeshView& view) {
   sortElements(view.keys_, SortMethod::cpu_radix, view.scratch_);
   for (std::size_t i = 0; i < view.keys_.size(); ++i) view.visible_[i] = view.keys_[i].index;
 }
 
-std::vector<FrameTask> MeshViews::makeTasks(Job* job) {
-  // Beside each other: of one view nothing depends on another.
-  const auto forViews = [job](const auto& run) {
-    forRanges(job->due.size(), 1, [&](std::size_t from, std::size_t to) {
-      for (std::size_t i = from; i < to; ++i) run(*job->due[i]);
-    });
-  };
-  const auto sorted = [](const MeshView& view) { return view.wish_.order == MeshOrder::back_to_front; };
-  return {
-      {"culling",
-       {"views", "boxes"},
-       {"visible rows"},
-       [job, forViews] {
-         forRanges(job->parts.size(), 1, [&](std::size_t from, std::size_t to) {
-           for (std::size_t i = from; i < to; ++i) cullPart(*job, job->parts[i]);
-         });
-         forViews([](MeshView& view) { join(view); });
-       }},
-      {"sort keys",
-       {"views", "boxes", "visible rows"},
-       {"keys"},
-       [job, sorted] {
-         for (MeshView* view : job->due)
-           if (sorted(*view)) makeKeys(*job, *view);
-       }},
-      {"draw order",
-       {"views", "keys"},
-       {"visible rows"},
-       [forViews, sorted] {
-         forViews([&](MeshView& view) {
-           if (sorted(view)) sort(view);
-         });
-       }},
-      {"commands",
-       {"meshes", "rows", "visible rows"},
-       {"commands"},
-       [job, forViews] {
-         forViews([&](MeshView& view) {
-           makeCommands(*job->scene, job->frame->rows(view.wish_.list), view.visible_, view.commands_);
-         });
-       }},
-  };
-}
-
 void MeshViews::update(const Scene& scene, const MeshFrame& frame, std::span<MeshView* const> views) {
-  job_->scene = &scene;
-  job_->frame = &frame;
-  job_->due.clear();
-  job_->parts.clear();
+  due_.clear();
+  parts_.clear();
   std::size_t work = 0;
   for (MeshView* view : views) {
     const std::uint64_t rows = frame.generation(view->wish_.list);
@@ -115,11 +115,24 @@ void MeshViews::update(const Scene& scene, const MeshFrame& frame, std::span<Mes
     view->partCounts_.assign((count + kPart - 1) / kPart, 0);
     view->generation_ = ++count_;
     for (std::uint32_t part = 0; part < view->partCounts_.size(); ++part)
-      job_->parts.push_back({static_cast<std::uint32_t>(job_->due.size()), part});
-    job_->due.push_back(view);
+      parts_.push_back({static_cast<std::uint32_t>(due_.size()), part});
+    due_.push_back(view);
     work += count;
   }
-  if (!job_->due.empty()) tasks_.run(work < kLittleViewWork ? 1 : threads_);
+  if (due_.empty()) return;
+  onThreads(work < kLittleViewWork ? 1 : threads_, [&] {
+    forRanges(parts_.size(), 1, [&](std::size_t from, std::size_t to) {
+      for (std::size_t i = from; i < to; ++i) cullPart(frame, parts_[i]);
+    });
+    forRanges(due_.size(), 1, [&](std::size_t from, std::size_t to) {
+      for (std::size_t i = from; i < to; ++i) {
+        MeshView& view = *due_[i];
+        join(view);
+        if (view.wish_.order == MeshOrder::back_to_front) sort(frame, view);
+        makeCommands(scene, frame.rows(view.wish_.list), view.visible_, view.commands_);
+      }
+    });
+  });
 }
 
 }  // namespace weft::scene

@@ -1,20 +1,42 @@
 // What views see of the frame's meshes: rows in the order in which they are drawn, and the draw commands for them. All views of a
-// frame are culled at once, as tasks (engine/scene/frame/tasks.h). Does not: place meshes (engine/scene/frame/mesh_frame.h), or
-// know passes or GL.
+// frame are culled at once.
 #pragma once
 
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <memory>
 #include <span>
 #include <vector>
 
-#include "engine/scene/frame/cull.h"
 #include "engine/scene/frame/mesh_frame.h"
-#include "engine/scene/frame/tasks.h"
 #include "engine/scene/sort.h"
 
 namespace weft::scene {
+
+// The inside of each plane is dot(xyz, p) + w >= 0; xyz is unit.
+struct Frustum {
+  glm::vec4 planes[6];
+  int count = 0;
+};
+// Gribb and Hartmann, "Fast Extraction of Viewing Frustum Planes", 2001, for clip depth 0..1, reversed or not. A plane
+// without a normal (the far plane at infinity) is left out.
+Frustum frustumOf(const glm::mat4& viewProjection);
+
+// Writes those rows of `from` to `to`, ascending, whose box may reach into the frustum to `visible`, which has room for all, and
+// returns how many. Never leaves out a box that does: boxes on a plane within rounding stay. Empty boxes are left out.
+std::size_t cull(const Frustum& frustum, std::span<const Box> boxes, std::size_t from, std::size_t to,
+                 std::uint32_t* visible);
+
+// A command as glMultiDrawElementsIndirect reads it.
+struct DrawCommand {
+  std::uint32_t count = 0, instanceCount = 0, firstIndex = 0;
+  std::int32_t baseVertex = 0;
+  std::uint32_t baseInstance = 0;
+  friend bool operator==(const DrawCommand&, const DrawCommand&) = default;
+};
+// Replaces `commands` by one per mesh that is visible: instances baseInstance to baseInstance + instanceCount - 1 of it are
+// those elements of `visible`.
+void makeCommands(const Scene& scene, std::span<const MeshRow> rows, std::span<const std::uint32_t> visible,
+                  std::vector<DrawCommand>& commands);
 
 // How the visible rows are ordered: those of a mesh together, or by the depth of their boxes' centres, farthest first, as
 // what one sees through must be drawn. Equal depths by row.
@@ -51,34 +73,22 @@ class MeshView {
 
 class MeshViews {
  public:
-  MeshViews();
   // The same as MeshFrame::setThreads().
   void setThreads(int threads) { threads_ = threads; }
   // Brings the views up to date whose list or wish is another than they were made of.
   void update(const Scene& scene, const MeshFrame& frame, std::span<MeshView* const> views);
-  const FrameTasks& tasks() const { return tasks_; }
-  FrameTasks& tasks() { return tasks_; }
 
  private:
   // Rows of a view that are culled together.
   struct Part {
     std::uint32_t view = 0, part = 0;
   };
-  // What the tasks work on in the present update(). Stands still when a MeshViews moves.
-  struct Job {
-    const Scene* scene = nullptr;
-    const MeshFrame* frame = nullptr;
-    std::vector<MeshView*> due;
-    std::vector<Part> parts;
-  };
-  static std::vector<FrameTask> makeTasks(Job* job);
-  static void cullPart(const Job& job, Part part);
+  void cullPart(const MeshFrame& frame, Part part);
   static void join(MeshView& view);
-  static void makeKeys(const Job& job, MeshView& view);
-  static void sort(MeshView& view);
+  static void sort(const MeshFrame& frame, MeshView& view);
 
-  std::unique_ptr<Job> job_;
-  FrameTasks tasks_;
+  std::vector<MeshView*> due_;  // of the present update()
+  std::vector<Part> parts_;     // of these views
   int threads_ = 0;
   std::uint64_t count_ = 0;
 };

@@ -4,21 +4,30 @@
 #include <cassert>
 #include <cmath>
 
-#include "engine/scene/frame/animation.h"
-#include "engine/scene/frame/tasks.h"
+#include "engine/scene/frame/parallel.h"
 
 namespace weft::scene {
 
+using assets::ModelTrack;
+using assets::TrackInterpolation;
+using assets::TrackPath;
+
 namespace {
+
+glm::vec4 slerp(glm::vec4 a, glm::vec4 b, float f) {
+  float cosine = glm::dot(a, b);
+  if (cosine < 0) {
+    b = -b;
+    cosine = -cosine;
+  }
+  if (cosine > 0.9995f) return glm::normalize(a + (b - a) * f);
+  const float angle = std::acos(cosine);
+  return (a * std::sin((1 - f) * angle) + b * std::sin(f * angle)) / std::sin(angle);
+}
 
 constexpr std::uint32_t kNoNode = 0xffffffffu;
 constexpr std::size_t kLeastPart = 512;      // nodes that are worth a task
 constexpr std::size_t kLeastAnimations = 4;  // the same of animations
-
-std::uint32_t rowOf(const Table<Node>& nodes, NodeId id) {
-  const Node* node = nodes.find(id);
-  return node ? static_cast<std::uint32_t>(node - nodes.rows().data()) : kNoNode;
-}
 
 Transform moved(const Node& node, Transform local, double time) {
   local.translation += node.velocity * static_cast<float>(time);
@@ -33,6 +42,47 @@ Transform moved(const Node& node, Transform local, double time) {
 
 }  // namespace
 
+glm::vec4 sampleTrack(const ModelTrack& track, float time) {
+  const std::vector<float>& times = track.times;
+  const bool cubic = track.interpolation == TrackInterpolation::cubic;
+  const auto key = [&](std::size_t i) { return track.values[cubic ? 3 * i + 1 : i]; };
+  const std::size_t after =
+      static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), time) - times.begin());
+  if (after == 0) return key(0);
+  if (after == times.size()) return key(after - 1);
+  const std::size_t a = after - 1, b = after;
+  if (track.interpolation == TrackInterpolation::step) return key(a);
+  const float span = times[b] - times[a], f = (time - times[a]) / span;
+  const bool rotation = track.path == TrackPath::rotation;
+  if (!cubic) return rotation ? slerp(key(a), key(b), f) : key(a) + (key(b) - key(a)) * f;
+  const glm::vec4 leaving = track.values[3 * a + 2] * span, arriving = track.values[3 * b] * span;
+  const float f2 = f * f, f3 = f2 * f;
+  const glm::vec4 v = key(a) * (2 * f3 - 3 * f2 + 1) + leaving * (f3 - 2 * f2 + f) +
+                      key(b) * (3 * f2 - 2 * f3) + arriving * (f3 - f2);
+  return rotation ? glm::normalize(v) : v;
+}
+
+float animationTime(const Animation& animation, double time) {
+  const double duration = animation.tracks->duration;
+  if (duration <= 0) return 0;
+  const double local = std::fmod(time * static_cast<double>(animation.speed), duration);
+  return static_cast<float>(local < 0 ? local + duration : local);
+}
+
+void applyAnimation(const Animation& animation, double time, std::span<const std::uint32_t> rows,
+                    std::span<Transform> locals) {
+  const float at = animationTime(animation, time);
+  for (std::size_t i = 0; i < animation.tracks->tracks.size(); ++i) {
+    const ModelTrack& track = animation.tracks->tracks[i];
+    const glm::vec4 v = sampleTrack(track, at);
+    Transform& local = locals[rows[i]];
+    if (track.path == TrackPath::rotation)
+      local.rotation = glm::quat(v.w, v.x, v.y, v.z);
+    else
+      (track.path == TrackPath::translation ? local.translation : local.scale) = glm::vec3(v);
+  }
+}
+
 void WorldTransforms::rebuild(const Scene& scene) {
   const std::span<const Node> nodes = scene.nodes.rows();
   parents_.resize(nodes.size());
@@ -44,7 +94,7 @@ void WorldTransforms::rebuild(const Scene& scene) {
   for (const Animation& animation : scene.animations.rows()) {
     std::vector<std::uint32_t>& rows = animatedRows_.emplace_back();
     for (const NodeId id : animation.nodes) {
-      rows.push_back(rowOf(scene.nodes, id));
+      rows.push_back(id.index);
       assert(rows.back() != kNoNode && "an animation moves nodes of its scene");
       const auto mine = static_cast<std::uint32_t>(animatedRows_.size());
       std::uint32_t& mover = movers[rows.back()];
@@ -56,7 +106,7 @@ void WorldTransforms::rebuild(const Scene& scene) {
   moving_.clear();
   for (std::size_t row = 0; row < nodes.size(); ++row) {
     const Node& node = nodes[row];
-    parents_[row] = rowOf(scene.nodes, node.parent);
+    parents_[row] = node.parent.index;
     assert((parents_[row] == kNoNode || parents_[row] < row) && "parents stand before their children");
     now_.locals[row] = node.local;
     if (node.spin != glm::vec3(0) || node.velocity != glm::vec3(0)) moves_[row] = 1;
@@ -120,26 +170,14 @@ void WorldTransforms::prepare(const Scene& scene, std::uint64_t sceneGeneration,
   previous_.time = previousTime;
 }
 
-void WorldTransforms::animate(const Scene& scene, Moment moment) {
-  if (At& at = of(moment); at.due) animateAt(scene, at);
-}
-
 void WorldTransforms::place(const Scene& scene, Moment moment) {
   At& at = of(moment);
   if (!at.due) return;
+  animateAt(scene, at);
   forRanges(parts_.size() - 1, 1, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = parts_[from]; i < parts_[to]; ++i) placeRow(scene, at, moving_[i]);
   });
   at.updates += moving_.size();
-}
-
-void WorldTransforms::update(const Scene& scene, std::uint64_t sceneGeneration, double time,
-                             double previousTime) {
-  prepare(scene, sceneGeneration, time, previousTime);
-  for (const Moment moment : {Moment::now, Moment::previous}) {
-    animate(scene, moment);
-    place(scene, moment);
-  }
 }
 
 }  // namespace weft::scene

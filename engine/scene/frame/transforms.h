@@ -1,5 +1,5 @@
 // Where nodes stand in the world, at a time and at the time before. Parents are updated before their children, by one walk
-// over the table; nodes that never move are placed once per scene, so that a frame costs what moved. Does not: know meshes.
+// over the table; nodes that never move are placed once per scene, so that a frame costs what moved.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,24 @@
 
 namespace weft::scene {
 
+// Animations sampled at a time, as glTF 2.0 says (specification, appendix C): linear, step, cubic Hermite; rotations by slerp or
+// normalised.
+// The value of a track, held before its first and after its last key: xyz, or a unit quaternion as x y z w.
+glm::vec4 sampleTrack(const assets::ModelTrack& track, float time);
+
+// Where `time` of the scene is in an animation that plays round and round.
+float animationTime(const Animation& animation, double time);
+
+// Writes the properties that an animation moves. `rows[i]` is the row of animation.nodes[i].
+void applyAnimation(const Animation& animation, double time, std::span<const std::uint32_t> rows,
+                    std::span<Transform> locals);
+
 class WorldTransforms {
  public:
-  // Nothing happens for a generation and times that are those of the last call.
-  void update(const Scene& scene, std::uint64_t sceneGeneration, double time, double previousTime);
-
-  // The same in steps: prepare(), then animate() before place() of each moment, the two moments in any order or at once.
+  // prepare(), then place() of each moment, the two in any order or at once. Nothing happens for a generation and times that
+  // are those of the last call.
   enum class Moment : std::uint8_t { now, previous };
   void prepare(const Scene& scene, std::uint64_t sceneGeneration, double time, double previousTime);
-  void animate(const Scene& scene, Moment moment);
   void place(const Scene& scene, Moment moment);
 
   // One matrix per row of Scene::nodes.

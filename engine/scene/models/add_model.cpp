@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/scene/frame/mesh_frame.h"
+#include "engine/scene/frame/parallel.h"
 
 namespace weft::scene {
 
@@ -19,9 +20,7 @@ void append(std::vector<T>& out, const std::vector<T>& in) {
 std::uint32_t addTexture(Scene& scene, const Texture& texture) {
   const std::span<const Texture> known = scene.textures.rows();
   for (std::size_t row = 0; row < known.size(); ++row)
-    if (known[row].content == texture.content && known[row].srgb == texture.srgb &&
-        known[row].image->width == texture.image->width && known[row].image->texels == texture.image->texels)
-      return static_cast<std::uint32_t>(row);
+    if (known[row].content == texture.content) return static_cast<std::uint32_t>(row);
   scene.textures.add(texture);
   return static_cast<std::uint32_t>(known.size());
 }
@@ -128,13 +127,12 @@ void addModelCopy(Scene& scene, const ModelRows& rows, const assets::Model& mode
   scene.animations.add(std::move(animation));
 }
 
-Box boundsOf(const assets::Model& model) {
-  Scene scene;
-  MeshData data;
-  addModelCopy(scene, addModelTables(scene, data, model), model, {});
-  MeshFrame frame;
-  frame.update(scene, 1, 0, 0);
-  return frame.sceneBounds();
+void decodeOnThreads(int threads, std::size_t count, const std::function<void(std::size_t)>& decode) {
+  onThreads(count > 1 ? threads : 1, [&] {
+    forRanges(count, 1, [&](std::size_t from, std::size_t to) {
+      for (std::size_t i = from; i < to; ++i) decode(i);
+    });
+  });
 }
 
 }  // namespace weft::scene

@@ -1,8 +1,10 @@
 // Puts a model (engine/assets/model.h) into a scene: its textures, materials and meshes once, its nodes, skins and
-// instances once per copy, and its lights with them. Does not: read files, or know JSON.
+// instances once per copy, and its lights with them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -34,7 +36,7 @@ struct ModelCopy {
 };
 void addModelCopy(Scene& scene, const ModelRows& rows, const assets::Model& model, const ModelCopy& copy);
 
-// The box of the model at time 0, at its own coordinates; empty when it has no vertex.
-Box boundsOf(const assets::Model& model);
+// Calls `decode` with 0 to count - 1 on at most `threads` threads; 0: as many as the machine has. For assets::DecodeRunner.
+void decodeOnThreads(int threads, std::size_t count, const std::function<void(std::size_t)>& decode);
 
 }  // namespace weft::scene

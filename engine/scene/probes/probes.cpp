@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "engine/scene/frame/tasks.h"
+#include "engine/scene/frame/parallel.h"
 
 namespace weft::scene {
 
@@ -114,84 +114,20 @@ glm::vec3 bandsOfSphere(const ProbeRules& rules, glm::vec3 offset, float radius)
 }
 
 bool computeProbes(const ProbeGrid& grid, const ProbeRules& rules, std::span<const Instance> spheres,
-                   std::span<Probe> out, const std::atomic<bool>* cancelled) {
+                   std::span<Probe> out, const std::atomic<bool>* cancelled, int threads) {
   assert(out.size() == grid.size());
   std::ranges::fill(out, Probe{});
   const std::size_t lines = std::size_t{grid.count.y} * grid.count.z;
   const auto isCancelled = [cancelled] { return cancelled && cancelled->load(std::memory_order_relaxed); };
-  forRanges(lines, (lines + kMostParts - 1) / kMostParts, [&](std::size_t from, std::size_t to) {
-    for (const Instance& sphere : spheres) {
-      if (isCancelled()) return;
-      addSphere(grid, rules, sphere, from, to, out);
-    }
+  onThreads(threads, [&] {
+    forRanges(lines, (lines + kMostParts - 1) / kMostParts, [&](std::size_t from, std::size_t to) {
+      for (const Instance& sphere : spheres) {
+        if (isCancelled()) return;
+        addSphere(grid, rules, sphere, from, to, out);
+      }
+    });
   });
   return !isCancelled();
-}
-
-glm::vec3 irradianceOf(const Probe& probe, glm::vec3 normal) {
-  const auto basis = shBasis(normal);
-  glm::vec3 sum(0);
-  for (std::size_t n = 0; n < kShCount; ++n) sum += basis[n] * glm::vec3(probe.sh[n]);
-  return glm::max(sum, glm::vec3(0));
-}
-
-// The integral of L(w) max(w.n, 0) w, whose direction and length (over the irradiance) are wanted. By bands the clamped cosine is
-// 1/4 + 1/2 w.n + 5/32 (3 (w.n)^2 - 1), so with D and T the integrals of L w and L w w' it is 3/16 D + 1/2 T n + 3/16 n (n.D);
-// of the third moment only its part in band 1 is known.
-Bounce bounceOf(const Probe& probe, glm::vec3 normal) {
-  Bounce bounce{.irradiance = irradianceOf(probe, normal), .facing = -normal};
-  const auto basis = shBasis(normal);
-  float l[kShCount], all = 0;
-  for (std::size_t n = 0; n < kShCount; ++n) {
-    l[n] = glm::dot(glm::vec3(probe.sh[n]), glm::vec3(0.2126f, 0.7152f, 0.0722f));
-    all += basis[n] * l[n];
-    l[n] /= kCosineLobe[bandOf(n)];
-  }
-  const float flux = l[0] * 3.544907702f, zz = flux / 3 + l[6] / 0.946174695f;
-  const float even = flux - zz, odd = l[8] / 0.546274215f;
-  const float xy = l[4] / 1.092548431f, yz = l[5] / 1.092548431f, xz = l[7] / 1.092548431f;
-  const glm::vec3 d = glm::vec3(l[3], l[1], l[2]) * 2.046653415f;
-  const glm::mat3 t(0.5f * (even + odd), xy, xz, xy, 0.5f * (even - odd), yz, xz, yz, zz);
-  const glm::vec3 from = 0.1875f * d + 0.5f * (t * normal) + 0.1875f * glm::dot(normal, d) * normal;
-  const float size = std::sqrt(glm::dot(from, from));
-  if (size > 1e-6f) bounce.facing = -from / size;
-  bounce.sure = 0.5f + 0.5f * std::clamp(size / std::max(all, 1e-6f), 0.0f, 1.0f);
-  return bounce;
-}
-
-// From a source in the middle of the box, spread over a quarter of its half diagonal.
-float leftOutside(const ProbeGrid& grid, glm::vec3 point) {
-  const glm::vec3 half = 0.5f * (grid.high - grid.low), out = point - 0.5f * (grid.low + grid.high);
-  const glm::vec3 edge = glm::clamp(out, -half, half);
-  const float spread = glm::dot(half, half) / 16;
-  return (glm::dot(edge, edge) + spread) / std::max(glm::dot(out, out) + spread, 1e-20f);
-}
-
-Probe probeAt(const ProbeGrid& grid, std::span<const Probe> probes, glm::vec3 point) {
-  glm::uvec3 below(0), above(0);
-  glm::vec3 part(0);
-  for (int axis = 0; axis < 3; ++axis) {
-    const float extent = grid.high[axis] - grid.low[axis], last = static_cast<float>(grid.count[axis] - 1);
-    if (!(extent > 0)) continue;
-    const float at = std::clamp((point[axis] - grid.low[axis]) / extent * last, 0.0f, last);
-    below[axis] = static_cast<std::uint32_t>(at);
-    above[axis] = std::min(below[axis] + 1, grid.count[axis] - 1);
-    part[axis] = at - static_cast<float>(below[axis]);
-  }
-  const float left = leftOutside(grid, point);
-  Probe mixed{};
-  for (unsigned corner = 0; corner < 8; ++corner) {
-    glm::uvec3 at = below;
-    float weight = 1;
-    for (int axis = 0; axis < 3; ++axis) {
-      const bool up = (corner >> axis & 1u) != 0;
-      if (up) at[axis] = above[axis];
-      weight *= up ? part[axis] : 1.0f - part[axis];
-    }
-    const Probe& probe = probes[grid.indexOf(at)];
-    for (std::size_t n = 0; n < kShCount; ++n) mixed.sh[n] += weight * left * probe.sh[n];
-  }
-  return mixed;
 }
 
 }  // namespace weft::scene

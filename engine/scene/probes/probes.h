@@ -1,8 +1,7 @@
 // Light probes: a grid of points, each with the light that spheres throw back to it, as irradiance in spherical harmonics
 // up to band 2. In units of the environment: a sphere's diffuse colour, albedo * (1 - metallic), is its radiance, as it is
-// under an environment of radiance 1; whoever reads a probe multiplies by the environment (bounceOf), so that a black one gives nothing.
-// Spheres hide neither each other nor the sky. Pure functions; shaders/spheres/probes/bake.comp.glsl computes the same on a GPU. Does
-// not: run beside frames, or know the environment.
+// under an environment of radiance 1; whoever reads a probe multiplies by the environment, so that a black one gives nothing.
+// Spheres hide neither each other nor the sky. Pure functions; shaders/spheres/probes/bake.comp.glsl computes the same on a GPU.
 #pragma once
 
 #include <array>
@@ -70,29 +69,10 @@ struct Probe {
   glm::vec4 sh[kShCount];
 };
 
-// Replaces `out`, which has grid.size() elements. Adds the spheres up in their order, whatever the grid, on the threads of the
-// task that calls it (engine/scene/frame/tasks.h). Linear in pairs of a sphere and a probe within its reach. False, with anything in `out`, once `cancelled` is set.
+// Replaces `out`, which has grid.size() elements. Adds the spheres up in their order, whatever the grid, on at most `threads`
+// threads (0: as many as the machine has), with the same bytes on any number. Linear in pairs of a sphere and a probe within its
+// reach. False, with anything in `out`, once `cancelled` is set.
 bool computeProbes(const ProbeGrid& grid, const ProbeRules& rules, std::span<const Instance> spheres,
-                   std::span<Probe> out, const std::atomic<bool>* cancelled = nullptr);
-
-// Irradiance of a surface with this unit normal, not below zero.
-glm::vec3 irradianceOf(const Probe& probe, glm::vec3 normal);
-
-// What of its light a reader needs who multiplies by the environment: it was thrown back by what faces `facing` in the mean, a
-// unit direction; `sure` is nearly 1 (0.91) where all of it comes along the normal, less where it comes from many sides, 1/2 at least. The
-// environment's irradiance in `facing` times sure, plus that in -facing times 1 - sure, is right for a linear one.
-struct Bounce {
-  glm::vec3 irradiance{0}, facing{0, 1, 0};
-  float sure = 0.5f;
-};
-Bounce bounceOf(const Probe& probe, glm::vec3 normal);
-
-// The share of the light at the nearest point of the box that is left at a point outside: far away it falls with the square of the
-// distance. 1 inside.
-float leftOutside(const ProbeGrid& grid, glm::vec3 point);
-
-// The mix of the eight probes around a point, each as near as it is along the axes; outside the box that of its nearest point,
-// times leftOutside.
-Probe probeAt(const ProbeGrid& grid, std::span<const Probe> probes, glm::vec3 point);
+                   std::span<Probe> out, const std::atomic<bool>* cancelled = nullptr, int threads = 1);
 
 }  // namespace weft::scene

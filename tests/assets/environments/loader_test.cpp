@@ -1,5 +1,3 @@
-#include "engine/assets/environments/loader.h"
-
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 
@@ -11,8 +9,10 @@
 #include <sstream>
 #include <thread>
 
+#include "engine/assets/environments/environment_map.h"
 #include "engine/assets/images/half.h"
 #include "engine/base/files/file_access.h"
+#include "tests/assets/images/save_hdr.h"
 #include "tests/temporary_folder.h"
 
 using namespace weft;
@@ -62,16 +62,16 @@ TEST_CASE("a loaded environment is what the synchronous path gives, rounded to h
   for (const std::string& path : {writeHdr(folder, "a.hdr", 512, 300), exr}) {
     const auto result = loader.wait(loader.request(path));
     REQUIRE(result);
-    REQUIRE(result->map);
+    REQUIRE(result->as<EnvironmentMap>());
     base::Diagnostics said;
     const auto image = loadEnvironment(path, said);
     REQUIRE(image);
-    checkSame(*result->map, *image);
+    checkSame(*result->as<EnvironmentMap>(), *image);
     CHECK(result->diagnostics.text() == said.text());
     CHECK(loader.progress(result->ticket).stage == LoadStage::idle);
   }
   const std::string real = std::string(WEFT_SOURCE_DIR) + "/scenes/environments/spiaggia_di_mondello_1k.hdr";
-  checkSame(*loader.wait(loader.request(real))->map, *loadEnvironment(real, diagnostics));
+  checkSame(*loader.wait(loader.request(real))->as<EnvironmentMap>(), *loadEnvironment(real, diagnostics));
 }
 
 TEST_CASE("an RGB picture in memory becomes the same map as its file") {
@@ -103,8 +103,8 @@ TEST_CASE("many requests finish in the order they were made, and no more than th
     const auto result = loader.poll();  // all before the last are finished
     REQUIRE(result);
     CHECK(result->ticket == tickets[i]);
-    REQUIRE(result->map);
-    CHECK(result->map->width == 8 + i);
+    REQUIRE(result->as<EnvironmentMap>());
+    CHECK(result->as<EnvironmentMap>()->width == 8 + i);
   }
   CHECK(!loader.poll());
   CHECK(!loader.wait(tickets[0]));
@@ -127,8 +127,8 @@ TEST_CASE("a request replaces those of its channel: waiting, running and finishe
     CHECK(!loader.wait(waiting));
     const auto result = loader.wait(wanted);
     REQUIRE(result);
-    CHECK(result->map->width == 32);
-    CHECK(loader.wait(other)->map->width == 16);
+    CHECK(result->as<EnvironmentMap>()->width == 32);
+    CHECK(loader.wait(other)->as<EnvironmentMap>()->width == 16);
     CHECK(!loader.poll());
   }
   Loader loader;
@@ -136,7 +136,7 @@ TEST_CASE("a request replaces those of its channel: waiting, running and finishe
   CHECK(loader.wait(loader.request(b, 2)));  // after it
   const std::uint64_t wanted = loader.request(c, 1);
   CHECK(!loader.wait(finished));
-  CHECK(loader.wait(wanted)->map->width == 32);
+  CHECK(loader.wait(wanted)->as<EnvironmentMap>()->width == 32);
 }
 
 TEST_CASE("a cancelled request has no result, and the next one is served") {
@@ -195,7 +195,7 @@ TEST_CASE(
     CAPTURE(path);
     const auto result = loader.wait(loader.request(path));
     REQUIRE(result);
-    CHECK(!result->map);
+    CHECK(!result->as<EnvironmentMap>());
     base::Diagnostics said;
     CHECK(!loadEnvironment(path, said));
     CHECK(said.hasErrors());
@@ -205,9 +205,10 @@ TEST_CASE(
   // Whatever a flipped byte does, it does the same on the thread.
   const auto flipped = loader.wait(loader.request(folder.write("flipped.hdr", damaged)));
   base::Diagnostics said;
-  CHECK(loadEnvironment(folder.at("flipped.hdr"), said).has_value() == (flipped->map != nullptr));
+  CHECK(loadEnvironment(folder.at("flipped.hdr"), said).has_value() ==
+        (flipped->as<EnvironmentMap>() != nullptr));
   CHECK(flipped->diagnostics.text() == said.text());
-  CHECK(loader.wait(loader.request(good))->map);
+  CHECK(loader.wait(loader.request(good))->as<EnvironmentMap>());
 }
 
 TEST_CASE("progress grows through the stages of a load and never falls within it") {
@@ -227,7 +228,7 @@ TEST_CASE("progress grows through the stages of a load and never falls within it
   Loader loader;
   const std::uint64_t ticket = loader.request(path);
   float before = 0;
-  std::optional<LoadResult> result;
+  std::optional<LoadQueue::Result> result;
   while (!(result = loader.poll())) {
     const LoadProgress now = loader.progress(ticket);
     if (now.stage == LoadStage::idle) continue;  // finished a moment ago
@@ -235,7 +236,7 @@ TEST_CASE("progress grows through the stages of a load and never falls within it
     CHECK(now.done <= 1);
     before = now.done;
   }
-  CHECK(result->map);
+  CHECK(result->as<EnvironmentMap>());
 }
 
 TEST_CASE("progress of a pipe, which has no size, begins with what came of it") {

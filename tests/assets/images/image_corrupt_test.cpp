@@ -9,6 +9,7 @@
 
 #include "engine/assets/images/image.h"
 #include "engine/base/files/file.h"
+#include "tests/assets/images/save_hdr.h"
 #include "tests/temporary_folder.h"
 
 using namespace weft;

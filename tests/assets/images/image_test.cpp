@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/assets/images/half.h"
+#include "tests/assets/images/save_hdr.h"
 #include "tests/temporary_folder.h"
 
 using namespace weft;
@@ -49,8 +50,6 @@ TEST_CASE("a PNG as floats is decoded from sRGB, its alpha is not") {
   CHECK(image->texels[2] == doctest::Approx(0.502886).epsilon(1e-5));
   CHECK(image->texels[3] == doctest::Approx(128 / 255.0));
   CHECK(image->texels[4] == 1);
-  for (int i = 0; i <= 100; ++i)
-    CHECK(encodeSrgb(decodeSrgb(static_cast<float>(i) / 100)) == doctest::Approx(i / 100.0).epsilon(1e-5));
 }
 
 TEST_CASE("EXR keeps floats exactly, for 1, 3 and 4 channels") {

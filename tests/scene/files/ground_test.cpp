@@ -1,5 +1,3 @@
-#include "engine/scene/files/ground.h"
-
 #include <doctest/doctest.h>
 
 #include "engine/scene/files/scene_file.h"

@@ -1,10 +1,9 @@
-#include "engine/scene/files/lights.h"
-
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
 #include <cmath>
 
+#include "engine/scene/files/reading.h"
 #include "engine/scene/files/scene_file.h"
 
 using namespace weft;

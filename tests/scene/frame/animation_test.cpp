@@ -1,6 +1,4 @@
 // Tracks against the formulas of glTF 2.0, appendix C, and Fox's against a reader of its bytes that is nothing but this file.
-#include "engine/scene/frame/animation.h"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/assets/models/model_file.h"
+#include "engine/scene/frame/transforms.h"
 
 using namespace weft;
 using namespace weft::scene;

@@ -1,6 +1,4 @@
 // Culling against points: no box that holds a visible point is culled, and most that hold none are.
-#include "engine/scene/frame/cull.h"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <random>
 
 #include "engine/scene/camera.h"
+#include "engine/scene/frame/mesh_views.h"
 
 using namespace weft::scene;
 
@@ -61,8 +60,8 @@ TEST_CASE("no box with a visible point is culled; most far outside are") {
       boxes.push_back({glm::vec3(center - half), glm::vec3(center + half)});
     }
     boxes.push_back({});
-    std::vector<std::uint32_t> visible;
-    cull(frustumOf(viewProjection), boxes, visible);
+    std::vector<std::uint32_t> visible(boxes.size());
+    visible.resize(cull(frustumOf(viewProjection), boxes, 0, boxes.size(), visible.data()));
     CHECK(std::is_sorted(visible.begin(), visible.end()));
     std::vector<bool> kept(boxes.size());
     for (const std::uint32_t row : visible) kept[row] = true;

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <random>
@@ -11,7 +12,7 @@
 
 #include "engine/assets/models/model_file.h"
 #include "engine/scene/files/scene_file.h"
-#include "engine/scene/frame/animation.h"
+#include "engine/scene/frame/transforms.h"
 #include "engine/scene/models/add_model.h"
 
 using namespace weft;
@@ -268,4 +269,35 @@ TEST_CASE("a hundred thousand moving instances") {
     CHECK(difference(rows[row].previous_transform, worldOf(*scene, instance.node, 0.9)) < 1e-3);
     CHECK(rows[row].transform != rows[row].previous_transform);
   }
+}
+
+TEST_CASE("a frame is the same, byte for byte, on one thread and on two") {
+  base::Diagnostics diagnostics;
+  for (const char* file : {"scenes/crowd.json", "scenes/fox.json"}) {
+    const auto scene = loadScene(kSource + file, diagnostics);
+    REQUIRE_MESSAGE(scene, diagnostics.text());
+    MeshFrame one, two;
+    one.setThreads(1);
+    two.setThreads(2);
+    for (int i = 0; i < 4; ++i) {
+      const double time = 0.1 * i, before = i == 2 ? 7 : 0.1 * (i - 1);
+      one.update(*scene, 1, time, before);
+      two.update(*scene, 1, time, before);
+      const auto same = [](const auto& a, const auto& b) {
+        return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
+      };
+      CHECK(same(one.rows(DrawList::opaque), two.rows(DrawList::opaque)));
+      CHECK(same(one.bounds(DrawList::opaque), two.bounds(DrawList::opaque)));
+      CHECK(same(one.joints(), two.joints()));
+      CHECK(one.sceneBounds() == two.sceneBounds());
+      CHECK(one.nodeUpdates() == two.nodeUpdates());
+    }
+    CHECK(one.isMoving(DrawList::opaque));
+    CHECK_FALSE(one.isMoving(DrawList::transparent));
+  }
+  MeshFrame frame;
+  MeshFrame moved = std::move(frame);
+  const auto fox = loadScene(kSource + "scenes/fox.json", diagnostics);
+  moved.update(*fox, 1, 1, 0.5);
+  CHECK(moved.rows(DrawList::opaque).size() == 1);
 }

@@ -94,8 +94,9 @@ TEST_CASE("all views at once see what each would see alone, on one thread and on
       CHECK(areSame(seen[v].commands(), seenByTwo[v].commands()));
       const DrawList list = v < 3 ? DrawList::opaque : DrawList::transparent;
       const ViewData& view = views[v % 3];
-      std::vector<std::uint32_t> wanted;
-      cull(frustumOf(view.view_projection), frame.bounds(list), wanted);
+      const std::span<const Box> boxes = frame.bounds(list);
+      std::vector<std::uint32_t> wanted(boxes.size());
+      wanted.resize(cull(frustumOf(view.view_projection), boxes, 0, boxes.size(), wanted.data()));
       CHECK(wanted.size() > 100);
       CHECK(wanted.size() < frame.rows(list).size());
       if (v >= 3) wanted = sortedByHand(wanted, frame.bounds(list), view);

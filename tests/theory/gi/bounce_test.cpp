@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "tests/theory/gi/probe_reading.h"
 #include "tests/theory/gi/spheres.h"
 
 using namespace weft::theory;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/scene/probes/probes.h"
+#include "tests/theory/gi/probe_reading.h"
 #include "tests/theory/mesh_scene.h"
 
 using namespace weft;

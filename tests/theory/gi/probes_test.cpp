@@ -13,6 +13,7 @@
 #include <tuple>
 #include <vector>
 
+#include "tests/theory/gi/probe_reading.h"
 #include "tests/theory/gi/spheres.h"
 
 using namespace weft::theory;

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "engine/scene/probes/probes.h"
+#include "tests/theory/gi/probe_reading.h"
 #include "tests/theory/lab.h"
 
 using namespace weft;

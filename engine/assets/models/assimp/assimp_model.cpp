@@ -1,17 +1,25 @@
 #include "engine/assets/models/assimp/assimp_model.h"
 
+#include <assimp/GltfMaterial.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <assimp/IOStream.hpp>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
-#include <cctype>
-#include <filesystem>
+#include <assimp/ProgressHandler.hpp>
+#include <cmath>
+#include <cstring>
+#include <glm/gtc/type_ptr.hpp>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
 
-#include "engine/assets/models/assimp/assimp_io.h"
-#include "engine/assets/models/assimp/assimp_scene.h"
 #include "engine/assets/models/assimp/model_check.h"
 #include "engine/assets/models/parts/mesh_builder.h"
 #include "engine/base/limits.h"
@@ -23,12 +31,436 @@ using base::Diagnostics;
 
 namespace {
 
-bool isObj(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".obj";
+// A file in memory.
+class MemoryStream final : public Assimp::IOStream {
+ public:
+  explicit MemoryStream(std::string bytes) : bytes_(std::move(bytes)) {}
+  std::size_t Read(void* out, std::size_t size, std::size_t count) override {
+    if (size == 0) return 0;
+    const std::size_t whole = std::min(count, (bytes_.size() - at_) / size);
+    std::memcpy(out, bytes_.data() + at_, whole * size);
+    at_ += whole * size;
+    return whole;
+  }
+  std::size_t Write(const void*, std::size_t, std::size_t) override { return 0; }
+  aiReturn Seek(std::size_t offset, aiOrigin origin) override {
+    const std::size_t from = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? at_ : bytes_.size();
+    if (offset > bytes_.size() - from) return aiReturn_FAILURE;
+    at_ = from + offset;
+    return aiReturn_SUCCESS;
+  }
+  std::size_t Tell() const override { return at_; }
+  std::size_t FileSize() const override { return bytes_.size(); }
+  void Flush() override {}
+
+ private:
+  std::string bytes_;
+  std::size_t at_ = 0;
+};
+
+// All that Assimp may open: the model itself, which was read and checked, and material libraries of its folder.
+class ModelIo final : public Assimp::IOSystem {
+ public:
+  ModelIo(std::string name, std::string bytes, ModelFiles& files)
+      : name_(std::move(name)), bytes_(std::move(bytes)), files_(files) {}
+
+  bool Exists(const char* path) const override { return path == name_; }
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char* path, const char* mode) override {
+    if (std::strchr(mode, 'w') || std::strchr(mode, 'a')) return nullptr;
+    if (path == name_) return new MemoryStream(bytes_);
+    std::string wanted = path;
+    std::ranges::replace(wanted, '\\', '/');
+    while (wanted.starts_with("./")) wanted.erase(0, 2);
+    // Each file once; Assimp asks again under a name of its own for a library that is missing.
+    if (const auto known = others_.find(wanted); known != others_.end())
+      return known->second ? new MemoryStream(*known->second) : nullptr;
+    if (missing_) return nullptr;
+    auto bytes = files_.readOptional(wanted, files_.place(), base::Code::modelPartLeftOut, false);
+    missing_ = !bytes;
+    const auto& kept = others_.emplace(wanted, std::move(bytes)).first->second;
+    return kept ? new MemoryStream(*kept) : nullptr;
+  }
+  void Close(Assimp::IOStream* stream) override { delete stream; }
+
+ private:
+  std::string name_, bytes_;
+  ModelFiles& files_;
+  std::map<std::string, std::optional<std::string>> others_;
+  bool missing_ = false;
+};
+
+class Progress final : public Assimp::ProgressHandler {
+ public:
+  explicit Progress(const LoadObserver& observer) : observer_(observer) {}
+  bool Update(float done) override {
+    return !observer_ || observer_(LoadStage::decoding, std::clamp(static_cast<double>(done), 0.0, 1.0) / 2);
+  }
+
+ private:
+  const LoadObserver& observer_;
+};
+
+constexpr double kFarthestVertex = 1e9;
+
+glm::vec3 toVec3(const aiVector3D& v) {
+  return {v.x, v.y, v.z};
 }
+
+// Assimp's matrices are rows.
+glm::mat4 toMatrix(const aiMatrix4x4& m) {
+  return glm::transpose(glm::make_mat4(&m.a1));
+}
+
+class AssimpReader {
+ public:
+  AssimpReader(const aiScene& scene, std::uint32_t colorlessLine, ModelFiles& files, Diagnostics& diagnostics,
+               Model& model)
+      : scene_(scene),
+        colorlessLine_(colorlessLine),
+        files_(files),
+        diagnostics_(diagnostics),
+        model_(model),
+        builder_(model),
+        pool_(diagnostics) {}
+
+  bool read(const LoadObserver& observer, const DecodeRunner& decode) {
+    const std::size_t before = diagnostics_.errorCount();
+    if (!readNodes()) return false;
+    for (unsigned i = 0; i < scene_.mNumMaterials; ++i) {
+      if (observer && !observer(LoadStage::decoding, 0.5)) return false;
+      for (const std::string& name : imagesOf(*scene_.mMaterials[i])) numberOf(name);
+    }
+    if (!pool_.decodeAll(decode, observer, 0.5)) return false;
+    for (unsigned i = 0; i < scene_.mNumMaterials; ++i) readMaterial(*scene_.mMaterials[i]);
+    model_.textures = pool_.take();
+    for (const auto& [node, row] : nodeRows_)
+      for (unsigned i = 0; i < node->mNumMeshes; ++i)
+        if (!readInstance(node->mMeshes[i], row)) return false;
+    std::ranges::stable_sort(model_.instances, {}, &ModelInstance::node);
+    readAnimations();
+    if (scene_.mNumLights > 0)
+      leaveOut("the lights of the model were left out: the format says no unit of their brightness",
+               "give the scene file a 'sun' and 'lamps'");
+    return diagnostics_.errorCount() == before;
+  }
+
+ private:
+  void fail(std::string message, std::string expected, std::string found = "", std::string hint = "") {
+    diagnostics_.add({.code = Code::badModelValue,
+                      .message = std::move(message),
+                      .place = files_.place(),
+                      .expected = std::move(expected),
+                      .found = std::move(found),
+                      .hint = std::move(hint)});
+  }
+  void leaveOut(std::string message, std::string hint) {
+    diagnostics_.warning(Code::modelPartLeftOut, files_.place(), std::move(message)).hint = std::move(hint);
+  }
+
+  bool readNodes() {
+    std::vector<std::pair<const aiNode*, std::uint32_t>> work{{scene_.mRootNode, kNoRow}};
+    while (!work.empty()) {
+      const auto [from, parent] = work.back();
+      work.pop_back();
+      ModelNode node;
+      node.name = from->mName.C_Str();
+      node.parent = parent;
+      if (!decompose(toMatrix(from->mTransformation), node.local)) {
+        fail(fmt::format("the matrix of node '{}' is none of translation, rotation and scale", node.name),
+             "a matrix without shear, of finite numbers");
+        return false;
+      }
+      const auto row = static_cast<std::uint32_t>(model_.nodes.size());
+      rowByName_.emplace(node.name, row);
+      nodeRows_.emplace_back(from, row);
+      model_.nodes.push_back(std::move(node));
+      for (unsigned c = from->mNumChildren; c-- > 0;) work.emplace_back(from->mChildren[c], row);
+    }
+    return true;
+  }
+
+  static std::string imageOf(const aiMaterial& material, aiTextureType type) {
+    aiString path;
+    return material.GetTexture(type, 0, &path) == aiReturn_SUCCESS ? path.C_Str() : "";
+  }
+  static constexpr aiTextureType kColorMaps[] = {aiTextureType_DIFFUSE, aiTextureType_BASE_COLOR};
+  static constexpr aiTextureType kNormalMaps[] = {aiTextureType_NORMALS, aiTextureType_HEIGHT};
+
+  // What readMaterial() will use: of two that stand for the same, the first.
+  static std::vector<std::string> imagesOf(const aiMaterial& material) {
+    std::vector<std::string> names = {imageOf(material, aiTextureType_EMISSIVE)};
+    for (const auto& types : {kColorMaps, kNormalMaps}) {
+      const std::string first = imageOf(material, types[0]);
+      names.push_back(first.empty() ? imageOf(material, types[1]) : first);
+    }
+    std::erase(names, "");
+    return names;
+  }
+
+  std::uint32_t mapOf(const aiMaterial& material, aiTextureType type, bool srgb) {
+    const std::string name = imageOf(material, type);
+    return name.empty() ? kNoRow : pool_.add(decodedNumberOf(name), name, srgb);
+  }
+
+  // In the pool; kNoRow for an image that cannot be read.
+  std::uint32_t numberOf(const std::string& name) {
+    auto known = images_.find(name);
+    if (known == images_.end()) known = images_.emplace(name, readImage(name)).first;
+    return known->second;
+  }
+  std::uint32_t decodedNumberOf(const std::string& name) {
+    const std::uint32_t number = numberOf(name);
+    pool_.decodeAll({}, {});  // of one that takes the place of another, which could not be read
+    return number;
+  }
+
+  // The image of a texture: embedded, or beside the model, by its own name if its path leads elsewhere (models often keep
+  // the paths of the machine that they were made on).
+  std::uint32_t readImage(const std::string& given) {
+    if (const aiTexture* embedded = scene_.GetEmbeddedTexture(given.c_str())) {
+      if (embedded->mHeight == 0)
+        return pool_.put(std::string(reinterpret_cast<const char*>(embedded->pcData), embedded->mWidth),
+                         given, files_.place());
+      pool_.reportMissing(given, "it is packed without a file format", files_.place());
+      return kNoRow;
+    }
+    std::string name = given;
+    std::ranges::replace(name, '\\', '/');
+    if (!files_.hasBeside(name)) name = name.substr(name.rfind('/') + 1);
+    auto bytes = files_.readOptional(name, files_.place(), Code::missingModelTexture, false);
+    return bytes ? pool_.put(std::move(*bytes), name, files_.place()) : kNoRow;
+  }
+
+  static float unitOf(float value, float otherwise) {
+    return std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) : otherwise;
+  }
+  static glm::vec3 colorOf(const aiMaterial& from, const char* key, unsigned type, unsigned index,
+                           glm::vec3 otherwise) {
+    aiColor3D color;
+    if (from.Get(key, type, index, color) != aiReturn_SUCCESS) return otherwise;
+    return {unitOf(color.r, 0), unitOf(color.g, 0), unitOf(color.b, 0)};
+  }
+
+  void readMaterial(const aiMaterial& from) {
+    Material material;
+    material.name = from.GetName().C_Str();
+    material.albedo = colorOf(from, AI_MATKEY_COLOR_DIFFUSE, {0.6f, 0.6f, 0.6f});
+    material.specular = colorOf(from, AI_MATKEY_COLOR_SPECULAR, {0, 0, 0});
+    material.emissive = colorOf(from, AI_MATKEY_COLOR_EMISSIVE, {0, 0, 0});
+    float shininess = 0, strength = 1, opacity = 1, metallic = 0, roughness = 0;
+    from.Get(AI_MATKEY_SHININESS, shininess);
+    if (from.Get(AI_MATKEY_SHININESS_STRENGTH, strength) == aiReturn_SUCCESS && std::isfinite(strength))
+      for (int c = 0; c < 3; ++c) material.specular[c] = unitOf(material.specular[c] * strength, 0);
+    if (from.Get(AI_MATKEY_OPACITY, opacity) == aiReturn_SUCCESS) material.alpha = unitOf(opacity, 1);
+    material.blend = material.alpha < 1;
+    material.shininess = std::isfinite(shininess) ? std::clamp(shininess, 0.0f, 10000.0f) : 0;
+    int both = 0;
+    material.doubleSided = from.Get(AI_MATKEY_TWOSIDED, both) == aiReturn_SUCCESS && both != 0;
+    if (from.Get(AI_MATKEY_ROUGHNESS_FACTOR, roughness) == aiReturn_SUCCESS) {
+      from.Get(AI_MATKEY_METALLIC_FACTOR, metallic);
+      material.metallic = unitOf(metallic, 0);
+      material.roughness = unitOf(roughness, 0.5f);
+    } else {
+      toMetallicRoughness(material);
+    }
+    material.albedoMap = mapOf(from, kColorMaps[0], true);
+    if (material.albedoMap == kNoRow) material.albedoMap = mapOf(from, kColorMaps[1], true);
+    material.emissiveMap = mapOf(from, aiTextureType_EMISSIVE, true);
+    material.normalMap = mapOf(from, kNormalMaps[0], false);
+    if (material.normalMap == kNoRow) material.normalMap = normalMapOf(from);
+    model_.materials.push_back(std::move(material));
+  }
+
+  // A bump map of OBJ is a height, but most exporters write normal maps there: taken where it is blue.
+  std::uint32_t normalMapOf(const aiMaterial& from) {
+    const std::string name = imageOf(from, kNormalMaps[1]);
+    const std::uint32_t number = name.empty() ? kNoRow : decodedNumberOf(name);
+    const Image8* image = number == kNoRow ? nullptr : pool_.image(number);
+    if (!image) return kNoRow;
+    double sums[3] = {};
+    for (std::size_t i = 0; i < image->texels.size(); ++i)
+      if (i % 4 < 3) sums[i % 4] += image->texels[i];
+    if (sums[2] > 1.2 * sums[0] && sums[2] > 1.2 * sums[1]) return pool_.add(number, name, false);
+    leaveOut(fmt::format("the bump map '{}' was left out: it holds heights, not normals", name),
+             "make a normal map of it");
+    return kNoRow;
+  }
+
+  static float brightestOf(const glm::vec3& color) { return std::max({color.x, color.y, color.z}); }
+
+  // The exponent of Blinn–Phong as the width of GGX: alpha² = 2 / (n + 2) (Walter et al. 2007), alpha = roughness². What
+  // has no diffuse colour but a bright highlight is taken for metal.
+  static void toMetallicRoughness(Material& material) {
+    material.blinnPhong = true;
+    material.roughness = std::pow(2 / (material.shininess + 2), 0.25f);
+    const float diffuse = brightestOf(material.albedo), specular = brightestOf(material.specular);
+    if (diffuse >= 0.04f || specular < 0.25f) return;
+    material.metallic = 1;
+    material.albedo = material.specular;
+  }
+
+  bool readInstance(unsigned index, std::uint32_t node) {
+    const aiMesh& from = *scene_.mMeshes[index];
+    if ((from.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0) return true;
+    auto known = meshes_.find(index);
+    if (known == meshes_.end()) {
+      const std::optional<std::uint32_t> row = readMesh(from, index);
+      if (!row) return false;
+      known = meshes_.emplace(index, *row).first;
+    }
+    const bool skinned = model_.meshes[known->second].skinned;
+    model_.instances.push_back({node, known->second, from.mMaterialIndex, skinned ? skins_[index] : kNoRow});
+    return true;
+  }
+
+  // Assimp 5.2.5 gives the colours of an OBJ file, in their order, to its first vertices.
+  bool hasColors(const aiMesh& mesh) {
+    if (!mesh.HasVertexColors(0)) return false;
+    if (colorlessLine_ == 0) return true;
+    if (std::exchange(saidColorless_, true)) return false;
+    base::Place place = files_.place();
+    place.line = colorlessLine_;
+    base::Diagnostic& d = diagnostics_.warning(Code::modelPartLeftOut, place,
+                                               "the vertex colours were left out: some vertices have none");
+    d.expected = "three numbers of colour behind the position in every line 'v', or in none";
+    d.found = "a line without them";
+    d.hint = "export the mesh again, with a colour for every vertex";
+    return false;
+  }
+  // Neither format says what its colours are; other programs take them for sRGB (Blender 3.4 and later, three.js).
+  static glm::vec4 toLinear(const aiColor4D& color) {
+    const auto linear = [](float c) { return decodeSrgb(std::clamp(c, 0.0f, 1.0f)); };
+    return {linear(color.r), linear(color.g), linear(color.b), std::clamp(color.a, 0.0f, 1.0f)};
+  }
+
+  std::optional<std::uint32_t> readMesh(const aiMesh& from, unsigned index) {
+    const std::uint64_t corners = std::uint64_t{from.mNumFaces} * 3;
+    if (!builder_.hasRoom(from.HasNormals() ? from.mNumVertices : corners, corners, files_.place(),
+                          diagnostics_))
+      return {};
+    RawMesh mesh;
+    mesh.name = from.mName.C_Str();
+    mesh.join = true;
+    const bool colored = hasColors(from);
+    mesh.normals = from.HasNormals();
+    mesh.colors = colored;
+    for (unsigned v = 0; v < from.mNumVertices; ++v) {
+      const glm::vec3 position = toVec3(from.mVertices[v]);
+      const aiVector3D uv = from.HasTextureCoords(0) ? from.mTextureCoords[0][v] : aiVector3D();
+      const aiColor4D color = colored ? from.mColors[0][v] : aiColor4D();
+      for (const float c :
+           {position[0], position[1], position[2], uv.x, uv.y, color.r, color.g, color.b, color.a})
+        if (!(std::abs(c) <= kFarthestVertex)) {
+          fail(fmt::format("vertex {} of mesh '{}' is no number that can be used", v, mesh.name),
+               fmt::format("finite numbers within {}", kFarthestVertex), fmt::format("{}", c),
+               "repair the mesh and export it again");
+          return {};
+        }
+      RawVertex& out = mesh.vertices.emplace_back(RawVertex{.position = position});
+      if (from.HasNormals()) out.normal = toVec3(from.mNormals[v]);
+      if (from.HasTextureCoords(0)) out.uv = {uv.x, 1 - uv.y};  // Assimp's v goes up
+      if (colored) out.color = toLinear(color);
+    }
+    for (unsigned f = 0; f < from.mNumFaces; ++f) {
+      const aiFace& face = from.mFaces[f];
+      if (face.mNumIndices != 3) continue;
+      for (unsigned i = 0; i < 3; ++i) {
+        if (face.mIndices[i] >= from.mNumVertices) {
+          fail(fmt::format("a face of mesh '{}' names a vertex that is not there", mesh.name),
+               fmt::format("an index below {}", from.mNumVertices), fmt::format("{}", face.mIndices[i]));
+          return {};
+        }
+        mesh.indices.push_back(face.mIndices[i]);
+      }
+    }
+    readBones(from, index, mesh);
+    return builder_.add(std::move(mesh));
+  }
+
+  void readBones(const aiMesh& from, unsigned index, RawMesh& mesh) {
+    if (from.mNumBones == 0 || from.mNumBones > 65535) return;
+    ModelSkin skin;
+    mesh.skinned = true;
+    std::vector<std::array<std::uint32_t, 8>> joints(from.mNumVertices);
+    std::vector<std::array<float, 8>> weights(from.mNumVertices);
+    for (unsigned b = 0; b < from.mNumBones; ++b) {
+      const aiBone& bone = *from.mBones[b];
+      const auto node = rowByName_.find(bone.mName.C_Str());
+      skin.joints.push_back(node == rowByName_.end() ? 0 : node->second);
+      skin.inverseBind.push_back(toMatrix(bone.mOffsetMatrix));
+      for (unsigned w = 0; w < bone.mNumWeights; ++w) {
+        const aiVertexWeight& weight = bone.mWeights[w];
+        if (weight.mVertexId >= from.mNumVertices || !(weight.mWeight > 0) || !std::isfinite(weight.mWeight))
+          continue;
+        auto& mine = weights[weight.mVertexId];
+        const auto least = static_cast<std::size_t>(std::ranges::min_element(mine) - mine.begin());
+        if (mine[least] >= weight.mWeight) continue;
+        mine[least] = weight.mWeight;
+        joints[weight.mVertexId][least] = b;
+      }
+    }
+    for (unsigned v = 0; v < from.mNumVertices; ++v) mesh.vertices[v].skin = heaviest(joints[v], weights[v]);
+    skins_[index] = static_cast<std::uint32_t>(model_.skins.size());
+    model_.skins.push_back(std::move(skin));
+  }
+
+  template <class Key, class Value>
+  static void addTrack(const Key* keys, unsigned count, double perSecond, std::uint32_t node, TrackPath path,
+                       const Value& value, ModelAnimation& out) {
+    ModelTrack track{.node = node, .path = path};
+    for (unsigned k = 0; k < count; ++k) {
+      const auto time = static_cast<float>(keys[k].mTime / perSecond);
+      const glm::vec4 v = value(keys[k].mValue);
+      const bool finite = std::isfinite(time) && isFinite(v);
+      if (!finite || (!track.times.empty() && time < track.times.back())) continue;
+      track.times.push_back(time);
+      track.values.push_back(v);
+    }
+    if (track.times.empty()) return;
+    out.duration = std::max(out.duration, track.times.back());
+    out.tracks.push_back(std::move(track));
+  }
+
+  void readAnimations() {
+    for (unsigned a = 0; a < scene_.mNumAnimations; ++a) {
+      const aiAnimation& from = *scene_.mAnimations[a];
+      ModelAnimation animation;
+      animation.name = from.mName.C_Str();
+      const double perSecond = from.mTicksPerSecond > 0 ? from.mTicksPerSecond : 25;
+      for (unsigned c = 0; c < from.mNumChannels; ++c) {
+        const aiNodeAnim& channel = *from.mChannels[c];
+        const auto node = rowByName_.find(channel.mNodeName.C_Str());
+        if (node == rowByName_.end()) continue;
+        const auto vector = [](const aiVector3D& v) { return glm::vec4{v.x, v.y, v.z, 0}; };
+        const auto rotation = [](aiQuaternion q) {
+          q.Normalize();
+          return glm::vec4{q.x, q.y, q.z, q.w};
+        };
+        addTrack(channel.mPositionKeys, channel.mNumPositionKeys, perSecond, node->second,
+                 TrackPath::translation, vector, animation);
+        addTrack(channel.mRotationKeys, channel.mNumRotationKeys, perSecond, node->second,
+                 TrackPath::rotation, rotation, animation);
+        addTrack(channel.mScalingKeys, channel.mNumScalingKeys, perSecond, node->second, TrackPath::scale,
+                 vector, animation);
+      }
+      model_.animations.push_back(std::make_shared<const ModelAnimation>(std::move(animation)));
+    }
+  }
+
+  const aiScene& scene_;
+  std::uint32_t colorlessLine_;
+  ModelFiles& files_;
+  Diagnostics& diagnostics_;
+  Model& model_;
+  MeshBuilder builder_;
+  TexturePool pool_;
+  std::vector<std::pair<const aiNode*, std::uint32_t>> nodeRows_;
+  std::map<std::string, std::uint32_t, std::less<>> rowByName_;
+  std::map<std::string, std::uint32_t> images_;  // numbers in the pool
+  std::map<unsigned, std::uint32_t> meshes_, skins_;
+  bool saidColorless_ = false;
+};
 
 bool checkBefore(const std::string& bytes, bool obj, ModelCounts& counts, ModelFiles& files,
                  Diagnostics& diagnostics) {
@@ -66,9 +498,8 @@ bool hasEndlessFace(const aiScene& scene) {
 
 }  // namespace
 
-bool readWithAssimp(std::string bytes, ModelFiles& files, const LoadObserver& observer,
+bool readWithAssimp(std::string bytes, bool obj, ModelFiles& files, const LoadObserver& observer,
                     const DecodeRunner& decode, Diagnostics& diagnostics, Model& model) {
-  const bool obj = isObj(files.path());
   ModelCounts counts;
   if (!checkBefore(bytes, obj, counts, files, diagnostics)) return false;
   const std::size_t before = diagnostics.errorCount();
@@ -93,7 +524,7 @@ bool readWithAssimp(std::string bytes, ModelFiles& files, const LoadObserver& ob
   if (hasEndlessFace(*scene)) return unreadable("a face of it has more than 4096 corners");
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
   if (!scene) return unreadable(importer.GetErrorString());
-  return readAssimpScene(*scene, counts.colorlessLine, files, observer, decode, diagnostics, model);
+  return AssimpReader(*scene, counts.colorlessLine, files, diagnostics, model).read(observer, decode);
 }
 
 }  // namespace weft::assets

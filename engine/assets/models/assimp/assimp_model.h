@@ -10,8 +10,8 @@
 
 namespace weft::assets {
 
-// False after errors, or when `observer` gave up.
-bool readWithAssimp(std::string bytes, ModelFiles& files, const LoadObserver& observer,
+// `obj`: else FBX. False after errors, or when `observer` gave up.
+bool readWithAssimp(std::string bytes, bool obj, ModelFiles& files, const LoadObserver& observer,
                     const DecodeRunner& decode, base::Diagnostics& diagnostics, Model& model);
 
 }  // namespace weft::assets

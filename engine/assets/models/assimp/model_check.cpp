@@ -41,28 +41,25 @@ T load(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-// A circle among edges from child to parent.
+// A circle among edges from child to parent. Kahn, 1962: what is left when everything without a parent was taken away lies on
+// circles or below them.
 bool hasCircle(const std::vector<std::pair<std::int64_t, std::int64_t>>& edges) {
-  std::unordered_map<std::int64_t, std::vector<std::int64_t>> children;
-  std::unordered_map<std::int64_t, std::size_t> parents;
+  struct Node {
+    std::size_t parents = 0;
+    std::vector<std::int64_t> children;
+  };
+  std::unordered_map<std::int64_t, Node> nodes;
   for (const auto& [child, parent] : edges) {
-    children[parent].push_back(child);
-    ++parents[child];
-    parents.try_emplace(parent, 0);
+    ++nodes[child].parents;
+    nodes[parent].children.push_back(child);
   }
-  // Kahn, 1962: what is left when everything without a parent was taken away lies on circles or below them.
-  std::vector<std::int64_t> work;
-  std::size_t taken = 0;
-  for (const auto& [id, count] : parents)
-    if (count == 0) work.push_back(id);
-  while (!work.empty()) {
-    const std::int64_t id = work.back();
-    work.pop_back();
-    ++taken;
-    for (const std::int64_t child : children[id])
-      if (--parents[child] == 0) work.push_back(child);
-  }
-  return taken != parents.size();
+  std::vector<std::int64_t> taken;
+  for (const auto& [id, node] : nodes)
+    if (node.parents == 0) taken.push_back(id);
+  for (std::size_t i = 0; i < taken.size(); ++i)
+    for (const std::int64_t child : nodes[taken[i]].children)
+      if (--nodes[child].parents == 0) taken.push_back(child);
+  return taken.size() != nodes.size();
 }
 
 ModelProblem circleProblem() {
@@ -131,7 +128,8 @@ class FbxWalk {
   FbxWalk(std::string_view bytes, ModelCounts& counts) : bytes_(bytes), counts_(counts) {}
 
   ModelProblem check() {
-    if (bytes_.size() < 27) return early(27);
+    if (bytes_.size() < 27)
+      return {"the file ends early", "27 bytes at least", fmt::format("{} bytes", bytes_.size())};
     const bool wide = load<std::uint32_t>(bytes_, 23) >= 7500;
     word_ = wide ? 8 : 4;
     std::vector<std::size_t> ends{bytes_.size()};  // of the records that are open
@@ -168,10 +166,6 @@ class FbxWalk {
  private:
   std::uint64_t word(std::size_t at) const {
     return word_ == 8 ? load<std::uint64_t>(bytes_, at) : load<std::uint32_t>(bytes_, at);
-  }
-  ModelProblem early(std::size_t wanted) const {
-    return {"the file ends early", fmt::format("{} bytes at least", wanted),
-            fmt::format("{} bytes", bytes_.size()), 0};
   }
   static ModelProblem strays(std::size_t at) {
     return {"a record of it reaches beyond what it stands in", "records inside each other",

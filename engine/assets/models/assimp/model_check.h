@@ -1,7 +1,7 @@
 // What Assimp 5.2.5 does not survive, or answers with minutes and gigabytes: OBJ files of one endless line, faces of a
 // million corners or of vertices that are not there; FBX files whose records reach beyond the file, nest without end, unpack
 // to more than memory, or whose nodes are their own ancestors. These functions walk a file's structure without making
-// anything of it. Does not: validate what Assimp itself reports. Internal to the folder.
+// anything of it. Internal to the folder.
 #pragma once
 
 #include <cstdint>

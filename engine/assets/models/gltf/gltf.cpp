@@ -3,16 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <glm/gtc/type_ptr.hpp>
 #include <map>
+#include <numbers>
+#include <optional>
 #include <tuple>
 
-#include "engine/assets/models/gltf/gltf_materials.h"
-#include "engine/assets/models/gltf/gltf_nodes.h"
+#include "engine/assets/models/gltf/gltf_document.h"
 #include "engine/assets/models/parts/mesh_builder.h"
 
 namespace weft::assets {
 
+using base::Code;
 using base::Diagnostics;
 using base::JsonValue;
 
@@ -20,321 +24,654 @@ namespace {
 
 constexpr float kFarthest = 1e9f;  // as of everything in a scene
 
+// Which uv set a material's maps are looked up with, and how they are moved: KHR_texture_transform. One for all maps of a
+// material, because a vertex has one uv; maps that want another are left out, with W168.
+struct GltfUv {
+  std::uint32_t set = 0;
+  std::array<float, 2> offset{0, 0}, scale{1, 1};
+  float rotation = 0;  // radians
+  friend bool operator==(const GltfUv&, const GltfUv&) = default;
+};
+
+constexpr struct {
+  std::string_view object, key;  // in a material; "" for the material itself
+  bool srgb;
+  std::uint32_t Material::*map;
+} kMaps[] = {{"pbrMetallicRoughness", "baseColorTexture", true, &Material::albedoMap},
+             {"pbrMetallicRoughness", "metallicRoughnessTexture", false, &Material::metallicRoughnessMap},
+             {"", "normalTexture", false, &Material::normalMap},
+             {"", "occlusionTexture", false, &Material::occlusionMap},
+             {"", "emissiveTexture", true, &Material::emissiveMap}};
+
 class GltfReader {
  public:
-  GltfReader(GltfDocument& document, ModelFiles& files, Diagnostics& diagnostics, Model& model)
-      : document_(document), files_(files), diagnostics_(diagnostics), model_(model), builder_(model) {}
+  GltfReader(GltfDocument& document, ModelFiles& files, Diagnostics& diagnostics, Model& model,
+             const LoadObserver& observer)
+      : document_(document),
+        files_(files),
+        diagnostics_(diagnostics),
+        model_(model),
+        observer_(observer),
+        builder_(model),
+        pool_(diagnostics),
+        rows_(document.rows("nodes")) {}
 
-  bool read(const LoadObserver& observer, const DecodeRunner& decode) {
-    const std::size_t before = diagnostics_.errorCount();
-    if (!readGltfNodes(document_, model_, nodes_) || !readGltfSkins(document_, nodes_, model_)) return false;
-    TexturePool pool(diagnostics_);
-    auto materials = readGltfMaterials(document_, files_, pool, observer, decode, diagnostics_);
-    if (!materials) return false;
-    uvs_ = std::move(materials->uvs);
-    model_.materials = std::move(materials->materials);
-    model_.textures = pool.take();
-    const std::vector<JsonValue>& rows = document_.rows("nodes");
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (observer &&
-          !observer(LoadStage::converting, static_cast<double>(i) / static_cast<double>(rows.size())))
-        return false;
-      if (nodes_.shown[i] && !readInstances(rows[i], nodes_.rowOf[i])) return false;
+  void read(const DecodeRunner& decode) {
+    readNodes();
+    findShown();
+    for (const JsonValue& row : document_.rows("skins")) readSkin(row);
+    readMaterials(decode);
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      goOn(LoadStage::converting, static_cast<double>(i) / static_cast<double>(rows_.size()));
+      if (shown_[i]) readInstances(rows_[i], rowOf_[i]);
     }
-    return readGltfLights(document_, nodes_, diagnostics_, model_) &&
-           readGltfAnimations(document_, files_, nodes_, model_) && diagnostics_.errorCount() == before;
+    readLights();
+    for (const JsonValue& row : document_.rows("animations")) readAnimation(row);
   }
 
  private:
+  void goOn(LoadStage stage, double done) const {
+    GltfDocument::refuseUnless(!observer_ || observer_(stage, done));
+  }
+
+  // --- nodes and skins
+
+  ModelNode readNode(const JsonValue& value, std::size_t number) {
+    ModelNode node;
+    node.name = textOf(value, "name", fmt::format("node {}", number));
+    glm::mat4 matrix(0);
+    if (document_.numbers(value, "matrix", {&matrix[0].x, 16})) {
+      if (!decompose(matrix, node.local))
+        document_.fail(
+            *value.find("matrix"),
+            fmt::format("the matrix of node {} is none of translation, rotation and scale", number),
+            "a matrix without shear, of finite numbers");
+      return node;
+    }
+    glm::vec4 rotation(0, 0, 0, 1);
+    document_.numbers(value, "translation", {&node.local.translation.x, 3});
+    document_.numbers(value, "scale", {&node.local.scale.x, 3});
+    document_.numbers(value, "rotation", {&rotation.x, 4});
+    if (!normalizeRotation(rotation))
+      document_.fail(*value.find("rotation"), fmt::format("the rotation of node {} has no length", number),
+                     "a quaternion x, y, z, w");
+    node.local.rotation = toRotation(rotation);
+    return node;
+  }
+
+  // Parents before their children: rowOf_ takes a node of the file to its row.
+  void readNodes() {
+    std::vector<std::uint32_t> parents(rows_.size(), kNoRow), work;
+    for (std::uint32_t i = 0; i < rows_.size(); ++i)
+      for (const JsonValue& item : itemsOf(rows_[i], "children")) {
+        std::uint32_t& parent = parents[document_.index("nodes", item)];
+        if (parent != kNoRow)
+          document_.fail(item, fmt::format("a node cannot be a child of node {}", i),
+                         "one parent for each node", fmt::format("a child of node {} already", parent));
+        parent = i;
+      }
+    rowOf_.assign(rows_.size(), kNoRow);
+    for (std::size_t i = rows_.size(); i-- > 0;)
+      if (parents[i] == kNoRow) work.push_back(static_cast<std::uint32_t>(i));
+    while (!work.empty()) {
+      const std::uint32_t at = work.back();
+      work.pop_back();
+      ModelNode node = readNode(rows_[at], at);
+      if (parents[at] != kNoRow) node.parent = rowOf_[parents[at]];
+      rowOf_[at] = static_cast<std::uint32_t>(model_.nodes.size());
+      model_.nodes.push_back(std::move(node));
+      const std::vector<JsonValue>& children = itemsOf(rows_[at], "children");
+      for (std::size_t c = children.size(); c-- > 0;) work.push_back(document_.index("nodes", children[c]));
+    }
+    if (const auto missing = std::ranges::find(rowOf_, kNoRow); missing != rowOf_.end())
+      document_.fail(rows_[static_cast<std::size_t>(missing - rowOf_.begin())],
+                     fmt::format("node {} is its own ancestor", missing - rowOf_.begin()),
+                     "nodes that form trees", "a circle of children");
+  }
+
+  // What the scene shows: its roots and all below. Without a scene everything.
+  void findShown() {
+    const std::vector<JsonValue>& scenes = document_.rows("scenes");
+    shown_.assign(rows_.size(), scenes.empty());
+    if (scenes.empty()) return;
+    const JsonValue* chosen = document_.root().find("scene");
+    std::vector<std::uint32_t> work;
+    const auto add = [&](const JsonValue& of, std::string_view key) {
+      for (const JsonValue& item : itemsOf(of, key)) work.push_back(document_.index("nodes", item));
+    };
+    add(scenes[chosen ? document_.index("scenes", *chosen) : 0], "nodes");
+    while (!work.empty()) {
+      const std::uint32_t at = work.back();
+      work.pop_back();
+      if (!shown_[at]) add(rows_[at], "children");
+      shown_[at] = true;
+    }
+  }
+
+  void readSkin(const JsonValue& row) {
+    ModelSkin& skin = model_.skins.emplace_back();
+    const std::vector<JsonValue>& joints = itemsOf(row, "joints");
+    if (joints.empty() || joints.size() > 65535)
+      document_.fail(row, "a skin has no joints, or too many", "1 to 65535 joints");
+    for (const JsonValue& item : joints) skin.joints.push_back(rowOf_[document_.index("nodes", item)]);
+    skin.inverseBind.assign(joints.size(), glm::mat4(1));
+    const JsonValue* matrices = row.find("inverseBindMatrices");
+    if (!matrices) return;
+    const GltfAccessor accessor = document_.accessor(*matrices, "MAT4", true);
+    if (accessor.count < joints.size() || accessor.count > 65536 || accessor.type != 5126)
+      document_.fail(*matrices, "the skin's matrices do not fit its joints",
+                     fmt::format("{} matrices of floats", joints.size()),
+                     fmt::format("{}, componentType {}", accessor.count, accessor.type));
+    const std::vector<float> values = document_.read<float>(accessor);
+    if (!std::ranges::all_of(values, [](float v) { return std::isfinite(v); }))
+      document_.fail(*matrices, "a matrix of the skin holds what is no number", "finite numbers");
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      skin.inverseBind[j] = glm::make_mat4(values.data() + 16 * j);
+  }
+
+  // --- materials
+
+  static Material defaultMaterial(std::string name) {
+    Material material;
+    material.name = std::move(name);
+    material.albedo = glm::vec3(1);
+    material.metallic = material.roughness = 1;
+    return material;
+  }
+
+  void readMaterials(const DecodeRunner& decode) {
+    const std::size_t before = diagnostics_.errorCount();
+    const std::vector<JsonValue>& rows = document_.rows("materials");
+    images_.resize(document_.rows("images").size());
+    for (const JsonValue& row : rows) {
+      goOn(LoadStage::decoding, 0);
+      for (const auto& map : kMaps)
+        if (const JsonValue* info = infoOf(row, map.object, map.key)) imageOf(textureOf(*info));
+    }
+    GltfDocument::refuseUnless(diagnostics_.errorCount() == before && pool_.decodeAll(decode, observer_));
+    for (std::size_t i = 0; i < rows.size(); ++i) readMaterial(rows[i], i);
+    model_.materials.push_back(defaultMaterial("default"));
+    uvs_.emplace_back();
+    model_.textures = pool_.take();
+  }
+
+  static const JsonValue* infoOf(const JsonValue& material, std::string_view object, std::string_view key) {
+    return object.empty() ? material.find(key) : valueOf(material, {object, key});
+  }
+
+  const JsonValue& textureOf(const JsonValue& info) {
+    return document_.rows("textures")[document_.index("textures", document_.need(info, "index"))];
+  }
+
+  struct Image {
+    bool tried = false;
+    std::uint32_t number = kNoRow;  // in the pool
+    std::string name = "missing";
+  };
+
+  // Put into the pool once.
+  const Image& imageOf(const JsonValue& texture) {
+    static const Image kNone;
+    const JsonValue* source = texture.find("source");
+    if (!source) return kNone;
+    const std::uint32_t row = document_.index("images", *source);
+    Image& image = images_[row];
+    if (std::exchange(image.tried, true)) return image;
+    const JsonValue& value = document_.rows("images")[row];
+    const JsonValue *uri = value.find("uri"), *view = value.find("bufferView");
+    image.name = textOf(value, "name", fmt::format("image {}", row));
+    const JsonValue& where = uri ? *uri : view ? *view : value;
+    std::optional<std::string> bytes;
+    if (uri && uri->text.starts_with("data:")) {
+      bytes = decodeDataUri(uri->text);
+      if (!bytes) pool_.reportMissing(image.name, "its base64 is damaged", where.place);
+      GltfDocument::refuseUnless(!bytes || files_.count(bytes->size(), where.place));
+    } else if (uri) {
+      image.name = uri->text;
+      bytes = files_.readOptional(uri->text, where.place, Code::missingModelTexture, true);
+    } else if (view) {
+      bytes = std::string(document_.view(*view).bytes);
+    } else {
+      pool_.reportMissing(image.name, "it has neither 'uri' nor 'bufferView'", where.place);
+    }
+    if (bytes) image.number = pool_.put(std::move(*bytes), image.name, where.place);
+    return image;
+  }
+
+  GltfUv readUv(const JsonValue& info) {
+    GltfUv uv;
+    uv.set = static_cast<std::uint32_t>(document_.number(info, "texCoord", 0, 0, 63));
+    const JsonValue* transform = valueOf(info, {"extensions", "KHR_texture_transform"});
+    if (!transform) return uv;
+    document_.numbers(*transform, "offset", uv.offset);
+    document_.numbers(*transform, "scale", uv.scale);
+    uv.rotation = document_.number(*transform, "rotation", 0, -1e6, 1e6);
+    uv.set = static_cast<std::uint32_t>(document_.number(*transform, "texCoord", uv.set, 0, 63));
+    return uv;
+  }
+
+  void readMaterial(const JsonValue& value, std::size_t number) {
+    Material material = defaultMaterial(textOf(value, "name", fmt::format("material {}", number)));
+    std::optional<GltfUv> uv;
+    for (const auto& map : kMaps) {
+      const JsonValue* info = infoOf(value, map.object, map.key);
+      if (!info) continue;
+      const GltfUv mine = readUv(*info);
+      if (uv.value_or(mine) != mine) {
+        document_.leaveOut(*info, fmt::format("'{}' of material {} was left out", map.key, number),
+                           "one set of texture coordinates and one transform for all maps of a material",
+                           "another one than that of its first map");
+        continue;
+      }
+      uv = mine;
+      const JsonValue& texture = textureOf(*info);
+      if (!texture.find("source"))
+        pool_.reportMissing("a texture", "it names no image that Weft can read", texture.place);
+      const Image& image = imageOf(texture);
+      material.*map.map = pool_.add(image.number, image.name, map.srgb);
+    }
+    uvs_.push_back(uv.value_or(GltfUv{}));
+    const auto numberOf = [&](std::initializer_list<std::string_view> object, std::string_view key,
+                              double otherwise, double min, double max) {
+      const JsonValue* of = valueOf(value, object);
+      return of ? document_.number(*of, key, otherwise, min, max) : static_cast<float>(otherwise);
+    };
+    std::array<float, 4> factor{1, 1, 1, 1};
+    if (const JsonValue* pbr = value.find("pbrMetallicRoughness"))
+      document_.numbers(*pbr, "baseColorFactor", factor);
+    material.albedo = {factor[0], factor[1], factor[2]};
+    material.metallic = numberOf({"pbrMetallicRoughness"}, "metallicFactor", 1, 0, 1);
+    material.roughness = numberOf({"pbrMetallicRoughness"}, "roughnessFactor", 1, 0, 1);
+    material.normalScale = numberOf({"normalTexture"}, "scale", 1, -1e3, 1e3);
+    material.occlusionStrength = numberOf({"occlusionTexture"}, "strength", 1, 0, 1);
+    document_.numbers(value, "emissiveFactor", {&material.emissive.x, 3});
+    material.emissive *=
+        numberOf({"extensions", "KHR_materials_emissive_strength"}, "emissiveStrength", 1, 0, 1e9);
+    const std::string mode = textOf(value, "alphaMode");
+    material.blend = mode == "BLEND";
+    material.alpha = material.blend ? factor[3] : 1;
+    if (mode == "MASK") {
+      // The mask compares factor * texel; Weft's materials compare the texel.
+      const float cutoff = document_.number(value, "alphaCutoff", 0.5, 0, 1e3);
+      material.alphaCutoff = factor[3] > 0 ? cutoff / factor[3] : 2;
+    }
+    const JsonValue* both = value.find("doubleSided");
+    material.doubleSided = both && both->flag;
+    model_.materials.push_back(std::move(material));
+  }
+
+  // --- meshes
+
   struct Part {
     std::uint32_t mesh = kNoRow, material = 0;
     std::uint64_t joints = 0;  // that its vertices name, at least
   };
 
-  bool readInstances(const JsonValue& node, std::uint32_t row) {
-    const JsonValue* name = node.find("mesh");
-    if (!name) return true;
-    const auto mesh = document_.index("meshes", name);
-    if (!mesh) return false;
-    std::uint32_t skin = kNoRow;
-    if (const JsonValue* which = node.find("skin")) {
-      const auto found = document_.index("skins", which);
-      if (!found) return false;
-      skin = *found;
-    }
-    const std::vector<Part>* parts = partsOf(*mesh, skin != kNoRow, node);
-    if (!parts) return false;
-    for (const Part& part : *parts) {
+  void readInstances(const JsonValue& node, std::uint32_t row) {
+    const JsonValue *mesh = node.find("mesh"), *which = node.find("skin");
+    if (!mesh) return;
+    const std::uint32_t skin = which ? document_.index("skins", *which) : kNoRow;
+    for (const Part& part : partsOf(document_.index("meshes", *mesh), skin != kNoRow, node)) {
       const bool skinned = model_.meshes[part.mesh].skinned;
-      if (skinned && part.joints > model_.skins[skin].joints.size()) {
-        base::Diagnostic& d =
-            document_.fail(node, "vertices are moved by joints that the skin does not have");
-        d.expected = fmt::format("joints below {}", model_.skins[skin].joints.size());
-        d.found = fmt::format("joint {}", part.joints - 1);
-        return false;
-      }
+      if (skinned && part.joints > model_.skins[skin].joints.size())
+        document_.fail(node, "vertices are moved by joints that the skin does not have",
+                       fmt::format("joints below {}", model_.skins[skin].joints.size()),
+                       fmt::format("joint {}", part.joints - 1));
       model_.instances.push_back({row, part.mesh, part.material, skinned ? skin : kNoRow});
     }
-    return true;
-  }
-
-  // How far morph targets have moved a mesh when nothing animates it: as the node says, else as the mesh does.
-  bool readMorphWeights(const JsonValue& node, const JsonValue& mesh, std::vector<float>& weights) {
-    const JsonValue* own = node.find("weights");
-    const JsonValue* found = own ? own : mesh.find("weights");
-    if (!found) return true;
-    weights.resize(found->items.size());
-    return document_.numbers(own ? node : mesh, "weights", weights.size(), weights.data());
   }
 
   // A mesh is read once with its joints and once without, and once for each way in which it is morphed, where nodes use it
   // so.
-  const std::vector<Part>* partsOf(std::uint32_t mesh, bool skinned, const JsonValue& node) {
+  const std::vector<Part>& partsOf(std::uint32_t mesh, bool skinned, const JsonValue& node) {
     const JsonValue& value = document_.rows("meshes")[mesh];
-    std::vector<float> weights;
-    if (!readMorphWeights(node, value, weights)) return nullptr;
-    const auto key = std::tuple(mesh, skinned, weights);
-    const auto known = parts_.find(key);
-    if (known != parts_.end()) return &known->second;
-    std::vector<Part> parts;
-    const JsonValue* primitives = value.find("primitives");
-    std::string name = document_.text(value, "name");
-    if (name.empty()) name = fmt::format("mesh {}", mesh);
-    for (std::size_t i = 0; primitives && i < primitives->items.size(); ++i) {
-      Part part;
-      const std::string each = primitives->items.size() == 1 ? name : fmt::format("{}[{}]", name, i);
-      if (!readPrimitive(primitives->items[i], each, skinned, weights, part)) return nullptr;
-      if (part.mesh != kNoRow) parts.push_back(part);
+    // How far morph targets have moved a mesh when nothing animates it: as the node says, else as the mesh does.
+    const JsonValue& weighted = node.find("weights") ? node : value;
+    std::vector<float> weights(itemsOf(weighted, "weights").size());
+    document_.numbers(weighted, "weights", weights);
+    const auto [parts, isNew] = parts_.try_emplace({mesh, skinned, weights});
+    if (!isNew) return parts->second;
+    const std::string name = textOf(value, "name", fmt::format("mesh {}", mesh));
+    const std::vector<JsonValue>& primitives = itemsOf(value, "primitives");
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+      const std::string each = primitives.size() == 1 ? name : fmt::format("{}[{}]", name, i);
+      const Part part = readPrimitive(primitives[i], each, skinned, weights);
+      if (part.mesh != kNoRow) parts->second.push_back(part);
     }
-    return &parts_.emplace(key, std::move(parts)).first->second;
+    return parts->second;
   }
 
-  bool readPrimitive(const JsonValue& value, const std::string& name, bool skinned,
-                     const std::vector<float>& weights, Part& part) {
-    const JsonValue* attributes = value.find("attributes");
-    const JsonValue* positions = attributes ? attributes->find("POSITION") : nullptr;
-    const double mode = document_.number(value, "mode", 4, 0, 6);
+  Part readPrimitive(const JsonValue& value, const std::string& name, bool skinned,
+                     const std::vector<float>& weights) {
+    const JsonValue* positions = valueOf(value, {"attributes", "POSITION"});
+    const int mode = static_cast<int>(document_.number(value, "mode", 4, 0, 6));
     if (mode < 4 || !positions) {
       document_.leaveOut(value,
                          fmt::format("mesh '{}' was left out: {}", name,
                                      positions ? "points and lines are not drawn" : "it has no positions"));
-      return true;
+      return {};
     }
-    part.material = static_cast<std::uint32_t>(model_.materials.size() - 1);
-    if (const JsonValue* material = value.find("material")) {
-      const auto row = document_.index("materials", material);
-      if (!row) return false;
-      part.material = *row;
-    }
+    const JsonValue &attributes = *value.find("attributes"), *material = value.find("material"),
+                    *which = value.find("indices");
+    Part part;
+    part.material = material ? document_.index("materials", *material)
+                             : static_cast<std::uint32_t>(model_.materials.size() - 1);
+    count_ = document_.accessor(*positions, "VEC3", true).count;
+    std::optional<GltfAccessor> indices;
+    if (which) indices = document_.accessor(*which, "SCALAR", false);
+    const std::uint64_t corners = std::uint64_t{indices ? indices->count : count_} * (mode == 4 ? 1 : 3);
+    GltfDocument::refuseUnless(
+        builder_.hasRoom(attributes.find("NORMAL") ? count_ : corners, corners, value.place, diagnostics_));
     RawMesh mesh;
     mesh.name = name;
-    const GltfAccessor* accessor = document_.accessor(positions, "VEC3", true);
-    if (!accessor) return false;
-    count_ = accessor->count;
-    const GltfAccessor* indices = nullptr;
-    if (const JsonValue* which = value.find("indices")) {
-      indices = document_.accessor(which, "SCALAR", false);
-      if (!indices) return false;
-    }
-    const std::uint64_t corners = std::uint64_t{indices ? indices->count : count_} * (mode == 4 ? 1 : 3);
-    const bool flat = !attributes->find("NORMAL");
-    if (!builder_.hasRoom(flat ? corners : count_, corners, value.place, diagnostics_)) return false;
-    if (!readVectors(*positions, *accessor, "POSITION", kFarthest, mesh.positions)) return false;
-    if (!readAttributes(*attributes, part.material, mesh) || !readColors(*attributes, mesh)) return false;
-    if (const JsonValue* targets = value.find("targets"); targets && !morph(*targets, weights, mesh))
-      return false;
-    if (skinned && !readWeights(*attributes, mesh, part)) return false;
-    if (!readIndices(value, indices, static_cast<int>(mode), mesh)) return false;
+    mesh.vertices.resize(count_);
+    take(attribute<glm::vec3>(attributes, "POSITION", kFarthest), mesh, &RawVertex::position);
+    // Normals and tangents that are no numbers are made anew.
+    mesh.normals = take(attribute<glm::vec3>(attributes, "NORMAL", {}), mesh, &RawVertex::normal);
+    take(attribute<glm::vec4>(attributes, "TANGENT", {}), mesh, &RawVertex::tangent);
+    readUvs(attributes, uvs_[part.material], mesh);
+    readColors(attributes, mesh);
+    morph(value, weights, mesh);
+    if (skinned) part.joints = readWeights(attributes, mesh);
+    readIndices(value, indices, mode, mesh);
     if (!mesh.indices.empty()) part.mesh = builder_.add(std::move(mesh));
-    return true;
+    return part;
   }
 
-  // An attribute of the primitive: null when it is absent, or after an error.
-  const GltfAccessor* attribute(const JsonValue& attributes, const std::string& name, std::string_view kind,
-                                bool floats, bool& good) {
+  GltfAccessor vertexAccessor(const JsonValue& which, const std::string& name, std::string_view kind,
+                              bool floats) {
+    const GltfAccessor accessor = document_.accessor(which, kind, floats);
+    if (accessor.count != count_)
+      document_.fail(which, fmt::format("'{}' has not one value for each vertex", name),
+                     fmt::format("{} elements", count_), fmt::format("{}", accessor.count));
+    return accessor;
+  }
+
+  // One vector for each vertex of the primitive, within ±`most` if that is given; none where the attribute is absent.
+  template <class Vector>
+  std::vector<Vector> attribute(const JsonValue& attributes, const std::string& name,
+                                std::optional<float> most) {
+    constexpr std::size_t N = Vector::length();
     const JsonValue* which = attributes.find(name);
-    if (!which) return nullptr;
-    const GltfAccessor* accessor = document_.accessor(which, kind, floats);
-    if (accessor && accessor->count == count_) return accessor;
-    if (accessor) {
-      base::Diagnostic& d =
-          document_.fail(*which, fmt::format("'{}' has not one value for each vertex", name));
-      d.expected = fmt::format("{} elements", count_);
-      d.found = fmt::format("{}", accessor->count);
+    if (!which) return {};
+    const std::vector<float> values =
+        document_.read<float>(vertexAccessor(*which, name, fmt::format("VEC{}", N), true));
+    std::vector<Vector> out(count_);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (most && !(std::abs(values[i]) <= *most))
+        document_.fail(*which, fmt::format("'{}' of vertex {} is no number that can be used", name, i / N),
+                       fmt::format("finite numbers within {}", *most), fmt::format("{}", values[i]),
+                       "repair the mesh and export it again");
+      out[i / N][static_cast<int>(i % N)] = values[i];
     }
-    good = false;
-    return nullptr;
+    return out;
   }
 
   template <class Vector>
-  bool readVectors(const JsonValue& where, const GltfAccessor& accessor, const char* name, float most,
-                   std::vector<Vector>& out) {
-    constexpr std::size_t N = Vector::length();
-    const std::vector<float> values = readFloats(accessor);
-    out.resize(accessor.count);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (!(std::abs(values[i]) <= most)) {
-        base::Diagnostic& d = document_.fail(
-            where, fmt::format("'{}' of vertex {} is no number that can be used", name, i / N));
-        d.expected = fmt::format("finite numbers within {}", most);
-        d.found = fmt::format("{}", values[i]);
-        d.hint = "repair the mesh and export it again";
-        return false;
-      }
-      out[i / N][static_cast<int>(i % N)] = values[i];
-    }
-    return true;
+  static bool take(const std::vector<Vector>& values, RawMesh& mesh, Vector RawVertex::*member) {
+    for (std::size_t v = 0; v < values.size(); ++v) mesh.vertices[v].*member = values[v];
+    return !values.empty();
   }
 
-  bool readAttributes(const JsonValue& attributes, std::uint32_t material, RawMesh& mesh) {
-    bool good = true;
-    // Normals and tangents that are no numbers are made anew.
-    if (const GltfAccessor* normals = attribute(attributes, "NORMAL", "VEC3", true, good)) {
-      const std::vector<float> values = readFloats(*normals);
-      for (std::size_t i = 0; i < count_; ++i)
-        mesh.normals.push_back({values[3 * i], values[3 * i + 1], values[3 * i + 2]});
-    }
-    if (const GltfAccessor* tangents = attribute(attributes, "TANGENT", "VEC4", true, good)) {
-      const std::vector<float> values = readFloats(*tangents);
-      for (std::size_t i = 0; i < count_; ++i)
-        mesh.tangents.push_back({values[4 * i], values[4 * i + 1], values[4 * i + 2], values[4 * i + 3]});
-    }
-    const GltfUv& uv = uvs_[material];
-    const std::string name = fmt::format("TEXCOORD_{}", uv.set);
-    const GltfAccessor* coordinates = attribute(attributes, name, "VEC2", true, good);
-    if (!good) return false;
-    if (!coordinates) return true;
-    if (!readVectors(*attributes.find(name), *coordinates, name.c_str(), 1e6f, mesh.uvs)) return false;
-    if (uv == GltfUv{.set = uv.set}) return true;
+  void readUvs(const JsonValue& attributes, const GltfUv& uv, RawMesh& mesh) {
+    std::vector<glm::vec2> uvs = attribute<glm::vec2>(attributes, fmt::format("TEXCOORD_{}", uv.set), 1e6f);
     // Counter-clockwise as uv are drawn, with v downwards: github.com/KhronosGroup/glTF/issues/1563.
     const float c = std::cos(uv.rotation), s = std::sin(uv.rotation);
-    for (glm::vec2& each : mesh.uvs) {
+    for (glm::vec2& each : uvs) {
+      if (uv == GltfUv{.set = uv.set}) break;
       const float u = each[0] * uv.scale[0], v = each[1] * uv.scale[1];
       each = {c * u + s * v + uv.offset[0], -s * u + c * v + uv.offset[1]};
     }
-    return true;
+    take(uvs, mesh, &RawVertex::uv);
   }
 
   // glTF 2.0, 3.7.2.1: linear, clamped to 0..1; floats, or unsigned bytes and shorts that are normalised.
-  bool readColors(const JsonValue& attributes, RawMesh& mesh) {
+  void readColors(const JsonValue& attributes, RawMesh& mesh) {
     const JsonValue* where = attributes.find("COLOR_0");
-    if (!where) return true;
-    const std::string_view kind = document_.kindOf(*where) == "VEC3" ? "VEC3" : "VEC4";
-    bool good = true;
-    const GltfAccessor* accessor = attribute(attributes, "COLOR_0", kind, true, good);
-    if (!accessor) return good;
-    const bool whole = accessor->type == 5121 || accessor->type == 5123;
-    if (accessor->type != 5126 && !(whole && accessor->normalized)) {
-      base::Diagnostic& d =
-          document_.leaveOut(*where, fmt::format("the vertex colours of mesh '{}' were left out", mesh.name));
-      d.expected = "floats, or normalised unsigned numbers of 8 or 16 bits";
-      d.found = fmt::format("componentType {}{}", accessor->type, accessor->normalized ? ", normalised" : "");
-      return true;
-    }
-    const auto put = [&](auto values) {
-      if (!readVectors(*where, *accessor, "COLOR_0", 1e9f, values)) return false;
-      for (const auto& value : values) {
-        glm::vec4& color = mesh.colors.emplace_back(1.0f);
-        for (int c = 0; c < value.length(); ++c) color[c] = std::clamp(value[c], 0.0f, 1.0f);
-      }
-      return true;
-    };
-    return kind == "VEC3" ? put(std::vector<glm::vec3>{}) : put(std::vector<glm::vec4>{});
+    if (!where) return;
+    const JsonValue& row = document_.rows("accessors")[document_.index("accessors", *where)];
+    const bool opaque = textOf(row, "type") == "VEC3";
+    const GltfAccessor accessor = vertexAccessor(*where, "COLOR_0", opaque ? "VEC3" : "VEC4", true);
+    if (accessor.type != 5126 && !(accessor.normalized && (accessor.type == 5121 || accessor.type == 5123)))
+      return document_.leaveOut(
+          *where, fmt::format("the vertex colours of mesh '{}' were left out", mesh.name),
+          "floats, or normalised unsigned numbers of 8 or 16 bits",
+          fmt::format("componentType {}{}", accessor.type, accessor.normalized ? ", normalised" : ""));
+    std::vector<glm::vec4> colors;
+    if (opaque)
+      for (const glm::vec3& color : attribute<glm::vec3>(attributes, "COLOR_0", 1e9f))
+        colors.emplace_back(color, 1);
+    else
+      colors = attribute<glm::vec4>(attributes, "COLOR_0", 1e9f);
+    for (glm::vec4& color : colors) color = glm::clamp(color, 0.0f, 1.0f);
+    mesh.colors = take(colors, mesh, &RawVertex::color);
   }
 
   // The mesh as its targets move it, each by its weight. glTF 2.0, 3.7.2.2.
-  bool morph(const JsonValue& targets, const std::vector<float>& weights, RawMesh& mesh) {
-    for (std::size_t t = 0; t < std::min(weights.size(), targets.items.size()); ++t) {
-      const JsonValue& target = targets.items[t];
+  void morph(const JsonValue& primitive, const std::vector<float>& weights, RawMesh& mesh) {
+    const std::vector<JsonValue>& targets = itemsOf(primitive, "targets");
+    for (std::size_t t = 0; t < std::min(weights.size(), targets.size()); ++t) {
+      const JsonValue& target = targets[t];
       if (weights[t] == 0) continue;
       // The same accessor may serve any number of targets.
-      if (!files_.count(std::uint64_t{count_} * sizeof(glm::vec3) * target.members.size(), target.place))
-        return false;
-      const auto add = [&](const char* name, auto& to) {
-        bool good = true;
-        std::vector<glm::vec3> moves;
-        const GltfAccessor* accessor = to.empty() ? nullptr : attribute(target, name, "VEC3", true, good);
-        if (!accessor) return good;
-        if (!readVectors(*target.find(name), *accessor, name, kFarthest, moves)) return false;
-        for (std::size_t v = 0; v < count_; ++v)
-          for (int c = 0; c < 3; ++c) to[v][c] += weights[t] * moves[v][c];
-        return true;
+      GltfDocument::refuseUnless(
+          files_.count(std::uint64_t{count_} * sizeof(glm::vec3) * target.members.size(), target.place));
+      const auto add = [&](const char* name, auto RawVertex::*member) {
+        const std::vector<glm::vec3> moves = attribute<glm::vec3>(target, name, kFarthest);
+        for (std::size_t v = 0; v < moves.size(); ++v)
+          for (int c = 0; c < 3; ++c) (mesh.vertices[v].*member)[c] += weights[t] * moves[v][c];
       };
-      if (!add("POSITION", mesh.positions) || !add("NORMAL", mesh.normals) || !add("TANGENT", mesh.tangents))
-        return false;
+      add("POSITION", &RawVertex::position);
+      if (mesh.normals) add("NORMAL", &RawVertex::normal);
+      if (mesh.normals) add("TANGENT", &RawVertex::tangent);  // of flat ones they are made anew
     }
-    for (const glm::vec3& position : mesh.positions)
-      if (!glm::all(glm::lessThanEqual(glm::abs(position), glm::vec3(kFarthest)))) {
-        document_.fail(targets, fmt::format("the morph targets move mesh '{}' too far", mesh.name)).expected =
-            fmt::format("positions within {}", kFarthest);
-        return false;
-      }
-    return true;
+    for (const RawVertex& v : mesh.vertices)
+      if (!glm::all(glm::lessThanEqual(glm::abs(v.position), glm::vec3(kFarthest))))
+        document_.fail(*primitive.find("targets"),
+                       fmt::format("the morph targets move mesh '{}' too far", mesh.name),
+                       fmt::format("positions within {}", kFarthest));
   }
 
-  bool readWeights(const JsonValue& attributes, RawMesh& mesh, Part& part) {
+  // How many joints its vertices name, at least.
+  std::uint64_t readWeights(const JsonValue& attributes, RawMesh& mesh) {
+    std::uint64_t named = 0;
+    std::vector<std::array<std::uint32_t, 8>> joints(count_);
+    std::vector<std::array<float, 8>> weights(count_);
     for (std::size_t set = 0; set < 2; ++set) {
-      bool good = true;
-      const GltfAccessor* joints = attribute(attributes, fmt::format("JOINTS_{}", set), "VEC4", false, good);
-      const std::string name = fmt::format("WEIGHTS_{}", set);
-      const GltfAccessor* weights = attribute(attributes, name, "VEC4", true, good);
-      if (!good) return false;
-      if (!joints || !weights) return true;
-      const std::vector<std::uint32_t> rows = readWhole(*joints);
-      std::vector<glm::vec4> values;
-      if (!readVectors(*attributes.find(name), *weights, name.c_str(), 1e6f, values)) return false;
-      mesh.joints.resize(count_);
-      mesh.weights.resize(count_);
+      const std::string name = fmt::format("JOINTS_{}", set);
+      const JsonValue* which = attributes.find(name);
+      const std::vector<glm::vec4> given =
+          attribute<glm::vec4>(attributes, fmt::format("WEIGHTS_{}", set), 1e6f);
+      if (!which || given.empty()) break;
+      mesh.skinned = true;
+      const std::vector<std::uint32_t> rows =
+          document_.read<std::uint32_t>(vertexAccessor(*which, name, "VEC4", false));
       for (std::size_t v = 0; v < count_; ++v)
         for (std::size_t i = 0; i < 4; ++i) {
-          mesh.joints[v][4 * set + i] = rows[4 * v + i];
-          mesh.weights[v][4 * set + i] = std::max(0.0f, values[v][static_cast<int>(i)]);
-          // A weight of 0 asks for no joint; a vertex without any weight stands with its first.
-          if (values[v][static_cast<int>(i)] > 0 || (set == 0 && i == 0))
-            part.joints = std::max(part.joints, std::uint64_t{rows[4 * v + i]} + 1);
+          const float weight = given[v][static_cast<int>(i)];
+          joints[v][4 * set + i] = rows[4 * v + i];
+          weights[v][4 * set + i] = std::max(0.0f, weight);
+          // A weight of 0 asks for no joint; a vertex without any weight follows its first.
+          if (weight > 0 || (set == 0 && i == 0)) named = std::max(named, std::uint64_t{rows[4 * v + i]} + 1);
         }
     }
-    return true;
+    for (std::size_t v = 0; mesh.skinned && v < count_; ++v)
+      mesh.vertices[v].skin = heaviest(joints[v], weights[v]);
+    return named;
   }
 
-  bool readIndices(const JsonValue& value, const GltfAccessor* accessor, int mode, RawMesh& mesh) {
+  void readIndices(const JsonValue& value, const std::optional<GltfAccessor>& accessor, int mode,
+                   RawMesh& mesh) {
     std::vector<std::uint32_t> indices;
-    if (accessor) {
-      indices = readWhole(*accessor);
-      const auto bad = std::ranges::find_if(indices, [&](std::uint32_t i) { return i >= count_; });
-      if (bad != indices.end()) {
-        base::Diagnostic& d = document_.fail(
-            *value.find("indices"),
-            fmt::format("index {} of mesh '{}' names no vertex", bad - indices.begin(), mesh.name));
-        d.expected = fmt::format("an index below {}", count_);
-        d.found = fmt::format("{}", *bad);
-        return false;
-      }
-    } else {
-      for (std::uint32_t i = 0; i < count_; ++i) indices.push_back(i);
-    }
+    if (accessor) indices = document_.read<std::uint32_t>(*accessor);
+    for (std::uint32_t i = 0; !accessor && i < count_; ++i) indices.push_back(i);
+    const auto bad = std::ranges::find_if(indices, [&](std::uint32_t i) { return i >= count_; });
+    if (bad != indices.end())
+      document_.fail(*value.find("indices"),
+                     fmt::format("index {} of mesh '{}' names no vertex", bad - indices.begin(), mesh.name),
+                     fmt::format("an index below {}", count_), fmt::format("{}", *bad));
     if (mode == 4) {
       indices.resize(indices.size() / 3 * 3);
       mesh.indices = std::move(indices);
-      return true;
+      return;
     }
     // A strip turns every second triangle round; a fan goes on from its first corner.
     for (std::size_t i = 0; i + 2 < indices.size(); ++i) {
-      const bool strip = mode == 5, odd = i % 2 != 0;
-      mesh.indices.push_back(indices[strip ? i : i + 1]);
-      mesh.indices.push_back(indices[strip ? (odd ? i + 2 : i + 1) : i + 2]);
-      mesh.indices.push_back(indices[strip ? (odd ? i + 1 : i + 2) : 0]);
+      const std::size_t odd = i % 2;
+      const std::array<std::size_t, 3> corners =
+          mode == 5 ? std::array{i, i + 1 + odd, i + 2 - odd} : std::array{i + 1, i + 2, std::size_t{0}};
+      for (const std::size_t corner : corners) mesh.indices.push_back(indices[corner]);
     }
-    return true;
+  }
+
+  // --- lights (KHR_lights_punctual) and animations
+
+  // One light for each node that is shown and names one. A scene has one sun: of several the brightest stays.
+  void readLights() {
+    static const std::vector<JsonValue> kNone;
+    const JsonValue* extension = valueOf(document_.root(), {"extensions", "KHR_lights_punctual"});
+    const std::vector<JsonValue>& table = extension ? itemsOf(*extension, "lights") : kNone;
+    std::map<std::uint32_t, std::optional<ModelLight>> lights;  // by row of the table
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const JsonValue* name = valueOf(rows_[i], {"extensions", "KHR_lights_punctual", "light"});
+      if (!shown_[i] || !name) continue;
+      const std::uint32_t row = document_.index("lights", table.size(), *name);
+      if (!lights.contains(row)) lights[row] = readLight(table[row], row);
+      if (std::optional<ModelLight> light = lights[row]) {
+        light->node = rowOf_[i];
+        addLight(std::move(*light), *name);
+      }
+    }
+  }
+
+  std::optional<ModelLight> readLight(const JsonValue& value, std::uint32_t number) {
+    const std::string kind = textOf(value, "type");
+    ModelLight light;
+    light.name = textOf(value, "name", fmt::format("light {}", number));
+    if (kind != "directional" && kind != "point" && kind != "spot") {
+      document_.leaveOut(value, fmt::format("light '{}' was left out", light.name),
+                         "a 'type' of \"directional\", \"point\" or \"spot\"", fmt::format("\"{}\"", kind));
+      return {};
+    }
+    light.kind = kind == "directional" ? ModelLightKind::sun
+                 : kind == "spot"      ? ModelLightKind::spot
+                                       : ModelLightKind::point;
+    light.intensity = document_.number(value, "intensity", 1, 0, 1e12);
+    if (document_.numbers(value, "color", {&light.color.x, 3}) &&
+        glm::any(glm::lessThan(light.color, glm::vec3(0))))
+      document_.fail(*value.find("color"), "a light's 'color' is negative", "3 numbers of at least 0",
+                     fmt::format("{}, {}, {}", light.color[0], light.color[1], light.color[2]));
+    if (light.kind == ModelLightKind::sun) return light;
+    light.range = document_.number(value, "range", 0, 1e-6, 1e9);
+    if (light.kind == ModelLightKind::spot) {
+      light.outer = std::numbers::pi_v<float> / 4;
+      constexpr double kQuarter = 1.5708;  // turn, as files round it
+      if (const JsonValue* spot = value.find("spot")) {
+        light.inner = document_.number(*spot, "innerConeAngle", 0, 0, kQuarter);
+        light.outer = document_.number(*spot, "outerConeAngle", std::numbers::pi / 4, 0, kQuarter);
+        if (light.inner > light.outer)
+          document_.fail(*spot, "the inner cone of a light is wider than the outer one",
+                         fmt::format("an 'innerConeAngle' of at most {}", light.outer),
+                         fmt::format("{}", light.inner));
+      }
+    }
+    return light;
+  }
+
+  void addLight(ModelLight light, const JsonValue& where) {
+    const auto brightnessOf = [](const ModelLight& each) {
+      return each.intensity * std::max({each.color.x, each.color.y, each.color.z});
+    };
+    const auto other = std::ranges::find(model_.lights, ModelLightKind::sun, &ModelLight::kind);
+    if (light.kind != ModelLightKind::sun || other == model_.lights.end()) {
+      model_.lights.push_back(std::move(light));
+      return;
+    }
+    if (brightnessOf(light) > brightnessOf(*other)) std::swap(light, *other);
+    document_.leaveOut(where, fmt::format("the light '{}' was left out", light.name),
+                       "one directional light: a scene has one sun",
+                       fmt::format("another one, '{}', that is as bright or brighter", other->name));
+  }
+
+  void readAnimation(const JsonValue& row) {
+    ModelAnimation animation;
+    animation.name = textOf(row, "name", fmt::format("animation {}", model_.animations.size()));
+    const std::vector<JsonValue>& samplers = itemsOf(row, "samplers");
+    bool saidWeights = false;  // once for an animation, which may have such a channel for every mesh
+    for (const JsonValue& channel : itemsOf(row, "channels")) {
+      const JsonValue *path = valueOf(channel, {"target", "path"}),
+                      *node = valueOf(channel, {"target", "node"});
+      if (!path || samplers.empty()) continue;
+      if (path->text == "weights" && !std::exchange(saidWeights, true))
+        document_.leaveOut(
+            channel, fmt::format("the moving morph targets of animation '{}' were left out", animation.name),
+            "channels of translation, rotation or scale", "",
+            "meshes are shown with the 'weights' that they or their nodes begin with");
+      ModelTrack track;
+      if (path->text == "rotation")
+        track.path = TrackPath::rotation;
+      else if (path->text == "scale")
+        track.path = TrackPath::scale;
+      else if (path->text != "translation")
+        continue;
+      if (!node) continue;
+      track.node = rowOf_[document_.index("nodes", *node)];
+      const JsonValue& sampler = document_.need(channel, "sampler");
+      readTrack(samplers[document_.index("samplers", samplers.size(), sampler)], track);
+      animation.duration = std::max(animation.duration, track.times.back());
+      animation.tracks.push_back(std::move(track));
+    }
+    model_.animations.push_back(std::make_shared<const ModelAnimation>(std::move(animation)));
+  }
+
+  void readTrack(const JsonValue& sampler, ModelTrack& track) {
+    const std::string how = textOf(sampler, "interpolation");
+    const bool cubic = how == "CUBICSPLINE", rotation = track.path == TrackPath::rotation;
+    track.interpolation = cubic           ? TrackInterpolation::cubic
+                          : how == "STEP" ? TrackInterpolation::step
+                                          : TrackInterpolation::linear;
+    const GltfAccessor input = document_.accessor(document_.need(sampler, "input"), "SCALAR", true);
+    const GltfAccessor output =
+        document_.accessor(document_.need(sampler, "output"), rotation ? "VEC4" : "VEC3", true);
+    const std::uint64_t values = std::uint64_t{input.count} * (cubic ? 3 : 1);
+    if (output.count != values)
+      document_.fail(sampler, "a sampler has not one value for each time", fmt::format("{} values", values),
+                     fmt::format("{}", output.count));
+    // The same accessor may serve any number of tracks.
+    GltfDocument::refuseUnless(files_.count(std::uint64_t{input.count} * 4 + values * 16, sampler.place));
+    track.times = document_.read<float>(input);
+    float before = 0;
+    for (const float time : track.times) {
+      if (!(time >= before) || !std::isfinite(time))
+        document_.fail(sampler, "the times of an animation do not ascend",
+                       "seconds from 0 on, each later than the one before",
+                       fmt::format("{} after {}", time, before));
+      before = time;
+    }
+    const std::vector<float> numbers = document_.read<float>(output);
+    for (std::size_t i = 0; i < values; ++i) {
+      glm::vec4& value = track.values.emplace_back(0.0f);
+      std::copy_n(numbers.data() + i * output.components, output.components, &value.x);
+      const bool isRotation = rotation && (!cubic || i % 3 == 1);
+      if (!isFinite(value) || (isRotation && !normalizeRotation(value)))
+        document_.fail(sampler,
+                       fmt::format("value {} of an animation is no {}", i, rotation ? "rotation" : "number"),
+                       "finite numbers, and quaternions with a length");
+    }
   }
 
   GltfDocument& document_;
   ModelFiles& files_;
   Diagnostics& diagnostics_;
   Model& model_;
+  const LoadObserver& observer_;
   MeshBuilder builder_;
-  GltfNodes nodes_;
-  std::vector<GltfUv> uvs_;
+  TexturePool pool_;
+  const std::vector<JsonValue>& rows_;  // of nodes
+  std::vector<std::uint32_t> rowOf_;    // by the file's index of a node: its row in the model
+  std::vector<bool> shown_;             // by the file's index: in the scene that is shown
+  std::vector<Image> images_;
+  std::vector<GltfUv> uvs_;  // parallel to the materials
   std::map<std::tuple<std::uint32_t, bool, std::vector<float>>, std::vector<Part>> parts_;
   std::uint32_t count_ = 0;  // of vertices of the primitive that is read
 };
@@ -342,10 +679,12 @@ class GltfReader {
 }  // namespace
 
 bool readGltf(std::string bytes, ModelFiles& files, const LoadObserver& observer, const DecodeRunner& decode,
-              Diagnostics& diagnostics, Model& model) {
-  GltfDocument document(files, diagnostics);
-  return document.open(std::move(bytes)) &&
-         GltfReader(document, files, diagnostics, model).read(observer, decode);
+              Diagnostics& diagnostics, Model& model) try {
+  GltfDocument document(std::move(bytes), files, diagnostics);
+  GltfReader(document, files, diagnostics, model, observer).read(decode);
+  return true;
+} catch (const Refused&) {
+  return false;
 }
 
 }  // namespace weft::assets

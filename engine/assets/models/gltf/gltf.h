@@ -1,6 +1,5 @@
-// glTF 2.0, .gltf and .glb, to a Model. Everything that a file says is held against the file before it is used: indices,
-// ranges, cycles, sizes, numbers. Left out, with W168: points and lines, the motion of morph targets, further uv
-// sets, a second sun. Left out in silence: cameras. Does not: stray, whatever the file says. Internal to the folder.
+// glTF 2.0, .gltf and .glb, to a Model. Everything that a file says is held against the file before it is used. Left out, with W168:
+// points and lines, the motion of morph targets, further uv sets, a second sun; in silence: cameras. Internal to the folder.
 #pragma once
 
 #include "engine/assets/model.h"

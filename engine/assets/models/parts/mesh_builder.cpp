@@ -30,43 +30,29 @@ Vec perpendicular(Vec n) {
   return {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
 }
 
-template <class T>
-void pick(std::vector<T>& values, const std::vector<std::uint32_t>& order) {
-  if (values.empty()) return;
-  std::vector<T> picked;
-  picked.reserve(order.size());
-  for (const std::uint32_t i : order) picked.push_back(values[i]);
-  values = std::move(picked);
-}
-
-// The vertices become those of `order`, in that order.
-void reorder(RawMesh& mesh, const std::vector<std::uint32_t>& order) {
-  pick(mesh.positions, order);
-  pick(mesh.normals, order);
-  pick(mesh.tangents, order);
-  pick(mesh.uvs, order);
-  pick(mesh.colors, order);
-  pick(mesh.joints, order);
-  pick(mesh.weights, order);
-}
-
 // glTF 2.0, 3.7.2.1: flat normals where a file has none. A vertex per corner, because corners may not share.
 void makeNormals(RawMesh& mesh) {
-  reorder(mesh, std::vector<std::uint32_t>(mesh.indices));
-  mesh.normals.resize(mesh.positions.size());
-  mesh.tangents.clear();
-  for (std::size_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = static_cast<std::uint32_t>(i);
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    const Vec a = Vec(mesh.positions[i]);
-    const Vec n = glm::cross(Vec(mesh.positions[i + 1]) - a, Vec(mesh.positions[i + 2]) - a);
-    mesh.normals[i] = mesh.normals[i + 1] = mesh.normals[i + 2] = glm::vec3(unit(n, {0, 0, 1}));
+  std::vector<RawVertex> corners;
+  corners.reserve(mesh.indices.size());
+  for (std::uint32_t& index : mesh.indices) {
+    corners.push_back(mesh.vertices[index]);
+    index = static_cast<std::uint32_t>(corners.size() - 1);
   }
+  for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+    const Vec a(corners[i].position);
+    const Vec n = glm::cross(Vec(corners[i + 1].position) - a, Vec(corners[i + 2].position) - a);
+    for (std::size_t c = i; c < i + 3; ++c) {
+      corners[c].normal = glm::vec3(unit(n, {0, 0, 1}));
+      corners[c].tangent = glm::vec4(0);
+    }
+  }
+  mesh.vertices = std::move(corners);
 }
 
 void cleanNormals(RawMesh& mesh) {
-  for (glm::vec3& normal : mesh.normals) {
-    if (!std::isfinite(normal.x + normal.y + normal.z)) normal = {0, 0, 0};
-    normal = glm::vec3(unit(Vec(normal), {0, 0, 1}));
+  for (RawVertex& v : mesh.vertices) {
+    if (!std::isfinite(v.normal.x + v.normal.y + v.normal.z)) v.normal = {0, 0, 0};
+    v.normal = glm::vec3(unit(Vec(v.normal), {0, 0, 1}));
   }
 }
 
@@ -77,29 +63,22 @@ struct TriangleFrame {
 
 // Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", 2001; v upwards, as normal maps have green.
 TriangleFrame frameOf(const RawMesh& mesh, std::size_t corner) {
-  const std::uint32_t a = mesh.indices[corner], b = mesh.indices[corner + 1], c = mesh.indices[corner + 2];
-  const Vec e1 = Vec(mesh.positions[b]) - Vec(mesh.positions[a]);
-  const Vec e2 = Vec(mesh.positions[c]) - Vec(mesh.positions[a]);
-  const double u1 = mesh.uvs[b][0] - mesh.uvs[a][0], v1 = mesh.uvs[a][1] - mesh.uvs[b][1];
-  const double u2 = mesh.uvs[c][0] - mesh.uvs[a][0], v2 = mesh.uvs[a][1] - mesh.uvs[c][1];
+  const RawVertex &a = mesh.vertices[mesh.indices[corner]], &b = mesh.vertices[mesh.indices[corner + 1]],
+                  &c = mesh.vertices[mesh.indices[corner + 2]];
+  const Vec e1 = Vec(b.position) - Vec(a.position), e2 = Vec(c.position) - Vec(a.position);
+  const double u1 = b.uv[0] - a.uv[0], v1 = a.uv[1] - b.uv[1];
+  const double u2 = c.uv[0] - a.uv[0], v2 = a.uv[1] - c.uv[1];
   const double area = u1 * v2 - u2 * v1;
   if (area == 0 || !std::isfinite(area)) return {};
   const double sign = area > 0 ? 1 : -1;
   return {(e1 * v2 - e2 * v1) * sign, sign};
 }
 
-template <class T>
-void repeatRow(std::vector<T>& values, std::uint32_t row) {
-  if (values.empty()) return;
-  const T value = values[row];
-  values.push_back(value);
-}
-
 void makeTangents(RawMesh& mesh) {
-  std::vector<Vec> sums(mesh.positions.size(), Vec(0));
-  std::vector<double> signs(mesh.positions.size(), 0);
+  std::vector<Vec> sums(mesh.vertices.size(), Vec(0));
+  std::vector<double> signs(mesh.vertices.size(), 0);
   std::unordered_map<std::uint32_t, std::uint32_t> mirrored;  // vertex to its copy with the other sign
-  for (std::size_t corner = 0; corner + 2 < mesh.indices.size() && !mesh.uvs.empty(); corner += 3) {
+  for (std::size_t corner = 0; corner + 2 < mesh.indices.size(); corner += 3) {
     const TriangleFrame frame = frameOf(mesh, corner);
     if (frame.sign == 0) continue;
     for (std::size_t i = corner; i < corner + 3; ++i) {
@@ -107,12 +86,8 @@ void makeTangents(RawMesh& mesh) {
       if (signs[vertex] == -frame.sign) {
         const auto [found, isNew] = mirrored.try_emplace(vertex, static_cast<std::uint32_t>(sums.size()));
         if (isNew) {
-          repeatRow(mesh.positions, vertex);
-          repeatRow(mesh.normals, vertex);
-          repeatRow(mesh.uvs, vertex);
-          repeatRow(mesh.colors, vertex);
-          repeatRow(mesh.joints, vertex);
-          repeatRow(mesh.weights, vertex);
+          const RawVertex copy = mesh.vertices[vertex];
+          mesh.vertices.push_back(copy);
           sums.emplace_back(0);
           signs.push_back(frame.sign);
         }
@@ -122,23 +97,63 @@ void makeTangents(RawMesh& mesh) {
       sums[vertex] = sums[vertex] + frame.tangent;  // longer where the triangle is larger: it counts for more
     }
   }
-  mesh.tangents.resize(mesh.positions.size());
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    const Vec n = Vec(mesh.normals[v]);
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Vec n(mesh.vertices[v].normal);
     const glm::vec3 t(unit(sums[v] - n * glm::dot(n, sums[v]), perpendicular(n)));
-    mesh.tangents[v] = {t, signs[v] < 0 ? -1.0f : 1.0f};
+    mesh.vertices[v].tangent = {t, signs[v] < 0 ? -1.0f : 1.0f};
   }
 }
 
-bool soundTangents(const RawMesh& mesh) {
-  return mesh.tangents.size() == mesh.positions.size() &&
-         std::ranges::all_of(mesh.tangents, [](const glm::vec4& t) {
-           const double length = glm::dot(Vec(t), Vec(t));
-           return std::isfinite(length) && length > 1e-12 && (t[3] == 1 || t[3] == -1);
-         });
+bool isSound(const RawVertex& v) {
+  const double length = glm::dot(Vec(v.tangent), Vec(v.tangent));
+  return std::isfinite(length) && length > 1e-12 && (v.tangent[3] == 1 || v.tangent[3] == -1);
 }
 
-// The four heaviest, adding up to 1.
+// Equal vertices become one, in the order in which they come first.
+void joinVertices(RawMesh& mesh) {
+  std::unordered_map<std::string_view, std::uint32_t> known;
+  known.reserve(mesh.vertices.size());
+  std::vector<RawVertex> kept;
+  std::vector<std::uint32_t> to;
+  for (const RawVertex& v : mesh.vertices) {
+    const std::string_view bytes(reinterpret_cast<const char*>(&v), sizeof v);
+    const auto [found, isNew] = known.try_emplace(bytes, static_cast<std::uint32_t>(kept.size()));
+    if (isNew) kept.push_back(v);
+    to.push_back(found->second);
+  }
+  for (std::uint32_t& index : mesh.indices) index = to[index];
+  mesh.vertices = std::move(kept);
+}
+
+}  // namespace
+
+bool normalizeRotation(glm::vec4& q) {
+  const double length = glm::length(glm::dvec4(q));
+  if (!(length > 1e-12)) return false;
+  q = glm::vec4(glm::dvec4(q) / length);
+  return true;
+}
+
+bool isFinite(const glm::vec4& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+}
+
+bool decompose(const glm::mat4& matrix, Transform& transform) {
+  glm::dmat3 columns(matrix);
+  glm::dvec3 scale(glm::length(columns[0]), glm::length(columns[1]), glm::length(columns[2]));
+  if (!std::isfinite(scale.x + scale.y + scale.z)) return false;
+  if (glm::determinant(columns) < 0) scale.x = -scale.x;
+  const bool flat = glm::any(glm::lessThan(glm::abs(scale), glm::dvec3(1e-12)));
+  transform = {.translation = glm::vec3(matrix[3]), .scale = glm::vec3(scale)};
+  if (flat) return true;
+  for (int c = 0; c < 3; ++c) columns[c] /= scale[c];
+  const glm::dquat rotation = glm::quat_cast(columns);
+  glm::vec4 q(rotation.x, rotation.y, rotation.z, rotation.w);
+  if (!normalizeRotation(q)) return false;
+  transform.rotation = toRotation(q);
+  return true;
+}
+
 SkinVertex heaviest(const std::array<std::uint32_t, 8>& joints, const std::array<float, 8>& weights) {
   std::array<std::size_t, 8> order{0, 1, 2, 3, 4, 5, 6, 7};
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return weights[a] > weights[b]; });
@@ -153,45 +168,6 @@ SkinVertex heaviest(const std::array<std::uint32_t, 8>& joints, const std::array
   }
   return out;
 }
-
-struct BytesHash {
-  std::size_t operator()(std::string_view bytes) const { return std::hash<std::string_view>()(bytes); }
-};
-
-// Equal vertices become one, in the order in which they come first.
-void joinVertices(RawMesh& mesh) {
-  const bool normals = !mesh.normals.empty(), uvs = !mesh.uvs.empty(), colors = !mesh.colors.empty(),
-             skin = !mesh.weights.empty();
-  constexpr std::size_t kBytes = sizeof(glm::vec3) * 2 + sizeof(glm::vec2) + sizeof(glm::vec4) + 64;
-  std::vector<char> keys(mesh.positions.size() * kBytes, 0);
-  std::unordered_map<std::string_view, std::uint32_t, BytesHash> known;
-  known.reserve(mesh.positions.size());
-  std::vector<std::uint32_t> order, to(mesh.positions.size());
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    char* key = keys.data() + v * kBytes;
-    const auto put = [&](const auto& value) {
-      key = std::copy_n(reinterpret_cast<const char*>(&value), sizeof value, key);
-    };
-    put(mesh.positions[v]);
-    if (normals) put(mesh.normals[v]);
-    if (uvs) put(mesh.uvs[v]);
-    if (colors) put(mesh.colors[v]);
-    if (skin) {
-      put(mesh.joints[v]);
-      put(mesh.weights[v]);
-    }
-    const auto [found, isNew] =
-        known.try_emplace({keys.data() + v * kBytes, kBytes}, static_cast<std::uint32_t>(order.size()));
-    if (isNew) order.push_back(static_cast<std::uint32_t>(v));
-    to[v] = found->second;
-  }
-  if (order.size() == mesh.positions.size()) return;
-  for (std::uint32_t& index : mesh.indices) index = to[index];
-  mesh.tangents.clear();
-  reorder(mesh, order);
-}
-
-}  // namespace
 
 bool MeshBuilder::hasRoom(std::uint64_t vertices, std::uint64_t corners, const base::Place& place,
                           base::Diagnostics& diagnostics) {
@@ -211,42 +187,33 @@ bool MeshBuilder::hasRoom(std::uint64_t vertices, std::uint64_t corners, const b
 std::uint32_t MeshBuilder::add(RawMesh mesh) {
   assert(mesh.indices.size() % 3 == 0);
   if (mesh.join) joinVertices(mesh);
-  if (mesh.normals.empty())
-    makeNormals(mesh);
-  else
+  if (mesh.normals)
     cleanNormals(mesh);
-  if (!soundTangents(mesh)) makeTangents(mesh);
+  else
+    makeNormals(mesh);
+  if (!std::ranges::all_of(mesh.vertices, isSound)) makeTangents(mesh);
 
   Mesh row;
   row.name = std::move(mesh.name);
   row.firstVertex = static_cast<std::uint32_t>(model_.vertices.size());
-  row.vertexCount = static_cast<std::uint32_t>(mesh.positions.size());
+  row.vertexCount = static_cast<std::uint32_t>(mesh.vertices.size());
   row.firstIndex = static_cast<std::uint32_t>(model_.indices.size());
   row.indexCount = static_cast<std::uint32_t>(mesh.indices.size());
-  row.skinned = !mesh.weights.empty();
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-    model_.vertices.push_back({mesh.positions[v], mesh.normals[v], mesh.tangents[v],
-                               mesh.uvs.empty() ? glm::vec2(0) : mesh.uvs[v]});
-  if (row.skinned || !model_.skin.empty()) {
-    model_.skin.resize(row.firstVertex);
-    for (std::size_t v = 0; v < mesh.weights.size(); ++v)
-      model_.skin.push_back(heaviest(mesh.joints[v], mesh.weights[v]));
-    model_.skin.resize(model_.vertices.size());
-  }
-  for (std::uint32_t v = row.firstVertex; v < model_.vertices.size(); ++v) {
-    const glm::vec3 position = model_.vertices[v].position;
-    row.bounds.add(position);
+  row.skinned = mesh.skinned;
+  const bool skins = mesh.skinned || !model_.skin.empty(), colors = mesh.colors || !model_.colors.empty();
+  if (skins) model_.skin.resize(row.firstVertex);
+  if (colors) model_.colors.resize(row.firstVertex, glm::vec4(1));
+  for (const RawVertex& v : mesh.vertices) {
+    model_.vertices.push_back({v.position, v.normal, v.tangent, v.uv});
+    if (skins) model_.skin.push_back(v.skin);
+    if (colors) model_.colors.push_back(v.color);
+    row.bounds.add(v.position);
     for (std::size_t i = 0; row.skinned && i < 4; ++i) {
-      const std::size_t joint = model_.skin[v].joints[i];
-      if (!(model_.skin[v].weights[i] > 0)) continue;
+      const std::size_t joint = v.skin.joints[i];
+      if (!(v.skin.weights[i] > 0)) continue;
       if (row.jointBounds.size() <= joint) row.jointBounds.resize(joint + 1);
-      row.jointBounds[joint].add(position);
+      row.jointBounds[joint].add(v.position);
     }
-  }
-  if (!mesh.colors.empty() || !model_.colors.empty()) {
-    model_.colors.resize(row.firstVertex, {1, 1, 1, 1});
-    model_.colors.insert(model_.colors.end(), mesh.colors.begin(), mesh.colors.end());
-    model_.colors.resize(model_.vertices.size(), {1, 1, 1, 1});
   }
   model_.indices.insert(model_.indices.end(), mesh.indices.begin(), mesh.indices.end());
   model_.meshes.push_back(std::move(row));

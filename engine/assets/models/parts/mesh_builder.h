@@ -1,8 +1,9 @@
 // Collects the meshes of a model into its vertex and index arrays, and makes what a file left out: flat normals, tangents,
 // the winding of mirrored nodes, four normalised weights. Vertices that are used with both handednesses of uv are split.
-// Every mesh that goes in is whole: indices in range, numbers finite. Does not: read files.
+// Every mesh that goes in is whole: indices in range, numbers finite.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -12,18 +13,37 @@
 
 namespace weft::assets {
 
-// One mesh before it is finished; arrays are parallel to positions, or empty where the file has none.
+// A quaternion x y z w. False for one without length.
+bool normalizeRotation(glm::vec4& q);
+inline glm::quat toRotation(const glm::vec4& q) {
+  return {q.w, q.x, q.y, q.z};
+}
+
+bool isFinite(const glm::vec4& v);
+
+// Takes a matrix without shear apart; a mirror becomes a negative x scale. False when a column is not finite.
+bool decompose(const glm::mat4& matrix, Transform& transform);
+
+struct RawVertex {
+  glm::vec3 position{0}, normal{0};
+  glm::vec4 tangent{0};  // no unit vector: to be made
+  glm::vec2 uv{0};       // (0,0) top left
+  glm::vec4 color{1};    // linear, 0 to 1
+  SkinVertex skin{};
+};
+static_assert(sizeof(RawVertex) == 88);  // no padding: vertices are compared by their bytes
+
+// One mesh before it is finished.
 struct RawMesh {
   std::string name;
-  std::vector<glm::vec3> positions, normals;
-  std::vector<glm::vec4> tangents;
-  std::vector<glm::vec2> uvs;     // (0,0) top left
-  std::vector<glm::vec4> colors;  // linear, 0 to 1
-  std::vector<std::array<std::uint32_t, 8>> joints;
-  std::vector<std::array<float, 8>> weights;
-  std::vector<std::uint32_t> indices;  // triangles; below the number of positions
-  bool join = false;                   // equal vertices become one: of formats without indices
+  std::vector<RawVertex> vertices;
+  std::vector<std::uint32_t> indices;                     // triangles; below the number of vertices
+  bool normals = false, colors = false, skinned = false;  // what the file has
+  bool join = false;  // equal vertices become one: of formats without indices
 };
+
+// A vertex that more than four joints move: by the heaviest four, adding up to 1.
+SkinVertex heaviest(const std::array<std::uint32_t, 8>& joints, const std::array<float, 8>& weights);
 
 class MeshBuilder {
  public:

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <filesystem>
 #include <memory>
 
@@ -19,21 +20,15 @@ using base::Place;
 
 namespace {
 
-int hexOf(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  const char lower = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
-}
-
 std::string unescape(const std::string& uri) {
   std::string out;
   for (std::size_t i = 0; i < uri.size(); ++i) {
-    if (uri[i] == '%' && i + 2 < uri.size() && hexOf(uri[i + 1]) >= 0 && hexOf(uri[i + 2]) >= 0) {
-      out.push_back(static_cast<char>(hexOf(uri[i + 1]) * 16 + hexOf(uri[i + 2])));
-      i += 2;
-    } else {
-      out.push_back(uri[i]);
-    }
+    unsigned value = 0;
+    const char* const digits = uri.data() + i + 1;
+    const bool escape = uri[i] == '%' && i + 2 < uri.size() &&
+                        std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2;
+    out.push_back(escape ? static_cast<char>(value) : uri[i]);
+    if (escape) i += 2;
   }
   return out;
 }
@@ -82,7 +77,8 @@ std::string ModelFiles::resolve(const std::string& name) const {
   return ec || leadsOut(real.lexically_relative(top)) ? "" : target;
 }
 
-std::optional<std::string> ModelFiles::locate(const std::string& uri, const Place& place, bool escaped) {
+std::optional<std::string> ModelFiles::readBeside(const std::string& uri, const Place& place, Code code,
+                                                  bool escaped, base::Severity severity) {
   const std::string name = escaped ? unescape(uri) : uri;
   const std::string target = resolve(name);
   if (target.empty()) {
@@ -95,24 +91,10 @@ std::optional<std::string> ModelFiles::locate(const std::string& uri, const Plac
     return {};
   }
   if (std::ranges::find(files_, target) == files_.end()) files_.push_back(target);
-  return target;
-}
-
-std::optional<std::string> ModelFiles::readBeside(const std::string& uri, const Place& place, Code code,
-                                                  bool escaped) {
-  const std::optional<std::string> target = locate(uri, place, escaped);
-  if (!target) return {};
-  return readCounted(*target, place, code, diagnostics_);
-}
-
-std::optional<std::string> ModelFiles::readOptional(const std::string& uri, const Place& place, Code code,
-                                                    bool escaped) {
-  const std::optional<std::string> target = locate(uri, place, escaped);
-  if (!target) return {};
   base::Diagnostics found;
-  std::optional<std::string> bytes = readCounted(*target, place, code, found);
+  std::optional<std::string> bytes = readCounted(target, place, code, found);
   for (base::Diagnostic each : found.items()) {
-    if (each.code == code) each.severity = base::Severity::warning;
+    if (each.code == code) each.severity = severity;
     diagnostics_.add(std::move(each));
   }
   return bytes;

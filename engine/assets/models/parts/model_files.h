@@ -1,6 +1,6 @@
 // What a model reads: its own file and those beside it. One door for glTF, OBJ, FBX and Assimp, so that a model never
 // reads anything outside its folder, whatever it names, and never more than kMostModelBytes in all. The rest of what
-// holds for files (pipes, --confine) is engine/base/files/file_access.h. Does not: decode anything.
+// holds for files (pipes, --confine) is engine/base/files/file_access.h.
 #pragma once
 
 #include <cstdint>
@@ -34,11 +34,14 @@ class ModelFiles {
   std::optional<std::string> readModel();
   // A file beside it. `uri` is relative to the model's folder; percent escapes are resolved first when `escaped`. W166 for
   // one that leads out of the folder, in whatever spelling; `code` for one that cannot be read.
+  // `severity` is that of `code`.
   std::optional<std::string> readBeside(const std::string& uri, const base::Place& place, base::Code code,
-                                        bool escaped);
+                                        bool escaped, base::Severity severity = base::Severity::error);
   // The same for what a model can do without: one that cannot be read is a warning.
   std::optional<std::string> readOptional(const std::string& uri, const base::Place& place, base::Code code,
-                                          bool escaped);
+                                          bool escaped) {
+    return readBeside(uri, place, code, escaped, base::Severity::warning);
+  }
   // Whether there is such a file in the folder; nothing is said.
   bool hasBeside(const std::string& name) const;
 
@@ -48,8 +51,6 @@ class ModelFiles {
  private:
   std::optional<std::string> readCounted(const std::string& path, const base::Place& place, base::Code code,
                                          base::Diagnostics& diagnostics);
-  // The path of a file beside the model, among files() from now on; empty after W166.
-  std::optional<std::string> locate(const std::string& uri, const base::Place& place, bool escaped);
   // "" for a way out.
   std::string resolve(const std::string& name) const;
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
+#include <thread>
+
 #include "engine/assets/images/image_codecs.h"
 #include "engine/assets/models/parts/model_files.h"
 #include "engine/base/hash.h"
@@ -34,9 +37,9 @@ std::uint64_t hashOf(const Image8& image) {
 
 std::uint32_t TexturePool::put(std::string bytes, const std::string& name, const base::Place& place) {
   Entry entry{std::move(bytes), name, place, nullptr, 0, {}};
-  if (const auto size = readImageSize(entry.bytes, name, entry.found)) {
+  if (const auto size = readPictureHeader(entry.bytes, name, entry.found)) {
     const std::uint64_t texels =
-        texels_ + static_cast<std::uint64_t>(size->first) * static_cast<std::uint64_t>(size->second);
+        texels_ + static_cast<std::uint64_t>(size->width) * static_cast<std::uint64_t>(size->height);
     if (texels > base::raised(kMostTexels)) {
       if (!full_)
         base::reportLimit(diagnostics_, place,
@@ -54,34 +57,34 @@ std::uint32_t TexturePool::put(std::string bytes, const std::string& name, const
   return static_cast<std::uint32_t>(images_.size() - 1);
 }
 
-void TexturePool::decode(std::size_t image) {
-  if (gaveUp_) return;
-  Entry& entry = images_[first_ + image];
-  if (!entry.bytes.empty()) {
-    if (auto decoded = decodeBytes(entry.bytes, 4, entry.name, entry.found))
-      entry.image = std::make_shared<const Image8>(std::move(*decoded));
-    entry.bytes = {};
+void TexturePool::decode(Entry& entry) {
+  if (entry.bytes.empty()) return;
+  if (auto decoded = decodePicture<std::uint8_t>(entry.bytes, 4, entry.name, entry.found)) {
+    entry.content = hashOf(*decoded);
+    entry.image = std::make_shared<const Image8>(std::move(*decoded));
   }
-  const double done = static_cast<double>(++done_) / static_cast<double>(count());
-  // The observer is asked on the thread that loads.
-  if (std::this_thread::get_id() == loader_ && *observer_ &&
-      !(*observer_)(LoadStage::decoding, from_ + (1 - from_) * done))
-    gaveUp_ = true;
-}
-
-void TexturePool::identify(std::size_t image) {
-  Entry& entry = images_[first_ + image];
-  if (entry.image) entry.content = hashOf(*entry.image);
+  entry.bytes = {};
 }
 
 bool TexturePool::decodeAll(const DecodeRunner& runner, const LoadObserver& observer, double from) {
-  observer_ = &observer;
-  from_ = from;
-  loader_ = std::this_thread::get_id();
-  done_ = 0;
   if (observer && !observer(LoadStage::decoding, from)) return false;
-  if (count() > 0) runner ? runner(*this) : decodeInTurn(*this);
-  if (gaveUp_) return false;
+  const std::size_t count = images_.size() - first_;
+  const std::thread::id loader = std::this_thread::get_id();  // on which the observer is asked
+  std::atomic<std::size_t> done = 0;
+  std::atomic<bool> gaveUp = false;
+  const auto decodeOne = [&](std::size_t image) {
+    if (gaveUp) return;
+    decode(images_[first_ + image]);
+    const double share = static_cast<double>(++done) / static_cast<double>(count);
+    if (observer && std::this_thread::get_id() == loader &&
+        !observer(LoadStage::decoding, from + (1 - from) * share))
+      gaveUp = true;
+  };
+  if (runner && count > 0)
+    runner(count, decodeOne);
+  else
+    for (std::size_t image = 0; image < count; ++image) decodeOne(image);
+  if (gaveUp) return false;
   for (; first_ < images_.size(); ++first_) {
     const Entry& entry = images_[first_];
     if (!entry.image)
@@ -112,17 +115,9 @@ std::uint32_t TexturePool::add(std::uint32_t number, const std::string& name, bo
   }
   const Entry& entry = images_[number];
   const std::uint64_t content = base::hashCombine(entry.content, srgb ? 1 : 0);
-  const auto [from, to] = byContent_.equal_range(content);
-  for (auto each = from; each != to; ++each) {
-    const Texture& known = textures_[each->second];
-    if (known.srgb == srgb && known.image->width == entry.image->width &&
-        known.image->texels == entry.image->texels)
-      return each->second;
-  }
-  const auto row = static_cast<std::uint32_t>(textures_.size());
-  textures_.push_back({name, entry.image, srgb, content});
-  byContent_.emplace(content, row);
-  return row;
+  const auto [row, isNew] = byContent_.try_emplace(content, static_cast<std::uint32_t>(textures_.size()));
+  if (isNew) textures_.push_back({name, entry.image, srgb, content});
+  return row->second;
 }
 
 }  // namespace weft::assets

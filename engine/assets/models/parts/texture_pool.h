@@ -1,24 +1,21 @@
 // The textures of one model, shared by what is in them: an image is decoded once, and equal texels of one use are one row.
 // Images are put in first, then decoded all at once, then used. A missing image is a warning (W167) and a checkerboard where
-// it is a colour, else no map. Does not: know file formats.
+// it is a colour, else no map.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
-#include "engine/assets/loading/decode_job.h"
 #include "engine/assets/loading/load_observer.h"
 #include "engine/assets/model.h"
 #include "engine/base/diagnostic.h"
 
 namespace weft::assets {
 
-class TexturePool : private DecodeJob {
+class TexturePool {
  public:
   explicit TexturePool(base::Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
@@ -34,7 +31,6 @@ class TexturePool : private DecodeJob {
   // A row of the textures, of an image that was decoded; kNoRow, or the stand-in for a colour, where there is none.
   std::uint32_t add(std::uint32_t image, const std::string& name, bool srgb);
 
-  bool full() const { return full_; }
   std::vector<Texture> take() { return std::move(textures_); }
 
  private:
@@ -45,24 +41,16 @@ class TexturePool : private DecodeJob {
     std::uint64_t content = 0;  // hash of size and texels
     base::Diagnostics found;
   };
-  std::size_t count() const override { return images_.size() - first_; }
-  void decode(std::size_t image) override;
-  void identify(std::size_t image) override;
+  static void decode(Entry& entry);
 
   base::Diagnostics& diagnostics_;
   std::vector<Entry> images_;
   std::size_t first_ = 0;  // that is not decoded
   std::vector<Texture> textures_;
-  std::multimap<std::uint64_t, std::uint32_t> byContent_;
+  std::map<std::uint64_t, std::uint32_t> byContent_;
   std::uint32_t standIn_ = kNoRow;  // its number
   std::uint64_t texels_ = 0;
   bool full_ = false;
-  // While images are decoded.
-  const LoadObserver* observer_ = nullptr;
-  double from_ = 0;
-  std::thread::id loader_;
-  std::atomic<std::size_t> done_{0};
-  std::atomic<bool> gaveUp_{false};
 };
 
 }  // namespace weft::assets

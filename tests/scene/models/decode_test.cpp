@@ -1,6 +1,4 @@
-// Images of models decoded as tasks: the same model and the same messages on one thread, on two, and in turn.
-#include "engine/scene/models/decode_work.h"
-
+// Images of models decoded on several threads: the same model and the same messages on one thread, on two, and in turn.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <thread>
 
 #include "engine/assets/models/model_file.h"
+#include "engine/scene/models/add_model.h"
 #include "tests/assets/models/gltf_maker.h"
 #include "tests/temporary_folder.h"
 
@@ -25,13 +24,15 @@ struct Loaded {
   std::string said;
 };
 
-// On `threads` threads; 0: in turn, without tasks.
+assets::DecodeRunner runnerOn(int threads) {
+  return [threads](std::size_t count, const auto& decode) { scene::decodeOnThreads(threads, count, decode); };
+}
+
+// On `threads` threads; 0: in turn, without them.
 Loaded load(const std::string& path, int threads) {
-  scene::DecodeWork work;
   base::Diagnostics diagnostics;
-  auto model = assets::loadModel(
-      path, diagnostics, {}, nullptr,
-      threads == 0 ? assets::DecodeRunner{} : [&](assets::DecodeJob& job) { work.run(job, threads); });
+  auto model = assets::loadModel(path, diagnostics, {}, nullptr,
+                                 threads == 0 ? assets::DecodeRunner{} : runnerOn(threads));
   REQUIRE_MESSAGE(model, diagnostics.text());
   return {std::move(*model), diagnostics.text()};
 }
@@ -93,7 +94,6 @@ TEST_CASE("damaged and missing images say the same in the same order on any numb
 
 TEST_CASE("whoever gives up while images are decoded gets nothing, and is asked on his own thread") {
   for (const int threads : {1, 2}) {
-    scene::DecodeWork work;
     base::Diagnostics diagnostics;
     const std::thread::id mine = std::this_thread::get_id();
     std::atomic<int> elsewhere = 0;
@@ -103,8 +103,7 @@ TEST_CASE("whoever gives up while images are decoded gets nothing, and is asked 
       if (stage == assets::LoadStage::decoding) last = done;
       return stage != assets::LoadStage::decoding || done < 0.3;
     };
-    CHECK_FALSE(assets::loadModel(kHelmet, diagnostics, observer, nullptr,
-                                  [&](assets::DecodeJob& job) { work.run(job, threads); }));
+    CHECK_FALSE(assets::loadModel(kHelmet, diagnostics, observer, nullptr, runnerOn(threads)));
     CHECK(diagnostics.empty());
     CHECK(elsewhere == 0);
     CHECK(last >= 0.3);
