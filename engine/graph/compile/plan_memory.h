@@ -1,4 +1,4 @@
-// What a plan would allocate, held against the limit texture_bytes before anything is. Does not: know what a device has.
+// What a plan would allocate, held against the limit before anything is. What a device has is not known here.
 #pragma once
 
 #include "engine/base/diagnostic.h"

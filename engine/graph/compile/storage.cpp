@@ -1,15 +1,14 @@
 // Physical textures by class, transient buffers by offset. Births come in order of first step; a resource
 // that dies in step t frees its storage for step t + 1. Within a class a freed texture is taken before a new
 // one is made, so their number is the greatest number alive at once (interval graphs are perfect; greedy
-// colouring by start is optimal).
-#include "engine/graph/compile/storage.h"
-
+// colouring by start is optimal). Declared in steps.h.
 #include <algorithm>
 #include <map>
 #include <set>
 #include <unordered_map>
 
 #include "engine/base/hash.h"
+#include "engine/graph/compile/steps.h"
 
 namespace weft::graph::steps {
 
@@ -130,8 +129,8 @@ class Placer {
     }
     std::uint32_t now = 0;
     for (const std::uint32_t r : scratch_.births) {
-      for (; now < plan_.firstStep[r]; ++now) bury(now);
-      bear(r);
+      for (; now < plan_.firstStep[r]; ++now) endLifetimes(now);
+      beginLifetime(r);
     }
     preferCopied();
     plan_.arenaBytes = arena_.end();
@@ -156,7 +155,7 @@ class Placer {
     }
   }
 
-  void bear(std::uint32_t index) {
+  void beginLifetime(std::uint32_t index) {
     const std::uint8_t flags = scratch_.flags[index];
     if ((flags & Scratch::kImported) != 0) return;
     const FlatResource& r = graph_.resources[index];
@@ -172,11 +171,11 @@ class Placer {
       bufferAlive_ += size;
       bufferPeak_ = std::max(bufferPeak_, bufferAlive_);
     } else {
-      bearTexture(index, r);
+      takeTexture(index, r);
     }
   }
 
-  void bearTexture(std::uint32_t index, const FlatResource& r) {
+  void takeTexture(std::uint32_t index, const FlatResource& r) {
     const auto found =
         table_.try_emplace(keyOf(r), static_cast<std::uint32_t>(classes_.size())).first->second;
     if (found == classes_.size()) {
@@ -208,7 +207,6 @@ class Placer {
     storage.width = r.width;
     storage.height = r.height;
     storage.depth = r.depth;
-    storage.viewClass = infoOf(r.format).viewClass;
     storage.format = r.format;
     storage.copies = static_cast<std::uint8_t>(plan_.copiesOf(index));
     storage.bytes = bytes;
@@ -216,7 +214,7 @@ class Placer {
     return plan_.storages.back();
   }
 
-  void bury(std::uint32_t step) {
+  void endLifetimes(std::uint32_t step) {
     for (std::uint32_t r = scratch_.deathHead[step]; r != kNone; r = scratch_.deathNext[r]) {
       const std::uint8_t flags = scratch_.flags[r];
       if ((flags & (Scratch::kImported | Scratch::kPersistent)) != 0) continue;
