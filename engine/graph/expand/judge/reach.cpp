@@ -1,6 +1,7 @@
 #include "engine/graph/expand/judge/reach.h"
 
 #include <algorithm>
+#include <map>
 
 #include "engine/graph/subresource.h"
 #include "engine/graph/versions/version_walk.h"
@@ -22,105 +23,73 @@ Ground::Ground(const Model& model)
   }
 }
 
-namespace {
-
-// The graph with everything in it, pass by pass in the order of positions.
-class Whole {
- public:
-  Whole(const Model& model, const Ground& ground, bool histories)
-      : model_(model), graph_(model.graph), ground_(ground), histories_(histories) {
-    all_.resources = ground.resources();
-    at_.resize(graph_.uses.size(), kNone);
-  }
-
-  Liveness run() {
-    std::size_t pass = 0, write = 0, would = 0;
-    const auto positionOf = [](const auto& list, std::size_t at) {
-      return at < list.size() ? list[at].position : kNone;
-    };
-    for (;;) {
-      while (write < model_.writes.size() && model_.writes[write].pass != kNone) ++write;  // is in the graph
-      const std::uint32_t own = pass < graph_.passes.size() ? model_.positionOf[pass] : kNone;
-      const std::uint32_t position =
-          std::min({own, positionOf(model_.writes, write), positionOf(model_.would, would)});
-      FlatPass& here = all_.passes.emplace_back();
-      here.firstUse = static_cast<std::uint32_t>(all_.uses.size());
-      here.sideEffect = position == kNone;  // what is read after all passes counts
-      if (own == position && position != kNone) {
-        passes_.push_back(static_cast<std::uint32_t>(all_.passes.size() - 1));
-        addPass(pass++);
-      }
-      for (; would < model_.would.size() && model_.would[would].position == position; ++would)
-        addWould(model_.would[would]);
-      for (; write < model_.writes.size() && model_.writes[write].position == position; ++write)
-        if (const WriteRecord& record = model_.writes[write]; record.pass == kNone)
-          addWhere(record.entity, record.firstElement, record.elementCount, record.rect);
-      FlatPass& filled = all_.passes.back();
-      filled.useCount = static_cast<std::uint32_t>(all_.uses.size()) - filled.firstUse;
-      if (position == kNone) break;
-    }
-    addEnds();
-    linkVersions(all_);
-    const Liveness found = findLive(all_);
-    Liveness live{std::vector<std::uint8_t>(graph_.passes.size()), std::vector<std::uint8_t>(at_.size())};
-    for (std::size_t p = 0; p < passes_.size(); ++p) live.pass[p] = found.pass[passes_[p]];
-    for (std::size_t u = 0; u < at_.size(); ++u) live.use[u] = at_[u] == kNone ? 1 : found.use[at_[u]];
-    return live;
-  }
-
- private:
-  void addPass(std::size_t pass) {
-    const FlatPass& flat = graph_.passes[pass];
-    all_.passes.back().sideEffect = flat.sideEffect;
-    for (std::uint32_t u = flat.firstUse; u < flat.firstUse + flat.useCount; ++u) {
-      FlatUse use = graph_.uses[u];
-      use.resource = ground_.of(use.resource);
-      if (use.resource == kNone || (use.history > 0 && !histories_)) continue;
-      at_[u] = static_cast<std::uint32_t>(all_.uses.size());
-      all_.uses.push_back(use);
+Liveness findReach(const Model& model, const Ground& ground, bool histories) {
+  constexpr std::uint32_t kOther = kNone;  // a use that is not in the graph
+  struct Instance {
+    std::uint32_t pass = kNone;  // of the graph
+    bool sideEffect = false;
+    std::vector<std::pair<FlatUse, std::uint32_t>> uses{};  // with their index in the graph
+  };
+  const FlatGraph& graph = model.graph;
+  std::map<std::uint32_t, Instance> instances;  // by position
+  for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
+    Instance& instance = instances[model.positionOf[p]];
+    instance.pass = p;
+    instance.sideEffect = graph.passes[p].sideEffect;
+    for (const std::uint32_t u : graph.usesOf(p)) {
+      FlatUse use = graph.uses[u];
+      use.resource = ground.of(use.resource);
+      if (use.resource != kNone && (use.history == 0 || histories)) instance.uses.emplace_back(use, u);
     }
   }
-
-  // A write that is not there now takes nothing away.
-  void addWhere(std::uint32_t entity, std::uint32_t first, std::uint32_t count, FlatUse rect) {
-    // It may test the depth, or read the storage, that it modifies; color it only draws over.
-    if (rect.history > 0 && !histories_) return;
-    rect.keep = rect.access == Access::modify && rect.kind != Kind::color;
-    if (rect.access == Access::write) rect.access = Access::modify;
-    ground_.eachElement(entity, first, count, rect, [&](const FlatUse& use) { all_.uses.push_back(use); });
+  instances[kNone].sideEffect = true;  // what is read after all passes counts
+  const auto add = [&](const auto& what) {
+    if (what.rect.history > 0 && !histories) return;
+    ground.eachElement(what, [&](FlatUse use) {
+      // It may test the depth, or read the storage, that it modifies; color it only draws over.
+      use.keep = use.access == Access::modify && use.kind != Kind::color;
+      if (use.access == Access::write) use.access = Access::modify;  // what is not there now removes nothing
+      instances[what.position].uses.emplace_back(use, kOther);
+    });
+  };
+  for (const WouldUse& would : model.would) {
+    if (would.entity == kNone) instances[would.position].sideEffect = true;
+    add(would);
   }
-  void addWould(const WouldUse& would) {
-    if (would.entity == kNone)
-      all_.passes.back().sideEffect = true;
-    else
-      addWhere(would.entity, would.firstElement, would.elementCount, would.rect);
+  for (const WriteRecord& write : model.writes)
+    if (write.pass == kNone) add(write);  // the others are in the graph
+
+  FlatGraph all;
+  all.resources = ground.resources();
+  Liveness live{std::vector<std::uint8_t>(graph.passes.size()),
+                std::vector<std::uint8_t>(graph.uses.size(), 1)};
+  std::vector<std::uint32_t> useOf;
+  for (const auto& [position, instance] : instances) {
+    all.passes.push_back({.firstUse = static_cast<std::uint32_t>(all.uses.size()),
+                          .useCount = static_cast<std::uint32_t>(instance.uses.size()),
+                          .sideEffect = instance.sideEffect});
+    for (const auto& [use, index] : instance.uses) {
+      all.uses.push_back(use);
+      useOf.push_back(index);
+    }
   }
-
-  void addEnds() {
-    const auto translated = [&](FlatUse use) {
-      if (use.resource != kNone) use.resource = ground_.of(use.resource);
-      return use;
-    };
-    all_.present = translated(graph_.present);
-    for (const FlatUse& output : graph_.outputs)
-      if (const FlatUse use = translated(output); use.resource != kNone) all_.outputs.push_back(use);
+  const auto grounded = [&](FlatUse use) {
+    if (use.resource != kNone) use.resource = ground.of(use.resource);
+    return use;
+  };
+  all.present = grounded(graph.present);
+  for (const FlatUse& output : graph.outputs)
+    if (const FlatUse use = grounded(output); use.resource != kNone) all.outputs.push_back(use);
+  linkVersions(all);
+  const Liveness found = findLive(all);
+  std::uint32_t at = 0;
+  for (const auto& [position, instance] : instances) {
+    if (instance.pass != kNone) live.pass[instance.pass] = found.pass[at];
+    ++at;
   }
-
-  const Model& model_;
-  const FlatGraph& graph_;
-  const Ground& ground_;
-  const bool histories_;
-  FlatGraph all_;
-  std::vector<std::uint32_t> at_, passes_;  // of a use and a pass of the graph: the one here
-};
-
-}  // namespace
-
-Liveness findReach(const Model& model, const Ground& ground) {
-  return Whole(model, ground, true).run();
-}
-Liveness findReachNow(const Model& model, const Ground& ground) {
-  return Whole(model, ground, false).run();
+  for (std::size_t u = 0; u < useOf.size(); ++u)
+    if (useOf[u] != kOther) live.use[useOf[u]] = found.use[u];
+  return live;
 }
 
 std::vector<std::uint32_t> findNearest(const Ground& ground, const std::vector<Line>& queries,

@@ -1,5 +1,5 @@
-// What would live if all that is switched off were there, and who stands nearest to a use in declared order. Both go along
-// the one walk of versions. Does not: judge or say anything.
+// What would live if all that is switched off were there, and who stands nearest to a use in declared order. Both follow
+// the one walk of versions.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@ class Ground {
 
   // The resource of a FlatResource of the graph; kNone for imports.
   std::uint32_t of(std::uint32_t resource) const { return ofResource_[resource]; }
-  // Calls f(use) for what `rect` is of each element.
-  template <class F>
-  void eachElement(std::uint32_t entity, std::uint32_t first, std::uint32_t count, FlatUse rect,
-                   F&& f) const {
-    if (first_[entity] == kNone) return;
-    for (std::uint32_t e = first; e < first + count; ++e) {
-      rect.resource = first_[entity] + e;
-      f(rect);
+  // Calls f(use) for what `what`, a WriteRecord or a WouldUse, has of each element.
+  template <class What, class F>
+  void eachElement(const What& what, F&& f) const {
+    if (what.entity == kNone || first_[what.entity] == kNone) return;
+    FlatUse use = what.rect;
+    for (std::uint32_t e = what.firstElement; e < what.firstElement + what.elementCount; ++e) {
+      use.resource = first_[what.entity] + e;
+      f(use);
     }
   }
   const std::vector<FlatResource>& resources() const { return resources_; }
@@ -35,10 +35,8 @@ class Ground {
 };
 
 // As findLive() of the graph, but everything that is disabled or whose condition is false is there, too: a disabled pass
-// writes without taking away what was there before.
-Liveness findReach(const Model& model, const Ground& ground);
-// The same without what only later frames read, by a history.
-Liveness findReachNow(const Model& model, const Ground& ground);
+// writes without removing what was there before. Without `histories`, what only later frames read is not alive.
+Liveness findReach(const Model& model, const Ground& ground, bool histories);
 
 // A use at a position, in the resources of a Ground.
 struct Line {
