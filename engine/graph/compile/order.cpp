@@ -1,6 +1,5 @@
-// Order. Declared order of the live passes is legal as it stands. A random legal order is drawn from the
-// dependency edges: any pass whose predecessors have run may come next. Declared in
-// steps.h.
+// Order. Declared in steps.h. Declared order of the live passes is legal as it stands. A random legal order is drawn from the
+// dependency edges: any pass whose predecessors have run may come next.
 #include <algorithm>
 
 #include "engine/base/hash.h"

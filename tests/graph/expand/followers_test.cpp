@@ -121,11 +121,11 @@ TEST_CASE("levels that nobody reads are told of") {
   CHECK(chainRead("glow").empty());
   CHECK(chainRead("glow.mip[3]").empty());
   CHECK(chainRead("glow.mip[1]").items()[0].message ==
-        "pass 'down[3]' is culled: nobody reads level 3 of 'glow', only others");
+        "pass 'down[3]' is culled: nobody reads what it writes");
   const base::Diagnostics said = chainRead("glow.mip[0]");
   REQUIRE_MESSAGE(said.size() == 1, said.text());
   CHECK(said.items()[0].code == base::Code::culledUnread);
-  CHECK(said.items()[0].message == "pass 'down[3]' is culled: nobody reads level 3 of 'glow', only others");
+  CHECK(said.items()[0].message == "pass 'down[3]' is culled: nobody reads what it writes");
 }
 
 TEST_CASE("a name that an expression asks of and that nothing has is one mistake; has() may mean a pass") {
