@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/base/diagnostic.h"
 #include "engine/graph/plan.h"
 
 namespace weft::graph {
@@ -34,5 +35,10 @@ struct BarrierReason {
 
 // The reason of every bit of a plan, in order of bits and steps. Compiles the plan's graph again.
 std::vector<BarrierReason> explainBarriers(const Plan& plan);
+
+constexpr std::uint64_t kMostTextureBytes = 4ull << 30;  // of all textures and buffers of one plan
+
+// Holds what a plan would allocate against that limit, before anything is. What a device has is not known here. False after Code::texturesTooLarge, at the declaration of the largest texture or buffer.
+bool checkMemory(const Plan& plan, base::Diagnostics& diagnostics);
 
 }  // namespace weft::graph

@@ -1,10 +1,8 @@
-#include "engine/graph/compile/plan_memory.h"
-
+// Declared in compile.h.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "engine/base/limits.h"
+#include "engine/graph/compile/compile.h"
 #include "engine/graph/subresource.h"
 
 namespace weft::graph {
