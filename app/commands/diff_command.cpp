@@ -16,7 +16,7 @@
 #include "app/trials/shot.h"
 #include "engine/base/counted.h"
 #include "engine/base/printable.h"
-#include "engine/graph/print/diff.h"
+#include "engine/graph/print/print.h"
 
 namespace weft::app {
 

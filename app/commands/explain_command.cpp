@@ -6,7 +6,7 @@
 #include "app/commands/commands.h"
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
-#include "engine/graph/print/describe.h"
+#include "engine/graph/print/print.h"
 
 namespace weft::app {
 

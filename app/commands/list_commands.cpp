@@ -17,7 +17,7 @@
 #include "engine/base/printable.h"
 #include "engine/graph/language/keys.h"
 #include "engine/graph/language/schema.h"
-#include "engine/graph/print/format_table.h"
+#include "engine/graph/print/print.h"
 #include "engine/graph/read/read.h"
 #include "engine/runtime/imports/registry.h"
 

@@ -3,10 +3,7 @@
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
 #include "engine/base/json/layout.h"
-#include "engine/graph/print/dot.h"
-#include "engine/graph/print/graph_file.h"
-#include "engine/graph/print/json.h"
-#include "engine/graph/print/text.h"
+#include "engine/graph/print/print.h"
 
 namespace weft::app {
 

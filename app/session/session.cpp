@@ -9,7 +9,6 @@
 #include "engine/assets/environments/environment_map.h"
 #include "engine/base/message_choice.h"
 #include "engine/graph/compile/compile.h"
-#include "engine/graph/compile/plan_memory.h"
 #include "engine/graph/read/read.h"
 #include "engine/runtime/imports/registry.h"
 #include "engine/scene/files/scene_file.h"

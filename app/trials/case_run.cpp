@@ -9,7 +9,7 @@
 #include "app/trials/picture_difference.h"
 #include "engine/base/files/file.h"
 #include "engine/base/printable.h"
-#include "engine/graph/print/text.h"
+#include "engine/graph/print/print.h"
 
 namespace weft::app {
 

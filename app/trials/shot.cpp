@@ -9,7 +9,7 @@
 #include "app/session/session.h"
 #include "engine/base/counted.h"
 #include "engine/base/limits.h"
-#include "engine/graph/compile/plan_memory.h"
+#include "engine/graph/compile/compile.h"
 
 namespace weft::app {
 

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -261,6 +262,11 @@ struct FlatGraph {
   std::vector<std::string> files;  // to watch
   std::string name;
   std::uint32_t screenWidth = 0, screenHeight = 0;
+
+  // The uses of a pass, as indices into `uses`.
+  auto usesOf(std::uint32_t pass) const {
+    return std::views::iota(passes[pass].firstUse, passes[pass].firstUse + passes[pass].useCount);
+  }
 
   BorderColor borderOf(const SlotSpec& slot) const {
     return slot.border == kNone ? BorderColor{} : borders[slot.border];

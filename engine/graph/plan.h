@@ -1,5 +1,5 @@
 // Plan: what will happen in a frame. It is immutable; equal inputs give equal plans, byte for byte.
-// Does not: know GL enums (barrier bits are the graph's own), own GL objects, or read the clock.
+// Barrier bits are the graph's own, not OpenGL's.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,6 @@ struct Storage {
   std::uint8_t samples = 1;
   std::uint16_t layers = 1, mips = 1;
   std::uint32_t width = 1, height = 1, depth = 1;
-  std::uint16_t viewClass = 0;
   Format format = Format::none;  // of one of its resources; others are views
   std::uint8_t copies = 1;
   bool shared = false;      // used by more than one resource
@@ -62,10 +61,17 @@ struct Groups {
     return ofResource.empty() ? kNone : ofResource[resource];
   }
 };
-enum class CullReason : std::uint8_t { live, no_reader };
+
+struct CompileOptions {
+  bool share = true;            // false: every resource its own storage (fuzz)
+  std::uint64_t orderSeed = 0;  // not 0: a random legal order instead of the declared one (fuzz)
+  // The live passes, counted in declared order, that the random order may move; the others stay where they are.
+  std::uint32_t orderFirst = 0, orderLast = ~0u;
+};
 
 struct Plan {
   std::shared_ptr<const FlatGraph> graph;
+  CompileOptions options;
   std::vector<Step> steps;  // execution order
   std::vector<ClearOp> clears;
   std::vector<std::uint32_t> stepOf;   // per pass: index into steps, kNone when culled

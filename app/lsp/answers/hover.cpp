@@ -6,7 +6,7 @@
 #include "app/lsp/answers/features.h"
 #include "app/lsp/answers/key_tables.h"
 #include "engine/graph/language/format.h"
-#include "engine/graph/print/describe.h"
+#include "engine/graph/print/print.h"
 
 namespace weft::app::lsp {
 

@@ -8,7 +8,6 @@
 #include "engine/base/json/dom.h"
 #include "engine/base/nearest.h"
 #include "engine/graph/compile/compile.h"
-#include "engine/graph/compile/plan_memory.h"
 #include "engine/graph/read/read.h"
 #include "engine/runtime/frame/renderer.h"
 #include "engine/runtime/imports/registry.h"

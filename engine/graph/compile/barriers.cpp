@@ -1,10 +1,9 @@
-// Barriers from hazards: per bit, stab all intervals of positions on the circle of the frame.
-#include "engine/graph/compile/barriers.h"
-
+// Barriers from hazards: per bit, a position in every interval on the circle of the frame. Declared in steps.h.
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
-#include "engine/graph/compile/hazards.h"
+#include "engine/graph/compile/steps.h"
 
 namespace weft::graph {
 
@@ -42,12 +41,13 @@ void thinOut(const std::vector<HazardInterval>& hazards, std::int32_t circle, st
 
 }  // namespace
 
-std::vector<std::int32_t> stab(const std::vector<HazardInterval>& hazards, std::int32_t circle) {
+std::vector<std::int32_t> chooseBarrierPositions(const std::vector<HazardInterval>& hazards,
+                                                 std::int32_t circle) {
   std::vector<std::int32_t> points;
   // Within the frame: the greedy choice of the latest position is optimal.
   for (const HazardInterval& h : hazards)
     if (h.lo >= 0 && (points.empty() || points.back() < h.lo)) points.push_back(h.hi);
-  // Across frames: all of them hold position 0, so the earliest end stabs every one that is left.
+  // Across frames: all of them hold position 0, so the earliest end serves every one that is left.
   std::int32_t anchor = std::numeric_limits<std::int32_t>::max();
   for (const HazardInterval& h : hazards) {
     if (h.lo >= 0 || (!points.empty() && (points.front() <= h.hi || points.back() >= h.lo + circle)))
@@ -61,13 +61,64 @@ std::vector<std::int32_t> stab(const std::vector<HazardInterval>& hazards, std::
   return points;
 }
 
-void steps::placeBarriers(const FlatGraph& graph, Plan& plan, CompileScratch& scratch) {
+namespace {
+
+BarrierAccess accessOf(const Plan& plan, std::uint32_t who, std::uint32_t step) {
+  const FlatGraph& graph = *plan.graph;
+  BarrierAccess access{.pass = step == plan.steps.size() ? kNone : plan.steps[step].pass,
+                       .clear = who >= kClearAccess && who < kEndAccess};
+  access.use = access.clear       ? plan.clears[who & ~kClearAccess].use
+               : who < kEndAccess ? graph.uses[who]
+               : who > kEndAccess ? graph.outputs[(who & ~kEndAccess) - 1]
+                                  : graph.present;
+  return access;
+}
+
+// Of each position, an interval in which no other of the positions is.
+void addReasons(const Plan& plan, BarrierBit bit, const std::vector<HazardInterval>& hazards,
+                const std::vector<HazardCause>& causes, const std::vector<std::int32_t>& positions,
+                std::int32_t circle, std::vector<BarrierReason>& reasons) {
+  std::vector<std::size_t> why(positions.size(), hazards.size());
+  for (std::size_t i = 0; i < hazards.size(); ++i) {
+    std::ptrdiff_t count = 0, which = 0;
+    const auto addWithin = [&](std::int32_t lo, std::int32_t hi) {
+      const auto first = std::ranges::lower_bound(positions, lo),
+                 end = std::ranges::upper_bound(positions, hi);
+      if (first != end) which = first - positions.begin();
+      count += end - first;
+    };
+    addWithin(std::max(hazards[i].lo, 0), hazards[i].hi);
+    if (hazards[i].lo < 0) addWithin(hazards[i].lo + circle, circle - 1);
+    if (count == 1) why[static_cast<std::size_t>(which)] = std::min(why[static_cast<std::size_t>(which)], i);
+  }
+  for (std::size_t p = 0; p < positions.size(); ++p) {
+    assert(why[p] < hazards.size());
+    const auto [from, to] = causes[why[p]];
+    const std::int32_t behind = static_cast<std::int32_t>(from >> 32) - 1;
+    const std::int32_t frame = (behind - (behind < 0 ? circle - 1 : 0)) / circle;
+    const std::int32_t own = positions[p] <= hazards[why[p]].hi ? 0 : -1;
+    reasons.push_back({.step = static_cast<std::uint32_t>(positions[p] / 2),
+                       .afterClears = positions[p] % 2 == 1,
+                       .bit = bit,
+                       .before = accessOf(plan, static_cast<std::uint32_t>(from),
+                                          static_cast<std::uint32_t>((behind - frame * circle) / 2)),
+                       .after = accessOf(plan, to, static_cast<std::uint32_t>(hazards[why[p]].hi / 2)),
+                       .framesAgo = static_cast<std::uint32_t>(own - frame)});
+  }
+}
+
+}  // namespace
+
+void steps::placeBarriers(const FlatGraph& graph, Plan& plan, const CompileScratch& scratch,
+                          std::vector<BarrierReason>* reasons) {
   HazardIntervals hazards;
-  collectHazards(graph, plan, scratch, hazards);
-  const auto end = static_cast<std::int32_t>(plan.steps.size());
-  for (int bit = 0; bit < kBarrierBitCount; ++bit) {
+  HazardCauses causes;
+  collectHazards(graph, plan, scratch, hazards, reasons ? &causes : nullptr);
+  const auto end = static_cast<std::int32_t>(plan.steps.size()), circle = 2 * (end + 1);
+  for (std::size_t bit = 0; bit < hazards.size(); ++bit) {
     const auto mask = static_cast<std::uint16_t>(1u << bit);
-    for (const std::int32_t at : stab(hazards[static_cast<std::size_t>(bit)], 2 * (end + 1))) {
+    const std::vector<std::int32_t> positions = chooseBarrierPositions(hazards[bit], circle);
+    for (const std::int32_t at : positions) {
       if (at / 2 == end) {
         plan.finalBarriers |= mask;
         continue;
@@ -75,6 +126,8 @@ void steps::placeBarriers(const FlatGraph& graph, Plan& plan, CompileScratch& sc
       Step& step = plan.steps[static_cast<std::size_t>(at / 2)];
       (at % 2 == 0 ? step.barriers : step.barriersAfterClears) |= mask;
     }
+    if (reasons)
+      addReasons(plan, static_cast<BarrierBit>(mask), hazards[bit], causes[bit], positions, circle, *reasons);
   }
 }
 

@@ -2,23 +2,64 @@
 
 #include <utility>
 
-#include "engine/graph/compile/barriers.h"
-#include "engine/graph/compile/cells.h"
-#include "engine/graph/compile/lifetimes.h"
-#include "engine/graph/compile/order.h"
-#include "engine/graph/compile/scratch.h"
-#include "engine/graph/compile/storage.h"
+#include "engine/graph/compile/steps.h"
 #include "engine/graph/versions/groups.h"
 #include "engine/graph/versions/live.h"
 
 namespace weft::graph {
 
-Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& options) {
+namespace {
+
+using Scratch = CompileScratch;
+
+// Resources with several sub-resources get several cells only when some use touches them in part.
+void markGranular(const FlatGraph& graph, Scratch& scratch) {
+  const auto mark = [&](const FlatUse& use) {
+    if (!isWhole(use, graph.resources[use.resource])) scratch.flags[use.resource] |= Scratch::kGranular;
+  };
+  for (const FlatUse& use : graph.uses) mark(use);
+  for (const FlatUse& use : graph.outputs) mark(use);
+  if (graph.present.resource != kNone) mark(graph.present);
+}
+
+// flags, cellBase, cellCount
+void indexCells(const FlatGraph& graph, Scratch& scratch) {
+  const std::size_t count = graph.resources.size();
+  scratch.flags.resize(count);
+  scratch.cellBase.resize(count);
+  bool anyMulti = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    const FlatResource& r = graph.resources[i];
+    std::uint8_t flags = 0;
+    if (isBuffer(r)) flags |= Scratch::kBuffer;
+    if (isImported(r)) flags |= Scratch::kImported;
+    if (r.hasClear) flags |= Scratch::kClear;
+    if (r.history > 0) flags |= Scratch::kPersistent;
+    scratch.flags[i] = flags;
+    scratch.cellBase[i] = static_cast<std::uint32_t>(i);
+    anyMulti = anyMulti || subresourceCount(r) > 1;
+    scratch.anyClear = scratch.anyClear || r.hasClear;
+  }
+  scratch.cellCount = static_cast<std::uint32_t>(count);
+  if (!anyMulti) return;
+  markGranular(graph, scratch);
+  std::uint32_t base = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    scratch.cellBase[i] = base;
+    const bool granular = (scratch.flags[i] & Scratch::kGranular) != 0;
+    base += granular ? subresourceCount(graph.resources[i]) : 1u;
+  }
+  scratch.cellCount = base;
+}
+
+Plan compileFor(std::shared_ptr<const FlatGraph> graph, const CompileOptions& options,
+                std::vector<BarrierReason>* reasons) {
   CompileScratch scratch;
   Plan plan;
+  plan.options = options;
   const FlatGraph& g = *graph;
   plan.graph = std::move(graph);
-  steps::indexCells(g, scratch);
+  indexCells(g, scratch);
   Liveness live = findLive(g);
   scratch.livePass = std::move(live.pass);
   plan.attached = std::move(live.use);
@@ -28,8 +69,20 @@ Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& optio
       [&](std::uint32_t u) { return plan.attached[u] != 0; });
   steps::findLifetimes(g, plan, scratch);
   steps::placeStorage(g, options.share, plan, scratch);
-  if (scratch.anyStore) steps::placeBarriers(g, plan, scratch);
+  if (scratch.anyStore) steps::placeBarriers(g, plan, scratch, reasons);
   return plan;
+}
+
+}  // namespace
+
+Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& options) {
+  return compileFor(std::move(graph), options, nullptr);
+}
+
+std::vector<BarrierReason> explainBarriers(const Plan& plan) {
+  std::vector<BarrierReason> reasons;
+  compileFor(plan.graph, plan.options, &reasons);
+  return reasons;
 }
 
 }  // namespace weft::graph

@@ -1,25 +1,44 @@
 // Compiles a FlatGraph to a Plan. The time is linear in passes and uses; only the flat arrays of FlatGraph are read, and
-// nothing can fail any more. Does not: read names or texts, or say why (print/explain.h does).
+// nothing can fail any more.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
+#include "engine/base/diagnostic.h"
 #include "engine/graph/plan.h"
 
 namespace weft::graph {
-
-struct CompileOptions {
-  bool share = true;            // false: every resource its own storage (fuzz)
-  std::uint64_t orderSeed = 0;  // not 0: a random legal order instead of the declared one (fuzz)
-  // The live passes, counted in declared order, that the random order may move; the others stay where they are.
-  std::uint32_t orderFirst = 0, orderLast = ~0u;
-};
 
 // The graph must be valid and linked (by expandGraph, or by linkVersions): every read has a version, some
 // pass writes what is presented (version zero is not enough), and imports are not written. The order of the plan is the
 // declared order of the live passes. It is always legal, because a use refers to the latest version before it, and it is
 // the order that a person reads in the file.
 Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& options = {});
+
+// One of the two accesses that a barrier separates.
+struct BarrierAccess {
+  std::uint32_t pass = kNone;  // kNone: present or read-back at the end of the frame
+  FlatUse use;
+  bool clear = false;  // the clear before the pass
+};
+
+// Why a step has a barrier bit: of the accesses that the bit separates, two that no other barrier separates.
+struct BarrierReason {
+  std::uint32_t step = 0;  // steps.size(): at the end of the frame
+  bool afterClears = false;
+  BarrierBit bit{};
+  BarrierAccess before, after;
+  std::uint32_t framesAgo = 0;  // of `before`; 0: in the frame of the barrier
+};
+
+// The reason of every bit of a plan, in order of bits and steps. Compiles the plan's graph again.
+std::vector<BarrierReason> explainBarriers(const Plan& plan);
+
+constexpr std::uint64_t kMostTextureBytes = 4ull << 30;  // of all textures and buffers of one plan
+
+// Holds what a plan would allocate against that limit, before anything is. What a device has is not known here. False after Code::texturesTooLarge, at the declaration of the largest texture or buffer.
+bool checkMemory(const Plan& plan, base::Diagnostics& diagnostics);
 
 }  // namespace weft::graph

@@ -6,9 +6,10 @@
 
 namespace weft::graph {
 
-namespace {
-
-std::vector<Dependency> edgesOf(const FlatGraph& graph, const std::uint8_t* attached) {
+std::vector<Dependency> dependencies(const FlatGraph& graph, const std::vector<std::uint8_t>* attached) {
+  const auto orders = [&](std::uint32_t u) {
+    return (!attached || (*attached)[u] != 0) && graph.uses[u].history == 0;
+  };
   std::vector<std::uint32_t> base(graph.resources.size() + 1, 0);
   for (std::size_t i = 0; i < graph.resources.size(); ++i)
     base[i + 1] = base[i] + subresourceCount(graph.resources[i]);
@@ -20,18 +21,16 @@ std::vector<Dependency> edgesOf(const FlatGraph& graph, const std::uint8_t* atta
   };
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
     const auto block = static_cast<std::ptrdiff_t>(edges.size());
-    const std::uint32_t first = graph.passes[p].firstUse, end = first + graph.passes[p].useCount;
     const auto eachCell = [&](bool writing, auto&& f) {
-      for (std::uint32_t u = first; u < end; ++u) {
+      for (const std::uint32_t u : graph.usesOf(p)) {
         const FlatUse& use = graph.uses[u];
-        if ((attached != nullptr && attached[u] == 0) || use.history > 0) continue;
-        if (writing ? use.access == Access::read : use.access == Access::write) continue;
+        if (!orders(u) || use.access == (writing ? Access::read : Access::write)) continue;
         forEachSubresource(use, graph.resources[use.resource],
                            [&](std::uint32_t s) { f(use.resource, base[use.resource] + s); });
       }
     };
-    for (std::uint32_t u = first; u < end; ++u) {
-      if ((attached != nullptr && attached[u] == 0) || graph.uses[u].history > 0) continue;
+    for (const std::uint32_t u : graph.usesOf(p)) {
+      if (!orders(u)) continue;
       graph.links.forEachWriter(graph.links.seen[u], [&](std::uint32_t use) {
         add(graph.links.passOf[use], p, graph.uses[u].resource, Dependency::Type::read_after_write);
       });
@@ -51,15 +50,6 @@ std::vector<Dependency> edgesOf(const FlatGraph& graph, const std::uint8_t* atta
     edges.erase(std::unique(edges.begin() + block, edges.end()), edges.end());
   }
   return edges;
-}
-
-}  // namespace
-
-std::vector<Dependency> dependencies(const FlatGraph& graph, const std::vector<std::uint8_t>& attached) {
-  return edgesOf(graph, attached.data());
-}
-std::vector<Dependency> dependencies(const FlatGraph& graph) {
-  return edgesOf(graph, nullptr);
 }
 
 }  // namespace weft::graph

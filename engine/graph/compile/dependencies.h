@@ -19,9 +19,9 @@ struct Dependency {
   friend auto operator<=>(const Dependency&, const Dependency&) = default;
 };
 
-// Between live passes (attached uses only), in declared order of `to`, then of `from`.
-std::vector<Dependency> dependencies(const FlatGraph& graph, const std::vector<std::uint8_t>& attached);
-// The same over every pass and use, culled ones too.
-std::vector<Dependency> dependencies(const FlatGraph& graph);
+// In declared order of `to`, then of `from`: between live passes, by the uses that are `attached`; over every pass and use,
+// culled ones too, without it.
+std::vector<Dependency> dependencies(const FlatGraph& graph,
+                                     const std::vector<std::uint8_t>* attached = nullptr);
 
 }  // namespace weft::graph

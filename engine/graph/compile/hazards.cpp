@@ -1,40 +1,43 @@
-#include "engine/graph/compile/hazards.h"
-
+// Finds the hazards of a plan whose frames follow each other for ever. Declared in steps.h.
 #include <algorithm>
 #include <bit>
 #include <limits>
 #include <map>
 
 #include "engine/graph/compile/barrier_rules.h"
+#include "engine/graph/compile/steps.h"
 
 namespace weft::graph {
 
 namespace {
 
 using Scratch = CompileScratch;
-constexpr std::int32_t kNever = std::numeric_limits<std::int32_t>::min();
+constexpr Access64 kNever = std::numeric_limits<Access64>::min();
 
-// The first positions at which a barrier comes after the last store, and after the last access of any kind.
+// The last store, and the last access of any kind.
 struct Cell {
-  std::int32_t store = kNever, access = kNever;
+  Access64 store = kNever, access = kNever;
 };
 
-std::int32_t back(std::int32_t position, std::int32_t by) {
-  return position == kNever ? kNever : position - by;
+std::int32_t positionOf(Access64 access) {
+  return static_cast<std::int32_t>(access >> 32);
+}
+Access64 back(Access64 access, std::int32_t by) {
+  return access == kNever ? kNever : access - (Access64{by} << 32);
 }
 
 // A value per byte of the arena, as ranges of equal values.
 class RangeMap {
  public:
   RangeMap() { values_[0] = kNever; }
-  void paint(std::uint64_t from, std::uint64_t to, std::int32_t value) {
+  void paint(std::uint64_t from, std::uint64_t to, Access64 value) {
     split(to);
     const auto first = split(from);
     values_.erase(std::next(first), values_.lower_bound(to));
     first->second = value;
   }
-  std::int32_t latest(std::uint64_t from, std::uint64_t to) const {
-    std::int32_t value = kNever;
+  Access64 latest(std::uint64_t from, std::uint64_t to) const {
+    Access64 value = kNever;
     for (auto it = std::prev(values_.upper_bound(from)); it != values_.end() && it->first < to; ++it)
       value = std::max(value, it->second);
     return value;
@@ -44,11 +47,11 @@ class RangeMap {
   }
 
  private:
-  std::map<std::uint64_t, std::int32_t>::iterator split(std::uint64_t at) {
+  std::map<std::uint64_t, Access64>::iterator split(std::uint64_t at) {
     const auto it = std::prev(values_.upper_bound(at));
     return it->first == at ? it : values_.emplace_hint(std::next(it), at, it->second);
   }
-  std::map<std::uint64_t, std::int32_t> values_;
+  std::map<std::uint64_t, Access64> values_;
 };
 
 // How a resource's accesses are followed.
@@ -72,11 +75,13 @@ struct Track {
 
 class Collector {
  public:
-  Collector(const FlatGraph& graph, const Plan& plan, const Scratch& scratch, HazardIntervals& hazards)
+  Collector(const FlatGraph& graph, const Plan& plan, const Scratch& scratch, HazardIntervals& hazards,
+            HazardCauses* causes)
       : graph_(graph),
         plan_(plan),
         scratch_(scratch),
         hazards_(hazards),
+        causes_(causes),
         end_(static_cast<std::int32_t>(plan.steps.size())),
         circle_(2 * (end_ + 1)) {
     assignTracks();
@@ -84,7 +89,7 @@ class Collector {
 
   void run() {
     walk<false>();  // where each cell stands at the end of a frame
-    turn();
+    advanceFrame();
     walk<true>();  // a frame after such a frame
   }
 
@@ -135,7 +140,7 @@ class Collector {
   // From the end of one frame to the start of the next. A history resource has rotated by then: what is now
   // the current copy was the oldest, and was last stored to a whole rotation ago. What a time-sliced group writes
   // may have, or may not.
-  void turn() {
+  void advanceFrame() {
     std::vector<Cell> ended;
     if (!histories_.empty()) ended = cells_;
     for (Cell& cell : cells_) cell = {back(cell.store, circle_), back(cell.access, circle_)};
@@ -162,11 +167,12 @@ class Collector {
       const Step& step = plan_.steps[static_cast<std::size_t>(t)];
       const FlatPass& pass = graph_.passes[step.pass];
       group_ = plan_.groups.groupOf(step.pass);
-      if (anyArena_) inherit(t);
+      if (anyArena_) takeArena(t);
       for (std::uint32_t c = step.firstClear; c < step.firstClear + step.clearCount; ++c) {
         const FlatUse& use = plan_.clears[c].use;
-        if constexpr (collecting) need(use, clearBit(plan_.clears[c], isBufferUse(use)), false);
-        mark(use, false, 2 * t + 1);
+        if constexpr (collecting)
+          need(use, kClearAccess | c, clearBit(plan_.clears[c], isBufferUse(use)), false);
+        mark(use, kClearAccess | c, false, 2 * t + 1);
       }
       const std::uint32_t last = pass.firstUse + pass.useCount;
       if constexpr (collecting) {
@@ -174,29 +180,29 @@ class Collector {
           const FlatUse& use = graph_.uses[u];
           if (plan_.attached[u] == 0 || tracks_[use.resource].mode == Mode::ignored) continue;
           const bool store = isStore(use);
-          need(use, store ? storeBit(use) : useBits(use, isBufferUse(use)), store);
-          if (pass.touches != 0 && !isBufferUse(use)) need(use, pass.touches, false);
+          need(use, u, store ? storeBit(use) : useBits(use, isBufferUse(use)), store);
+          if (pass.touches != 0 && !isBufferUse(use)) need(use, u, pass.touches, false);
         }
-        settle(t);
+        emitIntervals(t);
       }
       for (std::uint32_t u = pass.firstUse; u < last; ++u)
-        if (plan_.attached[u] != 0) mark(graph_.uses[u], isStore(graph_.uses[u]), 2 * t + 2);
-      if (anyArena_) bequeath(t);
+        if (plan_.attached[u] != 0) mark(graph_.uses[u], u, isStore(graph_.uses[u]), 2 * t + 2);
+      if (anyArena_) releaseArena(t);
     }
     group_ = kNone;
-    if (anyArena_) inherit(end_);
+    if (anyArena_) takeArena(end_);
     const auto atEnd = [&](auto&& f) {
       if (graph_.present.resource != kNone && plan_.firstStep[graph_.present.resource] != kNone)
-        f(graph_.present);
-      for (std::size_t i = 0; i < graph_.outputs.size(); ++i)
-        if (plan_.outputLive[i] != 0) f(graph_.outputs[i]);
+        f(graph_.present, kEndAccess);
+      for (std::uint32_t i = 0; i < graph_.outputs.size(); ++i)
+        if (plan_.outputLive[i] != 0) f(graph_.outputs[i], kEndAccess | (i + 1));
     };
     if constexpr (collecting) {
-      atEnd([&](const FlatUse& use) { need(use, endBits(isBufferUse(use)), false); });
-      settle(end_);
+      atEnd([&](const FlatUse& use, std::uint32_t who) { need(use, who, endBits(isBufferUse(use)), false); });
+      emitIntervals(end_);
     }
-    atEnd([&](const FlatUse& use) { mark(use, false, 2 * end_ + 2); });
-    if (anyArena_) bequeath(end_);
+    atEnd([&](const FlatUse& use, std::uint32_t who) { mark(use, who, false, 2 * end_ + 2); });
+    if (anyArena_) releaseArena(end_);
   }
 
   bool isBufferUse(const FlatUse& use) const {
@@ -204,9 +210,10 @@ class Collector {
   }
 
   // Notes that each of `bits` must come after the last store (any access, for a store).
-  void need(const FlatUse& use, std::uint16_t bits, bool store) {
+  void need(const FlatUse& use, std::uint32_t who, std::uint16_t bits, bool store) {
     const Track track = tracks_[use.resource];
-    const auto from = [&](const Cell& cell) { demand(bits, store ? cell.access : cell.store); };
+    who_ = who;
+    const auto from = [&](const Cell& cell) { require(bits, store ? cell.access : cell.store); };
     switch (track.mode) {
       case Mode::ignored:
         return;
@@ -236,17 +243,17 @@ class Collector {
     const std::uint32_t base = tracks_[use.resource].base, count = cellsOf(use.resource);
     const auto visit = [&](std::uint32_t s) {
       const Cell& current = cells_[base + s];
-      const std::int32_t stored = cells_[base + count + s].store;
+      const Access64 stored = cells_[base + count + s].store;
       if (age > 0) {
-        demand(bits, back(stored, age * circle_));
+        require(bits, back(stored, age * circle_));
       } else if (store) {
-        demand(bits, current.access);
+        require(bits, current.access);
       } else {
-        demand(bits, current.store);
+        require(bits, current.store);
         // In a frame in which every writer is skipped nothing rotates, and the store was in the frame before.
         if (track.group == kNone && use.access == Access::read && current.store < 0 &&
             (scratch_.flags[use.resource] & Scratch::kWrittenAlways) == 0)
-          demand(bits, back(stored, circle_));
+          require(bits, back(stored, circle_));
       }
     };
     if (count == 1)
@@ -255,31 +262,33 @@ class Collector {
       forEachSubresource(use, r, visit);
   }
 
-  void demand(std::uint16_t bits, std::int32_t lo) {
-    if (lo == kNever) return;
+  void require(std::uint16_t bits, Access64 from) {
+    if (from == kNever) return;
     for (unsigned rest = bits; rest != 0; rest &= rest - 1) {
       const auto bit = static_cast<std::size_t>(std::countr_zero(rest));
-      if ((due_ >> bit & 1u) == 0 || lo > lo_[bit]) lo_[bit] = lo;
+      if ((due_ >> bit & 1u) == 0 || from > latest_[bit].from) latest_[bit] = {from, who_};
     }
     due_ |= bits;
   }
 
-  // The demands of step t become intervals. Only a store after the step's own clear must wait for
+  // What step t requires becomes intervals. Only a store after the step's own clear must wait for
   // barriersAfterClears.
-  void settle(std::int32_t t) {
+  void emitIntervals(std::int32_t t) {
     for (unsigned rest = due_; rest != 0; rest &= rest - 1) {
       const auto bit = static_cast<std::size_t>(std::countr_zero(rest));
-      const std::int32_t hi = lo_[bit] > 2 * t ? 2 * t + 1 : 2 * t;
-      hazards_[bit].push_back({std::max(lo_[bit], hi + 1 - circle_), hi});
+      const std::int32_t lo = positionOf(latest_[bit].from), hi = lo > 2 * t ? 2 * t + 1 : 2 * t;
+      hazards_[bit].push_back({std::max(lo, hi + 1 - circle_), hi});
+      if (causes_) (*causes_)[bit].push_back(latest_[bit]);
     }
     due_ = 0;
   }
 
-  void mark(const FlatUse& use, bool store, std::int32_t position) {
+  void mark(const FlatUse& use, std::uint32_t who, bool store, std::int32_t position) {
     const Track track = tracks_[use.resource];
+    const Access64 access = Access64{position} << 32 | who;
     const auto set = [&](Cell& cell) {
-      cell.access = position;
-      if (store) cell.store = position;
+      cell.access = access;
+      if (store) cell.store = access;
     };
     switch (track.mode) {
       case Mode::ignored:
@@ -301,7 +310,7 @@ class Collector {
           if (age == 0)
             set(cells_[track.base + s]);
           else
-            cells_[track.base + count + s].access = position;
+            cells_[track.base + count + s].access = access;
         };
         if (count == 1)
           visit(0);
@@ -312,7 +321,7 @@ class Collector {
   }
 
   // Transient buffers: a first step takes over what was done to its bytes, a last step leaves what it did.
-  void inherit(std::int32_t t) {
+  void takeArena(std::int32_t t) {
     for (; birth_ < scratch_.births.size(); ++birth_) {
       const std::uint32_t r = scratch_.births[birth_];
       if (plan_.firstStep[r] > static_cast<std::uint32_t>(t)) return;
@@ -322,7 +331,7 @@ class Collector {
       cells_[tracks_[r].base] = {storeMap_.latest(from, to), accessMap_.latest(from, to)};
     }
   }
-  void bequeath(std::int32_t t) {
+  void releaseArena(std::int32_t t) {
     for (std::uint32_t r = scratch_.deathHead[static_cast<std::size_t>(t)]; r != kNone;
          r = scratch_.deathNext[r]) {
       if (tracks_[r].mode != Mode::arena) continue;
@@ -330,7 +339,7 @@ class Collector {
                           to = from + std::max<std::uint64_t>(1, graph_.resources[r].bytes);
       const Cell& cell = cells_[tracks_[r].base];
       accessMap_.paint(from, to, cell.access);
-      if (cell.store > 2 * static_cast<std::int32_t>(plan_.firstStep[r]))
+      if (positionOf(cell.store) > 2 * static_cast<std::int32_t>(plan_.firstStep[r]))
         storeMap_.paint(from, to, cell.store);
     }
   }
@@ -339,6 +348,7 @@ class Collector {
   const Plan& plan_;
   const Scratch& scratch_;
   HazardIntervals& hazards_;
+  HazardCauses* const causes_;
   const std::int32_t end_, circle_;
   std::vector<Track> tracks_;
   std::vector<Cell> cells_;
@@ -346,16 +356,17 @@ class Collector {
   RangeMap storeMap_, accessMap_;
   bool anyArena_ = false;
   std::size_t birth_ = 0;
-  std::uint32_t group_ = kNone;  // of the step that is walked over
-  std::uint16_t due_ = 0;
-  std::array<std::int32_t, kBarrierBitCount> lo_{};
+  std::uint32_t group_ = kNone;                         // of the step that is walked over
+  std::uint32_t who_ = 0;                               // of the use that is looked at
+  std::uint16_t due_ = 0;                               // bits that the step requires
+  std::array<HazardCause, kBarrierBitCount> latest_{};  // per bit that is due
 };
 
 }  // namespace
 
 void collectHazards(const FlatGraph& graph, const Plan& plan, const CompileScratch& scratch,
-                    HazardIntervals& hazards) {
-  Collector(graph, plan, scratch, hazards).run();
+                    HazardIntervals& hazards, HazardCauses* causes) {
+  Collector(graph, plan, scratch, hazards, causes).run();
 }
 
 }  // namespace weft::graph

@@ -1,10 +1,8 @@
 // Lifetimes in steps, clears of version zero, persistence and the bytes each step binds: one scan of the live
-// uses in execution order.
-#include "engine/graph/compile/lifetimes.h"
-
+// uses in execution order. Declared in steps.h.
 #include <algorithm>
 
-#include "engine/graph/compile/barrier_rules.h"
+#include "engine/graph/compile/steps.h"
 
 namespace weft::graph {
 

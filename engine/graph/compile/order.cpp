@@ -1,11 +1,10 @@
-// Order. Declared order of the live passes is legal as it stands. A random legal order is drawn from the
+// Order. Declared in steps.h. Declared order of the live passes is legal as it stands. A random legal order is drawn from the
 // dependency edges: any pass whose predecessors have run may come next.
-#include "engine/graph/compile/order.h"
-
 #include <algorithm>
 
 #include "engine/base/hash.h"
 #include "engine/graph/compile/dependencies.h"
+#include "engine/graph/compile/steps.h"
 
 namespace weft::graph {
 
@@ -17,7 +16,7 @@ void shuffle(const FlatGraph& graph, std::uint64_t seed, const Plan& plan, const
              std::vector<std::uint32_t>& order) {
   std::vector<std::uint32_t> waiting(graph.passes.size(), 0);
   std::vector<std::vector<std::uint32_t>> followers(graph.passes.size());
-  for (const Dependency& edge : dependencies(graph, plan.attached)) {
+  for (const Dependency& edge : dependencies(graph, &plan.attached)) {
     ++waiting[edge.to];
     followers[edge.from].push_back(edge.to);
   }

@@ -1,15 +1,13 @@
 // Physical textures by class, transient buffers by offset. Births come in order of first step; a resource
 // that dies in step t frees its storage for step t + 1. Within a class a freed texture is taken before a new
 // one is made, so their number is the greatest number alive at once (interval graphs are perfect; greedy
-// colouring by start is optimal).
-#include "engine/graph/compile/storage.h"
-
+// colouring by start is optimal). Declared in steps.h.
 #include <algorithm>
 #include <map>
-#include <set>
 #include <unordered_map>
 
 #include "engine/base/hash.h"
+#include "engine/graph/compile/steps.h"
 
 namespace weft::graph::steps {
 
@@ -43,62 +41,43 @@ struct ClassHash {
   }
 };
 
-// Free ranges by offset and by size; best fit, lowest offset among equals; the arena grows at its end.
+// Free ranges by offset; best fit, lowest offset among equals; the arena grows at its end.
 class Arena {
  public:
   std::uint64_t take(std::uint64_t size) {
-    const auto fit = bySize_.lower_bound({size, 0});
-    if (fit == bySize_.end()) return grow(size);
-    const auto [free, offset] = *fit;
-    remove(offset, free);
-    if (free > size) insert(offset + size, free - size);
+    auto best = free_.end();
+    for (auto range = free_.begin(); range != free_.end(); ++range)
+      if (range->second >= size && (best == free_.end() || range->second < best->second)) best = range;
+    if (best == free_.end() && !free_.empty()) {
+      const auto last = std::prev(best);
+      if (last->first + last->second == end_) best = last;
+    }
+    const auto [offset, length] =
+        best == free_.end() ? std::pair<const std::uint64_t, std::uint64_t>(end_, 0) : *best;
+    if (best != free_.end()) free_.erase(best);
+    if (length > size) free_[offset + size] = length - size;
+    end_ = std::max(end_, offset + size);
     return offset;
   }
 
   void give(std::uint64_t offset, std::uint64_t size) {
-    auto after = byOffset_.lower_bound(offset);
-    if (after != byOffset_.end() && offset + size == after->first) {
+    auto after = free_.lower_bound(offset);
+    if (after != free_.end() && offset + size == after->first) {
       size += after->second;
-      remove(after->first, after->second);
-      after = byOffset_.lower_bound(offset);
+      after = free_.erase(after);
     }
-    if (after != byOffset_.begin()) {
-      const auto before = std::prev(after);
-      if (before->first + before->second == offset) {
-        const auto [start, length] = *before;
-        remove(start, length);
-        offset = start;
-        size += length;
+    if (after != free_.begin())
+      if (const auto before = std::prev(after); before->first + before->second == offset) {
+        before->second += size;
+        return;
       }
-    }
-    insert(offset, size);
+    free_[offset] = size;
   }
 
   std::uint64_t end() const { return end_; }
 
  private:
-  std::uint64_t grow(std::uint64_t size) {
-    std::uint64_t offset = end_;
-    if (!byOffset_.empty()) {
-      const auto [start, length] = *byOffset_.rbegin();
-      if (start + length == end_) {
-        remove(start, length);
-        offset = start;
-      }
-    }
-    end_ = offset + size;
-    return offset;
-  }
-  void insert(std::uint64_t offset, std::uint64_t size) {
-    byOffset_.emplace(offset, size);
-    bySize_.emplace(size, offset);
-  }
-  void remove(std::uint64_t offset, std::uint64_t size) {
-    byOffset_.erase(offset);
-    bySize_.erase({size, offset});
-  }
-  std::map<std::uint64_t, std::uint64_t> byOffset_;
-  std::set<std::pair<std::uint64_t, std::uint64_t>> bySize_;
+  std::map<std::uint64_t, std::uint64_t> free_;
   std::uint64_t end_ = 0;
 };
 
@@ -130,8 +109,8 @@ class Placer {
     }
     std::uint32_t now = 0;
     for (const std::uint32_t r : scratch_.births) {
-      for (; now < plan_.firstStep[r]; ++now) bury(now);
-      bear(r);
+      for (; now < plan_.firstStep[r]; ++now) endLifetimes(now);
+      beginLifetime(r);
     }
     preferCopied();
     plan_.arenaBytes = arena_.end();
@@ -156,7 +135,7 @@ class Placer {
     }
   }
 
-  void bear(std::uint32_t index) {
+  void beginLifetime(std::uint32_t index) {
     const std::uint8_t flags = scratch_.flags[index];
     if ((flags & Scratch::kImported) != 0) return;
     const FlatResource& r = graph_.resources[index];
@@ -172,11 +151,11 @@ class Placer {
       bufferAlive_ += size;
       bufferPeak_ = std::max(bufferPeak_, bufferAlive_);
     } else {
-      bearTexture(index, r);
+      takeTexture(index, r);
     }
   }
 
-  void bearTexture(std::uint32_t index, const FlatResource& r) {
+  void takeTexture(std::uint32_t index, const FlatResource& r) {
     const auto found =
         table_.try_emplace(keyOf(r), static_cast<std::uint32_t>(classes_.size())).first->second;
     if (found == classes_.size()) {
@@ -208,7 +187,6 @@ class Placer {
     storage.width = r.width;
     storage.height = r.height;
     storage.depth = r.depth;
-    storage.viewClass = infoOf(r.format).viewClass;
     storage.format = r.format;
     storage.copies = static_cast<std::uint8_t>(plan_.copiesOf(index));
     storage.bytes = bytes;
@@ -216,7 +194,7 @@ class Placer {
     return plan_.storages.back();
   }
 
-  void bury(std::uint32_t step) {
+  void endLifetimes(std::uint32_t step) {
     for (std::uint32_t r = scratch_.deathHead[step]; r != kNone; r = scratch_.deathNext[r]) {
       const std::uint8_t flags = scratch_.flags[r];
       if ((flags & (Scratch::kImported | Scratch::kPersistent)) != 0) continue;

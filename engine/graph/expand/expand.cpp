@@ -4,12 +4,7 @@
 
 #include "engine/base/json/dom.h"
 #include "engine/graph/expand/finish.h"
-#include "engine/graph/expand/judge/cadence.h"
-#include "engine/graph/expand/judge/culled.h"
-#include "engine/graph/expand/judge/missing.h"
-#include "engine/graph/expand/judge/slices.h"
-#include "engine/graph/expand/judge/unnamed.h"
-#include "engine/graph/expand/judge/unused.h"
+#include "engine/graph/expand/judge/judge.h"
 #include "engine/graph/expand/names/apply_settings.h"
 #include "engine/graph/expand/names/resources.h"
 #include "engine/graph/expand/names/scope.h"
@@ -43,13 +38,12 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
   if (!isOver(model)) expandPasses(model, deferred);
   if (!isOver(model)) finishGraph(model, deferred);
   if (!own.hasErrors() && !model.incomplete) keepPicks(model.graph, settings.kept, own);
-  if (!isOver(model)) judgeMissing(model);
+  if (!isOver(model)) reportMissingReads(model);
   reportUnincluded(model);
   if (!own.hasErrors()) checkSlices(model);
   if (!own.hasErrors() && !diagnostics.hasErrors()) {
     warnUnread(model);
     warnUnused(model);
-    warnUnnamed(model);
     warnCadence(model);
   }
   for (const auto& [path, text] : desc.texts) base::PointerScope(path, *text, own);

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "engine/graph/expand/checks.h"
-#include "engine/graph/expand/judge/comparison.h"
+#include "engine/graph/expand/judge/judge.h"
 #include "engine/graph/expand/names/versions.h"
 #include "engine/graph/subresource.h"
 
@@ -327,7 +327,7 @@ void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred) {
   settleKept(model.graph);
   settleCopies(model.graph);
   model.versions.finish();
-  settleComparisons(model);
+  inferComparisons(model);
   nameStandIns(model);
   nameAliases(model);
   if (!model.diagnostics.hasErrors()) {

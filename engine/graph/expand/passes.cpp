@@ -9,7 +9,6 @@
 #include "engine/base/nearest.h"
 #include "engine/graph/expand/checks.h"
 #include "engine/graph/expand/first_value.h"
-#include "engine/graph/expand/judge/remedy.h"
 #include "engine/graph/expand/names/unread.h"
 #include "engine/graph/expand/names/versions.h"
 #include "engine/graph/expand/spec.h"
@@ -18,6 +17,14 @@
 namespace weft::graph::expansion {
 
 namespace {
+
+// Why a pass whose "enabled" is false is disabled. Kept for each instance, so a long expression is cut.
+std::string whyFalse(const Expr& enabled) {
+  std::string text = enabled.text();
+  if (enabled.isConstant()) return fmt::format("\"enabled\": {}", text);
+  if (text.size() > 80) text = text.substr(0, 80) + "…";
+  return fmt::format("enabled: {} is false", text);
+}
 
 using State = SlotWork::State;
 

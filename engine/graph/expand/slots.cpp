@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "engine/graph/expand/checks.h"
-#include "engine/graph/expand/judge/remedy.h"
 #include "engine/graph/expand/names/versions.h"
 
 namespace weft::graph::expansion {
@@ -161,8 +160,10 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
   if (!texture && (selection.mip || selection.layer || selection.face || selection.stencil))
     return misfit("is no texture, it has no levels, layers or planes");
   if (selection.element && entity.arrayCount == 0)
-    return misfit("is no array",
-                  hintForElement(entity.name, selection.element->first, texture && shape.mips > 1));
+    return misfit("is no array", selection.element->first < 0
+                                     ? fmt::format("write '{}@{}' for an earlier frame", entity.name,
+                                                   selection.element->first)
+                                     : fmt::format("a level is '{}.mip[…]'", entity.name));
   if (selection.layer && shape.target == Target::texture_3d)
     return misfit("is a 3d texture, it has no layers");
   if (selection.face && !cube) return misfit("is no cube, it has no faces");

@@ -1,6 +1,6 @@
-#include "engine/graph/print/describe.h"
-
+// What a plan knows of one name, for `weft explain`. Declared in print.h.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
@@ -10,7 +10,7 @@
 #include "engine/base/printable.h"
 #include "engine/graph/language/suffix.h"
 #include "engine/graph/print/explain.h"
-#include "engine/graph/print/shared.h"
+#include "engine/graph/print/print.h"
 #include "engine/graph/subresource.h"
 
 namespace weft::graph {
@@ -22,258 +22,193 @@ std::string declaredName(const std::string& name) {
   return name.substr(0, name.find_first_of("#["));
 }
 
+std::string placeText(const Place& place) {
+  return place.file ? fmt::format(" at {}:{}:{}", *place.file, place.line, place.column) : "";
+}
+
+std::string importText(const ImportSpec& import) {
+  constexpr const char* kKinds[] = {"texture", "buffer", "view", "list", "event"};
+  if (import.columns.empty())
+    return fmt::format("{} @{}{}", kKinds[static_cast<std::size_t>(import.kind)], import.request.type,
+                       import.kind == ImportKind::list ? fmt::format(", {} entries", import.count) : "");
+  std::vector<std::string> columns;
+  for (const TableColumn& column : import.columns)
+    columns.push_back(fmt::format("{} {}", column.type, column.name));
+  return fmt::format("table @{}, {} row{} of {}", import.request.type, import.count,
+                     import.count == 1 ? "" : "s", fmt::join(columns, ", "));
+}
+
 class Describer {
  public:
-  explicit Describer(const Plan& plan)
-      : plan_(plan), graph_(*plan.graph), explainer_(plan), reasons_(explainer_.whyBarriers()) {}
+  explicit Describer(const Plan& plan) : plan_(plan), graph_(*plan.graph), explainer_(plan) {}
 
   std::vector<std::string> names() const {
-    std::vector<std::string> all;
-    for (const PassSpec& spec : graph_.specs) {
-      all.push_back(spec.declared);
-      if (spec.name != spec.declared) all.push_back(spec.name);
-    }
-    for (const DisabledPass& disabled : graph_.disabled) all.push_back(disabled.name);
-    for (const std::string& name : graph_.resourceNames) {
-      all.push_back(declaredName(name));
-      all.push_back(name);
-    }
-    for (const ImportSpec& import : graph_.imports) all.push_back(import.name);
-    for (const AliasSpec& alias : graph_.aliases) all.push_back(alias.name);
-    for (const ParameterSpec& parameter : graph_.parameters) all.push_back(parameter.path);
-    std::ranges::sort(all);
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-    return all;
+    std::set<std::string> all;
+    for (const PassSpec& spec : graph_.specs) all.insert({spec.declared, spec.name});
+    for (const DisabledPass& disabled : graph_.disabled) all.insert(disabled.name);
+    for (const std::string& name : graph_.resourceNames) all.insert({declaredName(name), name});
+    for (const ImportSpec& import : graph_.imports) all.insert(import.name);
+    for (const AliasSpec& alias : graph_.aliases) all.insert(alias.name);
+    for (const ParameterSpec& parameter : graph_.parameters) all.insert(parameter.path);
+    return {all.begin(), all.end()};
   }
 
-  // "@sun" where the graph declares one under a name of its own: that name.
-  std::optional<std::string> declaredImport(std::string_view name) const {
-    if (!name.starts_with('@')) return std::nullopt;
-    const auto is = [&](const ImportSpec& import) { return import.request.type == name.substr(1); };
-    const auto found = std::ranges::find_if(graph_.imports, is);
-    return found == graph_.imports.end() ? std::nullopt : std::optional(found->name);
-  }
-
-  std::string describe(const std::string& name) {
-    add(name);
-    return std::move(text_);
-  }
-
- private:
+  // Adds everything that has this name, each name once.
   void add(const std::string& name) {
+    if (!told_.insert(name).second) return;
     for (std::uint32_t pass = 0; pass < graph_.passes.size(); ++pass)
       if (graph_.specs[pass].name == name || graph_.specs[pass].declared == name) addPass(pass);
     for (const DisabledPass& disabled : graph_.disabled)
       if (disabled.name == name || declaredName(disabled.name) == name)
-        line(0, fmt::format("pass {}: disabled, {}", disabled.name, disabled.why));
+        line(0, "pass {}: disabled, {}", disabled.name, disabled.why);
     for (std::uint32_t r = 0; r < graph_.resources.size(); ++r)
       if (graph_.resourceNames[r] == name || declaredName(graph_.resourceNames[r]) == name) addResource(r);
-    addImports(name);
-    addAliases(name);
-    for (const ParameterSpec& parameter : graph_.parameters)
-      if (parameter.path == name) addParameter(parameter);
+    for (std::uint32_t i = 0; i < graph_.imports.size(); ++i)
+      if (graph_.imports[i].name == name && elementOf(graph_.imports[i].request) == 0) addImport(i);
+    for (const AliasSpec& alias : graph_.aliases)
+      if (alias.name == name) addAlias(alias);
+    for (std::uint32_t i = 0; i < graph_.parameters.size(); ++i)
+      if (graph_.parameters[i].path == name) addParameter(i);
+  }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  template <class... Args>
+  void line(std::size_t depth, fmt::format_string<Args...> format, Args&&... args) {
+    text_ += std::string(2 * depth, ' ') + base::printable(fmt::format(format, std::forward<Args>(args)...)) +
+             "\n";
   }
 
   // Imports that no pass reads as a resource (views, events, lists that only expressions ask of), and those that the first
   // pass to read them calls otherwise.
-  void addImports(const std::string& name) {
-    for (std::uint32_t i = 0; i < graph_.imports.size(); ++i) {
-      const ImportSpec& import = graph_.imports[i];
-      if (import.name != name || elementOf(import.request) > 0) continue;
-      const auto resource = std::ranges::find(graph_.resources, i, &FlatResource::import);
-      if (resource != graph_.resources.end()) {
-        const auto r = static_cast<std::uint32_t>(resource - graph_.resources.begin());
-        if (declaredName(graph_.resourceNames[r]) != name) addResource(r);
-        continue;
-      }
-      line(0, fmt::format("import {}: {}{}", import.name, whatIs(import), textOf(import.place)));
-      addArguments(import);
-      for (const PassSpec& spec : graph_.specs)
-        if (spec.view == i) line(1, fmt::format("is the view of '{}'", spec.name));
+  void addImport(std::uint32_t index) {
+    const ImportSpec& import = graph_.imports[index];
+    const auto resource = std::ranges::find(graph_.resources, index, &FlatResource::import);
+    if (resource != graph_.resources.end()) {
+      const auto r = static_cast<std::uint32_t>(resource - graph_.resources.begin());
+      if (declaredName(graph_.resourceNames[r]) != import.name) addResource(r);
+      return;
     }
-  }
-
-  // What they stand for follows, each once.
-  void addAliases(const std::string& name) {
-    for (const AliasSpec& alias : graph_.aliases) {
-      if (alias.name != name || !told_.insert(name).second) continue;
-      std::string text;
-      for (std::size_t i = 0; i < alias.targets.size(); ++i) {
-        const bool written = i < alias.texts.size();
-        text += fmt::format("{}'{}'", text.empty() ? "" : ", ", written ? alias.texts[i] : alias.targets[i]);
-      }
-      line(0, fmt::format("name {}: {}{}{}", alias.name,
-                          alias.targets.size() > 1 ? "the first that is there of " : "stands for ", text,
-                          textOf(alias.place)));
-      for (const std::string& target : alias.targets)
-        if (!told_.contains(target)) {
-          add(target);
-          told_.insert(target);
-        }
-    }
-  }
-
-  static std::string whatIs(const ImportSpec& import) {
-    constexpr const char* kKinds[] = {"texture", "buffer", "view", "list", "event"};
-    std::string what =
-        fmt::format("{} @{}", kKinds[static_cast<std::size_t>(import.kind)], import.request.type);
-    if (!import.columns.empty()) {
-      what = fmt::format("table @{}, {} row{} of", import.request.type, import.count,
-                         import.count == 1 ? "" : "s");
-      for (const TableColumn& column : import.columns)
-        what +=
-            fmt::format("{} {} {}", &column == import.columns.data() ? "" : ",", column.type, column.name);
-    } else if (import.kind == ImportKind::list) {
-      what += fmt::format(", {} entries", import.count);
-    }
-    return what;
+    line(0, "import {}: {}{}", import.name, importText(import), placeText(import.place));
+    addArguments(import);
+    for (const PassSpec& spec : graph_.specs)
+      if (spec.view == index) line(1, "is the view of '{}'", spec.name);
   }
 
   void addArguments(const ImportSpec& import) {
     for (const auto& [argument, value] : import.request.arguments)
-      line(1, fmt::format("argument {} = {}", argument, toText(value)));
+      line(1, "argument {} = {}", argument, toText(value));
   }
 
-  void line(int depth, const std::string& text) {
-    text_ += std::string(static_cast<std::size_t>(2 * depth), ' ') + base::printable(text) + "\n";
+  // What it stands for follows.
+  void addAlias(const AliasSpec& alias) {
+    std::vector<std::string> texts = alias.targets;
+    std::ranges::copy(alias.texts, texts.begin());
+    line(0, "name {}: {} '{}'{}", alias.name, texts.size() > 1 ? "the first that is there of" : "stands for",
+         fmt::join(texts, "', '"), placeText(alias.place));
+    for (const std::string& target : alias.targets) add(target);
   }
-
-  static std::string textOf(const Place& place) {
-    return place.file ? fmt::format(" at {}:{}:{}", *place.file, place.line, place.column) : "";
-  }
-
-  // ---- passes ----
 
   void addPass(std::uint32_t pass) {
     const PassSpec& spec = graph_.specs[pass];
     const FlatPass& flat = graph_.passes[pass];
-    line(0, fmt::format("pass {}: {}{}", spec.name, spec.type, textOf(spec.place)));
-    if (plan_.stepOf[pass] != kNone)
-      line(1, fmt::format("step {} of {}", plan_.stepOf[pass], plan_.steps.size()));
-    line(1, explainer_.whyPass(pass));
-    if (const std::string here = explainer_.whyHere(pass); !here.empty()) line(1, here);
-    if (flat.cadence != Cadence::always) line(1, fmt::format("update {}", nameOf(flat.cadence)));
-    if (flat.slices != 1) line(1, fmt::format("slices {}", flat.slices));
-    if (!spec.vertexShader.empty()) line(1, "vertex shader " + spec.vertexShader);
-    if (!spec.shader.empty()) line(1, "shader " + spec.shader);
-    for (const DefineSpec& define : spec.defines)
-      line(1, fmt::format("define {} {}", define.name, define.text));
-    for (const UniformSpec& uniform : spec.uniforms) addUniform(uniform);
+    const std::uint32_t step = plan_.stepOf[pass];
+    line(0, "pass {}: {}{}", spec.name, spec.type, placeText(spec.place));
+    if (step != kNone) line(1, "step {} of {}", step, plan_.steps.size());
+    line(1, "{}", explainer_.whyPass(pass));
+    if (const std::string here = explainer_.whyHere(pass); !here.empty()) line(1, "{}", here);
+    if (flat.cadence != Cadence::always) line(1, "update {}", nameOf(flat.cadence));
+    if (flat.slices != 1) line(1, "slices {}", flat.slices);
+    if (!spec.vertexShader.empty()) line(1, "vertex shader {}", spec.vertexShader);
+    if (!spec.shader.empty()) line(1, "shader {}", spec.shader);
+    for (const DefineSpec& define : spec.defines) line(1, "define {} {}", define.name, define.text);
+    for (const UniformSpec& uniform : spec.uniforms)
+      line(1, "parameter {} = {}{}{}", uniform.name, toText(uniform.value),
+           uniform.path.empty() ? "" : fmt::format(" ({})", uniform.path),
+           uniform.dynamic.present() && uniform.dynamic.dynamic() ? ", changes with time" : "");
     for (std::uint32_t i = 0; i < spec.slotCount; ++i) addSlot(graph_.slots[spec.firstSlot + i], pass);
-    if (plan_.stepOf[pass] != kNone) addBarriers(plan_.stepOf[pass]);
-  }
-
-  void addUniform(const UniformSpec& uniform) {
-    const std::string from = uniform.path.empty() ? "" : fmt::format(" ({})", uniform.path);
-    const bool timed = uniform.dynamic.present() && uniform.dynamic.dynamic();
-    line(1, fmt::format("parameter {} = {}{}{}", uniform.name, toText(uniform.value), from,
-                        timed ? ", changes with time" : ""));
+    if (step == kNone) return;
+    for (const bool afterClears : {false, true})
+      for (const std::string& why : explainer_.whyBarriers(step, afterClears)) line(1, "barrier {}", why);
   }
 
   void addSlot(const SlotSpec& slot, std::uint32_t pass) {
-    if (slot.useCount == 0) {
-      line(1, fmt::format("{} {}: nothing, the shader has no HAS_… of it", nameOf(slot.access), slot.name));
-      return;
-    }
+    if (slot.useCount == 0)
+      line(1, "{} {}: nothing, the shader has no HAS_… of it", nameOf(slot.access), slot.name);
     for (std::uint32_t u = slot.firstUse; u < slot.firstUse + slot.useCount; ++u) {
       const FlatUse& use = graph_.uses[u];
-      std::string text = fmt::format("{} {}: {} as {}", nameOf(slot.access), slot.name,
-                                     weft::graph::textOf(graph_, use), nameOf(use.kind));
-      if (slot.access != Access::write) text += madeBy(u, pass);
-      if (slot.access != Access::read && plan_.attached[u] == 0) text += ", not attached: nobody reads it";
-      line(1, text);
+      line(1, "{} {}: {} as {}{}{}", nameOf(slot.access), slot.name, textOf(graph_, use), nameOf(use.kind),
+           slot.access != Access::write ? madeBy(u, pass) : "",
+           slot.access != Access::read && plan_.attached[u] == 0 ? ", not attached: nobody reads it" : "");
     }
     if (slot.firstValue != kNone)
-      line(2,
-           fmt::format("until there is one: {}{}", weft::graph::textOf(graph_, graph_.uses[slot.firstValue]),
-                       madeBy(slot.firstValue, pass)));
+      line(2, "until there is one: {}{}", textOf(graph_, graph_.uses[slot.firstValue]),
+           madeBy(slot.firstValue, pass));
   }
 
   // ", made by 'sky', 'spheres'"
   std::string madeBy(std::uint32_t use, std::uint32_t pass) const {
-    std::string text;
-    std::vector<std::uint32_t> seen;
+    std::vector<std::string> makers;
     graph_.links.forEachWriter(graph_.links.seen[use], [&](std::uint32_t writer) {
       const std::uint32_t by = graph_.links.passOf[writer];
       if (by == pass && graph_.uses[use].history == 0) return;
-      if (std::ranges::find(seen, by) != seen.end()) return;
-      seen.push_back(by);
-      text += fmt::format("{}'{}'", text.empty() ? ", made by " : ", ", graph_.passNames[by]);
+      if (std::ranges::find(makers, graph_.passNames[by]) == makers.end())
+        makers.push_back(graph_.passNames[by]);
     });
-    return text;
+    return makers.empty() ? "" : fmt::format(", made by '{}'", fmt::join(makers, "', '"));
   }
-
-  void addBarriers(std::uint32_t step) {
-    for (const BarrierReason& reason : reasons_)
-      if (reason.step == step) line(1, "barrier " + explainer_.textOf(reason));
-  }
-
-  // ---- resources ----
 
   void addResource(std::uint32_t r) {
     const FlatResource& resource = graph_.resources[r];
-    const Place place = r < graph_.resourcePlaces.size() ? graph_.resourcePlaces[r] : Place{};
-    std::string what;
+    std::string shape = shapeText(resource);
     if (resource.import != kNone && isBuffer(resource)) {
-      what = whatIs(graph_.imports[resource.import]);
-      if (resource.bytes > 0) what += fmt::format(", {} bytes", resource.bytes);
-    } else if (isBuffer(resource)) {
-      what = fmt::format("buffer of {} bytes", resource.bytes);
-    } else {
-      what = fmt::format("texture {} {}x{}", infoOf(resource.format).name, resource.width, resource.height);
-      if (resource.depth > 1) what += fmt::format("x{}", resource.depth);
-      if (resource.target != Target::texture_2d) what += fmt::format(" {}", nameOf(resource.target));
-      if (resource.layers > 1) what += fmt::format(", {} layers", resource.layers);
-      if (resource.mips > 1) what += fmt::format(", {} levels", resource.mips);
-      if (resource.samples > 1) what += fmt::format(", {} samples", resource.samples);
-      if (!isImported(resource)) what += fmt::format(", {} bytes", resource.bytes);
+      shape = importText(graph_.imports[resource.import]);
+      if (resource.bytes > 0) shape += fmt::format(", {} bytes", resource.bytes);
     }
-    line(0, fmt::format("resource {}: {}{}", graph_.resourceNames[r], what, textOf(place)));
+    line(0, "resource {}: {}{}", graph_.resourceNames[r], shape,
+         r < graph_.resourcePlaces.size() ? placeText(graph_.resourcePlaces[r]) : "");
     if (resource.import != kNone) addArguments(graph_.imports[resource.import]);
-    if (resource.history > 0) line(1, fmt::format("history of {}", resource.history));
+    if (resource.history > 0) line(1, "history of {}", resource.history);
     if (resource.hasClear) line(1, "has a \"clear\": a version before the first write");
-    line(1, "storage " + explainer_.whyStorage(r));
-    for (std::uint32_t pass = 0; pass < graph_.passes.size(); ++pass) {
-      const FlatPass& flat = graph_.passes[pass];
-      for (std::uint32_t u = flat.firstUse; u < flat.firstUse + flat.useCount; ++u) {
-        const FlatUse& use = graph_.uses[u];
-        if (use.resource != r) continue;
-        const char* const verb = use.access == Access::read    ? "read"
-                                 : use.access == Access::write ? "written"
-                                                               : "modified";
-        line(1, fmt::format("{} by '{}' as {}: {}{}", verb, graph_.passNames[pass], nameOf(use.kind),
-                            weft::graph::textOf(graph_, use), plan_.stepOf[pass] == kNone ? ", culled" : ""));
-      }
+    line(1, "storage {}", explainer_.whyStorage(r));
+    for (std::uint32_t u = 0; u < graph_.uses.size(); ++u) {
+      const FlatUse& use = graph_.uses[u];
+      const std::uint32_t pass = graph_.links.passOf[u];
+      if (use.resource != r || pass == kNone) continue;
+      const char* const verb = use.access == Access::read    ? "read"
+                               : use.access == Access::write ? "written"
+                                                             : "modified";
+      line(1, "{} by '{}' as {}: {}{}", verb, graph_.passNames[pass], nameOf(use.kind), textOf(graph_, use),
+           plan_.stepOf[pass] == kNone ? ", culled" : "");
     }
     if (graph_.present.resource == r) line(1, "is presented");
     for (std::size_t i = 0; i < graph_.outputs.size(); ++i)
-      if (graph_.outputs[i].resource == r)
-        line(1, fmt::format("is read back as output '{}'", graph_.outputNames[i]));
+      if (graph_.outputs[i].resource == r) line(1, "is read back as output '{}'", graph_.outputNames[i]);
   }
 
-  // ---- parameters ----
-
-  void addParameter(const ParameterSpec& parameter) {
-    line(0, fmt::format("parameter {} = {}, from the {}{}", parameter.path, toText(parameter.value),
-                        wordFor(parameter.origin), textOf(parameter.desc.place)));
-    line(1, parameter.structural ? "structural: a change makes another plan"
-                                 : "live: a change writes bytes of uniforms");
-    const auto index = static_cast<std::uint32_t>(&parameter - graph_.parameters.data());
+  void addParameter(std::uint32_t index) {
+    const ParameterSpec& parameter = graph_.parameters[index];
+    line(0, "parameter {} = {}, from the {}{}", parameter.path, toText(parameter.value),
+         wordFor(parameter.origin), placeText(parameter.desc.place));
+    line(1, "{}",
+         parameter.structural ? "structural: a change makes another plan"
+                              : "live: a change writes bytes of uniforms");
     for (const PassSpec& spec : graph_.specs)
       for (const UniformSpec& uniform : spec.uniforms) {
         const std::vector<std::uint32_t> keys =
             uniform.dynamic.present() ? uniform.dynamic.parameterKeys() : std::vector<std::uint32_t>{};
-        if (uniform.path == parameter.path || std::ranges::find(keys, index) != keys.end())
-          line(1, fmt::format("is read by '{}' as '{}'", spec.name, uniform.name));
+        const bool live = std::ranges::find(keys, index) != keys.end();
+        if (live || uniform.path == parameter.path)
+          line(1, "is read by '{}' as '{}'", spec.name, uniform.name);
       }
   }
 
   const Plan& plan_;
   const FlatGraph& graph_;
   Explainer explainer_;
-  const std::vector<BarrierReason> reasons_;
   std::string text_;
-  std::set<std::string> told_;  // aliases and what they stand for
+  std::set<std::string> told_;
 };
 
 }  // namespace
@@ -282,9 +217,14 @@ std::optional<std::string> describe(const Plan& plan, std::string_view name, bas
   Describer describer(plan);
   const std::vector<std::string> names = describer.names();
   const std::vector<std::size_t> matches = suffixMatches(names, name);
-  if (matches.size() == 1) return describer.describe(names[matches[0]]);
-  if (const auto declared = matches.empty() ? describer.declaredImport(name) : std::nullopt)
-    return describer.describe(*declared);
+  // "@sun" where the graph declares one under a name of its own.
+  const auto declared = std::ranges::find_if(plan.graph->imports, [&](const ImportSpec& import) {
+    return matches.empty() && "@" + import.request.type == name;
+  });
+  if (matches.size() == 1 || declared != plan.graph->imports.end()) {
+    describer.add(matches.empty() ? declared->name : names[matches[0]]);
+    return describer.text();
+  }
   const base::Where place = base::placeOfOption("");
   if (matches.empty()) {
     base::Diagnostic& d = diagnostics.error(

@@ -1,159 +1,129 @@
-#include "engine/graph/print/diff.h"
-
+// What changes from one plan to another. Declared in print.h.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
 
 #include "engine/base/printable.h"
 #include "engine/graph/print/explain.h"
+#include "engine/graph/print/print.h"
 
 namespace weft::graph {
 
 namespace {
 
-const std::string& nameAt(const Plan& plan, std::uint32_t step) {
-  return plan.graph->passNames[plan.steps[step].pass];
+// Something that a plan has or lacks, under a name.
+struct Fact {
+  std::string name, text;
+  bool there = true;
+};
+using Facts = std::vector<Fact>;
+
+// A line for each fact that only one of the plans has, and where they differ.
+void compareFacts(const Facts& before, const Facts& after, std::string& text) {
+  const Fact none{"", "none", false};
+  const auto line = [&](const std::string& name, const Fact& was, const Fact& now) {
+    if ((!was.there && !now.there) || (was.there == now.there && was.text == now.text)) return;
+    text += base::printable(fmt::format("{} {}: {} before, now {}",
+                                        !was.there   ? '+'
+                                        : !now.there ? '-'
+                                                     : '~',
+                                        name, was.text, now.text)) +
+            "\n";
+  };
+  std::unordered_map<std::string_view, const Fact*> now;
+  for (const Fact& fact : after) now.emplace(fact.name, &fact);
+  for (const Fact& was : before) {
+    const auto found = now.find(was.name);
+    line(was.name, was, found == now.end() ? none : *found->second);
+    if (found != now.end()) now.erase(found);
+  }
+  for (const Fact& fact : after)
+    if (now.contains(fact.name)) line(fact.name, none, fact);
 }
 
-class Differ {
- public:
-  Differ(const Plan& before, const Plan& after) : before_(before), after_(after) {
-    for (std::uint32_t i = 0; i < before.steps.size(); ++i) stepBefore_[nameAt(before, i)] = i;
-    for (std::uint32_t i = 0; i < after.steps.size(); ++i) stepAfter_[nameAt(after, i)] = i;
+// The passes that both plans run, without those that moved: a longest row of them that both have in one order.
+std::set<std::string_view> findKept(const Plan& before, const Plan& after) {
+  std::unordered_map<std::string_view, std::uint32_t> stepBefore;
+  for (std::uint32_t i = 0; i < before.steps.size(); ++i)
+    stepBefore[before.graph->passNames[before.steps[i].pass]] = i;
+  const auto nameAt = [&](std::uint32_t step) -> std::string_view {
+    return after.graph->passNames[after.steps[step].pass];
+  };
+  std::vector<std::uint32_t> tail, tailAt, previous(after.steps.size(), kNone);  // by length of the row
+  for (std::uint32_t i = 0; i < after.steps.size(); ++i) {
+    const auto found = stepBefore.find(nameAt(i));
+    if (found == stepBefore.end()) continue;
+    const auto at = static_cast<std::size_t>(std::ranges::lower_bound(tail, found->second) - tail.begin());
+    tail.resize(std::max(tail.size(), at + 1));
+    tailAt.resize(tail.size());
+    tail[at] = found->second;
+    tailAt[at] = i;
+    if (at > 0) previous[i] = tailAt[at - 1];
   }
+  std::set<std::string_view> kept;
+  for (std::uint32_t i = tailAt.empty() ? kNone : tailAt.back(); i != kNone; i = previous[i])
+    kept.insert(nameAt(i));
+  return kept;
+}
 
-  std::string run() {
-    tellPasses();
-    tellBarriers();
-    tellResources();
-    tellBytes();
-    return std::move(text_);
+// The steps of the passes that are not `kept`, and why other passes are no steps.
+Facts passFacts(const Plan& plan, const std::set<std::string_view>& kept) {
+  const FlatGraph& graph = *plan.graph;
+  Facts facts;
+  for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
+    const std::uint32_t step = plan.stepOf[p];
+    if (!kept.contains(graph.passNames[p]))
+      facts.push_back({"pass " + graph.passNames[p], step == kNone ? "culled" : fmt::format("step {}", step),
+                       step != kNone});
   }
+  for (const DisabledPass& disabled : graph.disabled)
+    facts.push_back({"pass " + disabled.name, "disabled, " + disabled.why, false});
+  return facts;
+}
 
- private:
-  void line(const std::string& text) { text_ += base::printable(text) + "\n"; }
-
-  // Why a step of one plan is no step of the other.
-  static std::string fateIn(const Plan& plan, const std::string& name) {
-    const FlatGraph& graph = *plan.graph;
-    for (const DisabledPass& disabled : graph.disabled)
-      if (disabled.name == name) return fmt::format("disabled, {}", disabled.why);
-    const bool culled = std::ranges::find(graph.passNames, name) != graph.passNames.end();
-    return culled ? "culled" : "not in the graph";
+Facts barrierFacts(const Plan& plan) {
+  Facts facts;
+  const auto add = [&](std::string where, std::uint16_t mask) {
+    facts.push_back({std::move(where), barrierText(mask), mask != 0});
+  };
+  for (const Step& step : plan.steps) {
+    const std::string& name = plan.graph->passNames[step.pass];
+    add("barrier before " + name, step.barriers);
+    add("barrier behind the clears of " + name, step.barriersAfterClears);
   }
+  add("barrier at the end of the frame", plan.finalBarriers);
+  return facts;
+}
 
-  // The passes of both that keep their order: a longest ascending row of their steps in `before`. All others moved.
-  std::vector<std::uint8_t> findKept() const {
-    const std::size_t count = after_.steps.size();
-    std::vector<std::uint32_t> tail, tailAt, previous(count, kNone);  // by length of the row
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const auto found = stepBefore_.find(nameAt(after_, i));
-      if (found == stepBefore_.end()) continue;
-      const auto at = static_cast<std::size_t>(std::ranges::lower_bound(tail, found->second) - tail.begin());
-      if (at == tail.size()) {
-        tail.push_back(0);
-        tailAt.push_back(0);
-      }
-      tail[at] = found->second;
-      tailAt[at] = i;
-      previous[i] = at > 0 ? tailAt[at - 1] : kNone;
-    }
-    std::vector<std::uint8_t> kept(count, 0);
-    for (std::uint32_t i = tailAt.empty() ? kNone : tailAt.back(); i != kNone; i = previous[i]) kept[i] = 1;
-    return kept;
+Facts resourceFacts(const Plan& plan) {
+  Facts facts;
+  for (std::uint32_t r = 0; r < plan.graph->resources.size(); ++r) {
+    std::string shape = shapeText(plan.graph->resources[r]);
+    if (plan.copiesOf(r) > 1) shape += fmt::format(", {} copies", plan.copiesOf(r));
+    facts.push_back({"resource " + plan.graph->resourceNames[r], shape, plan.firstStep[r] != kNone});
   }
-
-  void tellPasses() {
-    for (std::uint32_t i = 0; i < before_.steps.size(); ++i)
-      if (const std::string& name = nameAt(before_, i); !stepAfter_.contains(name))
-        line(fmt::format("- pass {}: step {} before, now {}", name, i, fateIn(after_, name)));
-    const std::vector<std::uint8_t> kept = findKept();
-    for (std::uint32_t i = 0; i < after_.steps.size(); ++i) {
-      const std::string& name = nameAt(after_, i);
-      const auto old = stepBefore_.find(name);
-      if (old == stepBefore_.end())
-        line(fmt::format("+ pass {}: step {}, {} before", name, i, fateIn(before_, name)));
-      else if (kept[i] == 0)
-        line(fmt::format("~ pass {}: step {} before, now {}", name, old->second, i));
-    }
-  }
-
-  void tellMask(const std::string& where, std::uint16_t before, std::uint16_t after) {
-    const auto added = static_cast<std::uint16_t>(after & ~before),
-               gone = static_cast<std::uint16_t>(before & ~after);
-    if (gone != 0) line(fmt::format("- barrier {}: {}", where, barrierText(gone)));
-    if (added != 0) line(fmt::format("+ barrier {}: {}", where, barrierText(added)));
-  }
-
-  void tellBarriers() {
-    for (std::uint32_t i = 0; i < before_.steps.size(); ++i)
-      if (const std::string& name = nameAt(before_, i); !stepAfter_.contains(name))
-        tellMask("before " + name, before_.steps[i].barriers | before_.steps[i].barriersAfterClears, 0);
-    for (std::uint32_t i = 0; i < after_.steps.size(); ++i) {
-      const std::string& name = nameAt(after_, i);
-      const auto old = stepBefore_.find(name);
-      const Step none{};
-      const Step& was = old == stepBefore_.end() ? none : before_.steps[old->second];
-      tellMask("before " + name, was.barriers, after_.steps[i].barriers);
-      tellMask("behind the clears of " + name, was.barriersAfterClears, after_.steps[i].barriersAfterClears);
-    }
-    tellMask("at the end of the frame", before_.finalBarriers, after_.finalBarriers);
-  }
-
-  static std::string shapeOf(const Plan& plan, std::uint32_t r) {
-    const FlatResource& resource = plan.graph->resources[r];
-    if (plan.firstStep[r] == kNone) return "not used";
-    if (resource.kind == ResourceKind::buffer || resource.kind == ResourceKind::imported_buffer)
-      return fmt::format("buffer of {} bytes", resource.bytes);
-    return fmt::format("{} {}x{}x{}, {} layers, {} levels, {} samples", infoOf(resource.format).name,
-                       resource.width, resource.height, resource.depth, resource.layers, resource.mips,
-                       resource.samples) +
-           (plan.copiesOf(r) > 1 ? fmt::format(", {} copies", plan.copiesOf(r)) : "");
-  }
-
-  void tellResources() {
-    std::unordered_map<std::string_view, std::uint32_t> old;
-    for (std::uint32_t r = 0; r < before_.graph->resources.size(); ++r)
-      old[before_.graph->resourceNames[r]] = r;
-    for (std::uint32_t r = 0; r < after_.graph->resources.size(); ++r) {
-      const std::string& name = after_.graph->resourceNames[r];
-      const std::string now = shapeOf(after_, r);
-      const auto found = old.find(name);
-      const std::string was = found == old.end() ? "not used" : shapeOf(before_, found->second);
-      if (found != old.end()) old.erase(found);
-      if (was != now) line(fmt::format("~ resource {}: {} before, now {}", name, was, now));
-    }
-    for (std::uint32_t r = 0; r < before_.graph->resources.size(); ++r)
-      if (old.contains(before_.graph->resourceNames[r]) && before_.firstStep[r] != kNone)
-        line(fmt::format("- resource {}: {} before", before_.graph->resourceNames[r], shapeOf(before_, r)));
-  }
-
-  void tellBytes() {
-    const auto tell = [&](const char* what, std::uint64_t was, std::uint64_t now) {
-      if (was != now)
-        line(fmt::format("~ bytes {}: {} before, now {} ({}{})", what, was, now, now > was ? "+" : "-",
-                         now > was ? now - was : was - now));
-    };
-    if (before_.storages.size() != after_.storages.size())
-      line(fmt::format("~ textures: {} before, now {}", before_.storages.size(), after_.storages.size()));
-    tell("declared", before_.bytesDeclared, after_.bytesDeclared);
-    tell("allocated", before_.bytesAllocated, after_.bytesAllocated);
-    tell("of transient buffers", before_.arenaBytes, after_.arenaBytes);
-    tell("bound", before_.bytesBound, after_.bytesBound);
-  }
-
-  const Plan &before_, &after_;
-  std::unordered_map<std::string_view, std::uint32_t> stepBefore_, stepAfter_;
-  std::string text_;
-};
+  facts.push_back({"textures", fmt::to_string(plan.storages.size())});
+  for (const auto& [what, bytes] : {std::pair{"declared", plan.bytesDeclared},
+                                    {"allocated", plan.bytesAllocated},
+                                    {"of transient buffers", plan.arenaBytes},
+                                    {"bound", plan.bytesBound}})
+    facts.push_back({fmt::format("bytes {}", what), fmt::to_string(bytes)});
+  return facts;
+}
 
 }  // namespace
 
 std::string diffText(const Plan& before, const Plan& after) {
-  return Differ(before, after).run();
+  const std::set<std::string_view> kept = findKept(before, after);
+  std::string text;
+  compareFacts(passFacts(before, kept), passFacts(after, kept), text);
+  compareFacts(barrierFacts(before), barrierFacts(after), text);
+  compareFacts(resourceFacts(before), resourceFacts(after), text);
+  return text;
 }
 
 }  // namespace weft::graph

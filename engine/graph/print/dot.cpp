@@ -1,15 +1,20 @@
-#include "engine/graph/print/dot.h"
+// A plan as a Graphviz graph. Declared in print.h.
+#include <fmt/format.h>
 
+#include <iterator>
 #include <set>
 
 #include "engine/base/printable.h"
 #include "engine/graph/print/explain.h"
-#include "engine/graph/print/shared.h"
+#include "engine/graph/print/print.h"
 #include "engine/graph/subresource.h"
 
 namespace weft::graph {
 
 namespace {
+
+constexpr const char* kGray =
+    ", style=\"filled\", fillcolor=\"gray93\", color=\"gray70\", fontcolor=\"gray55\"";
 
 std::string escaped(const std::string& text) {
   std::string out;
@@ -20,60 +25,44 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-std::string passNode(std::uint32_t pass) {
-  return "p" + std::to_string(pass);
-}
-std::string resourceNode(std::uint32_t resource) {
-  return "r" + std::to_string(resource);
-}
-
 std::string passLine(const Plan& plan, std::uint32_t p) {
   const FlatGraph& graph = *plan.graph;
-  std::string label = escaped(graph.passNames[p]), style;
-  if (plan.stepOf[p] == kNone) {
-    style = ", style=\"filled\", fillcolor=\"gray93\", color=\"gray70\", fontcolor=\"gray55\"";
-  } else {
+  const FlatPass& pass = graph.passes[p];
+  std::string label = escaped(graph.passNames[p]), style = kGray;
+  if (plan.stepOf[p] != kNone) {
     const Step& step = plan.steps[plan.stepOf[p]];
-    label = std::to_string(plan.stepOf[p]) + " " + label;
-    if (graph.passes[p].cadence != Cadence::always)
-      label += std::string("\\n") + nameOf(graph.passes[p].cadence);
-    if (const int mask = step.barriers | step.barriersAfterClears; mask != 0)
-      label += "\\nbarrier: " + barrierText(static_cast<std::uint16_t>(mask));
-    style = graph.passes[p].sideEffect ? ", style=\"filled,bold\", fillcolor=\"moccasin\""
-                                       : ", style=\"filled\", fillcolor=\"moccasin\"";
+    label = fmt::format("{} {}", plan.stepOf[p], label);
+    if (pass.cadence != Cadence::always) label += fmt::format("\\n{}", nameOf(pass.cadence));
+    const auto mask = static_cast<std::uint16_t>(step.barriers | step.barriersAfterClears);
+    if (mask != 0) label += "\\nbarrier: " + barrierText(mask);
+    style = fmt::format(", style=\"filled{}\", fillcolor=\"moccasin\"", pass.sideEffect ? ",bold" : "");
   }
-  return "  " + passNode(p) + " [shape=box, label=\"" + label + "\"" + style + "];\n";
+  return fmt::format("  p{} [shape=box, label=\"{}\"{}];\n", p, label, style);
 }
 
 std::string resourceLine(const Plan& plan, std::uint32_t r) {
-  const FlatGraph& graph = *plan.graph;
-  const FlatResource& resource = graph.resources[r];
-  std::string label = escaped(graph.resourceNames[r]);
-  if (isBuffer(resource)) {
-    label += "\\n" + std::to_string(resource.bytes) + " bytes";
-    if (plan.bufferOffsetOf[r] != Plan::kNoOffset) label += " at " + std::to_string(plan.bufferOffsetOf[r]);
-  } else {
-    label += std::string("\\n") + infoOf(resource.format).name + " " + std::to_string(resource.width) + "x" +
-             std::to_string(resource.height);
-    if (plan.storageOf[r] != kNone) label += "\\nstorage " + std::to_string(plan.storageOf[r]);
-  }
-  std::string style = ", style=\"filled\", fillcolor=\"lightblue\"";
-  if (isImported(resource))
-    style = ", style=\"filled\", fillcolor=\"palegreen\"";
-  else if (plan.firstStep[r] == kNone)
-    style = ", style=\"filled\", fillcolor=\"gray93\", color=\"gray70\", fontcolor=\"gray55\"";
-  else if (plan.persistent[r] != 0)
-    style = ", style=\"filled\", fillcolor=\"lightsteelblue\", peripheries=2";
-  return "  " + resourceNode(r) + " [shape=ellipse, label=\"" + label + "\"" + style + "];\n";
+  const FlatResource& resource = plan.graph->resources[r];
+  std::string label = escaped(plan.graph->resourceNames[r]) + "\\n" + shapeText(resource);
+  if (plan.bufferOffsetOf[r] != Plan::kNoOffset) label += fmt::format(" at {}", plan.bufferOffsetOf[r]);
+  if (plan.storageOf[r] != kNone) label += fmt::format("\\nstorage {}", plan.storageOf[r]);
+  const char* const style = isImported(resource)         ? ", style=\"filled\", fillcolor=\"palegreen\""
+                            : plan.firstStep[r] == kNone ? kGray
+                            : plan.persistent[r] != 0
+                                ? ", style=\"filled\", fillcolor=\"lightsteelblue\", peripheries=2"
+                                : ", style=\"filled\", fillcolor=\"lightblue\"";
+  return fmt::format("  r{} [shape=ellipse, label=\"{}\"{}];\n", r, label, style);
 }
 
 }  // namespace
 
 std::string dumpDot(const Plan& plan) {
   const FlatGraph& graph = *plan.graph;
-  std::string text = "digraph \"" + escaped(graph.name.empty() ? "plan" : graph.name) +
-                     "\" {\n  rankdir=LR;\n  node [fontname=\"sans-serif\", fontsize=10];\n  edge "
-                     "[fontname=\"sans-serif\", fontsize=8];\n";
+  std::string text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out,
+                 "digraph \"{}\" {{\n  rankdir=LR;\n  node [fontname=\"sans-serif\", fontsize=10];\n  edge "
+                 "[fontname=\"sans-serif\", fontsize=8];\n",
+                 escaped(graph.name.empty() ? "plan" : graph.name));
   std::set<std::uint32_t> used;
   for (const FlatUse& use : graph.uses) used.insert(use.resource);
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p) text += passLine(plan, p);
@@ -83,28 +72,22 @@ std::string dumpDot(const Plan& plan) {
     for (std::uint32_t u = graph.passes[p].firstUse; u < graph.passes[p].firstUse + graph.passes[p].useCount;
          ++u) {
       const FlatUse& use = graph.uses[u];
+      const std::string part = textOf(graph, use).substr(graph.resourceNames[use.resource].size());
+      const std::string label = escaped(slots[u] + (slots[u].empty() || part.empty() ? "" : " ") + part);
+      const std::string pass = fmt::format("p{}", p), resource = fmt::format("r{}", use.resource);
       const bool reads = use.access == Access::read;
-      std::string label = slots[u];
-      const std::string whole = textOf(graph, use);
-      if (whole != graph.resourceNames[use.resource])
-        label += (label.empty() ? "" : " ") + whole.substr(graph.resourceNames[use.resource].size());
-      std::string style = "label=\"" + escaped(label) + "\"";
-      if (use.history > 0) style += ", style=dashed, constraint=false";
-      if (plan.attached[u] == 0) style += ", color=\"gray70\", fontcolor=\"gray55\"";
-      if (use.access == Access::modify) style += ", dir=both";
-      text += "  " + (reads ? resourceNode(use.resource) : passNode(p)) + " -> " +
-              (reads ? passNode(p) : resourceNode(use.resource)) + " [" + style + "];\n";
+      fmt::format_to(out, "  {} -> {} [label=\"{}\"{}{}{}];\n", reads ? resource : pass,
+                     reads ? pass : resource, label,
+                     use.history > 0 ? ", style=dashed, constraint=false" : "",
+                     plan.attached[u] == 0 ? ", color=\"gray70\", fontcolor=\"gray55\"" : "",
+                     use.access == Access::modify ? ", dir=both" : "");
     }
-  if (graph.present.resource != kNone) {
-    text += "  present [shape=doublecircle, label=\"present\"];\n";
-    text += "  " + resourceNode(graph.present.resource) + " -> present;\n";
-  }
-  for (std::size_t i = 0; i < graph.outputs.size(); ++i) {
-    const std::string node = "o" + std::to_string(i);
-    text += "  " + node + " [shape=note, label=\"" +
-            escaped(i < graph.outputNames.size() ? graph.outputNames[i] : node) + "\"];\n";
-    text += "  " + resourceNode(graph.outputs[i].resource) + " -> " + node + " [style=dotted];\n";
-  }
+  if (graph.present.resource != kNone)
+    fmt::format_to(out, "  present [shape=doublecircle, label=\"present\"];\n  r{} -> present;\n",
+                   graph.present.resource);
+  for (std::size_t i = 0; i < graph.outputs.size(); ++i)
+    fmt::format_to(out, "  o{} [shape=note, label=\"{}\"];\n  r{} -> o{} [style=dotted];\n", i,
+                   escaped(graph.outputNames[i]), graph.outputs[i].resource, i);
   return text + "}\n";
 }
 

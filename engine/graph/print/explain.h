@@ -1,32 +1,17 @@
-// Why a plan is as it is: why a pass runs or was culled, why a barrier has its bits, why two textures share.
-// Computed when asked, from the plan alone; compile() keeps none of it. Sentences are for people and stable
-// for equal plans.
+// Why a plan is as it is: why a pass runs or was culled, why a barrier has its bits, why two textures share. Computed when
+// asked, from the plan alone. Also the words that all printed forms share. Sentences are for people, and equal for equal
+// plans.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "engine/graph/compile/compile.h"
 #include "engine/graph/compile/dependencies.h"
 #include "engine/graph/plan.h"
 
 namespace weft::graph {
-
-// One access of the two that make a barrier bit necessary.
-struct Touch {
-  std::uint32_t pass = kNone;  // kNone: present or read-back at the end of the frame
-  FlatUse use;
-  bool clear = false;           // the clear before the pass
-  std::uint32_t framesAgo = 0;  // 0: in the frame of the barrier
-};
-
-struct BarrierReason {
-  std::uint32_t step = 0;  // steps.size(): at the end of the frame
-  bool afterClears = false;
-  BarrierBit bit{};
-  bool found = false;   // false: only frames in which some pass is skipped need the bit (barrier_rules.h)
-  Touch before, after;  // the accesses that the barrier separates
-};
 
 class Explainer {
  public:
@@ -37,28 +22,41 @@ class Explainer {
   std::string whyPass(std::uint32_t pass) const;
   // "after 'sky' (reads 'hdr'), 'sort' (reads 'keys')": what must run before it, "" when nothing
   std::string whyHere(std::uint32_t pass) const;
-  // "storage 3, shared with 'a' (steps 0..2)" / "storage of its own: history of 1" …
+  // "shared with 'a' (steps 0..2)" / "its own: history of 1" …
   std::string whyStorage(std::uint32_t resource) const;
-  // One reason per bit, in order of steps and bits.
-  std::vector<BarrierReason> whyBarriers() const;
-  std::string textOf(const BarrierReason& reason) const;
+  // "image_access: 'a' writes 'x' as image, then 'b' reads 'x' as image": one text for each bit of the barriers of a step
+  std::vector<std::string> whyBarriers(std::uint32_t step, bool afterClears) const;
 
  private:
-  bool touchesSameMemory(const Touch& a, std::int64_t frameA, const Touch& b, std::int64_t frameB) const;
-  template <class F>
-  bool eachAccess(std::uint32_t step, F&& f) const;
-  std::string textOf(const Touch& touch) const;
-
   const Plan& plan_;
   const FlatGraph& graph_;
-  std::vector<Dependency> edges_;                 // over all passes, read after write and the others
-  std::vector<std::vector<std::uint32_t>> from_;  // per pass: edges that leave it
-  std::vector<std::vector<std::uint32_t>> to_;    // per pass: edges that reach it
+  std::vector<Dependency> edges_;  // over all passes, culled ones too
+  std::vector<BarrierReason> reasons_;
 };
 
 // "hdr.mip[2]", "maps.layer[0..3]", "depth.stencil", "taa@-1": a use as a person would write it.
 std::string textOf(const FlatGraph& graph, const FlatUse& use);
-// "texture_fetch image_access"
-std::string barrierText(std::uint16_t mask);
+// ".mip[2]" or ".mip[2..4]"
+std::string spanText(const char* part, std::uint32_t first, std::uint32_t count);
+// "texture rgba16f 64x64, 3 levels, 32768 bytes"
+std::string shapeText(const FlatResource& resource);
+// "2..5", "2..end": the steps in which it is alive
+std::string lifetimeText(const Plan& plan, std::uint32_t resource);
+std::vector<std::string> barrierNames(std::uint16_t mask);
+std::string barrierText(std::uint16_t mask);  // "texture_fetch image_access"
+// Slot name per use; "" where the graph has none.
+std::vector<std::string> slotNames(const FlatGraph& graph);
+
+// The attachments that a pass's live uses make.
+struct FramebufferText {
+  std::uint32_t width = 0, height = 0;
+  std::vector<std::string> color;  // as textOf(use), in slot order
+  std::string depth;               // or ""
+  bool empty() const { return color.empty() && depth.empty(); }
+};
+FramebufferText framebufferOf(const Plan& plan, std::uint32_t pass);
+
+const char* nameOf(Target target);
+const char* nameOf(Cadence cadence);
 
 }  // namespace weft::graph

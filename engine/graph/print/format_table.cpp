@@ -1,32 +1,9 @@
-#include "engine/graph/print/format_table.h"
-
+// What a texture of each format can be used for. Declared in print.h.
 #include <fmt/format.h>
 
+#include "engine/graph/print/print.h"
+
 namespace weft::graph {
-
-namespace {
-
-const char* kindName(TexelKind kind) {
-  switch (kind) {
-    case TexelKind::none:
-      return "nothing";
-    case TexelKind::normalized:
-      return "normalized";
-    case TexelKind::floating:
-      return "float";
-    case TexelKind::unsigned_integer:
-      return "unsigned";
-    case TexelKind::signed_integer:
-      return "signed";
-    case TexelKind::depth:
-      return "depth";
-    case TexelKind::depth_stencil:
-      return "depth/stencil";
-  }
-  return "";
-}
-
-}  // namespace
 
 FormatUses usesOf(Format format) {
   const FormatInfo& info = infoOf(format);
@@ -39,6 +16,8 @@ FormatUses usesOf(Format format) {
 }
 
 std::string formatTable() {
+  constexpr const char* kKinds[] = {"nothing", "normalized", "float",        "unsigned",
+                                    "signed",  "depth",      "depth/stencil"};
   const auto mark = [](bool can) { return can ? "yes" : "-"; };
   std::string text = fmt::format("{:<18}{:>6}{:>9}  {:<18}{:<11}{:<8}{:<9}{}\n", "name", "bytes", "channels",
                                  "texels", "attachment", "blend", "filter", "as image");
@@ -47,8 +26,8 @@ std::string formatTable() {
     const FormatInfo& info = infoOf(format);
     const FormatUses uses = usesOf(format);
     text += fmt::format("{:<18}{:>6}{:>9}  {:<18}{:<11}{:<8}{:<9}{}\n", name, info.bytes, info.channels,
-                        kindName(info.kind), mark(uses.attachment), mark(uses.blended), mark(uses.filtered),
-                        uses.image ? name : "-");
+                        kKinds[static_cast<std::size_t>(info.kind)], mark(uses.attachment),
+                        mark(uses.blended), mark(uses.filtered), uses.image ? name : "-");
   }
   return text;
 }

@@ -1,14 +1,14 @@
-#include "engine/graph/print/graph_file.h"
-
+// A plan as a graph file. Declared in print.h.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <unordered_map>
 #include <vector>
 
-#include "engine/graph/print/shared.h"
+#include "engine/graph/language/keys.h"
+#include "engine/graph/print/explain.h"
+#include "engine/graph/print/print.h"
 #include "engine/graph/subresource.h"
 
 namespace weft::graph {
@@ -54,18 +54,10 @@ Json jsonOf(const Value& value) {
   }
 }
 
-std::string spanText(const char* part, std::uint32_t first, std::uint32_t count) {
-  return count == 1 ? fmt::format(".{}[{}]", part, first)
-                    : fmt::format(".{}[{}..{}]", part, first, first + count - 1);
-}
-
 class FileWriter {
  public:
   explicit FileWriter(const Plan& plan)
-      : plan_(plan), graph_(*plan.graph), used_(graph_.resources.size(), 0) {
-    for (std::uint32_t r = 0; r < graph_.resources.size(); ++r)
-      if (graph_.resources[r].import != kNone) importResource_[graph_.resources[r].import] = r;
-  }
+      : plan_(plan), graph_(*plan.graph), used_(graph_.resources.size(), 0) {}
 
   std::string write() {
     Json file;
@@ -80,7 +72,12 @@ class FileWriter {
         for (const std::uint32_t other : history.resetResources) use(other);
     file["resources"] = resourcesJson();
     file["passes"] = std::move(passes);
-    if (graph_.present.resource != kNone) file["present"] = presentText();
+    if (graph_.present.resource != kNone) {
+      FlatUse shown = graph_.present;  // the first level goes without saying
+      if (const FlatResource& r = graph_.resources[shown.resource]; shown.mip == 0 && shown.mips == 1)
+        shown.mips = r.mips;
+      file["present"] = textOf(shown, false);
+    }
     for (std::size_t i = 0; i < graph_.outputs.size(); ++i)
       if (plan_.outputLive[i] != 0)
         file["outputs"][plainName(graph_.outputNames[i])] = textOf(graph_.outputs[i], false);
@@ -91,13 +88,15 @@ class FileWriter {
   // ---- names ----
 
   std::string importName(std::uint32_t import) const {
-    const auto resource = importResource_.find(import);
     const ImportSpec& spec = graph_.imports[import];
     // A view under the name of its type would be the view of all passes.
-    if (spec.kind == ImportKind::view && spec.name == spec.request.type)
-      return plainName(spec.name) + "_view";
-    if (spec.kind == ImportKind::view) return plainName(spec.name);
-    return elementName(resource == importResource_.end() ? spec.name : graph_.resourceNames[resource->second])
+    if (spec.kind == ImportKind::view)
+      return plainName(spec.name) + (spec.name == spec.request.type ? "_view" : "");
+    const auto resource = std::ranges::find(graph_.resources, import, &FlatResource::import);
+    const bool named = resource != graph_.resources.end();
+    return elementName(
+               named ? graph_.resourceNames[static_cast<std::size_t>(resource - graph_.resources.begin())]
+                     : spec.name)
         .array;
   }
 
@@ -110,7 +109,7 @@ class FileWriter {
     std::string text = name.array;
     if (!wholeArray && !name.index.empty()) text += "[" + name.index + "]";
     if (!isBuffer(r)) {
-      const bool cube = r.target == Target::texture_cube || r.target == Target::texture_cube_array;
+      const bool cube = isCube(r);
       if (use.mips < r.mips) text += spanText("mip", use.mip, use.mips);
       if (use.layers < r.layers && !cube) text += spanText("layer", use.layer, use.layers);
       if (use.layers < r.layers && cube) {
@@ -123,37 +122,21 @@ class FileWriter {
     return text;
   }
 
-  std::string presentText() const {
-    FlatUse shown = graph_.present;
-    const FlatResource& r = graph_.resources[shown.resource];
-    const bool first = shown.mip == 0 && shown.mips == 1 && r.mips > 1;
-    std::string text = elementName(graph_.resourceNames[shown.resource]).array;
-    if (const std::string& index = elementName(graph_.resourceNames[shown.resource]).index; !index.empty())
-      text += "[" + index + "]";
-    if (!first && r.mips > 1) text += spanText("mip", shown.mip, shown.mips);
-    return text;
-  }
-
-  // A folded expression, with names and values for its keys.
+  // A folded expression, with names and values for its keys: "age(#3)" and "$#2".
   std::string expressionText(const Expr& expr) {
     std::string text = expr.text();
-    const auto replaceKeys = [&](std::string_view before, std::string_view kept, const auto& wordFor) {
-      for (std::size_t at = text.find(before); at != std::string::npos; at = text.find(before, at)) {
-        const std::size_t digits = at + before.size();
-        std::size_t end = digits;
-        while (end < text.size() && text[end] >= '0' && text[end] <= '9') ++end;
-        const auto key = static_cast<std::uint32_t>(std::stoul(text.substr(digits, end - digits)));
-        const std::string word = std::string(kept) + wordFor(key);
-        text.replace(at, end - at, word);
-        at += word.size();
+    for (std::size_t at = text.find('#'); at != std::string::npos; at = text.find('#', at + 1)) {
+      const std::size_t end = std::min(text.find_first_not_of("0123456789", at + 1), text.size());
+      const auto key = static_cast<std::uint32_t>(std::stoul(text.substr(at + 1, end - at - 1)));
+      if (text[at - 1] == '$') {
+        text.replace(at - 1, end - at + 1, graph::toText(graph_.parameters[key].value));
+      } else {
+        use(key);
+        const std::uint32_t import = graph_.resources[key].import;
+        text.replace(at, end - at,
+                     import == kNone ? elementName(graph_.resourceNames[key]).array : importName(import));
       }
-    };
-    replaceKeys("age(#", "age(", [&](std::uint32_t r) {
-      use(r);
-      const std::uint32_t import = graph_.resources[r].import;
-      return import == kNone ? elementName(graph_.resourceNames[r]).array : importName(import);
-    });
-    replaceKeys("$#", "", [&](std::uint32_t index) { return graph::toText(graph_.parameters[index].value); });
+    }
     return text;
   }
 
@@ -194,7 +177,7 @@ class FileWriter {
     if (isBuffer(r)) {
       json["buffer"] = r.bytes;
     } else {
-      const bool cube = r.target == Target::texture_cube || r.target == Target::texture_cube_array;
+      const bool cube = isCube(r);
       json["texture"] = infoOf(r.format).name;
       json["size"] =
           r.target == Target::texture_3d ? Json{r.width, r.height, r.depth} : Json{r.width, r.height};
@@ -303,15 +286,13 @@ class FileWriter {
   }
 
   static void addState(const PassSpec& spec, Json& json) {
-    constexpr const char* kBlends[] = {"none", "add", "alpha", "premultiplied", "multiply", "min", "max"};
-    constexpr const char* kCulls[] = {"none", "front", "back"};
     const StateSpec& state = spec.state;
     Json out;
     for (const auto& [slot, blend] : state.blend)
-      out["blend"][slot] = kBlends[static_cast<std::size_t>(blend)];
+      out["blend"][slot] = kBlendWords[static_cast<std::size_t>(blend)];
     if (state.depthTest) out["depth_test"] = kCompareNames[static_cast<std::size_t>(state.depthCompare)];
     if (!state.depthWrite) out["depth_write"] = false;
-    if (state.cull != Cull::none) out["cull"] = kCulls[static_cast<std::size_t>(state.cull)];
+    if (state.cull != Cull::none) out["cull"] = kCullWords[static_cast<std::size_t>(state.cull)];
     if (state.lines) out["polygon"] = "line";
     if (state.offsetFactor != 0 || state.offsetUnits != 0)
       out["offset"] = {state.offsetFactor, state.offsetUnits};
@@ -320,8 +301,7 @@ class FileWriter {
 
   const Plan& plan_;
   const FlatGraph& graph_;
-  std::unordered_map<std::uint32_t, std::uint32_t> importResource_;  // by import
-  std::vector<std::uint8_t> used_;                                   // per resource
+  std::vector<std::uint8_t> used_;  // per resource
 };
 
 }  // namespace

@@ -1,11 +1,12 @@
-#include "engine/graph/print/json.h"
-
+// A plan as JSON. Declared in print.h.
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "engine/base/printable.h"
 #include "engine/graph/print/explain.h"
-#include "engine/graph/print/shared.h"
+#include "engine/graph/print/print.h"
 #include "engine/graph/subresource.h"
 
 namespace weft::graph {
@@ -13,13 +14,6 @@ namespace weft::graph {
 namespace {
 
 using nlohmann::ordered_json;
-
-ordered_json bitsJson(std::uint16_t mask) {
-  ordered_json bits = ordered_json::array();
-  for (int i = 0; i < kBarrierBitCount; ++i)
-    if ((mask >> i & 1) != 0) bits.push_back(barrierName(static_cast<BarrierBit>(1 << i)));
-  return bits;
-}
 
 ordered_json useJson(const Plan& plan, std::uint32_t u, const std::string& slot) {
   const FlatUse& use = plan.graph->uses[u];
@@ -34,25 +28,16 @@ ordered_json useJson(const Plan& plan, std::uint32_t u, const std::string& slot)
   return json;
 }
 
-ordered_json lifeJson(const Plan& plan, std::uint32_t r) {
-  return ordered_json::array({plan.firstStep[r], plan.lastStep[r]});
-}
-
 }  // namespace
 
 std::string dumpJson(const Plan& plan, bool explain) {
   const FlatGraph& graph = *plan.graph;
   const std::vector<std::string> slots = slotNames(graph);
   std::optional<Explainer> explainer;
-  std::vector<BarrierReason> reasons;
-  if (explain) {
-    explainer.emplace(plan);
-    reasons = explainer->whyBarriers();
-  }
+  if (explain) explainer.emplace(plan);
   const auto whyBarriers = [&](std::uint32_t step) {
-    ordered_json why = ordered_json::array();
-    for (const BarrierReason& reason : reasons)
-      if (reason.step == step) why.push_back(explainer->textOf(reason));
+    std::vector<std::string> why = explainer->whyBarriers(step, false);
+    std::ranges::move(explainer->whyBarriers(step, true), std::back_inserter(why));
     return why;
   };
 
@@ -70,14 +55,13 @@ std::string dumpJson(const Plan& plan, bool explain) {
     ordered_json s;
     s["pass"] = graph.passNames[step.pass];
     s["update"] = nameOf(pass.cadence);
-    if (pass.group != kNone && pass.group < graph.groupNames.size())
-      s["group"] = graph.groupNames[pass.group];
+    if (pass.group < graph.groupNames.size()) s["group"] = graph.groupNames[pass.group];
     if (pass.slices != 1) s["slices"] = pass.slices;
-    s["barriers"] = bitsJson(step.barriers);
+    s["barriers"] = barrierNames(step.barriers);
     s["clears"] = ordered_json::array();
     for (std::uint32_t c = step.firstClear; c < step.firstClear + step.clearCount; ++c)
       s["clears"].push_back(textOf(graph, plan.clears[c].use));
-    if (step.barriersAfterClears != 0) s["barriers_after_clears"] = bitsJson(step.barriersAfterClears);
+    if (step.barriersAfterClears != 0) s["barriers_after_clears"] = barrierNames(step.barriersAfterClears);
     s["uses"] = ordered_json::array();
     for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u)
       s["uses"].push_back(useJson(plan, u, slots[u]));
@@ -93,15 +77,14 @@ std::string dumpJson(const Plan& plan, bool explain) {
     }
     json["steps"].push_back(std::move(s));
   }
-  json["final_barriers"] = bitsJson(plan.finalBarriers);
+  json["final_barriers"] = barrierNames(plan.finalBarriers);
   if (explain) json["why_final_barriers"] = whyBarriers(static_cast<std::uint32_t>(plan.steps.size()));
   if (graph.present.resource != kNone) json["present"] = textOf(graph, graph.present);
   json["outputs"] = ordered_json::array();
   for (std::size_t i = 0; i < graph.outputs.size(); ++i)
-    json["outputs"].push_back(
-        {{"name", i < graph.outputNames.size() ? graph.outputNames[i] : std::to_string(i)},
-         {"resource", textOf(graph, graph.outputs[i])},
-         {"live", plan.outputLive[i] != 0}});
+    json["outputs"].push_back({{"name", graph.outputNames[i]},
+                               {"resource", textOf(graph, graph.outputs[i])},
+                               {"live", plan.outputLive[i] != 0}});
   json["culled"] = ordered_json::array();
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
     if (plan.stepOf[p] != kNone) continue;
@@ -136,7 +119,7 @@ std::string dumpJson(const Plan& plan, bool explain) {
     }
     if (resource.history > 0) j["history"] = resource.history;
     if (plan.copiesOf(r) > 1) j["copies"] = plan.copiesOf(r);
-    if (plan.firstStep[r] != kNone) j["steps"] = lifeJson(plan, r);
+    if (plan.firstStep[r] != kNone) j["steps"] = ordered_json::array({plan.firstStep[r], plan.lastStep[r]});
     if (plan.storageOf[r] != kNone) j["storage"] = plan.storageOf[r];
     if (plan.bufferOffsetOf[r] != Plan::kNoOffset) j["offset"] = plan.bufferOffsetOf[r];
     if (explain) j["why"] = explainer->whyStorage(r);

@@ -1,188 +1,166 @@
-#include "engine/graph/print/text.h"
+// The canonical text of a plan. Declared in print.h.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <optional>
+#include <tuple>
 
 #include "engine/base/printable.h"
 #include "engine/graph/print/explain.h"
-#include "engine/graph/print/shared.h"
+#include "engine/graph/print/print.h"
 #include "engine/graph/subresource.h"
 
 namespace weft::graph {
 
 namespace {
 
-class Writer {
+class TextWriter {
  public:
-  Writer(const Plan& plan, bool explain) : plan_(plan), graph_(*plan.graph), slots_(slotNames(graph_)) {
-    if (!explain) return;
-    explainer_ = std::make_unique<Explainer>(plan);
-    reasons_ = explainer_->whyBarriers();
+  TextWriter(const Plan& plan, bool explain) : plan_(plan), graph_(*plan.graph), slots_(slotNames(graph_)) {
+    if (explain) explainer_.emplace(plan);
   }
 
   std::string write() {
-    line(0, "plan " + (graph_.name.empty() ? "-" : graph_.name));
-    line(0, "passes " + std::to_string(graph_.passes.size()) + " run " + std::to_string(plan_.steps.size()));
-    line(0, "bytes declared " + std::to_string(plan_.bytesDeclared) + " allocated " +
-                std::to_string(plan_.bytesAllocated) + " lower_bound " +
-                std::to_string(plan_.bytesLowerBound) + " arena " + std::to_string(plan_.arenaBytes) +
-                " bound " + std::to_string(plan_.bytesBound));
-    line(0, "");
-    line(0, "order");
-    for (std::uint32_t t = 0; t < plan_.steps.size(); ++t) writeStep(t);
-    writeEnd();
-    writeStorages();
-    writeBuffers();
-    writeCulled();
+    line(0, "plan {}", graph_.name.empty() ? "-" : graph_.name);
+    line(0, "passes {} run {}", graph_.passes.size(), plan_.steps.size());
+    line(0, "bytes declared {} allocated {} lower_bound {} arena {} bound {}", plan_.bytesDeclared,
+         plan_.bytesAllocated, plan_.bytesLowerBound, plan_.arenaBytes, plan_.bytesBound);
+    text_ += "\norder\n";
+    for (std::uint32_t t = 0; t < plan_.steps.size(); ++t) addStep(t);
+    addEnd();
+    addTextures();
+    addBuffers();
+    addIdle();
     return std::move(text_);
   }
 
  private:
-  void line(int depth, const std::string& content) {
-    // Two headings begin with an empty line.
-    const std::size_t blank = content.starts_with('\n') ? 1 : 0;
-    text_.append(blank, '\n');
-    if (!content.empty())
-      text_.append(static_cast<std::size_t>(2 * depth), ' ').append(base::printable(content.substr(blank)));
-    text_ += '\n';
+  template <class... Args>
+  void line(std::size_t depth, fmt::format_string<Args...> format, Args&&... args) {
+    text_ += std::string(2 * depth, ' ') + base::printable(fmt::format(format, std::forward<Args>(args)...)) +
+             '\n';
+  }
+  void because(std::size_t depth, const std::string& why) {
+    if (!why.empty()) line(depth, "why {}", why);
+  }
+  // The heading of a list, before its first line.
+  void heading(bool& any, const char* text) {
+    if (!std::exchange(any, true)) text_ += fmt::format("\n{}\n", text);
   }
 
-  void writeBarriers(const char* what, std::uint16_t mask, std::uint32_t step, bool after) {
+  void addBarriers(const char* what, std::uint16_t mask, std::uint32_t step, bool after) {
     if (mask == 0) return;
-    line(2, std::string(what) + " " + barrierText(mask));
-    for (const BarrierReason& reason : reasons_)
-      if (reason.step == step && reason.afterClears == after) line(3, "why " + explainer_->textOf(reason));
+    line(2, "{} {}", what, barrierText(mask));
+    if (explainer_)
+      for (const std::string& why : explainer_->whyBarriers(step, after)) because(3, why);
   }
 
-  void writeStep(std::uint32_t t) {
+  void addStep(std::uint32_t t) {
     const Step& step = plan_.steps[t];
     const FlatPass& pass = graph_.passes[step.pass];
-    std::string head = std::to_string(t) + " " + graph_.passNames[step.pass];
-    if (pass.cadence != Cadence::always) head += std::string(" update ") + nameOf(pass.cadence);
-    if (pass.group != kNone && pass.group < graph_.groupNames.size())
-      head += " group " + graph_.groupNames[pass.group];
-    if (pass.slices != 1) head += " slices " + std::to_string(pass.slices);
-    if (pass.sideEffect) head += " side_effect";
-    line(1, head);
+    std::string head = fmt::format("{} {}", t, graph_.passNames[step.pass]);
+    if (pass.cadence != Cadence::always) head += fmt::format(" update {}", nameOf(pass.cadence));
+    if (pass.group < graph_.groupNames.size()) head += " group " + graph_.groupNames[pass.group];
+    if (pass.slices != 1) head += fmt::format(" slices {}", pass.slices);
+    line(1, "{}{}", head, pass.sideEffect ? " side_effect" : "");
     if (explainer_) {
-      line(2, "why " + explainer_->whyPass(step.pass));
-      const std::string here = explainer_->whyHere(step.pass);
-      if (!here.empty()) line(2, "why " + here);
+      because(2, explainer_->whyPass(step.pass));
+      because(2, explainer_->whyHere(step.pass));
     }
-    writeBarriers("barrier", step.barriers, t, false);
+    addBarriers("barrier", step.barriers, t, false);
     for (std::uint32_t c = step.firstClear; c < step.firstClear + step.clearCount; ++c)
-      line(2, "clear " + textOf(graph_, plan_.clears[c].use));
-    writeBarriers("barrier_after_clears", step.barriersAfterClears, t, true);
-    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) writeUse(u);
+      line(2, "clear {}", textOf(graph_, plan_.clears[c].use));
+    addBarriers("barrier_after_clears", step.barriersAfterClears, t, true);
+    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
+      const FlatUse& use = graph_.uses[u];
+      line(2, "{}{}{} {} {}{}{}{}", nameOf(use.access), slots_[u].empty() ? "" : " ", slots_[u],
+           nameOf(use.kind), textOf(graph_, use), use.feedback ? " feedback" : "", use.exact ? " exact" : "",
+           plan_.attached[u] == 0 ? " (not attached: nobody reads it)" : "");
+    }
     const FramebufferText framebuffer = framebufferOf(plan_, step.pass);
     if (framebuffer.empty()) return;
-    std::string text =
-        "framebuffer " + std::to_string(framebuffer.width) + "x" + std::to_string(framebuffer.height);
-    for (const std::string& color : framebuffer.color) text += " color " + color;
-    if (!framebuffer.depth.empty()) text += " depth " + framebuffer.depth;
-    line(2, text);
+    std::string attachments;
+    for (const std::string& color : framebuffer.color) attachments += " color " + color;
+    if (!framebuffer.depth.empty()) attachments += " depth " + framebuffer.depth;
+    line(2, "framebuffer {}x{}{}", framebuffer.width, framebuffer.height, attachments);
   }
 
-  void writeUse(std::uint32_t u) {
-    const FlatUse& use = graph_.uses[u];
-    std::string text = nameOf(use.access);
-    if (!slots_[u].empty()) text += " " + slots_[u];
-    text += std::string(" ") + nameOf(use.kind) + " " + textOf(graph_, use);
-    if (use.feedback) text += " feedback";
-    if (use.exact) text += " exact";
-    if (plan_.attached[u] == 0) text += " (not attached: nobody reads it)";
-    line(2, text);
-  }
-
-  void writeEnd() {
-    line(1, "end");
-    writeBarriers("barrier", plan_.finalBarriers, static_cast<std::uint32_t>(plan_.steps.size()), false);
-    if (graph_.present.resource != kNone) line(2, "present " + textOf(graph_, graph_.present));
+  void addEnd() {
+    text_ += "  end\n";
+    addBarriers("barrier", plan_.finalBarriers, static_cast<std::uint32_t>(plan_.steps.size()), false);
+    if (graph_.present.resource != kNone) line(2, "present {}", textOf(graph_, graph_.present));
     for (std::size_t i = 0; i < graph_.outputs.size(); ++i)
-      line(2, "output " + (i < graph_.outputNames.size() ? graph_.outputNames[i] : std::to_string(i)) + " " +
-                  textOf(graph_, graph_.outputs[i]) +
-                  (plan_.outputLive[i] != 0 ? "" : " (nothing makes it)"));
+      line(2, "output {} {}{}", graph_.outputNames[i], textOf(graph_, graph_.outputs[i]),
+           plan_.outputLive[i] != 0 ? "" : " (nothing makes it)");
   }
 
-  std::string lifetime(std::uint32_t r) const {
-    const std::uint32_t first = plan_.firstStep[r], last = plan_.lastStep[r];
-    return std::to_string(first) + ".." + (last == plan_.steps.size() ? "end" : std::to_string(last));
-  }
-
-  void writeStorages() {
-    line(0, "");
-    line(0, "textures");
+  void addTextures() {
+    text_ += "\ntextures\n";
     std::vector<std::vector<std::uint32_t>> users(plan_.storages.size());
     for (std::uint32_t r = 0; r < graph_.resources.size(); ++r)
       if (plan_.storageOf[r] != kNone) users[plan_.storageOf[r]].push_back(r);
     for (std::size_t i = 0; i < users.size(); ++i) {
       const Storage& s = plan_.storages[i];
-      std::string head = std::to_string(i) + " " + nameOf(s.target) + " " + std::to_string(s.width) + "x" +
-                         std::to_string(s.height);
-      if (s.target == Target::texture_3d) head += "x" + std::to_string(s.depth);
-      head += std::string(" ") + infoOf(s.format).name;
-      if (s.mips > 1) head += " mips " + std::to_string(s.mips);
-      if (s.layers > 1) head += " layers " + std::to_string(s.layers);
-      if (s.samples > 1) head += " samples " + std::to_string(s.samples);
-      if (s.copies > 1) head += " copies " + std::to_string(s.copies);
-      if (s.persistent) head += " persistent";
-      line(1, head + " bytes " + std::to_string(s.bytes));
-      std::sort(users[i].begin(), users[i].end(), [&](std::uint32_t a, std::uint32_t b) {
-        return plan_.firstStep[a] != plan_.firstStep[b] ? plan_.firstStep[a] < plan_.firstStep[b] : a < b;
-      });
+      std::string head = fmt::format("{} {} {}x{}", i, nameOf(s.target), s.width, s.height);
+      if (s.target == Target::texture_3d) head += fmt::format("x{}", s.depth);
+      head += fmt::format(" {}", infoOf(s.format).name);
+      if (s.mips > 1) head += fmt::format(" mips {}", s.mips);
+      if (s.layers > 1) head += fmt::format(" layers {}", s.layers);
+      if (s.samples > 1) head += fmt::format(" samples {}", s.samples);
+      if (s.copies > 1) head += fmt::format(" copies {}", s.copies);
+      line(1, "{}{} bytes {}", head, s.persistent ? " persistent" : "", s.bytes);
+      std::ranges::sort(users[i], {}, [&](std::uint32_t r) { return std::pair(plan_.firstStep[r], r); });
       for (const std::uint32_t r : users[i]) {
-        std::string text = lifetime(r) + " " + graph_.resourceNames[r];
-        if (graph_.resources[r].format != s.format)
-          text += std::string(" as ") + infoOf(graph_.resources[r].format).name;
-        line(2, text);
-        if (explainer_) line(3, "why " + explainer_->whyStorage(r));
+        const Format format = graph_.resources[r].format;
+        line(2, "{} {}{}", lifetimeText(plan_, r), graph_.resourceNames[r],
+             format == s.format ? "" : fmt::format(" as {}", infoOf(format).name));
+        if (explainer_) because(3, explainer_->whyStorage(r));
       }
     }
   }
 
-  void writeBuffers() {
+  void addBuffers() {
     bool any = false;
     for (std::uint32_t r = 0; r < graph_.resources.size(); ++r) {
       if (plan_.firstStep[r] == kNone || graph_.resources[r].kind != ResourceKind::buffer) continue;
-      if (!any) line(0, "\nbuffers");
-      any = true;
-      std::string text = graph_.resourceNames[r] + " " + lifetime(r);
+      heading(any, "buffers");
+      std::string where = " persistent";
       if (plan_.bufferOffsetOf[r] != Plan::kNoOffset)
-        text += " offset " + std::to_string(plan_.bufferOffsetOf[r]);
-      else
-        text += " persistent" +
-                (plan_.copiesOf(r) > 1 ? " copies " + std::to_string(plan_.copiesOf(r)) : std::string());
-      line(1, text + " bytes " + std::to_string(graph_.resources[r].bytes));
-      if (explainer_) line(2, "why " + explainer_->whyStorage(r));
+        where = fmt::format(" offset {}", plan_.bufferOffsetOf[r]);
+      else if (plan_.copiesOf(r) > 1)
+        where += fmt::format(" copies {}", plan_.copiesOf(r));
+      line(1, "{} {}{} bytes {}", graph_.resourceNames[r], lifetimeText(plan_, r), where,
+           graph_.resources[r].bytes);
+      if (explainer_) because(2, explainer_->whyStorage(r));
     }
   }
 
-  void writeCulled() {
-    bool any = false;
+  void addIdle() {
+    bool culled = false, disabled = false;
     for (std::uint32_t p = 0; p < graph_.passes.size(); ++p) {
       if (plan_.stepOf[p] != kNone) continue;
-      if (!any) line(0, "\nculled");
-      any = true;
-      line(1, graph_.passNames[p]);
-      if (explainer_) line(2, "why " + explainer_->whyPass(p));
+      heading(culled, "culled");
+      line(1, "{}", graph_.passNames[p]);
+      if (explainer_) because(2, explainer_->whyPass(p));
     }
-    for (std::size_t i = 0; i < graph_.disabled.size(); ++i) {
-      if (i == 0) line(0, "\ndisabled");
-      line(1, graph_.disabled[i].name + (explainer_ ? ": " + graph_.disabled[i].why : ""));
+    for (const DisabledPass& each : graph_.disabled) {
+      heading(disabled, "disabled");
+      line(1, "{}{}", each.name, explainer_ ? ": " + each.why : "");
     }
   }
 
   const Plan& plan_;
   const FlatGraph& graph_;
   const std::vector<std::string> slots_;
-  std::unique_ptr<Explainer> explainer_;
-  std::vector<BarrierReason> reasons_;
+  std::optional<Explainer> explainer_;
   std::string text_;
 };
 
 }  // namespace
 
 std::string dumpText(const Plan& plan, bool explain) {
-  return Writer(plan, explain).write();
+  return TextWriter(plan, explain).write();
 }
 
 }  // namespace weft::graph

@@ -12,42 +12,6 @@ std::uint32_t rootOf(std::vector<std::uint32_t>& parents, std::uint32_t i) {
   return i;
 }
 
-using Lists = std::vector<std::vector<std::uint32_t>>;
-
-// Joins to each pass in slices all that a time-sliced group draws in: who is joined already, and who writes what one
-// of those writes. Everybody is visited once.
-template <class EachWrite, class Join>
-void drawIn(const FlatGraph& graph, const std::vector<std::uint32_t>& members,
-            std::vector<std::uint32_t>& parents, const EachWrite& eachWrite, const Join& join) {
-  const auto sliced = [&](std::uint32_t p) { return graph.passes[p].slices > 1; };
-  if (std::ranges::none_of(members, sliced)) return;
-  Lists joined(graph.passes.size()), writers(graph.resources.size());
-  for (const std::uint32_t p : members) {
-    joined[rootOf(parents, p)].push_back(p);
-    eachWrite(p, [&](const FlatUse& use) { writers[use.resource].push_back(p); });
-  }
-  std::vector<std::uint32_t> rootBefore(graph.passes.size());
-  for (const std::uint32_t p : members) rootBefore[p] = rootOf(parents, p);
-  std::vector<std::uint8_t> seen(graph.passes.size(), 0);
-  for (const std::uint32_t start : members) {
-    if (!sliced(start) || seen[start] != 0) continue;
-    std::vector<std::uint32_t> open;
-    const auto take = [&](std::vector<std::uint32_t>& list) {
-      for (const std::uint32_t p : list)
-        if (std::exchange(seen[p], std::uint8_t{1}) == 0) open.push_back(p);
-      list.clear();
-    };
-    take(joined[rootBefore[start]]);
-    for (std::uint32_t first = start; !open.empty();) {
-      const std::uint32_t p = open.back();
-      open.pop_back();
-      join(first, p);
-      take(joined[rootBefore[p]]);
-      eachWrite(p, [&](const FlatUse& use) { take(writers[use.resource]); });
-    }
-  }
-}
-
 }  // namespace
 
 Groups formGroups(const FlatGraph& graph, const std::function<bool(std::uint32_t pass)>& isLive,
@@ -61,8 +25,7 @@ Groups formGroups(const FlatGraph& graph, const std::function<bool(std::uint32_t
   std::vector<std::uint8_t> joint(graph.resources.size(), 0);
   for (std::size_t r = 0; r < joint.size(); ++r) joint[r] = graph.resources[r].history > 0;
   const auto eachWrite = [&](std::uint32_t p, auto&& visit) {
-    const FlatPass& pass = graph.passes[p];
-    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u)
+    for (const std::uint32_t u : graph.usesOf(p))
       if (graph.uses[u].access != Access::read && isAttached(u)) visit(graph.uses[u]);
   };
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
@@ -87,11 +50,28 @@ Groups formGroups(const FlatGraph& graph, const std::function<bool(std::uint32_t
       if (group >= firstOfGroup.size()) firstOfGroup.resize(group + 1, kNone);
       join(firstOfGroup[group], p);
     }
-    eachWrite(p, [&](const FlatUse& use) {
-      if (joint[use.resource] != 0) join(firstWriter[use.resource], p);
-    });
   }
-  drawIn(graph, members, parents, eachWrite, join);
+  const auto joinWriters = [&] {
+    for (const std::uint32_t p : members)
+      eachWrite(p, [&](const FlatUse& use) {
+        if (joint[use.resource] != 0) join(firstWriter[use.resource], p);
+      });
+  };
+  joinWriters();
+  // What a time-sliced group writes is written by no other group: its writers join until none is left.
+  const auto sliced = [&](std::uint32_t p) { return graph.passes[p].slices > 1; };
+  for (bool changed = std::ranges::any_of(members, sliced); changed;) {
+    changed = false;
+    std::vector<std::uint8_t> slicedRoot(graph.passes.size(), 0);
+    for (const std::uint32_t p : members)
+      if (sliced(p)) slicedRoot[rootOf(parents, p)] = 1;
+    for (const std::uint32_t p : members)
+      if (slicedRoot[rootOf(parents, p)] != 0)
+        eachWrite(p, [&](const FlatUse& use) {
+          changed |= std::exchange(joint[use.resource], std::uint8_t{1}) == 0;
+        });
+    if (changed) joinWriters();
+  }
 
   std::vector<std::uint32_t> size(graph.passes.size(), 0), groupOfRoot(graph.passes.size(), kNone);
   for (const std::uint32_t p : members) ++size[rootOf(parents, p)];

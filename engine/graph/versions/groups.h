@@ -10,7 +10,7 @@
 
 namespace weft::graph {
 
-// Counts only passes that `isLive` accepts and writes that `isAttached` accepts. The time is practically linear.
+// Counts only passes that `isLive` accepts and writes that `isAttached` accepts.
 Groups formGroups(const FlatGraph& graph, const std::function<bool(std::uint32_t pass)>& isLive,
                   const std::function<bool(std::uint32_t use)>& isAttached);
 

@@ -7,7 +7,6 @@
 
 #include "engine/base/files/file_access.h"
 #include "engine/graph/compile/compile.h"
-#include "engine/graph/compile/plan_memory.h"
 #include "engine/graph/read/read.h"
 #include "engine/runtime/frame/gl_state.h"
 #include "engine/runtime/storage/formats.h"

@@ -3,8 +3,8 @@
 advice.py WEFT [--mutants N] [--seed S] [--tell], from the source folder.
 
 In copies of the bundled graphs one word is misspelt at a time (a key, a reference, a resource, a parameter, a pass, a type, a format, an
-import, a path); of the studio, passes are disabled. A mistake is one error; an input that is misspelt is not tried, for two files name it. Where the fix names a word to write, passes to disable, or a
-texture to present, it is applied. The bad graphs' fixes are applied as well. --tell prints each mutant that fails, and counts by kind."""
+import, a path); of the studio, passes are disabled. A mistake is one error; an input that is misspelt is not tried, for two files name it. Where the fix names a word to write, or passes
+to disable, it is applied. The bad graphs' fixes are applied as well. --tell prints each mutant that fails, and counts by kind."""
 import collections
 import json
 import pathlib
@@ -95,13 +95,6 @@ def write_at(said, word, whole=False):
 
 def apply(said, disables):
     """Whether the fix is mechanical, and was applied."""
-    present = re.match(r'"present": "([^"]+)" at (.*?):(\d+):(\d+) shows', said.fix)
-    if present:
-        path = pathlib.Path(present[2])
-        path = path if path.is_absolute() else TOP / path
-        text, count = re.subn(r'"present": "[^"]*"', f'"present": "{present[1]}"', path.read_text())
-        path.write_text(text)
-        return count == 1
     meant = re.match(r"""(?:did you mean|write the whole name,|write) (?:the import )?['"]([^'"]+)['"]""", said.fix)
     if meant and said.file and not re.search("[…(]", meant[1]):
         return write_at(said, meant[1])

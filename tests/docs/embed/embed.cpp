@@ -3,7 +3,7 @@
 
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/expand/expand.h"
-#include "engine/graph/print/text.h"
+#include "engine/graph/print/print.h"
 #include "engine/graph/read/read.h"
 
 int main() {

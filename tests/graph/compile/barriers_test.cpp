@@ -2,7 +2,7 @@
 // the next).
 #include <doctest/doctest.h>
 
-#include "engine/graph/compile/hazards.h"
+#include "engine/graph/compile/steps.h"
 #include "tests/graph/compile/flat_builder.h"
 #include "tests/graph/compile/hazard_oracle.h"
 
@@ -242,16 +242,16 @@ TEST_CASE("barriers stand whether or not a pass runs") {
   CHECK(oracle::judgeBarriers(plan, 1).problem == "");
 }
 
-TEST_CASE("stabbing a circle leaves nothing out and nothing over") {
+TEST_CASE("the positions chosen on a circle leave nothing out and nothing over") {
   // Within the frame, across its end, and a whole circle.
-  CHECK(stab({}, 10).empty());
-  CHECK(stab({{2, 4}, {3, 5}, {6, 8}}, 10) == std::vector<std::int32_t>{4, 8});
-  CHECK(stab({{-3, 1}, {2, 4}}, 10) == std::vector<std::int32_t>{1, 4});
-  CHECK(stab({{-3, 1}, {2, 8}}, 10) ==
+  CHECK(chooseBarrierPositions({}, 10).empty());
+  CHECK(chooseBarrierPositions({{2, 4}, {3, 5}, {6, 8}}, 10) == std::vector<std::int32_t>{4, 8});
+  CHECK(chooseBarrierPositions({{-3, 1}, {2, 4}}, 10) == std::vector<std::int32_t>{1, 4});
+  CHECK(chooseBarrierPositions({{-3, 1}, {2, 8}}, 10) ==
         std::vector<std::int32_t>{8});  // 8 is 7 of the frame before, and later
-  CHECK(stab({{-9, 0}}, 10) == std::vector<std::int32_t>{0});
+  CHECK(chooseBarrierPositions({{-9, 0}}, 10) == std::vector<std::int32_t>{0});
   // The crossing interval brings 3, which makes 4 superfluous.
-  CHECK(stab({{-2, 3}, {2, 4}}, 10) == std::vector<std::int32_t>{3});
+  CHECK(chooseBarrierPositions({{-2, 3}, {2, 4}}, 10) == std::vector<std::int32_t>{3});
 }
 
 TEST_CASE("without stores nothing is planned and nothing is paid") {

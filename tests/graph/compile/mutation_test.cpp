@@ -47,8 +47,8 @@ TEST_CASE("two storages that are alive at once and made one are caught") {
           continue;
         const Storage &a = plan.storages[plan.storageOf[r]], &c = plan.storages[plan.storageOf[q]];
         if (plan.storageOf[r] == plan.storageOf[q] || a.width != c.width || a.mips != c.mips ||
-            a.layers != c.layers || a.viewClass != c.viewClass || plan.firstStep[r] > plan.lastStep[q] ||
-            plan.firstStep[q] > plan.lastStep[r])
+            a.layers != c.layers || infoOf(a.format).viewClass != infoOf(c.format).viewClass ||
+            plan.firstStep[r] > plan.lastStep[q] || plan.firstStep[q] > plan.lastStep[r])
           continue;
         Plan mutant = plan;
         mutant.storageOf[r] = plan.storageOf[q];

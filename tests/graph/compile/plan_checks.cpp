@@ -170,7 +170,7 @@ std::string checkStorage(const Plan& plan) {
       const Storage& storage = plan.storages[plan.storageOf[r]];
       if (storage.width != resource.width || storage.height != resource.height ||
           storage.layers != resource.layers || storage.mips != resource.mips ||
-          storage.viewClass != infoOf(resource.format).viewClass || storage.copies != copies ||
+          infoOf(storage.format).viewClass != infoOf(resource.format).viewClass || storage.copies != copies ||
           storage.persistent != mine)
         return name + " has a storage of another class";
       if (!mine) bytes[classOf(resource)] = resource.bytes;

@@ -121,11 +121,11 @@ TEST_CASE("levels that nobody reads are told of") {
   CHECK(chainRead("glow").empty());
   CHECK(chainRead("glow.mip[3]").empty());
   CHECK(chainRead("glow.mip[1]").items()[0].message ==
-        "pass 'down[3]' is culled: nobody reads level 3 of 'glow', only others");
+        "pass 'down[3]' is culled: nobody reads what it writes");
   const base::Diagnostics said = chainRead("glow.mip[0]");
   REQUIRE_MESSAGE(said.size() == 1, said.text());
   CHECK(said.items()[0].code == base::Code::culledUnread);
-  CHECK(said.items()[0].message == "pass 'down[3]' is culled: nobody reads level 3 of 'glow', only others");
+  CHECK(said.items()[0].message == "pass 'down[3]' is culled: nobody reads what it writes");
 }
 
 TEST_CASE("a name that an expression asks of and that nothing has is one mistake; has() may mean a pass") {
@@ -164,36 +164,28 @@ TEST_CASE("what nothing wrote first is one mistake and no cycle, whoever modifie
                        slots);
   };
   const std::string sky = pass("sky", R"J("write": { "result": "hdr" })J") + ", ";
-  const std::string shown = R"("present": "hdr" at followers.json:2:)";
   CHECK(hint(pass("one", R"J("modify": { "result": "ldr" })J") + ", " +
                  pass("two", R"J("modify": { "result": "ldr" })J"),
              "W059") == "use \"write\" if the pass covers everything, or give 'ldr' a \"clear\"");
   CHECK(hint(sky + pass("copy", R"J("read": { "source": "ldr" }, "write": { "result": "jagged" })J") + ", " +
                  pass("smooth", R"J("read": { "source": "jagged" }, "modify": { "result": "ldr" })J"),
-             "W062")
-            .starts_with(shown));
+             "W062") == "let a pass before it write it, or give 'ldr' a \"clear\"");
   // A chain of effects without a first.
   CHECK(hint(sky + pass("one", R"J("read": { "source": "ldr" }, "write": { "result": "ldr" })J") + ", " +
                  pass("two", R"J("read": { "source": "ldr" }, "write": { "result": "ldr" })J"),
              "W059")
-            .starts_with(shown));
+            .starts_with("give 'ldr' a \"clear\""));
 }
 
-TEST_CASE("no fix asks for what a switch has taken out, and following them ends at a picture") {
-  const auto said = [](const std::vector<Disable>& disables) {
+TEST_CASE("no fix asks for what a switch has taken out") {
+  for (const char* name : {"composite", "post.display"}) {
     base::Diagnostics diagnostics;
     const auto desc = readGraph(WEFT_SOURCE_DIR "/graphs/studio.json", diagnostics);
     REQUIRE(desc);
-    expandGraph(*desc, testRegistry(), with({}, disables), diagnostics);
+    expandGraph(*desc, testRegistry(), with({}, {{name}}), diagnostics);
     REQUIRE_MESSAGE(diagnostics.errorCount() == 1, diagnostics.text());
-    return diagnostics.items()[0].hint;
-  };
-  const std::string present = "\"present\": \"hdr\" at ", too = "disable 'post.fxaa' too";
-  for (const std::string& hint : {said({{"composite"}}), said({{"post.display"}})}) {
-    CHECK(hint.starts_with(present));
-    CHECK(hint.find(too) != std::string::npos);
+    const std::string& hint = diagnostics.items()[0].hint;
+    CHECK(hint.find("disable 'post.fxaa.") != std::string::npos);
     CHECK(hint.find("enable '") == std::string::npos);
   }
-  CHECK(said({{"composite"}, {"fxaa"}}).starts_with(present));
-  CHECK(said({{"post"}, {"lit.billboards"}}).starts_with(present));
 }

@@ -7,7 +7,7 @@
 
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/expand/names/parameter_check.h"
-#include "engine/graph/print/text.h"
+#include "engine/graph/print/print.h"
 #include "tests/graph/expand/support.h"
 
 using namespace weft;

@@ -4,8 +4,7 @@
 #include <string_view>
 
 #include "engine/graph/expand/finish.h"
-#include "engine/graph/expand/judge/culled.h"
-#include "engine/graph/expand/judge/missing.h"
+#include "engine/graph/expand/judge/judge.h"
 #include "engine/graph/expand/names/apply_settings.h"
 #include "engine/graph/expand/names/resources.h"
 #include "engine/graph/expand/names/scope.h"
@@ -80,7 +79,7 @@ Work workOf(const std::string& json) {
   std::vector<DeferredUniform> deferred;
   expandPasses(model, deferred);
   finishGraph(model, deferred);
-  judgeMissing(model);
+  reportMissingReads(model);
   if (!diagnostics.hasErrors()) warnUnread(model);
   CHECK_FALSE(model.stopped);
   return {{model.graph.links.seen.size() + model.graph.links.runs.size(), allocationCount() - allocations,

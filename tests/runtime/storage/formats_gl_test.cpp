@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "engine/graph/print/format_table.h"
+#include "engine/graph/print/print.h"
 #include "engine/runtime/storage/formats.h"
 #include "tests/runtime/stage.h"
 

@@ -1,9 +1,10 @@
-#include "engine/graph/expand/judge/comparison.h"
-
+// Finds what `as compare` means where the reference names no comparison. Declared in judge.h.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
+
+#include "engine/graph/expand/judge/judge.h"
 
 namespace weft::graph::expansion {
 
@@ -15,72 +16,55 @@ bool isOrder(Compare compare) {
          compare == Compare::greater_equal;
 }
 
-// Follows a read back to the tests that made what it sees.
-class Makers {
- public:
-  explicit Makers(const FlatGraph& graph) : graph_(graph) {}
+// The depth tests that made what a read sees.
+struct DepthTests {
+  std::set<Compare> found;
+  std::uint32_t other = kNone;  // a pass that wrote some of it without an order
+  std::set<std::uint32_t> seen{};
 
-  void follow(std::uint32_t link) {
-    graph_.links.forEachRun(link, [&](std::uint32_t writer, std::uint32_t) {
-      if (writer == kNone)
-        cleared = true;
-      else if (seen_.insert(writer).second)
-        judge(writer);
+  void add(const FlatGraph& graph, std::uint32_t link) {
+    graph.links.forEachWriter(link, [&](std::uint32_t writer) {
+      if (!seen.insert(writer).second) return;
+      const std::uint32_t pass = graph.links.passOf[writer];
+      const StateSpec& state = graph.specs[pass].state;
+      const FlatUse& use = graph.uses[writer];
+      if (use.kind == Kind::depth && state.depthTest && isOrder(state.depthCompare)) {
+        found.insert(state.depthCompare);
+      } else if (use.kind == Kind::copy) {  // it is what was copied
+        for (const std::uint32_t u : graph.usesOf(pass))
+          if (graph.uses[u].access == Access::read) add(graph, graph.links.seen[u]);
+      } else if (use.access == Access::modify) {
+        add(graph, graph.links.seen[writer]);
+      } else {
+        other = pass;
+      }
     });
   }
-
-  std::set<Compare> found;
-  bool cleared = false;         // some of it is what "clear" says
-  std::uint32_t other = kNone;  // a pass that wrote some of it without an order
-
- private:
-  void judge(std::uint32_t writer) {
-    const std::uint32_t pass = graph_.links.passOf[writer];
-    const StateSpec& state = graph_.specs[pass].state;
-    const FlatUse& use = graph_.uses[writer];
-    if (use.kind == Kind::depth && state.depthTest && isOrder(state.depthCompare)) {
-      found.insert(state.depthCompare);
-    } else if (use.kind == Kind::copy) {  // it is what was copied
-      const FlatPass& copy = graph_.passes[pass];
-      for (std::uint32_t u = copy.firstUse; u < copy.firstUse + copy.useCount; ++u)
-        if (graph_.uses[u].access == Access::read) follow(graph_.links.seen[u]);
-    } else if (use.access == Access::modify) {
-      follow(graph_.links.seen[writer]);
-    } else {
-      other = pass;
-    }
-  }
-
-  const FlatGraph& graph_;
-  std::set<std::uint32_t> seen_;
 };
 
-// Nothing was drawn into it: everything is nearer than what it was cleared to.
-Compare comparisonOfClear(const FlatGraph& graph, std::uint32_t resource) {
-  const auto clear = std::ranges::find(graph.clears, resource, &ClearSpec::resource);
-  const bool far = clear != graph.clears.end() && clear->value.v[0] > 0.5;
-  return far ? Compare::less : Compare::greater;
-}
-
-void settle(Model& model, std::uint32_t pass, SlotSpec& slot) {
-  FlatGraph& graph = model.graph;
-  Makers makers(graph);
+// False after an error.
+bool inferComparison(Model& model, std::uint32_t pass, SlotSpec& slot) {
+  const FlatGraph& graph = model.graph;
+  DepthTests tests;
   for (std::uint32_t u = slot.firstUse; u < slot.firstUse + slot.useCount; ++u)
-    makers.follow(graph.links.seen[u]);
+    tests.add(graph, graph.links.seen[u]);
   const std::uint32_t resource = graph.uses[slot.firstUse].resource;
+  if (tests.other == kNone && tests.found.size() == 1) {
+    slot.sampler.function = *tests.found.begin();
+    return true;
+  }
+  if (tests.other == kNone && tests.found.empty() && graph.resources[resource].hasClear) {
+    // Nothing was drawn into it: everything is nearer than what it was cleared to.
+    const auto clear = std::ranges::find(graph.clears, resource, &ClearSpec::resource);
+    const bool far = clear != graph.clears.end() && clear->value.v[0] > 0.5;
+    slot.sampler.function = far ? Compare::less : Compare::greater;
+    return true;
+  }
+  const std::string why = tests.found.size() > 1 ? "passes with different depth tests draw it"
+                          : tests.other != kNone ? fmt::format("pass '{}' writes it without one that orders",
+                                                               graph.passNames[tests.other])
+                                                 : "no depth test made it";
   const std::string& name = graph.resourceNames[resource];
-  if (makers.found.size() == 1 && makers.other == kNone) {
-    slot.sampler.function = *makers.found.begin();
-    return;
-  }
-  if (makers.found.empty() && makers.other == kNone && graph.resources[resource].hasClear) {
-    slot.sampler.function = comparisonOfClear(graph, resource);
-    return;
-  }
-  const std::string why = makers.found.size() > 1 ? "passes with different depth tests draw it"
-                          : makers.other != kNone ? fmt::format("pass '{}' writes it without one that orders",
-                                                                graph.passNames[makers.other])
-                                                  : "no depth test made it";
   auto& d =
       model.diagnostics.error(Code::badKind, slot.place,
                               fmt::format("pass '{}': slot '{}' compares with '{}', and nothing says how: {}",
@@ -89,24 +73,23 @@ void settle(Model& model, std::uint32_t pass, SlotSpec& slot) {
   d.resource = name;
   d.expected = "the comparison that a lookup passes: less, less_equal, greater, greater_equal, …";
   d.hint =
-      "write 'compare(greater)' where nearer is greater, as in every view here; 'compare(less)' where "
-      "nearer is less";
+      "write 'compare(greater)' where nearer is greater, as in every view here; 'compare(less)' where nearer "
+      "is less";
+  return false;
 }
 
 }  // namespace
 
-void settleComparisons(Model& model) {
+void inferComparisons(Model& model) {
   FlatGraph& graph = model.graph;
-  std::set<std::string_view> said;  // stanza and slot: the other repeats say the same
+  std::set<std::string_view> reported;  // stanzas: the other repeats say the same
   for (std::uint32_t pass = 0; pass < graph.specs.size(); ++pass) {
     const PassSpec& spec = graph.specs[pass];
     for (std::uint32_t i = spec.firstSlot; i < spec.firstSlot + spec.slotCount; ++i) {
       SlotSpec& slot = graph.slots[i];
       if (!slot.sampler.compare || slot.sampler.function || slot.useCount == 0) continue;
-      if (said.contains(spec.declared)) continue;
-      const std::size_t before = model.diagnostics.errorCount();
-      settle(model, pass, slot);
-      if (model.diagnostics.errorCount() > before) said.insert(spec.declared);
+      if (!reported.contains(spec.declared) && !inferComparison(model, pass, slot))
+        reported.insert(spec.declared);
     }
   }
 }

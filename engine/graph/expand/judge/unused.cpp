@@ -1,12 +1,16 @@
-#include "engine/graph/expand/judge/unused.h"
-
+// Warnings about what the files declare and nothing uses: W089. Which passes run is not looked at. Declared in judge.h.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
-#include <unordered_map>
+#include <string_view>
 
+#include "engine/base/nearest.h"
 #include "engine/graph/desc_walk.h"
+#include "engine/graph/expand/judge/judge.h"
+#include "engine/graph/expand/names/resources.h"
 #include "engine/graph/expand/names/scope.h"
 #include "engine/graph/language/expr_node.h"
 
@@ -14,178 +18,329 @@ namespace weft::graph::expansion {
 
 namespace {
 
-// Which levels, layers or elements all references to a resource select.
-struct Selected {
-  bool several = false;
-  std::string one;  // the only one so far, as written; empty: no reference so far
-
-  void add(const std::string& which) {
-    several = several || which.empty() || (!one.empty() && one != which);
-    one = which;
-  }
-};
-
-struct Parts {
-  Selected level, layer, element;
-};
-
-// The number that a selector names, or empty: all of them, several, or one that depends on something.
-std::string onlyOf(const Expr& expr) {
-  return expr.present() && expr.isConstant() ? expr.text() : std::string();
-}
-std::string onlyOf(const std::optional<SpanDesc>& span) {
-  if (!span) return {};
-  const std::string first = onlyOf(span->first);
-  return !span->range || first == onlyOf(span->last) ? first : std::string();
-}
-
-// What the expressions and references of all files name.
-class Uses {
- public:
-  explicit Uses(Model& model) : model_(model) {
-    for (Scope& scope : model_.scopes) addFile(scope);
-    std::ranges::sort(variables_);
-  }
-
-  bool reads(const ParameterDesc& parameter) const {
-    return std::ranges::binary_search(variables_, static_cast<const void*>(&parameter)) ||
-           below_.contains(parameter.name);
-  }
-  bool reads(const NamedExpr& let) const {
-    return std::ranges::binary_search(variables_, static_cast<const void*>(&let));
-  }
-  // Null when nothing refers to it.
-  const Parts* partsOf(const ResourceDesc& resource) const {
-    const auto found = parts_.find(&resource);
-    return found == parts_.end() ? nullptr : &found->second;
-  }
-
- private:
-  void addFile(Scope& scope) {
-    visitMentions(
-        *scope.desc, [&](const Expr& expr) { add(scope, expr); },
-        [&](const RefDesc& ref) { add(scope, ref); });
-  }
-
-  void add(Scope& scope, const Expr& expr) {
-    if (!expr.present() || expr.isConstant()) return;
-    for (const std::string& name : variablesOf(expr)) {
-      const Variable found = findVariableFrom(scope, name);
-      if (found.kind == Variable::Kind::parameter)
-        variables_.push_back(model_.parameters[found.index].desc);
-      else if (found.kind == Variable::Kind::let)
-        variables_.push_back(model_.lets[found.index].desc);
-      else
-        below_.insert(name.substr(name.rfind('.') + 1));
-    }
-  }
-
-  void add(Scope& scope, const RefDesc& ref) {
-    const std::uint32_t found = ref.import ? kNone : findEntity(model_, scope, ref.name, false);
-    if (found == kNone) return;
-    const Entity& entity = model_.entities[found];
-    if (!entity.desc || (entity.shape.mips < 2 && entity.arrayCount < 2 && entity.shape.layers < 2)) return;
-    Parts& parts = parts_[entity.desc];
-    parts.level.add(onlyOf(ref.mip));
-    parts.layer.add(onlyOf(ref.layer));
-    parts.element.add(ref.element ? onlyOf(*ref.element) : std::string());
-  }
-
-  Model& model_;
-  std::vector<const void*> variables_;  // declarations of parameters and lets, sorted
-  std::set<std::string> below_;         // last parts of names that are looked for in included files
-  std::unordered_map<const ResourceDesc*, Parts> parts_;
-};
-
-// What the author of a parameter that nothing reads has probably meant.
-std::string hintFor(const Model& model, const Scope& scope, const ParameterDesc& unread) {
-  const std::string& name = unread.name;
-  for (const PassDesc& pass : scope.desc->passes)
-    for (const PassParameterDesc& parameter : pass.parameters) {
-      if (parameter.name != name) continue;
-      return parameter.declared
-                 ? fmt::format(
-                       "pass '{}' declares a '{}' of its own: write \"{}\": \"${}\" there, or take "
-                       "one of the two out",
-                       pass.name, name, name, name)
-                 : fmt::format("pass '{}' sets its '{}' to {}: write \"{}\": \"${}\" there", pass.name, name,
-                               parameter.value.text(), name, name);
-    }
-  const auto same = model.parametersByLeaf.find(name);
-  for (std::uint32_t index = same->second.first; index != kNone; index = model.parameters[index].nextOfLeaf)
-    if (const std::string& path = model.parameters[index].path;
-        model.parameters[index].desc != &unread && path.starts_with(scope.prefix))
-      return fmt::format(
-          "there is another, '{}': give it this value by \"set\": {{ \"{}\": … }}, and take "
-          "this one out",
-          path.substr(scope.prefix.size()), path.substr(scope.prefix.size()));
-  return fmt::format(
-      "write '${}' where its value is meant, such as \"parameters\": {{ \"{}\": \"${}\" }} of "
-      "a pass, or take it out",
-      name, name, name);
-}
-
-void warnVariables(Model& model, Scope& scope, const Uses& uses) {
-  // What a stanza that is switched off for now reads is not unread.
-  for (const PassDesc& pass : scope.desc->passes)
-    if (pass.enabled.present() && pass.enabled.isConstant() && pass.enabled.text() == "false") return;
-  for (const ParameterDesc& parameter : scope.desc->parameters) {
-    if (uses.reads(parameter) || !isOnTop(scope, parameter.place)) continue;
-    auto& d =
-        model.diagnostics.warning(Code::unusedDeclaration, parameter.place,
-                                  fmt::format("the parameter '{}' changes nothing: no expression reads '${}'",
-                                              parameter.name, parameter.name));
-    d.hint = hintFor(model, scope, parameter);
-  }
-  if (scope.parent) return;  // an including file may want it
-  for (const NamedExpr& let : scope.desc->lets) {
-    if (uses.reads(let) || !isOnTop(scope, let.place)) continue;
-    auto& d = model.diagnostics.warning(
-        Code::unusedDeclaration, let.place,
-        fmt::format("the \"let\" '{}' changes nothing: no expression reads '${}'", let.name, let.name));
-    d.hint = fmt::format("write '${}' where its value is meant, or take it out", let.name);
-  }
-}
-
-void warnParts(Model& model, const Entity& entity, const Parts& parts) {
-  const ResourceDesc& desc = *entity.desc;
-  const auto warn = [&](const Selected& selected, std::uint32_t count, const Expr& said, const char* key,
-                        const char* one, const char* many, const char* selector) {
-    if (selected.several || count < 2) return;
-    auto& d =
-        model.diagnostics.warning(Code::unusedDeclaration, said.present() ? said.place() : desc.place,
-                                  fmt::format("'{}' has {} {}, and all that is written and read is {} {}",
-                                              entity.name, count, many, one, selected.one));
-    d.resource = entity.name;
-    d.hint = fmt::format("leave \"{}\" out, or use the others, such as '{}{}' in a pass with \"repeat\"", key,
-                         desc.name, selector);
-  };
-  warn(parts.level, entity.shape.mips, desc.mips, "mips", "level", "levels", ".mip[i]");
-  warn(parts.element, entity.arrayCount, desc.array, "array", "element", "elements", "[i]");
-  if (desc.layers.present())
-    warn(parts.layer, entity.shape.layers, desc.layers, "layers", "layer", "layers", ".layer[i]");
-}
-
-}  // namespace
-
+// Whether nothing may have been laid over the file since this was written there.
 bool isOnTop(const Scope& scope, const Place& place) {
   for (const Scope* outer = scope.parent; outer; outer = outer->parent)
     if (!outer->desc->top.empty()) return false;
   return scope.desc->top.empty() || (place.file && *place.file == scope.desc->top);
 }
 
-void warnUnused(Model& model) {
-  const Uses uses(model);
-  std::set<const GraphDesc*> said;  // a file that is included twice says it once
-  for (Scope& scope : model.scopes)
-    if (said.insert(scope.desc).second) warnVariables(model, scope, uses);
-  std::set<const ResourceDesc*> judged;
-  for (const Entity& entity : model.entities) {
-    const bool own = entity.kind == ResourceDesc::Kind::texture || entity.kind == ResourceDesc::Kind::buffer;
-    if (!own || !entity.desc || entity.state != Progress::done || !isOnTop(*entity.scope, entity.desc->place))
+base::Diagnostic& warnAt(Model& model, const Place& place, std::string message, std::string hint,
+                         const std::string& resource = "") {
+  auto& d = model.diagnostics.warning(Code::unusedDeclaration, place, std::move(message));
+  d.hint = std::move(hint);
+  d.resource = resource;
+  return d;
+}
+
+// Which levels, layers or elements all references to a resource select.
+struct Selected {
+  bool several = false;
+  std::string one;  // the only one so far, as written; empty: no reference so far
+
+  // A number; nothing for all of them, several, or one that depends on something.
+  void add(const Expr* first, const Expr* last) {
+    const auto textOf = [](const Expr* expr) {
+      return expr && expr->present() && expr->isConstant() ? expr->text() : std::string();
+    };
+    const std::string which = textOf(first);
+    several = several || which.empty() || textOf(last) != which || (!one.empty() && one != which);
+    one = which;
+  }
+  void add(const std::optional<SpanDesc>& span) {
+    add(span ? &span->first : nullptr, span ? (span->range ? &span->last : &span->first) : nullptr);
+  }
+};
+
+// What the expressions and references of all files name, whatever the conditions say now. A file may be included twice, so
+// what is named is a declaration.
+class Mentions {
+ public:
+  struct Parts {
+    Selected level, layer, element;
+  };
+  std::set<const void*> variables;  // parameters and lets
+  std::set<std::string> below;      // last parts of names that are looked for in included files
+  std::set<const ResourceDesc*> named, lookedBackAt;
+  std::map<const ResourceDesc*, Parts> parts;
+
+  explicit Mentions(Model& model) : model_(model) {
+    for (Scope& scope : model_.scopes) {
+      const auto addExpr = [&](const Expr& expr) { add(scope, expr); };
+      const auto addRef = [&](const RefDesc& ref) { add(scope, ref); };
+      visitMentions(*scope.desc, addExpr, addRef);
+      for (const PassDesc& pass : scope.desc->passes)
+        if (pass.include)
+          for (const auto& [input, ref] : pass.include->binds) {
+            addExpr(ref.condition);
+            addRef(ref);
+          }
+    }
+  }
+
+ private:
+  void add(Scope& scope, const Expr& expr) {
+    if (!expr.present() || expr.isConstant()) return;
+    for (const auto& [fact, name] : expr.facts()) nameOne(scope, name, false, false);
+    for (const std::string& name : variablesOf(expr)) {
+      const Variable found = findVariableFrom(scope, name);
+      if (found.kind == Variable::Kind::parameter)
+        variables.insert(model_.parameters[found.index].desc);
+      else if (found.kind == Variable::Kind::let)
+        variables.insert(model_.lets[found.index].desc);
+      else
+        below.insert(name.substr(name.rfind('.') + 1));
+    }
+  }
+
+  void add(Scope& scope, const RefDesc& ref) {
+    nameOne(scope, ref.name, ref.import, ref.history > 0);
+    const std::uint32_t found = ref.import ? kNone : findEntity(model_, scope, ref.name, false);
+    if (found == kNone || !model_.entities[found].desc) return;
+    Parts& selected = parts[model_.entities[found].desc];
+    selected.level.add(ref.mip);
+    selected.layer.add(ref.layer);
+    selected.element.add(ref.element ? &*ref.element : nullptr, ref.element ? &*ref.element : nullptr);
+  }
+
+  // As findEntity() does, but with everything on the way: an input, and what is bound to it.
+  void nameOne(Scope& scope, std::string_view name, bool import, bool back) {
+    if (!name.empty() && name[0] == '@') return nameOne(scope, name.substr(1), true, back);
+    for (Scope* at = &scope; at; at = import ? at->parent : nullptr)
+      if (const auto found = at->resources.find(name); found != at->resources.end())
+        if (!import || model_.entities[found->second].kind == ResourceDesc::Kind::import)
+          return nameEntity(found->second, back);
+    const std::size_t dot = name.find('.');
+    if (dot == std::string_view::npos) return;
+    if (const auto child = scope.includes.find(name.substr(0, dot)); child != scope.includes.end())
+      nameOne(*child->second, name.substr(dot + 1), false, back);
+  }
+
+  void nameEntity(std::uint32_t index, bool back) {
+    if (!walked_.insert({index, back}).second) return;
+    const ResourceDesc& resource = *model_.entities[index].desc;
+    Scope& scope = *model_.entities[index].scope;
+    named.insert(&resource);
+    if (back) lookedBackAt.insert(&resource);
+    if (back)
+      for (const RefDesc& ref : resource.alternatives) nameOne(scope, ref.name, ref.import, true);
+    if (resource.kind != ResourceDesc::Kind::input || !scope.parent) return;
+    const auto& binds = scope.stanza->include->binds;
+    const auto bound = std::ranges::find(binds, resource.name, &std::pair<std::string, RefDesc>::first);
+    if (bound == binds.end())
+      nameOne(*scope.parent, resource.name, false, back);
+    else
+      nameOne(*scope.parent, bound->second.name, bound->second.import, back);
+  }
+
+  Model& model_;
+  std::set<std::pair<std::uint32_t, bool>> walked_;  // entities, and whether for an earlier frame
+};
+
+// ---- parameters and lets ----
+
+// What the author of a parameter that nothing reads has probably meant.
+std::string hintFor(const Model& model, const Scope& scope, const ParameterDesc& unread) {
+  const std::string& name = unread.name;
+  for (const PassDesc& pass : scope.desc->passes)
+    if (std::ranges::find(pass.parameters, name, &PassParameterDesc::name) != pass.parameters.end())
+      return fmt::format("pass '{}' has a '{}' of its own: write \"{}\": \"${}\" there", pass.name, name,
+                         name, name);
+  const auto same = model.parametersByLeaf.find(name);
+  for (std::uint32_t index = same->second.first; index != kNone; index = model.parameters[index].nextOfLeaf)
+    if (const std::string& path = model.parameters[index].path;
+        model.parameters[index].desc != &unread && path.starts_with(scope.prefix))
+      return fmt::format(
+          "there is another, '{0}': give it this value by \"set\": {{ \"{0}\": … }}, and remove this one",
+          path.substr(scope.prefix.size()));
+  return fmt::format(
+      "write '${0}' where its value is meant, such as \"parameters\": {{ \"{0}\": \"${0}\" }} of a pass, or "
+      "remove it",
+      name);
+}
+
+void warnOfVariables(Model& model, const Scope& scope, const Mentions& mentions) {
+  // What a stanza that is switched off for now reads is not unread.
+  for (const PassDesc& pass : scope.desc->passes)
+    if (pass.enabled.present() && pass.enabled.isConstant() && pass.enabled.text() == "false") return;
+  for (const ParameterDesc& parameter : scope.desc->parameters)
+    if (!mentions.variables.contains(&parameter) && !mentions.below.contains(parameter.name) &&
+        isOnTop(scope, parameter.place))
+      warnAt(model, parameter.place,
+             fmt::format("the parameter '{0}' changes nothing: no expression reads '${0}'", parameter.name),
+             hintFor(model, scope, parameter));
+  if (scope.parent) return;  // an including file may want a let
+  for (const NamedExpr& let : scope.desc->lets)
+    if (!mentions.variables.contains(&let) && isOnTop(scope, let.place))
+      warnAt(model, let.place,
+             fmt::format("the \"let\" '{0}' changes nothing: no expression reads '${0}'", let.name),
+             fmt::format("write '${}' where its value is meant, or remove it", let.name));
+}
+
+// ---- resources ----
+
+// A view that is declared under the name of its type is that of all passes.
+bool servesAll(const Model& model, const ResourceDesc& resource) {
+  const ImportType* type = resource.kind == ResourceDesc::Kind::import
+                               ? findImportType(model.registry, resource.import.type)
+                               : nullptr;
+  return type && type->everyPass && type->name == resource.name;
+}
+
+void warnOfResource(Model& model, const Scope& scope, const ResourceDesc& resource,
+                    const Mentions& mentions) {
+  const std::string& name = resource.name;
+  const bool input = resource.kind == ResourceDesc::Kind::input;
+  // Files that include this one may read what it keeps: it presents nothing, or just that.
+  const bool mayBeReadAbove = scope.parent || !scope.desc->present || scope.desc->present->name == name;
+  if (!mentions.named.contains(&resource) && !servesAll(model, resource))
+    warnAt(model, resource.place,
+           fmt::format("the {} '{}' is not used: no pass, list or expression of {} names it",
+                       input ? "input" : "resource", name, input ? "this file" : "the graph"),
+           fmt::format("name '{}' where it is meant, or remove it", name), name);
+  else if (resource.history.present() && !mentions.lookedBackAt.contains(&resource) && !mayBeReadAbove)
+    warnAt(model, resource.history.place(),
+           fmt::format("'{0}' keeps what it was before, and no pass reads '{0}@-1'", name),
+           fmt::format("read '{}@-1' where that is meant, or leave \"history\" out", name), name);
+}
+
+void warnOfParts(Model& model, const Entity& entity, const Mentions::Parts& parts) {
+  const ResourceDesc& desc = *entity.desc;
+  const struct {
+    const Selected& selected;
+    std::uint32_t count;
+    const Expr& said;
+    const char *key, *word, *selector;
+  } kinds[] = {{parts.level, entity.shape.mips, desc.mips, "mips", "level", ".mip[i]"},
+               {parts.element, entity.arrayCount, desc.array, "array", "element", "[i]"},
+               {parts.layer, desc.layers.present() ? entity.shape.layers : 0u, desc.layers, "layers", "layer",
+                ".layer[i]"}};
+  for (const auto& [selected, count, said, key, word, selector] : kinds)
+    if (!selected.several && count > 1)
+      warnAt(model, said.present() ? said.place() : desc.place,
+             fmt::format("'{}' has {} {}s, and all that is written and read is {} {}", entity.name, count,
+                         word, word, selected.one),
+             fmt::format("leave \"{}\" out, or use the others, such as '{}{}' in a pass with \"repeat\"", key,
+                         desc.name, selector),
+             entity.name);
+}
+
+// The stanza of a pass that is always there, or null: nothing in the files leaves it out.
+const PassDesc* findUnconditional(const Model& model, const std::string& declared) {
+  for (const Scope& scope : model.scopes) {
+    if (!declared.starts_with(scope.prefix)) continue;
+    const auto found = scope.passes.find(std::string_view(declared).substr(scope.prefix.size()));
+    if (found == scope.passes.end()) continue;
+    bool conditional = found->second->enabled.present() || !found->second->repeat.empty();
+    for (const Scope* outer = &scope; outer->stanza; outer = outer->parent)
+      conditional = conditional || outer->stanza->enabled.present();
+    return conditional ? nullptr : found->second;
+  }
+  return nullptr;
+}
+
+// The pass that always writes all of it before anybody reads the list, or null.
+const PassDesc* alwaysWrites(const Model& model, std::uint32_t candidate, const Entity& list) {
+  for (const WriteRecord& write : model.writes) {
+    if (write.entity != candidate || write.pass == kNone || !write.whole || !list.read ||
+        write.position >= list.firstRead)
       continue;
-    const Parts* parts = uses.partsOf(*entity.desc);
-    if (parts && judged.insert(entity.desc).second) warnParts(model, entity, *parts);
+    const PassDesc* pass = findUnconditional(model, model.graph.specs[write.pass].declared);
+    if (pass && std::ranges::none_of(pass->slots, [](const SlotDesc& slot) {
+          return slot.access != Access::read && slot.ref.condition.present();
+        }))
+      return pass;
+  }
+  return nullptr;
+}
+
+// An alternative with a condition, behind one that always holds. One without is there for when a pass is switched off.
+void warnOfList(Model& model, const Entity& list) {
+  const std::vector<RefDesc>& refs = list.desc->alternatives;
+  for (std::size_t i = 0; i + 1 < refs.size() && i < list.candidates.size(); ++i) {
+    if (refs[i].condition.present() || refs[i].history > 0 || list.candidates[i] == kNone) continue;
+    const auto later = std::find_if(refs.begin() + static_cast<std::ptrdiff_t>(i) + 1, refs.end(),
+                                    [](const RefDesc& ref) { return ref.condition.present(); });
+    if (later == refs.end()) return;
+    const PassDesc* pass = alwaysWrites(model, list.candidates[i], list);
+    if (!pass) continue;
+    warnAt(model, later->place,
+           fmt::format("'{}' never means '{}': '{}' stands before it, and pass '{}' always writes that",
+                       list.desc->name, later->text, refs[i].text, pass->name),
+           fmt::format("put '{}' before '{}', or remove it", later->text, refs[i].text), list.name);
+    return;
+  }
+}
+
+// ---- groups and lists of the scene ----
+
+// A pass alone in its group, whose name is nearly that of another group: it would publish by itself.
+void warnOfGroups(Model& model, const Scope& scope) {
+  std::map<std::string, int> members;
+  for (const PassDesc& pass : scope.desc->passes)
+    if (const std::string& group = pass.include ? pass.include->group : pass.group; !group.empty())
+      members[group] += pass.include ? 2 : 1;  // an include has several passes
+  std::vector<std::string> shared;
+  for (const auto& [group, count] : members)
+    if (count > 1) shared.push_back(group);
+  for (const PassDesc& pass : scope.desc->passes) {
+    if (pass.include || pass.group.empty() || members[pass.group] > 1 || !isOnTop(scope, pass.place))
+      continue;
+    if (const std::string near = base::nearestName(pass.group, shared); !near.empty())
+      warnAt(model, pass.place, fmt::format("pass '{}' is alone in the group '{}'", pass.name, pass.group),
+             fmt::format("did you mean '{}'?", near))
+          .pass = pass.name;
+  }
+}
+
+// Things of the scene whose author put them into lists, of which the graph draws others only.
+void warnOfSceneLists(Model& model) {
+  if (!model.desc.top.empty()) return;
+  std::set<std::string> drawn;
+  for (const Scope& scope : model.scopes)
+    for (const PassDesc& pass : scope.desc->passes)
+      if (!pass.list.empty()) drawn.insert(pass.list);
+  if (drawn.empty()) return;  // it shows no things
+  for (const ImportSpec& import : model.graph.imports) {
+    const ImportType* type = findImportType(model.registry, import.request.type);
+    for (std::size_t i = 0; type && i < import.request.arguments.size() && i < type->arguments.size(); ++i)
+      if (type->arguments[i].drawList) drawn.insert(import.request.arguments[i].second.symbol);
+  }
+  for (const Registry::Things& things : model.registry.things)
+    if (std::ranges::none_of(things.lists, [&](const std::string& list) { return drawn.contains(list); }))
+      warnAt(
+          model, model.desc.place,
+          fmt::format("the scene has {} in the list{} '{}', which no pass of '{}' draws",
+                      things.count == 1 ? "a thing" : fmt::format("{} things", things.count),
+                      things.lists.size() == 1 ? "" : "s", fmt::join(things.lists, "', '"), model.desc.name),
+          fmt::format("add a pass with \"list\": \"{}\", or put them into a list that is drawn: {}",
+                      things.lists[0], fmt::join(drawn, ", ")));
+}
+
+}  // namespace
+
+void warnUnused(Model& model) {
+  const Mentions mentions(model);
+  warnOfSceneLists(model);
+  std::set<const void*> judged;  // a file that is included twice says it once
+  for (const Scope& scope : model.scopes) {
+    if (!judged.insert(scope.desc).second) continue;
+    warnOfVariables(model, scope, mentions);
+    warnOfGroups(model, scope);
+    for (const ResourceDesc& resource : scope.desc->resources)
+      if (isOnTop(scope, resource.place)) warnOfResource(model, scope, resource, mentions);
+  }
+  for (const Entity& entity : model.entities) {
+    if (!entity.desc || !isOnTop(*entity.scope, entity.desc->place)) continue;
+    const ResourceDesc::Kind kind = entity.kind;
+    if (kind == ResourceDesc::Kind::alternatives) {
+      if (!entity.candidates.empty() && judged.insert(entity.desc).second) warnOfList(model, entity);
+    } else if ((kind == ResourceDesc::Kind::texture || kind == ResourceDesc::Kind::buffer) &&
+               entity.state == Progress::done) {
+      const auto parts = mentions.parts.find(entity.desc);
+      if (parts != mentions.parts.end() && judged.insert(entity.desc).second)
+        warnOfParts(model, entity, parts->second);
+    }
   }
 }
 

@@ -1,6 +1,6 @@
 // Versions: which FlatResource a texture, buffer or import is at this point of the declared order, and whether it has the
 // versions that a use asks for. A whole rewrite makes another FlatResource ("hdr#2"). Who wrote what is the VersionWalk's
-// (engine/graph/versions/version_walk.h). Does not decide what a missing version means (expand/judge/missing.h).
+// (engine/graph/versions/version_walk.h). Does not decide what a missing version means (expand/judge/judge.h).
 #pragma once
 
 #include "engine/graph/expand/names/model.h"

@@ -1,0 +1,52 @@
+// The forms in which a plan is printed. Equal plans give equal text.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "engine/base/diagnostic.h"
+#include "engine/graph/plan.h"
+
+namespace weft::graph {
+
+// The canonical text of a plan: order, barrier bits, clears, framebuffers, storage and who shares it, bytes, culled passes.
+// Fit to be committed as a golden and to be read by a person. With `explain`, each pass, barrier bit and storage says why
+// (explain.h); that form is for reading, not for goldens.
+std::string dumpText(const Plan& plan, bool explain = false);
+
+// JSON for tools: {"name", "bytes", "steps", "culled", "storages", "resources", "final_barriers"}. With `explain`, passes,
+// barriers and resources have a "why".
+std::string dumpJson(const Plan& plan, bool explain = false);
+
+// A Graphviz graph: live passes as boxes in execution order, culled ones gray, resources as ellipses, histories dashed,
+// barrier bits under the pass they come before. For `dot -Tsvg`.
+std::string dumpDot(const Plan& plan);
+
+// A line for each difference: passes added, removed and moved, barrier bits, textures and bytes; "" when the plans do the
+// same. Passes and resources are the same when their names are. Pictures and shaders are not compared.
+std::string diffText(const Plan& before, const Plan& after);
+
+// A plan as a graph file: what is live in it, without includes, overlays, repeats, conditions, alternatives, parameters and
+// disabled passes. The file gives the same plan; shaders are named, not included. Names become plain: "post.bloom.down[2]"
+// is "post_bloom_down_2", the second version of "hdr" is "hdr_v2". Parameters become their values; age() stays.
+std::string graphFileOf(const Plan& plan);
+
+// Everything that `name` means: the pass or its repeats, the resource and its versions, the parameter. `name` is any unique
+// suffix. Nothing after a report: unknown (W045, with the nearest) or ambiguous (W046).
+std::optional<std::string> describe(const Plan& plan, std::string_view name, base::Diagnostics& diagnostics);
+
+// What a texture of a format can be used for in a graph, as OpenGL 4.5 promises.
+struct FormatUses {
+  bool attachment = false;  // a pass renders to it, as color or depth
+  bool blended = false;     // with "blend"
+  bool filtered = false;    // "as linear"
+  bool image = false;       // image load and store; the layout qualifier of GLSL is the format's name
+};
+FormatUses usesOf(Format format);
+
+// A line for each format that a graph may name, below a heading: name, bytes of a texel, channels, what they hold, uses; of an image
+// the layout qualifier.
+std::string formatTable();
+
+}  // namespace weft::graph
