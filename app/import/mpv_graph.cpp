@@ -1,5 +1,4 @@
-// The graph of a user shader of mpv: which pass reads and writes what; its shaders, and what mpv gives every pass. Declared in
-// import.h.
+// The graph of a user shader of mpv: which pass reads and writes what; and its shaders. Declared in import.h.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
