@@ -1,7 +1,6 @@
 #include "app/bench/bench.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <limits>

@@ -5,7 +5,6 @@
 #include <poll.h>
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <set>
 

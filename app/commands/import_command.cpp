@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 
 #include "app/commands/commands.h"
 #include "app/import/import.h"

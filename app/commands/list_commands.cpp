@@ -14,7 +14,6 @@
 #include "app/session/session.h"
 #include "engine/base/files/text_file.h"
 #include "engine/base/json/dom.h"
-#include "engine/base/printable.h"
 #include "engine/graph/language/keys.h"
 #include "engine/graph/language/schema.h"
 #include "engine/graph/print/print.h"

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <string_view>
 
 #include "app/commands/commands.h"
 #include "app/output/output_files.h"

@@ -4,10 +4,8 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "app/live/live_scene.h"
 #include "engine/assets/environments/environment_map.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <filesystem>
-#include <memory>
 #include <ranges>
 #include <utility>
 

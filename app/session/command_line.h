@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <memory>
-#include <string>
 #include <type_traits>
 
 #include "app/session/options.h"

@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <set>
 
 #include "app/session/session.h"
 #include "engine/base/files/file.h"
-#include "engine/base/files/file_access.h"
 #include "engine/base/files/text_file.h"
 #include "engine/base/json/fields.h"
 

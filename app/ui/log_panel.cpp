@@ -3,7 +3,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <string>
 
 #include "app/ui/panels.h"
 

@@ -1,6 +1,5 @@
 #include "app/ui/panels.h"
 
-#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>

@@ -10,7 +10,6 @@
 #include <cassert>
 #include <utility>
 
-#include "app/session/session.h"
 #include "app/view/key_bindings.h"
 
 namespace weft::app {
