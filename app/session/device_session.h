@@ -45,6 +45,9 @@ int runOnDevice(std::span<const Options> all, int wrong,
 std::vector<std::string> filesReadBy(const Options& options, const runtime::Renderer& renderer,
                                      const runtime::World& world);
 
+// False after W188: the graph presents nothing.
+bool checkPresents(const Options& options, runtime::Renderer& renderer, base::Diagnostics& diagnostics);
+
 // --stats: one JSON object. Waits for the outputs of the last frame.
 nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json times);
 void printStats(const nlohmann::ordered_json& stats);  // on standard error

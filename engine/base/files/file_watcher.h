@@ -3,7 +3,7 @@
 // Files, and folders on the way to them, need not exist yet. Asking costs one read() when nothing happened;
 // no file is looked at. What inotify does not tell of (no instance or watch is left, or the file lies on a
 // network mount, where other machines write) is in poller(): somebody has to let it look, about twice a
-// second (app/view/file_alarm.h does). Does not: say which of these it was, read files, start threads, or
+// second (app/live/live_graph.cpp does). Does not: say which of these it was, read files, start threads, or
 // wait for a save to be complete.
 #pragma once
 

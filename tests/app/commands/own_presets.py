@@ -78,7 +78,7 @@ def main():
                      f"the list of presets: {found}")
         (folder / "a_file").touch()
         for command in (["check", graph, "--no-shaders"], ["presets"]):
-            for wrong, says in (("nowhere", "there is no folder"), ("a_file", "expected a folder")):
+            for wrong, says in (("nowhere", "does not exist"), ("a_file", "is actually a file")):
                 ran = run(weft, *command, "--preset-folder", folder / wrong, env=environment)
                 report.check(ran.code == 2 and says in ran.err and wrong in ran.err, f"{command[0]} --preset-folder {wrong}: {ran.code} {ran.err}")
         # A preset of another graph is one mistake; a name that is misspelt is another.
