@@ -16,7 +16,6 @@
 #include "engine/base/json/dom.h"
 #include "engine/base/printable.h"
 #include "engine/graph/language/keys.h"
-#include "engine/graph/language/schema.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/read/read.h"
 #include "engine/runtime/imports/registry.h"
@@ -149,7 +148,7 @@ int runPresets(ListOptions& options) {
 }
 
 int runSchema(Options&) {
-  print(graph::graphSchema());
+  print(graph::kGraphSchema);
   return 0;
 }
 
