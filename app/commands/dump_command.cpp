@@ -14,7 +14,7 @@
 #include "engine/base/files/file.h"
 #include "engine/base/printable.h"
 #include "engine/graph/language/suffix.h"
-#include "engine/graph/pick/find_pick.h"
+#include "engine/graph/pick/pick.h"
 #include "engine/runtime/inspection/capture.h"
 
 namespace weft::app {

@@ -15,7 +15,6 @@
 #include "engine/base/files/text_file.h"
 #include "engine/base/json/dom.h"
 #include "engine/graph/language/keys.h"
-#include "engine/graph/language/schema.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/read/read.h"
 #include "engine/runtime/imports/registry.h"
@@ -123,7 +122,7 @@ int runPresets(ListOptions& options) {
 }
 
 int runSchema(Options&) {
-  print(graph::graphSchema());
+  print(graph::kGraphSchema);
   return 0;
 }
 

@@ -12,7 +12,7 @@
 #include "engine/graph/language/format.h"
 #include "engine/graph/language/keys.h"
 #include "engine/graph/language/names.h"
-#include "engine/graph/read/ref_words.h"
+#include "engine/graph/read/ref_parse.h"
 #include "engine/graph/subresource.h"
 
 namespace weft::app::lsp {

@@ -11,7 +11,7 @@
 #include "engine/graph/expand/names/unread.h"
 #include "engine/graph/expand/passes.h"
 #include "engine/graph/language/enough.h"
-#include "engine/graph/pick/find_pick.h"
+#include "engine/graph/pick/pick.h"
 
 namespace weft::graph {
 

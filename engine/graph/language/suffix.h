@@ -1,5 +1,5 @@
 // Dotted names and the suffixes that stand for them: `--set`, `--disable` and "set" of files take any unique
-// suffix of a name; elsewhere in files names are whole. Does not know what is named.
+// suffix of a name; elsewhere in files names are whole.
 #pragma once
 
 #include <cstddef>
