@@ -3,7 +3,7 @@
 // engine's conventions set: lower-left origin with [0,1] clip depth, GL_FRAMEBUFFER_SRGB off, seamless cube
 // maps, pixel store alignment 1. glad's function pointers are one set per process, so one process uses one
 // backend at a time; every GL call goes through them and never through symbols of a linked libGL or
-// libOSMesa. Does not: poll input, own a frame loop, or keep a global "current context".
+// libOSMesa.
 #pragma once
 
 #include <cstdint>

@@ -3,45 +3,77 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace weft::gl {
 
 namespace {
 
-const char* sourceName(GLenum source) {
-  switch (source) {
-    case GL_DEBUG_SOURCE_API:
-      return "API";
-    case GL_DEBUG_SOURCE_WINDOW_SYSTEM:
-      return "window system";
-    case GL_DEBUG_SOURCE_SHADER_COMPILER:
-      return "shader compiler";
-    case GL_DEBUG_SOURCE_THIRD_PARTY:
-      return "third party";
-    case GL_DEBUG_SOURCE_APPLICATION:
-      return "application";
-    default:
-      return "other source";
-  }
-}
+// The enums that this room meets in messages.
+#define WEFT_NAME(name) \
+  { name, #name }
+constexpr std::pair<GLenum, const char*> kNames[] = {WEFT_NAME(GL_INVALID_ENUM),
+                                                     WEFT_NAME(GL_INVALID_VALUE),
+                                                     WEFT_NAME(GL_INVALID_OPERATION),
+                                                     WEFT_NAME(GL_INVALID_FRAMEBUFFER_OPERATION),
+                                                     WEFT_NAME(GL_OUT_OF_MEMORY),
+                                                     WEFT_NAME(GL_CONTEXT_LOST),
+                                                     WEFT_NAME(GL_TEXTURE_2D),
+                                                     WEFT_NAME(GL_TEXTURE_2D_ARRAY),
+                                                     WEFT_NAME(GL_TEXTURE_CUBE_MAP),
+                                                     WEFT_NAME(GL_TEXTURE_CUBE_MAP_ARRAY),
+                                                     WEFT_NAME(GL_TEXTURE_3D),
+                                                     WEFT_NAME(GL_TEXTURE_2D_MULTISAMPLE),
+                                                     WEFT_NAME(GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT),
+                                                     WEFT_NAME(GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE),
+                                                     WEFT_NAME(GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT),
+                                                     WEFT_NAME(GL_FRAMEBUFFER_INCOMPLETE_LAYER_TARGETS),
+                                                     WEFT_NAME(GL_FRAMEBUFFER_UNSUPPORTED),
+                                                     WEFT_NAME(GL_DEPTH_ATTACHMENT),
+                                                     WEFT_NAME(GL_STENCIL_ATTACHMENT),
+                                                     WEFT_NAME(GL_DEPTH_STENCIL_ATTACHMENT),
+                                                     WEFT_NAME(GL_COLOR_ATTACHMENT0),
+                                                     WEFT_NAME(GL_R8),
+                                                     WEFT_NAME(GL_RG8),
+                                                     WEFT_NAME(GL_RGBA8),
+                                                     WEFT_NAME(GL_SRGB8_ALPHA8),
+                                                     WEFT_NAME(GL_R8_SNORM),
+                                                     WEFT_NAME(GL_RG8_SNORM),
+                                                     WEFT_NAME(GL_RGBA8_SNORM),
+                                                     WEFT_NAME(GL_R16),
+                                                     WEFT_NAME(GL_RG16),
+                                                     WEFT_NAME(GL_RGBA16),
+                                                     WEFT_NAME(GL_R16F),
+                                                     WEFT_NAME(GL_RG16F),
+                                                     WEFT_NAME(GL_RGBA16F),
+                                                     WEFT_NAME(GL_R32F),
+                                                     WEFT_NAME(GL_RG32F),
+                                                     WEFT_NAME(GL_RGBA32F),
+                                                     WEFT_NAME(GL_R11F_G11F_B10F),
+                                                     WEFT_NAME(GL_RGB10_A2),
+                                                     WEFT_NAME(GL_RGB9_E5),
+                                                     WEFT_NAME(GL_R8UI),
+                                                     WEFT_NAME(GL_R16UI),
+                                                     WEFT_NAME(GL_R32UI),
+                                                     WEFT_NAME(GL_RG16UI),
+                                                     WEFT_NAME(GL_RG32UI),
+                                                     WEFT_NAME(GL_RGBA8UI),
+                                                     WEFT_NAME(GL_RGBA16UI),
+                                                     WEFT_NAME(GL_RGBA32UI),
+                                                     WEFT_NAME(GL_R32I),
+                                                     WEFT_NAME(GL_RG32I),
+                                                     WEFT_NAME(GL_RGBA32I),
+                                                     WEFT_NAME(GL_DEPTH_COMPONENT16),
+                                                     WEFT_NAME(GL_DEPTH_COMPONENT24),
+                                                     WEFT_NAME(GL_DEPTH_COMPONENT32F),
+                                                     WEFT_NAME(GL_DEPTH24_STENCIL8),
+                                                     WEFT_NAME(GL_DEPTH32F_STENCIL8)};
+#undef WEFT_NAME
 
-const char* typeName(GLenum type) {
-  switch (type) {
-    case GL_DEBUG_TYPE_ERROR:
-      return "error";
-    case GL_DEBUG_TYPE_DEPRECATED_BEHAVIOR:
-      return "deprecated behaviour";
-    case GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR:
-      return "undefined behaviour";
-    case GL_DEBUG_TYPE_PORTABILITY:
-      return "portability";
-    case GL_DEBUG_TYPE_PERFORMANCE:
-      return "performance";
-    case GL_DEBUG_TYPE_MARKER:
-      return "marker";
-    default:
-      return "message";
-  }
+GLsizei limitOf(GLenum name) {
+  GLint value = 0;
+  glGetIntegerv(name, &value);
+  return std::max(value, 256) - 1;
 }
 
 void GLAPIENTRY receive(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
@@ -102,7 +134,7 @@ void DebugLog::drain(base::Diagnostics& diagnostics, bool notifications) {
     } else if (m.severity == GL_DEBUG_SEVERITY_HIGH || m.type == GL_DEBUG_TYPE_ERROR) {
       severity = base::Severity::error;
     }
-    std::string text = fmt::format("OpenGL {} ({}): {}", typeName(m.type), sourceName(m.source), m.text);
+    std::string text = fmt::format("OpenGL: {}", m.text);
     if (m.count > 1) text += fmt::format(" (seen {} times)", m.count);
     diagnostics.add({.severity = severity,
                      .code = base::Code::driverMessage,
@@ -123,11 +155,7 @@ DebugGroup::DebugGroup(DebugLog& log, std::string_view name) : log_(log) {
     const std::lock_guard lock(log_.mutex_);
     log_.groups_.push_back(name);
   }
-  static const GLsizei limit = [] {
-    GLint value = 1024;
-    glGetIntegerv(GL_MAX_DEBUG_MESSAGE_LENGTH, &value);
-    return static_cast<GLsizei>(value - 1);
-  }();
+  static const GLsizei limit = limitOf(GL_MAX_DEBUG_MESSAGE_LENGTH);
   glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, std::min(static_cast<GLsizei>(name.size()), limit),
                    name.data());
 }
@@ -139,12 +167,13 @@ DebugGroup::~DebugGroup() {
 }
 
 void labelObject(GLenum identifier, GLuint id, std::string_view label) {
-  static const GLsizei limit = [] {
-    GLint value = 256;
-    glGetIntegerv(GL_MAX_LABEL_LENGTH, &value);
-    return static_cast<GLsizei>(value - 1);
-  }();
+  static const GLsizei limit = limitOf(GL_MAX_LABEL_LENGTH);
   glObjectLabel(identifier, id, std::min(static_cast<GLsizei>(label.size()), limit), label.data());
+}
+
+std::string enumName(GLenum value) {
+  const auto found = std::ranges::find(kNames, value, &std::pair<GLenum, const char*>::first);
+  return found == std::end(kNames) ? fmt::format("0x{:04X}", value) : found->second;
 }
 
 std::string takeErrors() {

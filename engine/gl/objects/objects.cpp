@@ -32,43 +32,14 @@ LiveObjects liveObjects() {
   return live;
 }
 
-LiveObjects namedObjects(GLuint upTo) {
-  LiveObjects named;
-  const auto add = [&](ObjectKind kind, GLboolean exists) {
-    named.counts[static_cast<std::size_t>(kind)] += exists == GL_TRUE;
-  };
-  for (GLuint name = 1; name <= upTo; ++name) {
-    add(ObjectKind::texture, glIsTexture(name));
-    add(ObjectKind::buffer, glIsBuffer(name));
-    add(ObjectKind::framebuffer, glIsFramebuffer(name));
-    add(ObjectKind::sampler, glIsSampler(name));
-    add(ObjectKind::vertex_array, glIsVertexArray(name));
-    add(ObjectKind::query, glIsQuery(name));
-    // Mesa holds on to the last compute program: deleted, and still a program.
-    GLint deleted = GL_FALSE;
-    if (glIsProgram(name))
-      glGetProgramiv(name, GL_DELETE_STATUS, &deleted);
-    else if (glIsShader(name))
-      glGetShaderiv(name, GL_DELETE_STATUS, &deleted);
-    else
-      continue;
-    add(ObjectKind::program, deleted ? GL_FALSE : GL_TRUE);
-  }
-  return named;
-}
-
 std::string toText(const LiveObjects& objects) {
-  static constexpr const char* kOne[kKinds] = {"texture",     "texture view", "buffer",
-                                               "framebuffer", "sampler",      "vertex array",
-                                               "query",       "fence",        "program"};
-  static constexpr const char* kMany[kKinds] = {"textures",     "texture views", "buffers",
-                                                "framebuffers", "samplers",      "vertex arrays",
-                                                "queries",      "fences",        "programs"};
+  static constexpr const char* kNames[kKinds] = {"texture",     "texture view", "buffer",
+                                                 "framebuffer", "sampler",      "vertex array",
+                                                 "query",       "fence",        "program"};
   std::string text;
-  for (std::size_t i = 0; i < kKinds; ++i) {
-    const auto n = objects.counts[i];
-    if (n != 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, (n == 1 ? kOne : kMany)[i]);
-  }
+  for (std::size_t i = 0; i < kKinds; ++i)
+    if (const auto n = objects.counts[i]; n != 0)
+      text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", n, kNames[i], n == 1 ? "" : "s");
   return text.empty() ? "none" : text;
 }
 
@@ -164,14 +135,6 @@ void VertexArray::setVertices(GLuint binding, GLuint buffer, std::uint64_t offse
   }
 }
 
-void VertexArray::disable(std::span<const VertexAttribute> attributes) {
-  for (const VertexAttribute& attribute : attributes) glDisableVertexArrayAttrib(id_, attribute.location);
-}
-
-void VertexArray::setIndices(GLuint buffer) {
-  glVertexArrayElementBuffer(id_, buffer);
-}
-
 Query Query::create(GLenum target, std::string_view label) {
   GLuint id = 0;
   glCreateQueries(target, 1, &id);
@@ -205,10 +168,6 @@ Fence& Fence::operator=(Fence&& other) noexcept {
     sync_ = std::exchange(other.sync_, nullptr);
   }
   return *this;
-}
-
-bool Fence::isSignalled() const {
-  return wait(0);
 }
 
 bool Fence::wait(std::uint64_t nanoseconds) const {

@@ -12,13 +12,8 @@ namespace weft::gl {
 
 namespace {
 
-bool isLayered(GLenum target) {
-  return target == GL_TEXTURE_2D_ARRAY || target == GL_TEXTURE_CUBE_MAP_ARRAY ||
-         target == GL_TEXTURE_2D_MULTISAMPLE_ARRAY;
-}
-
 bool isMultisample(GLenum target) {
-  return target == GL_TEXTURE_2D_MULTISAMPLE || target == GL_TEXTURE_2D_MULTISAMPLE_ARRAY;
+  return target == GL_TEXTURE_2D_MULTISAMPLE;
 }
 
 GLint limitOf(GLenum name) {
@@ -36,45 +31,27 @@ std::string sizeText(const TextureDesc& d) {
   return text + " " + enumName(d.format);
 }
 
-// Why the driver would refuse, or "". Checked before the driver is asked so that the message can say which
-// number.
+// Which number the driver would refuse, or "": it says no more than that it does.
 std::string refusal(const TextureDesc& d) {
   const bool cube = d.target == GL_TEXTURE_CUBE_MAP || d.target == GL_TEXTURE_CUBE_MAP_ARRAY;
-  const auto largest = static_cast<std::uint32_t>(limitOf(d.target == GL_TEXTURE_3D ? GL_MAX_3D_TEXTURE_SIZE
-                                                          : cube ? GL_MAX_CUBE_MAP_TEXTURE_SIZE
-                                                                 : GL_MAX_TEXTURE_SIZE));
-  const std::uint32_t depth = d.target == GL_TEXTURE_3D ? d.depth : 1;
-  const std::uint32_t side = std::max({d.width, d.height, depth});
-  if (std::min({d.width, d.height, depth, d.layers, d.mips, d.samples}) == 0)
-    return "a size, layer, mip or sample count is zero";
-  if (side > largest) return fmt::format("the largest side is {} texels here", largest);
+  const GLint largest = limitOf(d.target == GL_TEXTURE_3D ? GL_MAX_3D_TEXTURE_SIZE
+                                : cube                    ? GL_MAX_CUBE_MAP_TEXTURE_SIZE
+                                                          : GL_MAX_TEXTURE_SIZE);
+  const GLint layers = limitOf(GL_MAX_ARRAY_TEXTURE_LAYERS), samples = limitOf(GL_MAX_SAMPLES);
+  const std::uint32_t side = std::max({d.width, d.height, d.target == GL_TEXTURE_3D ? d.depth : 1});
+  if (side > static_cast<std::uint32_t>(largest))
+    return fmt::format("the largest side is {} texels here", largest);
   if (d.mips > static_cast<std::uint32_t>(std::bit_width(side)))
     return fmt::format("this size has at most {} mips", std::bit_width(side));
-  if (isLayered(d.target)) {
-    const GLint most = limitOf(GL_MAX_ARRAY_TEXTURE_LAYERS);
-    if (d.layers > static_cast<std::uint32_t>(most))
-      return fmt::format("at most {} layers are allowed here", most);
-  } else if (d.layers != (d.target == GL_TEXTURE_CUBE_MAP ? 6u : 1u)) {
-    return fmt::format("{} layers do not fit {}", d.layers, enumName(d.target));
-  }
-  if (cube && d.width != d.height) return "cube faces must be square";
-  if (d.target == GL_TEXTURE_CUBE_MAP_ARRAY && d.layers % 6 != 0)
-    return "a cube array needs a multiple of six layers";
-  if (isMultisample(d.target)) {
-    const GLint most = limitOf(GL_MAX_SAMPLES);
-    if (d.samples > static_cast<std::uint32_t>(most))
-      return fmt::format("at most {} samples are allowed here", most);
-    if (d.mips > 1) return "a multisampled texture has one mip";
-  } else if (d.samples > 1) {
-    return fmt::format("{} has no samples", enumName(d.target));
-  }
+  if (d.layers > static_cast<std::uint32_t>(layers))
+    return fmt::format("at most {} layers are allowed here", layers);
+  if (d.samples > static_cast<std::uint32_t>(samples))
+    return fmt::format("at most {} samples are allowed here", samples);
   return "";
 }
 
 std::string statusReason(GLenum status) {
   switch (status) {
-    case GL_FRAMEBUFFER_UNDEFINED:
-      return "the default framebuffer does not exist";
     case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT:
       return "an attachment has no such mip or layer, or a format that cannot be rendered to at that point";
     case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT:
@@ -83,11 +60,19 @@ std::string statusReason(GLenum status) {
       return "its attachments differ in sample count";
     case GL_FRAMEBUFFER_INCOMPLETE_LAYER_TARGETS:
       return "some attachments are layered and some are not, or they differ in target";
-    case GL_FRAMEBUFFER_UNSUPPORTED:
-      return "this driver does not render to this combination of formats";
     default:
-      return "the driver gives no reason";
+      return "this driver does not render to this combination of formats";
   }
+}
+
+// Filters and wrapping of a texture or view that is read without a sampler object.
+void setDefaults(GLuint id, GLenum target, std::uint32_t mips) {
+  if (isMultisample(target)) return;
+  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, mips > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST);
+  glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+    glTextureParameteri(id, axis, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(id, GL_TEXTURE_MAX_LEVEL, static_cast<GLint>(mips) - 1);
 }
 
 }  // namespace
@@ -125,22 +110,13 @@ std::optional<Texture> Texture::create(const TextureDesc& desc, std::string_view
     case GL_TEXTURE_2D_MULTISAMPLE:
       glTextureStorage2DMultisample(id, samples, desc.format, width, height, GL_TRUE);
       break;
-    case GL_TEXTURE_2D_MULTISAMPLE_ARRAY:
-      glTextureStorage3DMultisample(id, samples, desc.format, width, height, layers, GL_TRUE);
-      break;
     default:
       return fail(fmt::format("{} is no target of this engine", enumName(desc.target)));
   }
   GLint stored = 0;
   glGetTextureParameteriv(id, GL_TEXTURE_IMMUTABLE_FORMAT, &stored);
   if (!stored) return fail(takeErrors());
-  if (!isMultisample(desc.target)) {
-    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, desc.mips > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST);
-    glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
-      glTextureParameteri(id, axis, GL_CLAMP_TO_EDGE);
-    glTextureParameteri(id, GL_TEXTURE_MAX_LEVEL, mips - 1);
-  }
+  setDefaults(id, desc.target, desc.mips);
   labelObject(GL_TEXTURE, id, label);
   return texture;
 }
@@ -170,13 +146,7 @@ std::optional<TextureView> TextureView::create(const TextureRef& of, const ViewD
   texture.desc_.depth = std::max(1u, of.desc.depth >> view.mip);
   texture.desc_.layers = view.layers;
   texture.desc_.mips = view.mips;
-  if (!isMultisample(view.target)) {
-    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, view.mips > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST);
-    glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
-      glTextureParameteri(id, axis, GL_CLAMP_TO_EDGE);
-    glTextureParameteri(id, GL_TEXTURE_MAX_LEVEL, static_cast<GLint>(view.mips) - 1);
-  }
+  setDefaults(id, view.target, view.mips);
   if (view.stencil)
     glTextureParameteri(id, GL_DEPTH_STENCIL_TEXTURE_MODE, GL_STENCIL_INDEX);  // workarounds.h: stencil-view
   labelObject(GL_TEXTURE, id, label);
@@ -212,18 +182,13 @@ std::optional<Framebuffer> Framebuffer::create(std::span<const Attachment> attac
 
   std::string parts;
   for (const Attachment& a : attachments) {
-    GLint w = 0, h = 0, format = 0, samples = 0;
+    GLint format = 0, samples = 0;
     if (glIsTexture(a.texture)) {
-      const auto mip = static_cast<GLint>(a.mip);
-      glGetTextureLevelParameteriv(a.texture, mip, GL_TEXTURE_WIDTH, &w);
-      glGetTextureLevelParameteriv(a.texture, mip, GL_TEXTURE_HEIGHT, &h);
-      glGetTextureLevelParameteriv(a.texture, mip, GL_TEXTURE_INTERNAL_FORMAT, &format);
-      glGetTextureLevelParameteriv(a.texture, mip, GL_TEXTURE_SAMPLES, &samples);
+      glGetTextureLevelParameteriv(a.texture, static_cast<GLint>(a.mip), GL_TEXTURE_INTERNAL_FORMAT, &format);
+      glGetTextureLevelParameteriv(a.texture, static_cast<GLint>(a.mip), GL_TEXTURE_SAMPLES, &samples);
     }
-    parts += fmt::format("{}{}: {}x{} {} mip {}{}{}", parts.empty() ? "" : "; ", enumName(a.point), w, h,
-                         enumName(static_cast<GLenum>(format)), a.mip,
-                         a.layer < 0 ? "" : fmt::format(" layer {}", a.layer),
-                         samples > 1 ? fmt::format(", {} samples", samples) : "");
+    parts += fmt::format("{}{} mip {} layer {} samples {}", parts.empty() ? "" : "; ",
+                         enumName(static_cast<GLenum>(format)), a.mip, a.layer, samples);
   }
   const std::string errors = takeErrors();
   diagnostics

@@ -1,17 +1,13 @@
-// The folder of program binaries, kept below a size: what was not used for longest goes first. Several
-// processes may write, use and remove at once. Only files that Weft wrote are ever removed: they have a name
-// of 32 hex digits and
-// ".bin", and begin with kBinaryMagic. Does not: know what stands behind the magic (program_cache.cpp).
+// The folder of program binaries, kept below a size: what was not used for longest goes first. Several processes may
+// write, use and remove at once. Only files with a name of 32 hex digits and ".bin" are ever removed.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <string_view>
 
 namespace weft::gl {
 
-constexpr std::string_view kBinaryMagic = "WEFTBIN1";
 constexpr std::size_t kBinaryKeyLength = 32;
 
 struct BinaryFolderUse {
@@ -21,8 +17,5 @@ struct BinaryFolderUse {
 
 // Above `most` bytes, removes binaries until an eighth of it is free.
 BinaryFolderUse pruneBinaries(const std::string& folder, std::uint64_t most);
-
-// Says that a binary was used now.
-void touchBinary(const std::string& path);
 
 }  // namespace weft::gl

@@ -7,7 +7,6 @@
 
 #include "engine/gl/context/debug.h"
 #include "engine/gl/programs/log.h"
-#include "engine/gl/programs/needs.h"
 
 namespace weft::gl {
 
@@ -51,12 +50,11 @@ std::string textOf(GLint length, GLuint id, void (*read)(GLuint, GLsizei, GLsize
   return text;
 }
 
-// The log as diagnostics, at least one error. Of what succeeded a driver says what it likes, and only while its caches are cold:
-// that is not passed on.
-void reportLog(const std::string& log, const glsl::ShaderSource& source, Code code, bool succeeded,
+// The log of what failed as diagnostics, at least one error. Of what succeeded a driver says what it likes, and only while its
+// caches are cold: that is not passed on.
+void reportLog(const std::string& log, const glsl::ShaderSource& source, Code code,
                const std::string& failure, Diagnostics& diagnostics,
                std::span<const glsl::Define> defines = {}) {
-  if (succeeded) return;
   Diagnostics found;
   mapLog(log, source, code, found, defines);
   diagnostics.append(found);
@@ -72,28 +70,15 @@ bool compileStage(const Shader& shader, const StageSource& stage, std::span<cons
   glCompileShader(shader.id());
   GLint compiled = 0, logLength = 0;
   glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
+  if (compiled) return true;
   glGetShaderiv(shader.id(), GL_INFO_LOG_LENGTH, &logLength);
   const std::string log = textOf(logLength, shader.id(), [](GLuint i, GLsizei n, GLsizei* w, GLchar* t) {
     glGetShaderInfoLog(i, n, w, t);
   });
-  reportLog(log, *stage.source, Code::shaderDoesNotCompile, compiled != 0,
+  reportLog(log, *stage.source, Code::shaderDoesNotCompile,
             fmt::format("the {} does not compile, and the driver does not say why", stageName(stage.stage)),
             diagnostics, defines);
-  return compiled != 0;
-}
-
-// Of a program that does not link: whether it needs more than the device has.
-bool reportExcess(std::span<const StageSource> stages, std::span<const glsl::Define> defines,
-                  std::string_view label, Diagnostics& diagnostics) {
-  const std::optional<Excess> excess = excessOf(needsOf(stages, defines), limitsOfDevice());
-  if (!excess) return false;
-  base::Diagnostic& d =
-      diagnostics.error(Code::programNeedsMore, {stages.back().source->file, 0, 0},
-                        fmt::format("program '{}' needs more {} than this device has", label, excess->what));
-  d.expected = fmt::format("at most {}", excess->allowed);
-  d.found = fmt::format("{}", excess->needed);
-  d.hint = excess->hint;
-  return true;
+  return false;
 }
 
 }  // namespace
@@ -123,14 +108,15 @@ std::optional<Program> Program::compile(std::span<const StageSource> stages,
   for (const Shader& shader : shaders) glDetachShader(program.id_, shader.id());
   GLint linked = 0, logLength = 0;
   glGetProgramiv(program.id_, GL_LINK_STATUS, &linked);
-  glGetProgramiv(program.id_, GL_INFO_LOG_LENGTH, &logLength);
-  const std::string log = textOf(logLength, program.id_, [](GLuint i, GLsizei n, GLsizei* w, GLchar* t) {
-    glGetProgramInfoLog(i, n, w, t);
-  });
-  if (linked || !reportExcess(stages, defines, label, diagnostics))
-    reportLog(log, *stages.back().source, Code::programDoesNotLink, linked != 0,
+  if (!linked) {
+    glGetProgramiv(program.id_, GL_INFO_LOG_LENGTH, &logLength);
+    const std::string log = textOf(logLength, program.id_, [](GLuint i, GLsizei n, GLsizei* w, GLchar* t) {
+      glGetProgramInfoLog(i, n, w, t);
+    });
+    reportLog(log, *stages.back().source, Code::programDoesNotLink,
               fmt::format("program '{}' does not link, and the driver does not say why", label), diagnostics);
-  if (!linked) return std::nullopt;
+    return std::nullopt;
+  }
   program.reflection_ = reflectProgram(program.id_, stages.front().stage == GL_COMPUTE_SHADER);
   return program;
 }

@@ -4,7 +4,6 @@
 #include <array>
 #include <numeric>
 
-#include "engine/gl/programs/glsl_type.h"
 #include "engine/gl/programs/program.h"
 
 namespace weft::gl {
@@ -57,9 +56,9 @@ void readUniforms(GLuint program, Reflection& out) {
     const std::string name = withoutIndex(nameOf(program, GL_UNIFORM, i));
     const GlslType* known = findGlslType(static_cast<GLenum>(type));
     const OpaqueUniform uniform{name, static_cast<GLenum>(type), location, std::max(1u, toUnsigned(size)), 0};
-    if (known && known->kind == GlslKind::sampler)
+    if (known && known->kind == GlslType::Kind::sampler)
       out.samplers.push_back(uniform);
-    else if (known && known->kind == GlslKind::image)
+    else if (known && known->kind == GlslType::Kind::image)
       out.images.push_back(uniform);
     else
       out.looseUniforms.push_back({name, static_cast<GLenum>(type), location});
@@ -153,13 +152,6 @@ std::vector<Interface> readInterface(GLuint program, GLenum interface) {
   return found;
 }
 
-template <class Item>
-const Item* findNamed(const std::vector<Item>& items, std::string_view name) {
-  const auto found =
-      std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
-  return found == items.end() ? nullptr : &*found;
-}
-
 }  // namespace
 
 Reflection reflectProgram(GLuint program, bool compute) {
@@ -178,25 +170,6 @@ Reflection reflectProgram(GLuint program, bool compute) {
     out.attributes = readInterface(program, GL_PROGRAM_INPUT);
   }
   return out;
-}
-
-const BlockMember* Block::find(std::string_view member) const {
-  return findNamed(members, member);
-}
-const OpaqueUniform* Reflection::findSampler(std::string_view name) const {
-  return findNamed(samplers, name);
-}
-const OpaqueUniform* Reflection::findImage(std::string_view name) const {
-  return findNamed(images, name);
-}
-const Block* Reflection::findUniformBlock(std::string_view name) const {
-  return findNamed(uniformBlocks, name);
-}
-const Block* Reflection::findStorageBlock(std::string_view name) const {
-  return findNamed(storageBlocks, name);
-}
-const Interface* Reflection::findOutput(std::string_view name) const {
-  return findNamed(outputs, name);
 }
 
 }  // namespace weft::gl

@@ -67,7 +67,7 @@ Execution::Execution(Device& device, PreparedPlan prepared, const Execution* bef
       steps_(plan(), *prepared_.pool, device.imports, prepared_.passes, before ? &before->steps_ : nullptr),
       publications_(plan(), *prepared_.pool, device.imports, steps_.cadence(), prepared_.passes,
                     before ? &before->publications_ : nullptr),
-      runner_(plan(), device, *prepared_.pool, uniforms_.arena()),
+      runner_(plan(), device, *prepared_.pool, uniforms_),
       followsPointer_(readsPointer(plan(), device.imports)) {}
 
 FrameReport Execution::frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics) {
@@ -75,7 +75,7 @@ FrameReport Execution::frame(const World& world, const FrameInput& input, base::
   beginFrame(world, input);
   publishFinished(diagnostics);
   refreshUniforms(false);
-  steps_.refreshHashes(uniforms_.arena());
+  steps_.refreshHashes(uniforms_);
   if (input.headless) runAhead(report, diagnostics);
   chooseSteps();
   runSteps(watch_, report, diagnostics);

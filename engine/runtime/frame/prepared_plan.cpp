@@ -30,114 +30,19 @@ base::Place placeOfResource(const graph::FlatGraph& graph, const std::string& la
   return at < graph.resourcePlaces.size() ? graph.resourcePlaces[at] : base::Place{};
 }
 
-// Prepares one plan, beside a running one if there is one.
-class Preparation {
- public:
-  Preparation(Device& device, PreparedPlan& made, const PreparedPlan* before, ShaderFiles files,
-              base::Diagnostics& diagnostics)
-      : device_(device), made_(made), before_(before), files_(files), diagnostics_(diagnostics) {
-    if (before) findSame();
-  }
-  bool run() { return findVariants() && createPool() && preparePasses(); }
-
- private:
-  void findSame();
-  bool findVariants();
-  std::shared_ptr<const gl::Variant> findVariant(std::size_t step, base::Diagnostics& problems);
-  bool createPool();
-  bool preparePasses();
-  bool preparePassOf(std::size_t step, PrepareContext& context);
-  std::uint32_t sameOf(std::size_t step) const { return before_ ? same_[step] : graph::kNone; }
-
-  Device& device_;
-  PreparedPlan& made_;
-  const PreparedPlan* before_;
-  const ShaderFiles files_;
-  base::Diagnostics& diagnostics_;
-  std::optional<PassKeeper> keeper_;
-  std::vector<std::uint32_t> same_;  // per step: the step of the running plan that is the same, or kNone
-  std::vector<std::shared_ptr<const gl::Variant>> variants_;  // per step
-};
-
-void Preparation::findSame() {
-  keeper_.emplace(*made_.plan, *before_->plan);
-  for (std::size_t step = 0; step < made_.plan->steps.size(); ++step) {
-    const std::uint32_t old = keeper_->stepBefore(step);
-    const bool same = old != graph::kNone && before_->passes[old].usable && keeper_->isSame(step, old);
-    same_.push_back(same ? old : graph::kNone);
-  }
-}
-
-bool Preparation::findVariants() {
-  base::Diagnostics problems;
-  for (std::size_t step = 0; step < made_.plan->steps.size(); ++step)
-    variants_.push_back(findVariant(step, problems));
-  diagnostics_.append(problems);
-  return !problems.hasErrors();
-}
-
-std::shared_ptr<const gl::Variant> Preparation::findVariant(std::size_t step, base::Diagnostics& problems) {
-  const graph::Plan& plan = *made_.plan;
+// The program of a step, checked against its pass; null for a pass type without a shader, and after errors.
+std::shared_ptr<const gl::Variant> findVariant(Device& device, const graph::Plan& plan, std::size_t step,
+                                               base::Diagnostics& problems) {
   const std::uint32_t pass = plan.steps[step].pass;
-  const graph::PassSpec& spec = plan.graph->specs[pass];
-  if (files_ == ShaderFiles::keep)
-    if (const std::uint32_t old = sameOf(step); old != graph::kNone) {
-      const auto& variant = before_->passes[old].variant;
-      if (variant) device_.programs.touch(variant);
-      return variant;
-    }
-  const passes::PassType* type = device_.passTypes.find(spec.type);
+  const passes::PassType* type = device.passTypes.find(plan.graph->specs[pass].type);
   assert(type && "expansion accepts registered pass types only");
   const graph::PassType reflected = type->reflect();
   if (reflected.shader == graph::ShaderShape::none) return nullptr;
-  auto variant = device_.programs.get(programRequestOf(*plan.graph, plan, pass, reflected), problems);
+  auto variant = device.programs.get(programRequestOf(*plan.graph, plan, pass, reflected), problems);
   if (!variant) return nullptr;
-  const LinkedProgram linked{variant->program.reflection(), device_.context.device().limits};
+  const LinkedProgram linked{variant->program.reflection(), device.context.device().limits};
   checkProgram(plan, pass, variant->stages, variant->defines, &linked, problems);
   return variant;
-}
-
-bool Preparation::createPool() {
-  base::Diagnostics refused;
-  made_.pool = ResourcePool::create(*made_.plan, before_ ? before_->pool.get() : nullptr, refused);
-  const auto placeResource = [&](base::Diagnostic& d) {
-    d.place = placeOfResource(*made_.plan->graph, d.resource);
-  };
-  appendWithPlaces(refused, placeResource, diagnostics_);
-  return made_.pool != nullptr;
-}
-
-bool Preparation::preparePasses() {
-  base::Diagnostics refused;
-  PrepareContext context{*made_.plan,        device_.passTypes, nullptr, *made_.pool,
-                         device_.geometries, device_.samplers,  refused};
-  const std::size_t steps = made_.plan->steps.size();
-  made_.passes.resize(steps);
-  for (std::size_t step = 0; step < steps; ++step) {
-    const std::uint32_t old = sameOf(step);
-    if (old != graph::kNone && before_->passes[old].variant == variants_[step] &&
-        keeper_->isInPlace(step, old, *made_.pool, *before_->pool))
-      made_.passes[step] = keeper_->keep(step, old, before_->passes[old]);
-    else if (!preparePassOf(step, context))
-      return false;
-  }
-  return true;
-}
-
-bool Preparation::preparePassOf(std::size_t step, PrepareContext& context) {
-  const graph::PassSpec& spec = made_.plan->graph->specs[made_.plan->steps[step].pass];
-  ++made_.passesPrepared;
-  context.variant = variants_[step];
-  context.diagnostics.clear();
-  made_.passes[step] = preparePass(context, step);
-  const auto placePass = [&](base::Diagnostic& d) {
-    d.place = spec.place;
-    d.pass = spec.name;
-  };
-  appendWithPlaces(context.diagnostics, placePass, diagnostics_);
-  PreparedPass& made = made_.passes[step];
-  std::copy_n(device_.context.device().limits.computeGroups, 3, made.context.maxGroups);
-  return made.usable;
 }
 
 }  // namespace
@@ -146,7 +51,54 @@ std::optional<PreparedPlan> preparePlan(Device& device, std::shared_ptr<const gr
                                         const PreparedPlan* before, ShaderFiles files,
                                         base::Diagnostics& diagnostics) {
   PreparedPlan made{.plan = std::move(plan), .pool = nullptr, .passes = {}};
-  if (!Preparation(device, made, before, files, diagnostics).run()) return std::nullopt;
+  const graph::FlatGraph& graph = *made.plan->graph;
+  const std::size_t steps = made.plan->steps.size();
+  std::optional<PassKeeper> keeper;
+  if (before) keeper.emplace(*made.plan, *before->plan);
+  std::vector<std::uint32_t> same(steps, graph::kNone);  // the step of the running plan that is the same
+  std::vector<std::shared_ptr<const gl::Variant>> variants(steps);
+  base::Diagnostics problems;
+  for (std::size_t step = 0; step < steps; ++step) {
+    const std::uint32_t old = keeper ? keeper->stepBefore(step) : graph::kNone;
+    if (old != graph::kNone && before->passes[old].usable && keeper->isSame(step, old)) same[step] = old;
+    if (files == ShaderFiles::read || same[step] == graph::kNone)
+      variants[step] = findVariant(device, *made.plan, step, problems);
+    else if ((variants[step] = before->passes[old].variant))
+      device.programs.touch(variants[step]);
+  }
+  diagnostics.append(problems);
+  if (problems.hasErrors()) return std::nullopt;
+
+  base::Diagnostics refused;
+  made.pool = ResourcePool::create(*made.plan, before ? before->pool.get() : nullptr, refused);
+  appendWithPlaces(
+      refused, [&](base::Diagnostic& d) { d.place = placeOfResource(graph, d.resource); }, diagnostics);
+  if (!made.pool) return std::nullopt;
+
+  made.passes.resize(steps);
+  for (std::size_t step = 0; step < steps; ++step) {
+    const std::uint32_t old = same[step];
+    if (old != graph::kNone && before->passes[old].variant == variants[step] &&
+        keeper->isInPlace(step, old, *made.pool, *before->pool)) {
+      made.passes[step] = keeper->keep(step, old, before->passes[old]);
+      continue;
+    }
+    const graph::PassSpec& spec = graph.specs[made.plan->steps[step].pass];
+    ++made.passesPrepared;
+    base::Diagnostics said;
+    PrepareContext context{
+        *made.plan, device.passTypes, variants[step], *made.pool, device.geometries, device.samplers, said};
+    PreparedPass& pass = made.passes[step] = preparePass(context, step);
+    appendWithPlaces(
+        said,
+        [&](base::Diagnostic& d) {
+          d.place = spec.place;
+          d.pass = spec.name;
+        },
+        diagnostics);
+    std::copy_n(device.context.device().limits.computeGroups, 3, pass.context.maxGroups);
+    if (!pass.usable) return std::nullopt;
+  }
   return made;
 }
 

@@ -99,17 +99,6 @@ GLuint viewOf(const GpuResource& resource, const std::vector<GLuint>& views, std
   return views.empty() ? resource.importedFor(group).id : views[resource.copyOf(history, group)];
 }
 
-GLenum attachmentPointOf(graph::Format format) {
-  switch (graph::infoOf(format).kind) {
-    case graph::TexelKind::depth:
-      return GL_DEPTH_ATTACHMENT;
-    case graph::TexelKind::depth_stencil:
-      return GL_DEPTH_STENCIL_ATTACHMENT;
-    default:
-      return GL_COLOR_ATTACHMENT0;
-  }
-}
-
 }  // namespace
 
 template <class Binding>
@@ -183,7 +172,7 @@ void StepRunner::bindBuffer(const BufferBinding& binding, std::uint32_t group,
 }
 
 void StepRunner::bindBlock(const gl::Block* block, std::uint32_t offset) {
-  if (block) states_.bindBuffer(GL_UNIFORM_BUFFER, block->binding, arena_.buffer(), offset, block->bytes);
+  if (block) states_.bindBuffer(GL_UNIFORM_BUFFER, block->binding, uniforms_.buffer(), offset, block->bytes);
 }
 
 // Binds what a pass type without a shader works on: GL names of textures, and framebuffers around them if it wants some.
@@ -205,9 +194,10 @@ bool StepRunner::bindFixed(const FixedBinding& binding, PreparedPass& pass, base
   bound.level = static_cast<GLint>(binding.mip);
   bound.layer = std::max(0, binding.layer);
   if (pass.context.exact) return true;
-  const GLenum point = attachmentPointOf(shape.format);
-  const gl::Attachment attachment{
-      .point = point, .texture = whole, .mip = binding.mip, .layer = binding.layer};
+  const gl::Attachment attachment{.point = attachmentPointOf(glFormatOf(shape.format)),
+                                  .texture = whole,
+                                  .mip = binding.mip,
+                                  .layer = binding.layer};
   bound.framebuffer = framebuffers_.get({&attachment, 1}, pass.context.spec->name, diagnostics);
   return true;
 }

@@ -18,13 +18,6 @@ void main() {
 }
 )";
 
-GLenum attachmentPointOf(GLenum format) {
-  const gl::FormatClass kind = gl::classOf(format);
-  return kind == gl::FormatClass::depth           ? GL_DEPTH_ATTACHMENT
-         : kind == gl::FormatClass::depth_stencil ? GL_DEPTH_STENCIL_ATTACHMENT
-                                                  : GL_COLOR_ATTACHMENT0;
-}
-
 }  // namespace
 
 std::vector<std::string> Inspector::writersOf(const graph::Plan& plan, std::uint32_t resource) {
@@ -87,7 +80,7 @@ void Inspector::release(Execution& execution) {
   hasPicture_ = hasBuffer_ = false;
 }
 
-bool Inspector::prepareTexture(const gl::TextureRef& from, const graph::FlatResource& desc) {
+bool Inspector::prepareTexture(const gl::TextureRef& from) {
   const gl::Extent extent = gl::extentOf(from.desc, mip_);
   const gl::TextureDesc wanted{.format = from.desc.format, .width = extent.width, .height = extent.height};
   if (!picture_ || !(picture_.desc() == wanted)) {
@@ -95,26 +88,11 @@ bool Inspector::prepareTexture(const gl::TextureRef& from, const graph::FlatReso
     auto made = gl::Texture::create(wanted, "inspector", ignored);
     if (!made) return false;
     picture_ = std::move(*made);
-    resolveTo_.reset();
   }
   if (gl::classOf(wanted.format) == gl::FormatClass::depth_stencil)
     glTextureParameteri(picture_.id(), GL_DEPTH_STENCIL_TEXTURE_MODE,
                         stencil_ ? GL_STENCIL_INDEX : GL_DEPTH_COMPONENT);
-  if (desc.samples == 1) return true;
-  base::Diagnostics ignored;
-  const GLenum point = attachmentPointOf(wanted.format);
-  if (!resolveTo_) {
-    const gl::Attachment to{.point = point, .texture = picture_.id()};
-    if (auto made = gl::Framebuffer::create({&to, 1}, "inspector", ignored)) resolveTo_ = std::move(*made);
-    resolvedTexture_ = 0;
-  }
-  if (resolvedTexture_ != from.id) {
-    const gl::Attachment source{.point = point, .texture = from.id};
-    if (auto made = gl::Framebuffer::create({&source, 1}, "inspector", ignored))
-      resolveFrom_ = std::move(*made);
-    resolvedTexture_ = from.id;
-  }
-  return resolveTo_ && resolveFrom_;
+  return true;
 }
 
 bool Inspector::prepareBuffer(std::uint64_t bytes) {
@@ -140,24 +118,14 @@ void Inspector::copy() {
                                static_cast<GLsizeiptr>(from.bytes));
   } else {
     const gl::TextureRef from = execution_->texture(resource_, history_);
-    hasPicture_ = from.id != 0 && mip_ < from.desc.mips && prepareTexture(from, desc);
-    if (hasPicture_) {
-      const auto width = static_cast<GLsizei>(picture_.desc().width),
-                 height = static_cast<GLsizei>(picture_.desc().height);
-      if (desc.samples > 1) {
-        openMasks();
-        const GLenum point = attachmentPointOf(from.desc.format);
-        const GLbitfield mask = point == GL_COLOR_ATTACHMENT0  ? GL_COLOR_BUFFER_BIT
-                                : point == GL_DEPTH_ATTACHMENT ? GL_DEPTH_BUFFER_BIT
-                                                               : GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT;
-        glBlitNamedFramebuffer(resolveFrom_.id(), resolveTo_.id(), 0, 0, width, height, 0, 0, width, height,
-                               mask, GL_NEAREST);
-      } else {
-        glCopyImageSubData(from.id, from.desc.target, static_cast<GLint>(mip_), 0, 0,
-                           static_cast<GLint>(layer_), picture_.id(), GL_TEXTURE_2D, 0, 0, 0, 0, width,
-                           height, 1);
-      }
-    }
+    hasPicture_ = from.id != 0 && mip_ < from.desc.mips && prepareTexture(from);
+    if (hasPicture_ && desc.samples > 1)
+      hasPicture_ = resolveSamples(from, picture_.id());
+    else if (hasPicture_)
+      glCopyImageSubData(from.id, from.desc.target, static_cast<GLint>(mip_), 0, 0,
+                         static_cast<GLint>(layer_), picture_.id(), GL_TEXTURE_2D, 0, 0, 0, 0,
+                         static_cast<GLsizei>(picture_.desc().width),
+                         static_cast<GLsizei>(picture_.desc().height), 1);
   }
   glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
   copies_ += hasPicture_ || hasBuffer_;

@@ -10,83 +10,72 @@
 
 namespace weft::runtime {
 
-namespace {
-
-std::string numberText(double x) {
-  if (std::isnan(x)) return "nan";
-  return fmt::format("{}", static_cast<float>(x));
-}
-
-}  // namespace
-
 std::string InspectTexel::text() const {
   std::string out;
   for (std::uint32_t c = 0; c < channels; ++c) {
-    const bool whole = kind == gl::FormatClass::unsigned_integer || kind == gl::FormatClass::signed_integer;
-    out += (c ? ", " : "") +
-           (whole ? fmt::format("{}", static_cast<std::int64_t>(value[c])) : numberText(value[c]));
+    const double x = value[c];
+    const bool whole = std::trunc(x) == x && std::abs(x) < 1e10;
+    out += (c ? ", " : "") + (std::isnan(x) ? "nan"
+                              : whole       ? fmt::format("{}", static_cast<std::int64_t>(x))
+                                            : fmt::format("{}", static_cast<float>(x)));
   }
+  return out;
+}
+
+std::uint32_t Inspector::numbers() const {
+  return stencil_ ? 1 : std::min(channels_, gl::floatChannelsOf(picture_.desc().format));
+}
+
+std::vector<double> Inspector::read(std::uint32_t x, std::uint32_t y, std::uint32_t width,
+                                    std::uint32_t height) const {
+  const std::size_t texels = std::size_t{width} * height, count = numbers();
+  std::vector<double> out;
+  out.reserve(texels * count);
+  // `mask`: of the bits of a number that count; `first`: of the numbers of a texel.
+  const auto take = [&]<class T>(T mask, GLenum format, GLenum type, std::size_t stride, std::size_t first) {
+    std::vector<T> data(texels * stride);
+    glGetTextureSubImage(picture_.id(), 0, static_cast<GLint>(x), static_cast<GLint>(y), 0,
+                         static_cast<GLsizei>(width), static_cast<GLsizei>(height), 1, format, type,
+                         static_cast<GLsizei>(data.size() * sizeof(T)), data.data());
+    for (std::size_t i = 0; i < texels; ++i)
+      for (std::size_t c = first; c < first + count; ++c) {
+        T number = data[i * stride + c];
+        if constexpr (std::is_integral_v<T>) number &= mask;
+        out.push_back(static_cast<double>(number));
+      }
+  };
+  const gl::FormatClass kind = gl::classOf(picture_.desc().format);
+  if (stencil_ && picture_.desc().format == GL_DEPTH32F_STENCIL8)
+    take(std::uint32_t{0xff}, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, 2, 1);
+  else if (stencil_)
+    take(std::uint32_t{0xff}, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, 1, 0);
+  else if (kind == gl::FormatClass::depth || kind == gl::FormatClass::depth_stencil)
+    take(0.0f, GL_DEPTH_COMPONENT, GL_FLOAT, 1, 0);
+  else if (kind == gl::FormatClass::unsigned_integer)
+    take(~std::uint32_t{0}, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 4, 0);
+  else if (kind == gl::FormatClass::signed_integer)
+    take(std::int32_t{-1}, GL_RGBA_INTEGER, GL_INT, 4, 0);
+  else
+    take(0.0f, GL_RGBA, GL_FLOAT, 4, 0);
   return out;
 }
 
 std::optional<InspectTexel> Inspector::texel(std::uint32_t x, std::uint32_t y) const {
   if (!hasPicture_ || x >= picture_.desc().width || y >= picture_.desc().height) return std::nullopt;
-  InspectTexel out;
-  out.kind = gl::classOf(picture_.desc().format);
-  out.channels = channels_;
-  const auto get = [&](GLenum format, GLenum type, GLsizei bytes, void* to) {
-    glGetTextureSubImage(picture_.id(), 0, static_cast<GLint>(x), static_cast<GLint>(y), 0, 1, 1, 1, format,
-                         type, bytes, to);
-  };
-  const auto keep = [&](const auto& values) {
-    for (std::uint32_t c = 0; c < out.channels && c < 4; ++c) out.value[c] = static_cast<double>(values[c]);
-  };
-  if (out.kind == gl::FormatClass::depth || out.kind == gl::FormatClass::depth_stencil) {
-    out.channels = 1;
-    if (stencil_) {
-      struct {
-        float depth;
-        std::uint32_t stencil;
-      } both{};
-      std::uint32_t packed = 0;
-      const bool wide = picture_.desc().format == GL_DEPTH32F_STENCIL8;
-      if (wide)
-        get(GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, sizeof both, &both);
-      else
-        get(GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, sizeof packed, &packed);
-      out.kind = gl::FormatClass::unsigned_integer;
-      out.value[0] = (wide ? both.stencil : packed) & 0xff;
-    } else {
-      float depth = 0;
-      get(GL_DEPTH_COMPONENT, GL_FLOAT, sizeof depth, &depth);
-      out.value[0] = depth;
-    }
-  } else if (out.kind == gl::FormatClass::unsigned_integer) {
-    std::uint32_t values[4] = {};
-    get(GL_RGBA_INTEGER, GL_UNSIGNED_INT, sizeof values, values);
-    keep(values);
-  } else if (out.kind == gl::FormatClass::signed_integer) {
-    std::int32_t values[4] = {};
-    get(GL_RGBA_INTEGER, GL_INT, sizeof values, values);
-    keep(values);
-  } else {
-    float values[4] = {};
-    get(GL_RGBA, GL_FLOAT, sizeof values, values);
-    keep(values);
-  }
+  InspectTexel out{.channels = numbers()};
+  std::ranges::copy(read(x, y, 1, 1), out.value.begin());
   return out;
 }
 
 std::optional<InspectStatistics> Inspector::measure() const {
   if (!hasPicture_ || stencil_) return std::nullopt;
-  const std::vector<float> texels = gl::readFloats(picture_.ref());
-  const std::size_t stride = gl::floatChannelsOf(picture_.desc().format),
-                    channels = std::min<std::size_t>(stride, channels_);
+  const std::vector<double> texels = read(0, 0, picture_.desc().width, picture_.desc().height);
+  const std::size_t channels = numbers();
   InspectStatistics out;
   out.low.fill(std::numeric_limits<double>::infinity());
   out.high.fill(-std::numeric_limits<double>::infinity());
   std::array<std::uint64_t, 4> finite{};
-  for (std::size_t i = 0; i < texels.size(); i += stride) {
+  for (std::size_t i = 0; i < texels.size(); i += channels) {
     bool nan = false, infinite = false;
     for (std::size_t c = 0; c < channels; ++c) {
       const double x = texels[i + c];
@@ -152,31 +141,13 @@ std::optional<assets::Image8> Inspector::drawWhole(const InspectView& view, base
 
 std::optional<assets::ImageF> Inspector::values() const {
   if (!hasPicture_) return std::nullopt;
-  const gl::TextureDesc& desc = picture_.desc();
-  const std::size_t width = desc.width, rows = desc.height;
-  std::vector<float> texels;
-  std::size_t stride = 1;
-  if (stencil_) {
-    const bool wide = desc.format == GL_DEPTH32F_STENCIL8;
-    const std::vector<std::byte> packed =
-        gl::readTexture(picture_.ref(), 0, 0, GL_DEPTH_STENCIL,
-                        wide ? GL_FLOAT_32_UNSIGNED_INT_24_8_REV : GL_UNSIGNED_INT_24_8);
-    const std::size_t bytes = wide ? 8 : 4, last = wide ? 4 : 0;
-    for (std::size_t i = 0; i < width * rows; ++i) {
-      std::uint32_t word = 0;
-      std::memcpy(&word, &packed[i * bytes + last], sizeof word);
-      texels.push_back(static_cast<float>(word & 0xff));
-    }
-  } else {
-    texels = gl::readFloats(picture_.ref());
-    stride = gl::floatChannelsOf(desc.format);
-  }
-  const std::size_t channels = stride == 1 ? 1 : channels_;
-  assets::ImageF image{static_cast<int>(width), static_cast<int>(rows), static_cast<int>(channels), {}};
-  image.texels.reserve(width * rows * channels);
+  const std::uint32_t width = picture_.desc().width, rows = picture_.desc().height;
+  const std::vector<double> texels = read(0, 0, width, rows);
+  const std::size_t row = std::size_t{width} * numbers();
+  assets::ImageF image{static_cast<int>(width), static_cast<int>(rows), static_cast<int>(numbers()), {}};
+  image.texels.reserve(texels.size());
   for (std::size_t y = rows; y-- > 0;)
-    for (std::size_t x = 0; x < width; ++x)
-      for (std::size_t c = 0; c < channels; ++c) image.texels.push_back(texels[(y * width + x) * stride + c]);
+    for (std::size_t i = 0; i < row; ++i) image.texels.push_back(static_cast<float>(texels[y * row + i]));
   return image;
 }
 

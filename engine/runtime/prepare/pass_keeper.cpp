@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <string_view>
+#include <unordered_map>
 
 namespace weft::runtime {
 
@@ -17,16 +18,16 @@ using graph::SlotSpec;
 
 namespace {
 
-bool sameRange(const FlatUse& a, const FlatUse& b) {
-  return a.mip == b.mip && a.mips == b.mips && a.layer == b.layer && a.layers == b.layers &&
-         a.planes == b.planes && a.history == b.history && a.kind == b.kind && a.access == b.access &&
-         a.feedback == b.feedback && a.exact == b.exact;
+bool sameRange(FlatUse a, const FlatUse& b) {
+  a.resource = b.resource;
+  a.keep = b.keep;
+  return a == b;
 }
 
-bool sameShape(const FlatResource& a, const FlatResource& b) {
-  return a.kind == b.kind && a.format == b.format && a.target == b.target && a.samples == b.samples &&
-         a.layers == b.layers && a.mips == b.mips && a.width == b.width && a.height == b.height &&
-         a.depth == b.depth && a.bytes == b.bytes && a.history == b.history;
+bool sameShape(FlatResource a, const FlatResource& b) {
+  a.hasClear = b.hasClear;
+  a.import = b.import;
+  return a == b;
 }
 
 bool sameImport(const FlatGraph& a, std::uint32_t x, const FlatGraph& b, std::uint32_t y) {
@@ -44,21 +45,17 @@ bool sameUniform(const graph::UniformSpec& a, const graph::UniformSpec& b) {
   return a.name == b.name && a.value.type == b.value.type && a.value.count == b.value.count;
 }
 
-bool sameState(const graph::StateSpec& a, const graph::StateSpec& b) {
-  return a.blend == b.blend && a.depthTest == b.depthTest && a.depthCompare == b.depthCompare &&
-         a.depthWrite == b.depthWrite && a.cull == b.cull && a.lines == b.lines &&
-         a.offsetFactor == b.offsetFactor && a.offsetUnits == b.offsetUnits;
-}
-
 bool sameSpec(const PassSpec& a, const PassSpec& b) {
-  const auto sameDefine = [](const graph::DefineSpec& x, const graph::DefineSpec& y) {
-    return x.name == y.name && x.text == y.text;
-  };
   return a.type == b.type && a.shader == b.shader && a.vertexShader == b.vertexShader &&
-         a.slotCount == b.slotCount && std::ranges::equal(a.defines, b.defines, sameDefine) &&
-         std::ranges::equal(a.uniforms, b.uniforms, sameUniform) && sameState(a.state, b.state) &&
+         a.slotCount == b.slotCount && a.defines == b.defines &&
+         std::ranges::equal(a.uniforms, b.uniforms, sameUniform) && a.state == b.state &&
          std::ranges::equal(a.threads, b.threads) && a.instances == b.instances && a.list == b.list &&
          a.geometry == b.geometry && a.geometryArguments == b.geometryArguments;
+}
+
+const graph::Value* clearOf(const FlatGraph& graph, std::uint32_t resource) {
+  const auto found = std::ranges::find(graph.clears, resource, &graph::ClearSpec::resource);
+  return found == graph.clears.end() ? nullptr : &found->value;
 }
 
 }  // namespace
@@ -73,18 +70,6 @@ PassKeeper::PassKeeper(const Plan& plan, const Plan& before) : plan_(plan), befo
     const auto found = stepOf.find(plan.graph->specs[step.pass].name);
     stepsBefore_.push_back(found == stepOf.end() ? kNone : found->second);
   }
-  for (const graph::ClearSpec& clear : plan.graph->clears) clears_[clear.resource] = &clear.value;
-  for (const graph::ClearSpec& clear : before.graph->clears) clearsBefore_[clear.resource] = &clear.value;
-}
-
-std::uint32_t PassKeeper::stepBefore(std::size_t step) const {
-  return stepsBefore_[step];
-}
-
-const graph::Value* PassKeeper::clearOf(const std::unordered_map<std::uint32_t, const graph::Value*>& clears,
-                                        std::uint32_t resource) const {
-  const auto found = clears.find(resource);
-  return found == clears.end() ? nullptr : found->second;
 }
 
 bool PassKeeper::pairUp(std::size_t step, std::uint32_t old) {
@@ -131,8 +116,7 @@ bool PassKeeper::isSame(std::size_t step, std::uint32_t old) {
                   &useThen = before_.clears[stepThen.firstClear + i].use;
     const auto pair = std::ranges::find(pairs_, useThen.resource, &Pairs::value_type::first);
     if (pair == pairs_.end() || pair->second != use.resource || !sameRange(use, useThen)) return false;
-    const graph::Value *value = clearOf(clears_, use.resource),
-                       *valueThen = clearOf(clearsBefore_, useThen.resource);
+    const graph::Value *value = clearOf(mine, use.resource), *valueThen = clearOf(theirs, useThen.resource);
     if (!value || !valueThen || !(*value == *valueThen)) return false;
   }
   return true;

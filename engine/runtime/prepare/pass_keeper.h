@@ -1,11 +1,10 @@
 // Finds the passes of a new plan that are equal to passes of the running plan, so that what was prepared for those
 // (program, bindings, views, attachments) can be kept. Passes are matched by their instance names, resources by the
-// slots that use them. Compares descriptions and the identity of storage only. Does not: compare shader files, or values
-// of uniforms, which are written anew.
+// slots that use them. Compares descriptions and the identity of storage only. Shader files and values of
+// uniforms, which are written anew, do not count.
 #pragma once
 
 #include <cstdint>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -21,7 +20,7 @@ class PassKeeper {
   PassKeeper(const graph::Plan& plan, const graph::Plan& before);
 
   // The step of the running plan with the name of `step`, or kNone.
-  std::uint32_t stepBefore(std::size_t step) const;
+  std::uint32_t stepBefore(std::size_t step) const { return stepsBefore_[step]; }
   // Whether everything that the program is made of, and is checked against, is the same. `old`: stepBefore(step).
   bool isSame(std::size_t step, std::uint32_t old);
   // Whether the two steps also use the same storage. isSame() must hold.
@@ -32,15 +31,12 @@ class PassKeeper {
 
  private:
   using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // resources: before, now
-  const graph::Value* clearOf(const std::unordered_map<std::uint32_t, const graph::Value*>& clears,
-                              std::uint32_t resource) const;
   // Fills pairs_. False when a resource of the running plan would be two in the new plan, or two would be one.
   bool pairUp(std::size_t step, std::uint32_t old);
 
   const graph::Plan &plan_, &before_;
   std::vector<std::uint32_t> stepsBefore_;  // by step; kNone: there is none
   Pairs pairs_;                             // of the step that pairUp() was last called for
-  std::unordered_map<std::uint32_t, const graph::Value*> clears_, clearsBefore_;
 };
 
 }  // namespace weft::runtime

@@ -5,7 +5,6 @@
 
 #include "engine/base/hash.h"
 #include "engine/runtime/prepare/program_request.h"
-#include "engine/runtime/prepare/sampler_types.h"
 #include "engine/runtime/storage/formats.h"
 
 namespace weft::runtime {
@@ -181,8 +180,9 @@ class Preparer {
         const graph::TexelKind texels =
             use.planes == 2 ? graph::TexelKind::unsigned_integer : graph::infoOf(resource.format).kind;
         binding.sampler = c_.samplers.get(slot.sampler, graph_.borderOf(slot), use.mips > 1, texels);
-        binding.views = viewsOf(use, opaqueTypeOf(gl::glslTypeName(sampler->type)).target);
-        binding.part = importPartOf(use, opaqueTypeOf(gl::glslTypeName(sampler->type)).target);
+        const GLenum target = gl::findGlslType(sampler->type)->target;
+        binding.views = viewsOf(use, target);
+        binding.part = importPartOf(use, target);
         out_.textures.push_back(std::move(binding));
         return complete(out_.textures.back().views);
       }
@@ -194,8 +194,8 @@ class Preparer {
         binding.access = slot.access == Access::read    ? GL_READ_ONLY
                          : slot.access == Access::write ? GL_WRITE_ONLY
                                                         : GL_READ_WRITE;
-        binding.format = glFormatOf(resource.format).internal;
-        const GLenum target = opaqueTypeOf(gl::glslTypeName(image->type)).target;
+        binding.format = glFormatOf(resource.format);
+        const GLenum target = gl::findGlslType(image->type)->target;
         binding.layered = target != GL_TEXTURE_2D && target != GL_TEXTURE_2D_MULTISAMPLE;
         binding.views = viewsOf(use, target);
         binding.part = importPartOf(use, target);

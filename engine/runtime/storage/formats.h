@@ -11,13 +11,7 @@
 
 namespace weft::runtime {
 
-struct GlFormat {
-  GLenum internal = GL_NONE;  // sized internal format
-  GLenum format = GL_NONE;    // client format, with `type` for read-back
-  GLenum type = GL_NONE;
-};
-
-const GlFormat& glFormatOf(graph::Format format);
+GLenum glFormatOf(graph::Format format);  // sized internal format
 GLenum glTargetOf(graph::Target target);
 GLbitfield glBarriersOf(std::uint16_t barriers);
 GLenum glCompareOf(graph::Compare compare);

@@ -30,7 +30,7 @@ std::uint64_t nextSerial() {
 
 gl::TextureDesc descOf(const Storage& s) {
   return {.target = glTargetOf(s.target),
-          .format = glFormatOf(s.format).internal,
+          .format = glFormatOf(s.format),
           .width = s.width,
           .height = s.height,
           .depth = s.depth,
@@ -301,7 +301,7 @@ gl::TextureRef ResourcePool::view(const Plan& plan, const FlatUse& use, std::uin
   GpuResource& mine = resources_[use.resource];
   if (!mine.texture) return mine.imported;
   gl::ViewDesc view{.target = target ? target : glTargetOf(desc.target),
-                    .format = glFormatOf(desc.format).internal,
+                    .format = glFormatOf(desc.format),
                     .mip = use.mip,
                     .mips = use.mips,
                     .layer = use.layer,

@@ -1,12 +1,17 @@
-// What a shader would have to declare, as GLSL, so that it fits what its pass says: the fix in messages about slots and
-// parameters. Does not: check anything.
+// Which GLSL type fits what a slot or parameter holds, and what a shader would have to declare for it: the fix in messages.
 #pragma once
 
 #include <string>
 
+#include "engine/gl/programs/program.h"
 #include "engine/graph/flat_graph.h"
 
 namespace weft::runtime {
+
+// "" when a sampler or image type fits, else what is expected ("a 2DArray type", "an unsigned int type", …). `type`: null for
+// one that the engine does not bind.
+std::string opaqueMismatch(const gl::GlslType* type, const graph::FlatResource& resource,
+                           const graph::FlatUse& use, bool compare);
 
 // "uniform usampler2DArray maps;", "layout(rgba16f) uniform writeonly image2D result;", "out vec4 result;", …: what the
 // shader declares for a slot of `kind` that holds `use` of `resource`.

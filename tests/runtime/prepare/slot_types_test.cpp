@@ -1,4 +1,4 @@
-#include "engine/runtime/prepare/sampler_types.h"
+#include "engine/runtime/prepare/slot_types.h"
 
 #include <doctest/doctest.h>
 
@@ -11,7 +11,7 @@ TEST_CASE("a sampler type fits the resource's target, texel class and comparison
   const graph::FlatResource integers{.format = graph::Format::r32ui};
   const graph::FlatUse one{}, six{.layers = 6};
   using runtime::opaqueMismatch;
-  using runtime::opaqueTypeOf;
+  const auto opaqueTypeOf = [](std::string_view name) { return gl::findGlslType(name); };
   CHECK(opaqueMismatch(opaqueTypeOf("sampler2D"), flat, one, false).empty());
   CHECK(opaqueMismatch(opaqueTypeOf("sampler3D"), flat, one, false) == "a 2D type");
   CHECK(opaqueMismatch(opaqueTypeOf("samplerCubeShadow"), cube, six, true).empty());

@@ -1,16 +1,16 @@
-#include "engine/runtime/prepare/shader_advice.h"
+#include "engine/runtime/prepare/slot_types.h"
 
 #include <fmt/format.h>
 
 namespace weft::runtime {
-
-namespace {
 
 using graph::FlatResource;
 using graph::FlatUse;
 using graph::Kind;
 using graph::Target;
 using graph::TexelKind;
+
+namespace {
 
 // The prefix of "sampler2D" and "vec4": "", "u" or "i".
 const char* prefixFor(const FlatUse& use, const FlatResource& resource) {
@@ -28,6 +28,44 @@ std::string shapeFor(const FlatUse& use, const FlatResource& resource) {
 }
 
 }  // namespace
+
+std::string opaqueMismatch(const gl::GlslType* type, const FlatResource& resource, const FlatUse& use,
+                           bool compare) {
+  const bool cubes = resource.target == Target::texture_cube || resource.target == Target::texture_cube_array;
+  const auto fitsTarget = [&] {
+    switch (type ? type->target : 0) {
+      case GL_TEXTURE_2D:
+        return resource.target != Target::texture_3d && use.layers == 1 && resource.samples == 1;
+      case GL_TEXTURE_2D_ARRAY:
+        return resource.target != Target::texture_3d && resource.samples == 1;
+      case GL_TEXTURE_CUBE_MAP:
+        return cubes && use.layers == 6 && use.layer % 6 == 0;
+      case GL_TEXTURE_CUBE_MAP_ARRAY:
+        return cubes && use.layers % 6 == 0 && use.layer % 6 == 0;
+      case GL_TEXTURE_3D:
+        return resource.target == Target::texture_3d;
+      case GL_TEXTURE_2D_MULTISAMPLE:
+        return resource.samples > 1;
+      default:
+        return false;
+    }
+  };
+  if (!fitsTarget()) {
+    if (resource.samples > 1) return "a 2DMS type";
+    if (resource.target == Target::texture_3d) return "a 3D type";
+    if (use.layers == 1) return "a 2D type";
+    if (cubes && use.layers % 6 == 0)
+      return use.layers == 6 ? "a Cube or 2DArray type" : "a CubeArray or 2DArray type";
+    return "a 2DArray type";
+  }
+  const std::string_view prefix = prefixFor(use, resource);
+  const GLenum base = prefix == "u" ? GL_UNSIGNED_INT : prefix == "i" ? GL_INT : GL_FLOAT;
+  if (type->base != base)
+    return base == GL_FLOAT ? "a float type" : base == GL_INT ? "an int type" : "an unsigned int type";
+  if (type->shadow && !compare) return "a type without Shadow (or say `as compare` in the slot)";
+  if (!type->shadow && compare) return "a Shadow type (the slot says `as compare`)";
+  return {};
+}
 
 std::string declarationFor(const graph::SlotSpec& slot, Kind kind, const FlatUse& use,
                            const FlatResource& resource) {
