@@ -8,6 +8,7 @@
 
 #include "app/output/picture_writer.h"
 #include "engine/base/diagnostic.h"
+#include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/renderer.h"
 
 namespace weft::app {

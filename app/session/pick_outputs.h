@@ -9,6 +9,7 @@
 
 #include "app/output/output_files.h"
 #include "app/session/options.h"
+#include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/renderer.h"
 #include "engine/runtime/inspection/capture.h"
 

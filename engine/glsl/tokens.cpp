@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
+#include <cerrno>
+#include <cstdlib>
 #include <memory>
 #include <unordered_map>
 #include <utility>
@@ -181,16 +182,11 @@ class Evaluator {
 
   static Value numberOf(std::string_view text) {
     while (!text.empty() && (text.back() == 'u' || text.back() == 'U')) text.remove_suffix(1);
-    int base = 10;
-    if (text.starts_with("0x") || text.starts_with("0X")) {
-      text.remove_prefix(2);
-      base = 16;
-    } else if (text.size() > 1 && text[0] == '0') {
-      base = 8;
-    }
-    std::uint64_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, base);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    const std::string digits(text);
+    char* end = nullptr;
+    errno = 0;
+    const std::uint64_t value = std::strtoull(digits.c_str(), &end, 0);
+    if (digits.empty() || *end != '\0' || errno != 0) return std::nullopt;
     return static_cast<std::int64_t>(value);
   }
 

@@ -10,67 +10,27 @@ namespace weft::gl {
 namespace {
 
 // The enums that this room meets in messages.
-#define WEFT_NAME(name) \
-  { name, #name }
-constexpr std::pair<GLenum, const char*> kNames[] = {WEFT_NAME(GL_INVALID_ENUM),
-                                                     WEFT_NAME(GL_INVALID_VALUE),
-                                                     WEFT_NAME(GL_INVALID_OPERATION),
-                                                     WEFT_NAME(GL_INVALID_FRAMEBUFFER_OPERATION),
-                                                     WEFT_NAME(GL_OUT_OF_MEMORY),
-                                                     WEFT_NAME(GL_CONTEXT_LOST),
-                                                     WEFT_NAME(GL_TEXTURE_2D),
-                                                     WEFT_NAME(GL_TEXTURE_2D_ARRAY),
-                                                     WEFT_NAME(GL_TEXTURE_CUBE_MAP),
-                                                     WEFT_NAME(GL_TEXTURE_CUBE_MAP_ARRAY),
-                                                     WEFT_NAME(GL_TEXTURE_3D),
-                                                     WEFT_NAME(GL_TEXTURE_2D_MULTISAMPLE),
-                                                     WEFT_NAME(GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT),
-                                                     WEFT_NAME(GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE),
-                                                     WEFT_NAME(GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT),
-                                                     WEFT_NAME(GL_FRAMEBUFFER_INCOMPLETE_LAYER_TARGETS),
-                                                     WEFT_NAME(GL_FRAMEBUFFER_UNSUPPORTED),
-                                                     WEFT_NAME(GL_DEPTH_ATTACHMENT),
-                                                     WEFT_NAME(GL_STENCIL_ATTACHMENT),
-                                                     WEFT_NAME(GL_DEPTH_STENCIL_ATTACHMENT),
-                                                     WEFT_NAME(GL_COLOR_ATTACHMENT0),
-                                                     WEFT_NAME(GL_R8),
-                                                     WEFT_NAME(GL_RG8),
-                                                     WEFT_NAME(GL_RGBA8),
-                                                     WEFT_NAME(GL_SRGB8_ALPHA8),
-                                                     WEFT_NAME(GL_R8_SNORM),
-                                                     WEFT_NAME(GL_RG8_SNORM),
-                                                     WEFT_NAME(GL_RGBA8_SNORM),
-                                                     WEFT_NAME(GL_R16),
-                                                     WEFT_NAME(GL_RG16),
-                                                     WEFT_NAME(GL_RGBA16),
-                                                     WEFT_NAME(GL_R16F),
-                                                     WEFT_NAME(GL_RG16F),
-                                                     WEFT_NAME(GL_RGBA16F),
-                                                     WEFT_NAME(GL_R32F),
-                                                     WEFT_NAME(GL_RG32F),
-                                                     WEFT_NAME(GL_RGBA32F),
-                                                     WEFT_NAME(GL_R11F_G11F_B10F),
-                                                     WEFT_NAME(GL_RGB10_A2),
-                                                     WEFT_NAME(GL_RGB9_E5),
-                                                     WEFT_NAME(GL_R8UI),
-                                                     WEFT_NAME(GL_R16UI),
-                                                     WEFT_NAME(GL_R32UI),
-                                                     WEFT_NAME(GL_RG16UI),
-                                                     WEFT_NAME(GL_RG32UI),
-                                                     WEFT_NAME(GL_RGBA8UI),
-                                                     WEFT_NAME(GL_RGBA16UI),
-                                                     WEFT_NAME(GL_RGBA32UI),
-                                                     WEFT_NAME(GL_R32I),
-                                                     WEFT_NAME(GL_RG32I),
-                                                     WEFT_NAME(GL_RGBA32I),
-                                                     WEFT_NAME(GL_DEPTH_COMPONENT16),
-                                                     WEFT_NAME(GL_DEPTH_COMPONENT24),
-                                                     WEFT_NAME(GL_DEPTH_COMPONENT32F),
-                                                     WEFT_NAME(GL_DEPTH24_STENCIL8),
-                                                     WEFT_NAME(GL_DEPTH32F_STENCIL8)};
+// clang-format off
+#define WEFT_ENUMS(X) \
+  X(GL_INVALID_ENUM) X(GL_INVALID_VALUE) X(GL_INVALID_OPERATION) X(GL_INVALID_FRAMEBUFFER_OPERATION) \
+  X(GL_OUT_OF_MEMORY) X(GL_CONTEXT_LOST) X(GL_TEXTURE_2D) X(GL_TEXTURE_2D_ARRAY) X(GL_TEXTURE_CUBE_MAP) \
+  X(GL_TEXTURE_CUBE_MAP_ARRAY) X(GL_TEXTURE_3D) X(GL_TEXTURE_2D_MULTISAMPLE) \
+  X(GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT) X(GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE) \
+  X(GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT) X(GL_FRAMEBUFFER_INCOMPLETE_LAYER_TARGETS) \
+  X(GL_FRAMEBUFFER_UNSUPPORTED) X(GL_DEPTH_ATTACHMENT) X(GL_STENCIL_ATTACHMENT) \
+  X(GL_DEPTH_STENCIL_ATTACHMENT) X(GL_COLOR_ATTACHMENT0) X(GL_R8) X(GL_RG8) X(GL_RGBA8) X(GL_SRGB8_ALPHA8) \
+  X(GL_R8_SNORM) X(GL_RG8_SNORM) X(GL_RGBA8_SNORM) X(GL_R16) X(GL_RG16) X(GL_RGBA16) X(GL_R16F) \
+  X(GL_RG16F) X(GL_RGBA16F) X(GL_R32F) X(GL_RG32F) X(GL_RGBA32F) X(GL_R11F_G11F_B10F) X(GL_RGB10_A2) \
+  X(GL_RGB9_E5) X(GL_R8UI) X(GL_R16UI) X(GL_R32UI) X(GL_RG16UI) X(GL_RG32UI) X(GL_RGBA8UI) X(GL_RGBA16UI) \
+  X(GL_RGBA32UI) X(GL_R32I) X(GL_RG32I) X(GL_RGBA32I) X(GL_DEPTH_COMPONENT16) X(GL_DEPTH_COMPONENT24) \
+  X(GL_DEPTH_COMPONENT32F) X(GL_DEPTH24_STENCIL8) X(GL_DEPTH32F_STENCIL8)
+// clang-format on
+#define WEFT_NAME(name) {name, #name},
+constexpr std::pair<GLenum, const char*> kNames[] = {WEFT_ENUMS(WEFT_NAME)};
 #undef WEFT_NAME
+#undef WEFT_ENUMS
 
-GLsizei limitOf(GLenum name) {
+GLsizei greatestLength(GLenum name) {
   GLint value = 0;
   glGetIntegerv(name, &value);
   return std::max(value, 256) - 1;
@@ -155,7 +115,7 @@ DebugGroup::DebugGroup(DebugLog& log, std::string_view name) : log_(log) {
     const std::lock_guard lock(log_.mutex_);
     log_.groups_.push_back(name);
   }
-  static const GLsizei limit = limitOf(GL_MAX_DEBUG_MESSAGE_LENGTH);
+  static const GLsizei limit = greatestLength(GL_MAX_DEBUG_MESSAGE_LENGTH);
   glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, std::min(static_cast<GLsizei>(name.size()), limit),
                    name.data());
 }
@@ -167,7 +127,7 @@ DebugGroup::~DebugGroup() {
 }
 
 void labelObject(GLenum identifier, GLuint id, std::string_view label) {
-  static const GLsizei limit = limitOf(GL_MAX_LABEL_LENGTH);
+  static const GLsizei limit = greatestLength(GL_MAX_LABEL_LENGTH);
   glObjectLabel(identifier, id, std::min(static_cast<GLsizei>(label.size()), limit), label.data());
 }
 

@@ -11,18 +11,14 @@ void StateCache::forget() {
   std::ranges::fill(textures_, std::nullopt);
   std::ranges::fill(samplers_, std::nullopt);
   std::ranges::fill(images_, std::nullopt);
-  forgetBuffers();
+  std::ranges::fill(uniformBuffers_, std::nullopt);
+  std::ranges::fill(storageBuffers_, std::nullopt);
   scissorTest_ = depthTest_ = cull_ = srgb_ = offsetFill_ = depthMask_ = colorMask_ = std::nullopt;
   viewport_ = std::nullopt;
   scissor_ = std::nullopt;
   depthFunc_ = cullFace_ = polygonMode_ = std::nullopt;
   offset_ = std::nullopt;
   std::ranges::fill(drawBuffers_, DrawBuffer{});
-}
-
-void StateCache::forgetBuffers() {
-  std::ranges::fill(uniformBuffers_, std::nullopt);
-  std::ranges::fill(storageBuffers_, std::nullopt);
 }
 
 void StateCache::bindBuffer(GLenum target, GLuint index, GLuint buffer, GLintptr offset, GLsizeiptr size) {

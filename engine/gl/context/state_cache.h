@@ -16,7 +16,6 @@ namespace weft::gl {
 class StateCache {
  public:
   void forget();
-  void forgetBuffers();
 
   void useProgram(GLuint program) {
     if (takes(program_, program)) glUseProgram(program);

@@ -155,6 +155,9 @@ struct SamplerDesc {
   GLenum minFilter = GL_NEAREST, magFilter = GL_NEAREST;
   GLenum wrap = GL_CLAMP_TO_EDGE;  // s, t and r
   GLenum compare = 0;              // GL_LEQUAL, …; 0: no comparison
+  // The color of GL_CLAMP_TO_BORDER, and the kind of its numbers: GL_FLOAT, GL_INT or GL_UNSIGNED_INT.
+  std::array<float, 4> border{};
+  GLenum borderBase = GL_FLOAT;
   friend bool operator==(const SamplerDesc&, const SamplerDesc&) = default;
 };
 

@@ -1,5 +1,8 @@
 // GLSL types by their enums (OpenGL 4.5 core, table 7.3). Declared in program.h.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <iterator>
 
 #include "engine/gl/context/debug.h"
 #include "engine/gl/programs/program.h"
@@ -8,66 +11,49 @@ namespace weft::gl {
 
 namespace {
 
-struct ValueTypes {  // of one to four components
-  std::string scalar, vector;
-  GLenum types[4];
-};
-
-const ValueTypes kValues[] = {
-    {"float", "vec", {GL_FLOAT, GL_FLOAT_VEC2, GL_FLOAT_VEC3, GL_FLOAT_VEC4}},
-    {"int", "ivec", {GL_INT, GL_INT_VEC2, GL_INT_VEC3, GL_INT_VEC4}},
-    {"uint", "uvec", {GL_UNSIGNED_INT, GL_UNSIGNED_INT_VEC2, GL_UNSIGNED_INT_VEC3, GL_UNSIGNED_INT_VEC4}},
-    {"bool", "bvec", {GL_BOOL, GL_BOOL_VEC2, GL_BOOL_VEC3, GL_BOOL_VEC4}},
-    {"double", "dvec", {GL_DOUBLE, GL_DOUBLE_VEC2, GL_DOUBLE_VEC3, GL_DOUBLE_VEC4}}};
+// Of one to four components.
+constexpr const char* kScalars[] = {"float", "int", "uint", "bool", "double"};
+constexpr const char* kVectors[] = {"vec", "ivec", "uvec", "bvec", "dvec"};
+constexpr GLenum kValues[][4] = {
+    {GL_FLOAT, GL_FLOAT_VEC2, GL_FLOAT_VEC3, GL_FLOAT_VEC4},
+    {GL_INT, GL_INT_VEC2, GL_INT_VEC3, GL_INT_VEC4},
+    {GL_UNSIGNED_INT, GL_UNSIGNED_INT_VEC2, GL_UNSIGNED_INT_VEC3, GL_UNSIGNED_INT_VEC4},
+    {GL_BOOL, GL_BOOL_VEC2, GL_BOOL_VEC3, GL_BOOL_VEC4},
+    {GL_DOUBLE, GL_DOUBLE_VEC2, GL_DOUBLE_VEC3, GL_DOUBLE_VEC4}};
 
 constexpr GLenum kMatrices[3][3] = {{GL_FLOAT_MAT2, GL_FLOAT_MAT2x3, GL_FLOAT_MAT2x4},
                                     {GL_FLOAT_MAT3x2, GL_FLOAT_MAT3, GL_FLOAT_MAT3x4},
                                     {GL_FLOAT_MAT4x2, GL_FLOAT_MAT4x3, GL_FLOAT_MAT4}};
 
-struct OpaqueTypes {  // of float, int and uint
-  std::string shape;
-  GLenum target, samplers[3], images[3], shadow;
-};
-
-const OpaqueTypes kOpaque[] = {
-    {"2D",
-     GL_TEXTURE_2D,
-     {GL_SAMPLER_2D, GL_INT_SAMPLER_2D, GL_UNSIGNED_INT_SAMPLER_2D},
-     {GL_IMAGE_2D, GL_INT_IMAGE_2D, GL_UNSIGNED_INT_IMAGE_2D},
-     GL_SAMPLER_2D_SHADOW},
-    {"2DArray",
-     GL_TEXTURE_2D_ARRAY,
-     {GL_SAMPLER_2D_ARRAY, GL_INT_SAMPLER_2D_ARRAY, GL_UNSIGNED_INT_SAMPLER_2D_ARRAY},
-     {GL_IMAGE_2D_ARRAY, GL_INT_IMAGE_2D_ARRAY, GL_UNSIGNED_INT_IMAGE_2D_ARRAY},
-     GL_SAMPLER_2D_ARRAY_SHADOW},
-    {"Cube",
-     GL_TEXTURE_CUBE_MAP,
-     {GL_SAMPLER_CUBE, GL_INT_SAMPLER_CUBE, GL_UNSIGNED_INT_SAMPLER_CUBE},
-     {GL_IMAGE_CUBE, GL_INT_IMAGE_CUBE, GL_UNSIGNED_INT_IMAGE_CUBE},
-     GL_SAMPLER_CUBE_SHADOW},
-    {"CubeArray",
-     GL_TEXTURE_CUBE_MAP_ARRAY,
-     {GL_SAMPLER_CUBE_MAP_ARRAY, GL_INT_SAMPLER_CUBE_MAP_ARRAY, GL_UNSIGNED_INT_SAMPLER_CUBE_MAP_ARRAY},
-     {GL_IMAGE_CUBE_MAP_ARRAY, GL_INT_IMAGE_CUBE_MAP_ARRAY, GL_UNSIGNED_INT_IMAGE_CUBE_MAP_ARRAY},
-     GL_SAMPLER_CUBE_MAP_ARRAY_SHADOW},
-    {"3D",
-     GL_TEXTURE_3D,
-     {GL_SAMPLER_3D, GL_INT_SAMPLER_3D, GL_UNSIGNED_INT_SAMPLER_3D},
-     {GL_IMAGE_3D, GL_INT_IMAGE_3D, GL_UNSIGNED_INT_IMAGE_3D},
-     0},
-    {"2DMS",
-     GL_TEXTURE_2D_MULTISAMPLE,
-     {GL_SAMPLER_2D_MULTISAMPLE, GL_INT_SAMPLER_2D_MULTISAMPLE, GL_UNSIGNED_INT_SAMPLER_2D_MULTISAMPLE},
-     {GL_IMAGE_2D_MULTISAMPLE, GL_INT_IMAGE_2D_MULTISAMPLE, GL_UNSIGNED_INT_IMAGE_2D_MULTISAMPLE},
-     0}};
+// Of samplers and images of these shapes: their targets, and their types of float, int and uint.
+constexpr const char* kShapes[] = {"2D", "2DArray", "Cube", "CubeArray", "3D", "2DMS"};
+constexpr GLenum kTargets[] = {GL_TEXTURE_2D,       GL_TEXTURE_2D_ARRAY,
+                               GL_TEXTURE_CUBE_MAP, GL_TEXTURE_CUBE_MAP_ARRAY,
+                               GL_TEXTURE_3D,       GL_TEXTURE_2D_MULTISAMPLE};
+constexpr GLenum kSamplers[][3] = {
+    {GL_SAMPLER_2D, GL_INT_SAMPLER_2D, GL_UNSIGNED_INT_SAMPLER_2D},
+    {GL_SAMPLER_2D_ARRAY, GL_INT_SAMPLER_2D_ARRAY, GL_UNSIGNED_INT_SAMPLER_2D_ARRAY},
+    {GL_SAMPLER_CUBE, GL_INT_SAMPLER_CUBE, GL_UNSIGNED_INT_SAMPLER_CUBE},
+    {GL_SAMPLER_CUBE_MAP_ARRAY, GL_INT_SAMPLER_CUBE_MAP_ARRAY, GL_UNSIGNED_INT_SAMPLER_CUBE_MAP_ARRAY},
+    {GL_SAMPLER_3D, GL_INT_SAMPLER_3D, GL_UNSIGNED_INT_SAMPLER_3D},
+    {GL_SAMPLER_2D_MULTISAMPLE, GL_INT_SAMPLER_2D_MULTISAMPLE, GL_UNSIGNED_INT_SAMPLER_2D_MULTISAMPLE}};
+constexpr GLenum kImages[][3] = {
+    {GL_IMAGE_2D, GL_INT_IMAGE_2D, GL_UNSIGNED_INT_IMAGE_2D},
+    {GL_IMAGE_2D_ARRAY, GL_INT_IMAGE_2D_ARRAY, GL_UNSIGNED_INT_IMAGE_2D_ARRAY},
+    {GL_IMAGE_CUBE, GL_INT_IMAGE_CUBE, GL_UNSIGNED_INT_IMAGE_CUBE},
+    {GL_IMAGE_CUBE_MAP_ARRAY, GL_INT_IMAGE_CUBE_MAP_ARRAY, GL_UNSIGNED_INT_IMAGE_CUBE_MAP_ARRAY},
+    {GL_IMAGE_3D, GL_INT_IMAGE_3D, GL_UNSIGNED_INT_IMAGE_3D},
+    {GL_IMAGE_2D_MULTISAMPLE, GL_INT_IMAGE_2D_MULTISAMPLE, GL_UNSIGNED_INT_IMAGE_2D_MULTISAMPLE}};
+constexpr GLenum kShadows[] = {GL_SAMPLER_2D_SHADOW, GL_SAMPLER_2D_ARRAY_SHADOW, GL_SAMPLER_CUBE_SHADOW,
+                               GL_SAMPLER_CUBE_MAP_ARRAY_SHADOW};
 
 std::vector<GlslType> makeTypes() {
   std::vector<GlslType> types;
-  for (const ValueTypes& each : kValues)
+  for (std::size_t base = 0; base < std::size(kValues); ++base)
     for (std::uint32_t rows = 1; rows <= 4; ++rows)
-      types.push_back({.type = each.types[rows - 1],
-                       .name = rows == 1 ? each.scalar : each.vector + std::to_string(rows),
-                       .base = each.types[0],
+      types.push_back({.type = kValues[base][rows - 1],
+                       .name = rows == 1 ? kScalars[base] : kVectors[base] + std::to_string(rows),
+                       .base = kValues[base][0],
                        .rows = rows});
   for (std::uint32_t columns = 2; columns <= 4; ++columns)
     for (std::uint32_t rows = 2; rows <= 4; ++rows)
@@ -77,19 +63,19 @@ std::vector<GlslType> makeTypes() {
            .columns = columns,
            .rows = rows});
   const std::pair<std::string, GLenum> texels[] = {{"", GL_FLOAT}, {"i", GL_INT}, {"u", GL_UNSIGNED_INT}};
-  for (const OpaqueTypes& each : kOpaque) {
+  for (std::size_t shape = 0; shape < std::size(kShapes); ++shape) {
     for (std::size_t i = 0; i < 3; ++i)
       for (const bool image : {false, true})
-        types.push_back({.type = image ? each.images[i] : each.samplers[i],
-                         .name = texels[i].first + (image ? "image" : "sampler") + each.shape,
+        types.push_back({.type = image ? kImages[shape][i] : kSamplers[shape][i],
+                         .name = texels[i].first + (image ? "image" : "sampler") + kShapes[shape],
                          .kind = image ? GlslType::Kind::image : GlslType::Kind::sampler,
                          .base = texels[i].second,
-                         .target = each.target});
-    if (each.shadow != 0)
-      types.push_back({.type = each.shadow,
-                       .name = "sampler" + each.shape + "Shadow",
+                         .target = kTargets[shape]});
+    if (shape < std::size(kShadows))
+      types.push_back({.type = kShadows[shape],
+                       .name = fmt::format("sampler{}Shadow", kShapes[shape]),
                        .kind = GlslType::Kind::sampler,
-                       .target = each.target,
+                       .target = kTargets[shape],
                        .shadow = true});
   }
   return types;

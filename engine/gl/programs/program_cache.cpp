@@ -11,7 +11,6 @@
 
 #include "engine/base/files/file.h"
 #include "engine/base/hash.h"
-#include "engine/gl/programs/binary_folder.h"
 #include "engine/glsl/interface.h"
 
 namespace weft::gl {
@@ -23,6 +22,19 @@ using base::Diagnostics;
 constexpr std::size_t kMostFailures = 256;
 constexpr std::size_t kMostKnown = 512;  // above it, those that nobody holds are forgotten
 constexpr std::string_view kMagic = "WEFTBIN1";
+
+constexpr std::size_t kBinaryKeyLength = 32;
+
+struct Binary {
+  std::filesystem::file_time_type used;
+  std::string path;
+  std::uint64_t bytes = 0;
+};
+
+bool hasBinaryName(const std::string& name) {
+  return name.size() == kBinaryKeyLength + 4 && name.ends_with(".bin") &&
+         name.find_first_not_of("0123456789abcdef") == kBinaryKeyLength;
+}
 
 // What stands before the binary in its file. The checksum keeps damaged bytes away from the driver.
 struct BinaryHeader {
@@ -209,6 +221,32 @@ void ProgramCache::storeBinary(const std::string& key, bool compute, const Progr
   const BinaryFolderUse use = pruneBinaries(options_.folder, options_.folderBytes);
   folderBytes_ = use.bytes;
   stats_.binaryRemovals += use.removed;
+}
+
+BinaryFolderUse pruneBinaries(const std::string& folder, std::uint64_t most) {
+  std::vector<Binary> all;
+  BinaryFolderUse use;
+  std::error_code ec;
+  for (std::filesystem::directory_iterator it(folder, ec), end; !ec && it != end; it.increment(ec)) {
+    if (!hasBinaryName(it->path().filename().string())) continue;
+    std::error_code gone;  // others may remove it meanwhile
+    if (it->symlink_status(gone).type() != std::filesystem::file_type::regular || gone) continue;
+    Binary binary{.used = it->last_write_time(gone), .path = it->path().string()};
+    if (!gone) binary.bytes = it->file_size(gone);
+    if (gone) continue;
+    use.bytes += binary.bytes;
+    all.push_back(std::move(binary));
+  }
+  if (use.bytes <= most) return use;
+  std::ranges::sort(all, {}, [](const Binary& binary) { return std::tie(binary.used, binary.path); });
+  for (const Binary& binary : all) {
+    if (use.bytes <= most - most / 8) break;
+    const bool removed = std::filesystem::remove(binary.path, ec);
+    if (ec) continue;  // it may not be removed
+    use.bytes -= binary.bytes;
+    use.removed += removed ? 1 : 0;
+  }
+  return use;
 }
 
 }  // namespace weft::gl

@@ -100,4 +100,14 @@ class ProgramCache {
   std::unordered_map<std::string, base::Diagnostics> failures_;
 };
 
+struct BinaryFolderUse {
+  std::uint64_t bytes = 0;    // of the binaries that are there
+  std::uint64_t removed = 0;  // files
+};
+
+// Keeps a folder of program binaries below a size: above `most` bytes, removes those that were not used for longest until an
+// eighth of it is free. Several processes may write, use and remove at once. Only files with a name of 32 hex digits and
+// ".bin" are ever removed.
+BinaryFolderUse pruneBinaries(const std::string& folder, std::uint64_t most);
+
 }  // namespace weft::gl

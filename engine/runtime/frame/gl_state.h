@@ -1,15 +1,11 @@
-// Fixed-function state of a pass, set whole before each pass so that nothing leaks from one to the next.
+// GL state outside of passes: open masks, released bindings, samples.
 #pragma once
 
 #include "engine/gl/context/state_cache.h"
 #include "engine/gl/objects/objects.h"
-#include "engine/runtime/prepare/prepared_pass.h"
 
 namespace weft::runtime {
 
-void applyState(const PreparedPass& pass, gl::StateCache& states);
-// Confines rendering to the rows of the pass's slices; off for a pass that runs whole.
-void scissorTo(const PreparedPass& pass, gl::StateCache& states);
 // Opens every mask and turns the scissor off, as clears and blits need it.
 void openMasks(gl::StateCache& states);
 // The same outside the frame loop, where the GL state is not known.

@@ -1,4 +1,4 @@
-// One texture or buffer of a running graph, at one place in the frame: copied there by a watch (step_watch.h) into storage of
+// One texture or buffer of a running graph, at one place in the frame: copied there by a watch (StepWatch) into storage of
 // the inspector's own, then shown and read at leisure. Sees what a pass wrote although its storage is used again later.
 #pragma once
 

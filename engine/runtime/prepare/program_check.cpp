@@ -16,7 +16,6 @@
 #include "engine/imports/row_table.h"
 #include "engine/passes/compute/work_groups.h"
 #include "engine/runtime/prepare/program_request.h"
-#include "engine/runtime/prepare/slot_types.h"
 #include "engine/runtime/storage/block_writer.h"
 
 namespace weft::runtime {
@@ -32,6 +31,8 @@ using graph::Kind;
 using graph::PassSpec;
 using graph::Plan;
 using graph::SlotSpec;
+using graph::Target;
+using graph::TexelKind;
 
 namespace {
 
@@ -69,6 +70,99 @@ GLenum baseOf(graph::TexelKind kind) {
   return kind == graph::TexelKind::unsigned_integer ? GL_UNSIGNED_INT
          : kind == graph::TexelKind::signed_integer ? GL_INT
                                                     : GL_FLOAT;
+}
+
+// The prefix of "sampler2D" and "vec4": "", "u" or "i".
+const char* prefixFor(const FlatUse& use, const FlatResource& resource) {
+  const TexelKind kind = graph::infoOf(resource.format).kind;
+  if (use.planes == 2 || kind == TexelKind::unsigned_integer) return "u";
+  return kind == TexelKind::signed_integer ? "i" : "";
+}
+
+std::string shapeFor(const FlatUse& use, const FlatResource& resource) {
+  if (resource.samples > 1) return "2DMS";
+  if (resource.target == Target::texture_3d) return "3D";
+  const bool cubes = resource.target == Target::texture_cube || resource.target == Target::texture_cube_array;
+  if (cubes && use.layers % 6 == 0 && use.layer % 6 == 0) return use.layers == 6 ? "Cube" : "CubeArray";
+  return use.layers > 1 ? "2DArray" : "2D";
+}
+
+// "" when a sampler or image type fits, else what is expected ("a 2DArray type", "an unsigned int type", …). `type`: null for
+// one that the engine does not bind.
+std::string opaqueMismatch(const gl::GlslType* type, const FlatResource& resource, const FlatUse& use,
+                           bool compare) {
+  const bool cubes = resource.target == Target::texture_cube || resource.target == Target::texture_cube_array;
+  const auto fitsTarget = [&] {
+    switch (type ? type->target : 0) {
+      case GL_TEXTURE_2D:
+        return resource.target != Target::texture_3d && use.layers == 1 && resource.samples == 1;
+      case GL_TEXTURE_2D_ARRAY:
+        return resource.target != Target::texture_3d && resource.samples == 1;
+      case GL_TEXTURE_CUBE_MAP:
+        return cubes && use.layers == 6 && use.layer % 6 == 0;
+      case GL_TEXTURE_CUBE_MAP_ARRAY:
+        return cubes && use.layers % 6 == 0 && use.layer % 6 == 0;
+      case GL_TEXTURE_3D:
+        return resource.target == Target::texture_3d;
+      case GL_TEXTURE_2D_MULTISAMPLE:
+        return resource.samples > 1;
+      default:
+        return false;
+    }
+  };
+  if (!fitsTarget()) {
+    if (resource.samples > 1) return "a 2DMS type";
+    if (resource.target == Target::texture_3d) return "a 3D type";
+    if (use.layers == 1) return "a 2D type";
+    if (cubes && use.layers % 6 == 0)
+      return use.layers == 6 ? "a Cube or 2DArray type" : "a CubeArray or 2DArray type";
+    return "a 2DArray type";
+  }
+  const std::string_view prefix = prefixFor(use, resource);
+  const GLenum base = prefix == "u" ? GL_UNSIGNED_INT : prefix == "i" ? GL_INT : GL_FLOAT;
+  if (type->base != base)
+    return base == GL_FLOAT ? "a float type" : base == GL_INT ? "an int type" : "an unsigned int type";
+  if (type->shadow && !compare) return "a type without Shadow (or say `as compare` in the slot)";
+  if (!type->shadow && compare) return "a Shadow type (the slot says `as compare`)";
+  return {};
+}
+
+// "uniform usampler2DArray maps;", "layout(rgba16f) uniform writeonly image2D result;", "out vec4 result;", …: what the
+// shader declares for a slot of `kind` that holds `use` of `resource`.
+std::string declarationFor(const graph::SlotSpec& slot, Kind kind, const FlatUse& use,
+                           const FlatResource& resource) {
+  const std::string count = slot.array ? fmt::format("[{}]", slot.useCount) : "";
+  const char* const qualifier = slot.access == graph::Access::read    ? "readonly "
+                                : slot.access == graph::Access::write ? "writeonly "
+                                                                      : "";
+  switch (kind) {
+    case Kind::sampled:
+      return fmt::format("uniform {}sampler{}{} {}{};", prefixFor(use, resource), shapeFor(use, resource),
+                         slot.sampler.compare ? "Shadow" : "", slot.name, count);
+    case Kind::image:
+      return fmt::format("layout({}) uniform {}{}image{} {}{};", graph::infoOf(resource.format).name,
+                         qualifier, prefixFor(use, resource), shapeFor(use, resource), slot.name, count);
+    case Kind::storage:
+      return fmt::format("layout(std430) {}buffer {} {{ … }};", qualifier, slot.name);
+    case Kind::uniform:
+      return fmt::format("layout(std140) uniform {} {{ … }};", slot.name);
+    case Kind::color:
+      return fmt::format("out {}vec4 {};", prefixFor(use, resource), slot.name);
+    default:
+      return {};
+  }
+}
+
+// "float", "vec3" or "bool": the member of the Parameters block for such a value.
+std::string memberTypeFor(const graph::Value& value) {
+  switch (value.type) {
+    case graph::Value::Type::boolean:
+      return "bool";
+    case graph::Value::Type::list:
+      return fmt::format("vec{}", value.count);
+    default:
+      return "float";
+  }
 }
 
 class Checker {
@@ -336,7 +430,6 @@ class Checker {
   }
 
   void checkParameters() {
-    std::string misnamed;  // a block that has the parameters under another name
     bool missing = false;
     for (const graph::UniformSpec& uniform : spec_.uniforms) {
       const Declaration* member = findMember("Parameters", uniform.name);
@@ -352,8 +445,8 @@ class Checker {
       missing = true;
       if (const std::string block = blockOf(uniform.name); block.empty())
         reportMissing(uniform);
-      else if (misnamed.empty())
-        reportBlockName(misnamed = block);
+      else if (misnamed_.empty())
+        reportBlockName(misnamed_ = block);
     }
     const Declaration* block = find("Parameters", Role::uniform_block);
     // One misspelling is one mistake.
@@ -502,13 +595,6 @@ class Checker {
                                             name, presenceDefineOf(name));
   }
 
-  // One that has the parameters was reported with them.
-  bool hasParameters(const std::string& block) const {
-    return std::ranges::any_of(spec_.uniforms, [&](const graph::UniformSpec& uniform) {
-      return !findMember("Parameters", uniform.name) && blockOf(uniform.name) == block;
-    });
-  }
-
   // What the linked program has besides.
   void checkRest() {
     const gl::Reflection& reflection = linked_->reflection;
@@ -525,7 +611,7 @@ class Checker {
     }
     for (const auto& block : reflection.uniformBlocks) {
       const bool ours = block.name == "View" || block.name == "Slice" || block.name == "Parameters";
-      if (!ours && !isSlot(block.name) && !hasParameters(block.name)) unfed("a uniform block", block.name);
+      if (!ours && !isSlot(block.name) && block.name != misnamed_) unfed("a uniform block", block.name);
     }
     for (const auto& loose : reflection.looseUniforms) {
       std::string hint = isViewMember(loose.name)
@@ -632,6 +718,7 @@ class Checker {
   // For messages, between quotes.
   const std::string shaders_ =
       spec_.vertexShader.empty() ? spec_.shader : spec_.vertexShader + "' and '" + spec_.shader;
+  std::string misnamed_;  // a block that has the parameters under another name
   bool slotMissing_ = false, failed_ = false;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 
 namespace weft::runtime {
 
@@ -9,41 +10,44 @@ namespace {
 
 using graph::Format;
 
-constexpr std::pair<Format, GLenum> kFormats[] = {{Format::r8, GL_R8},
-                                                  {Format::rg8, GL_RG8},
-                                                  {Format::rgba8, GL_RGBA8},
-                                                  {Format::srgb8_a8, GL_SRGB8_ALPHA8},
-                                                  {Format::r8_snorm, GL_R8_SNORM},
-                                                  {Format::rg8_snorm, GL_RG8_SNORM},
-                                                  {Format::rgba8_snorm, GL_RGBA8_SNORM},
-                                                  {Format::r16, GL_R16},
-                                                  {Format::rg16, GL_RG16},
-                                                  {Format::rgba16, GL_RGBA16},
-                                                  {Format::r16f, GL_R16F},
-                                                  {Format::rg16f, GL_RG16F},
-                                                  {Format::rgba16f, GL_RGBA16F},
-                                                  {Format::r32f, GL_R32F},
-                                                  {Format::rg32f, GL_RG32F},
-                                                  {Format::rgba32f, GL_RGBA32F},
-                                                  {Format::r11f_g11f_b10f, GL_R11F_G11F_B10F},
-                                                  {Format::rgb10_a2, GL_RGB10_A2},
-                                                  {Format::rgb9_e5, GL_RGB9_E5},
-                                                  {Format::r8ui, GL_R8UI},
-                                                  {Format::r16ui, GL_R16UI},
-                                                  {Format::r32ui, GL_R32UI},
-                                                  {Format::rg16ui, GL_RG16UI},
-                                                  {Format::rg32ui, GL_RG32UI},
-                                                  {Format::rgba8ui, GL_RGBA8UI},
-                                                  {Format::rgba16ui, GL_RGBA16UI},
-                                                  {Format::rgba32ui, GL_RGBA32UI},
-                                                  {Format::r32i, GL_R32I},
-                                                  {Format::rg32i, GL_RG32I},
-                                                  {Format::rgba32i, GL_RGBA32I},
-                                                  {Format::depth16, GL_DEPTH_COMPONENT16},
-                                                  {Format::depth24, GL_DEPTH_COMPONENT24},
-                                                  {Format::depth32f, GL_DEPTH_COMPONENT32F},
-                                                  {Format::depth24_stencil8, GL_DEPTH24_STENCIL8},
-                                                  {Format::depth32f_stencil8, GL_DEPTH32F_STENCIL8}};
+// In the order of Format.
+constexpr GLenum kFormats[] = {GL_NONE,
+                               GL_R8,
+                               GL_RG8,
+                               GL_RGBA8,
+                               GL_SRGB8_ALPHA8,
+                               GL_R8_SNORM,
+                               GL_RG8_SNORM,
+                               GL_RGBA8_SNORM,
+                               GL_R16,
+                               GL_RG16,
+                               GL_RGBA16,
+                               GL_R16F,
+                               GL_RG16F,
+                               GL_RGBA16F,
+                               GL_R32F,
+                               GL_RG32F,
+                               GL_RGBA32F,
+                               GL_R11F_G11F_B10F,
+                               GL_RGB10_A2,
+                               GL_RGB9_E5,
+                               GL_R8UI,
+                               GL_R16UI,
+                               GL_R32UI,
+                               GL_RG16UI,
+                               GL_RG32UI,
+                               GL_RGBA8UI,
+                               GL_RGBA16UI,
+                               GL_RGBA32UI,
+                               GL_R32I,
+                               GL_RG32I,
+                               GL_RGBA32I,
+                               GL_DEPTH_COMPONENT16,
+                               GL_DEPTH_COMPONENT24,
+                               GL_DEPTH_COMPONENT32F,
+                               GL_DEPTH24_STENCIL8,
+                               GL_DEPTH32F_STENCIL8};
+static_assert(std::size(kFormats) == static_cast<std::size_t>(Format::count_));
 
 template <class T>
 ClearTexel texelOf(GLenum format, GLenum type, const T& data) {
@@ -61,8 +65,7 @@ std::array<double, 4> channels(const graph::Value& value) {
 }  // namespace
 
 GLenum glFormatOf(Format format) {
-  const auto found = std::ranges::find(kFormats, format, &std::pair<Format, GLenum>::first);
-  return found == std::end(kFormats) ? GL_NONE : found->second;
+  return kFormats[static_cast<std::size_t>(format)];
 }
 
 GLenum glTargetOf(graph::Target target) {

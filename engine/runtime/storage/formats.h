@@ -20,7 +20,7 @@ GLenum glCompareOf(graph::Compare compare);
 // a depth-stencil list is [depth, stencil].
 struct ClearTexel {
   GLenum format = GL_NONE, type = GL_NONE;
-  std::array<std::uint8_t, 16> bytes{};
+  alignas(16) std::array<std::uint8_t, 16> bytes{};
 };
 ClearTexel clearTexelOf(graph::Format format, const graph::Value& value);
 // The same value as four floats.

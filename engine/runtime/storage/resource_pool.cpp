@@ -252,17 +252,10 @@ bool ResourcePool::createArena(const Plan& plan, const ResourcePool* before, bas
     arena_ = before->arena_;
     return true;
   }
-  base::Diagnostics refused;
-  arena_ = createBuffer(1, plan.arenaBytes, "transient buffers", refused);
-  // The message names the largest of the buffers, which gives it a place.
-  for (base::Diagnostic each : refused.items()) {
-    if (const std::uint32_t largest = largestTransientOf(plan); largest != kNone) {
-      each.resource = names_[largest];
-      each.hint = fmt::format("'{}' is the largest of them, {} bytes: make it smaller", names_[largest],
-                              plan.graph->resources[largest].bytes);
-    }
-    diagnostics.add(std::move(each));
-  }
+  // A refusal is reported by the largest of the buffers, which has a place.
+  const std::uint32_t largest = largestTransientOf(plan);
+  arena_ =
+      createBuffer(1, plan.arenaBytes, largest == kNone ? "transient buffers" : names_[largest], diagnostics);
   return arena_ != nullptr;
 }
 

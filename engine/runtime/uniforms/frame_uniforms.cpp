@@ -9,7 +9,7 @@
 #include "engine/base/hash.h"
 #include "engine/graph/expand/names/parameter_check.h"
 #include "engine/passes/compute/work_groups.h"
-#include "engine/runtime/prepare/prepare.h"
+#include "engine/runtime/prepare/prepared_pass.h"
 #include "engine/runtime/storage/block_writer.h"
 
 namespace weft::runtime {

@@ -1,5 +1,3 @@
-#include "engine/gl/programs/binary_folder.h"
-
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 #include <sys/wait.h>
@@ -9,6 +7,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "engine/gl/programs/program_cache.h"
 #include "tests/temporary_folder.h"
 
 using namespace weft::gl;
