@@ -32,7 +32,7 @@ OTHER_MEANINGS = {
     ("engine/base/words/foreign_words.cpp", "srgb"): "how formats of other APIs end",
     ("engine/base/words/glsl_words.cpp", "image"): "how types of GLSL begin",
     ("engine/glsl/interface.cpp", "image"): "how types of GLSL begin",
-    ("engine/runtime/prepare/sampler_types.cpp", "image"): "how types of GLSL begin",
+    ("engine/gl/programs/glsl_type.cpp", "image"): "how types of GLSL begin",
     ("engine/graph/subresource.h", "image"): "a kind of use",
     ("engine/graph/read/read_resource.cpp", "file"): "a rule of the language: arguments of this name, and of names that end so, hold paths",
 }

@@ -12,6 +12,7 @@
 #include "app/session/options.h"
 #include "engine/base/files/file_watcher.h"
 #include "engine/graph/expand/expand.h"
+#include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/renderer.h"
 
 namespace weft::app {

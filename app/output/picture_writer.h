@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/base/diagnostic.h"
+#include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/renderer.h"
 #include "engine/runtime/inspection/inspector.h"
 

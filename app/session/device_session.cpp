@@ -123,8 +123,6 @@ nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json ti
   out["times"] = std::move(times);
   out["programs"] = {{"hits", programs.hits},
                      {"misses", programs.misses},
-                     {"evictions", programs.evictions},
-                     {"revivals", programs.revivals},
                      {"compilations", programs.compilations},
                      {"refusals", programs.refusals},
                      {"trials", programs.trials},
@@ -172,11 +170,7 @@ void printStats(const nlohmann::ordered_json& stats) {
 std::string closeDevice(std::unique_ptr<DeviceSession> session) {
   const std::unique_ptr<gl::Context> context = std::move(session->context);
   session.reset();
-  // Fences have no names; owners count them.
-  gl::LiveObjects left = gl::namedObjects();
-  const auto fence = static_cast<std::size_t>(gl::ObjectKind::fence);
-  left.counts[fence] = gl::liveObjects().counts[fence];
-  return gl::toText(left);
+  return gl::toText(gl::liveObjects());
 }
 
 }  // namespace weft::app

@@ -11,6 +11,7 @@
 
 #include "app/session/options.h"
 #include "engine/gl/context/context.h"
+#include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/renderer.h"
 
 namespace weft::app {

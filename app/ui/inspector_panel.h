@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/renderer.h"
 #include "engine/runtime/inspection/inspector.h"
 

@@ -102,7 +102,6 @@ namespace weft::base {
   X(W104, shaderDoesNotCompile,      "shader does not compile")                                     \
   X(W105, programDoesNotLink,        "program does not link")                                       \
   X(W106, versionInShader,           "#version in a shader file")                                   \
-  X(W107, programNeedsMore,          "program needs more than the device has")                      \
   X(W110, noContext,                 "no OpenGL context could be opened")                           \
   X(W115, incompleteFramebuffer,     "framebuffer is incomplete")                                   \
   X(W116, textureNotCreated,         "texture cannot be created")                                   \

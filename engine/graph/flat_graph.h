@@ -59,6 +59,7 @@ struct FlatUse {
   bool feedback = false;  // modify that also samples its own texel (glTextureBarrier)
   // Of kind copy: the pass copies texel by texel with glCopyImageSubData, not through framebuffers. Both of its uses say so.
   bool exact = false;
+  friend bool operator==(const FlatUse&, const FlatUse&) = default;
 };
 
 struct FlatPass {
@@ -162,6 +163,7 @@ struct StateSpec {
   Cull cull = Cull::none;
   bool lines = false;  // polygon: line
   double offsetFactor = 0, offsetUnits = 0;
+  friend bool operator==(const StateSpec&, const StateSpec&) = default;
 };
 
 struct PassSpec {

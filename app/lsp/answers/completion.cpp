@@ -8,7 +8,7 @@
 #include "app/lsp/answers/features.h"
 #include "app/lsp/answers/items.h"
 #include "app/lsp/answers/key_tables.h"
-#include "engine/glsl/names.h"
+#include "engine/glsl/source.h"
 #include "engine/graph/language/format.h"
 #include "engine/graph/language/keys.h"
 #include "engine/graph/language/names.h"
@@ -344,8 +344,7 @@ class Completer {
       ending = key == "vertex" ? ".vert.glsl" : ".frag.glsl";
       stem = false;
     }
-    glsl::ShaderNames names;
-    const std::vector<std::string>& all = names.below(context_.project.shaderFolders(text_.path()));
+    const std::vector<std::string> all = glsl::shadersBelow(context_.project.shaderFolders(text_.path()));
     for (const std::string& path : all) {
       if (!stem && path.ends_with(ending)) add(path, ItemKind::file);
       if (stem && path.ends_with(".vert.glsl")) {

@@ -1,13 +1,12 @@
-#include "engine/gl/programs/needs.h"
+#include "tests/runtime/prepare/needs.h"
 
 #include <algorithm>
 #include <map>
 #include <string_view>
 
-#include "engine/gl/programs/glsl_type.h"
 #include "engine/glsl/interface.h"
 
-namespace weft::gl {
+namespace weft::gl::test {
 
 StageNeeds needsOf(const StageSource& stage, std::span<const glsl::Define> defines) {
   using glsl::Role;
@@ -18,8 +17,8 @@ StageNeeds needsOf(const StageSource& stage, std::span<const glsl::Define> defin
   const auto extentOf = [&](std::string_view name) -> Locations {
     if (const auto known = structures.find(name); known != structures.end()) return known->second;
     const GlslType* type = findGlslType(name);
-    if (!type || type->kind != GlslKind::value) return {};
-    return {type->shape.columns, type->shape.columns * type->shape.rows};
+    if (!type || type->kind != GlslType::Kind::value) return {};
+    return {type->columns, type->columns * type->rows};
   };
   const auto add = [&](std::uint32_t& locations, std::uint32_t& components, const glsl::Declaration& each) {
     const Locations one = extentOf(each.type);
@@ -73,18 +72,6 @@ ProgramNeeds needsOf(std::span<const StageSource> stages, std::span<const glsl::
   return all;
 }
 
-ProgramNeeds limitsOfDevice() {
-  const auto get = [](GLenum name) {
-    GLint value = 0;
-    glGetIntegerv(name, &value);
-    return static_cast<std::uint32_t>(std::max(0, value));
-  };
-  return {.locations = get(GL_MAX_VARYING_VECTORS),
-          .components = get(GL_MAX_VARYING_COMPONENTS),
-          .samplers = get(GL_MAX_TEXTURE_IMAGE_UNITS),
-          .together = get(GL_MAX_COMBINED_SHADER_OUTPUT_RESOURCES)};
-}
-
 std::optional<Excess> excessOf(const ProgramNeeds& needs, const ProgramNeeds& limits) {
   constexpr const char* kFetch =
       "pass the number of the instance as one `flat` input, and read what belongs to it in the fragment "
@@ -99,4 +86,4 @@ std::optional<Excess> excessOf(const ProgramNeeds& needs, const ProgramNeeds& li
   return std::nullopt;
 }
 
-}  // namespace weft::gl
+}  // namespace weft::gl::test

@@ -10,7 +10,7 @@
 
 #include "engine/gl/programs/program.h"
 
-namespace weft::gl {
+namespace weft::gl::test {
 
 struct StageNeeds {
   std::uint32_t locations = 0, components = 0;  // inputs of a fragment shader, outputs of a vertex shader
@@ -28,8 +28,6 @@ ProgramNeeds needsOf(std::span<const StageSource> stages, std::span<const glsl::
 
 // MAX_VARYING_VECTORS, MAX_VARYING_COMPONENTS, MAX_TEXTURE_IMAGE_UNITS, MAX_COMBINED_SHADER_OUTPUT_RESOURCES.
 inline constexpr ProgramNeeds kLeastDevice{.locations = 15, .components = 60, .samplers = 16, .together = 8};
-// Of the current context.
-ProgramNeeds limitsOfDevice();
 
 // The first figure of `needs` that is above that of `limits`.
 struct Excess {
@@ -39,4 +37,4 @@ struct Excess {
 };
 std::optional<Excess> excessOf(const ProgramNeeds& needs, const ProgramNeeds& limits);
 
-}  // namespace weft::gl
+}  // namespace weft::gl::test
