@@ -175,10 +175,13 @@ class Evaluator {
         d->hint = fmt::format("write '{}', without the '$'{}", name, index ? ": it is an index" : "");
       else if (std::string foreign = base::hintForForeign(base::Foreign::value, name); !foreign.empty())
         d->hint = std::move(foreign);
-      else if (const std::string nearest = base::nearestName(name, names); !nearest.empty())
+      else if (const std::string nearest = base::nearestName(name, names); !nearest.empty()) {
         d->hint = fmt::format("did you mean '{}{}'?", sigil, nearest);
-      else
+        // It is read as the one that is meant, so that nothing else is reported because of it.
+        if (kind == EvalScope::NameKind::variable) return scope_->variable(nearest).value_or(Value{});
+      } else {
         d->hint = base::nearestHint(name, names);
+      }
     }
     return {};
   }

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "engine/graph/expand/names/parameter_check.h"
+#include "engine/graph/expand/names/settings.h"
 
 namespace weft::runtime {
 

@@ -146,8 +146,7 @@ std::string hintFor(const Model& model, const Scope& scope, const ParameterDesc&
     if (std::ranges::find(pass.parameters, name, &PassParameterDesc::name) != pass.parameters.end())
       return fmt::format("pass '{}' has a '{}' of its own: write \"{}\": \"${}\" there", pass.name, name,
                          name, name);
-  const auto same = model.parametersByLeaf.find(name);
-  for (std::uint32_t index = same->second.first; index != kNone; index = model.parameters[index].nextOfLeaf)
+  for (const std::uint32_t index : model.parametersByLeaf.find(name)->second)
     if (const std::string& path = model.parameters[index].path;
         model.parameters[index].desc != &unread && path.starts_with(scope.prefix))
       return fmt::format(
