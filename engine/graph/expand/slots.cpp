@@ -62,13 +62,11 @@ std::optional<Range> closeSpan(const Selection::Span& said, std::int64_t count, 
   return there ? std::optional(Range{first, last - first + 1}) : std::nullopt;
 }
 
-// All concrete candidates of a reference whose conditions hold, in order. False after a report.
-bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref, const Leaf& outer,
+// All concrete candidates of a reference whose conditions hold, in order. `leaf` says what `ref` means, and what is said of it from
+// outside. False after a report.
+bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref, Leaf leaf,
                    std::vector<Leaf>& leaves) {
   Model& model = context.model;
-  Leaf leaf = outer;
-  leaf.entity = findEntityOrReport(model, names.scope(), ref, {context.user, "uses", context.pass});
-  if (leaf.entity == kNone) return false;
   if (!addSelection(context, names, ref, leaf.selection)) return false;
   if (!leaf.kind) leaf.kind = ref.kind;
   if (leaf.sampler.wrap == Wrap::clamp) leaf.border = ref.border;
@@ -92,9 +90,11 @@ bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref,
     if (!holds) good = false;
     if (holds && !*holds)
       wouldUse(model, entity.candidates[i], Access::read, leaf.history + alternative.history);
+    if (!holds || !*holds) continue;
     Leaf within = leaf;
+    within.entity = entity.candidates[i];
     within.conditional = leaf.conditional || alternative.condition.present();
-    if (holds && *holds) good = collectLeaves(context, listNames, alternative, within, leaves) && good;
+    good = collectLeaves(context, listNames, alternative, std::move(within), leaves) && good;
   }
   return good;
 }
@@ -323,7 +323,7 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
   std::vector<Leaf> own;
   std::vector<Leaf>& leaves = context.room ? *context.room : own;
   leaves.clear();
-  if (!collectLeaves(checked, context.names, ref, Leaf{}, leaves)) return failed;
+  if (!collectLeaves(checked, context.names, ref, {.entity = found}, leaves)) return failed;
   SlotChoice choice{checked, slot, pass, leaves};
   return *holds ? choice.choose() : choice.off();
 }

@@ -46,61 +46,51 @@ std::string expectedOf(const ImportArgument& argument, const Value& value) {
   return initial.type == Value::Type::list ? fmt::format("a list of {}", initial.count) : "a word";
 }
 
-bool evaluateArgument(Model& model, Names& names, const Entity& entity, const ImportArgument& argument,
-                      const Expr& expr, Value& out) {
-  out = expr.evaluate(names, model.diagnostics);
-  if (out.type == Value::Type::none) return false;
+bool checkArgument(Model& model, const Entity& entity, const ImportArgument& argument, const NamedExpr& given,
+                   const Value& value) {
   const auto& lists = model.registry.drawLists;
-  if (argument.drawList && out.type == Value::Type::symbol &&
-      std::ranges::find(lists, out.symbol) == lists.end())
-    return report(model, Code::unknownDrawList, expr.place(),
-                  fmt::format("import '{}' names the unknown draw list '{}'", entity.name, out.symbol),
-                  {.hint = base::nearestHint(out.symbol, lists)});
-  std::string expected = expectedOf(argument, out);
-  if (expected.empty()) return true;
-  return report(model, Code::badImportArgument, expr.place(),
+  if (argument.drawList && value.type == Value::Type::symbol &&
+      std::ranges::find(lists, value.symbol) == lists.end())
+    return report(model, Code::unknownDrawList, given.expr.place(),
+                  fmt::format("import '{}' names the unknown draw list '{}'", entity.name, value.symbol),
+                  {.hint = base::nearestHint(value.symbol, lists)});
+  std::string expected = expectedOf(argument, value);
+  return expected.empty() ||
+         report(model, Code::badImportArgument, given.expr.place(),
                 fmt::format("import '{}': argument '{}' does not fit", entity.name, argument.name),
                 {.expected = std::move(expected),
-                 .found = toText(out),
-                 .hint = base::nearestHint(out.symbol, argument.choices),
-                 .resource = entity.name});
+                 .found = toText(value),
+                 .hint = base::nearestHint(value.symbol, argument.choices)});
 }
 
-// Reports arguments that the type does not have.
-bool checkArgumentNames(Model& model, const Entity& entity, const ImportType& type,
-                        const std::vector<NamedExpr>& given) {
+// Fills in what is asked for, with the defaults of what is not given. False after a report.
+bool evaluateArguments(Model& model, const Entity& entity, const ImportType& type,
+                       const std::vector<NamedExpr>& given, ImportRequest& request) {
+  Names names(model, *entity.scope);
   bool good = true;
   std::vector<std::string> known;
   for (const ImportArgument& argument : type.arguments) known.push_back(argument.name);
   for (const NamedExpr& argument : given) {
     markStructural(model, *entity.scope, argument.expr);
     if (std::ranges::find(known, argument.name) != known.end()) continue;
-    std::string theirs;
-    if (std::ranges::find(known, "file") != known.end())
-      theirs = base::hintForForeign(base::Foreign::import_argument, argument.name);
-    good = report(
-        model, Code::badImportArgument, argument.place,
-        fmt::format("import '{}' has no argument '{}'", type.name, argument.name),
-        {.hint = theirs.empty() ? base::nearestHint(argument.name, known) : theirs, .resource = entity.name});
+    std::string hint = base::hintForForeign(base::Foreign::import_argument, argument.name);
+    if (hint.empty() || std::ranges::find(known, "file") == known.end())
+      hint = base::nearestHint(argument.name, known);
+    good = report(model, Code::badImportArgument, argument.place,
+                  fmt::format("import '{}' has no argument '{}'", type.name, argument.name),
+                  {.hint = std::move(hint), .resource = entity.name});
   }
-  return good;
-}
-
-// Fills in what is asked for, with the defaults of what is not given. `good`: the names are, one misspelling is one mistake.
-bool evaluateArguments(Model& model, const Entity& entity, const ImportType& type,
-                       const std::vector<NamedExpr>& given, bool good, ImportRequest& request) {
-  Names names(model, *entity.scope);
   for (const ImportArgument& argument : type.arguments) {
     const auto found = std::ranges::find(given, argument.name, &NamedExpr::name);
     Value value = argument.initial;
-    if (found != given.end())
-      good = evaluateArgument(model, names, entity, argument, found->expr, value) && good;
-    else if (argument.initial.type == Value::Type::none && good)
+    if (found != given.end()) {
+      value = found->expr.evaluate(names, model.diagnostics);
+      good = value.type != Value::Type::none && checkArgument(model, entity, argument, *found, value) && good;
+    } else if (value.type == Value::Type::none && good) {
       good = report(model, Code::badImportArgument, entity.desc ? entity.desc->place : Place{},
                     fmt::format("import '{}' needs the argument '{}'", type.name, argument.name),
-                    {.expected = fmt::format("\"{0}\": {{ \"import\": \"{0}\", \"{1}\": … }}", type.name,
-                                             argument.name),
-                     .resource = entity.name});
+                    {.expected = fmt::format("\"import\": \"{}\", \"{}\": …", type.name, argument.name)});
+    }
     request.arguments.emplace_back(argument.name, std::move(value));
   }
   return good;
@@ -194,8 +184,8 @@ bool evaluateImport(Model& model, Entity& entity) {
     return report(model, Code::unknownImport, entity.desc->place,
                   fmt::format("resource '{}' is of the unknown import '{}'", entity.name, request.type),
                   {.hint = hintForImport(model.registry, request.type), .resource = entity.name});
-  bool good = checkArgumentNames(model, entity, *type, given);
-  if (!evaluateArguments(model, entity, *type, given, good, request)) return false;
+  if (!evaluateArguments(model, entity, *type, given, request)) return false;
+  bool good = true;
   const ImportFacts facts = model.registry.factsOf ? model.registry.factsOf(request) : ImportFacts{};
   for (const base::Diagnostic& problem : facts.problems) {
     base::Diagnostic& d = model.diagnostics.add(problem);
