@@ -73,7 +73,6 @@ bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref,
   leaf.sampler = layOver(leaf.sampler, ref.sampler);
   leaf.history += ref.history;
   Entity& entity = model.entities[leaf.entity];
-  entity.read = true;
   entity.firstRead = std::min(entity.firstRead, model.position);
   if (entity.kind != ResourceDesc::Kind::alternatives) {
     leaves.push_back(std::move(leaf));

@@ -55,7 +55,7 @@ void checkShaders(const Stanza& stanza) {
       if (path.ends_with(endingOf(stage)) && (stage != own || (draw && !pair)))
         stanza.error(
             Code::keyNotTaken, desc.shaderPlace,
-            fmt::format("is a {} pass and names '{}', a shader of one other stage", stanza.type->name, path),
+            fmt::format("is a {} pass and names '{}', which is for another stage", stanza.type->name, path),
             {.expected = draw && !pair
                              ? "a path without stage and ending, or { \"vertex\": …, \"fragment\": … }"
                              : fmt::format("a path that ends in '{}'", endingOf(own))});

@@ -241,7 +241,7 @@ const PassDesc* findUnconditional(const Model& model, const std::string& declare
 // The pass that always writes all of it before anybody reads the list, or null.
 const PassDesc* alwaysWrites(const Model& model, std::uint32_t candidate, const Entity& list) {
   for (const WriteRecord& write : model.writes) {
-    if (write.entity != candidate || write.pass == kNone || !write.whole || !list.read ||
+    if (write.entity != candidate || write.pass == kNone || !write.whole || list.firstRead == kNone ||
         write.position >= list.firstRead)
       continue;
     const PassDesc* pass = findUnconditional(model, model.graph.specs[write.pass].declared);

@@ -101,8 +101,7 @@ struct Entity {
   std::vector<std::uint32_t>
       candidates;  // alternatives: entities, parallel to desc->alternatives; kNone: unknown
   std::vector<Element> elements;
-  bool read = false;  // some slot names it, at this position first
-  std::uint32_t firstRead = kNone;
+  std::uint32_t firstRead = kNone;  // the first position at which some slot names it
 };
 
 // One file instance.
