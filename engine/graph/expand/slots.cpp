@@ -126,8 +126,9 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
     ranges[i].size = std::max<std::int64_t>(1, counts[i]);
     if (!said) continue;
     if (i == Selection::element && counts[i] == 0)
-      return misfit("is no array", said->first < 0 ? fmt::format("write '{}@{}' for an earlier frame", entity.name, said->first)
-                                      : fmt::format("a level is '{}.mip[…]'", entity.name));
+      return misfit("is no array", said->first < 0 ? fmt::format("write '{}@{}' for an earlier frame",
+                                                                 entity.name, said->first)
+                                                   : fmt::format("a level is '{}.mip[…]'", entity.name));
     if (counts[i] == 0) return misfit(fmt::format("has no {}s", kPartWords[i]));
     const auto range =
         closeSpan(*said, counts[i], i == Selection::level ? entity.writtenMips : counts[i], context.ranges);

@@ -63,7 +63,10 @@ bool checkParameterValue(Model& model, const Parameter& parameter, const Value& 
   const std::string text = value.type == Value::Type::symbol ? value.symbol : toText(value);
   const std::vector<std::string> words =
       desc.type == Type::boolean ? std::vector<std::string>{"true", "false"} : desc.choices;
-  const std::string meant = base::nearestName(text, words);
+  std::string meant = base::nearestName(text, words);
+  if (desc.type == Type::boolean)
+    for (const char* word : {"0", "no", "off", "1", "yes", "on"})
+      if (text == word) meant = text == "1" || text == "yes" || text == "on" ? "true" : "false";
   return report(model, fits ? Code::numberOutOfRange : Code::badParameterValue, by.place,
                 fmt::format("{}parameter '{}': '{}' is {}", by.before, parameter.path, text,
                             fits ? "out of its range" : "no value of it"),

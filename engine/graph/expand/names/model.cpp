@@ -34,7 +34,7 @@ bool report(Model& model, Code code, const Where& place, std::string message, Sa
 }
 
 Evaluation::Evaluation(Model& model, Progress& state, std::string label, const Place& place,
-                       std::string_view before, std::string_view after)
+                       std::string_view before, std::string_view after, std::size_t most)
     : model_(model) {
   auto& stack = model.evaluating;
   if (state == Progress::active) {
@@ -44,7 +44,7 @@ Evaluation::Evaluation(Model& model, Progress& state, std::string label, const P
                        fmt::join(std::ranges::subrange(first, stack.end()), " -> "), label),
            {.hint = "one of them must not refer to the next"});
     good_ = false;
-  } else if (stack.size() == kMost) {
+  } else if (stack.size() >= most) {
     if (!std::exchange(model.stopped, true))
       report(model, Code::limitExceeded, place,
              fmt::format("definitions depend on each other in too long a row, which ends at {}", label),

@@ -243,7 +243,7 @@ class Evaluation {
  public:
   static constexpr std::uint32_t kMost = 32;
   Evaluation(Model& model, Progress& state, std::string label, const Place& place, std::string_view before,
-             std::string_view after);
+             std::string_view after, std::size_t most = kMost);
   ~Evaluation();
   Evaluation(const Evaluation&) = delete;
   Evaluation& operator=(const Evaluation&) = delete;

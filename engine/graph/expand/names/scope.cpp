@@ -147,13 +147,13 @@ std::uint64_t weighList(Model& model, std::uint32_t index, std::vector<std::uint
   if (entity.kind != ResourceDesc::Kind::alternatives || model.stopped) return 0;
   if (entity.listState == Progress::done || entity.listState == Progress::failed) return weights[index];
   const Evaluation evaluation(model, entity.listState, "'" + entity.name + "'", entity.desc->place,
-                              "the alternatives of ", " lead back to it");
+                              "the alternatives of ", " lead back to it", ~std::size_t{0});
   if (!evaluation.good()) {
     model.incomplete = true;
     return 0;
   }
   const std::uint64_t most = base::raised(kMostAlternatives);
-  std::uint64_t weight = 0;
+  std::uint64_t weight = model.evaluating.size() > most ? most + 1 : 0;  // of itself, in too long a row
   for (std::size_t i = 0; i < entity.candidates.size() && weight <= most; ++i)
     if (entity.candidates[i] != kNone) weight += 1 + weighList(model, entity.candidates[i], weights);
   weights[index] = weight;
