@@ -90,7 +90,7 @@ class Expr {
   // live parameters.
   bool isConstant() const;
 
-  // The value, or type none after an error was reported. age() is an error here unless `scope.fact` answers
+  // The value, or type none after an error was reported; a misspelt variable is reported and read as the nearest. age() is an error here unless `scope.fact` answers
   // it. Branches that are not taken (of ?: && ||) are not evaluated.
   Value evaluate(EvalScope& scope, base::Diagnostics& diagnostics) const;
   // Reports names and choices that do not exist, also in branches that evaluate() would not take. Asks the

@@ -177,13 +177,17 @@ class Evaluator {
     std::vector<std::string> names = scope_->candidates(kind);
     std::ranges::sort(names);
     const std::string &name = node.name, nearest = base::nearestName(name, names);
-    const bool bare = kind == EvalScope::NameKind::variable && (scope_->index(name) || scope_->builtin(name));
-    std::string hint = bare ? fmt::format("write '{}', without the '$'", name)
-                            : base::hintForForeign(base::Foreign::value, name);
-    if (hint.empty())
-      hint = nearest.empty() ? base::nearestHint(name, names)
-                             : fmt::format("did you mean '{}{}'?", sigil, nearest);
-    return fail(Code::unknownVariable, node, std::move(message), {.hint = std::move(hint)});
+    const bool variable = kind == EvalScope::NameKind::variable;
+    const bool bare = variable && (scope_->index(name) || scope_->builtin(name));
+    const std::string foreign = base::hintForForeign(base::Foreign::value, name);
+    const bool misspelt = !bare && foreign.empty() && !nearest.empty();
+    std::string hint = bare       ? fmt::format("write '{}', without the '$'", name)
+                       : misspelt ? fmt::format("did you mean '{}{}'?", sigil, nearest)
+                                  : foreign;
+    if (hint.empty()) hint = base::nearestHint(name, names);
+    fail(Code::unknownVariable, node, std::move(message), {.hint = std::move(hint)});
+    // It is read as the one that is meant, so that nothing else is reported because of it.
+    return misspelt && variable ? scope_->variable(nearest).value_or(Value{}) : Value{};
   }
 
   Value identifier(const ExprNode& node) {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "engine/base/hash.h"
-#include "engine/graph/expand/names/parameter_check.h"
+#include "engine/graph/expand/names/settings.h"
 #include "engine/passes/compute/work_groups.h"
 #include "engine/runtime/prepare/prepared_pass.h"
 #include "engine/runtime/storage/block_writer.h"
