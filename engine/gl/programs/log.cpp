@@ -165,8 +165,9 @@ void advise(LogMessage& message, const glsl::ShaderSource& source, std::span<con
 // The place of the first function that a message without a place quotes, as that of recursion does.
 base::Place placeOfFunctionIn(const std::string& message, const glsl::ShaderSource& source,
                               std::span<const glsl::Define> defines) {
-  for (const glsl::Token& token :
-       glsl::splitTokens(message.substr(std::min(message.find('`'), message.size()))))
+  const std::string_view quoted =
+      std::string_view(message).substr(std::min(message.find_first_of("`'"), message.size()));
+  for (const glsl::Token& token : glsl::splitTokens(quoted))
     if (const glsl::Declaration* function =
             source.interfaceWith(defines).find(token.text, glsl::Role::function))
       return source.placeOf(function->at.line, function->at.column);
