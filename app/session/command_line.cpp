@@ -10,6 +10,7 @@
 #include "app/session/session.h"
 #include "engine/base/files/file_access.h"
 #include "engine/base/limits.h"
+#include "engine/base/nearest.h"
 #include "engine/base/printable.h"
 
 namespace weft::app {
@@ -48,8 +49,36 @@ void addCommon(CLI::App& command) {
       ->check(CLI::Validator(limit, "N"));
 }
 
+// The first word that neither the program nor the chosen command knows, with the nearest that it does; "" when there is none. CLI11
+// tells of what is missing first, and a misspelt option is missing under its right name.
+std::string unknownWord(const CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  const CLI::App& command = chosen.empty() ? app : *chosen.front();
+  const std::vector<std::string> unknown = app.remaining(true);
+  if (unknown.empty()) return {};
+  const std::string word = unknown.front().substr(0, unknown.front().find('='));
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) known.push_back("-" + name);
+  }
+  if (chosen.empty())
+    for (const CLI::App* each : app.get_subcommands([](const CLI::App*) { return true; }))
+      known.push_back(each->get_name());
+  const std::string nearest = base::nearestName(word, known);
+  return fmt::format("{}: unknown {} '{}'{}\n", chosen.empty() ? "weft" : "weft " + command.get_name(),
+                     word.starts_with('-') ? "option"
+                     : chosen.empty()      ? "command"
+                                           : "argument",
+                     shown(word), nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
+}
+
 // Help, the version, or what is wrong. 0 when it was asked for.
 int tell(const CLI::App& app, const CLI::ParseError& error) {
+  if (const std::string unknown = error.get_exit_code() == 0 ? "" : unknownWord(app); !unknown.empty()) {
+    printError(unknown);
+    return 2;
+  }
   std::ostringstream out, err;
   const int code = app.exit(error, out, err);
   print(out.str());

@@ -27,6 +27,9 @@ def main():
     report.check({"--scene", "--backend"} <= set(complete(weft, "render", "--")) and complete(weft, "render", "--back") == ["--backend"], "options of render")
     done = run(weft, "new", "pass", "tint", "--grap", "g.json")
     report.check(done.code == 2 and "--grap" in done.err, done.err)
+    for words, meant in ((["rendr"], "render"), (["render", "graphs/glow.json", "--sise", "3x3"], "--size")):
+        done = run(weft, *words)
+        report.check(done.code == 2 and f"did you mean '{meant}'?" in done.err, f"{words}: {done.err}")
     done = run(weft, "new", "pass", "9", "--confine", ".", "--limit", "7")
     report.check(done.code == 1 and done.codes() == ["W012"], f"new pass --confine --limit: {done.code} {done.err}")
     report.end()
