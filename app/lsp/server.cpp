@@ -145,15 +145,14 @@ Json Server::answer(const std::string& method, const Json& parameters) {
                     method == "textDocument/prepareRename";
   if (!here && method != "textDocument/documentSymbol") return Json(Json::value_t::discarded);
   settle();  // answers are about the text as it is
-  project_.forget();
   const std::shared_ptr<const Text> text = texts_.of(pathOf(parameters));
   const Position position = here ? positionOf(member(parameters, "position")) : Position{};
   if (!text) return nullptr;
-  const Context context{texts_, project_, analysis_};
-  if (!here) return symbolsOf(context, *text);
+  if (!here) return symbolsOf(*text);
+  workspace_.readAll();
   const std::size_t offset = text->map().offsetOf(position);
-  if (method == "textDocument/completion") return completionAt(context, *text, offset);
-  if (method == "textDocument/hover") return hoverAt(context, *text, offset);
+  if (method == "textDocument/completion") return completionAt(workspace_, *text, offset);
+  if (method == "textDocument/hover") return hoverAt(workspace_, *text, offset);
   const auto locations = [&](const auto& all) {
     Json list = Json::array();
     for (const Location& each : all)
@@ -161,8 +160,8 @@ Json Server::answer(const std::string& method, const Json& parameters) {
         list.push_back({{"uri", uriOfPath(each.path)}, {"range", lsp::toJson(file->map(), each.range)}});
     return list;
   };
-  if (method == "textDocument/definition") return locations(definitionsAt(context, *text, offset));
-  const Uses uses = usesAt(context, *text, offset);
+  if (method == "textDocument/definition") return locations(definitionsAt(workspace_, *text, offset));
+  const Uses uses = usesAt(workspace_, *text, offset);
   if (method == "textDocument/references") return locations(uses.locations);
   if (!uses.found) return nullptr;
   return {{"range", lsp::toJson(text->map(), uses.here)}, {"placeholder", uses.name}};
@@ -185,7 +184,7 @@ Json Server::initialize(const Json& parameters) {
              parameters.is_object() && root != parameters.end()) {
     add(*root);
   }
-  project_.setFolders(std::move(folders));
+  workspace_.setFolders(std::move(folders));
   initialized_ = true;
   Json signs = Json::array({"\"", "$", "@", ".", "(", "/"});
   return {{"capabilities",
@@ -202,12 +201,12 @@ Json Server::initialize(const Json& parameters) {
 
 void Server::rename(const Json& id, const Json& parameters) {
   settle();
-  project_.forget();
+  workspace_.readAll();
   const std::shared_ptr<const Text> text = texts_.of(pathOf(parameters));
   const Position position = positionOf(member(parameters, "position"));
   const std::string& name = textOf(parameters, "newName");
   if (!text) return fail(id, kRequestFailed, "there is no such file");
-  Renamed renamed = renameAt({texts_, project_, analysis_}, *text, text->map().offsetOf(position), name);
+  Renamed renamed = renameAt(workspace_, *text, text->map().offsetOf(position), name);
   if (!renamed.problem.empty()) return fail(id, kRequestFailed, renamed.problem);
   send_({{"jsonrpc", "2.0"}, {"id", id}, {"result", std::move(renamed.edit)}});
 }
@@ -259,18 +258,17 @@ void Server::change(const Json& parameters) {
 
 void Server::settle() {
   if (changed_.empty()) return;
-  project_.forget();
-  const std::set<std::string> touched = analysis_.refresh(std::exchange(changed_, {}));
+  const std::set<std::string> touched = workspace_.refresh(std::exchange(changed_, {}));
   for (const std::string& path : touched) publish(path);
 }
 
 void Server::publish(const std::string& path) {
-  const std::vector<base::Diagnostic> said = analysis_.diagnosticsOf(path);
+  const std::vector<base::Diagnostic> said = workspace_.diagnosticsOf(path);
   const bool shown = published_.contains(path);
   if (said.empty() && !shown && !texts_.isOpen(path)) return;
   const std::shared_ptr<const Text> text = texts_.of(path);
   Json list = Json::array();
-  const Text nothing(path, std::make_shared<const std::string>());
+  const Text nothing(path, "");
   for (const base::Diagnostic& each : said) list.push_back(toJson(each, text ? *text : nothing));
   if (said.empty())
     published_.erase(path);
@@ -278,7 +276,7 @@ void Server::publish(const std::string& path) {
     published_.insert(path);
   Json parameters{{"uri", uriOfPath(path)}};
   if (const auto opened = texts_.opened().find(path); opened != texts_.opened().end())
-    parameters["version"] = opened->second.version;
+    parameters["version"] = opened->second;
   parameters["diagnostics"] = std::move(list);
   send_(
       {{"jsonrpc", "2.0"}, {"method", "textDocument/publishDiagnostics"}, {"params", std::move(parameters)}});

@@ -1,6 +1,6 @@
 // The language server: takes messages of the Language Server Protocol 3.17, and sends messages. It has one thread. Changes
 // that have already arrived are taken together before graphs are checked again. Every request is answered by a result or an
-// error. Does not: read or frame the stream (text/framing.h).
+// error.
 #pragma once
 
 #include <functional>
@@ -8,16 +8,14 @@
 #include <set>
 #include <string>
 
-#include "app/lsp/files/analysis.h"
-#include "app/lsp/files/project.h"
+#include "app/lsp/files/workspace.h"
 
 namespace weft::app::lsp {
 
 class Server {
  public:
   using Send = std::function<void(const Json&)>;
-  Server(const Options& options, Send send)
-      : send_(std::move(send)), project_(texts_), analysis_(options, texts_, project_) {}
+  Server(const Options& options, Send send) : send_(std::move(send)), workspace_(options, texts_) {}
 
   // Handles one message, given as its JSON text.
   void take(std::string_view text);
@@ -41,8 +39,7 @@ class Server {
 
   Send send_;
   Texts texts_;
-  Project project_;
-  Analysis analysis_;
+  Workspace workspace_;
   std::set<std::string> changed_;    // since the last settle()
   std::set<std::string> published_;  // files of which the editor shows messages
   bool initialized_ = false, shutDown_ = false;

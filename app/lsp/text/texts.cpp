@@ -7,57 +7,49 @@
 
 namespace weft::app::lsp {
 
-std::string pathKey(const std::string& path) {
-  std::error_code ec;
-  const std::filesystem::path absolute = std::filesystem::absolute(path, ec);
-  return (ec ? std::filesystem::path(path) : absolute).lexically_normal().string();
+const base::JsonTree& Text::json() const {
+  if (!json_) json_ = base::parseJsonTree(bytes_);
+  return *json_;
 }
 
-const base::JsonTree& Text::json() const {
-  if (!json_) json_ = std::make_unique<base::JsonTree>(base::parseJsonTree(*bytes_));
-  return *json_;
+const GlslOutline& Text::glsl() const {
+  if (!glsl_) glsl_.emplace(bytes_);
+  return *glsl_;
 }
 
 std::string_view Text::written(const JsonValue& string) const {
   const Range range = inside(string);
-  return std::string_view(*bytes_).substr(range.begin, range.end - range.begin);
-}
-
-const GlslOutline& Text::glsl() const {
-  if (!glsl_) glsl_ = std::make_unique<GlslOutline>(*bytes_);
-  return *glsl_;
+  return std::string_view(bytes_).substr(range.begin, range.end - range.begin);
 }
 
 Texts::~Texts() {
-  for (const auto& [path, opened] : opened_) base::dropOverlay(path);
+  for (const auto& [path, version] : opened_) base::dropOverlay(path);
 }
 
 void Texts::open(const std::string& path, std::string text, std::int64_t version) {
-  opened_[path] = {version};
+  opened_[path] = version;
   replace(path, std::move(text));
 }
 
-bool Texts::replace(const std::string& path, std::string text) {
-  if (!isOpen(path)) return false;
+void Texts::replace(const std::string& path, std::string text) {
+  if (!isOpen(path)) return;
   base::overlayFile(path, text);
-  texts_[path] = std::make_shared<const Text>(path, std::make_shared<const std::string>(std::move(text)));
-  return true;
+  texts_[path] = std::make_shared<const Text>(path, std::move(text));
 }
 
-bool Texts::change(const std::string& path, const Position& start, const Position& end,
+void Texts::change(const std::string& path, const Position& start, const Position& end,
                    const std::string& text) {
   const auto found = texts_.find(path);
-  if (found == texts_.end()) return false;
+  if (found == texts_.end()) return;
   const LineMap& map = found->second->map();
   const std::size_t from = map.offsetOf(start), to = map.offsetOf(end);
-  if (to < from) return false;
+  if (to < from) return;
   std::string bytes = found->second->bytes();
-  bytes.replace(from, to - from, text);
-  return replace(path, std::move(bytes));
+  replace(path, std::move(bytes.replace(from, to - from, text)));
 }
 
 void Texts::setVersion(const std::string& path, std::int64_t version) {
-  if (const auto found = opened_.find(path); found != opened_.end()) found->second.version = version;
+  if (const auto found = opened_.find(path); found != opened_.end()) found->second = version;
 }
 
 void Texts::close(const std::string& path) {
@@ -78,8 +70,7 @@ std::shared_ptr<const Text> Texts::of(const std::string& path) const {
   base::Diagnostics ignored;
   auto text = base::readTextFile(path, ignored);
   if (!text) return nullptr;
-  known = {std::make_shared<const Text>(path, std::make_shared<const std::string>(*std::move(text))), stamp,
-           bytes};
+  known = {std::make_shared<const Text>(path, *std::move(text)), stamp, bytes};
   return known.text;
 }
 

@@ -175,6 +175,7 @@ std::shared_ptr<const Source> SourceLoader::completeOverlay(const JsonValue& roo
     source.sets = base->sets;
     source.changed = base->changed;
     source.removed = base->removed;
+    source.named = base->named;
     for (std::size_t i = 1; i < below.size(); ++i) {
       const std::string over = pathBeside(*below[i]);
       good = extendBy(source, over, *below[i], false) && good;

@@ -143,6 +143,7 @@ class Applier {
   std::optional<Found> find(const std::string& section, std::string_view name, const base::Place& place) {
     std::uint64_t names = 0;
     std::optional<Found> found = findWhole(loader_, target_, section, name, names);
+    if (found) target_.named.push_back({std::string(name), place, found->place});
     return lookThrough(names, place) ? found : std::nullopt;
   }
 

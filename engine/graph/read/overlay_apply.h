@@ -15,6 +15,7 @@ namespace weft::graph {
 struct Found {
   std::vector<std::string> below;  // prefixes from the source down
   std::size_t index = 0;           // among the members of the section, or the stanzas of "passes"
+  base::Place place;               // of its name
 };
 
 // What `name` names whole in `section` ("resources", "passes"…) of the source or of what it includes; nothing when there is

@@ -105,9 +105,11 @@ std::optional<Found> findWhole(SourceLoader& loader, const Source& source, const
   if (const JsonValue* own = sectionOf(source, section)) {
     looked += own->members.size() + own->items.size();
     for (std::size_t i = 0; i < own->members.size(); ++i)
-      if (own->members[i].key == name) return Found{{}, i};
+      if (own->members[i].key == name) return Found{{}, i, own->members[i].place};
     for (std::size_t i = 0; i < own->items.size(); ++i)
-      if (!name.empty() && stanzaName(own->items[i]) == name) return Found{{}, i};
+      if (!name.empty() && stanzaName(own->items[i]) == name)
+        for (const char* key : {"name", "as", "include"})
+          if (const JsonValue* named = own->items[i].find(key)) return Found{{}, i, named->place};
   }
   const Below below = includeOf(loader, source, name);
   if (!below.source) return {};

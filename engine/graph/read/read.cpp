@@ -80,6 +80,7 @@ class GraphReader {
     graph->place = root.place;
     graph->files = source.files;
     graph->removed = source.removed;
+    graph->named = source.named;
     graph->top = source.top;
     if (isOtherFile(root, context)) return nullptr;
     context.checkKeys(root, kGraphKeys, "a graph", base::Foreign::graph_key);

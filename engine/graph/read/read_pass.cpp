@@ -68,7 +68,7 @@ class PassReader {
             "write the path of a graph, from this file's folder";
       return std::nullopt;
     }
-    out_.namePlace = file->place;
+    out_.namePlace = include.filePlace = file->place;
     if (const JsonValue* as = value_.find("as")) {
       include.as = context_.text(as, "\"as\"");
       out_.namePlace = as->place;
@@ -94,7 +94,9 @@ class PassReader {
       const bool named = context_.checkName(member.key, member.place, "an input");
       std::optional<RefDesc> ref =
           context_.ref(&member.value, fmt::format("the binding of '{}'", member.key));
-      if (named && ref) include.binds.emplace_back(member.key, *std::move(ref));
+      if (!named || !ref) continue;
+      include.binds.emplace_back(member.key, *std::move(ref));
+      include.bindPlaces.push_back(member.place);
     }
   }
 
@@ -111,7 +113,10 @@ class PassReader {
 
   std::optional<PassDesc> readPass() {
     context_.checkKeys(value_, kPassKeys, "a pass", base::Foreign::pass_key);
-    if (const JsonValue* like = value_.find("like")) out_.likePlace = like->place;
+    if (const JsonValue* like = value_.find("like")) {
+      out_.like = like->text;
+      out_.likePlace = like->place;
+    }
     if (const JsonValue* name = value_.find("name")) {
       out_.namePlace = name->place;
       out_.name = context_.text(name, "\"name\"");
