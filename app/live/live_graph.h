@@ -44,8 +44,6 @@ class LiveGraph {
   // A descriptor that becomes readable when a watched file changes, for whoever wants to sleep until then. -1: nothing is
   // ever reported.
   int watchDescriptor() const { return watcher_.descriptor(); }
-  // Looks at the files that no descriptor tells of; true when poll() has something new. From any thread, about twice a second.
-  bool lookAtFiles() { return watcher_.poller().look(); }
   // Once per frame: takes up an environment that has arrived. True when something came of the last request;
   // on failure the environment before stays, or, when it was to be the first, the stand-in comes.
   bool pollEnvironment(base::Diagnostics& diagnostics);

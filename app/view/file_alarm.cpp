@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <utility>
 
@@ -16,20 +15,11 @@ namespace {
 // Milliseconds between rings that nobody answers by reading: the first, and at most.
 constexpr int kPause = 20, kLongestPause = 1000;
 
-constexpr std::chrono::milliseconds kAlarmInterval{500};
-
-void listen(int descriptor, int stop, const std::function<bool()>& look, const std::function<void()>& ring) {
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point next = Clock::now() + kAlarmInterval;
+void listen(int descriptor, int stop, const std::function<void()>& ring) {
   for (int pause = kPause;;) {
     pollfd both[] = {{stop, POLLIN, 0}, {descriptor, POLLIN, 0}};
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(next - Clock::now());
-    if (::poll(both, 2, std::max(0, static_cast<int>(left.count()))) < 0) continue;  // a signal
+    if (::poll(both, 2, -1) < 0) continue;  // a signal
     if (both[0].revents) return;
-    if (Clock::now() >= next) {
-      if (look()) ring();
-      next = Clock::now() + kAlarmInterval;
-    }
     if (both[1].revents & ~POLLIN) descriptor = -1;  // closed: it will never be readable
     if (!(both[1].revents & POLLIN)) continue;
     ring();
@@ -41,9 +31,9 @@ void listen(int descriptor, int stop, const std::function<bool()>& look, const s
 
 }  // namespace
 
-FileAlarm::FileAlarm(int descriptor, std::function<bool()> look, std::function<void()> ring) {
+FileAlarm::FileAlarm(int descriptor, std::function<void()> ring) {
   stop_ = ::eventfd(0, EFD_CLOEXEC);
-  if (stop_ >= 0) thread_ = std::thread(listen, descriptor, stop_, std::move(look), std::move(ring));
+  if (stop_ >= 0) thread_ = std::thread(listen, descriptor, stop_, std::move(ring));
 }
 
 FileAlarm::~FileAlarm() {

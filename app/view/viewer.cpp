@@ -22,8 +22,7 @@ Viewer::Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& li
       renderer_(session.renderer),
       live_(live),
       input_(window_),
-      alarm_(
-          live.watchDescriptor(), [&live] { return live.lookAtFiles(); }, [] { glfwPostEmptyEvent(); }),
+      alarm_(live.watchDescriptor(), [] { glfwPostEmptyEvent(); }),
       panels_(live, session.renderer, log_),
       events_(options.events),
       diagnostics_(std::move(said)),

@@ -1,11 +1,10 @@
 #include "app/lsp/text/positions.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <filesystem>
+
+#include "engine/base/report.h"
 
 namespace weft::app::lsp {
 
@@ -94,14 +93,7 @@ std::string pathOfUri(std::string_view uri) {
 }
 
 std::string uriOfPath(std::string_view path) {
-  std::string uri = "file://";
-  for (const char c : pathKey(std::string(path))) {
-    const bool plain = std::isalnum(static_cast<unsigned char>(c)) ||
-                       std::string_view("/._-~").find(c) != std::string_view::npos;
-    uri += plain ? std::string(1, c)
-                 : fmt::format("%{:02X}", static_cast<unsigned>(static_cast<unsigned char>(c)));
-  }
-  return uri;
+  return base::uriOf(pathKey(std::string(path)));
 }
 
 }  // namespace weft::app::lsp

@@ -211,7 +211,7 @@ void advise(LogMessage& message, const glsl::ShaderSource& source, std::span<con
       d.hint = fmt::format("the graph defines '{}' as {}: rename the define", define->name, define->value);
     else if (const auto at = static_cast<std::size_t>(stray - line.begin());
              at < line.find("//") && at < line.size())
-      d.hint = base::describeStray(line.substr(at)).message;
+      d.hint = base::describeStray(line.substr(at));
     else
       for (const std::string_view each : {before, word})
         if (d.hint.empty() && isName(each)) d.hint = base::hintForForeign(base::Foreign::shader_name, each);
