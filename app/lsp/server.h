@@ -19,7 +19,7 @@ class Server {
 
   // Handles one message, given as its JSON text.
   void take(std::string_view text);
-  // Answers what was no message, with the error of framing.
+  // Answers what was no message.
   void refuse(const std::string& problem);
   // To be called when no more messages wait: checks what has changed, and publishes diagnostics.
   void settle();
@@ -33,7 +33,6 @@ class Server {
   Json answer(const std::string& method, const Json& parameters);
   Json initialize(const Json& parameters);
   void change(const Json& parameters);
-  void rename(const Json& id, const Json& parameters);
   void publish(const std::string& path);
   Json toJson(const base::Diagnostic& diagnostic, const Text& text) const;
 

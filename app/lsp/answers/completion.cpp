@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "app/lsp/answers/features.h"
-#include "app/lsp/answers/key_tables.h"
 #include "engine/glsl/names.h"
 #include "engine/graph/language/format.h"
 #include "engine/graph/language/keys.h"
@@ -285,13 +284,9 @@ class Completer {
                                                             : textOf(stanza, "name")),
                 ItemKind::function);
       });
-    } else if (group == "group") {
-      for (const JsonValue& other : stanzasOf(text_.json().root))
-        if (const std::string_view name = textOf(other, "group"); !name.empty() && &other != &around())
-          add(std::string(name), ItemKind::value);
     } else if (group == "state" && way.size() > 3 && way[3] == "blend") {
       addWords(graph::kBlendWords);
-    } else if (group != "name" && group != "as") {
+    } else if (group != "name" && group != "as" && group != "group") {
       expression(node);
     }
   }
@@ -345,14 +340,6 @@ class Completer {
       add(function, ItemKind::function);
     addWords(std::initializer_list<const char*>{"screen", "device.software", "true", "false"},
              ItemKind::keyword);
-    const JsonValue* const repeat = stanza() ? stanza()->find("repeat") : nullptr;
-    if (!repeat) return;
-    const auto indices = [&](const JsonValue& ranges) {
-      for (const JsonMember& index : ranges.members)
-        add(index.key, ItemKind::variable, "index of the repeat");
-    };
-    indices(*repeat);
-    for (const JsonValue& item : repeat->items) indices(item);
   }
 
   void resources() {

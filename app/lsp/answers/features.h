@@ -3,6 +3,7 @@
 #pragma once
 
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,13 @@ namespace weft::app::lsp {
 Json completionAt(const Workspace& workspace, const Text& text, std::size_t offset);
 Json hoverAt(const Workspace& workspace, const Text& text, std::size_t offset);
 Json symbolsOf(const Text& text);
+
+struct KeyDoc {
+  std::string key, doc;
+  std::span<const std::string_view> words{};  // that it may be, where these are few
+};
+// The keys of the object at the end of the way; empty where the author names them.
+std::vector<KeyDoc> keysOf(const graph::Registry& registry, const Way& object);
 
 // What is named at an offset of a JSON text: a name of graphs, a name that a pass and its shader share, or nothing.
 struct Named {

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "app/lsp/answers/features.h"
-#include "app/lsp/answers/key_tables.h"
 #include "engine/graph/language/format.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/read/overlay.h"
@@ -21,6 +20,21 @@ std::string fenced(const char* language, std::string_view text) {
 
 const char* ageOf(const Graph& graph) {
   return graph.current ? "" : "(of the last plan without errors)\n";
+}
+
+// As Markdown; "" when the type is no import.
+std::string docOfImport(const graph::Registry& registry, std::string_view name) {
+  for (const graph::ImportType& type : registry.imports) {
+    if (type.name != name) continue;
+    std::string text = fmt::format("**@{}**: {}\n", type.name, type.doc);
+    for (const graph::ImportArgument& argument : type.arguments)
+      text += fmt::format("- `{}` (default {}): {}\n", argument.name, graph::toText(argument.initial),
+                          argument.doc);
+    for (const graph::TableColumn& column : type.columns)
+      text += fmt::format("- `.{}` {}: {}\n", column.name, column.type, column.doc);
+    return text;
+  }
+  return "";
 }
 
 // What the plan does with a name that a pass shares with its shader.

@@ -9,12 +9,77 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "app/lsp/text/glsl_outline.h"
-#include "app/lsp/text/json_spot.h"
 #include "app/lsp/text/positions.h"
+#include "engine/base/json/dom.h"
+#include "engine/glsl/interface.h"
 
 namespace weft::app::lsp {
+
+// ---- a place in the tree of a JSON text, also of one that is being typed ----
+
+using base::JsonMember;
+using base::JsonValue;
+
+// The bytes of a value; of a string or a key without its quotes.
+Range rangeOf(const JsonValue& value);
+Range inside(const JsonValue& string);
+Range inside(const JsonMember& key);
+// The text of a member that is a string, or "".
+std::string_view textOf(const JsonValue& object, std::string_view key);
+
+// A value on the way from the root to another.
+struct Step {
+  const JsonValue* value = nullptr;
+  const JsonMember* member = nullptr;  // null of the root and in arrays
+};
+using Way = std::vector<Step>;  // never empty
+// The keys on the way; "[]" for items of arrays.
+std::vector<std::string_view> keysOn(const Way& way);
+
+struct Spot {
+  Way way;             // to the innermost value here, or to the container around an empty place
+  bool inKey = false;  // in the key of the last
+  bool atKey = false;  // in an object, where a key may begin
+  bool inComment = false;
+  const JsonValue& value() const { return *way.back().value; }
+};
+Spot spotAt(const base::JsonTree& tree, std::size_t offset);
+
+// ---- GLSL as it stands, without macros, and with all branches of every #if ----
+
+struct GlslWord {
+  std::string_view text;
+  Range range;
+  bool member = false;  // behind a dot
+};
+
+struct GlslName {
+  std::optional<glsl::Role> role;  // nothing: a define
+  std::string_view name;
+  Range range;                 // of the name
+  std::string_view block{};    // of a member
+  std::string_view statement;  // the declaration; of a block up to its '{'
+};
+
+struct GlslInclude {
+  std::string_view path;
+  Range range;
+};
+
+// The text must outlive it.
+struct GlslOutline {
+  explicit GlslOutline(std::string_view text);
+  const GlslName* find(std::string_view name) const;
+  const GlslWord* wordAt(std::size_t offset) const;
+
+  std::vector<GlslWord> words;
+  std::vector<GlslName> names;
+  std::vector<GlslInclude> includes;
+};
+
+// ---- texts ----
 
 class Text {
  public:
