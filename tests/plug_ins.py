@@ -28,7 +28,6 @@ OTHER_MEANINGS = {
     ("engine/graph/expand/stanza.cpp", "mesh"): "a type of pass of other engines",
     ("engine/graph/expand/stanza.cpp", "quad"): "a type of pass of other engines",
     ("engine/graph/expand/stanza.cpp", "image"): "a type of pass of other engines",
-    ("engine/base/words/foreign_words.cpp", "srgb"): "how formats of other APIs end",
     ("engine/base/words/glsl_words.cpp", "image"): "how types of GLSL begin",
     ("engine/glsl/interface.cpp", "image"): "how types of GLSL begin",
     ("engine/runtime/prepare/sampler_types.cpp", "image"): "how types of GLSL begin",
