@@ -1,11 +1,12 @@
 // weft: the command line. Each command declares its own options; the one that is chosen runs, its exit code out.
 #include <string_view>
 
+#include "app/bench/bench.h"
 #include "app/commands/commands.h"
 #include "app/lsp/lsp.h"
 #include "app/output/standard_streams.h"
 #include "app/session/command_line.h"
-#include "app/view/view.h"
+#include "app/view/viewer.h"
 #include "engine/gl/programs/shader_trial.h"
 
 namespace {

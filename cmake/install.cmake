@@ -1,8 +1,27 @@
-# What `cmake --install` puts where: bin/weft, static libraries, headers under include/weft, data under share/weft, and
+# What `cmake --install` puts where: bin/weft, static libraries, the public headers under include/weft, data under share/weft, and
 # the package config for find_package(weft), and .pc files for pkg-config: weft-graph, and weft for all of it.
 include(CMakePackageConfigHelpers)
 
-install(DIRECTORY engine DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/weft FILES_MATCHING PATTERN "*.h")
+# The public headers: these, and what they include. The others may change with any commit.
+set(weft_public graph/read/read.h graph/expand/expand.h graph/compile/compile.h graph/print/print.h)
+if(WEFT_GL)
+  list(APPEND weft_public gl/context/context.h imports/import_registry.h passes/pass_registry.h scene/files/scene_file.h runtime/frame/renderer.h)
+endif()
+list(TRANSFORM weft_public PREPEND engine/)
+set(weft_headers)
+while(weft_public)
+  list(POP_FRONT weft_public header)
+  if(NOT header IN_LIST weft_headers)
+    list(APPEND weft_headers ${header})
+    file(STRINGS ${header} includes REGEX "^#include \"engine/")
+    list(TRANSFORM includes REPLACE "^#include \"([^\"]+)\".*" "\\1")
+    list(APPEND weft_public ${includes})
+  endif()
+endwhile()
+foreach(header IN LISTS weft_headers)
+  get_filename_component(folder ${header} DIRECTORY)
+  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/weft/${folder})
+endforeach()
 install(DIRECTORY graphs shaders materials scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/weft)
 install(FILES engine/base/words/foreign.json DESTINATION ${CMAKE_INSTALL_DATADIR}/weft/engine/base/words)
 install(FILES docs/errors.md DESTINATION ${CMAKE_INSTALL_DATADIR}/weft/docs)

@@ -4,24 +4,26 @@
 #include <fmt/ranges.h>
 #include <poll.h>
 
-#include <chrono>
-#include <filesystem>
-#include <nlohmann/json.hpp>
+#include <algorithm>
 #include <optional>
-#include <thread>
+#include <set>
 
 #include "app/commands/commands.h"
-#include "app/commands/shader_check.h"
 #include "app/output/standard_streams.h"
+#include "app/session/device_session.h"
 #include "app/session/session.h"
 #include "engine/base/counted.h"
 #include "engine/base/files/file_watcher.h"
 #include "engine/base/printable.h"
 #include "engine/base/report.h"
 #include "engine/graph/compile/compile.h"
+#include "engine/graph/language/enough.h"
 #include "engine/graph/read/read.h"
 #include "engine/graph/survey/matrix.h"
+#include "engine/passes/pass_registry.h"
 #include "engine/runtime/imports/registry.h"
+#include "engine/runtime/prepare/program_check.h"
+#include "engine/runtime/prepare/program_request.h"
 
 namespace weft::app {
 
@@ -37,6 +39,135 @@ struct CheckOptions : Options {
   bool watch = false;        // again after every save
 };
 
+// What tells the variants of a plan's passes apart, and which slots and parameters a pass holds against them.
+std::string keyOf(const gl::ProgramRequest& request) {
+  std::string key = request.pass;
+  for (const gl::ProgramRequest::Stage& stage : request.stages) key += "|" + stage.file;
+  for (const glsl::Define& define : request.defines) key += "|" + define.name + "=" + define.value;
+  for (const std::string& output : request.outputs) key += "|" + output;
+  return key;
+}
+
+// What tells messages apart: the place and the words.
+std::string keyOf(const base::Diagnostic& d) {
+  const base::Place& place = d.place.inFile();
+  return fmt::format("{}:{}:{} {}", place.file ? *place.file : "", place.line, place.column, d.message);
+}
+
+// The shaders of plans held against their passes, each variant once: compiled, in a context that is opened for the first plan,
+// or with --no-shaders by what they declare.
+class ShaderCheck {
+ public:
+  explicit ShaderCheck(const CheckOptions& options) : options_(options) {}
+
+  // All variants of the live passes. `with`: how the plan differs from the graph as it is, for messages; or "". Nothing
+  // more is compiled once a context could not be opened, which is reported.
+  void check(const graph::Plan& plan, const std::string& with, base::Diagnostics& diagnostics) {
+    if (options_.shaders && !open(diagnostics)) return;
+    glsl::SourceLoader& sources = session_ ? session_->renderer.device().sources : sources_;
+    sources.setRoots(runtime::shaderRootsOf(plan.graph->files, dataFolder()));
+    base::Diagnostics said;
+    for (const graph::Step& step : plan.steps) {
+      if (graph::enoughErrors(said)) break;
+      const graph::PassSpec& spec = plan.graph->specs[step.pass];
+      const graph::PassType type = types_.find(spec.type)->reflect();
+      if (type.shader == graph::ShaderShape::none) continue;
+      const auto request = runtime::programRequestOf(*plan.graph, plan, step.pass, type);
+      if (!known_.insert(keyOf(request)).second) continue;
+      if (session_)
+        checkCompiled(plan, step.pass, request, said);
+      else
+        checkDeclared(plan, step.pass, request, said);
+    }
+    // A warning about a shader's text is the same in all its variants.
+    for (base::Diagnostic each : said.items()) {
+      if (each.severity == base::Severity::warning && !told_.insert(keyOf(each)).second) continue;
+      if (!with.empty()) each.message += fmt::format(" (with {})", with);
+      diagnostics.add(std::move(each));
+    }
+    read_.insert(sources.touched().begin(), sources.touched().end());
+  }
+
+  // A graph that cannot be compiled has no variants; its shader files are read all the same, so that a misspelt
+  // path or include is reported together with the graph's own mistakes. Needs no OpenGL.
+  void checkFiles(const graph::GraphDesc& desc, base::Diagnostics& diagnostics) {
+    glsl::SourceLoader sources(runtime::shaderRootsOf(desc.files, dataFolder()));
+    checkFiles(desc, sources, diagnostics);
+    read_.insert(sources.touched().begin(), sources.touched().end());
+  }
+
+  std::size_t variants() const { return known_.size(); }
+  // Shaders that are missing, or an include of theirs, where none is compiled: they were not looked at.
+  const base::Diagnostics& unread() const { return unread_; }
+  // Every file that was read or looked for.
+  std::vector<std::string> files() const { return {read_.begin(), read_.end()}; }
+
+ private:
+  bool open(base::Diagnostics& diagnostics) {
+    if (failed_ || session_) return !failed_;
+    Options headless = options_;
+    headless.backend = "auto";
+    session_ = openDevice(headless, diagnostics);
+    failed_ = !session_;
+    return !failed_;
+  }
+
+  void checkCompiled(const graph::Plan& plan, std::uint32_t pass, const gl::ProgramRequest& request,
+                     base::Diagnostics& said) {
+    const auto variant = session_->renderer.device().programs.get(request, said);
+    if (!variant) return;
+    const runtime::LinkedProgram linked{variant->program.reflection(), session_->context->device().limits};
+    if (runtime::checkProgram(plan, pass, variant->stages, variant->defines, &linked, said))
+      runtime::warnOfConditions(request.pass, variant->stages, variant->defines, said);
+  }
+
+  void checkDeclared(const graph::Plan& plan, std::uint32_t pass, const gl::ProgramRequest& request,
+                     base::Diagnostics& said) {
+    std::vector<gl::StageSource> stages;
+    for (const gl::ProgramRequest::Stage& stage : request.stages) {
+      if (!stage.text.empty()) continue;
+      if (missing_.contains(stage.file)) return;
+      stages.push_back({stage.stage, sources_.load(stage.file, unread_, request.place)});
+      if (stages.back().source) continue;
+      missing_.insert(stage.file);
+      return;
+    }
+    runtime::checkProgram(plan, pass, stages, request.defines, nullptr, said);
+    runtime::warnOfConditions(request.pass, stages, request.defines, said);
+  }
+
+  void checkFiles(const graph::GraphDesc& desc, glsl::SourceLoader& sources, base::Diagnostics& diagnostics) {
+    for (const graph::PassDesc& pass : desc.passes) {
+      if (graph::enoughErrors(diagnostics)) return;
+      if (pass.include && pass.include->graph) checkFiles(*pass.include->graph, sources, diagnostics);
+      const passes::PassType* type = pass.shader.empty() ? nullptr : types_.find(pass.type);
+      if (!type) continue;
+      std::vector<std::string> files = {pass.shader};
+      if (!pass.vertexShader.empty())
+        files.push_back(pass.vertexShader);
+      else if (type->reflect().shader == graph::ShaderShape::draw && pass.shader.ends_with(".glsl"))
+        continue;  // a shader of one stage, for a draw (W067)
+      else if (type->reflect().shader == graph::ShaderShape::draw)
+        files = {pass.shader + ".vert.glsl", pass.shader + ".frag.glsl"};
+      base::Diagnostics said;
+      for (const std::string& file : files) sources.load(file, said, pass.shaderPlace);
+      for (const base::Diagnostic& each :
+           said.items())  // a pass that is like another has its shader from there
+        if (told_.insert(keyOf(each)).second) diagnostics.add(each);
+    }
+  }
+
+  const CheckOptions& options_;
+  const passes::PassRegistry types_ = passes::PassRegistry::builtin();
+  std::unique_ptr<DeviceSession> session_;
+  bool failed_ = false;
+  glsl::SourceLoader sources_{std::vector<std::string>()};  // where nothing is compiled
+  std::set<std::string> known_;                             // variants, by what they are made of
+  std::set<std::string> read_, told_;                       // files, messages
+  std::set<std::string> missing_;                           // files that unread_ is about
+  base::Diagnostics unread_;
+};
+
 struct Checked {
   base::Diagnostics diagnostics;
   std::shared_ptr<const graph::Plan> plan;  // null after errors of the graph
@@ -45,15 +176,6 @@ struct Checked {
   std::vector<std::string> files;  // that were read
   base::Diagnostics unread;        // why shaders were not looked at (--no-shaders)
 };
-
-// Compiled, or with --no-shaders by what they declare.
-void checkShaders(const CheckOptions& options, ShaderCheck& shaders, const graph::Plan& plan,
-                  const std::string& with, base::Diagnostics& diagnostics) {
-  if (options.shaders)
-    shaders.check(plan, with, diagnostics);
-  else
-    shaders.checkDeclared(plan, with, diagnostics);
-}
 
 // The variations of the graph: what they refuse, and with --all the shader variants that they reach.
 graph::Matrix tryVariations(const CheckOptions& options, const graph::GraphDesc& desc,
@@ -64,8 +186,7 @@ graph::Matrix tryVariations(const CheckOptions& options, const graph::GraphDesc&
   if (options.allVariants)
     wanted.visit = [&](const graph::Variation& variation, std::shared_ptr<const graph::FlatGraph> flat) {
       const bool changed = !variation.disables.empty() || !variation.parameter.empty();
-      checkShaders(options, shaders, graph::compile(std::move(flat)), changed ? variation.text() : "",
-                   diagnostics);
+      shaders.check(graph::compile(std::move(flat)), changed ? variation.text() : "", diagnostics);
     };
   return graph::tryMatrix(desc, registry, settingsOf(options, true), wanted);
 }
@@ -77,7 +198,7 @@ Checked checkOnce(const CheckOptions& options) {
   const runtime::WorldFacts facts = world ? world->facts() : factsWithoutWorld();
   checked.plan = makePlan(options, facts, true, diagnostics);
   ShaderCheck shaders(options);
-  if (checked.plan) checkShaders(options, shaders, *checked.plan, "", diagnostics);
+  if (checked.plan) shaders.check(*checked.plan, "", diagnostics);
   // Beyond a limit nothing that follows can be trusted, and there may be very much of it.
   const bool over = diagnostics.contains(base::Code::limitExceeded);
   const bool vary = checked.plan && !diagnostics.hasErrors() && (options.matrix || options.allVariants);
@@ -199,39 +320,22 @@ std::vector<std::string> waitForChange(base::FileWatcher& watcher) {
   }
 }
 
-using FileClock = std::chrono::file_clock;
-
-// Until Linux 6.13 a file's time is that of the last tick, so a save may seem to be older by as much.
-constexpr auto kGrain = std::chrono::milliseconds(20);
-
-// The files that were saved since `began`: while they were checked, nobody watched them. A time in the future is no save.
-std::vector<std::string> savedSince(const std::vector<std::string>& files, FileClock::time_point began) {
-  std::vector<std::string> saved;
-  for (const std::string& file : files) {
-    std::error_code ec;
-    const auto at = std::filesystem::last_write_time(file, ec);
-    if (!ec && at >= began - kGrain && at <= FileClock::now()) saved.push_back(file);
-  }
-  return saved;
-}
-
 int runCheck(CheckOptions& options) {
   base::FileWatcher watcher;
+  if (options.watch) watcher.watch({options.graph});  // what it includes is known after the first check
   while (true) {
-    const FileClock::time_point began = FileClock::now();
     Checked checked = checkOnce(options);
-    if (options.watch) watcher.watch(checked.files);
+    if (options.watch) {
+      watcher.watch(checked.files);
+      checked.diagnostics.append(watcher.takeNotices());
+    }
     const int code = tell(options, checked);
     if (!options.watch) return code;
-    if (options.format == "text")
-      print(fmt::format("watching {}\n", base::counted(checked.files.size(), "file")));
+    const bool text = options.format == "text";
+    if (text) print(fmt::format("watching {}\n", base::counted(checked.files.size(), "file")));
     flushPrinted();
-    std::vector<std::string> changed = savedSince(checked.files, began);
-    if (changed.empty())
-      changed = waitForChange(watcher);
-    else
-      std::this_thread::sleep_for(kGrain);  // so that the same save is not found again
-    if (options.format == "text") print(fmt::format("\nchanged: {}\n", base::printable(changed[0])));
+    const std::vector<std::string> changed = waitForChange(watcher);
+    if (text) print(fmt::format("\nchanged: {}\n", base::printable(changed[0])));
   }
 }
 

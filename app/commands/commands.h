@@ -8,16 +8,15 @@ namespace weft::app {
 void addRender(CommandLine& line);
 void addDump(CommandLine& line);
 void addCheck(CommandLine& line);
-void addPlan(CommandLine& line);  // and expand and dot, its views by their names before
+void addPlan(CommandLine& line);
 void addExplain(CommandLine& line);
-void addDiff(CommandLine& line);  // and bisect, its name before
+void addDiff(CommandLine& line);
 void addTest(CommandLine& line);
 void addAblate(CommandLine& line);
 void addFuzz(CommandLine& line);
 void addNew(CommandLine& line);
 void addParams(CommandLine& line);
 void addPresets(CommandLine& line);
-void addBench(CommandLine& line);
 void addFormat(CommandLine& line);
 void addImport(CommandLine& line);
 void addSchema(CommandLine& line);

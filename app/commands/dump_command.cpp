@@ -7,15 +7,14 @@
 
 #include "app/commands/commands.h"
 #include "app/output/output_files.h"
+#include "app/output/picture_writer.h"
 #include "app/output/standard_streams.h"
 #include "app/session/device_session.h"
-#include "app/session/frame_limit.h"
-#include "app/session/pick_outputs.h"
 #include "app/session/session.h"
 #include "engine/base/files/file.h"
 #include "engine/base/printable.h"
 #include "engine/graph/language/suffix.h"
-#include "engine/graph/pick/find_pick.h"
+#include "engine/graph/pick/pick.h"
 #include "engine/runtime/inspection/capture.h"
 
 namespace weft::app {
@@ -23,16 +22,11 @@ namespace weft::app {
 namespace {
 
 // Without what a shell or a file system takes in another way: "hdr#2" is "hdr-2", "down[3]" is "down-3".
-std::string plainWord(const std::string& name) {
-  std::string out;
-  for (const char c : name)
-    if (c == '#' || c == '[')
-      out += '-';
-    else if (c == ',')
-      out += '_';
-    else if (c != ']' && c != '@')
-      out += c;
-  return out;
+std::string plainWord(std::string name) {
+  std::erase_if(name, [](char c) { return c == ']' || c == '@'; });
+  std::ranges::replace_if(
+      name, [](char c) { return c == '#' || c == '[' || c == ','; }, '-');
+  return name;
 }
 
 // "007_glow_down-1.mip1": steps sort as they ran.
@@ -80,52 +74,47 @@ int runDump(DumpOptions& options) {
   reportNoMatch(plan, options.patterns, diagnostics);
   const std::vector<runtime::CaptureItem> items = runtime::captureItems(plan, options.patterns);
   std::vector<std::string> stems, written;
+  std::vector<OutputFile> outputs;
   for (const runtime::CaptureItem& item : items) {
     stems.push_back(options.folder + "/" + fileNameOf(item, plan));
-    for (const char* kind : {".png", ".exr", ".bin"}) written.push_back(stems.back() + kind);
+    for (const char* kind : {".png", ".exr", ".bin"})
+      outputs.push_back({"-o", written.emplace_back(stems.back() + kind)});
   }
   if (diagnostics.hasErrors() || !makeFolderOf(options.folder + "/picture", diagnostics) ||
-      !checkMadeFiles(written, filesReadBy(options, renderer, world), "-o", diagnostics))
+      !checkMadeFiles(written, diagnostics) ||
+      !checkDistinct(outputs, filesReadBy(options, renderer, world), diagnostics))
     return report(diagnostics);
-
   runtime::Capture capture(renderer.device());
-  std::vector<std::string> names(items.size());
   const std::uint32_t begin = execution.remembers(world) ? 0 : options.lastFrame;
-  if (!checkFrameCount(std::uint64_t{options.lastFrame} - begin + 1,
-                       base::placeOfOption(fmt::format("--frames {}", options.lastFrame)), kRemembers,
-                       diagnostics))
-    return report(diagnostics);
   // 64 bits, so that the last frame there is ends it.
   for (std::uint64_t next = begin; next <= options.lastFrame && !diagnostics.hasErrors(); ++next) {
     const auto frame = static_cast<std::uint32_t>(next);
     base::Diagnostics said;
     if (frame == options.lastFrame)
       capture.start(execution, items, [&](std::size_t item, runtime::Inspector& inspector) {
-        const std::string& path = stems[item];
+        const auto& [pass, resource] = std::tie(items[item].target.pass, items[item].target.resource);
+        std::string path = stems[item] + (inspector.picture().id == 0 ? ".bin" : ".png");
+        bool saved = false;
         if (inspector.picture().id == 0) {
           const std::vector<std::byte> bytes = inspector.bytes(0, inspector.bufferBytes());
-          base::writeFile(path + ".bin", {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, said);
-          names[item] = path + ".bin";
-          return;
+          saved = base::writeFile(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, said);
+        } else {
+          saved =
+              saveInspected(inspector, path, said) && saveInspected(inspector, stems[item] + ".exr", said);
         }
-        saveInspected(inspector, path + ".png", said);
-        if (saveInspected(inspector, path + ".exr", said)) names[item] = path + ".png";
+        if (saved && !options.quiet)
+          print(base::printable(fmt::format("{}  {} after {}", path, resource, pass)) + "\n");
       });
     renderer.frame(world, runtime::headlessFrame(world, frame, options.fps, options.pointer), diagnostics);
     diagnostics.append(said);
     opened->session->context->debugLog().drain(diagnostics);
   }
   capture.stop(execution);
-  for (std::size_t i = 0; i < items.size() && !options.quiet; ++i) {
-    const auto& [resource, pass] = std::tie(items[i].target.resource, items[i].target.pass);
-    const bool last = i + 1 == items.size() || items[i + 1].step != items[i].step;
-    if (!names[i].empty())
-      print(base::printable(fmt::format("{}  {} after {}", names[i], resource, pass)) + "\n");
-    else if (last && !execution.steps().hasResults(items[i].step))
-      print(base::printable(fmt::format("'{}' did not run in frame {}: nothing of it is written", pass,
-                                        options.lastFrame)) +
+  for (std::size_t i = 0; i < items.size() && !options.quiet; ++i)
+    if ((i == 0 || items[i - 1].step != items[i].step) && !execution.steps().hasResults(items[i].step))
+      print(base::printable(fmt::format("'{}' did not run in frame {}: nothing of it is written",
+                                        items[i].target.pass, options.lastFrame)) +
             "\n");
-  }
   return report(diagnostics, !options.quiet);
 }
 

@@ -1,6 +1,5 @@
 // The command format: graph files, overlays and presets in one layout.
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <memory>
 
 #include "app/commands/commands.h"
@@ -16,27 +15,6 @@ namespace weft::app {
 
 namespace {
 
-struct Line {
-  std::uint32_t number = 1;
-  std::string before, after;  // without line ends; what one text does not have is empty
-};
-
-// The first line that differs; the texts are not equal.
-Line firstDifference(std::string_view before, std::string_view after) {
-  Line line;
-  while (true) {
-    const auto take = [](std::string_view& text) {
-      const std::string_view found = text.substr(0, text.find('\n'));
-      text.remove_prefix(std::min(found.size() + 1, text.size()));
-      return found;
-    };
-    line.before = take(before);
-    line.after = take(after);
-    if (line.before != line.after || before.empty() != after.empty()) return line;
-    ++line.number;
-  }
-}
-
 void formatFile(const std::string& path, bool checkOnly, base::Diagnostics& diagnostics) {
   const auto text = base::readTextFile(path, diagnostics);
   if (!text) return;
@@ -49,12 +27,12 @@ void formatFile(const std::string& path, bool checkOnly, base::Diagnostics& diag
       base::layoutJson(*text, {.packed = {"set"}, .starts = {"read", "write", "modify"}});
   if (laid == *text) return;
   if (checkOnly) {
-    const Line line = firstDifference(*text, laid);
-    auto& d = diagnostics.error(base::Code::laidOutDifferently, {file, line.number, 1},
-                                "the file is not laid out as `weft format` does it");
-    d.expected = line.after;
-    d.found = line.before;
-    d.hint = "weft format " + path;
+    const auto same = std::ranges::mismatch(*text, laid).in1;
+    const auto line = static_cast<std::uint32_t>(1 + std::count(text->begin(), same, '\n'));
+    diagnostics
+        .error(base::Code::laidOutDifferently, {file, line, 1},
+               "the file is not laid out as `weft format` does it")
+        .hint = "weft format " + path;
   } else if (base::writeFile(path, laid, diagnostics)) {
     print(base::printable(path) + "\n");
   }

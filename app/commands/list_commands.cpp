@@ -14,9 +14,7 @@
 #include "app/session/session.h"
 #include "engine/base/files/text_file.h"
 #include "engine/base/json/dom.h"
-#include "engine/base/printable.h"
 #include "engine/graph/language/keys.h"
-#include "engine/graph/language/schema.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/read/read.h"
 #include "engine/runtime/imports/registry.h"
@@ -66,48 +64,26 @@ Json toJson(const graph::ParameterSpec& parameter) {
   return out;
 }
 
-// Columns as wide as their widest cell, the last as it is.
-void printTable(const std::vector<std::vector<std::string>>& rows) {
-  std::vector<std::size_t> widths;
-  for (const auto& row : rows) {
-    widths.resize(std::max(widths.size(), row.size()));
-    for (std::size_t i = 0; i + 1 < row.size(); ++i)
-      widths[i] = std::max(widths[i], base::printable(row[i]).size());
-  }
-  for (const auto& row : rows) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i)
-      line += fmt::format("{:<{}}  ", base::printable(row[i]), widths[i]);
-    line.erase(line.find_last_not_of(' ') + 1);
-    print(line + "\n");
-  }
-}
-
-struct Preset {
-  std::string name, title, description;  // of the file, "name" and "description" in it
-};
-
-// The presets of all folders; of two with one name, the one that --preset finds.
-std::vector<Preset> knownPresets(const std::string& own, base::Diagnostics& diagnostics) {
-  std::vector<Preset> presets;
+// The presets of all folders, as JSON objects of name, title and description, the last two "name" and "description" of the
+// file; of two with one name, the one that --preset finds.
+std::vector<Json> knownPresets(const std::string& own, base::Diagnostics& diagnostics) {
+  std::vector<Json> presets;
   std::set<std::string> seen;  // also of files that cannot be read: --preset takes those, too
   for (const std::string& folder : presetFolders(own)) {
     std::error_code ec;
-    for (auto entry = std::filesystem::directory_iterator(folder, ec);
-         !ec && entry != std::filesystem::directory_iterator(); entry.increment(ec)) {
-      const std::string path = entry->path().string(), name = entry->path().stem().string();
-      if (entry->path().extension() != ".json" || !seen.insert(name).second) continue;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ec)) {
+      const std::string path = entry.path().string(), name = entry.path().stem().string();
+      if (entry.path().extension() != ".json" || !seen.insert(name).second) continue;
       const auto text = base::readTextFile(path, diagnostics);
       const auto root = text ? base::parseJson(*text, std::make_shared<const std::string>(path), diagnostics)
                              : std::nullopt;
-      if (!root) continue;
-      Preset preset{.name = name, .title = {}, .description = {}};
-      if (const auto* title = root->find("name")) preset.title = title->text;
-      if (const auto* description = root->find("description")) preset.description = description->text;
-      presets.push_back(std::move(preset));
+      const auto textOf = [&](const char* key) { return root->find(key) ? root->find(key)->text : ""; };
+      if (root)
+        presets.push_back(
+            {{"name", name}, {"title", textOf("name")}, {"description", textOf("description")}});
     }
   }
-  std::ranges::sort(presets, {}, &Preset::name);
+  std::ranges::sort(presets, {}, [](const Json& preset) { return preset["name"].get<std::string>(); });
   return presets;
 }
 
@@ -134,22 +110,19 @@ int runParams(ListOptions& options) {
 
 int runPresets(ListOptions& options) {
   base::Diagnostics diagnostics;
-  const std::vector<Preset> presets = knownPresets(options.presetFolder, diagnostics);
+  const std::vector<Json> presets = knownPresets(options.presetFolder, diagnostics);
   if (options.json) {
-    Json all = Json::array();
-    for (const Preset& preset : presets)
-      all.push_back({{"name", preset.name}, {"title", preset.title}, {"description", preset.description}});
-    print(dumpJson(all) + "\n");
+    print(dumpJson(presets) + "\n");
   } else {
     std::vector<std::vector<std::string>> rows;
-    for (const Preset& preset : presets) rows.push_back({preset.name, preset.description});
+    for (const Json& preset : presets) rows.push_back({preset["name"], preset["description"]});
     printTable(rows);
   }
   return report(diagnostics);
 }
 
 int runSchema(Options&) {
-  print(graph::graphSchema());
+  print(graph::kGraphSchema);
   return 0;
 }
 

@@ -2,14 +2,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "app/commands/commands.h"
-#include "app/output/file_batch.h"
+#include "app/output/output_files.h"
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
+#include "engine/base/files/file.h"
 #include "engine/base/json/edit.h"
 #include "engine/base/printable.h"
 #include "engine/graph/language/names.h"
@@ -21,13 +20,7 @@ namespace {
 
 constexpr std::size_t kLongestName = 64;
 
-bool isPassName(const std::string& name) {
-  return !name.empty() && name.size() <= kLongestName && std::isalpha(static_cast<unsigned char>(name[0])) &&
-         std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) || c == '_'; }) &&
-         !graph::isReservedWord(name);
-}
-
-// What the new pass stands behind: the last stanza, and the texture that is shown.
+// Where the new pass goes: behind the last stanza, and the texture that is shown.
 struct Anchor {
   std::string after, texture;
 };
@@ -98,38 +91,22 @@ void main() {{
                      name);
 }
 
-bool isFree(const std::string& path, base::Diagnostics& diagnostics) {
-  std::error_code ignored;
-  if (std::filesystem::exists(path, ignored)) {
-    diagnostics
-        .error(base::Code::outputNotWritten, {std::make_shared<const std::string>(path)},
-               "there is a file of this name")
-        .hint = "remove it, or choose another name or another folder with -o";
-    return false;
-  }
-  return true;
-}
-
-struct NewPassOptions {
-  std::string name, graph, folder;
+struct NewOptions {
+  std::string what, name, graph, folder;
 };
 
-int runNewPass(NewPassOptions& options) {
+int runNew(NewOptions& options) {
   namespace fs = std::filesystem;
   base::Diagnostics diagnostics;
   if (options.graph.empty()) options.graph = dataFolder() + "/graphs/glow.json";
   const std::string& name = options.name;
-  if (!isPassName(name)) {
-    base::Diagnostic& d = diagnostics.error(base::Code::notAName, base::placeOfOption("new pass " + name),
-                                            fmt::format("\"{}\" cannot name a pass", name));
-    if (graph::isReservedWord(name)) {
-      d.expected =
-          fmt::format("a word that is not reserved; reserved are {}", fmt::join(graph::kReservedWords, ", "));
-      d.hint = fmt::format("choose another, such as 'my_{}'", name);
-    } else {
-      d.expected = fmt::format("a letter, then letters, digits and '_', {} at most", kLongestName);
-      d.found = name.size() > kLongestName ? fmt::format("{} bytes", name.size()) : std::string();
-    }
+  if (!graph::isIdent(name) || name[0] == '_' || name.size() > kLongestName || graph::isReservedWord(name)) {
+    diagnostics
+        .error(base::Code::notAName, base::placeOfOption("new pass " + name),
+               fmt::format("\"{}\" cannot name a pass", name))
+        .expected =
+        fmt::format("a letter, then letters, digits and '_', {} at most, and none of the words {}",
+                    kLongestName, fmt::join(graph::kReservedWords, ", "));
     return report(diagnostics);
   }
   const auto anchor = findAnchor(options.graph, name, diagnostics);
@@ -142,19 +119,10 @@ int runNewPass(NewPassOptions& options) {
       (folder / "shaders" / name / (name + ".frag.glsl")).lexically_normal().string();
   const std::string extended =
       failed || beside.empty() ? fs::absolute(options.graph).string() : beside.string();
-  const std::string quoted = base::quoteJson(extended);
-  if (!nlohmann::json::accept(quoted)) {
-    base::Diagnostic& d =
-        diagnostics.error(base::Code::outputNotWritten, {std::make_shared<const std::string>(options.graph)},
-                          "the new graph cannot name this file: JSON is UTF-8, and its path is not");
-    d.hint = "give the file, or the folder it is in, another name";
-    return report(diagnostics);
-  }
-  const bool free = isFree(graphFile, diagnostics);
-  FileBatch batch;
-  if (isFree(shaderFile, diagnostics) && free &&
-      batch.writeText(graphFile, stanzaText(name, quoted, *anchor), diagnostics) &&
-      batch.writeText(shaderFile, shaderText(name), diagnostics) && batch.publish(diagnostics)) {
+  const std::string files[] = {graphFile, shaderFile};
+  if (checkFree(files, diagnostics) && makeFolderOf(shaderFile, diagnostics) &&
+      base::writeFile(graphFile, stanzaText(name, base::quoteJson(extended), *anchor), diagnostics) &&
+      base::writeFile(shaderFile, shaderText(name), diagnostics)) {
     const std::string graph = base::printable(graphFile);
     print(fmt::format("{}\n{}\nweft render {} -o {}.png\n", graph, base::printable(shaderFile), graph, name));
   }
@@ -164,12 +132,9 @@ int runNewPass(NewPassOptions& options) {
 }  // namespace
 
 void addNew(CommandLine& line) {
-  CLI::App& made = *line.app().add_subcommand("new", "write the files of something new");
-  made.require_subcommand(1);
-  const auto [command, options] =
-      line.addTo(made, "pass",
-                 "write a graph with a pass of that name behind an existing graph, and its shader, commented",
-                 runNewPass);
+  const auto [command, options] = line.add(
+      "new", "write a graph with a new pass behind an existing graph, and its shader, commented", runNew);
+  addChoice(command, "what", options.what, "what to write: pass", {"pass"})->required();
   command.add_option("name", options.name, "name of the pass: letters, digits and _")->required();
   addPath(command, "--graph", options.graph, "the graph to extend (default: the bundled graphs/glow.json)");
   addPath(command, "-o,--output", options.folder, "folder to write into (default: here)", "FOLDER");

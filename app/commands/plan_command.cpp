@@ -41,13 +41,6 @@ void addPlan(CommandLine& line) {
       "that gives the same plan",
       {"text", "json", "dot", "expanded"});
   plan.add_flag("--explain", options.explain, "say why: passes, barrier bits, shared storage");
-  // Their names before.
-  for (const auto& [name, format] : {std::pair("dot", "dot"), {"expand", "expanded"}}) {
-    const auto [view, same] = line.add(name, "the same as plan --format", runPlan);
-    view.group("");
-    same.addGraph(view);
-    same.format = format;
-  }
 }
 
 }  // namespace weft::app

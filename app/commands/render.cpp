@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -13,10 +12,9 @@
 #include "app/output/progress.h"
 #include "app/output/standard_streams.h"
 #include "app/session/device_session.h"
-#include "app/session/frame_limit.h"
-#include "app/session/pick_outputs.h"
 #include "app/session/session.h"
 #include "engine/base/printable.h"
+#include "engine/runtime/inspection/capture.h"
 
 namespace weft::app {
 
@@ -25,6 +23,12 @@ namespace {
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
+
+// A texture of the graph that is written to a file, or to those of a pattern.
+struct PickedOutput {
+  graph::Pick pick;
+  std::string file;
+};
 
 struct RenderOptions : Options {
   std::vector<std::string> outputs;  // -o, as they were written
@@ -74,10 +78,25 @@ std::string takeOutputs(RenderOptions& options) {
   return {};
 }
 
-base::Where placeOfFrames(const Options& options) {
-  return base::placeOfOption(options.firstFrame == options.lastFrame
-                                 ? fmt::format("--frames {}", options.firstFrame)
-                                 : fmt::format("--frames {}:{}", options.firstFrame, options.lastFrame));
+// The items of the plan that are picked. Nothing after an error.
+std::optional<std::vector<runtime::CaptureItem>> itemsOf(const RenderOptions& options,
+                                                         const graph::Plan& plan,
+                                                         base::Diagnostics& diagnostics) {
+  std::vector<runtime::CaptureItem> items;
+  const graph::FlatGraph& graph = *plan.graph;
+  for (const PickedOutput& each : options.picked) {
+    const auto item = runtime::captureItemOf(plan, each.pick, diagnostics);
+    if (!item) continue;
+    const auto at =
+        std::ranges::find(graph.resourceNames, item->target.resource) - graph.resourceNames.begin();
+    if (graph.resources[static_cast<std::size_t>(at)].kind == graph::ResourceKind::buffer)
+      diagnostics
+          .error(base::Code::outputNotWritten, {std::make_shared<const std::string>(each.file)},
+                 fmt::format("'{}' is a buffer and no picture", each.pick.name))
+          .hint = "weft dump writes the bytes of buffers";
+    items.push_back(*item);
+  }
+  return diagnostics.hasErrors() ? std::nullopt : std::optional(std::move(items));
 }
 
 int runRender(RenderOptions& options) {
@@ -86,70 +105,76 @@ int runRender(RenderOptions& options) {
     printError("weft render: " + base::shortened(base::printable(wrong)) + "\n");
     return 2;
   }
-  for (const PickedOutput& each : options.picked) options.kept.push_back(each.pick);
   base::Diagnostics diagnostics;
   const bool whole = !options.output.empty();
-  if (whole)
-    checkOutput(options.output, options.firstFrame, options.lastFrame > options.firstFrame, diagnostics);
-  PickOutputs(options, options.picked).check(diagnostics);
-  checkFrameCount(std::uint64_t{options.lastFrame} - options.firstFrame + 1, placeOfFrames(options), {},
-                  diagnostics);
+  std::vector<OutputFile> outputs;
+  if (whole) outputs.push_back({"-o", options.output, options.firstFrame, options.lastFrame});
+  for (const PickedOutput& each : options.picked) {
+    options.kept.push_back(each.pick);
+    outputs.push_back({"-o " + each.pick.text, each.file, options.firstFrame, options.lastFrame});
+  }
+  for (const OutputFile& each : outputs)
+    checkOutput(each.pattern, options.firstFrame, options.lastFrame > options.firstFrame, diagnostics);
   int exitCode = 0;
   auto opened = openGraph(options, diagnostics, exitCode);
   if (!opened) return exitCode;
   std::unique_ptr<DeviceSession> session = std::move(opened->session);
   runtime::World& world = opened->world;
-  PickOutputs picks(options, options.picked);  // destroyed before the device
-  if (whole && session->renderer.execution()->presented().id == 0) {
-    diagnostics
-        .error(base::Code::presentsNothing, {std::make_shared<const std::string>(options.graph), 1, 1},
-               "the graph presents nothing to write")
-        .hint = "add \"present\": \"<texture>\", and enable a pass that writes it";
-    return report(diagnostics);
-  }
+  runtime::Renderer& renderer = session->renderer;
+  if (whole && !checkPresents(options, renderer, diagnostics)) return report(diagnostics);
   const double prepared = now();
   double firstFrame = 0;
   // Frames before the first one written run too when it may look back at them.
-  const std::uint32_t begin = session->renderer.execution()->remembers(world) ? 0 : options.firstFrame;
+  const std::uint32_t begin = renderer.execution()->remembers(world) ? 0 : options.firstFrame;
   const std::uint64_t total = std::uint64_t{options.lastFrame} - begin + 1;
-  std::vector<OutputFile> outputs = {{"-o", options.output, options.firstFrame, options.lastFrame}};
-  picks.append(outputs);
-  if (!checkFrameCount(total, placeOfFrames(options), kRemembers, diagnostics) ||
-      !checkDistinct(outputs, filesReadBy(options, session->renderer, world), diagnostics) ||
-      !makeFolders(options.output, options.firstFrame, options.lastFrame, diagnostics) ||
-      !picks.makeAllFolders(diagnostics) || !picks.start(session->renderer, diagnostics))
+  const auto items = itemsOf(options, renderer.execution()->plan(), diagnostics);
+  if (!checkDistinct(outputs, filesReadBy(options, renderer, world), diagnostics) || !items)
     return report(diagnostics);
-  const bool progress = total > 1 && !options.quiet;
-  ProgressLines lines(isTerminal());
-  session->renderer.device().timers.setEnabled(options.profile);
+  ProgressLines lines({.total = total, .lead = options.firstFrame - begin});
+  renderer.device().timers.setEnabled(options.profile);
   runtime::FrameReport last;
   PictureWriter writer;
-  // So frame N does not depend on where the range starts.
-  for (std::uint64_t done = 1; done <= total; ++done) {
-    const auto frame = static_cast<std::uint32_t>(begin + (done - 1));
-    const double before = now();
-    picks.expect(frame < options.firstFrame ? std::nullopt : std::optional(frame));
-    last = session->renderer.frame(world, runtime::headlessFrame(world, frame, options.fps, options.pointer),
-                                   diagnostics);
-    session->renderer.dropUploaded(world);
-    session->context->debugLog().drain(diagnostics);
-    if (done == 1) {
-      glFinish();
-      firstFrame = now() - before;
+  {
+    runtime::Capture capture(renderer.device());  // destroyed before the device
+    std::optional<std::uint32_t> written;         // the frame, where it is to be written
+    std::vector<std::uint8_t> saved(items->size());
+    base::Diagnostics said;
+    if (!items->empty())
+      capture.start(*renderer.execution(), *items, [&](std::size_t item, runtime::Inspector& inspector) {
+        if (written)
+          saved[item] = saveInspected(inspector, *outputNameOf(options.picked[item].file, *written), said);
+      });
+    // So frame N does not depend on where the range starts.
+    for (std::uint64_t done = 1; done <= total && !diagnostics.hasErrors(); ++done) {
+      const auto frame = static_cast<std::uint32_t>(begin + (done - 1));
+      const double before = now();
+      written = frame < options.firstFrame ? std::nullopt : std::optional(frame);
+      last = renderer.frame(world, runtime::headlessFrame(world, frame, options.fps, options.pointer),
+                            diagnostics);
+      renderer.dropUploaded(world);
+      session->context->debugLog().drain(diagnostics);
+      if (done == 1) {
+        glFinish();
+        firstFrame = now() - before;
+      }
+      if (total > 1 && !options.quiet) lines.countOne();
+      if (!written) continue;
+      diagnostics.append(std::exchange(said, {}));
+      for (std::size_t i = 0; i < saved.size() && !diagnostics.hasErrors(); ++i)
+        if (!std::exchange(saved[i], 0))
+          diagnostics
+              .error(base::Code::outputNotWritten,
+                     {std::make_shared<const std::string>(options.picked[i].file)},
+                     fmt::format("nothing was in '{}' to write", options.picked[i].pick.text))
+              .hint = "an import that is not there has no picture, nor has a pass that did not run";
+      if (whole && !diagnostics.hasErrors())
+        writer.save(renderer, *outputNameOf(options.output, frame), diagnostics);
     }
-    if (progress)
-      printError(lines.after(
-          {.done = done, .total = total, .lead = options.firstFrame - begin, .seconds = now() - prepared}));
-    if (frame < options.firstFrame) continue;
-    if (!picks.finish(diagnostics) || diagnostics.hasErrors() ||
-        (whole && !writer.save(session->renderer, *outputNameOf(options.output, frame), diagnostics))) {
-      writer.tell(diagnostics);
-      return report(diagnostics);
-    }
+    if (!items->empty()) capture.stop(*renderer.execution());
   }
   session->context->debugLog().drain(diagnostics);
   writer.tell(diagnostics);
-  picks.stop(session->renderer);
+  if (diagnostics.hasErrors()) return report(diagnostics);
   if (options.stats) {
     auto stats = statsOf(*session, {{"setup_ms", (prepared - start) * 1e3},
                                     {"first_frame_ms", firstFrame * 1e3},
@@ -185,12 +210,10 @@ void addRender(CommandLine& line) {
       "show this texture instead of the graph's picture, as the viewer's inspector does: depth, "
       "'hdr after skybox', 'glow.mip[2]'");
   const auto takeFrames = [&options](const std::string& text) {
-    if (parsePair(text, ':', options.firstFrame, options.lastFrame)) return;
-    parseNumber(text, options.firstFrame);
-    options.lastFrame = options.firstFrame;
+    parseRange(text, options.firstFrame, options.lastFrame);
   };
   command.add_option_function<std::string>("--frames", takeFrames, "a frame number, or FIRST:LAST")
-      ->check(CLI::Validator(checkFrames, "A:B"));
+      ->check(CLI::Validator(checkRange, "A:B"));
   options.addFps(command);
   options.addPointer(command);
   command.add_flag("--wait-for-assets")

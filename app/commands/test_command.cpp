@@ -1,19 +1,17 @@
 // weft test: cases of pictures and plans against their goldens.
 #include <fmt/format.h>
 
-#include <fstream>
 #include <map>
-#include <string_view>
 
 #include "app/commands/commands.h"
 #include "app/output/output_files.h"
+#include "app/output/picture_writer.h"
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
 #include "app/trials/case_run.h"
 #include "app/trials/report_page.h"
 #include "engine/base/counted.h"
 #include "engine/base/files/file.h"
-#include "engine/base/nearest.h"
 #include "engine/base/printable.h"
 
 namespace weft::app {
@@ -21,8 +19,6 @@ namespace weft::app {
 namespace {
 
 using State = CaseResult::State;
-
-constexpr std::string_view kPageBegins = "<!doctype html>";
 
 const char* wordOf(State state) {
   static constexpr const char* kWords[] = {"ok", "FAILED", "written", "kept", "BROKEN"};
@@ -62,10 +58,8 @@ Cases chooseCases(const TestOptions& options, base::Diagnostics& diagnostics) {
   std::vector<TestCase>&all = cases.all, &wanted = cases.wanted;
   for (const std::string& file : findCaseFiles(options.folder, diagnostics))
     readCases(file, options, all, diagnostics);
-  std::vector<std::string> names;
   std::map<std::string, const TestCase*> goldens;
   for (const TestCase& test : all) {
-    names.push_back(test.name);
     for (const std::string& file : test.acceptedFiles()) {
       const auto [known, fresh] = goldens.emplace(file, &test);
       if (fresh) continue;
@@ -80,10 +74,8 @@ Cases chooseCases(const TestOptions& options, base::Diagnostics& diagnostics) {
     if (isWanted(test, options.only)) wanted.push_back(test);
   }
   if (wanted.empty() && !diagnostics.hasErrors()) {
-    base::Diagnostic& d = diagnostics.error(base::Code::unknownWord,
-                                            base::placeOfOption(all.empty() ? options.folder : "--only"),
-                                            all.empty() ? "there are no cases" : "no case has such a name");
-    if (!all.empty()) d.hint = base::nearestHint(options.only.front(), names);
+    diagnostics.error(base::Code::unknownWord, base::placeOfOption(all.empty() ? options.folder : "--only"),
+                      all.empty() ? "there are no cases" : "no case has such a name");
   }
   return cases;
 }
@@ -110,22 +102,19 @@ bool checkOutputs(const TestOptions& options, const Cases& cases, base::Diagnost
     if (!options.accept || !isWanted(test, options.only))
       inputs.insert(inputs.end(), goldens.begin(), goldens.end());
   }
+  const auto make = [&](const char* option, const std::string& file) {
+    made.push_back(file);
+    outputs.push_back({option, file});
+  };
   for (const TestCase& test : cases.wanted) {
     if (options.accept)
-      for (const std::string& file : test.acceptedFiles()) {
-        made.push_back(file);
-        outputs.push_back({"--accept", file});
-      }
-    for (const std::uint32_t frame : test.frames) {
-      if (options.output.empty() || test.plan) continue;
-      for (const char* end : {".png", "_flip.png"}) {
-        made.push_back(leftName(options.output, test, frame) + end);
-        outputs.push_back({"-o", made.back()});
-      }
-    }
+      for (const std::string& file : test.acceptedFiles()) make("--accept", file);
+    for (const std::uint32_t frame : test.frames)
+      for (const char* end : {".png", "_flip.png"})
+        if (!options.output.empty() && !test.plan) make("-o", leftName(options.output, test, frame) + end);
   }
   std::erase(inputs, "");
-  const bool plain = checkMadeFiles(made, {}, "-o", diagnostics);
+  const bool plain = checkMadeFiles(made, diagnostics);
   return checkDistinct(outputs, inputs, diagnostics) && plain;
 }
 
@@ -137,33 +126,19 @@ void leaveFiles(const std::string& folder, const TestCase& test, const CaseResul
     const std::string stem = leftName(folder, test, pair.frame);
     const OutputFile outputs[] = {{"-o", stem + ".png"}, {"-o", stem + "_flip.png"}};
     if (!checkDistinct(outputs, read, diagnostics)) continue;
-    const assets::Image8 difference = assets::colorFlip(pair.map);
-    if (!makeFolderOf(stem + ".png", diagnostics)) return;
-    assets::savePng8(stem + ".png", pair.picture.width, pair.picture.height, pair.picture.channels,
-                     pair.picture.texels, diagnostics);
-    if (!difference.texels.empty())
-      assets::savePng8(stem + "_flip.png", difference.width, difference.height, 3, difference.texels,
-                       diagnostics);
+    const bool written = savePng(stem + ".png", pair.picture, diagnostics);
+    if (written && !pair.map.errors.empty())
+      savePng(stem + "_flip.png", assets::colorFlip(pair.map), diagnostics);
   }
 }
 
-// Writes the page over nothing that a case reads, and over no file that is no page: what a broken case reads is not known.
+// Writes the page over nothing that a case reads.
 void writeReport(const std::string& path, const std::string& page, const std::vector<std::string>& read,
                  base::Diagnostics& diagnostics) {
   const OutputFile output{"--report", path};
-  if (!checkDistinct({&output, 1}, read, diagnostics) ||
-      !checkMadeFiles({&path, 1}, {}, "--report", diagnostics))
-    return;
-  std::ifstream before(path, std::ios::binary);
-  std::string head(kPageBegins.size(), ' ');
-  if (before.read(head.data(), static_cast<std::streamsize>(head.size())),
-      before.gcount() > 0 && head != kPageBegins) {
-    auto& d = diagnostics.error(base::Code::outputNotWritten, base::placeOfOption("--report " + path),
-                                "the file is there already, and is no page of 'weft test'");
-    d.hint = "remove it, or give the report another name";
-    return;
-  }
-  if (makeFolderOf(path, diagnostics)) base::writeFile(path, page, diagnostics);
+  if (checkDistinct({&output, 1}, read, diagnostics) && checkMadeFiles({&path, 1}, diagnostics) &&
+      makeFolderOf(path, diagnostics))
+    base::writeFile(path, page, diagnostics);
 }
 
 int runTest(TestOptions& options) {
@@ -189,6 +164,8 @@ int runTest(TestOptions& options) {
     read.insert(read.end(), result.files.begin(), result.files.end());
     results.emplace_back(test, std::move(result));
   }
+  std::ranges::sort(read);
+  read.erase(std::ranges::unique(read).begin(), read.end());
   std::string sum;
   for (const State state : {State::same, State::kept, State::written, State::different, State::broken})
     if (const std::size_t count = counts[static_cast<std::size_t>(state)])

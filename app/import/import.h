@@ -1,6 +1,6 @@
 // Pipelines that were written for other programs, as graphs: ISF files (Interactive Shader Format, versions 1 and 2) and user
-// shaders of mpv (docs/importing.md). What cannot be mapped is refused with a place and a code (W220 to W226). Does not: write
-// files, or check the graph that comes out; `weft check` does.
+// shaders of mpv (docs/importing.md). What cannot be mapped is refused with a place and a code (W220 to W226). `weft check`
+// checks the graph that comes out.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 #include "engine/base/diagnostic.h"
 
-namespace weft::convert {
+namespace weft::importing {
 
 struct ConvertedText {
   std::string path, text;
@@ -34,8 +34,8 @@ struct Converted {
 };
 
 struct ConvertOptions {
-  std::string
-      name;  // of the graph and its folder of shaders: letters, digits and '_'; empty: that of the file
+  // Of the graph and its folder of shaders: letters, digits and '_'; empty: that of the file.
+  std::string name;
   // From the folder that is written to the folder of the foreign file, for pictures that it names. "" is the same.
   std::string sourceFolder;
   std::vector<std::pair<std::string, std::string>> images;  // input, file as the graph shall name it
@@ -51,9 +51,9 @@ std::string vertexFileOf(const std::string& path);
 // An ISF file: inputs become parameters and images, passes passes, what persists a history. The shader keeps its lines: it
 // becomes a file of its own, which a small stage file includes behind the declarations that ISF gives every shader.
 struct IsfSource {
-  std::string_view fragment, vertex;  // the .fs, and the .vs where there is one
+  std::string_view fragment;                 // the .fs
+  std::optional<std::string_view> vertex{};  // the .vs where there is one
   std::string fragmentFile, vertexFile;
-  bool hasVertex = false;
 };
 std::optional<Converted> convertIsf(const IsfSource& source, const ConvertOptions& options,
                                     base::Diagnostics& diagnostics);
@@ -64,4 +64,4 @@ std::optional<Converted> convertIsf(const IsfSource& source, const ConvertOption
 std::optional<Converted> convertMpv(std::string_view text, const std::string& file,
                                     const ConvertOptions& options, base::Diagnostics& diagnostics);
 
-}  // namespace weft::convert
+}  // namespace weft::importing

@@ -1,6 +1,7 @@
 // An ISF file on its way to a graph: what its JSON header says, the names that its things get, and its translated shaders.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -9,31 +10,30 @@
 #include <string_view>
 #include <vector>
 
-#include "app/import/import.h"
+#include "app/import/text.h"
 
-namespace weft::convert {
+namespace weft::importing {
 
 struct IsfInput {
   enum class Type : std::uint8_t { boolean, event, integer, number, point, color, image };
   std::string name;  // as the shader knows it
   Type type = Type::number;
-  base::Place place;
   std::string label;
-  std::vector<double> initial, min, max;  // 1, 2 or 4 numbers; empty: not said
+  std::vector<double> initial, min, max;  // as many numbers as the type has; empty: not said
   std::vector<double> values;             // of an integer
   std::vector<std::string> labels;        // as many as values, or none
 };
 
 struct IsfPass {
-  std::string target;  // empty: the picture
+  PlacedText target;  // "": the picture
   bool persistent = false, floats = false;
-  std::string width, height;  // expressions; empty: that of the picture
-  base::Place place, widthPlace, heightPlace;
+  PlacedText width, height;  // expressions; "": that of the picture
+  bool isScaled() const { return !width.text.empty() || !height.text.empty(); }
 };
 
 struct IsfImported {
-  std::string name, path;
-  base::Place place;
+  std::string name;
+  PlacedText path;
 };
 
 struct IsfHeader {
@@ -43,8 +43,11 @@ struct IsfHeader {
   std::vector<IsfImported> imported;
 };
 
-// Whether the text begins with a comment that holds an object, perhaps behind comments of //.
-bool looksLikeIsf(std::string_view text);
+// Words of GLSL 4.5 that GLSL 1.20 and GLSL ES 1.00 leave to the author.
+constexpr std::array<std::string_view, 19> kNewWords{
+    "sample",   "buffer",    "shared",     "patch",    "precise",      "coherent", "restrict",
+    "readonly", "writeonly", "subroutine", "centroid", "smooth",       "resource", "flat",
+    "filter",   "partition", "active",     "common",   "noperspective"};
 
 // Mistakes of form are W002 to W013 and W220; what Weft has no counterpart for is W221.
 std::optional<IsfHeader> readIsfHeader(std::string_view text, const std::shared_ptr<const std::string>& file,
@@ -68,7 +71,7 @@ class IsfNames {
 struct IsfShader {
   std::vector<ConvertedText> texts;
   std::string fragment, vertex;  // paths below shaders/; `vertex` is empty without one
-  // Images that the shader reads, by their names in the file, and those of them that stand elsewhere than in the functions
+  // Images that the shader reads, by their names in the file, and those of them that it passes to functions other than those
   // of ISF, so that they must always be there.
   std::set<std::string, std::less<>> read, needed;
   bool usesDate = false;
@@ -78,6 +81,6 @@ std::optional<IsfShader> translateIsfShader(const IsfSource& source, const Conve
                                             base::Diagnostics& diagnostics);
 
 // The slot of what the shader draws.
-constexpr std::string_view kIsfOutput = "isf_FragColor";
+constexpr const char* kIsfOutput = "isf_FragColor";
 
-}  // namespace weft::convert
+}  // namespace weft::importing

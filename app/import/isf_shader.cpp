@@ -1,55 +1,30 @@
 // The shaders of an ISF file: its text, translated in place to GLSL 4.5, and what Weft puts before it. Declared in isf.h.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-
 #include "app/import/isf.h"
-#include "app/import/text.h"
 #include "import_glsl.h"
 
-namespace weft::convert {
+namespace weft::importing {
 
 namespace {
 
 using base::Code;
 
-// Words of GLSL 4.5 that GLSL 1.20 and GLSL ES 1.00 leave to the author.
-constexpr std::array<std::string_view, 19> kNewWords{
-    "sample",   "buffer",    "shared",     "patch",    "precise",      "coherent", "restrict",
-    "readonly", "writeonly", "subroutine", "centroid", "smooth",       "resource", "flat",
-    "filter",   "partition", "active",     "common",   "noperspective"};
-constexpr std::pair<std::string_view, std::string_view> kRenamed[] = {
-    {"texture2D", "texture"},
-    {"texture2DProj", "textureProj"},
-    {"texture2DLod", "textureLod"},
-    {"texture2DProjLod", "textureProjLod"},
-    {"texture2DGrad", "textureGrad"},
-    {"texture2DLodEXT", "textureLod"},
-    {"texture2DProjLodEXT", "textureProjLod"},
-    {"texture2DGradEXT", "textureGrad"},
-    {"texture2DGradARB", "textureGrad"},
-    {"texture3D", "texture"},
-    {"textureCube", "texture"},
-    {"textureCubeLod", "textureLod"},
-    {"textureCubeLodEXT", "textureLod"},
-    {"vv_FragNormCoord", "isf_FragNormCoord"},
-    {"vv_vertShaderInit", "isf_vertShaderInit"}};
-constexpr std::array<std::string_view, 15> kGone{"texture2DRect",
-                                                 "sampler2DRect",
-                                                 "texture2DRectProj",
-                                                 "texture1D",
-                                                 "ftransform",
-                                                 "gl_Vertex",
-                                                 "gl_TexCoord",
-                                                 "gl_Color",
-                                                 "gl_FrontColor",
-                                                 "attribute",
-                                                 "gl_Normal",
-                                                 "gl_MultiTexCoord0",
-                                                 "gl_ModelViewProjectionMatrix",
-                                                 "gl_FragDataEXT",
-                                                 "gl_ModelViewMatrix"};
+constexpr std::array<std::string_view, 8> kGone{"attribute", "texture2DRect", "sampler2DRect", "ftransform",
+                                                "gl_Vertex", "gl_Normal",     "gl_TexCoord",   "gl_Color"};
+
+// What a name of older GLSL or of ISF 1 is today; "" where it is the same. "texture2DLodEXT" is "textureLod".
+std::string newNameOf(std::string_view name) {
+  if (name == "vv_FragNormCoord" || name == "vv_vertShaderInit") return "isf_" + std::string(name.substr(3));
+  for (const std::string_view old : {"texture2D", "texture3D", "textureCube"}) {
+    if (!name.starts_with(old)) continue;
+    name.remove_prefix(old.size());
+    if (name.ends_with("EXT") || name.ends_with("ARB")) name.remove_suffix(3);
+    constexpr std::array<std::string_view, 5> kKinds{"", "Proj", "Lod", "ProjLod", "Grad"};
+    if (contains(kKinds, name)) return "texture" + std::string(name);
+  }
+  return {};
+}
 
 constexpr std::array<std::string_view, 5> kImageFunctions{"IMG_PIXEL", "IMG_NORM_PIXEL", "IMG_THIS_PIXEL",
                                                           "IMG_THIS_NORM_PIXEL", "IMG_SIZE"};
@@ -81,13 +56,14 @@ class ShaderTranslator {
       if (input.type == IsfInput::Type::image) images_.push_back(input.name);
     for (const IsfImported& imported : header.imported) images_.push_back(imported.name);
     for (const IsfPass& pass : header.passes)
-      if (!pass.target.empty() && !contains(images_, pass.target)) images_.push_back(pass.target);
+      if (!pass.target.text.empty() && !contains(images_, pass.target.text))
+        images_.push_back(pass.target.text);
   }
 
   std::optional<IsfShader> run(const IsfSource& source, const std::string& name) {
     const std::size_t errors = diagnostics_.errorCount();
     const std::string fragment = translate(source.fragment, source.fragmentFile, false);
-    const std::string vertex = source.hasVertex ? translate(source.vertex, source.vertexFile, true) : "";
+    const std::string vertex = source.vertex ? translate(*source.vertex, source.vertexFile, true) : "";
     if (diagnostics_.errorCount() > errors) return std::nullopt;
     const auto add = [&](const std::string& ending, std::string text) {
       out_.texts.push_back({fmt::format("shaders/{}/{}", name, ending), std::move(text)});
@@ -95,19 +71,19 @@ class ShaderTranslator {
     };
     add("isf.glsl", prelude(name));
     const char* place =
-        source.hasVertex ? "in vec2 isf_FragNormCoord;" : "in vec2 uv;\nvec2 isf_FragNormCoord = uv;";
-    out_.fragment =
-        add(name + ".frag.glsl", fillTemplate(glsl::isf_fragment, {{"@NAME@", name}, {"@PLACE@", place}}));
+        source.vertex ? "in vec2 isf_FragNormCoord;" : "in vec2 uv;\nvec2 isf_FragNormCoord = uv;";
+    out_.fragment = add(name + ".frag.glsl",
+                        fillTemplate(templates::isf_fragment, {{"@NAME@", name}, {"@PLACE@", place}}));
     add(name + ".fs.glsl", fragment);
-    if (source.hasVertex) {
-      out_.vertex = add(name + ".vert.glsl", fillTemplate(glsl::isf_vertex, {{"@NAME@", name}}));
+    if (source.vertex) {
+      out_.vertex = add(name + ".vert.glsl", fillTemplate(templates::isf_vertex, {{"@NAME@", name}}));
       add(name + ".vs.glsl", vertex);
     }
     return std::move(out_);
   }
 
  private:
-  void fail(const Token& token, std::string message, std::string hint) {
+  void fail(const glsl::Token& token, std::string message, std::string hint) {
     refuse(diagnostics_, Code::glslNotMapped, {file_, token.line, token.column}, std::move(message),
            std::move(hint));
   }
@@ -115,28 +91,25 @@ class ShaderTranslator {
   std::string translate(std::string_view original, const std::string& fileName, bool isVertex) {
     file_ = std::make_shared<const std::string>(fileName);
     if (original.find('\0') != original.npos) {
-      fail({.line = 1, .column = 1}, "the shader has a zero byte",
-           "save the file as plain text (UTF-8, not UTF-16)");
+      fail({.line = 1, .column = 1}, "the shader has a zero byte", "save the file as UTF-8");
       return {};
     }
     GlslText text(original);
-    findImages(text);
-    text.blankVersions();
+    const auto& tokens = text.tokens();
     bool hasMain = false;
-    for (std::size_t i = 0; i < text.tokens().size(); ++i) {
-      if (text.directiveOf(i) == "include" && text.tokens()[i].first)
-        fail(text.tokens()[i], "the shader includes another file",
-             "put the included text in the place of the line, and import again");
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+      if (tokens[i].is("include") && i > 0 && tokens[i - 1].is("#"))
+        fail(tokens[i], "the shader includes another file", "put the text in its place");
       if (!text.isName(i)) continue;
-      hasMain = hasMain || text.tokens()[i].is("main");
+      hasMain = hasMain || tokens[i].is("main");
+      out_.usesDate |= tokens[i].is("DATE");
+      if (contains(images_, tokens[i].text)) noteImage(text, i);
       if (!translateFact(text, i, isVertex)) modernize(text, i, isVertex);
     }
     if (!hasMain)
       refuse(diagnostics_, Code::notIsf, {file_, 1, 1}, "the file has no function main",
-             "write void main() { … } behind the header: an ISF file is a whole shader");
-    static constexpr std::array<std::string_view, 7> kTaken{"uv",    "viewport",   "time",       "delta_time",
-                                                            "frame", "Parameters", "isf_Nothing"};
-    text.renameTaken(kTaken);
+             "write void main() { … } behind the header");
+    text.renameTaken({"uv", "viewport", "time", "delta_time", "frame", "Parameters", "isf_Nothing"});
     for (const auto& [from, to] : names_.all())
       if (from != to) text.rename(from, to);
     dropDeclarations(text);
@@ -144,21 +117,17 @@ class ShaderTranslator {
   }
 
   // Which images the shader reads, and whether as an argument of a function or of `texture`.
-  void findImages(const GlslText& text) {
-    const auto& tokens = text.tokens();
-    for (std::size_t i = 0; i < tokens.size(); ++i) {
-      if (!text.isName(i)) continue;
-      out_.usesDate |= tokens[i].is("DATE");
-      if (!contains(images_, tokens[i].text)) continue;
-      out_.read.emplace(tokens[i].text);
-      const bool opened = i >= 2 && tokens[i - 1].is("(");
-      // A variable of that name, such as `vec4 lastRow = IMG_PIXEL(lastRow, …)`, is not the image.
-      const bool direct = opened && tokens[i - 2].text.starts_with("texture");
-      const bool argument = i >= 1 && (tokens[i - 1].is("(") || tokens[i - 1].is(",")) &&
-                            i + 1 < tokens.size() && (tokens[i + 1].is(",") || tokens[i + 1].is(")"));
-      if ((direct || argument) && !(opened && contains(kImageFunctions, tokens[i - 2].text)))
-        out_.needed.emplace(tokens[i].text);
-    }
+  void noteImage(const GlslText& text, std::size_t i) {
+    const auto textAt = [&](std::size_t at) {
+      return at < text.tokens().size() ? text.tokens()[at].text : std::string_view();
+    };
+    const std::string_view name = textAt(i), before = textAt(i - 1), behind = textAt(i + 1);
+    const std::string_view function = before == "(" ? textAt(i - 2) : std::string_view();
+    out_.read.emplace(name);
+    // A variable of that name, such as `vec4 lastRow = IMG_PIXEL(lastRow, …)`, is not the image.
+    const bool argument = (before == "(" || before == ",") && (behind == "," || behind == ")");
+    if ((function.starts_with("texture") || argument) && !contains(kImageFunctions, function))
+      out_.needed.emplace(name);
   }
 
   // The image and the fact that a name such as _inputImage_imgSize means.
@@ -173,7 +142,7 @@ class ShaderTranslator {
   }
 
   bool translateFact(GlslText& text, std::size_t i, bool isVertex) {
-    const Token& token = text.tokens()[i];
+    const glsl::Token& token = text.tokens()[i];
     const auto [image, fact] = factOf(token.text);
     if (!image) return false;
     if (fact->varying && isVertex) {
@@ -181,7 +150,7 @@ class ShaderTranslator {
            "only the fragment shader has it: work it out from isf_FragNormCoord");
     } else {
       out_.read.insert(*image);
-      text.replace(i, fmt::format(fmt::runtime(fact->text), names_.of(*image)));
+      text.replace(i, i, fmt::format(fmt::runtime(fact->text), names_.of(*image)));
     }
     return true;
   }
@@ -189,49 +158,44 @@ class ShaderTranslator {
   // Older GLSL as GLSL 4.5.
   void modernize(GlslText& text, std::size_t i, bool isVertex) {
     const auto& tokens = text.tokens();
-    const Token& token = tokens[i];
+    const glsl::Token& token = tokens[i];
     const auto next = [&](std::size_t ahead) {
       return i + ahead < tokens.size() ? tokens[i + ahead].text : std::string_view();
     };
-    for (const auto& [from, to] : kRenamed)
-      if (token.is(from)) return text.replace(i, std::string(to));
-    if (token.is("varying")) return text.replace(i, isVertex ? "out" : "in");
-    if (token.is("gl_FragColor") && !isVertex) return text.replace(i, std::string(kIsfOutput));
+    if (const std::string name = newNameOf(token.text); !name.empty()) return text.replace(i, i, name);
+    if (token.is("varying")) return text.replace(i, i, isVertex ? "out" : "in");
+    if (token.is("gl_FragColor") && !isVertex) return text.replace(i, i, kIsfOutput);
     if (token.is("gl_FragData") && !isVertex) {
-      if (next(1) == "[" && next(2) == "0" && next(3) == "]")
-        return text.replaceRange(i, i + 3, std::string(kIsfOutput));
-      return fail(token, "the shader writes several pictures at once",
-                  "write gl_FragColor, or gl_FragData[0], and make a pass of each picture");
+      if (next(1) == "[" && next(2) == "0" && next(3) == "]") return text.replace(i, i + 3, kIsfOutput);
+      return fail(token, "the shader writes several pictures at once", "make a pass of each picture");
     }
-    if (contains(kGone, token.text) && !(token.is("attribute") && !text.directiveOf(i).empty()))
+    if (contains(kGone, token.text))
       return fail(token, fmt::format("'{}' has no counterpart in GLSL 4.5", token.text),
-                  token.text.find("2DRect") != token.text.npos
-                      ? "write IMG_PIXEL(image, pixel), or texture2D with coordinates from 0 to 1"
-                      : "write it without fixed-function names, and import again");
+                  "write it without fixed functions");
     // 'flat' and 'smooth' mean what they say where they qualify a variable.
     const bool qualifies = next(1) == "in" || next(1) == "out" || next(1) == "varying";
-    if (contains(kNewWords, token.text) && !qualifies) text.replace(i, std::string(token.text) + "_");
+    if (contains(kNewWords, token.text) && !qualifies) text.replace(i, i, std::string(token.text) + "_");
   }
 
   // Some files declare again what ISF declares for them.
   void dropDeclarations(GlslText& text) {
     const auto& tokens = text.tokens();
     for (std::size_t i = 0; i + 3 < tokens.size(); ++i) {
-      if (!tokens[i].is("uniform") || !text.directiveOf(i).empty()) continue;
+      if (!tokens[i].is("uniform")) continue;
       std::size_t end = i + 1;
       while (end < tokens.size() && !tokens[end].is(";") && !tokens[end].is("{")) ++end;
       if (end >= tokens.size() || tokens[end].is("{")) continue;
       bool known = true;
       for (std::size_t at = i + 2; at < end; ++at) {
-        const Token& next = tokens[at + 1];
-        if (!text.isName(at) || !(next.is(",") || next.is(";") || next.is("[") || next.is("="))) continue;
-        const std::string name(tokens[at].text);
+        if (!text.isName(at) || std::string_view(",;[=").find(tokens[at + 1].text) == std::string_view::npos)
+          continue;
+        const std::string_view name = tokens[at].text;
         if (names_.all().contains(name) || factOf(name).first || contains(kVariables, name)) continue;
         known = false;
         fail(tokens[at], fmt::format("the shader has a uniform '{}' that is no input", name),
              "add it to INPUTS of the header");
       }
-      if (known) text.replaceRange(i, end, "");
+      if (known) text.replace(i, end, "");
     }
   }
 
@@ -242,20 +206,19 @@ class ShaderTranslator {
         members += fmt::format("  {} {};\n", kGlslTypes[static_cast<std::size_t>(input.type)],
                                names_.of(input.name));
     if (out_.usesDate) members += "  vec4 date;\n";
-    if (!members.empty()) members = "layout(std140) uniform Parameters {\n" + members + "};\n";
+    std::string parameters = parameterBlockOf(members);
     // Year, month, day, and seconds of the day: `date` at the first frame.
-    if (out_.usesDate) members += "vec4 DATE = date + vec4(0.0, 0.0, 0.0, time);\n";
+    if (out_.usesDate) parameters += "vec4 DATE = date + vec4(0.0, 0.0, 0.0, time);\n";
     std::string slots;
-    for (const std::string& image : images_) {
-      if (!out_.read.contains(image)) continue;
-      const std::string& slot = names_.of(image);
-      slots += out_.needed.contains(image) ? fmt::format("uniform sampler2D {};\n", slot)
-                                           : fmt::format(
-                                                 "#ifdef {0}\nuniform sampler2D {1};\n#else\n"
-                                                 "const isf_Nothing {1} = isf_Nothing(0);\n#endif\n",
-                                                 presenceDefineOf(slot), slot);
-    }
-    return fillTemplate(glsl::isf, {{"@NAME@", name}, {"@PARAMETERS@\n", members}, {"@SLOTS@\n", slots}});
+    for (const std::string& image : images_)
+      if (out_.read.contains(image))
+        slots += fmt::format(
+            fmt::runtime(out_.needed.contains(image) ? "uniform sampler2D {0};\n"
+                                                     : "#ifdef {1}\nuniform sampler2D {0};\n#else\n"
+                                                       "const isf_Nothing {0} = isf_Nothing(0);\n#endif\n"),
+            names_.of(image), presenceDefineOf(names_.of(image)));
+    return fillTemplate(templates::isf,
+                        {{"@NAME@", name}, {"@PARAMETERS@\n", parameters}, {"@SLOTS@\n", slots}});
   }
 
   const IsfHeader& header_;
@@ -274,4 +237,4 @@ std::optional<IsfShader> translateIsfShader(const IsfSource& source, const Conve
   return ShaderTranslator(header, names, diagnostics).run(source, options.name);
 }
 
-}  // namespace weft::convert
+}  // namespace weft::importing

@@ -1,56 +1,79 @@
-// The graph of a user shader of mpv: which pass reads and writes what; and the whole of an import of mpv. Declared in import.h.
+// The graph of a user shader of mpv: which pass reads and writes what; and its shaders. Declared in import.h.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <array>
-#include <map>
 
 #include "app/import/import.h"
 #include "app/import/mpv.h"
-#include "app/import/text.h"
 #include "engine/base/chars.h"
-#include "engine/base/json/edit.h"
-#include "engine/base/nearest.h"
 #include "engine/base/printable.h"
 #include "engine/base/words/glsl_words.h"
+#include "import_glsl.h"
 
-namespace weft::convert {
+namespace weft::importing {
 
 namespace {
 
 using base::Code;
-using base::quoteJson;
 
-// In mpv's order. The second are those that a picture in place of a video does not have.
+// Those that a picture in place of a video has, in mpv's order.
 const std::array<std::string, 7> kStages{"RGB",    "NATIVE",    "MAINPRESUB", "MAIN",
                                          "SCALED", "PREOUTPUT", "OUTPUT"};
-constexpr std::array<std::string_view, 12> kOtherStages{
-    "LUMA",   "CHROMA",  "ALPHA",     "XYZ",        "CHROMA_SCALED", "ALPHA_SCALED",
-    "LINEAR", "SIGMOID", "PREKERNEL", "POSTKERNEL", "LUMA_SCALED",   "XYZ_SCALED"};
-
-constexpr std::size_t kMaxOperators = 200;  // of an expression of Weft
-constexpr std::size_t kMaxWords = 32;       // of an expression of mpv, as there
+constexpr std::array<std::string_view, 11> kEndings{"_texOff", "_tex", "_raw", "_pos", "_size",  "_pt",
+                                                    "_map",    "_off", "_rot", "_mul", "_gather"};
+// mpv's own numbers that depend on sizes, which the graph sets where the shader mentions them.
+constexpr std::array<std::string_view, 2> kSizes{"input_size", "target_size"};
 
 std::string imagePath(const MpvTexture& texture, const std::string& name) {
   return fmt::format("images/{}/{}.{}", name, texture.name, texture.image.bytes.empty() ? "exr" : "png");
 }
 
-std::string widthOf(const std::string& resource) {
-  return fmt::format("size({}).x", resource);
-}
-std::string heightOf(const std::string& resource) {
-  return fmt::format("size({}).y", resource);
+// The text that the stage files include: its headers as #if, so that lines keep their numbers.
+std::string translateText(const MpvFile& file) {
+  const bool many = file.hooks.size() > 1;
+  std::string text;
+  std::size_t next = 0;
+  for (std::size_t line = 0; line < file.lines.size(); ++line) {
+    if (many && next < file.hooks.size() && file.hooks[next].place.line == line + 1) {
+      text += fmt::format("#{} PASS == {}  {}", next == 0 ? "if" : "elif", next, file.lines[line]);
+      ++next;
+    } else if (!file.data[line]) {
+      text += file.lines[line];
+    }
+    text += '\n';
+  }
+  if (many) text += "#endif\n";
+  GlslText glsl(text);
+  glsl.renameTaken({"uv", "result", "mpv_place", "mpvPlace", "shift", "main"});
+  return glsl.changed();
 }
 
-class MpvGraphWriter {
+// The names that the shader mentions, with and without mpv's endings: HOOKED_texOff and HOOKED.
+std::set<std::string, std::less<>> namesMentioned(const std::string& text) {
+  std::set<std::string, std::less<>> names;
+  for (const glsl::Token& token : glsl::splitTokens(text)) {
+    if (token.kind != glsl::TokenKind::word) continue;
+    names.emplace(token.text);
+    for (const std::string_view ending : kEndings)
+      if (token.text.ends_with(ending))
+        names.emplace(token.text.substr(0, token.text.size() - ending.size()));
+  }
+  return names;
+}
+
+class MpvWriter {
  public:
-  MpvGraphWriter(const MpvFile& file, const std::set<std::string>& used, const ConvertOptions& options,
-                 base::Diagnostics& diagnostics)
-      : file_(file), used_(used), options_(options), name_(options.name), diagnostics_(diagnostics) {}
+  MpvWriter(const MpvFile& file, const ConvertOptions& options, base::Diagnostics& diagnostics)
+      : file_(file),
+        options_(options),
+        name_(options.name),
+        diagnostics_(diagnostics),
+        text_(translateText(file)),
+        used_(namesMentioned(text_)) {}
 
   // Empty after errors.
-  std::optional<std::string> run() {
+  std::optional<Converted> run() {
     const std::size_t errors = diagnostics_.errorCount();
     addSource();
     for (const MpvParameter& parameter : file_.parameters) addParameter(parameter);
@@ -60,19 +83,24 @@ class MpvGraphWriter {
     for (const std::string& stage : kStages) {
       names_[stage] = names_["HOOKED"];
       for (std::size_t i = 0; i < file_.hooks.size(); ++i)
-        for (const MpvText& hook : file_.hooks[i].hooks)
+        for (const PlacedText& hook : file_.hooks[i].hooks)
           if (hook.text == stage) addPass(i, stage);
     }
     if (diagnostics_.errorCount() > errors) return std::nullopt;
     addShow();
-    JsonObjectText graph;
-    graph.addText("name", name_);
-    graph.add("parameters", parameters_.text()).add("resources", resources_.text());
-    graph.add("passes", "[" + passes_ + "]").addText("present", "shown");
-    return graphText(graph);
+    Converted out{.graph = name_ + ".json"};
+    out.texts.push_back({out.graph, graphText({{"name", name_},
+                                               {"parameters", parameters_},
+                                               {"resources", resources_},
+                                               {"passes", passes_},
+                                               {"present", "shown"}})});
+    addShaders(out.texts);
+    for (const MpvTexture& texture : file_.textures) {
+      out.images.push_back(texture.image);
+      out.images.back().path = imagePath(texture, name_);
+    }
+    return out;
   }
-
-  const MpvNeeds& needs() const { return needs_; }
 
  private:
   struct Named {
@@ -80,6 +108,12 @@ class MpvGraphWriter {
     std::string width, height;            // expressions
     std::vector<std::string> conditions;  // of which all must hold, so that something wrote it
   };
+  static Named sized(const std::string& resource, std::vector<std::string> conditions = {}) {
+    return {.resource = resource,
+            .width = fmt::format("size({}).x", resource),
+            .height = fmt::format("size({}).y", resource),
+            .conditions = std::move(conditions)};
+  }
 
   void fail(Code code, const base::Place& place, std::string message, std::string hint) {
     refuse(diagnostics_, code, place, std::move(message), std::move(hint));
@@ -89,21 +123,19 @@ class MpvGraphWriter {
     return freshName(taken_, base::isGlslWord(wanted) ? wanted + "_" : wanted);
   }
 
-  void addStanza(const JsonObjectText& stanza) { passes_ += (passes_.empty() ? "" : ", ") + stanza.text(); }
-
   void addSource() {
     const std::string file = options_.images.empty() ? "" : options_.images.back().second;
-    parameters_.add("picture",
-                    fmt::format(R"({{"type": "file", "default": {}, "label": "Picture"}})", quoteJson(file)));
-    resources_.add("picture", R"({"import": "image", "file": "$picture"})");
+    parameters_["picture"] = {{"type", "file"}, {"default", file}, {"label", "Picture"}};
+    resources_["picture"] = {{"import", "image"}, {"file", "$picture"}};
     // With as many bits as a PNG may have; turned over.
-    resources_.add("source", R"({"texture": "rgba16", "size": "has(picture) ? size(picture) : screen"})");
-    resources_.add("shown", R"({"texture": "rgba8", "size": "screen"})");
-    JsonObjectText turn;
-    turn.addText("name", "turn").addText("type", "fullscreen").addText("shader", name_ + "/turn.frag.glsl");
-    turn.add("read", R"({"source": "picture as linear ?"})").add("write", R"({"result": "source"})");
-    addStanza(turn);
-    names_["HOOKED"] = {.resource = "source", .width = widthOf("source"), .height = heightOf("source")};
+    resources_["source"] = {{"texture", "rgba16"}, {"size", "has(picture) ? size(picture) : screen"}};
+    resources_["shown"] = {{"texture", "rgba8"}, {"size", "screen"}};
+    passes_.push_back({{"name", "turn"},
+                       {"type", "fullscreen"},
+                       {"shader", name_ + "/turn.frag.glsl"},
+                       {"read", {{"source", "picture as linear ?"}}},
+                       {"write", {{"result", "source"}}}});
+    names_["HOOKED"] = sized("source");
   }
 
   void addParameter(const MpvParameter& parameter) {
@@ -111,18 +143,17 @@ class MpvGraphWriter {
     if (!taken_.insert(parameter.name).second || base::isGlslWord(parameter.name))
       return fail(Code::notAName, parameter.place,
                   fmt::format("\"{}\" cannot name a parameter", parameter.name), "give it a name of its own");
-    JsonObjectText text;
-    text.addText("type", real ? "float" : "int").add("default", numberText(parameter.initial, real));
+    Json& made = parameters_[parameter.name];
+    made = {{"type", real ? "float" : "int"}, {"default", numberOf(parameter.initial, real)}};
     const double low = std::min(parameter.min.value_or(parameter.initial), parameter.initial);
     const double high = std::max(parameter.max.value_or(parameter.initial), parameter.initial);
-    if (parameter.min && low < high) text.add("min", numberText(low, real));
-    if (parameter.max && low < high) text.add("max", numberText(high, real));
-    if (!parameter.description.empty()) text.addText("label", base::printable(parameter.description));
-    parameters_.add(parameter.name, text.text());
+    if (parameter.min && low < high) made["min"] = numberOf(low, real);
+    if (parameter.max && low < high) made["max"] = numberOf(high, real);
+    if (!parameter.description.empty()) made["label"] = base::printable(parameter.description);
   }
 
   void addTexture(const MpvTexture& texture) {
-    if (texture.dimensions != 2)
+    if (texture.size.size() != 2)
       return fail(Code::mpvNotMapped, texture.place,
                   fmt::format("the texture '{}' has not two dimensions", texture.name),
                   "give it a height of 1, or lay its slices beside each other");
@@ -130,64 +161,52 @@ class MpvGraphWriter {
       return fail(Code::duplicateName, texture.place,
                   fmt::format("two textures have the name '{}'", texture.name), "rename one");
     const std::string resource = fresh(texture.name);
-    resources_.add(resource,
-                   fmt::format(R"({{"import": "image", "file": {}}})", quoteJson(imagePath(texture, name_))));
+    resources_[resource] = {{"import", "image"}, {"file", imagePath(texture, name_)}};
     names_[texture.name] = {.resource = resource,
                             .filter = fmt::format(" as {}{}", texture.linear ? "linear" : "nearest",
                                                   texture.repeat ? " wrap" : ""),
-                            .width = std::to_string(texture.size[0]),
-                            .height = std::to_string(texture.size[1])};
+                            .width = fmt::format("{}", texture.size[0]),
+                            .height = fmt::format("{}", texture.size[1])};
   }
 
-  // A pass needs a stage that a picture has; of several, the others are left out aloud.
+  // A pass needs a stage that a picture has; of several, the others are left out with a warning.
   void checkStages(const MpvHook& hook) {
-    const auto isStage = [](const MpvText& text) {
-      return std::ranges::find(kStages, text.text) != kStages.end();
-    };
+    const auto isStage = [](const PlacedText& text) { return contains(kStages, text.text); };
     const bool any = std::ranges::any_of(hook.hooks, isStage);
-    for (const MpvText& text : hook.hooks) {
+    for (const PlacedText& text : hook.hooks) {
       if (isStage(text)) continue;
-      const bool known = std::ranges::find(kOtherStages, text.text) != kOtherStages.end();
-      base::Diagnostic d{
-          .severity = any && known ? base::Severity::warning : base::Severity::error,
-          .code = Code::mpvNotMapped,
-          .message = fmt::format("{} '{}'", known ? "a picture has no stage" : "unknown stage", text.text),
-          .place = text.place};
-      d.expected = "RGB, NATIVE, MAINPRESUB, MAIN, SCALED, PREOUTPUT or OUTPUT";
-      d.hint = !known ? base::nearestHint(text.text, kStages)
-               : any  ? "the pass runs at its other stages"
-                      : "hook MAIN where the shader works on colours, too";
-      diagnostics_.add(std::move(d));
+      const std::string message = fmt::format("a picture has no stage '{}'", text.text);
+      if (any)
+        diagnostics_.warning(Code::mpvNotMapped, text.place, message).hint =
+            "the pass runs at its other stages";
+      else
+        fail(Code::mpvNotMapped, text.place, message,
+             "hook RGB, NATIVE, MAINPRESUB, MAIN, SCALED, PREOUTPUT or OUTPUT");
     }
   }
 
-  const Named* find(const std::string& name) const {
-    const auto found = names_.find(name);
-    return found == names_.end() ? nullptr : &found->second;
-  }
-
-  // What stands for a word of an expression: a side of a texture, a number or a parameter. Empty: none of them.
+  // What a word of an expression is in Weft: a side of a texture, a number or a parameter. Empty: none of them.
   std::string valueOf(std::string_view word) const {
-    const std::size_t point = word.rfind('.');
     if (base::isDigit(word[0])) {
       const bool number = std::ranges::count(word, '.') <= 1 && word.size() <= 20 && word.back() != '.' &&
                           word.find_first_not_of("0123456789.") == word.npos;
       return number ? std::string(word) : std::string();
     }
+    const std::size_t point = word.rfind('.');
     const std::string_view end = point == word.npos ? "" : word.substr(point + 1);
     const bool width = end == "w" || end == "width";
     if (width || end == "h" || end == "height") {
-      const std::string name(word.substr(0, point));
+      const std::string_view name = word.substr(0, point);
       if (name == "OUTPUT") return width ? "screen.x" : "screen.y";
-      const Named* named = find(name);
-      return !named ? "" : width ? named->width : named->height;
+      const auto named = names_.find(name);
+      return named == names_.end() ? "" : width ? named->second.width : named->second.height;
     }
     const auto known = std::ranges::find(file_.parameters, word, &MpvParameter::name);
     return known == file_.parameters.end() ? std::string() : fmt::format("${}", word);
   }
 
   // An expression in reverse Polish as one of Weft: "MAIN.w 2 *" becomes "(size(main).x * 2)".
-  std::optional<std::string> expressionOf(const MpvText& expression) {
+  std::optional<std::string> expressionOf(const PlacedText& expression) {
     const auto wrong = [&](std::size_t at, std::string message) {
       base::Place place = expression.place;
       place.column += static_cast<std::uint32_t>(at);
@@ -198,20 +217,17 @@ class MpvGraphWriter {
     };
     const std::string_view text = expression.text;
     std::vector<std::string> stack;
-    std::size_t words = 0;
     for (std::size_t at = 0; at < text.size(); ++at) {
       if (base::isSpace(text[at])) continue;
       const std::string_view word =
           text.substr(at, std::min(text.find_first_of(" \t", at), text.size()) - at);
-      if (++words > kMaxWords) return wrong(at, fmt::format("more than {} words", kMaxWords));
-      if (word == "!") {
-        if (stack.empty()) return wrong(at, "'!' has nothing before it");
-        stack.back() = fmt::format("({} == 0)", stack.back());
-      } else if (word.size() == 1 && std::string_view("+-*/%><=").find(word[0]) != std::string_view::npos) {
-        if (stack.size() < 2) return wrong(at, fmt::format("'{}' needs two values before it", word));
-        const std::string right = std::move(stack.back());
-        stack.pop_back();
-        stack.back() = fmt::format("({} {} {})", stack.back(), word == "=" ? "==" : word, right);
+      const bool binary = word.size() == 1 && std::string_view("+-*/%><=").find(word[0]) != std::string::npos;
+      if (binary || word == "!") {
+        if (stack.size() < (binary ? 2u : 1u))
+          return wrong(at, fmt::format("'{}' has too few values before it", word));
+        const std::string right = binary ? std::move(stack.back()) : "0";
+        if (binary) stack.pop_back();
+        stack.back() = fmt::format("({} {} {})", stack.back(), word == "=" || !binary ? "==" : word, right);
       } else if (std::string value = valueOf(word); !value.empty()) {
         stack.push_back(std::move(value));
       } else {
@@ -224,13 +240,6 @@ class MpvGraphWriter {
     return stack.back();
   }
 
-  // At least as many as Weft counts in the expression.
-  static std::size_t operatorsIn(std::string_view expression) {
-    return static_cast<std::size_t>(std::ranges::count_if(expression, [](char c) {
-      return std::string_view("+-*/%<>=!&|?:(,").find(c) != std::string_view::npos;
-    }));
-  }
-
   bool isTexture(const std::string& name) const {
     return std::ranges::find(file_.textures, name, &MpvTexture::name) != file_.textures.end();
   }
@@ -240,25 +249,23 @@ class MpvGraphWriter {
     const Named hooked = names_["HOOKED"];
     std::vector<std::string> conditions;
     const auto require = [&](const std::string& condition) {
-      if (std::ranges::find(conditions, condition) == conditions.end()) conditions.push_back(condition);
+      if (!contains(conditions, condition)) conditions.push_back(condition);
     };
-    JsonObjectText reads;
-    for (const MpvText& bind : hook.binds) {
-      const Named* named = bind.text == stage ? &hooked : find(bind.text);
-      if (!named) {
-        std::vector<std::string> known;
-        for (const auto& [name, unused] : names_) known.push_back(name);
+    Json reads = Json::object();
+    for (const PlacedText& bind : hook.binds) {
+      const auto found = names_.find(bind.text == stage ? "HOOKED" : bind.text);
+      if (found == names_.end()) {
         return fail(Code::mpvNotMapped, bind.place,
                     fmt::format("nothing has saved a texture '{}' here", bind.text),
-                    base::nearestHint(bind.text, known));
+                    "bind HOOKED, a stage, a //!TEXTURE, or what a pass before saves");
       }
       if (!used_.contains(bind.text)) continue;
       // The shader knows a texture of the file by its own name.
       const bool ofFile = isTexture(bind.text);
-      reads.addText(ofFile ? bind.text : bind.text + "_raw", named->resource + named->filter);
-      (ofFile ? needs_.textures : needs_.bound).insert(bind.text);
+      reads[ofFile ? bind.text : bind.text + "_raw"] = found->second.resource + found->second.filter;
+      (ofFile ? texturesBound_ : bound_).insert(bind.text);
       if (bind.text != "HOOKED" && bind.text != stage)
-        for (const std::string& each : named->conditions) require(each);
+        for (const std::string& each : found->second.conditions) require(each);
     }
     if (hook.when) {
       const auto when = expressionOf(*hook.when);
@@ -267,30 +274,19 @@ class MpvGraphWriter {
     }
     std::string condition = fmt::format("{}", fmt::join(conditions, ") && ("));
     if (conditions.size() > 1) condition = "(" + condition + ")";
-    if (operatorsIn(condition) > kMaxOperators)
-      return fail(Code::mpvNotMapped, hook.when ? hook.when->place : hook.place,
-                  "the pass depends on too many //!WHEN of passes before it",
-                  fmt::format("give fewer passes a //!WHEN: at most {} operators together", kMaxOperators));
     const bool saves = hook.save && hook.save->text != "HOOKED" && hook.save->text != stage;
-    if (saves && isTexture(hook.save->text))
-      return fail(Code::duplicateName, hook.save->place, fmt::format("'{}' is a //!TEXTURE", hook.save->text),
-                  "save under another name");
     const std::string resource = fresh(saves ? hook.save->text : stage);
     addTarget(hook, resource, hooked);
-    addHook(index, stage, reads, resource, condition);
-    Named result{.resource = resource,
-                 .width = widthOf(resource),
-                 .height = heightOf(resource),
-                 .conditions = conditions};
+    addHook(index, reads, resource, condition);
+    Named result = sized(resource, conditions);
     if (saves) {
       names_[hook.save->text] = result;
       return;
     }
     if (!condition.empty()) {  // where the pass does not run, what was there before goes on
       const std::string chosen = fresh(resource + "_or_" + hooked.resource);
-      resources_.add(chosen, fmt::format("[{}, {}]", quoteJson(fmt::format("{} if {}", resource, condition)),
-                                         quoteJson(hooked.resource)));
-      result = {.resource = chosen, .width = widthOf(chosen), .height = heightOf(chosen)};
+      resources_[chosen] = Json::array({fmt::format("{} if {}", resource, condition), hooked.resource});
+      result = sized(chosen);
     }
     if (hook.offset[0] != 0 || hook.offset[1] != 0)
       for (int axis = 0; axis < 2; ++axis)
@@ -302,71 +298,94 @@ class MpvGraphWriter {
   void addTarget(const MpvHook& hook, const std::string& resource, const Named& hooked) {
     static constexpr const char* kFormats[] = {"rgba16f", "r16f", "rg16f", "rgba16f", "rgba16f"};
     // Rounds as mpv does.
-    const auto side = [&](const std::optional<MpvText>& own, const std::string& otherwise) {
-      if (!own) return quoteJson(otherwise);
-      return quoteJson(fmt::format("floor({} + 0.5)", expressionOf(*own).value_or("1")));
+    const auto side = [&](const std::optional<PlacedText>& own, const std::string& otherwise) {
+      return own ? fmt::format("floor({} + 0.5)", expressionOf(*own).value_or("1")) : otherwise;
     };
-    const std::string& width = hooked.width;
-    const bool same = !hook.width && !hook.height && width.ends_with(".x");
-    const std::string size =
-        same ? quoteJson(width.substr(0, width.size() - 2))
-             : fmt::format("[{}, {}]", side(hook.width, width), side(hook.height, hooked.height));
-    resources_.add(resource, fmt::format(R"({{"texture": "{}", "size": {}}})",
-                                         hook.compute ? "rgba16f" : kFormats[hook.components], size));
+    const bool same = !hook.width && !hook.height && hooked.width.ends_with(".x");
+    Json size = Json::array({side(hook.width, hooked.width), side(hook.height, hooked.height)});
+    if (same) size = hooked.width.substr(0, hooked.width.size() - 2);
+    resources_[resource] = {{"texture", hook.compute ? "rgba16f" : kFormats[hook.components]},
+                            {"size", std::move(size)}};
   }
 
-  void addHook(std::size_t index, const std::string& stage, const JsonObjectText& reads,
-               const std::string& resource, const std::string& condition) {
+  void addHook(std::size_t index, const Json& reads, const std::string& resource,
+               const std::string& condition) {
     const MpvHook& hook = file_.hooks[index];
-    std::string name = fmt::format("pass_{}", index + 1);
-    if (!passNames_.insert(name).second) name += "_" + stage;
-    JsonObjectText stanza;
-    stanza.addText("name", name).addText("type", hook.compute ? "compute" : "fullscreen");
-    stanza.addText("shader", fmt::format("{0}/{0}.{1}.glsl", name_, hook.compute ? "comp" : "frag"));
-    if (!condition.empty()) stanza.addText("enabled", condition);
-    if (!reads.empty()) stanza.add("read", reads.text());
-    stanza.add("write",
-               fmt::format(R"({{"{}": {}}})", hook.compute ? "out_image" : "result", quoteJson(resource)));
-    std::string defines = fmt::format(R"("PASS": {})", index);
+    Json pass = {{"name", freshName(passNames_, fmt::format("pass_{}", index + 1))},
+                 {"type", hook.compute ? "compute" : "fullscreen"},
+                 {"shader", fmt::format("{0}/{0}.{1}.glsl", name_, hook.compute ? "comp" : "frag")}};
+    if (!condition.empty()) pass["enabled"] = condition;
+    if (!reads.empty()) pass["read"] = reads;
+    pass["write"] = {{hook.compute ? "out_image" : "result", resource}};
+    Json defines = {{"PASS", index}};
     if (hook.compute) {
-      defines += fmt::format(R"(, "THREADS_X": {}, "THREADS_Y": {})", hook.threads[0], hook.threads[1]);
-      stanza.add("threads",
-                 fmt::format(R"(["ceil(size({0}).x / {1}) * {2}", "ceil(size({0}).y / {3}) * {4}"])",
-                             resource, hook.block[0], hook.threads[0], hook.block[1], hook.threads[1]));
+      defines.update({{"THREADS_X", hook.threads[0]}, {"THREADS_Y", hook.threads[1]}});
+      for (int axis = 0; axis < 2; ++axis)
+        pass["threads"].push_back(fmt::format("ceil(size({}).{} / {}) * {}", resource, "xy"[axis],
+                                              hook.block[axis], hook.threads[axis]));
     }
-    stanza.add("defines", "{" + defines + "}");
-    JsonObjectText uniforms;
+    pass["defines"] = defines;
+    Json uniforms = Json::object();
     for (const MpvParameter& parameter : file_.parameters)
-      if (used_.contains(parameter.name)) uniforms.addText(parameter.name, "$" + parameter.name);
-    if (used_.contains(kMpvSizes[0])) uniforms.addText(kMpvSizes[0], "size(source)");
-    if (used_.contains(kMpvSizes[1])) uniforms.addText(kMpvSizes[1], "screen");
-    if (!uniforms.empty()) stanza.add("parameters", uniforms.text());
-    addStanza(stanza);
-    (hook.compute ? needs_.compute : needs_.fragment) = true;
+      if (used_.contains(parameter.name)) uniforms[parameter.name] = "$" + parameter.name;
+    for (const std::string_view size : kSizes)
+      if (used_.contains(size)) uniforms[std::string(size)] = size == kSizes[0] ? "size(source)" : "screen";
+    if (!uniforms.empty()) pass["parameters"] = uniforms;
+    passes_.push_back(pass);
+    (hook.compute ? compute_ : fragment_) = true;
   }
 
   void addShow() {
-    JsonObjectText show;
-    show.addText("name", "show").addText("type", "fullscreen").addText("shader", name_ + "/show.frag.glsl");
-    show.add("read", fmt::format(R"({{"source": {}}})", quoteJson(names_["HOOKED"].resource + " as linear")));
-    show.add("write", R"({"result": "shown"})");
-    const std::string shift =
-        shift_[0].empty() ? "[0, 0]" : quoteJson(fmt::format("[{}, {}]", shift_[0], shift_[1]));
-    show.add("parameters", fmt::format(R"({{"shift": {}}})", shift));
-    addStanza(show);
+    Json shift = Json::array({0, 0});
+    if (!shift_[0].empty()) shift = fmt::format("[{}, {}]", shift_[0], shift_[1]);
+    passes_.push_back({{"name", "show"},
+                       {"type", "fullscreen"},
+                       {"shader", name_ + "/show.frag.glsl"},
+                       {"read", {{"source", names_["HOOKED"].resource + " as linear"}}},
+                       {"write", {{"result", "shown"}}},
+                       {"parameters", {{"shift", shift}}}});
+  }
+
+  void addShaders(std::vector<ConvertedText>& texts) const {
+    std::string members, slots;
+    for (const MpvParameter& parameter : file_.parameters)
+      if (used_.contains(parameter.name))
+        members += fmt::format("  {} {};\n", parameter.type, parameter.name);
+    for (const std::string_view size : kSizes)
+      if (used_.contains(size)) members += fmt::format("  vec2 {};\n", size);
+    for (const std::string& bound : bound_)
+      slots += fillTemplate(templates::mpv_slot,
+                            {{"@NAME@", bound}, {"@PRESENT@", presenceDefineOf(bound + "_raw")}});
+    for (const std::string& texture : texturesBound_)
+      slots +=
+          fmt::format("\n#ifdef {}\nuniform sampler2D {};\n#endif\n", presenceDefineOf(texture), texture);
+    const auto add = [&](const std::string& file, const char* text) {
+      texts.push_back({fmt::format("shaders/{}/{}", name_, file),
+                       fillTemplate(text, {{"@NAME@", name_},
+                                           {"@PARAMETERS@\n", parameterBlockOf(members)},
+                                           {"@SLOTS@\n", slots}})});
+    };
+    add("mpv.glsl", templates::mpv);
+    texts.push_back({fmt::format("shaders/{0}/{0}.hook.glsl", name_), text_});
+    if (fragment_) add(name_ + ".frag.glsl", templates::mpv_fragment);
+    if (compute_) add(name_ + ".comp.glsl", templates::mpv_compute);
+    add("turn.frag.glsl", templates::mpv_turn);
+    add("show.frag.glsl", templates::mpv_show);
   }
 
   const MpvFile& file_;
-  const std::set<std::string>& used_;  // names that the shader mentions
   const ConvertOptions& options_;
   const std::string& name_;
   base::Diagnostics& diagnostics_;
-  MpvNeeds needs_;
-  JsonObjectText parameters_, resources_;
-  std::string passes_, shift_[2];
-  std::map<std::string, Named> names_;
+  const std::string text_;                         // the shader, translated
+  const std::set<std::string, std::less<>> used_;  // names that it mentions
+  std::set<std::string> bound_, texturesBound_;    // pictures that passes bind, textures of the file
+  bool fragment_ = false, compute_ = false;        // some pass is
+  Json parameters_ = Json::object(), resources_ = Json::object(), passes_ = Json::array();
+  std::string shift_[2];
+  std::map<std::string, Named, std::less<>> names_;
   std::set<std::string, std::less<>> taken_{"picture", "source", "shown"};
-  std::set<std::string> passNames_;
+  std::set<std::string, std::less<>> passNames_;
 };
 
 }  // namespace
@@ -374,23 +393,9 @@ class MpvGraphWriter {
 std::optional<Converted> convertMpv(std::string_view text, const std::string& file,
                                     const ConvertOptions& options, base::Diagnostics& diagnostics) {
   const auto parsed = readMpvFile(text, std::make_shared<const std::string>(file), diagnostics);
-  if (!parsed) return std::nullopt;
   static const std::string kPicture[] = {"picture"};
-  if (!checkImageNames(options, kPicture, diagnostics)) return std::nullopt;
-  const std::string translated = translateMpvText(*parsed);
-  const std::set<std::string> used = namesMentioned(translated);
-  MpvGraphWriter writer(*parsed, used, options, diagnostics);
-  const auto graph = writer.run();
-  if (!graph) return std::nullopt;
-  Converted out{.graph = options.name + ".json"};
-  out.texts.push_back({out.graph, *graph});
-  std::ranges::move(writeMpvShaders(*parsed, writer.needs(), translated, used, options.name),
-                    std::back_inserter(out.texts));
-  for (const MpvTexture& texture : parsed->textures) {
-    out.images.push_back(texture.image);
-    out.images.back().path = imagePath(texture, options.name);
-  }
-  return out;
+  if (!parsed || !checkImageNames(options, kPicture, diagnostics)) return std::nullopt;
+  return MpvWriter(*parsed, options, diagnostics).run();
 }
 
-}  // namespace weft::convert
+}  // namespace weft::importing

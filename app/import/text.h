@@ -1,9 +1,9 @@
-// What the importers share: GLSL that is changed token by token, JSON of graph files as text, and reports. Does not: know types
-// of GLSL, or which branch of an #if is taken.
+// What the importers share: GLSL that is changed token by token, names, and reports.
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <span>
 #include <string>
@@ -12,8 +12,17 @@
 #include <vector>
 
 #include "app/import/import.h"
+#include "engine/glsl/tokens.h"
 
-namespace weft::convert {
+namespace weft::importing {
+
+using Json = nlohmann::ordered_json;
+
+// A text of the foreign file, and where it is there.
+struct PlacedText {
+  std::string text;
+  base::Place place;
+};
 
 // Reports an error in a foreign file.
 void refuse(base::Diagnostics& diagnostics, base::Code code, const base::Place& place, std::string message,
@@ -27,53 +36,29 @@ bool contains(const auto& words, std::string_view word) {
 bool checkImageNames(const ConvertOptions& options, std::span<const std::string> known,
                      base::Diagnostics& diagnostics);
 
-struct Token {
-  std::string_view text;
-  std::uint32_t line = 0, column = 0;  // from 1
-  bool word = false, first = false;    // a word or a keyword; the first token of its line
-  bool is(std::string_view what) const { return text == what; }
-};
-// Words, numbers and single signs; comments are left out, directives are not.
-std::vector<Token> splitTokens(std::string_view text);
-
-// Every byte that is not changed, comments and line ends included, stays where it is, so that lines keep their numbers.
+// GLSL in which tokens are replaced. Every other byte, comments and line ends included, stays where it is, so that lines keep
+// their numbers. #version, #extension and #line become blank.
 class GlslText {
  public:
   explicit GlslText(std::string_view text);  // which must outlive this
 
-  const std::vector<Token>& tokens() const { return tokens_; }
-  // "define" for all tokens of a #define, and so on; empty outside of directives.
-  std::string_view directiveOf(std::size_t token) const { return directives_[token]; }
+  const std::vector<glsl::Token>& tokens() const { return tokens_; }
   // A word that is no member of something: not behind a '.'.
   bool isName(std::size_t token) const;
 
-  void replace(std::size_t token, std::string replacement) {
-    replaceRange(token, token, std::move(replacement));
-  }
-  void replaceRange(std::size_t first, std::size_t last, std::string replacement);
+  // Of changes that overlap, the first in the text wins; of the same token, the one that was made first.
+  void replace(std::size_t first, std::size_t last, std::string replacement);
   // Every name `from` that is no member.
-  void rename(std::string_view from, std::string_view to);
+  void rename(std::string_view from, const std::string& to);
   // Names that the text declares outside its functions or by #define and that `taken` holds get a '_' behind them.
-  void renameTaken(std::span<const std::string_view> taken);
-  // #version, #extension and #line become blank.
-  void blankVersions();
-  // The text with all changes; of changes that overlap, the first in the text wins.
+  void renameTaken(std::initializer_list<std::string_view> taken);
   std::string changed() const;
 
  private:
-  std::size_t offsetOf(std::size_t token) const {
-    return static_cast<std::size_t>(tokens_[token].text.data() - text_.data());
-  }
-
-  struct Change {
-    std::size_t begin, end;
-    std::string replacement;
-  };
   std::string_view text_;
-  std::vector<Token> tokens_;
-  std::vector<std::string_view> directives_;  // by token
-  std::set<std::string_view> outside_;        // names outside all braces and brackets, and of macros
-  std::vector<Change> changes_;
+  std::vector<glsl::Token> tokens_;
+  std::set<std::string_view> outside_;  // names outside all braces and brackets, and of macros
+  std::map<std::size_t, std::pair<std::size_t, std::string>> replaced_;  // by first token: the last, the text
 };
 
 // A name as GLSL, JSON and paths take it: other characters become '_', a digit is not the first.
@@ -85,23 +70,12 @@ std::string fillTemplate(std::string text,
                          std::initializer_list<std::pair<std::string_view, std::string_view>> words);
 // What a shader of Weft is compiled with where the slot has something: HAS_INPUTIMAGE.
 std::string presenceDefineOf(std::string_view slot);
+// The block of a shader's uniforms; nothing without `members`.
+std::string parameterBlockOf(const std::string& members);
 
-// Members of one object, in the order of adding.
-class JsonObjectText {
- public:
-  // `json` is a value as text; one that is empty is left out.
-  JsonObjectText& add(std::string_view key, const std::string& json);
-  JsonObjectText& addText(std::string_view key, std::string_view text);
-  bool empty() const { return members_.empty(); }
-  std::string text() const { return "{" + members_ + "}"; }
+// The shortest number that means the same: whole ones of an `int` without a point.
+Json numberOf(double number, bool real);
+// The text of a graph file.
+std::string graphText(const Json& graph);
 
- private:
-  std::string members_;
-};
-
-// The shortest text that gives the number again; with a point or an exponent where `real`.
-std::string numberText(double number, bool real);
-// A graph file of these members.
-std::string graphText(const JsonObjectText& members);
-
-}  // namespace weft::convert
+}  // namespace weft::importing

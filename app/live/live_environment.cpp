@@ -17,10 +17,9 @@ constexpr float kLoadingShare = 0.8f;             // of the bar; the rest is sen
 std::vector<std::string> listEnvironments(const std::filesystem::path& folder) {
   std::vector<std::string> files;
   std::error_code ec, ignored;
-  for (auto entry = std::filesystem::directory_iterator(folder, ec);
-       !ec && entry != std::filesystem::directory_iterator(); entry.increment(ec))
-    if (assets::isEnvironmentName(entry->path().string()) && entry->is_regular_file(ignored))
-      files.push_back(entry->path().string());
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ec))
+    if (assets::isEnvironmentName(entry.path().string()) && entry.is_regular_file(ignored))
+      files.push_back(entry.path().string());
   std::ranges::sort(files);
   return files;
 }
@@ -50,17 +49,12 @@ bool LiveEnvironment::step(int by) {
   if (wanted_.empty()) return false;
   const std::filesystem::path folder = std::filesystem::path(wanted_).parent_path();
   const std::vector<std::string> files = listEnvironments(folder.empty() ? "." : folder);
-  const auto same = [this](const std::string& file) {
-    return std::filesystem::path(file).lexically_normal() ==
-           std::filesystem::path(wanted_).lexically_normal();
-  };
-  const auto here = std::ranges::find_if(files, same);
+  const auto here =
+      std::ranges::find(files, std::filesystem::path(wanted_).filename(),
+                        [](const std::string& file) { return std::filesystem::path(file).filename(); });
   if (files.empty() || (files.size() == 1 && here != files.end())) return false;
   const auto count = static_cast<std::ptrdiff_t>(files.size());
-  // A file that has gone stands before the one that follows its name.
-  const std::ptrdiff_t at =
-      here != files.end() ? here - files.begin() + by
-                          : std::ranges::lower_bound(files, wanted_) - files.begin() + (by > 0 ? by - 1 : by);
+  const std::ptrdiff_t at = here != files.end() ? here - files.begin() + by : 0;
   request(files[static_cast<std::size_t>((at % count + count) % count)]);
   return true;
 }
@@ -91,12 +85,12 @@ std::optional<LiveEnvironment::Event> LiveEnvironment::poll(imports::Environment
   return Event{std::exchange(incoming_, nullptr)};
 }
 
-std::optional<LiveEnvironment::Status> LiveEnvironment::status() const {
+std::optional<LoadStatus> LiveEnvironment::status() const {
   const std::string name = std::filesystem::path(wanted_).filename().string();
-  if (incoming_) return Status{name, "sending", kLoadingShare + (1 - kLoadingShare) * sent_};
+  if (incoming_) return LoadStatus{name, "sending", kLoadingShare + (1 - kLoadingShare) * sent_};
   if (ticket_ == 0) return std::nullopt;
   const assets::LoadProgress progress = loader_.progress(ticket_);
-  return Status{name, assets::nameOf(progress.stage), kLoadingShare * progress.done};
+  return LoadStatus{name, assets::nameOf(progress.stage), kLoadingShare * progress.done};
 }
 
 }  // namespace weft::app

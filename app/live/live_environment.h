@@ -1,15 +1,13 @@
-// The environment of a window: the file that is shown, the one on its way, and the others of its folder.
-// Loads on the loader thread and sends to the GPU a portion per frame; nothing here waits for the disk, a
-// decoder or the GPU. (Going on to another file lists the folder: names only.) A failed load changes nothing
-// but what is said. Does not: switch the world to what arrived, or watch files (LiveGraph does both).
+// The environment of a window: the file that is shown, the one on its way, and the others of its folder. Loads on the loader
+// thread and sends to the GPU a portion per frame; nothing here waits for the disk, a decoder or the GPU. (Going on to
+// another file lists the folder: names only.) A failed load changes nothing but what is said.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
+#include "app/live/live_scene.h"
 #include "engine/assets/environments/environment_map.h"
 #include "engine/imports/environment/environment.h"
 
@@ -27,8 +25,8 @@ class LiveEnvironment {
   void assume(std::string path) { wanted_ = shown_ = std::move(path); }
   // Loads `path`, instead of whatever is on its way.
   void request(std::string path);
-  // The one `by` files after the last one asked for, in the order of names, round and round. False when there
-  // is no other.
+  // The one `by` files after the last one asked for, in the order of names,
+  // round and round. False when there is no other.
   bool step(int by);
 
   // Once per frame: something came of the last request. A map is whole on the GPU and to be taken into use at
@@ -39,12 +37,7 @@ class LiveEnvironment {
   std::optional<Event> poll(imports::EnvironmentTextures& textures, base::Diagnostics& diagnostics);
 
   // What is on its way.
-  struct Status {
-    std::string name;   // of the file, without folders
-    const char* stage;  // "reading"
-    float done = 0;     // 0 to 1
-  };
-  std::optional<Status> status() const;
+  std::optional<LoadStatus> status() const;
 
   // To watch: the file that is shown and the one last asked for; empty names for none.
   const std::string& shown() const { return shown_; }

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <filesystem>
-#include <memory>
 #include <ranges>
 #include <utility>
 
-#include "app/session/allocation_counter.h"
 #include "app/session/session.h"
 #include "engine/base/files/file_access.h"
 #include "engine/graph/edit/write_back.h"
@@ -19,11 +17,15 @@ namespace weft::app {
 
 namespace {
 
-// Editors and version control write several files, or one in several steps: what is wrong may be so no longer
-// when nothing was written for so long.
+// Editors and version control write several files, or one in several steps:
+// what is wrong may be so no longer when nothing was written for so long.
 constexpr double kQuietSeconds = 0.03;
 // The wait for a file that went away: some programs write it anew only a while later.
 constexpr double kGoneSeconds = 0.3;
+
+void forget(graph::Settings& settings, const std::string& name) {
+  std::erase_if(settings.sets, [&](const graph::Setting& set) { return set.name == name; });
+}
 
 }  // namespace
 
@@ -72,48 +74,27 @@ bool LiveGraph::tryLoad(Attempt attempt, base::Diagnostics& diagnostics) {
 }
 
 bool LiveGraph::tryGraph(Attempt attempt, const runtime::World& world, base::Diagnostics& diagnostics) {
-  graph::Settings wanted = settings_;
-  wanted.sets.insert(wanted.sets.end(), lostSets_.begin(), lostSets_.end());
-  wanted.disables.insert(wanted.disables.end(), lostDisables_.begin(), lostDisables_.end());
   base::Diagnostics said;
-  if (renderer_.load(wanted, world, said)) {
+  const bool good = renderer_.load(settings_, world, said);
+  if (good || attempt == Attempt::early || !running() || renderer_.refused().empty()) {
     diagnostics.append(said);
-    settings_ = std::move(wanted);
-    lostSets_.clear();
-    lostDisables_.clear();
-    return true;
+    return good;
   }
-  if (attempt == Attempt::early) return false;
   // The settings that the graph, as its files are, does not take.
-  std::vector<graph::Setting> sets;
-  std::vector<graph::Disable> disables;
-  base::Diagnostics warnings;
-  for (const graph::Refusal& refusal : renderer_.refused()) {
+  graph::Settings rest = settings_;
+  for (const graph::Refusal& refusal : std::views::reverse(renderer_.refused())) {
     base::Diagnostic warning = refusal.why;
     warning.severity = base::Severity::warning;
-    warning.message += "; left out until the files take it";
-    warnings.add(std::move(warning));
-    if (refusal.disable)
-      disables.push_back(wanted.disables[refusal.index]);
-    else
-      sets.push_back(wanted.sets[refusal.index]);
-  }
-  for (const graph::Refusal& refusal : std::views::reverse(renderer_.refused())) {
+    warning.message += "; it is left out";
+    diagnostics.add(std::move(warning));
     const auto at = static_cast<std::ptrdiff_t>(refusal.index);
     if (refusal.disable)
-      wanted.disables.erase(wanted.disables.begin() + at);
+      rest.disables.erase(rest.disables.begin() + at);
     else
-      wanted.sets.erase(wanted.sets.begin() + at);
+      rest.sets.erase(rest.sets.begin() + at);
   }
-  if (warnings.empty() || !running()) {
-    diagnostics.append(said);
-    return false;
-  }
-  diagnostics.append(warnings);
-  if (!renderer_.load(wanted, world, diagnostics)) return false;
-  settings_ = std::move(wanted);
-  lostSets_ = std::move(sets);
-  lostDisables_ = std::move(disables);
+  if (!renderer_.load(rest, world, diagnostics)) return false;
+  settings_ = std::move(rest);
   return true;
 }
 
@@ -244,27 +225,17 @@ bool LiveGraph::setParameter(const std::string& name, const graph::Value& value,
                              base::Diagnostics& diagnostics) {
   if (trySetLive(name, value)) return true;
   graph::Settings settings = settings_;
-  const auto same = [&](const graph::Setting& set) { return set.name == name; };
-  std::erase_if(settings.sets, same);
-  std::erase_if(lostSets_, same);
+  forget(settings, name);
   settings.sets.emplace_back(name, value, graph::Origin::panel);
   return trySettings(std::move(settings), diagnostics);
 }
 
 bool LiveGraph::trySetLive(const std::string& name, const graph::Value& value) {
-  const AllocationCount allocations;
   if (!renderer_.setParameter(name, value)) return false;
   ++changes_;
   ++livesSet_;
-  if (!remember(name, value)) return true;
-  const auto taken = allocations.taken();
-  liveAllocations_ = taken ? std::optional(*liveAllocations_ + *taken) : std::nullopt;
-  return true;
-}
-
-// True where the last setting of the parameter was made in a panel, too. It is overwritten then, so that a slider that
-// moves allocates nothing.
-bool LiveGraph::remember(const std::string& name, const graph::Value& value) {
+  // Where the last setting of the parameter was made in a panel, too, it is
+  // overwritten, so that a slider that moves allocates nothing.
   auto& sets = settings_.sets;
   const auto last = std::find_if(sets.rbegin(), sets.rend(),
                                  [&](const graph::Setting& set) { return graph::hasSuffix(name, set.name); });
@@ -272,11 +243,9 @@ bool LiveGraph::remember(const std::string& name, const graph::Value& value) {
     last->value = value;
     return true;
   }
-  const auto same = [&](const graph::Setting& set) { return set.name == name; };
-  std::erase_if(sets, same);
-  std::erase_if(lostSets_, same);
+  forget(settings_, name);
   sets.emplace_back(name, value, graph::Origin::panel);
-  return false;
+  return true;
 }
 
 bool LiveGraph::resetParameter(const std::string& name, base::Diagnostics& diagnostics) {

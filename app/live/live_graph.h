@@ -1,13 +1,10 @@
-// A graph that follows its files: what the viewer shows, the settings it shows it with, and the watch on
-// everything that was read for it. A change is validated whole; after an error the last good frame goes on,
-// and the settings that led to it are taken back when a person made them here. Does not: draw, own the
-// window, or know the camera.
+// A graph that follows its files: what the viewer shows, the settings it shows it with, and the watch on everything that
+// was read for it. A change is validated whole; after an error the last good frame goes on, and the settings that led to it
+// are taken back when a person made them here.
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "app/live/live_environment.h"
@@ -15,6 +12,7 @@
 #include "app/session/options.h"
 #include "engine/base/files/file_watcher.h"
 #include "engine/graph/expand/expand.h"
+#include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/renderer.h"
 
 namespace weft::app {
@@ -29,21 +27,18 @@ class LiveGraph {
   // The scene of `world` stands in for that of the files, which is read beside the frames. Before the first load().
   void expectScene();
   // Reads everything but the environment again and switches to it. False after errors, and what ran goes on.
-  // A set or disable that the graph does not take any more is left out with a warning, and comes back when it
-  // does; only the first time, when there is nothing to keep running, is it an error.
+  // A set or disable that the graph does not take any more is left out with a warning; only the first time,
+  // when there is nothing to keep running, is it an error.
   bool load(base::Diagnostics& diagnostics);
   // Loads when watched files changed: at once when they are good as they are, else when they have been quiet
   // for a moment, as more may come. A scene with models is read beside the frames, and loaded when it has
   // arrived. `now` in seconds. True when something came of it that is to be reported.
   bool poll(double now, base::Diagnostics& diagnostics);
-  // Whether files changed that poll() has not loaded yet. False while a scene is on its way: then there is nothing to wait
-  // for.
+  // Whether files changed that poll() has not loaded yet. False while a scene
+  // is on its way: then there is nothing to wait for.
   bool pending() const { return (graphStale_ && !scene_.loading()) || !changedEnvironment_.empty(); }
   // Whether files changed, and poll() would load them now. Costs one system call when there is nothing new.
   bool wantsLoad(double now);
-  // A descriptor that becomes readable when a watched file changes, for whoever wants to sleep until then. -1: nothing is
-  // ever reported.
-  int watchDescriptor() const { return watcher_.descriptor(); }
   // Once per frame: takes up an environment that has arrived. True when something came of the last request;
   // on failure the environment before stays, or, when it was to be the first, the stand-in comes.
   bool pollEnvironment(base::Diagnostics& diagnostics);
@@ -79,9 +74,6 @@ class LiveGraph {
   // Count switches to another plan, live parameters that were set, and calls of setParameter and setEnabled.
   std::uint64_t switches() const { return switches_; }
   std::uint64_t livesSet() const { return livesSet_; }
-  // Calls of operator new that the live parameters took: all but the first change of each, when the settings begin
-  // to remember it. Empty where nothing counts.
-  std::optional<std::uint64_t> liveAllocations() const { return liveAllocations_; }
   std::uint64_t changes() const { return changes_; }
 
  private:
@@ -92,16 +84,12 @@ class LiveGraph {
   bool tryGraph(Attempt attempt, const runtime::World& world, base::Diagnostics& diagnostics);
   bool tryWorld(runtime::World world, base::Diagnostics& diagnostics);
   bool trySetLive(const std::string& name, const graph::Value& value);
-  bool remember(const std::string& name, const graph::Value& value);
   bool trySettings(graph::Settings settings, base::Diagnostics& diagnostics);
   void watch(base::Diagnostics* diagnostics = nullptr);
 
   runtime::Renderer& renderer_;
   runtime::World world_;
   graph::Settings settings_;
-  // The settings that the graph, as its files are, does not take.
-  std::vector<graph::Setting> lostSets_;
-  std::vector<graph::Disable> lostDisables_;
   LiveScene scene_;
   LiveEnvironment environment_;
   base::FileWatcher watcher_;
@@ -111,7 +99,6 @@ class LiveGraph {
   std::string changedEnvironment_;    // to be loaded again, or empty
   double changedAt_ = 0, quiet_ = 0;  // seconds
   std::uint64_t switches_ = 0, livesSet_ = 0, changes_ = 0;
-  std::optional<std::uint64_t> liveAllocations_ = 0;
 };
 
 }  // namespace weft::app

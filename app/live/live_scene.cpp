@@ -81,10 +81,10 @@ const scene::Scene* LiveScene::scene(base::Diagnostics& diagnostics) const {
   return arrived_->scene ? &*arrived_->scene : nullptr;
 }
 
-std::optional<LiveScene::Status> LiveScene::status() const {
+std::optional<LoadStatus> LiveScene::status() const {
   if (ticket_ == 0) return std::nullopt;
   const assets::LoadProgress progress = loader_.progress(ticket_);
-  return Status{name(), assets::nameOf(progress.stage), progress.done};
+  return LoadStatus{name(), assets::nameOf(progress.stage), progress.done};
 }
 
 }  // namespace weft::app

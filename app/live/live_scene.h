@@ -1,6 +1,6 @@
 // The scene of a window: the file that is followed, and its loading beside the frames. Models are read, decoded and converted
-// on a loader thread; nothing here waits for the disk or a decoder. What arrived stays until the files change again, so that it
-// can be tried with one graph after another. Does not: switch the world to what arrived, or watch files (LiveGraph does both).
+// on a loader thread; nothing here waits for the disk or a decoder. What arrived stays until the files change again, so that
+// it can be tried with one graph after another.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,13 @@
 #include "engine/scene/files/scene_file.h"
 
 namespace weft::app {
+
+// What is on its way.
+struct LoadStatus {
+  std::string name;   // of the file, without folders
+  const char* stage;  // "reading"
+  float done = 0;     // 0 to 1
+};
 
 class LiveScene {
  public:
@@ -45,13 +52,7 @@ class LiveScene {
   // What arrived, with what is to be said of it; null after errors.
   const scene::Scene* scene(base::Diagnostics& diagnostics) const;
 
-  struct Status {
-    std::string name;
-    const char* stage;  // "reading"
-    float done = 0;     // 0 to 1
-  };
-  // What is on its way.
-  std::optional<Status> status() const;
+  std::optional<LoadStatus> status() const;
 
  private:
   // What the loader makes, also after errors.

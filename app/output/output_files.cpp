@@ -1,12 +1,11 @@
 #include "app/output/output_files.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -21,14 +20,6 @@ void refuse(const std::string& path, const std::string& message, const std::stri
             base::Diagnostics& diagnostics) {
   diagnostics.error(base::Code::outputNotWritten, {std::make_shared<const std::string>(path), 0, 0}, message)
       .hint = hint;
-}
-
-// Which file a name leads to, through links; nothing when there is none or it is no plain file.
-using FileId = std::pair<std::uint64_t, std::uint64_t>;  // device, inode
-std::optional<FileId> idOf(const std::string& path) {
-  struct stat found {};
-  if (::stat(path.c_str(), &found) != 0 || !S_ISREG(found.st_mode)) return std::nullopt;
-  return FileId{found.st_dev, found.st_ino};
 }
 
 // The one name that all spellings of a path have, of a file that may not be there yet.
@@ -52,43 +43,21 @@ std::optional<std::uint32_t> frameOf(const std::string& pattern, const std::stri
   return error == std::errc{} && outputNameOf(pattern, frame) == name ? std::optional(frame) : std::nullopt;
 }
 
-bool isAmong(const OutputFile& output, std::optional<std::uint32_t> frame) {
-  const bool several = output.pattern.find('%') != std::string::npos;
-  return frame && (!several || (*frame >= output.first && *frame <= output.last));
+bool isAmong(const OutputFile& output, const std::string& name) {
+  const auto frame = frameOf(output.pattern, name);
+  return frame && *frame >= output.first && *frame <= output.last;
 }
 
-// Calls `visit(path)` for every file of `output` that is there. One component of a pattern has the number:
-// what its folder holds is looked through, so that a million frames cost nothing.
-template <class Visit>
-void visitExisting(const OutputFile& output, const Visit& visit) {
-  const std::size_t at = output.pattern.find('%');
-  if (at == std::string::npos) return visit(output.pattern);
-  const std::size_t slash = output.pattern.rfind('/', at), next = output.pattern.find('/', at);
-  const std::string folder = slash == std::string::npos ? "" : output.pattern.substr(0, slash + 1);
-  const std::string component =
-      output.pattern.substr(folder.size(), next == std::string::npos ? next : next - folder.size());
-  const std::string rest = next == std::string::npos ? "" : output.pattern.substr(next);
-  std::error_code ec;
-  for (fs::directory_iterator entry(folder.empty() ? "." : folder, ec), end; !ec && entry != end;
-       entry.increment(ec)) {
-    const std::string name = entry->path().filename().string();
-    if (isAmong(output, frameOf(component, name))) visit(folder + name + rest);
-  }
+// Whether two outputs with plain names have a file in common.
+bool meet(const OutputFile& a, const OutputFile& b) {
+  return a.pattern == b.pattern ? a.first <= b.last && b.first <= a.last
+                                : isAmong(a, b.pattern) || isAmong(b, a.pattern);
 }
 
-constexpr const char* kNameAnother = "name another file";
-
-std::map<FileId, std::string> filesByIdOf(std::span<const std::string> paths) {
-  std::map<FileId, std::string> files;
-  for (const std::string& path : paths)
-    if (const auto id = idOf(path)) files.emplace(*id, path);
-  return files;
-}
-
-void refuseInput(const std::string& path, const std::string& option, const std::string& input,
-                 base::Diagnostics& diagnostics) {
-  refuse(path, fmt::format("{} would write over '{}', which this run reads", option, input), kNameAnother,
-         diagnostics);
+OutputFile plainOf(OutputFile output) {
+  output.pattern = plainName(output.pattern);
+  if (output.pattern.find('%') == std::string::npos) output.first = output.last = 0;
+  return output;
 }
 
 }  // namespace
@@ -132,18 +101,7 @@ bool checkOutput(const std::string& pattern, std::uint32_t firstFrame, bool seve
     return fail(fmt::format("cannot write '{}': unknown kind of image '{}'", *first,
                             fs::path(*first).extension().string()),
                 "name a .png or an .exr file");
-  base::Diagnostics said;
-  if (!makeFolderOf(*first, said)) {
-    for (base::Diagnostic each : said.items()) {
-      each.place.file = std::make_shared<const std::string>(pattern);
-      diagnostics.add(std::move(each));
-    }
-    return false;
-  }
-  std::error_code ec;
-  if (fs::is_directory(*first, ec))
-    return fail(fmt::format("cannot write '{}': it is a directory", *first), "name a file");
-  return true;
+  return makeFolderOf(*first, diagnostics);
 }
 
 bool makeFolderOf(const std::string& path, base::Diagnostics& diagnostics) {
@@ -158,79 +116,52 @@ bool makeFolderOf(const std::string& path, base::Diagnostics& diagnostics) {
   return false;
 }
 
-bool makeFolders(const std::string& pattern, std::uint32_t first, std::uint32_t last,
-                 base::Diagnostics& diagnostics) {
-  const std::size_t at = pattern.find('%'), slash = pattern.rfind('/');
-  if (at == std::string::npos || slash == std::string::npos || at > slash) return true;
-  for (std::uint64_t frame = first; frame <= last; ++frame)
-    if (!makeFolderOf(*outputNameOf(pattern, static_cast<std::uint32_t>(frame)), diagnostics)) return false;
-  return true;
-}
-
 bool checkDistinct(std::span<const OutputFile> outputs, std::span<const std::string> inputs,
                    base::Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
-  const std::map<FileId, std::string> read = filesByIdOf(inputs);
-  std::map<FileId, const OutputFile*> written;  // what is there already
-  std::vector<OutputFile> seen;                 // by their plain names
+  std::vector<OutputFile> seen;  // by their plain names; those that are read have no option
+  for (const std::string& input : inputs) seen.push_back(plainOf({"", input}));
   for (const OutputFile& output : outputs) {
-    if (output.pattern.empty()) continue;
-    const auto twice = [&](const OutputFile& other) {
+    std::error_code ec;
+    const fs::file_status there = fs::status(output.pattern, ec);
+    if (output.pattern.empty() || (fs::exists(there) && !fs::is_regular_file(there))) continue;
+    OutputFile plain = plainOf(output);
+    const auto same = std::ranges::find_if(seen, [&](const OutputFile& other) { return meet(plain, other); });
+    if (same == seen.end())
+      seen.push_back(std::move(plain));
+    else
       refuse(output.pattern,
-             fmt::format("{} and {} would write one file, '{}'", other.option, output.option, output.pattern),
-             kNameAnother, diagnostics);
-    };
-    std::size_t found = 0;
-    visitExisting(output, [&](const std::string& path) {
-      const auto id = idOf(path);
-      if (!id || found > 0) return;
-      if (const auto input = read.find(*id); input != read.end()) {
-        refuseInput(path, output.option, input->second, diagnostics);
-        ++found;
-      } else if (const auto other = written.emplace(*id, &output).first; other->second != &output) {
-        twice(*other->second);
-        ++found;
-      }
-    });
-    OutputFile plain = output;
-    plain.pattern = plainName(output.pattern);
-    struct stat special {};
-    const bool file = ::stat(output.pattern.c_str(), &special) != 0 || S_ISREG(special.st_mode);
-    for (const OutputFile& other : seen) {
-      if (found > 0 || !file) break;
-      // Two patterns meet where they are spelled alike; a plain name is a frame of a pattern or not.
-      const bool meet = plain.pattern == other.pattern
-                            ? plain.first <= other.last && other.first <= plain.last
-                            : isAmong(other, frameOf(other.pattern, plain.pattern)) ||
-                                  isAmong(plain, frameOf(plain.pattern, other.pattern));
-      if (meet) {
-        twice(other);
-        ++found;
-      }
-    }
-    seen.push_back(std::move(plain));
+             same->option.empty()
+                 ? fmt::format("{} would write over '{}', which this run reads", output.option, same->pattern)
+                 : fmt::format("{} and {} would write one file, '{}'", same->option, output.option,
+                               output.pattern),
+             "name another file", diagnostics);
   }
   return diagnostics.errorCount() == before;
 }
 
-bool checkMadeFiles(std::span<const std::string> paths, std::span<const std::string> inputs,
-                    const std::string& option, base::Diagnostics& diagnostics) {
+bool checkMadeFiles(std::span<const std::string> paths, base::Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
-  const std::map<FileId, std::string> read = filesByIdOf(inputs);
   for (const std::string& path : paths) {
-    struct stat found {};
-    if (::stat(path.c_str(), &found) != 0) continue;
-    if (!S_ISREG(found.st_mode)) {
-      refuse(path,
-             fmt::format("{} stands where a file would be written", S_ISFIFO(found.st_mode)   ? "a pipe"
-                                                                    : S_ISDIR(found.st_mode)  ? "a folder"
-                                                                    : S_ISSOCK(found.st_mode) ? "a socket"
+    std::error_code ec;
+    const fs::file_status found = fs::status(path, ec);
+    if (fs::exists(found) && !fs::is_regular_file(found))
+      refuse(
+          path,
+          fmt::format("there is {} of the name of a file to write", fs::is_fifo(found)        ? "a pipe"
+                                                                    : fs::is_directory(found) ? "a folder"
                                                                                               : "a device"),
-             "remove it, or name another folder", diagnostics);
-    } else if (const auto input = read.find(FileId{found.st_dev, found.st_ino}); input != read.end()) {
-      refuseInput(path, option, input->second, diagnostics);
-    }
+          "remove it, or name another folder", diagnostics);
   }
+  return diagnostics.errorCount() == before;
+}
+
+bool checkFree(std::span<const std::string> paths, base::Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.errorCount();
+  std::error_code ec;
+  for (const std::string& path : paths)
+    if (fs::exists(path, ec))
+      refuse(path, "the file is there already", "remove it, or choose another name or folder", diagnostics);
   return diagnostics.errorCount() == before;
 }
 

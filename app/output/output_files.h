@@ -1,5 +1,4 @@
-// Files that commands write: names with frame numbers, their folders, and that none of them is a file that is
-// read. Does not: write them (app/output/picture_writer.h does), or decide which frames.
+// Files that commands write: names with frame numbers, their folders, and that none of them is a file that is read.
 #pragma once
 
 #include <cstdint>
@@ -23,26 +22,24 @@ std::string pictureKindOf(const std::string& path);
 bool checkOutput(const std::string& pattern, std::uint32_t first, bool several,
                  base::Diagnostics& diagnostics);
 
-// Makes the folder of one file. False after W180.
+// Makes the folder of a file. False after W180.
 bool makeFolderOf(const std::string& path, base::Diagnostics& diagnostics);
-// The folders of all frames, where the number is part of a folder's name.
-bool makeFolders(const std::string& pattern, std::uint32_t first, std::uint32_t last,
-                 base::Diagnostics& diagnostics);
 
 // What one option has a run write: a file, or the frames of a pattern.
 struct OutputFile {
-  std::string option;   // "-o", as it stands in messages
+  std::string option;   // "-o", for messages
   std::string pattern;  // empty: nothing
   std::uint32_t first = 0, last = 0;
 };
-// That no output is one of the files that the run reads, or another output, by whatever name or link. Only
-// files count: devices and pipes are nobody's. False after W180.
+// That no output is one of the files that the run reads, or another output, however it is spelled and whatever links lead to
+// it. Devices and pipes may be anything. False after W180.
 bool checkDistinct(std::span<const OutputFile> outputs, std::span<const std::string> inputs,
                    base::Diagnostics& diagnostics);
 
-// Files whose names a command makes itself, for the option `option`: each is nothing yet or a plain file, so that no pipe is
-// waited for and no device written to, and none of the files that the run reads. False after W180.
-bool checkMadeFiles(std::span<const std::string> paths, std::span<const std::string> inputs,
-                    const std::string& option, base::Diagnostics& diagnostics);
+// Files whose names a command makes itself: each is nothing yet or a plain file, so that no pipe is waited for and no device
+// written to. False after W180.
+bool checkMadeFiles(std::span<const std::string> paths, base::Diagnostics& diagnostics);
+// That there is no file of these names yet. False after W180.
+bool checkFree(std::span<const std::string> paths, base::Diagnostics& diagnostics);
 
 }  // namespace weft::app

@@ -3,16 +3,40 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <utility>
 
 #include "app/output/output_files.h"
+#include "app/output/standard_streams.h"
 #include "engine/base/counted.h"
+#include "engine/base/printable.h"
 
 namespace weft::app {
 
+bool savePng(const std::string& path, const assets::Image8& image, base::Diagnostics& diagnostics) {
+  return makeFolderOf(path, diagnostics) &&
+         assets::savePng8(path, image.width, image.height, image.channels, image.texels, diagnostics);
+}
+
+bool saveInspected(runtime::Inspector& inspector, const std::string& path, base::Diagnostics& diagnostics) {
+  if (pictureKindOf(path) != ".exr") {
+    const auto image = inspector.drawWhole(inspector.fittedView(), diagnostics);
+    return image && savePng(path, *image, diagnostics);
+  }
+  auto image = inspector.values();
+  if (!image || !makeFolderOf(path, diagnostics)) return false;
+  if (image->channels == 2) {  // .exr files have one channel, three or four
+    assets::ImageF wide{image->width, image->height, 3, {}};
+    for (std::size_t i = 0; i < image->texels.size(); i += 2)
+      wide.texels.insert(wide.texels.end(), {image->texels[i], image->texels[i + 1], 0.0f});
+    image = std::move(wide);
+  }
+  return assets::saveExr(path, *image, diagnostics);
+}
+
 void PictureWriter::look(const assets::ImageF& picture, runtime::Renderer& renderer,
-                         const std::string& path) {
+                         const std::string& file) {
   Found found;
   const auto channels = static_cast<std::size_t>(picture.channels);
   for (std::size_t at = 0; at < picture.texels.size(); at += channels) {
@@ -33,7 +57,7 @@ void PictureWriter::look(const assets::ImageF& picture, runtime::Renderer& rende
   ++counts_.broken;
   counts_.pixels += found.pixels;
   if (first_.pixels > 0) return;
-  found.path = path;
+  found.file = file;
   const graph::FlatGraph& graph = *renderer.execution()->plan().graph;
   found.resource = graph.resourceNames[graph.present.resource];
   first_ = std::move(found);
@@ -41,29 +65,24 @@ void PictureWriter::look(const assets::ImageF& picture, runtime::Renderer& rende
 
 bool PictureWriter::save(runtime::Renderer& renderer, const std::string& path,
                          base::Diagnostics& diagnostics) {
-  const auto written = [&](bool good) {
-    counts_.pictures += good ? 1 : 0;
-    return good;
-  };
-  const auto png = [&](const assets::Image8& image) {
-    return written(
-        assets::savePng8(path, image.width, image.height, image.channels, image.texels, diagnostics));
-  };
   const bool values = pictureKindOf(path) == ".exr";
+  bool good = false;
   if (!values && renderer.presentsBytes()) {  // they hold no such values, and are read faster
     const auto image = renderer.readPresented8();
-    return image && png(*image);
+    good = image && savePng(path, *image, diagnostics);
+  } else if (const auto image = renderer.readPresentedFloat()) {
+    look(*image, renderer, path);
+    good = values ? makeFolderOf(path, diagnostics) && assets::saveExr(path, *image, diagnostics)
+                  : savePng(path, runtime::toBytes(*image), diagnostics);
   }
-  const auto image = renderer.readPresentedFloat();
-  if (!image) return false;
-  look(*image, renderer, path);
-  return values ? written(assets::saveExr(path, *image, diagnostics)) : png(runtime::toBytes(*image));
+  counts_.pictures += good;
+  return good;
 }
 
 void PictureWriter::tell(base::Diagnostics& diagnostics) {
   if (first_.pixels == 0) return;
   auto& d = diagnostics.warning(
-      base::Code::pictureNotFinite, {std::make_shared<const std::string>(first_.path), 0, 0},
+      base::Code::pictureNotFinite, {std::make_shared<const std::string>(first_.file), 0, 0},
       fmt::format("{} of the picture {} NaN or infinite, the first at x {}, y {} from the upper left",
                   base::counted(first_.pixels, "pixel"), first_.pixels == 1 ? "is" : "are", first_.x,
                   first_.y));
@@ -78,6 +97,42 @@ void PictureWriter::tell(base::Diagnostics& diagnostics) {
       "the texture inspector of `weft view` marks them";
   first_ = {};
   brokenBefore_ = counts_.broken;
+}
+
+bool Recorder::start(const std::string& pattern, base::Diagnostics& diagnostics) {
+  pattern_ = pattern;
+  std::error_code ignored;
+  for (int i = 1; pattern_.empty(); ++i)
+    if (const std::string folder = fmt::format("record_{}", i); !std::filesystem::exists(folder, ignored))
+      pattern_ = folder + "/f_%05d.png";
+  frames_ = 0;
+  active_ = checkOutput(pattern_, 0, true, diagnostics);
+  return active_;
+}
+
+void Recorder::stop(base::Diagnostics& diagnostics) {
+  if (!active_) return;
+  active_ = false;
+  print(fmt::format("wrote {} to {}\n", base::counted(frames_, "frame"), base::printable(pattern_)));
+  flushPrinted();
+  writer_.tell(diagnostics);
+}
+
+void Recorder::add(runtime::Renderer& renderer, base::Diagnostics& diagnostics) {
+  if (!active_) return;
+  const std::string path = *outputNameOf(pattern_, frames_);
+  if (writer_.save(renderer, path, diagnostics))
+    ++frames_;
+  else
+    stop(diagnostics);
+}
+
+std::string screenshotName(std::uint32_t frame, const char* extension) {
+  std::error_code ignored;
+  std::string name = fmt::format("weft_{:05}{}", frame, extension);
+  for (int i = 2; std::filesystem::exists(name, ignored); ++i)
+    name = fmt::format("weft_{:05}_{}{}", frame, i, extension);
+  return name;
 }
 
 }  // namespace weft::app

@@ -1,36 +1,40 @@
-// The presented texture as it is into picture files: .png has 8 bits of it, .exr its values. Each picture is
-// looked at for values that are no colours (NaN, infinite): it is written all the same, and reported (W207). Does
-// not: name files, or see what a pass upstream made of NaN before the presented texture took it; one with 8
-// bits cannot hold it.
+// Pictures into files: .png has 8 bits, .exr the values. The presented picture is looked at for values that are no colors (NaN,
+// infinite): it is written all the same, and reported (W207). A texture with 8 bits cannot hold them.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
 #include "engine/base/diagnostic.h"
+#include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/renderer.h"
+#include "engine/runtime/inspection/inspector.h"
 
 namespace weft::app {
+
+// Makes the folder of the file. False after W180, as all of these.
+bool savePng(const std::string& path, const assets::Image8& image, base::Diagnostics& diagnostics);
+// What a copy of the inspector's is saved as under `path`, by the kind of its name.
+bool saveInspected(runtime::Inspector& inspector, const std::string& path, base::Diagnostics& diagnostics);
 
 class PictureWriter {
  public:
   struct Counts {
     std::uint64_t pictures = 0;  // written
-    std::uint64_t broken = 0;    // of them, with values that are no colours
+    std::uint64_t broken = 0;    // looked at, with values that are no colors
     std::uint64_t pixels = 0;    // that have such values, of all
   };
 
-  // False after errors.
   bool save(runtime::Renderer& renderer, const std::string& path, base::Diagnostics& diagnostics);
+  // Notes what values in the presented picture are no colors. `file`: which is said to have them.
+  void look(const assets::ImageF& picture, runtime::Renderer& renderer, const std::string& file);
   // One warning (W207) for all pictures since the last call, or none.
   void tell(base::Diagnostics& diagnostics);
   const Counts& counts() const { return counts_; }
 
  private:
-  void look(const assets::ImageF& picture, runtime::Renderer& renderer, const std::string& path);
-
   struct Found {
-    std::string path, resource;
+    std::string file, resource;
     std::uint64_t nan = 0, infinite = 0, pixels = 0;  // a pixel with both counts as NaN
     int x = 0, y = 0;                                 // the first, from the upper left
   };
@@ -38,5 +42,31 @@ class PictureWriter {
   Found first_;  // picture with such pixels since the last tell()
   std::uint64_t brokenBefore_ = 0;
 };
+
+// A numbered sequence of presented pictures. One recording at a time; the first file that cannot be written
+// ends it, with the reason, and nothing else.
+class Recorder {
+ public:
+  // Frames go to `pattern` ("out/f_%04d.png", or .exr), numbered from 0. An empty pattern makes a new folder,
+  // record_N, here. False with W180 when the folder cannot be made or the pattern is none.
+  bool start(const std::string& pattern, base::Diagnostics& diagnostics);
+  // Says how many frames there are, on standard output, and what is wrong with them (W207).
+  void stop(base::Diagnostics& diagnostics);
+  bool active() const { return active_; }
+  std::uint32_t frames() const { return frames_; }
+  const std::string& pattern() const { return pattern_; }
+
+  // The presented picture is the next frame. Stops after an error.
+  void add(runtime::Renderer& renderer, base::Diagnostics& diagnostics);
+
+ private:
+  PictureWriter writer_;
+  std::string pattern_;
+  std::uint32_t frames_ = 0;
+  bool active_ = false;
+};
+
+// A name for a picture of frame `frame` that no file here has yet: weft_00012.png, weft_00012_2.png.
+std::string screenshotName(std::uint32_t frame, const char* extension);
 
 }  // namespace weft::app

@@ -1,62 +1,41 @@
 #include "app/output/progress.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
+
+#include "app/output/standard_streams.h"
 
 namespace weft::app {
 
-namespace {
-
-constexpr int kBarWidth = 40;
-constexpr double kMinute = 60, kHour = 60 * kMinute, kDay = 24 * kHour;
-
-// "2 h 13 min": the whole ones of the greater unit, and the rest rounded down to the smaller one.
-std::string twoUnits(double seconds, double greater, const char* name, double smaller,
-                     const char* smallerName) {
-  const double whole = std::floor(seconds / greater),
-               rest = std::floor((seconds - whole * greater) / smaller);
-  return rest > 0 ? fmt::format("{:.0f} {} {:.0f} {}", whole, name, rest, smallerName)
-                  : fmt::format("{:.0f} {}", whole, name);
-}
-
-// "12/501 frames, 2 h 13 min left".
-std::string countText(const Progress& p) {
-  std::string text = fmt::format("{}/{} {}", p.done, p.total, p.unit);
-  if (p.lead > 0 && p.done < p.total)
-    text += fmt::format(", {} of them lead up to the first picture", p.lead);
-  if (p.done > 0 && p.done < p.total)
-    text += fmt::format(", {} left", durationText(p.seconds / static_cast<double>(p.done) *
-                                                  static_cast<double>(p.total - p.done)));
-  if (p.done == p.total) text += fmt::format(" in {}", durationText(p.seconds));
-  return text;
-}
-
-}  // namespace
-
 std::string durationText(double seconds) {
-  if (!(seconds > 0)) return "0 s";
-  if (seconds < 10) return fmt::format("{:.1f} s", seconds);
-  if (seconds < 1.5 * kMinute) return fmt::format("{:.0f} s", seconds);
-  if (seconds < 10 * kMinute) return twoUnits(seconds, kMinute, "min", 1, "s");
-  if (seconds < kHour) return fmt::format("{:.0f} min", std::floor(seconds / kMinute));
-  if (seconds < 2 * kDay) return twoUnits(seconds, kHour, "h", kMinute, "min");
-  return twoUnits(seconds, kDay, "days", kHour, "h");
+  if (seconds < 10) return fmt::format("{:.1f} s", std::max(0.0, seconds));
+  if (seconds < 90) return fmt::format("{:.0f} s", seconds);
+  return seconds < 5400 ? fmt::format("{:.0f} min", seconds / 60) : fmt::format("{:.1f} h", seconds / 3600);
 }
 
 std::string progressText(const Progress& p) {
-  const auto filled = static_cast<std::size_t>(p.done * kBarWidth / std::max<std::uint64_t>(1, p.total));
-  return fmt::format("[{}{}] {}", std::string(filled, '#'), std::string(kBarWidth - filled, '.'),
-                     countText(p));
+  std::string text = fmt::format("{}/{} {}", p.done, p.total, p.unit);
+  if (p.done >= p.total) return text + " in " + durationText(p.seconds);
+  if (p.lead > 0) text += fmt::format(", {} of them lead up to the first picture", p.lead);
+  const double each = p.seconds / static_cast<double>(std::max<std::uint64_t>(1, p.done));
+  return text + fmt::format(", {} left", durationText(each * static_cast<double>(p.total - p.done)));
 }
 
-std::string ProgressLines::after(const Progress& p) {
-  const bool last = p.done == p.total;
-  if (terminal_) return fmt::format("\r{}\033[K{}", progressText(p), last ? "\n" : "");
-  if (!last && p.seconds - last_ < kPause) return {};
-  last_ = p.seconds;
-  return countText(p) + "\n";
+void ProgressLines::countOne() {
+  constexpr std::uint64_t kBarWidth = 40;
+  constexpr double kPause = 10;  // seconds
+  ++progress_.done;
+  progress_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const bool last = progress_.done == progress_.total, terminal = ::isatty(STDERR_FILENO) == 1;
+  const std::size_t filled = progress_.done * kBarWidth / progress_.total;
+  if (terminal)
+    printError(fmt::format("\r[{}{}] {}\033[K{}", std::string(filled, '#'),
+                           std::string(kBarWidth - filled, '.'), progressText(progress_), last ? "\n" : ""));
+  if (terminal || (progress_.seconds - printed_ < kPause && !(last && printed_ > 0))) return;
+  printError(progressText(progress_) + "\n");
+  printed_ = progress_.seconds;
 }
 
 }  // namespace weft::app

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -42,6 +43,22 @@ void print(std::string_view text) {
   put(text, stdout, outputFailure);
 }
 
+void printTable(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (std::size_t i = 0; i + 1 < row.size(); ++i)
+      widths[i] = std::max(widths[i], base::printable(row[i]).size());
+  }
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i)
+      line += fmt::format("{:<{}}  ", base::printable(row[i]), widths[i]);
+    line.erase(line.find_last_not_of(' ') + 1);
+    print(line + "\n");
+  }
+}
+
 void flushPrinted() {
   errno = 0;
   if (std::fflush(stdout) != 0 && outputFailure == 0) outputFailure = errno != 0 ? errno : EIO;
@@ -49,10 +66,6 @@ void flushPrinted() {
 
 void printError(std::string_view text) {
   put(text, stderr, errorFailure);
-}
-
-bool isTerminal() {
-  return ::isatty(STDERR_FILENO) == 1;
 }
 
 std::string dumpJson(const nlohmann::ordered_json& json) {

@@ -1,11 +1,11 @@
 // Writes to standard output and standard error, which may be full or closed, or whose reader may have gone (`| head`).
-// Nothing here throws: finishStreams() reports at the end what could not be written, and gives the exit code. Does not:
-// format, or know the diagnostics that commands collect.
+// Nothing here throws: finishStreams() reports at the end what could not be written, and gives the exit code.
 #pragma once
 
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace weft::app {
 
@@ -13,11 +13,11 @@ namespace weft::app {
 // ending the program; and the number of a closed stream is not given to the next file that opens.
 void prepareStreams();
 
-void print(std::string_view text);       // on standard output
+void print(std::string_view text);  // on standard output
+// Columns as wide as their widest cell, the last as it is.
+void printTable(const std::vector<std::vector<std::string>>& rows);
 void flushPrinted();                     // writes what print() has kept back so far
 void printError(std::string_view text);  // on standard error
-
-bool isTerminal();  // whether a person sees standard error as it is written
 
 // Indented text. Bytes that are no UTF-8 are replaced.
 std::string dumpJson(const nlohmann::ordered_json& json);

@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <map>
 #include <sstream>
 
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
 #include "engine/base/files/file_access.h"
 #include "engine/base/limits.h"
-#include "engine/base/nearest.h"
 #include "engine/base/printable.h"
 
 namespace weft::app {
@@ -22,17 +21,17 @@ std::string shown(const std::string& text) {
   return base::shortened(base::printable(text));
 }
 
-std::vector<CLI::App*> commandsOf(CLI::App& app) {
-  return app.get_subcommands([](CLI::App*) { return true; });
-}
+// Names of commands before 0.2, and what they are now.
+const std::map<std::string, std::vector<std::string>> kOldNames{{"dot", {"plan", "--format=dot"}},
+                                                                {"expand", {"plan", "--format=expanded"}},
+                                                                {"bisect", {"diff", "--render"}}};
 
 // What every command takes.
 void addCommon(CLI::App& command) {
   const auto confine = [](const std::string& folder) { return base::confineTo(folder).value_or(""); };
   const auto limit = [](const std::string& text) -> std::string {
-    std::uint64_t times = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), times);
-    if (error != std::errc() || end != text.data() + text.size() || times < 1 || times > base::kMostRaise)
+    std::uint32_t times = 0;
+    if (!parseNumber(text, times) || times < 1 || times > base::kMostRaise)
       return fmt::format("expected a whole number from 1 to {}, found '{}'", base::kMostRaise, text);
     base::raiseLimits(times);
     return "";
@@ -47,33 +46,6 @@ void addCommon(CLI::App& command) {
       .add_option_function<std::vector<std::string>>(
           "--limit", ignore, "make the limits of docs/limits.md this many times as large")
       ->check(CLI::Validator(limit, "N"));
-  for (CLI::App* inner : commandsOf(command)) addCommon(*inner);
-}
-
-// Whether there was an unknown option.
-bool tellUnknownOption(const CLI::App& command, int argc, char** argv) {
-  std::vector<std::string> names;
-  std::string title = command.get_name();
-  const auto take = [&](const CLI::App& part) {
-    for (const CLI::Option* option : part.get_options())
-      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  };
-  take(command);
-  for (const CLI::App* inner : command.get_subcommands()) {  // what was written: "pass" behind "new"
-    take(*inner);
-    title += " " + inner->get_name();
-  }
-  bool told = false;
-  for (int i = 2; i < argc; ++i) {
-    const std::string argument = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
-    if (!argument.starts_with("--") || std::ranges::find(names, argument) != names.end()) continue;
-    const std::string near = base::nearestName(argument, names);
-    printError(
-        fmt::format("weft {}: unknown option '{}'; {}\n", title, shown(argument),
-                    near.empty() ? "--help lists what there is" : fmt::format("did you mean '{}'?", near)));
-    told = true;
-  }
-  return told;
 }
 
 // Help, the version, or what is wrong. 0 when it was asked for.
@@ -83,10 +55,7 @@ int tell(const CLI::App& app, const CLI::ParseError& error) {
   print(out.str());
   // What is wrong repeats what was written; the rest is of the parser.
   const std::string said = err.str(), what = error.what();
-  const std::size_t twice = what.find(": At Most 1 required");
-  const std::string own =
-      twice == std::string::npos ? what : what.substr(0, twice) + ": given more than once";
-  printError(said.starts_with(what) ? shown(own) + said.substr(what.size()) : said);
+  printError(said.starts_with(what) ? shown(what) + said.substr(what.size()) : said);
   return code == 0 ? 0 : 2;
 }
 
@@ -106,8 +75,6 @@ std::string chooseFiles(const CLI::App& command) {
       if (reads) base::chooseFile(value);
     }
   }
-  for (const CLI::App* inner : command.get_subcommands())
-    if (std::string wrong = chooseFiles(*inner); !wrong.empty()) return wrong;
   return {};
 }
 
@@ -119,22 +86,15 @@ CommandLine::CommandLine() : app_("Weft: a frame is a JSON file", "weft") {
 }
 
 int CommandLine::run(int argc, char** argv) {
-  std::vector<std::string> names;
-  for (CLI::App* command : commandsOf(app_)) {
-    addCommon(*command);
-    names.push_back(command->get_name());
-  }
-  if (argc > 1 && argv[1][0] != '-' && std::ranges::find(names, argv[1]) == names.end()) {
-    printError(
-        fmt::format("weft: unknown command '{}'; {}\n", shown(argv[1]), base::nearestHint(argv[1], names)));
-    return 2;
-  }
+  std::vector<std::string> words(argv + 1, argv + std::max(argc, 1));
+  for (CLI::App* command : app_.get_subcommands([](CLI::App*) { return true; })) addCommon(*command);
+  if (!words.empty())
+    if (const auto old = kOldNames.find(words[0]); old != kOldNames.end()) {
+      words.erase(words.begin());
+      words.insert(words.begin(), old->second.begin(), old->second.end());
+    }
   try {
-    app_.parse(argc, argv);
-  } catch (const CLI::ExtrasError& error) {
-    const auto chosen = app_.get_subcommands();
-    if (chosen.empty() || !tellUnknownOption(*chosen.front(), argc, argv)) tell(app_, error);
-    return 2;
+    app_.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError& error) {
     return tell(app_, error);
   }

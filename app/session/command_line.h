@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <memory>
-#include <string>
 #include <type_traits>
 
 #include "app/session/options.h"
@@ -26,13 +25,8 @@ class CommandLine {
   // `action` returns the exit code: 0 done, 1 something is wrong with the input, 2 usage, 3 the machine cannot (no context).
   template <class O>
   Command<O> add(const char* name, const char* doc, int (*action)(O&)) {
-    return addTo(app_, name, doc, action);
-  }
-  // The same behind a command: "pass" of "new".
-  template <class O>
-  Command<O> addTo(CLI::App& parent, const char* name, const char* doc, int (*action)(O&)) {
     const auto options = std::make_shared<O>();
-    CLI::App& command = *parent.add_subcommand(name, doc);
+    CLI::App& command = *app_.add_subcommand(name, doc);
     command.callback([this, options, action] {
       run_ = [options, action] {
         if constexpr (std::is_base_of_v<Options, O>) options->finish();
@@ -41,7 +35,6 @@ class CommandLine {
     });
     return {command, *options};
   }
-  CLI::App& app() { return app_; }
 
   // Reads the arguments and runs the command that they choose. Help, the version and what is wrong are printed.
   int run(int argc, char** argv);

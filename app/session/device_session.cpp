@@ -1,7 +1,7 @@
 #include "app/session/device_session.h"
 
+#include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
@@ -52,55 +52,45 @@ std::unique_ptr<DeviceSession> openDevice(const Options& options, base::Diagnost
       std::move(context), runtime::Renderer(current, options.graph, rendererOptionsOf(options))});
 }
 
-std::optional<Opened> openGraph(const Options& options, base::Diagnostics& diagnostics, int& exitCode) {
+namespace {
+
+// A world and a device, unless a graph of `all` is wrong. What is missing is reported.
+std::optional<Opened> openStage(std::span<const Options> all, int wrong, base::Diagnostics& diagnostics,
+                                int& exitCode) {
+  const Options& options = all.front();
   auto world = loadWorld(options, diagnostics);
-  exitCode = 1;
+  const runtime::WorldFacts facts = world ? world->facts() : factsWithoutWorld();
+  exitCode = wrong;
+  const auto isRight = [&](const Options& each) { return !isWrong(each, facts, diagnostics); };
   if (!world || diagnostics.hasErrors()) {
-    makePlan(options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
-    report(diagnostics);
-    return std::nullopt;
-  }
-  if (isWrong(options, world->facts(), diagnostics)) {
-    report(diagnostics);
-    return std::nullopt;
-  }
-  auto session = openDevice(options, diagnostics);
-  if (!session) {
-    makePlan(options, world->facts(), true, diagnostics);  // one that came by a pipe
-    report(diagnostics);
+    makePlan(options, facts, true, diagnostics);
+  } else if (std::ranges::all_of(all, isRight)) {
+    if (auto session = openDevice(options, diagnostics)) return Opened{*std::move(world), std::move(session)};
+    makePlan(options, facts, true, diagnostics);  // one that came by a pipe
     exitCode = 3;
-    return std::nullopt;
   }
-  if (!session->renderer.load(settingsOf(options, session->context->device().software), *world,
-                              diagnostics)) {
-    report(diagnostics);
-    return std::nullopt;
-  }
-  return Opened{*std::move(world), std::move(session)};
+  report(diagnostics);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Opened> openGraph(const Options& options, base::Diagnostics& diagnostics, int& exitCode) {
+  auto stage = openStage({&options, 1}, 1, diagnostics, exitCode);
+  if (!stage) return std::nullopt;
+  const bool software = stage->session->context->device().software;
+  if (stage->session->renderer.load(settingsOf(options, software), stage->world, diagnostics)) return stage;
+  report(diagnostics);
+  return std::nullopt;
 }
 
 int runOnDevice(std::span<const Options> all, int wrong,
                 const std::function<int(gl::Context&, const runtime::World&, base::Diagnostics&)>& run) {
-  const Options& options = all.front();
   base::Diagnostics diagnostics;
-  const auto world = loadWorld(options, diagnostics);
-  if (!world) {
-    makePlan(options, factsWithoutWorld(), true, diagnostics);
-    report(diagnostics);
-    return wrong;
-  }
-  for (const Options& each : all)
-    if (isWrong(each, world->facts(), diagnostics)) {
-      report(diagnostics);
-      return wrong;
-    }
-  const auto context = openContext(options, diagnostics);
-  if (!context) {
-    makePlan(options, world->facts(), true, diagnostics);  // one that came by a pipe
-    report(diagnostics);
-    return 3;
-  }
-  const int code = run(*context, *world, diagnostics);
+  int exitCode = 0;
+  const auto stage = openStage(all, wrong, diagnostics, exitCode);
+  if (!stage) return exitCode;
+  const int code = run(*stage->session->context, stage->world, diagnostics);
   return report(diagnostics) ? wrong : code;
 }
 
@@ -111,6 +101,15 @@ std::vector<std::string> filesReadBy(const Options& options, const runtime::Rend
   for (const std::string& file : {options.graph, scenePathOf(options), options.environment})
     files.push_back(file);
   return files;
+}
+
+bool checkPresents(const Options& options, runtime::Renderer& renderer, base::Diagnostics& diagnostics) {
+  if (renderer.execution()->presented().id != 0) return true;
+  diagnostics
+      .error(base::Code::presentsNothing, {std::make_shared<const std::string>(options.graph), 1, 1},
+             "the graph presents nothing to write")
+      .hint = "add \"present\": \"<texture>\", and enable a pass that writes it";
+  return false;
 }
 
 nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json times) {
@@ -124,8 +123,6 @@ nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json ti
   out["times"] = std::move(times);
   out["programs"] = {{"hits", programs.hits},
                      {"misses", programs.misses},
-                     {"evictions", programs.evictions},
-                     {"revivals", programs.revivals},
                      {"compilations", programs.compilations},
                      {"refusals", programs.refusals},
                      {"trials", programs.trials},
@@ -173,11 +170,7 @@ void printStats(const nlohmann::ordered_json& stats) {
 std::string closeDevice(std::unique_ptr<DeviceSession> session) {
   const std::unique_ptr<gl::Context> context = std::move(session->context);
   session.reset();
-  // Fences have no names; owners count them.
-  gl::LiveObjects left = gl::namedObjects();
-  const auto fence = static_cast<std::size_t>(gl::ObjectKind::fence);
-  left.counts[fence] = gl::liveObjects().counts[fence];
-  return gl::toText(left);
+  return gl::toText(gl::liveObjects());
 }
 
 }  // namespace weft::app

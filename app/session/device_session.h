@@ -11,6 +11,7 @@
 
 #include "app/session/options.h"
 #include "engine/gl/context/context.h"
+#include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/renderer.h"
 
 namespace weft::app {
@@ -44,6 +45,9 @@ int runOnDevice(std::span<const Options> all, int wrong,
 // What the run reads, once the graph is loaded: none of it is to be written over.
 std::vector<std::string> filesReadBy(const Options& options, const runtime::Renderer& renderer,
                                      const runtime::World& world);
+
+// False after W188: the graph presents nothing.
+bool checkPresents(const Options& options, runtime::Renderer& renderer, base::Diagnostics& diagnostics);
 
 // --stats: one JSON object. Waits for the outputs of the last frame.
 nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json times);

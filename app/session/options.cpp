@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
-#include <filesystem>
 
 #include "app/session/session.h"
 #include "engine/base/files/file_access.h"
@@ -14,33 +13,6 @@ namespace weft::app {
 namespace {
 
 constexpr int kMaxPixels = 16384;  // of a side of a picture
-
-std::string checkFrame(const std::string& text) {
-  std::uint32_t frame = 0;
-  return parseNumber(text, frame)
-             ? ""
-             : fmt::format("expected a frame number from 0 to {}, found '{}'", ~0u, text);
-}
-
-std::string checkFolder(const std::string& path) {
-  std::error_code ec;
-  if (std::filesystem::is_directory(path, ec)) return "";
-  return fmt::format(
-      "{} '{}'",
-      std::filesystem::exists(path, ec) ? "expected a folder, found the file" : "there is no folder", path);
-}
-
-// A folder that is there or can be made, or "none".
-std::string checkCacheFolder(const std::string& path) {
-  std::error_code ec;
-  if (path == "none") return "";
-  // The folder itself, or the nearest above it that is there.
-  std::filesystem::path there = path;
-  while (!std::filesystem::exists(there, ec) && there.has_parent_path() && there.parent_path() != there)
-    there = there.parent_path();
-  if (!std::filesystem::exists(there, ec) || std::filesystem::is_directory(there, ec)) return "";
-  return fmt::format("expected a folder, or a name for a new one, found the file '{}'", there.string());
-}
 
 std::optional<double> numberIn(std::string_view text, double low, double high) {
   double x = 0;
@@ -81,7 +53,8 @@ void Options::addPresetFolder(CLI::App& command) {
       .add_option(
           "--preset-folder", presetFolder,
           "look for the names of presets here first, then in ~/.config/weft/presets, then in graphs/presets")
-      ->check(CLI::Validator(checkFolder, "FOLDER"));
+      ->check(CLI::ExistingDirectory)
+      ->type_name("FOLDER");
 }
 
 void Options::addMeasurements(CLI::App& command) {
@@ -92,7 +65,7 @@ void Options::addMeasurements(CLI::App& command) {
 
 CLI::Option* Options::addFrame(CLI::App& command, const char* name) {
   return command.add_option(name, lastFrame, "number of the frame to look at (default: 0)")
-      ->check(CLI::Validator(checkFrame, "FRAME"));
+      ->check(CLI::Validator(checkCount, "FRAME"));
 }
 
 void Options::addFps(CLI::App& command, const char* doc) {
@@ -111,7 +84,8 @@ void Options::addPointer(CLI::App& command) {
 void Options::addBackend(CLI::App& command) {
   addChoice(command, "--backend", backend, "where OpenGL comes from", {"auto", "osmesa", "egl", "glfw"});
   command.add_option("--program-cache", cacheFolder, "folder for program binaries, or 'none'")
-      ->check(CLI::Validator(checkCacheFolder, "FOLDER"));
+      ->check(CLI::ExistingDirectory | CLI::NonexistentPath)
+      ->type_name("FOLDER");
 }
 
 void Options::finish() {
@@ -189,6 +163,13 @@ std::optional<imports::Pointer> parsePointer(const std::string& text) {
   return pointer;
 }
 
+std::string checkCount(const std::string& text) {
+  std::uint32_t count = 0;
+  return parseNumber(text, count)
+             ? ""
+             : fmt::format("expected a number of frames up to {}, found '{}'", ~0u, text);
+}
+
 std::string checkPointer(const std::string& text) {
   if (parsePointer(text)) return "";
   return fmt::format(
@@ -204,15 +185,18 @@ std::string checkSize(const std::string& text) {
   return good ? "" : fmt::format("expected WIDTHxHEIGHT, each from 1 to {}, found '{}'", kMaxPixels, text);
 }
 
-std::string checkFrames(const std::string& text) {
+bool parseRange(const std::string& text, std::uint32_t& first, std::uint32_t& last) {
+  if (text.find(':') != std::string::npos) return parsePair(text, ':', first, last) && first <= last;
+  const bool good = parseNumber(text, first);
+  last = first;
+  return good;
+}
+
+std::string checkRange(const std::string& text) {
   std::uint32_t first = 0, last = 0;
-  const bool good = text.find(':') == std::string::npos ? parseNumber(text, first)
-                                                        : parsePair(text, ':', first, last) && first <= last;
-  return good ? ""
-              : fmt::format(
-                    "expected FRAME or FIRST:LAST with FIRST <= LAST, whole numbers from 0 to {}, "
-                    "found '{}'",
-                    ~0u, text);
+  if (parseRange(text, first, last)) return "";
+  return fmt::format(
+      "expected NUMBER or FIRST:LAST with FIRST <= LAST, whole numbers from 0 to {}, found '{}'", ~0u, text);
 }
 
 std::string checkSet(const std::string& text) {

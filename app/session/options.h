@@ -72,12 +72,15 @@ CLI::Validator numberFrom(double low, double high);
 // False when `text` is no whole number, or no two with `separator` between them.
 bool parseNumber(const std::string& text, std::uint32_t& out);
 bool parsePair(const std::string& text, char separator, std::uint32_t& a, std::uint32_t& b);
+// One number, which is both, or FIRST:LAST.
+bool parseRange(const std::string& text, std::uint32_t& first, std::uint32_t& last);
 // Pixels of the picture from its lower left corner, and whether the button is held there. Nothing when `text` is neither.
 std::optional<imports::Pointer> parsePointer(const std::string& text);
 
 // Checks of values: "" or what is wrong.
 std::string checkSize(const std::string& text);     // "640x360"
-std::string checkFrames(const std::string& text);   // "7" or "0:59"
+std::string checkCount(const std::string& text);    // "7"
+std::string checkRange(const std::string& text);    // "7" or "0:59"
 std::string checkSet(const std::string& text);      // "NAME=VALUE"
 std::string checkPointer(const std::string& text);  // "80,45" or "80,45,down"
 

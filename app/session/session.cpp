@@ -1,7 +1,5 @@
 #include "app/session/session.h"
 
-#include <fmt/format.h>
-
 #include <cstdlib>
 #include <filesystem>
 
@@ -120,26 +118,7 @@ bool isWrong(const Options& options, const runtime::WorldFacts& facts, base::Dia
   return true;
 }
 
-namespace {
-
-// A name that is no bundled preset, and near to none, stands for a file that nobody looks for.
-void hintAtPresets(base::Diagnostics& diagnostics) {
-  if (!diagnostics.contains(base::Code::unreadableFile)) return;
-  base::Diagnostics better;
-  for (base::Diagnostic each : diagnostics.items()) {
-    const std::string path = each.place.file ? *each.place.file : "";
-    const bool bundled = std::filesystem::path(path).parent_path() == presetsFolder();
-    if (each.code == base::Code::unreadableFile && bundled && !each.hint.starts_with("did you mean"))
-      each.hint = "'weft presets' lists what there is";
-    better.add(std::move(each));
-  }
-  diagnostics = std::move(better);
-}
-
-}  // namespace
-
 int report(base::Diagnostics& diagnostics, bool notes) {
-  hintAtPresets(diagnostics);
   diagnostics.sortByPlace();
   printError(base::chooseMessages(diagnostics, notes).text());
   return diagnostics.hasErrors() ? 1 : 0;

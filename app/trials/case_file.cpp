@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <set>
 
 #include "app/session/session.h"
 #include "engine/base/files/file.h"
-#include "engine/base/files/file_access.h"
 #include "engine/base/files/text_file.h"
 #include "engine/base/json/fields.h"
 
@@ -33,25 +31,6 @@ bool isCaseName(std::string_view text) {
          std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
 }
 
-// The value as it would stand behind --set NAME=.
-std::string settingText(const JsonValue& value) {
-  switch (value.type) {
-    case JsonValue::Type::boolean:
-      return value.flag ? "true" : "false";
-    case JsonValue::Type::number:
-      return fmt::format("{}", value.number);
-    case JsonValue::Type::string:
-      return value.text;
-    case JsonValue::Type::array: {
-      std::string text;
-      for (const JsonValue& item : value.items) text += (text.empty() ? "" : ", ") + settingText(item);
-      return "[" + text + "]";
-    }
-    default:
-      return {};
-  }
-}
-
 class CaseReader {
  public:
   CaseReader(const std::string& path, const Options& base, base::Diagnostics& diagnostics)
@@ -61,11 +40,12 @@ class CaseReader {
   }
 
   void read(std::vector<TestCase>& cases) {
-    const auto text = base::readTextFile(*file_, diagnostics_);
-    const base::PointerScope pointers(*file_, text ? std::string_view(*text) : std::string_view(),
-                                      diagnostics_);
-    const auto document = text ? base::parseJson(*text, file_, diagnostics_) : std::nullopt;
-    if (!document || isGraph(*document)) return;
+    const auto read = base::readTextFile(*file_, diagnostics_);
+    if (!read) return;
+    text_ = *read;
+    const base::PointerScope pointers(*file_, text_, diagnostics_);
+    const auto document = base::parseJson(text_, file_, diagnostics_);
+    if (!document) return;
     JsonFields fields(*document, "the file of cases", Code::outOfRange, diagnostics_);
     fields.require({"cases"});
     fields.find("about");
@@ -75,13 +55,6 @@ class CaseReader {
     if (const JsonValue* object = fields.object("defaults")) {
       JsonFields given(*object, "the defaults", Code::outOfRange, diagnostics_);
       readShared(given, defaults);
-      for (const char* key : {"name", "graph", "plan"})
-        if (const JsonValue* own = given.find(key)) {
-          graphInDefaults_ = graphInDefaults_ || key == std::string_view("graph");
-          base::Diagnostic& d = diagnostics_.error(Code::unknownKey, own->place,
-                                                   fmt::format("\"{}\" stands in \"defaults\"", key));
-          d.hint = "write it in each case";
-        }
       given.finish();
     }
     if (const JsonValue* list = fields.array("cases"))
@@ -90,17 +63,6 @@ class CaseReader {
   }
 
  private:
-  // A graph in the place of cases: one report says what it is.
-  bool isGraph(const JsonValue& document) {
-    if (document.find("cases") || !(document.find("passes") || document.find("extends"))) return false;
-    auto& d =
-        diagnostics_.error(Code::wrongType, document.place, "this file is a graph, not a file of cases");
-    d.expected = "\"cases\": [ { \"name\": …, \"graph\": … }, … ]";
-    d.hint = fmt::format("'weft check {}' checks a graph; cases name graphs, and pictures to compare with",
-                         *file_);
-    return true;
-  }
-
   void readCase(const JsonValue& value, const TestCase& defaults, std::vector<TestCase>& cases) {
     TestCase test = defaults;
     test.place = value.place;
@@ -108,12 +70,9 @@ class CaseReader {
     JsonFields fields(value,
                       named && named->is(JsonValue::Type::string) ? "case '" + named->text + "'" : "a case",
                       Code::outOfRange, diagnostics_);
-    if (graphInDefaults_)  // reported there
-      fields.require({"name"});
-    else
-      fields.require({"name", "graph"});
+    fields.require({"name"});
+    if (test.options.graph.empty()) fields.require({"graph"});
     if (const auto name = fields.text("name")) readName(*name, fields.find("name")->textPlace(), test);
-    if (const auto graph = fields.text("graph")) test.options.graph = besideCase(fields, "graph", *graph);
     test.plan = fields.boolean("plan").value_or(false);
     readShared(fields, test);
     fields.finish();
@@ -143,16 +102,19 @@ class CaseReader {
   // Reads the keys that "defaults" may have, too.
   void readShared(JsonFields& fields, TestCase& test) {
     Options& options = test.options;
-    for (const auto& [key, target] : {std::pair("scene", &options.scene),
+    for (const auto& [key, target] : {std::pair("graph", &options.graph),
+                                      {"scene", &options.scene},
                                       {"environment", &options.environment},
                                       {"materials", &options.materials},
                                       {"mask", &test.mask}})
       if (const JsonValue* value = fields.find(key); value && !value->is(JsonValue::Type::null))
-        if (const auto path = fields.text(key)) *target = besideCase(fields, key, *path);
+        if (const auto path = fields.text(key))
+          *target = std::filesystem::path(besideFile(value->place, *path)).lexically_normal().string();
     if (const auto camera = fields.text("camera")) options.camera = *camera;
     if (const auto fps = fields.number("fps", kRate)) options.fps = *fps;
-    readSize(fields, options);
-    readMouse(fields, options);
+    if (const auto size = textOf(fields, "size", checkSize))
+      parsePair(*size, 'x', options.width, options.height);
+    if (const auto mouse = textOf(fields, "mouse", checkPointer)) options.pointer = *parsePointer(*mouse);
     readFrames(fields, test);
     readNames(fields, "preset", [&](const JsonValue& item) {
       // A word is a bundled preset whoever runs the case, and where: what lies here or is a person's own does not count.
@@ -170,14 +132,18 @@ class CaseReader {
   }
 
   void readSet(const JsonMember& member, TestCase& test) {
-    const std::string text = settingText(member.value);
-    if (text.empty() && !member.value.is(JsonValue::Type::string)) {
-      base::Diagnostic& d = diagnostics_.error(Code::wrongType, member.value.place,
-                                               fmt::format("the value of the parameter '{}' cannot be {}",
-                                                           member.key, base::nameOf(member.value.type)));
-      d.expected = "a number, a boolean, a string or a list of numbers";
+    const JsonValue& value = member.value;
+    if (value.is(JsonValue::Type::null) || value.is(JsonValue::Type::object)) {
+      diagnostics_
+          .error(Code::wrongType, value.place,
+                 fmt::format("the value of the parameter '{}' cannot be {}", member.key,
+                             base::nameOf(value.type)))
+          .expected = "a number, a boolean, a string or a list of numbers";
       return;
     }
+    // As it would be behind --set NAME=.
+    const std::string text =
+        value.is(JsonValue::Type::string) ? value.text : text_.substr(value.begin, value.end - value.begin);
     test.options.sets.emplace_back(member.key, text);
     test.settingPlaces[fmt::format("--set {}={}", member.key, text)] = member.value.place;
   }
@@ -191,22 +157,15 @@ class CaseReader {
     fields.finish();
   }
 
-  void readSize(JsonFields& fields, Options& options) {
-    const auto size = fields.text("size");
-    if (!size) return;
-    if (const std::string wrong = checkSize(*size); wrong.empty())
-      parsePair(*size, 'x', options.width, options.height);
-    else
-      diagnostics_.error(Code::outOfRange, fields.find("size")->textPlace(), "the size: " + wrong);
-  }
-
-  void readMouse(JsonFields& fields, Options& options) {
-    const auto mouse = fields.text("mouse");
-    if (!mouse) return;
-    if (const std::string wrong = checkPointer(*mouse); wrong.empty())
-      options.pointer = *parsePointer(*mouse);
-    else
-      diagnostics_.error(Code::outOfRange, fields.find("mouse")->textPlace(), "the mouse: " + wrong);
+  // A text that the command line takes, too.
+  std::optional<std::string> textOf(JsonFields& fields, const char* key,
+                                    std::string (*check)(const std::string&)) {
+    auto text = fields.text(key);
+    const std::string wrong = text ? check(*text) : "";
+    if (wrong.empty()) return text;
+    diagnostics_.error(Code::outOfRange, fields.find(key)->textPlace(),
+                       fmt::format("the {}: {}", key, wrong));
+    return std::nullopt;
   }
 
   void readFrames(JsonFields& fields, TestCase& test) {
@@ -214,13 +173,9 @@ class CaseReader {
     if (frame) test.frames = {static_cast<std::uint32_t>(*frame)};
     const JsonValue* frames = fields.array("frames");
     if (!frames) return;
-    if (frame || frames->items.empty()) {
-      base::Diagnostic& d = diagnostics_.error(frame ? Code::keysExclude : Code::outOfRange, frames->place,
-                                               frame ? "\"frame\" and \"frames\" exclude each other"
-                                                     : "\"frames\" is empty, so nothing would be compared");
-      d.hint = frame ? "put all of them into \"frames\"" : "name a frame, such as [0]";
-      return;
-    }
+    if (frames->items.empty())
+      diagnostics_.error(Code::outOfRange, frames->place, "\"frames\" is empty, so nothing would be compared")
+          .hint = "name a frame, such as [0]";
     std::set<std::uint32_t> numbers;
     for (const JsonValue& item : frames->items)
       if (const auto number = base::readNumber(item, "a frame", kFrame, Code::outOfRange, diagnostics_))
@@ -237,15 +192,10 @@ class CaseReader {
         take(list->items[i]);
   }
 
-  std::string besideCase(JsonFields& fields, const char* key, const std::string& path) {
-    return std::filesystem::path(besideFile(fields.find(key)->place, path)).lexically_normal().string();
-  }
-
   const Options& base_;
   base::Diagnostics& diagnostics_;
   std::shared_ptr<const std::string> file_;
-  std::string folder_;
-  bool graphInDefaults_ = false;
+  std::string folder_, text_;
   std::set<std::string> names_;
 };
 
@@ -266,24 +216,15 @@ std::vector<std::string> findCaseFiles(const std::string& path, base::Diagnostic
   namespace fs = std::filesystem;
   std::error_code ignored;
   if (!fs::is_directory(path, ignored)) return {path};
-  std::vector<std::string> files, folders = {path};
-  // Folders are visited one by one, because an iterator over all of them ends at a folder that cannot be read, and a case that
-  // is not run must not count as one that holds.
-  while (!folders.empty()) {
-    const std::string folder = std::move(folders.back());
-    folders.pop_back();
-    std::error_code ec;
-    for (fs::directory_iterator at(folder, ec), end; !ec && at != end; at.increment(ec)) {
-      const std::string name = at->path().string();
-      if (at->is_directory(ignored) && !at->is_symlink(ignored))
-        folders.push_back(name);
-      else if (name.ends_with(kSuffix))
-        files.push_back(name);  // also what is no file: reading it says so
-    }
-    if (ec)
-      diagnostics.error(Code::unreadableFile, {std::make_shared<const std::string>(folder)},
-                        fmt::format("cannot read the folder: {}", ec.message()));
-  }
+  std::vector<std::string> files;
+  std::error_code ec;
+  for (fs::recursive_directory_iterator at(path, ec), end; !ec && at != end; at.increment(ec))
+    if (std::string name = at->path().string(); name.ends_with(kSuffix))
+      files.push_back(std::move(name));  // also what is no file: reading it says so
+  // A case that is not run must not count as one that holds.
+  if (ec)
+    diagnostics.error(Code::unreadableFile, {std::make_shared<const std::string>(path)},
+                      fmt::format("cannot read a folder in it: {}", ec.message()));
   std::ranges::sort(files);
   if (files.empty() && !diagnostics.hasErrors())
     diagnostics

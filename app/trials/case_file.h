@@ -1,5 +1,5 @@
 // Cases of `weft test`: *.cases.json files. Reports everything wrong in one at once, each mistake with its place. The format is
-// described in docs/testing_pictures.md. Does not: render, or read goldens.
+// described in docs/testing_pictures.md.
 #pragma once
 
 #include <cstdint>

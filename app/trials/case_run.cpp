@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "app/output/output_files.h"
+#include "app/output/picture_writer.h"
 #include "app/session/session.h"
-#include "app/trials/picture_difference.h"
 #include "engine/base/files/file.h"
 #include "engine/base/printable.h"
 #include "engine/graph/print/print.h"
@@ -32,10 +33,6 @@ std::string text(const Tolerance& t) {
                      t.flipPeak, 100 * t.fraction, t.step);
 }
 
-std::string sizeText(const assets::Image8& image) {
-  return fmt::format("{}x{}", image.width, image.height);
-}
-
 // 0 where pixels do not count; empty: all count. Empty as a whole after an error.
 std::optional<std::vector<std::uint8_t>> readMask(const TestCase& test, const assets::Image8& picture,
                                                   base::Diagnostics& diagnostics) {
@@ -57,6 +54,7 @@ std::optional<std::vector<std::uint8_t>> readMask(const TestCase& test, const as
 // Pixels that do not count are copied from the golden, so that they do not affect the pixels beside them, either.
 assets::Image8 laidUnder(assets::Image8 picture, const assets::Image8& golden,
                          const std::vector<std::uint8_t>& weights) {
+  if (picture.width != golden.width || picture.height != golden.height) return picture;
   for (std::size_t p = 0; p < weights.size(); ++p)
     for (std::size_t c = 0; weights[p] == 0 && c < 4; ++c)
       picture.texels[4 * p + c] = golden.texels[4 * p + c];
@@ -64,13 +62,14 @@ assets::Image8 laidUnder(assets::Image8 picture, const assets::Image8& golden,
 }
 
 std::string firstLineOfDifference(const std::string& before, const std::string& after) {
-  std::size_t line = 1, begin = 0;
-  for (std::size_t i = 0; i < before.size() && i < after.size() && before[i] == after[i]; ++i)
-    if (before[i] == '\n') ++line, begin = i + 1;
+  const auto end = std::mismatch(before.begin(), before.end(), after.begin(), after.end()).first;
+  const std::string same(before.begin(), end);
+  const std::size_t begin = same.rfind('\n') + 1;
   const auto lineOf = [&](const std::string& text) {
     return base::shortened(text.substr(begin, text.find('\n', begin) - begin));
   };
-  return fmt::format("line {} is '{}', not '{}'", line, lineOf(after), lineOf(before));
+  return fmt::format("line {} is '{}', not '{}'", 1 + std::ranges::count(same, '\n'), lineOf(after),
+                     lineOf(before));
 }
 
 }  // namespace
@@ -132,56 +131,39 @@ std::optional<Shot> CaseRunner::shoot(const TestCase& test, base::Diagnostics& d
   return takeShot(*context_, test.options, *world, {.frames = test.frames, .records = true}, diagnostics);
 }
 
-bool CaseRunner::comparePair(const TestCase& test, std::uint32_t frame, const assets::Image8& picture,
-                             CaseResult& result, base::Diagnostics& diagnostics) {
+// Compares a picture with its golden, or with `accept` writes it as that where they differ. False when it is not good enough, or
+// was written.
+bool CaseRunner::judgePicture(const TestCase& test, std::uint32_t frame, const assets::Image8& picture,
+                              bool accept, CaseResult& result, base::Diagnostics& diagnostics) {
   const std::string file = test.goldenOf(frame);
-  const std::string which = test.frames.size() > 1 ? fmt::format("frame {}: ", frame) : "";
-  if (!isThere(file)) {
-    result.lines.push_back(fmt::format("{}there is no golden '{}' yet; --accept writes it", which, file));
-    result.pairs.push_back({frame, file, picture, {}, {}, true});
-    return false;
-  }
-  const auto golden = assets::loadImage8(file, 4, diagnostics);
+  const bool known = isThere(file);
+  base::Diagnostics unreadable;  // which ends with being written anew
+  const auto golden = known ? assets::loadImage8(file, 4, accept ? unreadable : diagnostics) : std::nullopt;
   const auto weights = readMask(test, picture, diagnostics);
-  if (!golden || !weights) return false;
-  if (golden->width != picture.width || golden->height != picture.height) {
-    result.lines.push_back(
-        fmt::format("{}the picture is {}, its golden {}", which, sizeText(picture), sizeText(*golden)));
-    result.pairs.push_back({frame, file, picture, *golden, {}, true});
+  if (!weights || (known && !golden && !accept)) return false;
+  std::optional<PictureDifference> found;
+  bool good = false;
+  if (golden) {
+    const assets::Image8 compared = laidUnder(picture, *golden, *weights);
+    if (compared.texels == golden->texels && compared.width == golden->width) return true;
+    found = comparePictures(compared, *golden, *weights);
+    good = found && fits(*found, test.tolerance);
+    result.lines.push_back(fmt::format(
+        "frame {} changed: {}", frame,
+        found ? found->text()
+              : fmt::format("the picture is {}, its golden {}", sizeText(picture), sizeText(*golden))));
+    if (found && !good && !accept) result.lines.push_back(text(test.tolerance));
+  } else {
+    result.lines.push_back(!known ? fmt::format("there is no golden '{}' yet; --accept writes it", file)
+                                  : fmt::format("'{}' could not be read, and is written anew", file));
+  }
+  if (accept) {
+    savePng(file, picture, diagnostics);
     return false;
   }
-  const assets::Image8 compared = laidUnder(picture, *golden, *weights);
-  if (compared.texels == golden->texels) return true;
-  assets::FlipMap map = assets::computeFlip(*golden, compared);
-  const PictureDifference found = measureDifference(compared, *golden, map, *weights);
-  const bool good = fits(found, test.tolerance);
-  result.lines.push_back(which + found.text());
-  if (!good) result.lines.push_back(text(test.tolerance));
-  result.pairs.push_back({frame, file, picture, *golden, std::move(map), !good});
+  result.pairs.push_back({frame, file, picture, golden.value_or(assets::Image8{}),
+                          found ? std::move(found->map) : assets::FlipMap{}, !good});
   return good;
-}
-
-bool CaseRunner::acceptPair(const TestCase& test, std::uint32_t frame, const assets::Image8& picture,
-                            CaseResult& result, base::Diagnostics& diagnostics) {
-  const std::string file = test.goldenOf(frame);
-  if (isThere(file)) {
-    base::Diagnostics unreadable;  // which ends with being written anew
-    const auto golden = assets::loadImage8(file, 4, unreadable);
-    if (!golden) result.lines.push_back(fmt::format("'{}' could not be read, and is written anew", file));
-    if (golden && golden->width == picture.width && golden->height == picture.height) {
-      if (golden->texels == picture.texels) return false;
-      const PictureDifference found =
-          measureDifference(picture, *golden, assets::computeFlip(*golden, picture));
-      result.lines.push_back(fmt::format("'{}' changed: {}", file, found.text()));
-    } else if (golden) {
-      result.lines.push_back(
-          fmt::format("'{}' is {} now, it was {}", file, sizeText(picture), sizeText(*golden)));
-    }
-  } else {
-    result.lines.push_back(fmt::format("'{}' is new", file));
-  }
-  assets::savePng8(file, picture.width, picture.height, picture.channels, picture.texels, diagnostics);
-  return true;
 }
 
 CaseResult CaseRunner::runPictures(const TestCase& test, bool accept, base::Diagnostics& diagnostics) {
@@ -200,9 +182,7 @@ CaseResult CaseRunner::runPictures(const TestCase& test, bool accept, base::Diag
   }
   bool same = true;
   for (const auto& [frame, picture] : shot->pictures) {
-    const bool fits = accept ? !acceptPair(test, frame, picture, result, diagnostics)
-                             : comparePair(test, frame, picture, result, diagnostics);
-    same = same && fits;
+    same = judgePicture(test, frame, picture, accept, result, diagnostics) && same;
   }
   if (accept) {
     if (diagnostics.hasErrors()) return result;  // a picture is not written: the record would be of another

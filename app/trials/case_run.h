@@ -1,5 +1,4 @@
 // Runs one case of `weft test`: renders, compares with the golden or writes it, and finds the first pass that differs.
-// Does not: print, or decide the exit code.
 #pragma once
 
 #include <memory>
@@ -44,10 +43,8 @@ class CaseRunner {
   CaseResult runPlan(const TestCase& test, bool accept, base::Diagnostics& diagnostics);
   CaseResult runPictures(const TestCase& test, bool accept, base::Diagnostics& diagnostics);
   std::optional<Shot> shoot(const TestCase& test, base::Diagnostics& diagnostics);
-  static bool comparePair(const TestCase& test, std::uint32_t frame, const assets::Image8& picture,
-                          CaseResult& result, base::Diagnostics& diagnostics);
-  static bool acceptPair(const TestCase& test, std::uint32_t frame, const assets::Image8& picture,
-                         CaseResult& result, base::Diagnostics& diagnostics);
+  static bool judgePicture(const TestCase& test, std::uint32_t frame, const assets::Image8& picture,
+                           bool accept, CaseResult& result, base::Diagnostics& diagnostics);
 
   const Options& options_;
   std::unique_ptr<gl::Context> context_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <sstream>
 #include <string_view>
 
 #include "engine/assets/images/half.h"
@@ -58,31 +59,26 @@ bool readSignature(std::string_view text, std::optional<runtime::Signature>& out
   return good && text.empty();
 }
 
-std::vector<std::string_view> split(std::string_view line) {
-  std::vector<std::string_view> fields;
-  for (std::size_t at = 0; at <= line.size();) {
-    const std::size_t end = std::min(line.find('\t', at), line.size());
-    fields.push_back(line.substr(at, end - at));
-    at = end + 1;
-  }
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> fields;
+  std::istringstream in(line);
+  for (std::string field; std::getline(in, field, '\t');) fields.push_back(std::move(field));
   return fields;
 }
 
 // A line of a record: "frame 0", or a pass.
-bool readLine(std::string_view line, PassRecords& records) {
+bool readLine(const std::string& line, PassRecords& records) {
   if (line.starts_with("frame ")) {
-    std::uint32_t frame = 0;
+    std::uint32_t& frame = records.frames.emplace_back().frame;
     const auto [end, error] = std::from_chars(line.data() + 6, line.data() + line.size(), frame);
-    if (error != std::errc{} || end != line.data() + line.size()) return false;
-    records.frames.push_back({frame, {}});
-    return true;
+    return error == std::errc{} && end == line.data() + line.size();
   }
-  const std::vector<std::string_view> fields = split(line);
+  const std::vector<std::string> fields = split(line);
   if (fields.size() != 4 || records.frames.empty()) return false;
-  runtime::StepRecord step{.pass = std::string(fields[2]), .resource = std::string(fields[3])};
-  if (!readHex(fields[0], step.hash) || !readSignature(fields[1], step.signature)) return false;
-  records.frames.back().steps.push_back(std::move(step));
-  return true;
+  runtime::StepRecord& step = records.frames.back().steps.emplace_back();
+  step.pass = fields[2];
+  step.resource = fields[3];
+  return readHex(fields[0], step.hash) && readSignature(fields[1], step.signature);
 }
 
 std::optional<Divergence> compareFrames(const FrameRecord& before, const FrameRecord& after, bool exact,
@@ -152,23 +148,18 @@ std::optional<PassRecords> readRecords(const std::string& path, base::Diagnostic
   const auto text = base::readFile(path, diagnostics);
   if (!text) return std::nullopt;
   PassRecords records;
-  std::string_view rest = *text;
-  const auto file = std::make_shared<const std::string>(path);
-  for (std::uint32_t number = 1; !rest.empty(); ++number) {
-    const std::string_view line = rest.substr(0, rest.find('\n'));
-    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-    bool good = false;
-    if (number == 1) {
-      good = line == kHeading;
-    } else if (number == 2 && line.starts_with("driver ")) {
-      records.driver = line.substr(7);
-      good = true;
-    } else {
-      good = number > 2 && readLine(line, records);
-    }
+  std::istringstream in(*text);
+  std::uint32_t number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    if (number == 2 && line.starts_with("driver ")) records.driver = line.substr(7);
+    const bool good = number == 1   ? line == kHeading
+                      : number == 2 ? line.starts_with("driver ")
+                                    : readLine(line, records);
     if (good) continue;
     base::Diagnostic& d =
-        diagnostics.error(base::Code::wrongType, {file, number, 1}, "this is no line of a record of passes");
+        diagnostics.error(base::Code::wrongType, {std::make_shared<const std::string>(path), number, 1},
+                          "this is no line of a record of passes");
     d.found = base::shortened(base::printable(line));
     d.hint = "write the file anew: weft test --accept";
     return std::nullopt;

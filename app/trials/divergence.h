@@ -1,5 +1,5 @@
-// What every pass of a frame wrote, as a text file beside a golden picture; and the first pass at which two such records differ. On
-// one driver every byte is compared, on another one only what rounding leaves alone. Does not: render, or judge pictures.
+// What every pass of a frame wrote, as a text file beside a golden picture; and the first pass at which two such records
+// differ. On one driver every byte is compared, on another one only what rounding leaves alone.
 #pragma once
 
 #include <optional>

@@ -17,17 +17,6 @@ std::string FuzzTrial::arguments() const {
                             poison ? runtime::nameOf(*poison) : "none");
 }
 
-std::vector<FuzzTrial> listTrials(const std::vector<std::uint32_t>& seeds, std::uint32_t first,
-                                  std::uint32_t last, const std::vector<bool>& shares,
-                                  const std::vector<std::optional<runtime::PoisonPattern>>& poisons) {
-  std::vector<FuzzTrial> trials;
-  for (const std::uint32_t seed : seeds)
-    for (const bool share : shares)
-      for (const auto& poison : poisons)
-        trials.push_back({.seed = seed, .first = first, .last = last, .share = share, .poison = poison});
-  return trials;
-}
-
 FuzzTrial shrinkTrial(FuzzTrial trial, std::uint32_t passes,
                       const std::function<bool(const FuzzTrial&)>& differs) {
   const auto keepIf = [&](const FuzzTrial& smaller) {

@@ -1,12 +1,11 @@
 // Trials of `weft fuzz`: one graph in other legal orders, with shared storage or without, with poisoned transients; and how a
-// trial that differs is made smaller. Does not: render (the caller does), or print.
+// trial that differs is made smaller. The caller renders.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "engine/graph/compile/compile.h"
 #include "engine/runtime/inspection/poison.h"
@@ -24,11 +23,6 @@ struct FuzzTrial {
   std::string arguments() const;
   friend bool operator==(const FuzzTrial&, const FuzzTrial&) = default;
 };
-
-// What to try: each order with each choice of storage and poison. Empty `poisons` or `shares` try nothing.
-std::vector<FuzzTrial> listTrials(const std::vector<std::uint32_t>& seeds, std::uint32_t first,
-                                  std::uint32_t last, const std::vector<bool>& shares,
-                                  const std::vector<std::optional<runtime::PoisonPattern>>& poisons);
 
 // The smallest trial that still differs, found by leaving out one thing after another: the poison, the storage, the order, then
 // the passes that are reordered at its ends. `passes`: of the plan.

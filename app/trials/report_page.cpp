@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "engine/assets/images/image.h"
 #include "engine/base/counted.h"
@@ -83,23 +84,14 @@ std::string imageTag(const assets::Image8& image, std::string_view alt) {
 }
 
 std::string escapeHtml(std::string_view text) {
+  static const std::map<char, std::string_view> kEscapes{
+      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
   std::string out;
-  for (const char c : text) switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
+  for (const char c : text)
+    if (const auto found = kEscapes.find(c); found != kEscapes.end())
+      out += found->second;
+    else
+      out += c;
   return out;
 }
 

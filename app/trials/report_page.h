@@ -1,5 +1,5 @@
-// One self-contained HTML page: the cases of `weft test`, of those that failed each picture beside its golden and the difference.
-// Does not: write the file.
+// One self-contained HTML page: the cases of `weft test`, of those that failed each picture beside its golden and the
+// difference.
 #pragma once
 
 #include <string>

@@ -1,16 +1,16 @@
-// A picture of a graph with what belongs to it: what each pass wrote, what it cost. Every shot is made by a renderer of its own, so
-// that nothing of the shot before is in it. Does not: write files, or decide what is compared.
+// A picture of a graph with what belongs to it: what each pass wrote, what it cost; and how two pictures differ. Every shot is
+// made by a renderer of its own, so that nothing of the shot before is in it.
 #pragma once
 
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "app/session/device_session.h"
 #include "app/session/options.h"
+#include "engine/assets/images/flip.h"
 #include "engine/assets/images/image.h"
 #include "engine/graph/compile/compile.h"
 #include "engine/runtime/inspection/poison.h"
@@ -24,8 +24,6 @@ struct ShotWish {
   std::uint32_t repeats = 0;                // frames to measure behind the last one
   graph::CompileOptions compile{};
   std::optional<runtime::PoisonPattern> poison{};
-  std::pair<std::string, std::string> keep{};  // a pass and a resource whose texels are kept
-  std::uint32_t keepFrame = 0;
 };
 
 struct FrameRecord {
@@ -36,7 +34,6 @@ struct FrameRecord {
 struct Shot {
   std::map<std::uint32_t, assets::Image8> pictures;  // RGBA, by frame
   std::vector<FrameRecord> records;
-  std::optional<runtime::WrittenTexels> kept;
   std::shared_ptr<const graph::Plan> plan;
   std::vector<std::string> files;                  // that were read
   double milliseconds = 0;                         // of the fastest frame that was measured
@@ -46,5 +43,22 @@ struct Shot {
 // The graph, scene, settings and size of `options`. Empty after errors.
 std::optional<Shot> takeShot(gl::Context& context, const Options& options, const runtime::World& world,
                              const ShotWish& wish, base::Diagnostics& diagnostics);
+
+struct PictureDifference {
+  assets::FlipMap map;
+  assets::Comparison bytes;
+  assets::FlipSummary flip;
+  double share = 0;  // of the pixels that differ at all
+
+  // "FLIP 0.0123, at most 0.200 (at 1,2); 96 pixels differ (1.5 %), by up to 12 of 255 (at 3,4)"
+  std::string text() const;
+};
+
+// Nothing for pictures of different sizes. What has the weight 0 does not count for `flip`; an empty `weights` means that all do.
+std::optional<PictureDifference> comparePictures(const assets::Image8& picture,
+                                                 const assets::Image8& reference,
+                                                 const std::vector<std::uint8_t>& weights = {});
+// "96x54"
+std::string sizeText(const assets::Image8& image);
 
 }  // namespace weft::app

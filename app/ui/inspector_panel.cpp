@@ -17,13 +17,7 @@ namespace {
 
 std::string describe(const FlatResource& resource) {
   if (resource.kind == ResourceKind::buffer) return fmt::format("buffer, {} bytes", resource.bytes);
-  std::string text =
-      fmt::format("{} {}x{}", graph::infoOf(resource.format).name, resource.width, resource.height);
-  if (resource.depth > 1) text += fmt::format("x{}", resource.depth);
-  if (resource.mips > 1) text += fmt::format(", {} mips", resource.mips);
-  if (resource.layers > 1) text += fmt::format(", {} layers", resource.layers);
-  if (resource.history > 0) text += fmt::format(", history {}", resource.history);
-  return text;
+  return shapeText(resource) + (resource.history > 0 ? fmt::format(", history {}", resource.history) : "");
 }
 
 bool canShow(const graph::Plan& plan, std::uint32_t resource) {

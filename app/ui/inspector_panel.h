@@ -1,14 +1,28 @@
 // The texture inspector's window: which resource, where in the frame, which part, how shown; zoom, pan and the value under
-// the cursor. Does not: copy or draw texels (engine/runtime/inspection/inspector.h does).
+// the cursor.
 #pragma once
+
+#include <fmt/format.h>
 
 #include <optional>
 #include <string>
 
+#include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/renderer.h"
 #include "engine/runtime/inspection/inspector.h"
 
 namespace weft::app::ui {
+
+// "rgba16f 1280x720, 8 mips" of a resource or a storage.
+template <class Texture>
+std::string shapeText(const Texture& texture) {
+  std::string text =
+      fmt::format("{} {}x{}", graph::infoOf(texture.format).name, texture.width, texture.height);
+  if (texture.depth > 1) text += fmt::format("x{}", texture.depth);
+  if (texture.mips > 1) text += fmt::format(", {} mips", texture.mips);
+  if (texture.layers > 1) text += fmt::format(", {} layers", texture.layers);
+  return text;
+}
 
 class InspectorPanel {
  public:

@@ -1,6 +1,5 @@
-// What there is to say: about the files as they are, the environment last asked for, the last change made in
-// the window, and what the driver or a frame said, once each. What was said can be dismissed; it comes back
-// when it is said again. Does not: draw (app/ui/log_panel.cpp), print.
+// What there is to say: about the files as they are, the environment last asked for, the last change made in the window, and
+// what the driver or a frame said, once each. What was said can be dismissed; it comes back when it is said again.
 #pragma once
 
 #include <array>

@@ -1,13 +1,16 @@
-// The log's window. Declared in panels.h.
+// The windows of the log and of what is being loaded. Declared in panels.h.
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
-#include <string>
 
-#include "app/ui/log_layout.h"
 #include "app/ui/panels.h"
 
 namespace weft::app::ui {
+
+float Panels::logHeight() const {
+  return std::max(64.0f, std::min(ImGui::GetIO().DisplaySize.y * 0.2f, ImGui::GetFontSize() * 9));
+}
 
 void Panels::drawLog() {
   const std::vector<const base::Diagnostic*> shown = log_.shown(visible);
@@ -43,6 +46,25 @@ void Panels::drawLog() {
   ImGui::PopTextWrapPos();
   ImGui::End();
   if (!stays) log_.dismiss();
+}
+
+void Panels::drawLoading() {
+  const std::optional<LoadStatus> all[] = {live_.environment().status(), live_.scene().status()};
+  if (!all[0] && !all[1]) return;
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const float width = std::min(420.0f * ImGui::GetIO().FontGlobalScale, screen.x - 16);
+  // Between the panels, which end at three quarters, and the log.
+  ImGui::SetNextWindowPos({screen.x * 0.5f, screen.y * 0.8f - 12}, ImGuiCond_Always, {0.5f, 1});
+  ImGui::SetNextWindowSize({width, 0}, ImGuiCond_Always);
+  ImGui::Begin("Loading", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoSavedSettings);
+  for (const auto& status : all) {
+    if (!status) continue;
+    ImGui::TextUnformatted(fmt::format("{}: {}", status->name, status->stage).c_str());
+    ImGui::ProgressBar(status->done, {-1, 0}, fmt::format("{:.0f} %", status->done * 100.0f).c_str());
+  }
+  ImGui::End();
 }
 
 }  // namespace weft::app::ui

@@ -4,8 +4,6 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
-#include <cfloat>
-
 namespace weft::app::ui {
 
 std::unique_ptr<Overlay> Overlay::create(GLFWwindow* window, float scale) {
@@ -14,15 +12,8 @@ std::unique_ptr<Overlay> Overlay::create(GLFWwindow* window, float scale) {
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
   io.LogFilename = nullptr;
-  if (!ImGui_ImplGlfw_InitForOpenGL(window, true)) {
-    ImGui::DestroyContext();
+  if (!ImGui_ImplGlfw_InitForOpenGL(window, true) || !ImGui_ImplOpenGL3_Init("#version 450 core"))
     return nullptr;
-  }
-  if (!ImGui_ImplOpenGL3_Init("#version 450 core")) {
-    ImGui_ImplGlfw_Shutdown();
-    ImGui::DestroyContext();
-    return nullptr;
-  }
   std::unique_ptr<Overlay> overlay(new Overlay);
   overlay->setScale(scale);
   return overlay;
@@ -66,19 +57,6 @@ void Overlay::begin() {
 void Overlay::end() {
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-}
-
-void Overlay::hideMouse(bool hidden) {
-  hidden = hidden && !ImGui::IsAnyItemActive();
-  if (hidden == mouseHidden_) return;
-  ImVec2& mouse = ImGui::GetIO().MousePos;
-  if (hidden) {
-    mouse_[0] = mouse.x, mouse_[1] = mouse.y;
-    mouse = {-FLT_MAX, -FLT_MAX};
-  } else {
-    mouse = {mouse_[0], mouse_[1]};
-  }
-  mouseHidden_ = hidden;
 }
 
 std::optional<std::pair<int, int>> Overlay::releasedMouse() const {

@@ -1,7 +1,6 @@
-// Dear ImGui over framebuffer 0 of a GLFW window. Installs its callbacks behind those that the window has,
-// which go on being called; they ask wantsMouse() and wantsKeys() whether an event is theirs. Draws with
-// state of its own and puts back what it found. Does not: know graphs (the panels do), write settings files,
-// or touch the presented texture.
+// Dear ImGui over framebuffer 0 of a GLFW window. Installs its callbacks behind those that the window has, which go on being
+// called; they ask wantsMouse() and wantsKeys() whether an event is theirs. Draws with state of its own and puts back what it
+// found.
 #pragma once
 
 #include <functional>
@@ -29,10 +28,6 @@ class Overlay {
   // picture. ImGui looks for what is under the mouse among those of the time before, and the next begin() is
   // to find these.
   void layOut(const std::function<void()>& draw);
-  // Between the two: panels made from here on do not see the mouse, unless it drags something; or see it
-  // again.
-  void hideMouse(bool hidden);
-
   // Sizes of text and widgets, 1 at 96 dots an inch. Between frames.
   void setScale(float scale);
   // Off: panels ignore the mouse, wherever it is (it is captured).
@@ -47,9 +42,7 @@ class Overlay {
  private:
   Overlay() = default;
 
-  bool begun_ = false;       // there was a begin()
-  float mouse_[2] = {0, 0};  // while it is hidden
-  bool mouseHidden_ = false;
+  bool begun_ = false;  // there was a begin()
 };
 
 }  // namespace weft::app::ui

@@ -1,13 +1,11 @@
 #include "app/ui/panels.h"
 
-#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "app/output/standard_streams.h"
-#include "app/ui/loading.h"
-#include "app/ui/log_layout.h"
 #include "engine/base/printable.h"
 
 namespace weft::app::ui {
@@ -20,6 +18,19 @@ constexpr std::array<const char*, 6> kTitles = {"Parameters",     "Passes",  "Te
                                                 "Frame profiler", "Storage", "Histogram"};
 
 }  // namespace
+
+void tooltip(const std::string& text) {
+  tooltip(text, ImGui::IsItemHovered());
+}
+
+void tooltip(const std::string& text, bool hovered) {
+  if (!hovered || text.empty()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 30);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
 
 Panels::Panels(LiveGraph& live, runtime::Renderer& renderer, Log& log)
     : live_(live),
@@ -67,25 +78,23 @@ void Panels::draw(const runtime::FrameReport& report, base::Diagnostics& diagnos
   if (visible) {
     drawMenu(diagnostics);
     arrange();
-    if (begin(kParameters)) {
-      drawSummary(report);
-      drawParameters(diagnostics);
+    const std::function<void()> draws[kPanelCount] = {[&] {
+                                                        drawSummary(report);
+                                                        drawParameters(diagnostics);
+                                                      },
+                                                      [&] { drawPasses(diagnostics); },
+                                                      [&] { inspector_.draw(diagnostics); },
+                                                      [&] { drawProfiler(); },
+                                                      [&] { drawStorage(); },
+                                                      [&] { drawHistogram(); }};
+    for (std::size_t i = 0; i < kPanelCount; ++i) {
+      if (begin(static_cast<Panel>(i))) draws[i]();
+      if (open_[i]) ImGui::End();
     }
-    if (open_[kParameters]) ImGui::End();
-    if (begin(kPasses)) drawPasses(diagnostics);
-    if (open_[kPasses]) ImGui::End();
-    if (begin(kInspector)) inspector_.draw(diagnostics);
-    if (open_[kInspector]) ImGui::End();
-    if (begin(kProfiler)) drawProfiler();
-    if (open_[kProfiler]) ImGui::End();
-    if (begin(kStorage)) drawStorage();
-    if (open_[kStorage]) ImGui::End();
-    if (begin(kHistogram)) drawHistogram(diagnostics);
-    if (open_[kHistogram]) ImGui::End();
     arrange_ = false;
   }
   drawLog();
-  drawLoading(live_);
+  drawLoading();
 }
 
 void Panels::drawMenu(base::Diagnostics& diagnostics) {
@@ -105,11 +114,6 @@ void Panels::drawMenu(base::Diagnostics& diagnostics) {
     const graph::Settings& settings = live_.settings();
     const bool any = !settings.sets.empty() || !settings.disables.empty();
     if (ImGui::MenuItem("Write changes into the files", "F8", false, any)) writeBack(diagnostics);
-    ImGui::EndMenu();
-  }
-  if (ImGui::BeginMenu("Measure")) {
-    gl::PassTimers& timers = renderer_.device().timers;
-    if (ImGui::MenuItem("Each pass", "P", timers.enabled())) timers.setEnabled(!timers.enabled());
     ImGui::EndMenu();
   }
   if (!said_.empty()) ImGui::TextDisabled("%s", said_.c_str());
@@ -161,6 +165,13 @@ void Panels::arrange() {
     places_[panel] = {left, y, right - left, each};
     y += each + gap;
   }
+}
+
+bool Panels::measureBox() {
+  gl::PassTimers& timers = renderer_.device().timers;
+  bool measure = timers.enabled();
+  if (ImGui::Checkbox("measure each pass", &measure)) timers.setEnabled(measure);
+  return measure;
 }
 
 bool Panels::begin(Panel panel) {

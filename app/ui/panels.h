@@ -1,7 +1,5 @@
-// The viewer's panels: parameters, passes, texture inspector, frame profiler, storage, histogram, log. Each
-// is made anew every frame from what it shows and keeps what a person chose in it; changes go straight into
-// the LiveGraph. Does not: know the window, or draw what the inspector shows (engine/runtime/inspection/inspector.h
-// does).
+// The viewer's panels: parameters, passes, texture inspector, frame profiler, storage, histogram, log. Each is made anew
+// every frame from what it shows and keeps what a person chose in it; changes go straight into the LiveGraph.
 #pragma once
 
 #include <array>
@@ -19,6 +17,10 @@
 #include "engine/runtime/inspection/picture_histogram.h"
 
 namespace weft::app::ui {
+
+// Of the last item, where the mouse is over it.
+void tooltip(const std::string& text);
+void tooltip(const std::string& text, bool hovered);
 
 class Panels {
  public:
@@ -56,8 +58,11 @@ class Panels {
   void drawParameters(base::Diagnostics& diagnostics);
   void drawProfiler();
   void drawStorage();
-  void drawHistogram(base::Diagnostics& diagnostics);
+  void drawHistogram();
   void drawLog();
+  void drawLoading();       // what is being loaded, whether or not the panels are visible
+  float logHeight() const;  // while nothing in the log asks for more
+  bool measureBox();        // whether each pass is measured
 
   LiveGraph& live_;
   runtime::Renderer& renderer_;

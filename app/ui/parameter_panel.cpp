@@ -167,17 +167,11 @@ void Panels::drawParameters(base::Diagnostics& diagnostics) {
     hovered |= ImGui::IsItemHovered();
     clicked |= ImGui::IsItemClicked(ImGuiMouseButton_Right);
     if (tweaked) ImGui::PopStyleColor();
-    if (hovered) {
-      ImGui::BeginTooltip();
-      ImGui::PushTextWrapPos(ImGui::GetFontSize() * 30);
-      ImGui::TextUnformatted((label + "\n" + parameter.path + " = " + graph::toText(now) +
-                              (parameter.structural ? "\nchanges the plan" : "") +
-                              (parameter.desc.doc.empty() ? "" : "\n") + parameter.desc.doc +
-                              (tweaked ? "\n* changed here; right click: as the files say" : ""))
-                                 .c_str());
-      ImGui::PopTextWrapPos();
-      ImGui::EndTooltip();
-    }
+    tooltip(label + "\n" + parameter.path + " = " + graph::toText(now) +
+                (parameter.structural ? "\nchanges the plan" : "") +
+                (parameter.desc.doc.empty() ? "" : "\n") + parameter.desc.doc +
+                (tweaked ? "\n* changed here; right click: as the files say" : ""),
+            hovered);
     if (tweaked && clicked) reset = parameter.path;
     ImGui::PopID();
   }

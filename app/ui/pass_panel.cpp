@@ -17,15 +17,6 @@ std::string sliceText(const runtime::SliceRange& range) {
                                                 : std::string();
 }
 
-void explain(const std::string& text) {
-  if (text.empty() || !ImGui::IsItemHovered()) return;
-  ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 30);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::EndTooltip();
-}
-
 }  // namespace
 
 void Panels::drawPasses(base::Diagnostics& diagnostics) {
@@ -33,20 +24,16 @@ void Panels::drawPasses(base::Diagnostics& diagnostics) {
   runtime::Execution& execution = *renderer_.execution();
   const graph::Plan& plan = execution.plan();
   const graph::FlatGraph& graph = *plan.graph;
-  gl::PassTimers& timers = renderer_.device().timers;
-  bool profile = timers.enabled();
-  if (ImGui::Checkbox("measure each pass", &profile)) timers.setEnabled(profile);
+  const gl::PassTimers& timers = renderer_.device().timers;
+  const bool profile = measureBox();
   std::string pass;  // to turn on or off when all is drawn
   bool enable = false;
 
-  // Little room: whether a pass ran shows in the colour of its name, CPU times only in the tooltip.
-  const bool narrow = ImGui::GetContentRegionAvail().x < ImGui::GetFontSize() * 24;
   const ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
-  if (ImGui::BeginTable("passes", narrow ? (profile ? 2 : 1) : (profile ? 4 : 2), flags)) {
+  if (ImGui::BeginTable("passes", profile ? 4 : 2, flags)) {
     ImGui::TableSetupColumn("in the order they run", ImGuiTableColumnFlags_WidthStretch);
-    if (!narrow) ImGui::TableSetupColumn("");
-    if (profile) ImGui::TableSetupColumn("GPU ms");
-    if (profile && !narrow) ImGui::TableSetupColumn("CPU ms");
+    for (const char* title : {"", "GPU ms", "CPU ms"})
+      if (profile || !*title) ImGui::TableSetupColumn(title);
     ImGui::TableHeadersRow();
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(plan.steps.size()));
@@ -65,22 +52,15 @@ void Panels::drawPasses(base::Diagnostics& diagnostics) {
         if (ImGui::Checkbox(name.c_str(), &on)) pass = switchNameOf(graph, index);
         if (!ran) ImGui::PopStyleColor();
         const bool timed = profile && step < timers.results().size() && timers.results()[step].ran;
-        explain(name +
-                (timed ? fmt::format(": GPU {:.2f} ms, CPU {:.2f} ms", timers.results()[step].gpu,
-                                     timers.results()[step].cpu)
-                       : "") +
-                "\n" + (slice.empty() ? "" : "slice " + slice + " of its work in this frame\n") +
+        tooltip(name + "\n" + (slice.empty() ? "" : "slice " + slice + " of its work in this frame\n") +
                 explainer_->whyPass(index) + "\n" + explainer_->whyHere(index) +
                 (ran ? "" : "\nkept: nothing it depends on has changed since it ran"));
-        if (!narrow) {
+        ImGui::TableNextColumn();
+        ran ? ImGui::TextUnformatted(slice.empty() ? "ran" : slice.c_str()) : ImGui::TextDisabled("kept");
+        for (const bool gpu : {true, false}) {
+          if (!timed) continue;
           ImGui::TableNextColumn();
-          ran ? ImGui::TextUnformatted(slice.empty() ? "ran" : slice.c_str()) : ImGui::TextDisabled("kept");
-        }
-        if (timed) {
-          ImGui::TableNextColumn();
-          ImGui::Text("%6.2f", timers.results()[step].gpu);
-          if (!narrow) ImGui::TableNextColumn();
-          if (!narrow) ImGui::Text("%6.2f", timers.results()[step].cpu);
+          ImGui::Text("%6.2f", gpu ? timers.results()[step].gpu : timers.results()[step].cpu);
         }
         ImGui::PopID();
       }
@@ -96,17 +76,11 @@ void Panels::drawPasses(base::Diagnostics& diagnostics) {
       enable = true;
     }
     ImGui::EndDisabled();
-    ImGui::SameLine();
-    if (ImGui::GetContentRegionAvail().x < ImGui::CalcTextSize(why.c_str()).x) {
-      ImGui::NewLine();
-      ImGui::Indent();
-      ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-      ImGui::TextWrapped("%s", why.c_str());
-      ImGui::PopStyleColor();
-      ImGui::Unindent();
-    } else {
-      ImGui::TextDisabled("%s", why.c_str());
-    }
+    ImGui::Indent();
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ImGui::TextWrapped("%s", why.c_str());
+    ImGui::PopStyleColor();
+    ImGui::Unindent();
     ImGui::PopID();
   };
   for (std::uint32_t i = 0; i < graph.passes.size(); ++i)

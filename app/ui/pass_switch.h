@@ -1,5 +1,4 @@
-// What the boxes of the panel of passes turn on and off. Does not: draw
-// (app/ui/pass_panel.cpp), change anything.
+// What the boxes of the panel of passes turn on and off.
 #pragma once
 
 #include <cstdint>

@@ -3,7 +3,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -55,26 +54,11 @@ std::vector<Mean> meansOf(const std::deque<runtime::FrameProfile>& history, bool
   return means;
 }
 
-void explainFrame(const runtime::FrameProfile& profile, bool gpu) {
-  std::vector<std::pair<double, std::string>> passes;
-  for (std::size_t step = 0; step < profile.passes.size() && step < profile.names->size(); ++step)
-    if (profile.passes[step].ran)
-      passes.emplace_back(timeOf(profile.passes[step], gpu), (*profile.names)[step]);
-  std::ranges::sort(passes, std::greater<>());
-  std::string text = fmt::format("frame {}: {:.2f} ms, passes {:.2f} ms", profile.frame,
-                                 profile.end - profile.start, totalOf(profile, gpu));
-  for (std::size_t i = 0; i < std::min<std::size_t>(8, passes.size()); ++i)
-    text += fmt::format("\n{:7.2f}  {}", passes[i].first, passes[i].second);
-  ImGui::SetTooltip("%s", text.c_str());
-}
-
 }  // namespace
 
 void Panels::drawProfiler() {
-  gl::PassTimers& timers = renderer_.device().timers;
   const auto& history = profiler_.history();
-  bool measure = timers.enabled();
-  if (ImGui::Checkbox("measure each pass", &measure)) timers.setEnabled(measure);
+  const bool measure = measureBox();
   ImGui::SameLine();
   int kind = gpuStack_ ? 0 : 1;
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 5);
@@ -121,11 +105,6 @@ void Panels::drawProfiler() {
   }
   draw.AddText({corner.x + 4, corner.y + 2}, IM_COL32(230, 230, 230, 255),
                fmt::format("{:.1f} ms", highest).c_str());
-  if (ImGui::IsItemHovered()) {
-    const float from = (corner.x + area.x - ImGui::GetIO().MousePos.x) / bar;
-    const auto back = static_cast<std::size_t>(std::max(0.0f, from));
-    if (back < history.size()) explainFrame(history[history.size() - 1 - back], gpuStack_);
-  }
 
   if (!measure) {
     ImGui::TextDisabled("P measures each pass");

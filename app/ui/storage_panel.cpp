@@ -1,13 +1,11 @@
-// Which physical texture, or which bytes of the arena, hold which resource over the steps of the frame; and how bright the
-// picture is. Declared in panels.h.
+// Which physical texture, or which bytes of the arena, hold which resource over
+// the steps of the frame. Declared in panels.h.
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
-#include "app/ui/luminance_plot.h"
 #include "app/ui/panels.h"
 #include "engine/base/hash.h"
 
@@ -21,16 +19,6 @@ std::string bytesText(std::uint64_t bytes) {
   return fmt::format("{} B", bytes);
 }
 
-std::string describe(const graph::Storage& storage) {
-  std::string text =
-      fmt::format("{} {}x{}", graph::infoOf(storage.format).name, storage.width, storage.height);
-  if (storage.depth > 1) text += fmt::format("x{}", storage.depth);
-  if (storage.layers > 1) text += fmt::format(" layers {}", storage.layers);
-  if (storage.mips > 1) text += fmt::format(" mips {}", storage.mips);
-  if (storage.copies > 1) text += fmt::format(" copies {}", storage.copies);
-  return text;
-}
-
 struct Row {
   std::string name, bytes;
   std::vector<std::uint32_t> resources;
@@ -39,7 +27,10 @@ struct Row {
 std::vector<Row> rowsOf(const graph::Plan& plan) {
   std::vector<Row> rows;
   for (const graph::Storage& storage : plan.storages)
-    rows.push_back({describe(storage), bytesText(storage.bytes), {}});
+    rows.push_back(
+        {shapeText(storage) + (storage.copies > 1 ? fmt::format(", {} copies", storage.copies) : ""),
+         bytesText(storage.bytes),
+         {}});
   for (std::uint32_t r = 0; r < plan.graph->resources.size(); ++r) {
     if (plan.firstStep[r] == graph::kNone) continue;
     if (plan.storageOf[r] != graph::kNone) {
@@ -110,61 +101,13 @@ void Panels::drawStorage() {
           mouse.x > (kept ? corner.x + width : to.x))
         continue;
       const auto passName = [&](std::uint32_t step) { return graph.passNames[plan.steps[step].pass]; };
-      ImGui::BeginTooltip();
-      ImGui::PushTextWrapPos(ImGui::GetFontSize() * 30);
-      ImGui::TextUnformatted(fmt::format("{}: {}\nfrom step {} ({}) to step {} ({})\n{}", name,
-                                         bytesText(graph.resources[r].bytes), plan.firstStep[r],
-                                         passName(std::min(plan.firstStep[r], last)), last, passName(last),
-                                         explainer_->whyStorage(r))
-                                 .c_str());
-      ImGui::PopTextWrapPos();
-      ImGui::EndTooltip();
+      tooltip(fmt::format("{}: {}\nfrom step {} ({}) to step {} ({})\n{}", name,
+                          bytesText(graph.resources[r].bytes), plan.firstStep[r],
+                          passName(std::min(plan.firstStep[r], last)), last, passName(last),
+                          explainer_->whyStorage(r)));
     }
   }
   ImGui::EndTable();
-}
-
-void Panels::drawHistogram(base::Diagnostics& diagnostics) {
-  runtime::Execution& execution = *renderer_.execution();
-  const auto& parameters = execution.plan().graph->parameters;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const graph::ParameterSpec& parameter = parameters[i];
-    if (parameter.desc.type != graph::ParameterDesc::Type::boolean || !isCalled(parameter.path, "histogram"))
-      continue;
-    bool on = execution.uniforms().parameters()[i].truth();
-    if (!ImGui::Checkbox("before the tone curve", &on)) break;
-    live_.setParameter(parameter.path, graph::Value::boolean(on), diagnostics);
-    return;  // with another plan: in the next frame
-  }
-  if (drawLuminance(execution)) return;
-  ImGui::TextDisabled("the picture as presented, 8-bit values");
-  const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const ImVec2 area(std::max(32.0f, ImGui::GetContentRegionAvail().x),
-                    std::max(32.0f, ImGui::GetContentRegionAvail().y));
-  ImGui::InvisibleButton("bins", area);
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddRectFilled(corner, {corner.x + area.x, corner.y + area.y}, IM_COL32(16, 16, 18, 255));
-  const auto& bins = histogram_.bins();
-  // The ends may hold a whole sky: the scale is that of what lies between.
-  float highest = 1e-4f;
-  for (const auto& channel : bins)
-    for (std::size_t i = 1; i < 255; ++i) highest = std::max(highest, channel[i]);
-  static constexpr ImU32 kColors[] = {IM_COL32(220, 60, 60, 110), IM_COL32(60, 200, 80, 110),
-                                      IM_COL32(70, 110, 240, 110), IM_COL32(235, 235, 235, 150)};
-  const float bar = area.x / 256;
-  for (std::size_t c = 0; c < 4; ++c)
-    for (std::size_t i = 0; i < 256; ++i) {
-      const float height = area.y * std::min(1.0f, bins[c][i] / highest);
-      const float x = corner.x + bar * static_cast<float>(i);
-      if (height > 0)
-        draw.AddRectFilled({x, corner.y + area.y - height}, {x + std::max(1.0f, bar), corner.y + area.y},
-                           kColors[c]);
-    }
-  if (!ImGui::IsItemHovered()) return;
-  const auto at =
-      static_cast<std::size_t>(std::clamp((ImGui::GetIO().MousePos.x - corner.x) / bar, 0.0f, 255.0f));
-  ImGui::SetTooltip("%zu: red %.2f %%, green %.2f %%, blue %.2f %%, luminance %.2f %%", at,
-                    bins[0][at] * 100.0, bins[1][at] * 100.0, bins[2][at] * 100.0, bins[3][at] * 100.0);
 }
 
 }  // namespace weft::app::ui

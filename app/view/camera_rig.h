@@ -1,14 +1,12 @@
-// The person's camera: follows a camera of the scene until someone takes it, turns around a pivot (orbit), or
-// flies. Moves in steps of 1/60 s whatever the frame rate and is shown between the last two of them, so the
-// same input over the same time gives the same path; the mouse of a frame counts as spread evenly over it.
-// Never rolls, never passes the poles. No call makes a pose that is not finite. Does not: know keys, windows
-// or clocks.
+// The person's camera: follows a camera of the scene until someone takes it, turns around a pivot (orbit), or flies. Moves in
+// steps of 1/60 s whatever the frame rate and is shown between the last two of them, so the same input over the same time
+// gives the same path; the mouse of a frame counts as spread evenly over it. Never rolls, never passes the poles. No call
+// makes a pose that is not finite.
 #pragma once
 
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
-#include <string>
 
 #include "engine/scene/camera.h"
 

@@ -73,14 +73,4 @@ std::string_view actionOf(int key, bool shift) {
   return without;
 }
 
-std::string keyTable() {
-  std::string text = "| input | does |\n|---|---|\n";
-  for (const KeyBinding& binding : kBindings) {
-    if (!*binding.keys) continue;
-    const char* quote = binding.how == How::mouse ? "" : "`";
-    text += std::string("| ") + quote + binding.keys + quote + " | " + binding.does + " |\n";
-  }
-  return text;
-}
-
 }  // namespace weft::app

@@ -1,6 +1,5 @@
-// What keys and the mouse do in the viewer: one table. The window's callbacks turn a key into the name of an
-// action, whoever does something registers it under that name (app/view/actions.h); the help and the table in
-// docs/viewer.md are made of the same rows. Does not: do anything, know GLFW's window.
+// What keys and the mouse do in the viewer: one table. The window's callbacks turn a key into the name of an action,
+// whoever does something registers it under that name; the help and the table in docs/viewer.md are made of the same rows.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +27,5 @@ std::span<const KeyBinding> keyBindings();
 
 // The action of a key that was pressed, empty when it has none.
 std::string_view actionOf(int key, bool shift);
-
-// What is listed, as a Markdown table: docs/viewer.md has it, and a test compares.
-std::string keyTable();
 
 }  // namespace weft::app

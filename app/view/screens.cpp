@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "app/view/help_layout.h"
 #include "app/view/key_bindings.h"
 
 namespace weft::app {
@@ -35,22 +34,24 @@ void drawHelp() {
                     std::max(1.0f, screen.y - 2 * (kMargin + style.WindowPadding.y)));
   const float rowWidth = keysWidth + gap + textWidth + gap;
   const auto count = static_cast<int>(rows.size());
-  const HelpLayout fit = fitHelp(count, rowHeight, rowWidth, room.x, room.y);
-  const int high = (count + fit.columns - 1) / fit.columns;
-  const ImVec2 size(static_cast<float>(fit.columns) * rowWidth * fit.scale + 2 * style.WindowPadding.x,
-                    static_cast<float>(high) * rowHeight * fit.scale + 2 * style.WindowPadding.y);
+  constexpr int kColumns = 2;
+  const int high = (count + kColumns - 1) / kColumns;
+  const float scale =
+      std::min({1.0f, room.x / (rowWidth * kColumns), room.y / (rowHeight * static_cast<float>(high))});
+  const ImVec2 size(kColumns * rowWidth * scale + 2 * style.WindowPadding.x,
+                    static_cast<float>(high) * rowHeight * scale + 2 * style.WindowPadding.y);
   ImGui::SetNextWindowPos({(screen.x - size.x) / 2, (screen.y - size.y) / 2}, ImGuiCond_Always);
   ImGui::SetNextWindowSize(size, ImGuiCond_Always);
   ImGui::SetNextWindowFocus();
   ImGui::SetNextWindowBgAlpha(1);
   ImGui::Begin("Help", nullptr, kNotice | ImGuiWindowFlags_NoInputs);
-  ImGui::SetWindowFontScale(fit.scale);
+  ImGui::SetWindowFontScale(scale);
   for (int i = 0; i < count; ++i) {
-    const float x = style.WindowPadding.x + static_cast<float>(i / high) * rowWidth * fit.scale;
-    const float y = style.WindowPadding.y + static_cast<float>(i % high) * rowHeight * fit.scale;
+    const float x = style.WindowPadding.x + static_cast<float>(i / high) * rowWidth * scale;
+    const float y = style.WindowPadding.y + static_cast<float>(i % high) * rowHeight * scale;
     ImGui::SetCursorPos({x, y});
     ImGui::TextColored({0.6f, 0.85f, 1, 1}, "%s", rows[static_cast<std::size_t>(i)]->keys);
-    ImGui::SetCursorPos({x + (keysWidth + gap) * fit.scale, y});
+    ImGui::SetCursorPos({x + (keysWidth + gap) * scale, y});
     ImGui::TextUnformatted(rows[static_cast<std::size_t>(i)]->does);
   }
   ImGui::End();

@@ -1,6 +1,5 @@
-// What the viewer draws over the picture besides the panels: the help with all keys, the modes that are on,
-// and the notice of a viewer that waits for files it can show. Between Overlay::begin() and end(). Does not:
-// keep anything.
+// What the viewer draws over the picture besides the panels: the help with all keys, the modes that are on, and the notice
+// of a viewer that waits for files it can show. Between Overlay::begin() and end().
 #pragma once
 
 #include <span>

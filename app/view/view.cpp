@@ -1,6 +1,4 @@
-// weft view: a graph in a window, with a camera to move; files that change on disk take effect at once.
-#include "app/view/view.h"
-
+// weft view: a graph in a window, with a camera to move; files that change on disk take effect at once. Declared in viewer.h.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +9,6 @@
 #include "app/live/live_environment.h"
 #include "app/output/output_files.h"
 #include "app/output/standard_streams.h"
-#include "app/session/frame_limit.h"
 #include "app/session/session.h"
 #include "app/view/viewer.h"
 #include "engine/scene/files/scene_file.h"
@@ -25,8 +22,8 @@ std::uint32_t lastFrameOf(const ViewOptions& options) {
   return options.maxFrames ? options.maxFrames - 1 : 0;
 }
 
-// Whether saving a file may make it good: nobody is to wait for a file that is not there, or for a wrong
-// command line.
+// Whether saving a file may make it good: nobody is to wait for a file that is
+// not there, or for a wrong command line.
 bool canBeFixed(const ViewOptions& options, const base::Diagnostics& diagnostics) {
   std::error_code ignored;
   for (const std::string& file : {options.graph, scenePathOf(options)})
@@ -38,8 +35,6 @@ bool canBeFixed(const ViewOptions& options, const base::Diagnostics& diagnostics
 
 // Runs before the window opens. The frames of a recording have no end unless --max-frames gives one.
 bool checkOutputs(const ViewOptions& options, base::Diagnostics& diagnostics) {
-  checkFrameCount(options.maxFrames, base::placeOfOption(fmt::format("--max-frames {}", options.maxFrames)),
-                  {}, diagnostics, "leave --max-frames out: the window then stays until it is closed");
   if (!options.screenshot.empty()) checkOutput(options.screenshot, lastFrameOf(options), false, diagnostics);
   if (!options.record.empty()) checkOutput(options.record, 0, true, diagnostics);
   return !diagnostics.hasErrors();
@@ -52,9 +47,7 @@ bool checkInputs(const ViewOptions& options, const LiveGraph& live, base::Diagno
                                 {"--record", options.record, 0, options.maxFrames ? last : ~0u}};
   std::vector<std::string> inputs = live.files();
   inputs.push_back(options.graph);
-  const bool known = options.maxFrames > 0;
-  return checkDistinct(outputs, inputs, diagnostics) &&
-         (!known || options.record.empty() || makeFolders(options.record, 0, last, diagnostics));
+  return checkDistinct(outputs, inputs, diagnostics);
 }
 
 int runView(ViewOptions& options) {
@@ -67,7 +60,8 @@ int runView(ViewOptions& options) {
   if (diagnostics.hasErrors()) return report(diagnostics);
   auto session = openDevice(options, diagnostics);
   if (!session) {
-    planOf(files, diagnostics);  // a mistake in the files is no failure of the machine
+    planOf(files,
+           diagnostics);  // a mistake in the files is no failure of the machine
     report(diagnostics);
     return 3;
   }
@@ -82,8 +76,8 @@ int runView(ViewOptions& options) {
   const gl::Size size = session->context->framebufferSize();
   settings.screenWidth = std::max(1u, size.width);
   settings.screenHeight = std::max(1u, size.height);
-  // A recording is to be what `weft render` makes: it waits. Otherwise the environment comes while the window
-  // is open.
+  // A recording is to be what `weft render` makes: it waits. Otherwise the
+  // environment comes while the window is open.
   const bool wait = options.waitForAssets || !options.record.empty();
   Options first = files;
   if (!wait) first.environment.clear();
@@ -102,8 +96,7 @@ int runView(ViewOptions& options) {
   }
   if (!world) {
     if (wait && !files.environment.empty()) return report(diagnostics);
-    std::error_code ignored;
-    if (std::filesystem::is_regular_file(scenePathOf(files), ignored))
+    if (std::filesystem::is_regular_file(scenePath, none))
       diagnostics.clear();  // the scene is read again, and says it again
     world.emplace(scene::Scene{});
   }
@@ -122,7 +115,6 @@ int runView(ViewOptions& options) {
     if (options.stats) {
       stats = statsOf(*session, {{"frames", viewer.frames()}, {"redraws", viewer.redraws()}});
       stats["live_values_set"] = live.livesSet();
-      if (const auto allocations = live.liveAllocations()) stats["live_allocations"] = *allocations;
     }
   }
   const std::string left = closeDevice(std::move(session));
@@ -139,12 +131,6 @@ void addView(CommandLine& line) {
   options.addGraph(command);
   options.addBackend(command);
   options.addMeasurements(command);
-  const auto checkCount = [](const std::string& text) {
-    std::uint32_t count = 0;
-    return parseNumber(text, count)
-               ? ""
-               : fmt::format("expected a number of frames up to {}, found '{}'", ~0u, text);
-  };
   command
       .add_option("--max-frames", options.maxFrames,
                   "close after this many frames (0: when the window is closed)")

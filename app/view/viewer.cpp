@@ -10,7 +10,6 @@
 #include <cassert>
 #include <utility>
 
-#include "app/session/session.h"
 #include "app/view/key_bindings.h"
 
 namespace weft::app {
@@ -22,9 +21,7 @@ Viewer::Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& li
       renderer_(session.renderer),
       live_(live),
       input_(window_),
-      alarm_(live.watchDescriptor(), [] { glfwPostEmptyEvent(); }),
       panels_(live, session.renderer, log_),
-      events_(options.events),
       diagnostics_(std::move(said)),
       renderScale_(options.renderScale),
       vsync_(options.vsync),
@@ -38,37 +35,35 @@ Viewer::Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& li
 }
 
 void Viewer::addActions() {
-  actions_.add("help", [this] { help_ = !help_; });
-  actions_.add("panels", [this] { panels_.visible = !panels_.visible; });
-  actions_.add("profile", [this] {
-    gl::PassTimers& timers = renderer_.device().timers;
-    timers.setEnabled(!timers.enabled());
-  });
-  actions_.add("fly", [this] { toggleFlight(); });
-  actions_.add("head_bob", [this] { rig_.headBob = !rig_.headBob; });
-  actions_.add("reset_camera", [this] { lookThrough(0); });
+  gl::PassTimers& timers = renderer_.device().timers;
+  actions_ = {{"help", [this] { help_ = !help_; }},
+              {"panels", [this] { panels_.visible = !panels_.visible; }},
+              {"profile", [&timers] { timers.setEnabled(!timers.enabled()); }},
+              {"fly", [this] { toggleFlight(); }},
+              {"head_bob", [this] { rig_.headBob = !rig_.headBob; }},
+              {"reset_camera", [this] { lookThrough(0); }},
+              {"next_environment", [this] { live_.stepEnvironment(1); }},
+              {"previous_environment", [this] { live_.stepEnvironment(-1); }},
+              {"vsync", [this] { session_.context->setVsync(vsync_ = !vsync_); }},
+              {"idle", [this] { idle_ = !idle_; }},
+              {"render_scale_down", [this] { scaleRendering(-1); }},
+              {"render_scale_up", [this] { scaleRendering(1); }},
+              {"record", [this] { toggleRecording(); }},
+              {"write_back", [this] { panels_.writeBack(diagnostics_); }},
+              {"screenshot", [this] { screenshot_ = ".png"; }},
+              {"screenshot_exr", [this] { screenshot_ = ".exr"; }},
+              {"close", [this] {
+                 if (input_.captured())
+                   toggleFlight();
+                 else
+                   glfwSetWindowShouldClose(window_, GLFW_TRUE);
+               }}};
   for (std::size_t i = 0; i < 9; ++i)
-    actions_.add(fmt::format("camera_{}", i + 1), [this, i] { lookThrough(i); });
-  actions_.add("next_environment", [this] { live_.stepEnvironment(1); });
-  actions_.add("previous_environment", [this] { live_.stepEnvironment(-1); });
-  actions_.add("vsync", [this] { session_.context->setVsync(vsync_ = !vsync_); });
-  actions_.add("idle", [this] { idle_ = !idle_; });
-  actions_.add("render_scale_down", [this] { scaleRendering(-1); });
-  actions_.add("render_scale_up", [this] { scaleRendering(1); });
-  actions_.add("record", [this] { toggleRecording(); });
+    actions_[fmt::format("camera_{}", i + 1)] = [this, i] { lookThrough(i); };
   for (const std::string& panel : ui::Panels::names())
-    actions_.add("panel_" + panel, [this, panel] { panels_.toggle(panel); });
-  actions_.add("write_back", [this] { panels_.writeBack(diagnostics_); });
-  actions_.add("screenshot", [this] { screenshot_ = ".png"; });
-  actions_.add("screenshot_exr", [this] { screenshot_ = ".exr"; });
-  actions_.add("close", [this] {
-    if (input_.captured())
-      toggleFlight();
-    else
-      glfwSetWindowShouldClose(window_, GLFW_TRUE);
-  });
+    actions_["panel_" + panel] = [this, panel] { panels_.toggle(panel); };
   for ([[maybe_unused]] const KeyBinding& binding : keyBindings())
-    assert((binding.how != KeyBinding::How::press || actions_.has(binding.action)) &&
+    assert((binding.how != KeyBinding::How::press || actions_.contains(binding.action)) &&
            "every key does something");
 }
 

@@ -1,28 +1,38 @@
-// The viewer: a LiveGraph in a window, a camera, panels over the picture, and the loop that brings them
-// together, frame after frame. Each part is a file beside this one; what it can do on a key is an action.
-// Does not: open the window, read files.
+// The viewer: a LiveGraph in a window, a camera, panels over the picture, and the loop that brings them together, frame
+// after frame. Each part is a file beside this one; what it can do on a key is an action.
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
 
 #include "app/live/live_graph.h"
-#include "app/output/recorder.h"
+#include "app/output/picture_writer.h"
+#include "app/session/command_line.h"
 #include "app/session/device_session.h"
 #include "app/ui/overlay.h"
 #include "app/ui/panels.h"
-#include "app/view/actions.h"
 #include "app/view/camera_rig.h"
-#include "app/view/event_log.h"
-#include "app/view/file_alarm.h"
 #include "app/view/frame_clock.h"
-#include "app/view/picture_rest.h"
-#include "app/view/view.h"
 #include "app/view/window_input.h"
 
 namespace weft::app {
+
+struct ViewOptions : Options {
+  std::uint32_t maxFrames = 0;      // stop after this many frames; 0: until closed
+  std::vector<std::string> panels;  // shown or hidden at the start
+  bool ui = true;                   // panels over the picture
+  std::string screenshot;           // written at the end
+  std::string record;               // pattern of a recording from the first frame on; empty: none
+  bool waitForAssets = false;       // before the first frame
+  bool events = false;              // says what happens, for scripts
+  bool idle = false;
+  double renderScale = 1;  // pixels of the scene per pixel of the window
+  double uiScale = 0;      // 0: as the screen says
+};
 
 class Viewer {
  public:
@@ -31,8 +41,8 @@ class Viewer {
   Viewer(const Viewer&) = delete;
   Viewer& operator=(const Viewer&) = delete;
 
-  // Until the window is closed. The exit code: 0 when the files on disk were good in the end and nothing else
-  // failed.
+  // Until the window is closed. The exit code: 0 when the files on disk were
+  // good in the end and nothing else failed.
   int run();
 
   // Frames of the graph, and times that only the panels over the last one were drawn anew.
@@ -51,8 +61,8 @@ class Viewer {
   void waitForEvents();
   void update(gl::Size size);
   void showState();
-  std::string modes() const;  // that are on and that nothing else shows while the panels are hidden
-  // Idle mode: whether something is under way that may not show for a while, and whether a frame is due.
+  std::string modes()
+      const;  // that are on and that nothing else shows while the panels are hidden Idle mode: whether something is under way that may not show for a while, and whether a frame is due.
   bool busy();
   // Whether the graph reads the mouse; the mouse over the picture that it presents.
   bool readsMouse();
@@ -67,9 +77,13 @@ class Viewer {
   void redraw(gl::Size size);
   void drawUi();
   void drawPanels();
+  void finishFrame();
   void saveScreenshots();
   void saveLast();  // --screenshot, once
-  void say(std::string_view event) const { events_.say(frame_, event); }
+  // With --events, a line on standard output for scripts: "event 12 click 376 40", with the number of the frame that is
+  // drawn next. docs/viewer.md lists the words. It is said when the thing is done, so that a script waits for it instead of
+  // for a time.
+  void say(std::string_view event) const;
   void tellFrame();
 
   const ViewOptions& options_;
@@ -77,9 +91,8 @@ class Viewer {
   GLFWwindow* window_;
   runtime::Renderer& renderer_;
   LiveGraph& live_;
-  Actions actions_;
+  std::map<std::string, std::function<void()>, std::less<>> actions_;  // by name
   WindowInput input_;
-  FileAlarm alarm_;
   std::unique_ptr<ui::Overlay> overlay_;  // null with --no-ui
   ui::Log log_;
   ui::Panels panels_;
@@ -91,15 +104,15 @@ class Viewer {
   FrameClock clock_;
   Recorder recorder_;
   PictureWriter writer_;  // of screenshots
-  EventLog events_;
   PictureRest rest_;
   runtime::FrameReport report_;    // of the last frame
   base::Diagnostics diagnostics_;  // of what the loop is doing
   std::string screenshot_;         // extension of one that is wanted
   std::string title_;
   std::uint32_t frame_ = 0, redraws_ = 0;
-  std::uint64_t inputs_ = 0, switches_ = 0, livesSet_ = 0, sceneReads_ = 0;  // when they were last looked at
-  int restless_ = 0;  // redraws that the panels still want
+  std::uint64_t inputs_ = 0, switches_ = 0, livesSet_ = 0,
+                sceneReads_ = 0;  // when they were last looked at
+  int restless_ = 0;              // redraws that the panels still want
   float uiScale_ = 1;
   gl::Size size_;  // of the window, as it was said last
   double renderScale_ = 1;
@@ -110,5 +123,8 @@ class Viewer {
   bool acted_ = false;   // an action ran since panels were drawn
   bool broken_ = false;  // the driver or an output reported an error
 };
+
+// The command `weft view`.
+void addView(CommandLine& line);
 
 }  // namespace weft::app

@@ -23,7 +23,7 @@ namespace weft::app {
 
 namespace {
 
-constexpr double kLookAround = 0.25;   // seconds between looks at everything while nothing is drawn
+constexpr double kLookAround = 0.05;   // seconds between looks at everything while nothing is drawn
 constexpr double kLookAtFiles = 0.02;  // the same while files that changed are to settle
 constexpr std::chrono::milliseconds kWaitForWrites{5};
 constexpr int kWaitsForWrites = 10;     // who writes for longer than this gets frames in between
@@ -37,6 +37,12 @@ void tell(base::Diagnostics& diagnostics, ui::Log& log, ui::Log::Topic topic) {
 }
 
 }  // namespace
+
+void Viewer::say(std::string_view event) const {
+  if (!options_.events) return;
+  print(fmt::format("event {} {}\n", frame_, event));
+  flushPrinted();
+}
 
 int Viewer::run() {
   tell(diagnostics_, log_, ui::Log::kFiles);
@@ -112,7 +118,7 @@ void Viewer::update(gl::Size size) {
   }
   const std::uint64_t changes = live_.changes();
   for (const std::string_view action : input_.takeActions()) {
-    actions_.run(action);
+    actions_.find(action)->second();
     acted_ = true;
     say(fmt::format("action {}", action));
   }
@@ -188,8 +194,8 @@ void Viewer::frame(gl::Size size) {
   in.previousPose = frame_ == 0 || cuts_ != rig_.cuts() ? in.pose : previousPose_;
   in.cutGeneration = cuts_ = rig_.cuts();
   if (readsMouse()) in.pointer = pointer_ = pointer();
-  // A recording has the frames that `weft render` makes. The first frame of a window that waited is finished, and
-  // does not fade in.
+  // A recording has the frames that `weft render` makes. The first frame of a
+  // window that waited is finished, and does not fade in.
   in.headless = !options_.record.empty() || (options_.waitForAssets && frame_ == 0);
   // When files change meanwhile, the frame is not shown. That happens to every second frame at most, so that some
   // picture is shown in any case. The one frame that tells of a click is always shown.
@@ -219,10 +225,7 @@ void Viewer::show(gl::Size size) {
   if (!recorder_.active() && clock_.fixed()) clock_.fix(0);  // it could not write
   renderer_.present(size.width, size.height);
   if (frame_ == options_.maxFrames) saveLast();
-  saveScreenshots();
-  tellFrame();
-  drawUi();
-  session_.context->swapBuffers();
+  finishFrame();
   if (!std::exchange(shown_, true)) say("shown");
   if (!idle_) return;
   judgeRest();
@@ -234,8 +237,8 @@ void Viewer::moveCamera(const FrameClock::Tick& tick) {
   const scene::Camera* camera = sceneCamera();
   if (camera && rig_.mode() == CameraRig::Mode::scene) {
     const scene::CameraPose pose = scene::poseAt(*camera, tick.time);
-    // The scene is another, or the first: the camera that is followed may stand elsewhere. A camera that a person
-    // took stays where it is.
+    // The scene is another, or the first: the camera that is followed may stand
+    // elsewhere. A camera that a person took stays where it is.
     if (sceneGeneration_ != live_.world().sceneGeneration() && pose != rig_.pose())
       rig_.jumpTo(pose);
     else
@@ -260,6 +263,10 @@ void Viewer::redraw(gl::Size size) {
   --restless_;
   ++redraws_;
   renderer_.present(size.width, size.height);
+  finishFrame();
+}
+
+void Viewer::finishFrame() {
   saveScreenshots();
   tellFrame();
   drawUi();
@@ -267,14 +274,12 @@ void Viewer::redraw(gl::Size size) {
 }
 
 void Viewer::drawPanels() {
-  overlay_->hideMouse(help_);  // no tooltip over the help
+  if (help_) return drawHelp();
   if (live_.running())
     panels_.draw(report_, diagnostics_);
   else
     drawWaiting(log_.files());
-  overlay_->hideMouse(false);
   if (!panels_.visible) drawModes(modes());
-  if (help_) drawHelp();
 }
 
 void Viewer::drawUi() {

@@ -1,6 +1,5 @@
-// The events of a GLFW window, kept until the loop asks for them: names of actions, held keys, what the mouse
-// did over the picture (what it did over a panel is the panel's), and the captured mouse of flight. Does not:
-// act, or know cameras.
+// The events of a GLFW window, kept until the loop asks for them: names of actions, held keys, what the mouse did over the
+// picture (what it did over a panel is the panel's), and the captured mouse of flight.
 #pragma once
 
 #include <cstdint>

@@ -102,7 +102,6 @@ namespace weft::base {
   X(W104, shaderDoesNotCompile,      "shader does not compile")                                     \
   X(W105, programDoesNotLink,        "program does not link")                                       \
   X(W106, versionInShader,           "#version in a shader file")                                   \
-  X(W107, programNeedsMore,          "program needs more than the device has")                      \
   X(W110, noContext,                 "no OpenGL context could be opened")                           \
   X(W115, incompleteFramebuffer,     "framebuffer is incomplete")                                   \
   X(W116, textureNotCreated,         "texture cannot be created")                                   \
@@ -146,7 +145,7 @@ namespace weft::base {
   X(W202, texturesTooLarge,          "textures larger than the memory limit")                       \
   X(W203, shaderTooLarge,            "shader larger than the driver survives")                      \
   X(W204, driverDied,                "shader that the driver did not survive")                      \
-  X(W205, filesNotWatched,           "files are not watched")                                            \
+  X(W205, filesNotWatched,           "files are not watched")                                       \
   X(W206, tooManyWorkGroups,         "work groups beyond the limit of the device")                  \
   X(W207, pictureNotFinite,          "picture of values that are no colours")                       \
   X(W208, messagesLeftOut,           "further messages are left out")                               \

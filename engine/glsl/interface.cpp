@@ -1,5 +1,7 @@
 #include "engine/glsl/interface.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -46,14 +48,12 @@ std::size_t behindBracket(Words words, std::size_t at) {
 
 struct Function {
   std::string_view name;
-  Token at;
   std::uint64_t tokens = 0, inlined = 0;
   std::set<std::string_view> words;
   std::map<std::string_view, std::uint64_t> calls;  // words with a bracket behind them, and how often
-  enum class State : std::uint8_t { fresh, open, done } state = State::fresh;
 };
 
-// Which functions call which: what main() reaches, what each of them costs, and whether they go in a circle.
+// Which functions call which: what main() reaches, and what each of them costs.
 class CallTree {
  public:
   std::vector<Function> functions;
@@ -62,11 +62,14 @@ class CallTree {
   void finish(Interface& out) {
     for (std::size_t i = 0; i < functions.size(); ++i) byName_[functions[i].name].push_back(i);
     reach(out);
-    for (std::size_t i = 0; i < functions.size(); ++i)
-      if (functions[i].state == Function::State::fresh) visit(i, out.size);
+    // Functions mostly stand behind those that they call, so one round finds all sums. Where some still grow after a few, as
+    // they do in a circle, the driver may have to work long.
+    bool grows = true;
+    for (int round = 0; grows && round < 4; ++round) grows = inlineCalls();
     // Mesa does it in every function, not in main() alone: a chain of calls costs the square of its length.
     for (const Function& function : functions)
       out.size.inlined = addTimes(out.size.inlined, function.inlined, 1);
+    if (grows) out.size.inlined = kMost;
   }
 
  private:
@@ -85,63 +88,24 @@ class CallTree {
     }
   }
 
-  // The functions that a call of the name may mean; the one that it stands in only where there is no other, as overloads call
-  // each other more often than functions themselves.
-  std::vector<std::size_t> calleesOf(std::size_t caller, std::string_view name) const {
-    const auto found = byName_.find(name);
-    if (found == byName_.end()) return {};
-    std::vector<std::size_t> callees = found->second;
-    if (callees.size() > 1) std::erase(callees, caller);
-    return callees;
-  }
-
-  // Depth first without recursion: a chain of calls may be long.
-  void visit(std::size_t root, ShaderSize& size) {
-    struct Step {
-      std::size_t function, next = 0;
-      std::vector<std::size_t> callees;
-    };
-    std::vector<Step> path;
-    const auto enter = [&](std::size_t index) {
-      functions[index].state = Function::State::open;
-      Step step{.function = index, .callees = {}};
-      for (const auto& [name, count] : functions[index].calls)
-        for (const std::size_t callee : calleesOf(index, name)) step.callees.push_back(callee);
-      path.push_back(std::move(step));
-    };
-    enter(root);
-    while (!path.empty()) {
-      Step& step = path.back();
-      if (step.next == step.callees.size()) {
-        close(step.function);
-        path.pop_back();
-        continue;
+  // Adds to each function what it calls, as far as that is known. True when one has grown.
+  bool inlineCalls() {
+    bool grown = false;
+    for (std::size_t i = 0; i < functions.size(); ++i) {
+      std::uint64_t inlined = functions[i].tokens;
+      for (const auto& [name, count] : functions[i].calls) {
+        const auto callees = byName_.find(name);
+        if (callees == byName_.end()) continue;
+        std::uint64_t largest = 0;
+        // Overloads call each other more often than functions themselves.
+        for (const std::size_t callee : callees->second)
+          if (callee != i || callees->second.size() == 1)
+            largest = std::max(largest, functions[callee].inlined);
+        inlined = addTimes(inlined, largest, count);
       }
-      const std::size_t callee = step.callees[step.next++];
-      if (functions[callee].state == Function::State::fresh) {
-        enter(callee);
-      } else if (functions[callee].state == Function::State::open && size.circle.empty()) {
-        auto at = path.begin();
-        while (at->function != callee) ++at;
-        const Token& first = functions[callee].at;
-        for (; at != path.end(); ++at) size.circle.emplace_back(functions[at->function].name);
-        size.circle.push_back(size.circle.front());
-        size.circleAt = {
-            .count = size.circle.size() - 1, .line = first.line, .column = first.column, .name = {}};
-      }
+      grown |= std::exchange(functions[i].inlined, inlined) < inlined;
     }
-  }
-
-  void close(std::size_t index) {
-    Function& function = functions[index];
-    function.inlined = function.tokens;
-    for (const auto& [name, count] : function.calls) {
-      std::uint64_t largest = 0;
-      for (const std::size_t callee : calleesOf(index, name))
-        largest = std::max(largest, functions[callee].inlined);
-      function.inlined = addTimes(function.inlined, largest, count);
-    }
-    function.state = Function::State::done;
+    return grown;
   }
 
   std::map<std::string_view, std::vector<std::size_t>> byName_;
@@ -365,8 +329,7 @@ class InterfaceReader {
     const Token& name = before[open - 1];
     Declaration made{.layout = {}, .begin = before[0], .end = before.back()};
     add(made, Role::function, name, open > 1 ? before[open - 2].text : std::string_view());
-    calls_.functions.push_back(
-        {.name = name.text, .at = before[open], .tokens = inside.size(), .words = {}, .calls = {}});
+    calls_.functions.push_back({.name = name.text, .tokens = inside.size(), .words = {}, .calls = {}});
     Function& function = calls_.functions.back();
     takeBody(before.subspan(open), nullptr);
     takeBody(inside, &function);
@@ -487,6 +450,41 @@ Interface readExpanded(std::string_view text, std::span<const Define> defines, B
 }
 
 }  // namespace
+
+bool checkShaderSize(const ShaderSize& size, const ShaderSource& source, base::Diagnostics& diagnostics) {
+  const auto check = [&](std::uint64_t bound, const char* counts, const ShaderCount& count,
+                         const std::string& message, const char* fix) {
+    const std::uint64_t most = base::raised(bound);
+    if (count.count <= most) return true;
+    const base::Place place =
+        count.line == 0 ? base::Place{source.file, 0, 0} : source.placeOf(count.line, count.column);
+    base::Diagnostic& error = diagnostics.error(base::Code::shaderTooLarge, place, message);
+    error.expected = fmt::format("at most {} {}", most, counts);
+    error.found = bound == kMostShaderTokens ? fmt::format("more than {}", most)  // counting ended there
+                                             : fmt::format("{}", count.count);
+    error.hint = fix;
+    if (const std::string raise = base::hintToRaise(bound); !raise.empty()) error.hint += "; or " + raise;
+    return false;
+  };
+  bool good =
+      check(kMostShaderBytes, "bytes of one shader with what it includes", {.count = size.bytes, .name = {}},
+            "the shader is too large", "include less, or move tables into buffers");
+  good &=
+      check(kMostShaderTokens, "tokens of one shader after its macros", size.tokens,
+            size.tokens.name.empty() ? "the shader is too long"
+                                     : fmt::format("the macro '{}' expands to too much", size.tokens.name),
+            "use functions and loops instead of macros that repeat");
+  good &= check(kMostShaderDepth, "brackets, operators or blocks around one another", size.depth,
+                "brackets, operators or blocks are nested too deeply", "split it into several statements");
+  return good;
+}
+
+bool isUnusual(const Interface& interface) {
+  constexpr std::uint64_t kUsualTokens = 25'000, kUsualDepth = 60, kUsualCases = 50, kUsualElements = 128;
+  const ShaderSize& size = interface.size;
+  return interface.unsure || size.tokens.count > kUsualTokens || size.inlined > kUsualTokens ||
+         size.depth.count > kUsualDepth || size.cases > kUsualCases || size.elements > kUsualElements;
+}
 
 const char* nameOf(Role role) {
   constexpr const char* kNames[] = {"a sampler",

@@ -1,6 +1,7 @@
 // What a shader declares and uses, from its tokens: samplers, images with their formats, blocks with their members, inputs, outputs,
-// and which names main() reaches. Also what says how hard a driver has to work: nesting, functions with their calls replaced by what
-// they call, and functions in a circle. Does not: check that the text is right, or know which branch a constant decides.
+// and which names main() reaches. Also how hard a driver has to work: bytes, tokens after macros, nesting, and functions with their
+// calls replaced by what they call. docs/limits.md says what drivers were measured to survive. Whether the text is right, the
+// driver says.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/diagnostic.h"
+#include "engine/glsl/source.h"
 #include "engine/glsl/tokens.h"
 
 namespace weft::glsl {
@@ -64,10 +67,6 @@ struct ShaderSize {
   std::uint64_t inlined = 0;   // tokens of all functions, once calls are replaced by what they call
   std::uint64_t cases = 0;     // of all switches
   std::uint64_t elements = 0;  // of the largest array or table, blocks aside
-  // Functions that call each other in a circle, the first one again at the end; empty: none is seen. Overloads are not
-  // told apart, so a circle is only one where the driver refuses the program, too.
-  std::vector<std::string> circle;
-  ShaderCount circleAt;
 };
 
 struct Interface {
@@ -85,6 +84,12 @@ struct Interface {
     return isLive(declaration.instance.empty() ? declaration.name : declaration.instance);
   }
 };
+
+// Reports each count that is above its limit (W203). True when there is none.
+bool checkShaderSize(const ShaderSize& size, const ShaderSource& source, base::Diagnostics& diagnostics);
+
+// Whether the driver may not survive the shader, or must work long: then a process of its own tries it first.
+bool isUnusual(const Interface& interface);
 
 // Of these tokens, directives apart.
 Interface readInterface(std::span<const Token> tokens);

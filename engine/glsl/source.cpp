@@ -5,16 +5,13 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <span>
 
-#include "engine/base/chars.h"
 #include "engine/base/files/file.h"
 #include "engine/base/files/file_access.h"
 #include "engine/base/files/file_overlay.h"
 #include "engine/base/hash.h"
+#include "engine/base/limits.h"
 #include "engine/base/nearest.h"
-#include "engine/glsl/bounds.h"
 #include "engine/glsl/interface.h"
 
 namespace weft::glsl {
@@ -24,23 +21,18 @@ using base::Code;
 using base::Diagnostics;
 using base::Place;
 
-struct FileState {
-  std::int64_t time = -1;  // -1: not there
-  std::uint64_t bytes = ~0ull;
-};
-
 namespace {
 
-constexpr std::size_t kMostText = std::size_t{16}
-                                  << 20;  // of one stage; a guarded include may repeat its text
+// Of one stage; a guarded include may repeat its text.
+constexpr std::size_t kMostText = std::size_t{16} << 20;
 
-// When the file was written, and how long it is. Each unsaved text has a number of its own, which is no time of a file.
-FileState stateOf(const std::string& path) {
+// Each unsaved text has a number of its own, which is no time of a file.
+FileStamp stampOf(const std::string& path) {
   if (const auto unsaved = base::overlayOf(path))
-    return {-1 - static_cast<std::int64_t>(unsaved->generation), unsaved->text->size()};
+    return {path, -1 - static_cast<std::int64_t>(unsaved->generation), unsaved->text->size()};
   struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) return {};
-  return {std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec,
+  if (::stat(path.c_str(), &status) != 0) return {path};
+  return {path, std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec,
           static_cast<std::uint64_t>(status.st_size)};
 }
 
@@ -49,8 +41,7 @@ std::string folderOf(const std::string& path) {
   return folder.empty() ? "." : folder;
 }
 
-// Does what base::readFile() does, but does not read a file of more than `most` bytes: then `bytes` says how many it
-// has, and nothing is reported.
+// base::readFile() of a file of at most `most` bytes. Of a larger one `bytes` says how many it has, and nothing is reported.
 std::optional<std::string> readWithin(const std::string& path, std::uint64_t most, std::uint64_t& bytes,
                                       Diagnostics& diagnostics, Code code, const Place& place) {
   return base::readFile(path, diagnostics, code, place, [&](std::uint64_t done, std::uint64_t total) {
@@ -59,141 +50,96 @@ std::optional<std::string> readWithin(const std::string& path, std::uint64_t mos
   });
 }
 
-// A file that may be read, and is one of those that readFile() reads.
-bool isReadable(const fs::path& path) {
-  std::error_code ec;
-  return base::mayRead(path.string()) && (base::overlayOf(path.string()) || fs::is_regular_file(path, ec));
-}
-
 // The first that may not be read, where nothing is said of whether it is there.
-std::optional<std::string> outsideOf(std::span<const fs::path> candidates) {
-  for (const fs::path& candidate : candidates)
-    if (const std::string path = candidate.lexically_normal().string(); !base::mayRead(path)) return path;
-  return std::nullopt;
+std::optional<std::string> outsideOf(std::span<const std::string> candidates) {
+  const auto outside =
+      std::ranges::find_if(candidates, [](const std::string& path) { return !base::mayRead(path); });
+  return outside == candidates.end() ? std::nullopt : std::optional(*outside);
 }
 
-bool isLineSpace(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
+// `name` below each of the folders, in their order.
+std::vector<std::string> below(std::span<const std::string> folders, const std::string& name) {
+  std::vector<std::string> paths;
+  for (const std::string& folder : folders)
+    paths.push_back((fs::path(folder) / name).lexically_normal().string());
+  return paths;
 }
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && isLineSpace(text.front())) text.remove_prefix(1);
-  while (!text.empty() && isLineSpace(text.back())) text.remove_suffix(1);
-  return text;
+// For an included file that is not there: one of the same name in another folder, else the nearest of `names`.
+std::string hintForInclude(const std::string& name, const std::vector<std::string>& names) {
+  const auto same =
+      std::ranges::find_if(names, [&](const std::string& each) { return each.ends_with("/" + name); });
+  return same == names.end() ? base::nearestHint(name, names) : "did you mean '" + *same + "'?";
 }
 
-struct Directive {
-  std::string_view name;     // "include", or "" when the line is none
-  std::string_view rest;     // what follows, trimmed, without comments
-  std::uint32_t column = 0;  // of the '#', from 1
-};
-
-// Walks the lines of a text. A directive inside a comment is none. Views live until next().
-class LineScanner {
- public:
-  explicit LineScanner(std::string_view text) : rest_(text) {}
-  bool next();
-  std::string_view line() const { return line_; }   // without its newline
-  std::uint32_t number() const { return number_; }  // from 1
-  const Directive& directive() const { return directive_; }
-  // Of #if around the line. The guard of a whole file, #ifndef X with #define X next, does not count: what it leaves out is there
-  // already.
-  int depth() const { return depth_ - guard_; }
-
- private:
-  void strip();
-  std::string_view rest_, line_;
-  std::string code_;  // the line, comments as spaces, columns kept
-  std::uint32_t number_ = 0;
-  int depth_ = 0;
-  int guard_ = 0;       // 1 within it
-  std::string guards_;  // the X of a first directive #ifndef X, until the next directive
-  int directives_ = 0;
-  bool inComment_ = false;
-  Directive directive_;
-};
-
-bool LineScanner::next() {
-  if (rest_.empty()) return false;
-  if (directive_.name == "if" || directive_.name == "ifdef" || directive_.name == "ifndef") ++depth_;
-  const std::size_t end = rest_.find('\n');
-  line_ = rest_.substr(0, end);
-  rest_ = end == std::string_view::npos ? std::string_view() : rest_.substr(end + 1);
-  ++number_;
-  strip();
-  directive_ = {};
-  const std::string_view code = trimmed(code_);
-  if (!code.starts_with('#')) return true;
-  std::string_view body = trimmed(code.substr(1));
-  std::size_t length = 0;
-  while (length < body.size() && base::isIdentChar(body[length])) ++length;
-  directive_ = {body.substr(0, length), trimmed(body.substr(length)),
-                static_cast<std::uint32_t>(code_.find('#') + 1)};
-  const std::string_view name = directive_.name;
-  if (name == "endif") depth_ = std::max(0, depth_ - 1);
-  if (name == "define" && directives_ == 1 && !guards_.empty() && directive_.rest == guards_) guard_ = 1;
-  if (depth_ == 0 || (depth_ == 1 && name.starts_with("el"))) guard_ = 0;
-  guards_ = directives_++ == 0 && name == "ifndef" ? std::string(directive_.rest) : std::string();
-  return true;
+// Those that differ in stage and ending only, else those of nearly that name.
+std::string hintForShader(const std::string& path, const std::vector<std::string>& known) {
+  if (path.find_first_of("{;\n") != std::string::npos)
+    return "a shader is a file: write the text into one below shaders/, and its path here";
+  for (const std::string& each : known)
+    if (path.ends_with("/" + each))
+      return fmt::format("write '{}': paths begin in the folder of shaders", each);
+  const std::string stem = path.substr(0, path.find('.', path.rfind('/') + 1)) + ".";
+  const auto same =
+      std::ranges::find_if(known, [&](const std::string& each) { return each.starts_with(stem); });
+  return same == known.end() ? base::nearestHint(path, known) : fmt::format("did you mean '{}'?", *same);
 }
 
-void LineScanner::strip() {
-  code_.assign(line_);
-  bool quoted = false;
-  for (std::size_t i = 0; i < code_.size(); ++i) {
-    const std::string_view two = std::string_view(code_).substr(i, 2);
-    if (inComment_) {
-      if (two == "*/") {
-        code_[i++] = ' ';
-        inComment_ = false;
-      }
-      code_[i] = ' ';
-    } else if (code_[i] == '"') {
-      quoted = !quoted;
-    } else if (!quoted && two == "/*") {
-      code_[i++] = ' ';
-      code_[i] = ' ';
-      inComment_ = true;
-    } else if (!quoted && two == "//") {
-      code_.resize(i);
-    }
-  }
+// The file name of `#include "name"`, from what follows the word, or nullopt.
+std::optional<std::string> quotedFile(std::string_view rest) {
+  const std::size_t begin = rest.find_first_not_of(" \t");
+  if (begin == std::string_view::npos || rest[begin] != '"') return std::nullopt;
+  const std::size_t end = rest.find('"', begin + 1);
+  if (end == std::string_view::npos || end == begin + 1) return std::nullopt;
+  const std::string_view behind =
+      rest.substr(std::min(rest.size(), rest.find_first_not_of(" \t\r", end + 1)));
+  if (!behind.empty() && !behind.starts_with("//") && !behind.starts_with("/*")) return std::nullopt;
+  return std::string(rest.substr(begin + 1, end - begin - 1));
 }
 
 }  // namespace
 
-// One expansion: the text built so far, the files met, and the chain of includes that leads to the current
-// one.
+std::vector<std::string> shadersBelow(std::span<const std::string> folders) {
+  constexpr int kMostOfFolder = 10'000;
+  std::set<std::string> names;
+  for (const std::string& folder : folders) {
+    if (!base::mayRead(folder)) continue;
+    std::error_code ec;
+    fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, ec);
+    for (int seen = 0; !ec && it != fs::recursive_directory_iterator() && seen < kMostOfFolder;
+         it.increment(ec), ++seen)
+      if (it->path().extension() == ".glsl")
+        names.insert(it->path().lexically_relative(folder).generic_string());
+  }
+  return {names.begin(), names.end()};
+}
+
+// One expansion: the text built so far, the files met, and the chain of includes that leads to the current one.
 class IncludeExpander {
  public:
-  IncludeExpander(const std::vector<std::string>& roots, ShaderNames& names, Diagnostics& diagnostics)
-      : roots_(roots), names_(names), diagnostics_(diagnostics) {}
+  IncludeExpander(SourceLoader& loader, Diagnostics& diagnostics)
+      : loader_(loader), diagnostics_(diagnostics) {}
 
   // `folder` is where includes are searched first; "" for text without a file.
-  void expandRoot(const std::string& path, const std::string& folder, std::string_view text) {
-    const std::size_t number = addFile(path);
-    source_->file = source_->files[number];
-    expandFile(number, folder, text, 0);
-  }
-
-  std::shared_ptr<ShaderSource> finish() {
+  std::shared_ptr<ShaderSource> run(const FileStamp& own, const std::string& folder, std::string_view text) {
+    addFile(own);
+    source_->file = source_->files[0];
+    expandFile(0, folder, text, 0);
     source_->hash = base::hashBytes(source_->text);
     return source_;
   }
 
-  const std::vector<std::string>& paths() const { return paths_; }
-  // The state of each of these but the first before it was read: what changes meanwhile is read again next time.
-  const std::vector<FileState>& states() const { return states_; }
+  // The state of each file before it was read: what changes meanwhile is read again next time.
+  const std::vector<FileStamp>& files() const { return files_; }
   // Where includes that were not found would have been.
   const std::vector<std::string>& missing() const { return missing_; }
 
  private:
-  std::size_t addFile(const std::string& path, FileState state = {}) {
-    source_->files.push_back(std::make_shared<const std::string>(path));
-    paths_.push_back(path);
-    states_.push_back(state);
+  std::size_t addFile(const FileStamp& file) {
+    source_->files.push_back(std::make_shared<const std::string>(file.path));
+    files_.push_back(file);
     unconditional_.push_back(false);
-    return source_->files.size() - 1;
+    return files_.size() - 1;
   }
 
   // `depth`: how many #if surround the whole file.
@@ -202,24 +148,42 @@ class IncludeExpander {
     if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos)
       reportZero(number, text, zero);
     stack_.push_back(number);
-    LineScanner scanner(text);
-    while (scanner.next()) {
-      const Directive directive = scanner.directive();
-      const Place place{source_->files[number], scanner.number(), directive.column};
-      if (directive.name == "include") {
-        include(directive, place, folder, depth + scanner.depth());
+    const std::vector<Token> tokens = splitTokens(text);
+    int level = 0;  // of #if around the line
+    // The guard of a whole file, #ifndef X with #define X next, does not count: what it leaves out is there already.
+    int guards = 0, directives = 0;
+    std::string_view guard;  // the X of a first directive #ifndef X, until the next directive
+    std::size_t at = 0;
+    for (std::uint32_t line = 1; !text.empty(); ++line) {
+      const std::string_view code = text.substr(0, text.find('\n'));
+      text.remove_prefix(std::min(code.size() + 1, text.size()));
+      while (at < tokens.size() && tokens[at].line < line) ++at;
+      const auto wordAt = [&](std::size_t i) {
+        return i < tokens.size() && tokens[i].line == line ? tokens[i].text : std::string_view();
+      };
+      if (wordAt(at) != "#" || !tokens[at].first) {
+        emit(code, number, line);
         continue;
       }
-      if (directive.name == "version")
+      const std::string_view name = wordAt(at + 1), word = wordAt(at + 2);
+      const Place place{source_->files[number], line, tokens[at].column};
+      if (name == "endif") level = std::max(0, level - 1);
+      if (name == "define" && directives == 1 && !guard.empty() && word == guard) guards = 1;
+      if (level == 0 || (level == 1 && name.starts_with("el"))) guards = 0;
+      guard = directives++ == 0 && name == "ifndef" ? word : std::string_view();
+      if (name == "include")
+        include(code.substr(tokens[at + 1].column - 1 + name.size()), place, folder, depth + level - guards);
+      else if (name == "version")
         diagnostics_.error(Code::versionInShader, place, "a shader file has no #version").hint =
             "remove the line; the engine writes '#version 450 core'";
-      if (directive.name == "version" || (directive.name == "pragma" && directive.rest == "once")) continue;
-      emit(scanner.line(), number, scanner.number());
+      else if (name != "pragma" || word != "once")
+        emit(code, number, line);
+      if (name == "if" || name == "ifdef" || name == "ifndef") ++level;
     }
     stack_.pop_back();
   }
 
-  // One line of the text, which stands at `line` of a file.
+  // One line of the text, which is `line` of a file.
   void emit(std::string_view code, std::size_t file, std::uint32_t line) {
     ++textLine_;
     std::vector<ShaderSource::Run>& runs = source_->runs;
@@ -229,44 +193,28 @@ class IncludeExpander {
     source_->text.append(code).append("\n");
   }
 
-  void include(const Directive& directive, const Place& place, const std::string& folder, int depth) {
-    std::string_view rest = directive.rest;
-    if (rest.size() < 3 || rest.front() != '"' || rest.find('"', 1) != rest.size() - 1) {
+  // `rest`: what follows the word include.
+  void include(std::string_view rest, const Place& place, const std::string& folder, int depth) {
+    const std::optional<std::string> name = quotedFile(rest);
+    if (!name) {
       base::Diagnostic& error =
           diagnostics_.error(Code::malformedInclude, place, "#include needs a file name in double quotes");
       error.expected = "#include \"common/view.glsl\"";
-      error.found = fmt::format("#include {}", rest);
+      error.found = fmt::format("#include{}", rest);
       return;
     }
-    const std::string name(rest.substr(1, rest.size() - 2));
-    const std::optional<std::string> path = resolve(name, folder);
-    if (!path) {
-      for (const fs::path& candidate : candidatesOf(name, folder))
-        missing_.push_back(candidate.lexically_normal().string());
-      if (const auto outside = outsideOf(candidatesOf(name, folder)))
-        return base::reportOutside(*outside, diagnostics_, place);
-      std::vector<std::string> folders = roots_;
-      if (!folder.empty()) folders.push_back(folder);
-      if (const auto other = resolveOther(name, folder)) {
-        base::readFile(*other, diagnostics_, Code::missingShaderInclude, place);
-        return;
-      }
-      base::Diagnostic& error = diagnostics_.error(Code::missingShaderInclude, place,
-                                                   fmt::format("included file '{}' not found", name));
-      error.expected = fmt::format("a file beside the including one or below {}", fmt::join(roots_, ", "));
-      error.hint = hintForInclude(name, names_.below(folders));
-      return;
-    }
-    const auto position = std::find(paths_.begin(), paths_.end(), *path);
-    const bool known = position != paths_.end();
-    std::size_t number = static_cast<std::size_t>(position - paths_.begin());
+    const std::optional<std::string> path = find(*name, place, folder);
+    if (!path) return;
+    const auto position = std::ranges::find(files_, *path, &FileStamp::path);
+    const bool known = position != files_.end();
+    auto number = static_cast<std::size_t>(position - files_.begin());
     if (known) {
-      if (const auto at = std::find(stack_.begin(), stack_.end(), number); at != stack_.end())
+      if (const auto at = std::ranges::find(stack_, number); at != stack_.end())
         return reportCycle(at, place);
       if (unconditional_[number]) return;
     }
     const std::uint64_t room = kMostText - std::min(source_->text.size(), kMostText);
-    const FileState state = stateOf(*path);
+    const FileStamp stamp = stampOf(*path);
     std::uint64_t bytes = 0;
     const std::optional<std::string> text =
         readWithin(*path, room, bytes, diagnostics_, Code::missingShaderInclude, place);
@@ -279,7 +227,7 @@ class IncludeExpander {
       return;
     }
     if (!text) return;
-    if (!known) number = addFile(*path, state);
+    if (!known) number = addFile(stamp);
     unconditional_[number] = depth == 0;
     // A text inside an #if may not be taken, so it sets a guard instead of making later ones superfluous; the
     // first text outside every #if asks for that guard and makes all later ones superfluous.
@@ -288,6 +236,32 @@ class IncludeExpander {
     if (depth > 0) emit(fmt::format("#define WEFT_INCLUDED_{}", number), by, place.line);
     expandFile(number, folderOf(*path), *text, depth);
     if (known || depth > 0) emit("#endif", by, place.line);
+  }
+
+  // Where the included file is: beside who includes it, or below a root. Nothing after an error.
+  std::optional<std::string> find(const std::string& name, const Place& place, const std::string& folder) {
+    std::vector<std::string> folders = loader_.roots_;
+    if (!folder.empty()) folders.insert(folders.begin(), folder);
+    const std::vector<std::string> candidates = below(folders, name);
+    std::error_code ec;
+    for (const std::string& path : candidates)
+      if (base::mayRead(path) && (base::overlayOf(path) || fs::is_regular_file(path, ec))) return path;
+    missing_.insert(missing_.end(), candidates.begin(), candidates.end());
+    if (const auto outside = outsideOf(candidates)) {
+      base::reportOutside(*outside, diagnostics_, place);
+      return std::nullopt;
+    }
+    for (const std::string& path : candidates)
+      if (fs::exists(path, ec)) {  // and is no regular file: readFile() says what it is
+        base::readFile(path, diagnostics_, Code::missingShaderInclude, place);
+        return std::nullopt;
+      }
+    base::Diagnostic& error = diagnostics_.error(Code::missingShaderInclude, place,
+                                                 fmt::format("included file '{}' not found", name));
+    error.expected =
+        fmt::format("a file beside the including one or below {}", fmt::join(loader_.roots_, ", "));
+    error.hint = hintForInclude(name, loader_.namesFrom(folder));
+    return std::nullopt;
   }
 
   // Drivers take the text up to it and say nothing.
@@ -303,181 +277,130 @@ class IncludeExpander {
 
   void reportCycle(std::vector<std::size_t>::const_iterator first, const Place& place) {
     std::string chain;
-    for (auto it = first; it != stack_.end(); ++it) chain += *source_->files[*it] + " -> ";
-    chain += *source_->files[*first];
+    for (auto it = first; it != stack_.end(); ++it) chain += files_[*it].path + " -> ";
+    chain += files_[*first].path;
     diagnostics_
         .error(Code::shaderIncludeCycle, place,
                fmt::format("shaders include each other in a cycle: {}", chain))
         .hint = "move what both need into a third file";
   }
 
-  std::vector<fs::path> candidatesOf(const std::string& name, const std::string& folder) const {
-    std::vector<fs::path> candidates;
-    if (!folder.empty()) candidates.push_back(fs::path(folder) / name);
-    for (const std::string& root : roots_) candidates.push_back(fs::path(root) / name);
-    return candidates;
-  }
-
-  std::optional<std::string> resolve(const std::string& name, const std::string& folder) const {
-    for (const fs::path& candidate : candidatesOf(name, folder))
-      if (const fs::path normal = candidate.lexically_normal(); isReadable(normal)) return normal.string();
-    return std::nullopt;
-  }
-
-  // What is there and is no regular file: readFile() says what it is.
-  std::optional<std::string> resolveOther(const std::string& name, const std::string& folder) const {
-    std::error_code ec;
-    for (const fs::path& candidate : candidatesOf(name, folder))
-      if (const fs::path normal = candidate.lexically_normal(); fs::exists(normal, ec))
-        return normal.string();
-    return std::nullopt;
-  }
-
-  const std::vector<std::string>& roots_;
-  ShaderNames& names_;
+  SourceLoader& loader_;
   Diagnostics& diagnostics_;
   std::shared_ptr<ShaderSource> source_ = std::make_shared<ShaderSource>();
-  std::vector<std::string> paths_;  // by file number
-  std::vector<FileState> states_;   // likewise
+  std::vector<FileStamp> files_;  // by file number
   std::vector<std::string> missing_;
-  std::vector<bool> unconditional_;  // by file number: stands in the text outside every #if
+  std::vector<bool> unconditional_;  // by file number: is in the text outside every #if
   std::vector<std::size_t> stack_;   // file numbers, from the stage's own to the current one
   std::uint32_t textLine_ = 0;
 };
 
-void SourceLoader::touch(std::span<const std::string> read, std::span<const std::string> missing) {
-  touched_.insert(read.begin(), read.end());
-  touched_.insert(missing.begin(), missing.end());
-}
-
 std::shared_ptr<const ShaderSource> SourceLoader::answer(const std::string& key) {
   const auto found = cache_.find(key);
   if (found == cache_.end()) return nullptr;
-  const auto same = [](const Stamp& s) {
-    const FileState now = stateOf(s.path);
-    return now.time == s.time && now.bytes == s.bytes;
-  };
-  if (!std::all_of(found->second.stamps.begin(), found->second.stamps.end(), same)) return nullptr;
-  for (const Stamp& stamp : found->second.stamps) touched_.insert(stamp.path);
+  const auto isSame = [](const FileStamp& stamp) { return stampOf(stamp.path) == stamp; };
+  if (!std::ranges::all_of(found->second.stamps, isSame)) return nullptr;
+  for (const FileStamp& stamp : found->second.stamps) touched_.insert(stamp.path);
   return found->second.source;
 }
 
-namespace {
-
-// Those that differ in stage and ending only, else those of nearly that name.
-std::string hintForShader(const std::string& path, const std::vector<std::string>& known) {
-  if (path.find_first_of("{;\n") != std::string::npos)
-    return "a shader is a file: write the text into one below shaders/, and its path here";
-  for (const std::string& each : known)
-    if (path.ends_with("/" + each))
-      return fmt::format("write '{}': paths begin in the folder of shaders", each);
-  const std::string stem = path.substr(0, path.find('.', path.rfind('/') + 1)) + ".";
-  std::string same;
-  for (const std::string& each : known)
-    if (each.starts_with(stem)) same += fmt::format("{}'{}'", same.empty() ? "" : " or ", each);
-  return same.empty() ? base::nearestHint(path, known) : fmt::format("did you mean {}?", same);
+// `own`: the file, whose path is the key; else the name of a text in memory.
+std::shared_ptr<const ShaderSource> SourceLoader::expand(const std::string& key, const FileStamp& own,
+                                                         std::string_view text, Diagnostics& diagnostics) {
+  ++expansions_;
+  const bool isFile = own.path == key;
+  Diagnostics found;
+  IncludeExpander expander(*this, found);
+  auto source = expander.run(own, isFile ? folderOf(own.path) : "", text);
+  const auto taken = std::span(expander.files()).subspan(isFile ? 0 : 1);
+  for (const FileStamp& file : taken) touched_.insert(file.path);
+  touched_.insert(expander.missing().begin(), expander.missing().end());
+  diagnostics.append(found);
+  if (found.hasErrors()) return nullptr;
+  return (cache_[key] = {std::move(source), {taken.begin(), taken.end()}}).source;
 }
 
-}  // namespace
-
-std::vector<fs::path> SourceLoader::candidatesOf(const std::string& path) const {
-  std::vector<fs::path> candidates;
-  if (!fs::path(path).is_absolute())
-    for (const std::string& root : roots_) candidates.push_back(fs::path(root) / path);
-  candidates.emplace_back(path);
-  return candidates;
+const std::vector<std::string>& SourceLoader::namesFrom(const std::string& folder) {
+  constexpr std::size_t kMostListings = 32;  // a hint may do without the rest
+  static const std::vector<std::string> kNone;
+  const auto known = names_.find(folder);
+  if (known != names_.end()) return known->second;
+  if (names_.size() >= kMostListings) return kNone;
+  std::vector<std::string> folders = roots_;
+  if (!folder.empty()) folders.push_back(folder);
+  return names_[folder] = shadersBelow(folders);
 }
 
 std::optional<std::string> SourceLoader::locate(const std::string& path) const {
-  for (const fs::path& candidate : candidatesOf(path)) {
+  std::vector<std::string> candidates;
+  if (!fs::path(path).is_absolute()) candidates = below(roots_, path);
+  candidates.push_back(fs::path(path).lexically_normal().string());
+  for (const std::string& each : candidates) {
     std::error_code ec;
-    const std::string normal = candidate.lexically_normal().string();
-    if (base::mayRead(normal) && (base::overlayOf(normal) || fs::exists(normal, ec))) return normal;
+    if (base::mayRead(each) && (base::overlayOf(each) || fs::exists(each, ec))) return each;
   }
   return std::nullopt;
+}
+
+// Nobody looks for shaders in the current folder on purpose, so it is not mentioned where there are roots.
+void SourceLoader::reportMissing(const std::string& path, Diagnostics& diagnostics, const Place& place) {
+  const bool asItIs = fs::path(path).is_absolute() || roots_.empty();
+  const std::vector<std::string> candidates = asItIs ? std::vector<std::string>{path} : below(roots_, path);
+  touched_.insert(candidates.begin(), candidates.end());
+  if (const auto outside = outsideOf(candidates)) return base::reportOutside(*outside, diagnostics, place);
+  base::Diagnostic& error =
+      diagnostics.error(Code::unreadableShader, place, fmt::format("shader '{}' not found", path));
+  error.expected =
+      roots_.empty() ? "an existing file" : fmt::format("a file below {}", fmt::join(roots_, ", "));
+  error.hint = hintForShader(path, namesFrom(""));
 }
 
 std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, Diagnostics& diagnostics,
                                                        const Place& place) {
   const std::optional<std::string> where = locate(path);
   if (!where) {
-    if (fs::path(path).is_absolute() || roots_.empty())
-      touched_.insert(path);
-    else
-      for (const std::string& root : roots_)
-        touched_.insert((fs::path(root) / path).lexically_normal().string());
-    std::vector<fs::path> candidates = candidatesOf(path);
-    // The last candidate is the path seen from the current folder, where nobody looks for shaders on purpose.
-    if (candidates.size() > 1) candidates.pop_back();
-    if (const auto outside = outsideOf(candidates)) {
-      base::reportOutside(*outside, diagnostics, place);
-      return nullptr;
-    }
-    base::Diagnostic& error =
-        diagnostics.error(Code::unreadableShader, place, fmt::format("shader '{}' not found", path));
-    error.expected =
-        roots_.empty() ? "an existing file" : fmt::format("a file below {}", fmt::join(roots_, ", "));
-    error.hint = hintForShader(path, names_.below(roots_));
+    reportMissing(path, diagnostics, place);
     return nullptr;
   }
   if (auto source = answer(*where)) return source;
-  // The stamps are taken before reading: a file that changes meanwhile is read again next time.
-  const FileState state = stateOf(*where);
-  const Stamp own{*where, state.time, state.bytes};
+  const FileStamp own = stampOf(*where);
   const std::uint64_t most = std::max<std::uint64_t>(kMostText, base::raised(kMostShaderBytes));
   std::uint64_t bytes = 0;
   const std::optional<std::string> text =
       readWithin(*where, most, bytes, diagnostics, Code::unreadableShader, place);
   touched_.insert(*where);
-  if (bytes > most)
-    reportShaderBytes(bytes, {std::make_shared<const std::string>(*where), 0, 0}, diagnostics);
+  if (bytes > most) {
+    ShaderSource large;
+    large.file = std::make_shared<const std::string>(*where);
+    checkShaderSize({.bytes = bytes}, large, diagnostics);
+  }
   if (!text) return nullptr;
-  ++expansions_;
-  Diagnostics found;
-  IncludeExpander expander(roots_, names_, found);
-  expander.expandRoot(*where, folderOf(*where), *text);
-  touch(expander.paths(), expander.missing());
-  if (text->find_first_not_of(" \t\r\n") == std::string::npos)
-    found
+  if (text->find_first_not_of(" \t\r\n") == std::string::npos) {
+    diagnostics
         .error(Code::shaderDoesNotCompile, {std::make_shared<const std::string>(*where), 1, 1},
                fmt::format("shader '{}' is empty", path))
         .hint = "the least a shader can hold is 'void main() {}'";
-  diagnostics.append(found);
-  if (found.hasErrors()) return nullptr;
-  Entry entry{expander.finish(), {own}};
-  for (std::size_t i = 1; i < expander.paths().size(); ++i)
-    entry.stamps.push_back({expander.paths()[i], expander.states()[i].time, expander.states()[i].bytes});
-  return (cache_[*where] = std::move(entry)).source;
+    return nullptr;
+  }
+  return expand(*where, own, *text, diagnostics);
 }
 
 std::shared_ptr<const ShaderSource> SourceLoader::loadText(std::string_view text, const std::string& name,
                                                            Diagnostics& diagnostics) {
   const std::string key = fmt::format("<text>{}:{:016x}", name, base::hashBytes(text));
   if (auto source = answer(key)) return source;
-  ++expansions_;
-  Diagnostics found;
-  IncludeExpander expander(roots_, names_, found);
-  expander.expandRoot(name, "", text);
-  touch(std::span(expander.paths()).subspan(1), expander.missing());
-  diagnostics.append(found);
-  if (found.hasErrors()) return nullptr;
-  Entry entry{expander.finish(), {}};
-  for (std::size_t i = 1; i < expander.paths().size(); ++i)
-    entry.stamps.push_back({expander.paths()[i], expander.states()[i].time, expander.states()[i].bytes});
-  return (cache_[key] = std::move(entry)).source;
+  return expand(key, {name}, text, diagnostics);
 }
 
 base::Place ShaderSource::placeOf(std::uint32_t textLine, std::uint32_t column) const {
-  const auto after = std::upper_bound(runs.begin(), runs.end(), textLine,
-                                      [](std::uint32_t line, const Run& run) { return line < run.textLine; });
+  const auto after = std::ranges::upper_bound(runs, textLine, {}, &Run::textLine);
   if (after == runs.begin()) return {file, 0, 0};
   const Run& run = *std::prev(after);
   return {files[run.file], run.line + (textLine - run.textLine), column};
 }
 
 const Interface& ShaderSource::interfaceWith(std::span<const Define> defines) const {
-  constexpr std::size_t kMostKnown =
-      256;  // of one text, in a long session that changes a define again and again
+  constexpr std::size_t kMostKnown = 256;  // in a long session that changes a define again and again
   std::string key;
   for (const Define& define : defines) key += fmt::format("{}={}|", define.name, define.value);
   if (known_.size() >= kMostKnown && !known_.contains(key)) known_.clear();

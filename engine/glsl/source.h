@@ -1,10 +1,8 @@
 // Makes the text that a driver takes of GLSL files: expands #include, keeps a table of lines, and finds the true file,
-// line and column for a message in a driver's log (docs/shaders.md). Pure text work: needs no context and makes no GL
-// call. Lines are numbered through the expanded text, and the table knows their files; the file numbers of #line are
-// not used, because drivers lose them (workarounds.h: source-numbers-lost). A file enters a stage once: a later
-// #include of it is dropped, or guarded when the first stands inside an #if. What the text declares is read when it is asked for
-// (interface.h).
-// Does not: compile, or watch files.
+// line and column for a message in a driver's log (docs/shaders.md). Needs no context and makes no GL call. Lines are
+// numbered through the expanded text, and the table knows their files; the file numbers of #line are not used, because
+// drivers lose them (workarounds.h: source-numbers-lost). A file enters a stage once: a later #include of it is dropped,
+// or guarded when the first is inside an #if. What the text declares is read when it is asked for (interface.h).
 #pragma once
 
 #include <cstdint>
@@ -20,7 +18,6 @@
 #include <vector>
 
 #include "engine/base/diagnostic.h"
-#include "engine/glsl/names.h"
 
 namespace weft::glsl {
 
@@ -53,6 +50,18 @@ struct ShaderSource {
   mutable std::shared_ptr<const Interface> allBranches_;
 };
 
+// The state of a file that took part in an expansion.
+struct FileStamp {
+  std::string path;
+  std::int64_t time = -1;  // -1: not there
+  std::uint64_t bytes = ~0ull;
+  friend bool operator==(const FileStamp&, const FileStamp&) = default;
+};
+
+// The GLSL files below folders, as paths relative to their folder, sorted, each once. Folders that may not be read are left
+// out, and no more than 10,000 files and folders of each are looked at.
+std::vector<std::string> shadersBelow(std::span<const std::string> folders);
+
 // Reads, expands and caches. One per set of roots; not thread-safe.
 class SourceLoader {
  public:
@@ -67,7 +76,6 @@ class SourceLoader {
   std::shared_ptr<const ShaderSource> load(const std::string& path, base::Diagnostics& diagnostics,
                                            const base::Place& place = {});
   // The same for text in memory, named `name` in messages; its includes are searched in the roots only.
-  // Cached by text.
   std::shared_ptr<const ShaderSource> loadText(std::string_view text, const std::string& name,
                                                base::Diagnostics& diagnostics);
   // Where load() would find `path`, or nullopt.
@@ -75,7 +83,7 @@ class SourceLoader {
   // Forgets everything (files will be read again).
   void clear() {
     cache_.clear();
-    names_.forget();
+    names_.clear();
   }
   const std::vector<std::string>& roots() const { return roots_; }
   // Forgets everything when they are others: names may lead to other files.
@@ -88,29 +96,27 @@ class SourceLoader {
   const std::set<std::string>& touched() const { return touched_; }
   void forgetTouched() {
     touched_.clear();
-    names_.forget();
+    names_.clear();
   }
   // Files expanded so far, not answered from the cache.
   std::uint64_t expansions() const { return expansions_; }
 
  private:
-  struct Stamp {  // of a file that took part
-    std::string path;
-    std::int64_t time = 0;
-    std::uint64_t bytes = 0;
-  };
+  friend class IncludeExpander;
   struct Entry {
     std::shared_ptr<const ShaderSource> source;
-    std::vector<Stamp> stamps;
+    std::vector<FileStamp> stamps;  // of the files that took part
   };
-  // Where `path` is looked for, in this order.
-  std::vector<std::filesystem::path> candidatesOf(const std::string& path) const;
   std::shared_ptr<const ShaderSource> answer(const std::string& key);
-  void touch(std::span<const std::string> read, std::span<const std::string> missing);
+  std::shared_ptr<const ShaderSource> expand(const std::string& key, const FileStamp& own,
+                                             std::string_view text, base::Diagnostics& diagnostics);
+  void reportMissing(const std::string& path, base::Diagnostics& diagnostics, const base::Place& place);
+  const std::vector<std::string>& namesFrom(const std::string& folder);
+
   std::vector<std::string> roots_;
   std::unordered_map<std::string, Entry> cache_;
   std::set<std::string> touched_;
-  ShaderNames names_;
+  std::map<std::string, std::vector<std::string>> names_;  // by the folder of who includes
   std::uint64_t expansions_ = 0;
 };
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
+#include <cerrno>
+#include <cstdlib>
 #include <memory>
 #include <unordered_map>
-#include <unordered_set>
 #include <utility>
 
 #include "engine/base/chars.h"
@@ -182,16 +182,11 @@ class Evaluator {
 
   static Value numberOf(std::string_view text) {
     while (!text.empty() && (text.back() == 'u' || text.back() == 'U')) text.remove_suffix(1);
-    int base = 10;
-    if (text.starts_with("0x") || text.starts_with("0X")) {
-      text.remove_prefix(2);
-      base = 16;
-    } else if (text.size() > 1 && text[0] == '0') {
-      base = 8;
-    }
-    std::uint64_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, base);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    const std::string digits(text);
+    char* end = nullptr;
+    errno = 0;
+    const std::uint64_t value = std::strtoull(digits.c_str(), &end, 0);
+    if (digits.empty() || *end != '\0' || errno != 0) return std::nullopt;
     return static_cast<std::int64_t>(value);
   }
 
@@ -521,63 +516,27 @@ TokenList expandTokens(std::string_view text, std::span<const Define> defines, s
   return Expander(defines, most, deepest, branches == Branches::all).run(text);
 }
 
-std::vector<UnknownCondition> unknownInConditions(std::string_view text, std::span<const Define> defines) {
-  std::vector<Token> values, tested;
-  std::unordered_set<std::string_view> made;
-  for (const Define& define : defines) made.insert(define.name);
-  const std::vector<Token> all = splitTokens(text);
-  for (std::size_t i = 0; i + 1 < all.size(); ++i) {
-    if (!all[i].first || !all[i].is("#")) continue;
-    const Token& directive = all[i + 1];
-    for (std::size_t at = i + 2; at < all.size() && !all[at].first; ++at) {
-      if (directive.is("define")) {
-        made.insert(all[at].text);
-        break;
-      }
-      if (all[at].kind != TokenKind::word || all[at].is("defined")) continue;
-      const bool asked = all[at - 1].is("defined") || (all[at - 1].is("(") && all[at - 2].is("defined"));
-      if (directive.is("ifdef") || directive.is("ifndef") || asked)
-        tested.push_back(all[at]);
-      else if (directive.is("if") || directive.is("elif"))
-        values.push_back(all[at]);
-    }
-  }
-  std::vector<UnknownCondition> unknown;
-  std::unordered_set<std::string_view> asked, known;
-  for (const Token& word : tested) asked.insert(word.text);
-  const auto add = [&](const Token& word, bool value) {
-    const bool driver = word.text.starts_with("GL_") || word.text.starts_with("__");
-    if (driver || made.contains(word.text) || (value && asked.contains(word.text))) return;
-    if (known.insert(word.text).second) unknown.push_back({word, value});
-  };
-  for (const Token& word : values) add(word, true);
-  for (const Token& word : tested) add(word, false);
-  return unknown;
-}
-
-std::vector<Token> onlyTested(std::string_view text) {
-  std::vector<Token> tested;
-  std::unordered_set<std::string_view> valued;
+Conditions conditionsOf(std::string_view text) {
+  Conditions found;
   const std::vector<Token> all = splitTokens(text);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!all[i].first || !all[i].is("#") || i + 1 == all.size()) {
-      if (all[i].kind == TokenKind::word) valued.insert(all[i].text);
+      if (all[i].kind == TokenKind::word) found.used.insert(all[i].text);
       continue;
     }
     const Token& directive = all[++i];
-    const bool asks = directive.is("ifdef") || directive.is("ifndef");
+    const bool tests = directive.is("ifdef") || directive.is("ifndef");
+    const bool compares = directive.is("if") || directive.is("elif");
+    if (directive.is("define") && i + 1 < all.size()) found.made.insert(all[i + 1].text);
     for (; i + 1 < all.size() && !all[i + 1].first; ++i) {
       const Token& word = all[i + 1];
       if (word.kind != TokenKind::word || word.is("defined")) continue;
-      const bool asked = asks || all[i].is("defined") || (all[i].is("(") && all[i - 1].is("defined"));
-      if (asked)
-        tested.push_back(word);
-      else
-        valued.insert(word.text);  // also of #define and #undef: it has a meaning of its own here
+      const bool tested = tests || all[i].is("defined") || (all[i].is("(") && all[i - 1].is("defined"));
+      if (tested || compares) (tested ? found.tested : found.valued).push_back(word);
+      if (!tested) found.used.insert(word.text);
     }
   }
-  std::erase_if(tested, [&](const Token& word) { return !valued.insert(word.text).second; });
-  return tested;
+  return found;
 }
 
 }  // namespace weft::glsl

@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include "engine/glsl/source.h"
@@ -46,18 +47,13 @@ enum class Branches : std::uint8_t { taken, all };
 TokenList expandTokens(std::string_view text, std::span<const Define> defines, std::uint64_t most,
                        std::uint32_t deepest, Branches branches = Branches::taken);
 
-// The words of the conditionals of a text that neither `defines` nor a #define of the text makes, each once, in any branch:
-// to a compiler they are 0. `value`: compared in an #if or #elif that no #ifdef, #ifndef or defined() guards; else the words
-// of these. Names of drivers (GL_…, __…) are left out.
-struct UnknownCondition {
-  Token word;
-  bool value = false;
+// The words of the conditionals of a text, in any branch. Views look into the text.
+struct Conditions {
+  std::vector<Token> valued, tested;  // in an #if or #elif; of #ifdef, #ifndef and defined()
+  // Words that a #define of the text makes, and those whose value counts anywhere.
+  std::unordered_set<std::string_view> made, used;
 };
-std::vector<UnknownCondition> unknownInConditions(std::string_view text, std::span<const Define> defines);
-
-// The words of which #ifdef, #ifndef and defined() alone take notice, where they do: nothing asks for their value, in any branch.
-// One that is given a value behind its own #ifndef is a default, and none of them.
-std::vector<Token> onlyTested(std::string_view text);
+Conditions conditionsOf(std::string_view text);
 
 // The tokens of a text as it stands, directives included.
 std::vector<Token> splitTokens(std::string_view text);

@@ -9,17 +9,32 @@ namespace weft::graph {
 
 // Calls onExpr(expr) for each expression, absent ones too, and onRef(ref) for each reference, after the expressions in it.
 template <class OnExpr, class OnRef>
+void visitRef(const RefDesc& ref, OnExpr&& onExpr, OnRef&& onRef) {
+  onExpr(ref.condition);
+  if (ref.element) onExpr(*ref.element);
+  for (const std::optional<SpanDesc>* span : {&ref.mip, &ref.layer, &ref.face})
+    if (*span) {
+      onExpr((*span)->first);
+      onExpr((*span)->last);
+    }
+  onRef(ref);
+}
+
+template <class OnExpr, class OnRef>
+void visitPass(const PassDesc& pass, OnExpr&& onExpr, OnRef&& onRef) {
+  for (const Expr* expr : {&pass.enabled, &pass.slices, &pass.threads, &pass.instances}) onExpr(*expr);
+  for (const RangeDesc& range : pass.repeat)
+    for (const Expr* expr : {&range.first, &range.last, &range.step}) onExpr(*expr);
+  for (const SlotDesc& slot : pass.slots) visitRef(slot.ref, onExpr, onRef);
+  for (const PassParameterDesc& parameter : pass.parameters) onExpr(parameter.value);
+  for (const NamedExpr& define : pass.defines) onExpr(define.expr);
+  for (const NamedExpr& state : pass.state) onExpr(state.expr);
+  for (const Expr& argument : pass.geometryArguments) onExpr(argument);
+  if (pass.view) visitRef(*pass.view, onExpr, onRef);
+}
+
+template <class OnExpr, class OnRef>
 void visitMentions(const GraphDesc& desc, OnExpr&& onExpr, OnRef&& onRef) {
-  const auto visitRef = [&](const RefDesc& ref) {
-    onExpr(ref.condition);
-    if (ref.element) onExpr(*ref.element);
-    for (const std::optional<SpanDesc>* span : {&ref.mip, &ref.layer, &ref.face})
-      if (*span) {
-        onExpr((*span)->first);
-        onExpr((*span)->last);
-      }
-    onRef(ref);
-  };
   for (const NamedExpr& let : desc.lets) onExpr(let.expr);
   for (const ResourceDesc& resource : desc.resources) {
     for (const Expr* expr :
@@ -28,23 +43,13 @@ void visitMentions(const GraphDesc& desc, OnExpr&& onExpr, OnRef&& onRef) {
       onExpr(*expr);
     for (const Expr& value : resource.resetValues) onExpr(value);
     for (const NamedExpr& argument : resource.import.arguments) onExpr(argument.expr);
-    if (resource.firstRef) visitRef(*resource.firstRef);
-    for (const RefDesc& ref : resource.resetRefs) visitRef(ref);
-    for (const RefDesc& ref : resource.alternatives) visitRef(ref);
+    if (resource.firstRef) visitRef(*resource.firstRef, onExpr, onRef);
+    for (const RefDesc& ref : resource.resetRefs) visitRef(ref, onExpr, onRef);
+    for (const RefDesc& ref : resource.alternatives) visitRef(ref, onExpr, onRef);
   }
-  for (const PassDesc& pass : desc.passes) {
-    for (const Expr* expr : {&pass.enabled, &pass.slices, &pass.threads, &pass.instances}) onExpr(*expr);
-    for (const RangeDesc& range : pass.repeat)
-      for (const Expr* expr : {&range.first, &range.last, &range.step}) onExpr(*expr);
-    for (const SlotDesc& slot : pass.slots) visitRef(slot.ref);
-    for (const PassParameterDesc& parameter : pass.parameters) onExpr(parameter.value);
-    for (const NamedExpr& define : pass.defines) onExpr(define.expr);
-    for (const NamedExpr& state : pass.state) onExpr(state.expr);
-    for (const Expr& argument : pass.geometryArguments) onExpr(argument);
-    if (pass.view) visitRef(*pass.view);
-  }
-  if (desc.present) visitRef(*desc.present);
-  for (const OutputDesc& output : desc.outputs) visitRef(output.ref);
+  for (const PassDesc& pass : desc.passes) visitPass(pass, onExpr, onRef);
+  if (desc.present) visitRef(*desc.present, onExpr, onRef);
+  for (const OutputDesc& output : desc.outputs) visitRef(output.ref, onExpr, onRef);
 }
 
 }  // namespace weft::graph

@@ -44,6 +44,7 @@ struct FlatResource {
       false;  // has a version zero: the first use of a sub-resource in a frame finds it cleared, also
               // when it is a `write` (which then need not cover everything)
   std::uint32_t import = kNone;  // index into FlatGraph::imports
+  friend bool operator==(const FlatResource&, const FlatResource&) = default;
 };
 
 // One access of one pass to a rectangle of sub-resources. Buffers and 3D depth count as one sub-resource.
@@ -58,6 +59,7 @@ struct FlatUse {
   bool feedback = false;  // modify that also samples its own texel (glTextureBarrier)
   // Of kind copy: the pass copies texel by texel with glCopyImageSubData, not through framebuffers. Both of its uses say so.
   bool exact = false;
+  friend bool operator==(const FlatUse&, const FlatUse&) = default;
 };
 
 struct FlatPass {
@@ -147,6 +149,7 @@ struct UniformSpec {
 
 struct DefineSpec {
   std::string name, text;  // #define name text; a choice CURVE adds CURVE_<CHOICE> for all its choices
+  friend bool operator==(const DefineSpec&, const DefineSpec&) = default;
 };
 
 enum class Blend : std::uint8_t { none, add, alpha, premultiplied, multiply, min, max };
@@ -160,6 +163,7 @@ struct StateSpec {
   Cull cull = Cull::none;
   bool lines = false;  // polygon: line
   double offsetFactor = 0, offsetUnits = 0;
+  friend bool operator==(const StateSpec&, const StateSpec&) = default;
 };
 
 struct PassSpec {

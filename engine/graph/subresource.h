@@ -1,8 +1,7 @@
 // Sub-resources, for all of the graph core: how a resource is divided, the number of each part, rectangles of parts
 // (FlatUse) and whether they overlap, bytes, and the words for kinds and parts in files and messages.
 // A sub-resource is one plane of one level of one layer; its number is (plane * layers + layer) * mips + mip, as
-// D3D12CalcSubresource counts. A buffer is one sub-resource; a 3D texture is not divided in depth. Does not: know
-// versions (versions/version_walk.h), plans or storage.
+// D3D12CalcSubresource counts. A buffer is one sub-resource; a 3D texture is not divided in depth.
 #pragma once
 
 #include <array>

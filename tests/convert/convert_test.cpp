@@ -8,8 +8,8 @@
 #include "tests/convert/converted.h"
 
 using namespace weft;
-using namespace weft::convert;
-using namespace weft::convert::test;
+using namespace weft::importing;
+using namespace weft::importing::test;
 
 TEST_CASE("every file of tests/convert becomes a graph that Weft reads") {
   std::vector<std::filesystem::path> files = filesIn("isf", ".fs");

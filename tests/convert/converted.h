@@ -20,7 +20,7 @@
 #include "engine/graph/read/read.h"
 #include "tests/graph/test_registry.h"
 
-namespace weft::convert::test {
+namespace weft::importing::test {
 
 inline const std::filesystem::path kFolder = std::filesystem::path(WEFT_SOURCE_DIR) / "tests/convert";
 
@@ -41,11 +41,8 @@ inline std::vector<std::filesystem::path> filesIn(const char* folder, const char
 
 inline std::optional<Converted> convertIsfText(std::string_view fragment, base::Diagnostics& diagnostics,
                                                std::string_view vertex = {}) {
-  IsfSource source{.fragment = fragment,
-                   .vertex = vertex,
-                   .fragmentFile = "x.fs",
-                   .vertexFile = "x.vs",
-                   .hasVertex = !vertex.empty()};
+  IsfSource source{.fragment = fragment, .fragmentFile = "x.fs", .vertexFile = "x.vs"};
+  if (!vertex.empty()) source.vertex = vertex;
   return convertIsf(source, {.name = "x"}, diagnostics);
 }
 
@@ -102,4 +99,4 @@ inline bool isSound(const Converted& converted, std::string& why, bool values = 
   return true;
 }
 
-}  // namespace weft::convert::test
+}  // namespace weft::importing::test

@@ -2,8 +2,8 @@
 #include "tests/convert/converted.h"
 
 using namespace weft;
-using namespace weft::convert;
-using namespace weft::convert::test;
+using namespace weft::importing;
+using namespace weft::importing::test;
 
 namespace {
 
@@ -93,32 +93,6 @@ TEST_CASE("what players declare beside an image is there, for inputs and targets
                              "void main() { isf_vertShaderInit();\n gl_Position.xy += _a_texCoord; }"));
   REQUIRE(codesOf(diagnostics) == "W224 ");
   CHECK(diagnostics.items()[0].place.line == 2);
-}
-
-TEST_CASE(
-    "keys in small letters are refused where nothing works without them, and else said to be left out") {
-  const auto said = [](const std::string& header) {
-    base::Diagnostics diagnostics;
-    const bool made =
-        convertIsfText("/*" + header + "*/\nvoid main() { gl_FragColor = vec4(1.0); }\n", diagnostics)
-            .has_value();
-    std::string text = made ? "made " : "";
-    for (const base::Diagnostic& d : diagnostics.items()) {
-      CHECK(d.hint.find("capitals") != std::string::npos);
-      text += base::nameOf(d.code) + " ";
-    }
-    return text;
-  };
-  CHECK(said(R"({"inputs": []})") == "W004 ");
-  CHECK(said(R"({"INPUTS": [{"name": "a", "TYPE": "float"}]})") == "W004 ");
-  CHECK(said(R"({"INPUTS": [{"NAME": "a", "Type": "float"}]})") == "W004 ");
-  CHECK(said(R"({"IMPORTED": {"a": {"path": "a.png"}}})") == "W004 ");
-  CHECK(said(R"({"INPUTS": [{"NAME": "a", "TYPE": "float", "min": 0, "default": 1}]})") == "made W221 W221 ");
-  CHECK(said(R"({"passes": [{}]})") == "made W221 ");
-  CHECK(said(R"({"PASSES": [{"TARGET": "t", "persistent": true}, {}]})") == "made W221 ");
-  // Keys that are nobody's, and those that stand there in capitals, too.
-  CHECK(said(R"({"keywords": "a", "isfvsn": "2", "inputs": 1, "INPUTS": [], "vendor": {"passes": 1}})") ==
-        "made ");
 }
 
 TEST_CASE("sizes become expressions") {

@@ -1,5 +1,3 @@
-#include "engine/glsl/bounds.h"
-
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -7,6 +5,7 @@
 #include <set>
 
 #include "engine/base/limits.h"
+#include "engine/glsl/interface.h"
 #include "tests/gl/documented.h"
 
 using namespace weft::glsl;

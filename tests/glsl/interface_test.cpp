@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <string>
 
-#include "engine/glsl/bounds.h"
-
 using namespace weft::glsl;
 
 namespace {
@@ -150,17 +148,4 @@ TEST_CASE("a text that is not read whole leaves everything open") {
   CHECK(readInterface("void main() {} }", {}).unsure);
   CHECK(readInterface("void main() {} float a", {}).isLive("whatever"));
   CHECK_FALSE(readInterface("void main() { vec2 a[2] = { vec2(0), vec2(1) }; if (true) { } }", {}).unsure);
-}
-
-TEST_CASE("functions in a circle are named") {
-  const auto sizeOf = [](const std::string& text) { return readInterface(text, {}).size; };
-  const ShaderSize circle = sizeOf(
-      "float g(float x);\nfloat f(float x) { return g(x); }\nfloat h(float x) { return x; }\n"
-      "float g(float x) { return h(f(x)); }\nvoid main() { f(1.0); }");
-  CHECK(circle.circle == std::vector<std::string>{"f", "g", "f"});
-  CHECK(circle.circleAt.line == 2);
-  CHECK(sizeOf("float f(float x) { return f(x); }").circle == std::vector<std::string>{"f", "f"});
-  // Overloads are no circle.
-  CHECK(sizeOf("float f(float x) { return x; }\nvec2 f(vec2 x) { return vec2(f(x.x), f(x.y)); }")
-            .circle.empty());
 }

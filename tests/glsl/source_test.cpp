@@ -306,22 +306,6 @@ TEST_CASE("a shader that is too large is not read, and is watched until it is sm
   CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
 }
 
-TEST_CASE("no more files than a number are looked at for names near to missing ones") {
-  TemporaryFolder folder;
-  for (int i = 0; i < 20; ++i) folder.write("f" + std::to_string(i) + "/a.glsl", "float a;\n");
-  const std::string root = folder.path().string();
-  const auto seen = [&](ShaderNames& names) { return names.below({&root, 1}).size(); };
-  ShaderNames all, some(10);
-  CHECK(seen(all) == 20);
-  const std::size_t few = seen(some);  // folders count as well
-  CHECK(few > 0);
-  CHECK(few <= 5);
-  const std::string other = folder.at("f0");
-  CHECK(some.below({&other, 1}).empty());
-  some.forget();
-  CHECK(some.below({&other, 1}).size() == 1);
-}
-
 TEST_CASE("text in memory includes from the roots only, and the prefix holds version and defines in order") {
   TemporaryFolder folder;
   folder.write("a.glsl", "float a;\n");

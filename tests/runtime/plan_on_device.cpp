@@ -5,6 +5,7 @@
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/expand/expand.h"
 #include "engine/graph/read/read.h"
+#include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/publications.h"
 #include "engine/runtime/frame/renderer.h"
 #include "tests/runtime/stage.h"

@@ -14,6 +14,7 @@
 
 #include "engine/gl/context/context.h"
 #include "engine/imports/world.h"
+#include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/renderer.h"
 
 namespace weft::runtime::test {

@@ -11,6 +11,7 @@
 
 #include "engine/gl/context/context.h"
 #include "engine/imports/world.h"
+#include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/renderer.h"
 #include "tests/theory/environments.h"
 

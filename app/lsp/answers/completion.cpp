@@ -8,12 +8,13 @@
 #include <optional>
 
 #include "app/lsp/answers/features.h"
-#include "engine/glsl/names.h"
+#include "engine/glsl/source.h"
 #include "engine/graph/language/format.h"
 #include "engine/graph/language/keys.h"
 #include "engine/graph/language/names.h"
+#include "engine/graph/read/merge.h"
 #include "engine/graph/read/overlay.h"
-#include "engine/graph/read/ref_words.h"
+#include "engine/graph/read/ref_parse.h"
 #include "engine/graph/subresource.h"
 #include "engine/runtime/prepare/program_request.h"
 
@@ -402,8 +403,7 @@ class Completer {
       ending = key == "vertex" ? ".vert.glsl" : ".frag.glsl";
       stem = false;
     }
-    glsl::ShaderNames names;
-    const std::vector<std::string>& all = names.below(workspace_.shaderFolders(text_));
+    const std::vector<std::string> all = glsl::shadersBelow(workspace_.shaderFolders(text_));
     for (const std::string& path : all) {
       if (!stem && path.ends_with(ending)) add(path, ItemKind::file);
       if (stem && path.ends_with(".vert.glsl")) {

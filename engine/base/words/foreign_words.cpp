@@ -60,8 +60,8 @@ bool isSeparator(char c) {
 
 const ForeignWord& findForeignWord(Foreign where, std::string_view word) {
   static constexpr const char* kKinds[] = {
-      "graph_key", "pass_key",   "texture_key", "state_key",   "state_word",      "value_key",  "value_type",
-      "sampling",  "expression", "value",       "import_type", "import_argument", "shader_name"};
+      "graph_key", "pass_key",   "texture_key", "state_key",   "state_word",      "value_key", "value_type",
+      "sampling",  "expression", "value",       "import_type", "import_argument", "pass_type", "shader_name"};
   std::string wanted =
       where == Foreign::shader_name ? std::string(word) : lowered(word);  // GLSL tells cases apart
   if (where == Foreign::value_type)

@@ -22,6 +22,7 @@ enum class Foreign : std::uint8_t {
   value,            // a name in an expression, or of an import: "time"
   import_type,      // of "import": "texture"
   import_argument,  // of an import that reads a file: "url"
+  pass_type,        // of a pass: "raster"
   shader_name,      // in GLSL: "saturate", "gl_FragColor"
 };
 

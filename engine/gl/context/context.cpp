@@ -41,34 +41,6 @@ bool isSoftware(std::string renderer) {
   return false;
 }
 
-Limits readLimits() {
-  Limits l;
-  l.textureSize = integerOf(GL_MAX_TEXTURE_SIZE);
-  l.texture3dSize = integerOf(GL_MAX_3D_TEXTURE_SIZE);
-  l.arrayLayers = integerOf(GL_MAX_ARRAY_TEXTURE_LAYERS);
-  l.cubeSize = integerOf(GL_MAX_CUBE_MAP_TEXTURE_SIZE);
-  l.colorAttachments = integerOf(GL_MAX_COLOR_ATTACHMENTS);
-  l.drawBuffers = integerOf(GL_MAX_DRAW_BUFFERS);
-  l.samples = integerOf(GL_MAX_SAMPLES);
-  l.textureUnits = integerOf(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS);
-  l.imageUnits = integerOf(GL_MAX_IMAGE_UNITS);
-  l.uniformBindings = integerOf(GL_MAX_UNIFORM_BUFFER_BINDINGS);
-  l.storageBindings = integerOf(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS);
-  l.uniformOffsetAlignment = integerOf(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT);
-  l.storageOffsetAlignment = integerOf(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT);
-  GLint64 wide = 0;
-  glGetInteger64v(GL_MAX_UNIFORM_BLOCK_SIZE, &wide);
-  l.uniformBlockBytes = wide;
-  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &wide);
-  l.storageBlockBytes = wide;
-  for (GLuint axis = 0; axis < 3; ++axis) {
-    glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, axis, &l.computeGroups[axis]);
-    glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_SIZE, axis, &l.computeGroupSize[axis]);
-  }
-  l.computeInvocations = integerOf(GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS);
-  return l;
-}
-
 DeviceInfo describeDevice(Backend backend, const std::string& platform) {
   DeviceInfo d;
   d.vendor = textOf(GL_VENDOR);
@@ -81,7 +53,9 @@ DeviceInfo describeDevice(Backend backend, const std::string& platform) {
   GLint bits = 0;
   glGetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
   d.hasTimerQueries = !d.software && bits >= 30;
-  d.limits = readLimits();
+  d.limits.uniformOffsetAlignment = integerOf(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT);
+  for (GLuint axis = 0; axis < 3; ++axis)
+    glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, axis, &d.limits.computeGroups[axis]);
   // The backend is in the key because of binaries-per-backend (workarounds.h).
   const std::string all = fmt::format("{}\n{}\n{}\n{}\n{}", d.vendor, d.renderer, d.version,
                                       textOf(GL_SHADING_LANGUAGE_VERSION), nameOf(backend));

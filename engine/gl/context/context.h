@@ -3,7 +3,7 @@
 // engine's conventions set: lower-left origin with [0,1] clip depth, GL_FRAMEBUFFER_SRGB off, seamless cube
 // maps, pixel store alignment 1. glad's function pointers are one set per process, so one process uses one
 // backend at a time; every GL call goes through them and never through symbols of a linked libGL or
-// libOSMesa. Does not: poll input, own a frame loop, or keep a global "current context".
+// libOSMesa.
 #pragma once
 
 #include <cstdint>
@@ -36,12 +36,8 @@ struct ContextOptions {
 };
 
 struct Limits {
-  std::int32_t textureSize = 0, texture3dSize = 0, arrayLayers = 0, cubeSize = 0;
-  std::int32_t colorAttachments = 0, drawBuffers = 0, samples = 0;
-  std::int32_t textureUnits = 0, imageUnits = 0, uniformBindings = 0, storageBindings = 0;
-  std::int32_t uniformOffsetAlignment = 256, storageOffsetAlignment = 256;
-  std::int64_t uniformBlockBytes = 0, storageBlockBytes = 0;
-  std::int32_t computeGroups[3] = {}, computeGroupSize[3] = {}, computeInvocations = 0;
+  std::int32_t uniformOffsetAlignment = 256;
+  std::int32_t computeGroups[3] = {};
 };
 
 struct DeviceInfo {

@@ -1,6 +1,6 @@
 // What each backend offers to createContext (context.cpp); not for other rooms. An opener makes its context
 // current or appends to `failures` one line per thing it tried: "EGL device 0 (/dev/dri/card0): eglInitialize
-// failed (…)". Does not: load glad, set conventions, or decide the order of backends.
+// failed (…)".
 #pragma once
 
 #include <memory>

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string_view>
+#include <string>
 
 #include "engine/gl/context/context_backends.h"
 
@@ -14,60 +14,33 @@ namespace weft::gl {
 
 namespace {
 
-bool hasExtension(const char* list, std::string_view name) {
-  if (!list) return false;
-  std::string_view rest(list);
-  while (!rest.empty()) {
-    const std::size_t end = rest.find(' ');
-    if (rest.substr(0, end) == name) return true;
-    if (end == std::string_view::npos) break;
-    rest.remove_prefix(end + 1);
-  }
-  return false;
+bool hasExtension(const char* list, const std::string& name) {
+  return list && (" " + std::string(list) + " ").find(" " + name + " ") != std::string::npos;
 }
 
 std::string errorText() {
-  const EGLint error = eglGetError();
-  switch (error) {
-#define WEFT_NAME(name) \
-  case name:            \
-    return #name
-    WEFT_NAME(EGL_SUCCESS);
-    WEFT_NAME(EGL_NOT_INITIALIZED);
-    WEFT_NAME(EGL_BAD_ACCESS);
-    WEFT_NAME(EGL_BAD_ALLOC);
-    WEFT_NAME(EGL_BAD_ATTRIBUTE);
-    WEFT_NAME(EGL_BAD_CONTEXT);
-    WEFT_NAME(EGL_BAD_CONFIG);
-    WEFT_NAME(EGL_BAD_DISPLAY);
-    WEFT_NAME(EGL_BAD_MATCH);
-    WEFT_NAME(EGL_BAD_PARAMETER);
-    WEFT_NAME(EGL_CONTEXT_LOST);
-#undef WEFT_NAME
-    default:
-      return fmt::format("EGL error 0x{:04X}", error);
-  }
+  return fmt::format("EGL error 0x{:04X}", eglGetError());
 }
 
 class EglContext final : public Context {
  public:
-  EglContext(EGLDisplay display, EGLContext context, EGLSurface surface, Size size)
-      : display_(display), context_(context), surface_(surface), size_(size) {}
+  EglContext(EGLDisplay display, EGLContext context, Size size)
+      : display_(display), context_(context), size_(size) {}
   ~EglContext() override {
     eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    if (surface_ != EGL_NO_SURFACE) eglDestroySurface(display_, surface_);
     eglDestroyContext(display_, context_);
     eglTerminate(display_);
     eglReleaseThread();
   }
 
-  bool makeCurrent() override { return eglMakeCurrent(display_, surface_, surface_, context_) == EGL_TRUE; }
+  bool makeCurrent() override {
+    return eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE;
+  }
   Size framebufferSize() const override { return size_; }
 
  private:
   EGLDisplay display_;
   EGLContext context_;
-  EGLSurface surface_;  // a 16x16 pbuffer where contexts need one, else none
   Size size_;
 };
 
@@ -85,16 +58,14 @@ std::unique_ptr<Context> openOn(EGLDisplay display, const ContextOptions& option
   };
   if (major * 10 + minor < 15) return fail(fmt::format("EGL {}.{} is older than 1.5", major, minor));
   if (!eglBindAPI(EGL_OPENGL_API)) return fail("it has no desktop OpenGL");
-  const bool surfaceless =
-      hasExtension(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context");
-  const EGLint wanted[] = {EGL_SURFACE_TYPE, surfaceless ? 0 : EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE,
-                           EGL_OPENGL_BIT, EGL_NONE};
+  const char* extensions = eglQueryString(display, EGL_EXTENSIONS);
+  if (!hasExtension(extensions, "EGL_KHR_surfaceless_context"))
+    return fail("EGL_KHR_surfaceless_context is missing");
+  const EGLint wanted[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint count = 0;
   if (!eglChooseConfig(display, wanted, &config, 1, &count) || count == 0) {
-    const bool without =
-        surfaceless && hasExtension(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_no_config_context");
-    if (!without) return fail("no configuration for OpenGL");
+    if (!hasExtension(extensions, "EGL_KHR_no_config_context")) return fail("no configuration for OpenGL");
     config = EGL_NO_CONFIG_KHR;
   }
   const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
@@ -109,12 +80,7 @@ std::unique_ptr<Context> openOn(EGLDisplay display, const ContextOptions& option
   const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
   if (context == EGL_NO_CONTEXT)
     return fail(fmt::format("gives no OpenGL 4.5 core context ({})", errorText()));
-  EGLSurface surface = EGL_NO_SURFACE;
-  if (!surfaceless) {
-    const EGLint size[] = {EGL_WIDTH, 16, EGL_HEIGHT, 16, EGL_NONE};
-    surface = eglCreatePbufferSurface(display, config, size);
-  }
-  auto opened = std::make_unique<EglContext>(display, context, surface, Size{options.width, options.height});
+  auto opened = std::make_unique<EglContext>(display, context, Size{options.width, options.height});
   if (!opened->makeCurrent()) {
     why = fmt::format("eglMakeCurrent failed ({})", errorText());
     return nullptr;
@@ -152,16 +118,13 @@ std::vector<Device> listDevices(const char* client, std::vector<std::string>& fa
   for (EGLint i = 0; i < count; ++i) {
     const char* extensions = text ? text(handles[i], EGL_EXTENSIONS) : nullptr;
     const bool software = hasExtension(extensions, "EGL_MESA_device_software");
-    const char* file = nullptr;
-    if (hasExtension(extensions, "EGL_EXT_device_drm_render_node"))
-      file = text(handles[i], EGL_DRM_RENDER_NODE_FILE_EXT);
-    if (!file && hasExtension(extensions, "EGL_EXT_device_drm"))
-      file = text(handles[i], EGL_DRM_DEVICE_FILE_EXT);
+    const char* file =
+        hasExtension(extensions, "EGL_EXT_device_drm") ? text(handles[i], EGL_DRM_DEVICE_FILE_EXT) : nullptr;
     devices.push_back({handles[i], software,
                        fmt::format("EGL device {} ({})", i,
-                                   file       ? file
-                                   : software ? "software"
-                                              : "no file")});
+                                   software ? "software"
+                                   : file   ? file
+                                            : "no file")});
   }
   std::stable_partition(devices.begin(), devices.end(), [](const Device& d) { return !d.software; });
   return devices;

@@ -22,49 +22,27 @@ namespace {
 // Framebuffer 0 is a stand-in of this size: the engine renders to textures only.
 constexpr int kStandIn = 16;
 
-struct Library {
-  decltype(&OSMesaCreateContextAttribs) create = nullptr;
-  decltype(&OSMesaMakeCurrent) makeCurrent = nullptr;
-  decltype(&OSMesaDestroyContext) destroy = nullptr;
-  decltype(&OSMesaGetProcAddress) find = nullptr;
-  std::string failure;  // empty: all of them are there
-};
-
-template <class Function>
-void findIn(void* library, const char* name, Function& function, std::string& failure) {
-  function = reinterpret_cast<Function>(::dlsym(library, name));
-  if (!function && failure.empty()) failure = fmt::format("has no {}", name);
-}
-
-Library loadLibrary() {
-  Library made;
-  void* library = ::dlopen(WEFT_OSMESA_NAME, RTLD_NOW | RTLD_LOCAL);
-  if (!library) {
-    const char* why = ::dlerror();
-    made.failure = fmt::format("cannot be loaded: {}", why ? why : WEFT_OSMESA_NAME);
-    return made;
-  }
-  findIn(library, "OSMesaCreateContextAttribs", made.create, made.failure);
-  findIn(library, "OSMesaMakeCurrent", made.makeCurrent, made.failure);
-  findIn(library, "OSMesaDestroyContext", made.destroy, made.failure);
-  findIn(library, "OSMesaGetProcAddress", made.find, made.failure);
-  return made;
-}
-
 // Loaded once, and kept until the process ends: Mesa's threads may outlive a context.
-const Library& osmesa() {
-  static const Library loaded = loadLibrary();
-  return loaded;
+void* library() {
+  static void* const kLibrary = ::dlopen(WEFT_OSMESA_NAME, RTLD_NOW | RTLD_LOCAL);
+  return kLibrary;
+}
+
+// A function of the library, which must be there.
+template <class Function>
+Function find(const char* name) {
+  return reinterpret_cast<Function>(::dlsym(library(), name));
 }
 
 class OsmesaContext final : public Context {
  public:
   OsmesaContext(OSMesaContext context, Size size)
       : context_(context), size_(size), memory_(kStandIn * kStandIn * 4) {}
-  ~OsmesaContext() override { osmesa().destroy(context_); }
+  ~OsmesaContext() override { find<decltype(&OSMesaDestroyContext)>("OSMesaDestroyContext")(context_); }
 
   bool makeCurrent() override {
-    return osmesa().makeCurrent(context_, memory_.data(), GL_UNSIGNED_BYTE, kStandIn, kStandIn) == GL_TRUE;
+    const auto make = find<decltype(&OSMesaMakeCurrent)>("OSMesaMakeCurrent");
+    return make(context_, memory_.data(), GL_UNSIGNED_BYTE, kStandIn, kStandIn) == GL_TRUE;
   }
   Size framebufferSize() const override { return size_; }
 
@@ -77,10 +55,13 @@ class OsmesaContext final : public Context {
 }  // namespace
 
 OpenedContext openOsmesa(const ContextOptions& options, std::vector<std::string>& failures) {
-  if (!osmesa().failure.empty()) {
-    failures.push_back(fmt::format("OSMesa: {}", osmesa().failure));
+  if (!library()) {
+    const char* why = ::dlerror();
+    failures.push_back(fmt::format("OSMesa: cannot be loaded: {}", why ? why : WEFT_OSMESA_NAME));
     return {};
   }
+  const auto create = find<decltype(&OSMesaCreateContextAttribs)>("OSMesaCreateContextAttribs");
+  static const auto kFind = find<decltype(&OSMesaGetProcAddress)>("OSMesaGetProcAddress");
   const int attributes[] = {OSMESA_FORMAT,
                             OSMESA_RGBA,
                             OSMESA_DEPTH_BITS,
@@ -96,7 +77,7 @@ OpenedContext openOsmesa(const ContextOptions& options, std::vector<std::string>
                             OSMESA_CONTEXT_MINOR_VERSION,
                             5,
                             0};
-  const OSMesaContext raw = osmesa().create(attributes, nullptr);
+  const OSMesaContext raw = create ? create(attributes, nullptr) : nullptr;
   if (!raw) {
     failures.emplace_back("OSMesa: gives no OpenGL 4.5 core context");
     return {};
@@ -106,7 +87,7 @@ OpenedContext openOsmesa(const ContextOptions& options, std::vector<std::string>
     failures.emplace_back("OSMesa: OSMesaMakeCurrent failed");
     return {};
   }
-  return {std::move(context), [](const char* name) { return osmesa().find(name); }, "OSMesa"};
+  return {std::move(context), [](const char* name) { return kFind(name); }, "OSMesa"};
 }
 
 }  // namespace weft::gl

@@ -3,45 +3,37 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace weft::gl {
 
 namespace {
 
-const char* sourceName(GLenum source) {
-  switch (source) {
-    case GL_DEBUG_SOURCE_API:
-      return "API";
-    case GL_DEBUG_SOURCE_WINDOW_SYSTEM:
-      return "window system";
-    case GL_DEBUG_SOURCE_SHADER_COMPILER:
-      return "shader compiler";
-    case GL_DEBUG_SOURCE_THIRD_PARTY:
-      return "third party";
-    case GL_DEBUG_SOURCE_APPLICATION:
-      return "application";
-    default:
-      return "other source";
-  }
-}
+// The enums that this room meets in messages.
+// clang-format off
+#define WEFT_ENUMS(X) \
+  X(GL_INVALID_ENUM) X(GL_INVALID_VALUE) X(GL_INVALID_OPERATION) X(GL_INVALID_FRAMEBUFFER_OPERATION) \
+  X(GL_OUT_OF_MEMORY) X(GL_CONTEXT_LOST) X(GL_TEXTURE_2D) X(GL_TEXTURE_2D_ARRAY) X(GL_TEXTURE_CUBE_MAP) \
+  X(GL_TEXTURE_CUBE_MAP_ARRAY) X(GL_TEXTURE_3D) X(GL_TEXTURE_2D_MULTISAMPLE) \
+  X(GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT) X(GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE) \
+  X(GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT) X(GL_FRAMEBUFFER_INCOMPLETE_LAYER_TARGETS) \
+  X(GL_FRAMEBUFFER_UNSUPPORTED) X(GL_DEPTH_ATTACHMENT) X(GL_STENCIL_ATTACHMENT) \
+  X(GL_DEPTH_STENCIL_ATTACHMENT) X(GL_COLOR_ATTACHMENT0) X(GL_R8) X(GL_RG8) X(GL_RGBA8) X(GL_SRGB8_ALPHA8) \
+  X(GL_R8_SNORM) X(GL_RG8_SNORM) X(GL_RGBA8_SNORM) X(GL_R16) X(GL_RG16) X(GL_RGBA16) X(GL_R16F) \
+  X(GL_RG16F) X(GL_RGBA16F) X(GL_R32F) X(GL_RG32F) X(GL_RGBA32F) X(GL_R11F_G11F_B10F) X(GL_RGB10_A2) \
+  X(GL_RGB9_E5) X(GL_R8UI) X(GL_R16UI) X(GL_R32UI) X(GL_RG16UI) X(GL_RG32UI) X(GL_RGBA8UI) X(GL_RGBA16UI) \
+  X(GL_RGBA32UI) X(GL_R32I) X(GL_RG32I) X(GL_RGBA32I) X(GL_DEPTH_COMPONENT16) X(GL_DEPTH_COMPONENT24) \
+  X(GL_DEPTH_COMPONENT32F) X(GL_DEPTH24_STENCIL8) X(GL_DEPTH32F_STENCIL8)
+// clang-format on
+#define WEFT_NAME(name) {name, #name},
+constexpr std::pair<GLenum, const char*> kNames[] = {WEFT_ENUMS(WEFT_NAME)};
+#undef WEFT_NAME
+#undef WEFT_ENUMS
 
-const char* typeName(GLenum type) {
-  switch (type) {
-    case GL_DEBUG_TYPE_ERROR:
-      return "error";
-    case GL_DEBUG_TYPE_DEPRECATED_BEHAVIOR:
-      return "deprecated behaviour";
-    case GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR:
-      return "undefined behaviour";
-    case GL_DEBUG_TYPE_PORTABILITY:
-      return "portability";
-    case GL_DEBUG_TYPE_PERFORMANCE:
-      return "performance";
-    case GL_DEBUG_TYPE_MARKER:
-      return "marker";
-    default:
-      return "message";
-  }
+GLsizei greatestLength(GLenum name) {
+  GLint value = 0;
+  glGetIntegerv(name, &value);
+  return std::max(value, 256) - 1;
 }
 
 void GLAPIENTRY receive(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
@@ -102,7 +94,7 @@ void DebugLog::drain(base::Diagnostics& diagnostics, bool notifications) {
     } else if (m.severity == GL_DEBUG_SEVERITY_HIGH || m.type == GL_DEBUG_TYPE_ERROR) {
       severity = base::Severity::error;
     }
-    std::string text = fmt::format("OpenGL {} ({}): {}", typeName(m.type), sourceName(m.source), m.text);
+    std::string text = fmt::format("OpenGL: {}", m.text);
     if (m.count > 1) text += fmt::format(" (seen {} times)", m.count);
     diagnostics.add({.severity = severity,
                      .code = base::Code::driverMessage,
@@ -123,11 +115,7 @@ DebugGroup::DebugGroup(DebugLog& log, std::string_view name) : log_(log) {
     const std::lock_guard lock(log_.mutex_);
     log_.groups_.push_back(name);
   }
-  static const GLsizei limit = [] {
-    GLint value = 1024;
-    glGetIntegerv(GL_MAX_DEBUG_MESSAGE_LENGTH, &value);
-    return static_cast<GLsizei>(value - 1);
-  }();
+  static const GLsizei limit = greatestLength(GL_MAX_DEBUG_MESSAGE_LENGTH);
   glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, std::min(static_cast<GLsizei>(name.size()), limit),
                    name.data());
 }
@@ -139,12 +127,13 @@ DebugGroup::~DebugGroup() {
 }
 
 void labelObject(GLenum identifier, GLuint id, std::string_view label) {
-  static const GLsizei limit = [] {
-    GLint value = 256;
-    glGetIntegerv(GL_MAX_LABEL_LENGTH, &value);
-    return static_cast<GLsizei>(value - 1);
-  }();
+  static const GLsizei limit = greatestLength(GL_MAX_LABEL_LENGTH);
   glObjectLabel(identifier, id, std::min(static_cast<GLsizei>(label.size()), limit), label.data());
+}
+
+std::string enumName(GLenum value) {
+  const auto found = std::ranges::find(kNames, value, &std::pair<GLenum, const char*>::first);
+  return found == std::end(kNames) ? fmt::format("0x{:04X}", value) : found->second;
 }
 
 std::string takeErrors() {

@@ -1,6 +1,6 @@
 // KHR_debug: the driver's messages as diagnostics (W120), debug groups and object labels. A message that
 // repeats is kept once with a count. Groups name the pass in which a message was raised, and show in apitrace
-// and RenderDoc. Does not: print, abort, or turn GL errors into exceptions.
+// and RenderDoc.
 #pragma once
 
 #include <glad/gl.h>

@@ -1,7 +1,7 @@
 // The binding and fixed-function state that the executor sets, remembered so that setting what is current issues no GL
 // call. It belongs to the frame loop: forget() at its start and after foreign code (an inspector, a library that draws),
-// because then nothing is known and the next call of each kind is issued. Does not: ask GL for its state, or know of
-// objects that are deleted while they are bound; who deletes one forgets.
+// because then nothing is known and the next call of each kind is issued. Who deletes an object
+// that is bound forgets it here.
 #pragma once
 
 #include <glad/gl.h>
@@ -16,33 +16,64 @@ namespace weft::gl {
 class StateCache {
  public:
   void forget();
-  void forgetBuffers();
 
-  void useProgram(GLuint program);
-  void bindTexture(GLuint unit, GLuint texture);
-  void bindSampler(GLuint unit, GLuint sampler);
-  void bindImage(GLuint unit, GLuint texture, GLboolean layered, GLenum access, GLenum format);
+  void useProgram(GLuint program) {
+    if (takes(program_, program)) glUseProgram(program);
+  }
+  void bindTexture(GLuint unit, GLuint texture) {
+    if (takes(slotAt(textures_, unit), texture)) glBindTextureUnit(unit, texture);
+  }
+  void bindSampler(GLuint unit, GLuint sampler) {
+    if (takes(slotAt(samplers_, unit), sampler)) glBindSampler(unit, sampler);
+  }
+  void bindImage(GLuint unit, GLuint texture, GLboolean layered, GLenum access, GLenum format) {
+    if (takes(slotAt(images_, unit), Image{texture, layered, access, format}))
+      glBindImageTexture(unit, texture, 0, layered, 0, access, format);
+  }
   // `size` 0: the whole buffer. `target`: uniform or shader storage.
   void bindBuffer(GLenum target, GLuint index, GLuint buffer, GLintptr offset, GLsizeiptr size);
   // For drawing and for reading.
-  void bindFramebuffer(GLuint framebuffer);
-  void bindVertexArray(GLuint vertexArray);
+  void bindFramebuffer(GLuint framebuffer) {
+    if (takes(framebuffer_, framebuffer)) glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  }
+  void bindVertexArray(GLuint vertexArray) {
+    if (takes(vertexArray_, vertexArray)) glBindVertexArray(vertexArray);
+  }
 
   // GL_SCISSOR_TEST, GL_DEPTH_TEST, GL_CULL_FACE, GL_POLYGON_OFFSET_FILL, GL_FRAMEBUFFER_SRGB
   void enable(GLenum capability, bool on);
-  void viewport(GLsizei width, GLsizei height);
-  void scissor(GLint y, GLsizei width, GLsizei height);
-  void depthFunc(GLenum compare);
-  void depthMask(bool open);
-  void colorMask(bool open);
-  void stencilMask(GLuint mask);
-  void cullFace(GLenum face);
-  void polygonMode(GLenum mode);
-  void polygonOffset(GLfloat factor, GLfloat units);
+  void viewport(GLsizei width, GLsizei height) {
+    if (takes(viewport_, {width, height})) glViewport(0, 0, width, height);
+  }
+  void scissor(GLint y, GLsizei width, GLsizei height) {
+    if (takes(scissor_, {y, width, height})) glScissor(0, y, width, height);
+  }
+  void depthFunc(GLenum compare) {
+    if (takes(depthFunc_, compare)) glDepthFunc(compare);
+  }
+  void depthMask(bool open) {
+    if (takes(depthMask_, open)) glDepthMask(open ? GL_TRUE : GL_FALSE);
+  }
+  void colorMask(bool open) {
+    const GLboolean mask = open ? GL_TRUE : GL_FALSE;
+    if (takes(colorMask_, open)) glColorMask(mask, mask, mask, mask);
+  }
+  void stencilMask(GLuint mask) {
+    if (takes(stencilMask_, mask)) glStencilMask(mask);
+  }
+  void cullFace(GLenum face) {
+    if (takes(cullFace_, face)) glCullFace(face);
+  }
+  void polygonMode(GLenum mode) {
+    if (takes(polygonMode_, mode)) glPolygonMode(GL_FRONT_AND_BACK, mode);
+  }
+  void polygonOffset(GLfloat factor, GLfloat units) {
+    if (takes(offset_, {factor, units})) glPolygonOffset(factor, units);
+  }
 
   struct Blend {
     GLenum equation = GL_FUNC_ADD;
-    GLenum source = GL_ONE, destination = GL_ZERO;  // of colours
+    GLenum source = GL_ONE, destination = GL_ZERO;  // of colors
     GLenum sourceAlpha = GL_ONE, destinationAlpha = GL_ZERO;
     friend bool operator==(const Blend&, const Blend&) = default;
   };
@@ -66,8 +97,18 @@ class StateCache {
     std::optional<bool> on;
     std::optional<Blend> mode;
   };
+  // Whether `value` is news; it is what is known from now on.
   template <class T>
-  static std::optional<T>& slotAt(std::vector<std::optional<T>>& slots, GLuint index);
+  static bool takes(std::optional<T>& known, const T& value) {
+    if (known == value) return false;
+    known = value;
+    return true;
+  }
+  template <class T>
+  static std::optional<T>& slotAt(std::vector<std::optional<T>>& slots, GLuint index) {
+    if (index >= slots.size()) slots.resize(index + 1);
+    return slots[index];
+  }
 
   std::optional<GLuint> program_, framebuffer_, vertexArray_, stencilMask_;
   std::vector<std::optional<GLuint>> textures_, samplers_;

@@ -3,15 +3,8 @@
 // and watching the tests.
 #pragma once
 
-#include "engine/gl/context/context.h"
-
-namespace weft::gl::workarounds {
-
 // timer-queries-lie: llvmpipe counts submission, not execution: a 250 ms draw reads 1 ms. Profile such
 // devices with the wall clock between glFinish. Mesa 22.3.6, 2026-11-21.
-inline bool timerQueriesLie(const DeviceInfo& device) {
-  return device.software;
-}
 
 // binaries-per-backend: EGL and OSMesa give identical GL_VERSION and GL_RENDERER strings and reject each
 // other's program binaries, so the backend is part of every cache key. Mesa 22.3.6, 2026-11-21.
@@ -43,5 +36,3 @@ inline bool timerQueriesLie(const DeviceInfo& device) {
 // compiler-messages-twice: Mesa sends every error of a shader's log also as a KHR_debug message of the shader
 // compiler (type error, above notification), besides the log that Program reads and maps. Its messages of
 // type error and other are therefore switched off; those about performance stay. Mesa 22.3.6, 2026-11-21.
-
-}  // namespace weft::gl::workarounds

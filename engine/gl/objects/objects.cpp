@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cassert>
+#include <cstring>
+#include <initializer_list>
 
 #include "engine/gl/context/debug.h"
 
@@ -32,43 +36,14 @@ LiveObjects liveObjects() {
   return live;
 }
 
-LiveObjects namedObjects(GLuint upTo) {
-  LiveObjects named;
-  const auto add = [&](ObjectKind kind, GLboolean exists) {
-    named.counts[static_cast<std::size_t>(kind)] += exists == GL_TRUE;
-  };
-  for (GLuint name = 1; name <= upTo; ++name) {
-    add(ObjectKind::texture, glIsTexture(name));
-    add(ObjectKind::buffer, glIsBuffer(name));
-    add(ObjectKind::framebuffer, glIsFramebuffer(name));
-    add(ObjectKind::sampler, glIsSampler(name));
-    add(ObjectKind::vertex_array, glIsVertexArray(name));
-    add(ObjectKind::query, glIsQuery(name));
-    // Mesa holds on to the last compute program: deleted, and still a program.
-    GLint deleted = GL_FALSE;
-    if (glIsProgram(name))
-      glGetProgramiv(name, GL_DELETE_STATUS, &deleted);
-    else if (glIsShader(name))
-      glGetShaderiv(name, GL_DELETE_STATUS, &deleted);
-    else
-      continue;
-    add(ObjectKind::program, deleted ? GL_FALSE : GL_TRUE);
-  }
-  return named;
-}
-
 std::string toText(const LiveObjects& objects) {
-  static constexpr const char* kOne[kKinds] = {"texture",     "texture view", "buffer",
-                                               "framebuffer", "sampler",      "vertex array",
-                                               "query",       "fence",        "program"};
-  static constexpr const char* kMany[kKinds] = {"textures",     "texture views", "buffers",
-                                                "framebuffers", "samplers",      "vertex arrays",
-                                                "queries",      "fences",        "programs"};
+  static constexpr const char* kNames[kKinds] = {"texture",     "texture view", "buffer",
+                                                 "framebuffer", "sampler",      "vertex array",
+                                                 "query",       "fence",        "program"};
   std::string text;
-  for (std::size_t i = 0; i < kKinds; ++i) {
-    const auto n = objects.counts[i];
-    if (n != 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, (n == 1 ? kOne : kMany)[i]);
-  }
+  for (std::size_t i = 0; i < kKinds; ++i)
+    if (const auto n = objects.counts[i]; n != 0)
+      text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", n, kNames[i], n == 1 ? "" : "s");
   return text.empty() ? "none" : text;
 }
 
@@ -135,6 +110,20 @@ SamplerObject SamplerObject::create(const SamplerDesc& desc, std::string_view la
     glSamplerParameteri(id, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
     glSamplerParameteri(id, GL_TEXTURE_COMPARE_FUNC, static_cast<GLint>(desc.compare));
   }
+  if (desc.wrap == GL_CLAMP_TO_BORDER && desc.borderBase == GL_FLOAT) {
+    glSamplerParameterfv(id, GL_TEXTURE_BORDER_COLOR, desc.border.data());
+  } else if (desc.wrap == GL_CLAMP_TO_BORDER) {
+    std::array<GLint, 4> wholes{};
+    std::array<GLuint, 4> naturals{};
+    for (std::size_t i = 0; i < 4; ++i) {
+      wholes[i] = static_cast<GLint>(std::clamp<double>(desc.border[i], INT32_MIN, INT32_MAX));
+      naturals[i] = static_cast<GLuint>(std::clamp<double>(desc.border[i], 0, UINT32_MAX));
+    }
+    if (desc.borderBase == GL_INT)
+      glSamplerParameterIiv(id, GL_TEXTURE_BORDER_COLOR, wholes.data());
+    else
+      glSamplerParameterIuiv(id, GL_TEXTURE_BORDER_COLOR, naturals.data());
+  }
   labelObject(GL_SAMPLER, id, label);
   return sampler;
 }
@@ -162,14 +151,6 @@ void VertexArray::setVertices(GLuint binding, GLuint buffer, std::uint64_t offse
                                 attribute.offset);
     glVertexArrayAttribBinding(id_, attribute.location, binding);
   }
-}
-
-void VertexArray::disable(std::span<const VertexAttribute> attributes) {
-  for (const VertexAttribute& attribute : attributes) glDisableVertexArrayAttrib(id_, attribute.location);
-}
-
-void VertexArray::setIndices(GLuint buffer) {
-  glVertexArrayElementBuffer(id_, buffer);
 }
 
 Query Query::create(GLenum target, std::string_view label) {
@@ -207,10 +188,6 @@ Fence& Fence::operator=(Fence&& other) noexcept {
   return *this;
 }
 
-bool Fence::isSignalled() const {
-  return wait(0);
-}
-
 bool Fence::wait(std::uint64_t nanoseconds) const {
   if (!sync_) return true;
   const GLenum state = glClientWaitSync(sync_, GL_SYNC_FLUSH_COMMANDS_BIT, nanoseconds);
@@ -222,6 +199,325 @@ void Fence::reset() {
   glDeleteSync(sync_);
   sync_ = nullptr;
   count(ObjectKind::fence, -1);
+}
+
+// ---- textures, views of them and framebuffers ----
+
+namespace {
+
+bool isMultisample(GLenum target) {
+  return target == GL_TEXTURE_2D_MULTISAMPLE;
+}
+
+GLint limitOf(GLenum name) {
+  GLint value = 0;
+  glGetIntegerv(name, &value);
+  return value;
+}
+
+std::string sizeText(const TextureDesc& d) {
+  std::string text = fmt::format("{}x{}", d.width, d.height);
+  if (d.target == GL_TEXTURE_3D) text += fmt::format("x{}", d.depth);
+  if (d.layers > 1) text += fmt::format(", {} layers", d.layers);
+  if (d.mips > 1) text += fmt::format(", {} mips", d.mips);
+  if (d.samples > 1) text += fmt::format(", {} samples", d.samples);
+  return text + " " + enumName(d.format);
+}
+
+// Which number the driver would refuse, or "": it says no more than that it does.
+std::string refusal(const TextureDesc& d) {
+  const bool cube = d.target == GL_TEXTURE_CUBE_MAP || d.target == GL_TEXTURE_CUBE_MAP_ARRAY;
+  const GLint largest = limitOf(d.target == GL_TEXTURE_3D ? GL_MAX_3D_TEXTURE_SIZE
+                                : cube                    ? GL_MAX_CUBE_MAP_TEXTURE_SIZE
+                                                          : GL_MAX_TEXTURE_SIZE);
+  const GLint layers = limitOf(GL_MAX_ARRAY_TEXTURE_LAYERS), samples = limitOf(GL_MAX_SAMPLES);
+  const std::uint32_t side = std::max({d.width, d.height, d.target == GL_TEXTURE_3D ? d.depth : 1});
+  if (side > static_cast<std::uint32_t>(largest))
+    return fmt::format("the largest side is {} texels here", largest);
+  if (d.mips > static_cast<std::uint32_t>(std::bit_width(side)))
+    return fmt::format("this size has at most {} mips", std::bit_width(side));
+  if (d.layers > static_cast<std::uint32_t>(layers))
+    return fmt::format("at most {} layers are allowed here", layers);
+  if (d.samples > static_cast<std::uint32_t>(samples))
+    return fmt::format("at most {} samples are allowed here", samples);
+  return "";
+}
+
+std::string statusReason(GLenum status) {
+  switch (status) {
+    case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT:
+      return "an attachment has no such mip or layer, or a format that cannot be rendered to at that point";
+    case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT:
+      return "it has no attachment and no size of its own";
+    case GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE:
+      return "its attachments differ in sample count";
+    case GL_FRAMEBUFFER_INCOMPLETE_LAYER_TARGETS:
+      return "some attachments are layered and some are not, or they differ in target";
+    default:
+      return "this driver does not render to this combination of formats";
+  }
+}
+
+// Filters and wrapping of a texture or view that is read without a sampler object.
+void setDefaults(GLuint id, GLenum target, std::uint32_t mips) {
+  if (isMultisample(target)) return;
+  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, mips > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST);
+  glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+    glTextureParameteri(id, axis, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(id, GL_TEXTURE_MAX_LEVEL, static_cast<GLint>(mips) - 1);
+}
+
+}  // namespace
+
+std::optional<Texture> Texture::create(const TextureDesc& desc, std::string_view label,
+                                       base::Diagnostics& diagnostics) {
+  const auto fail = [&](const std::string& reason) {
+    diagnostics
+        .error(base::Code::textureNotCreated, {},
+               fmt::format("texture '{}' ({}) cannot be created: {}", label, sizeText(desc), reason))
+        .resource = label;
+    return std::nullopt;
+  };
+  if (const std::string reason = refusal(desc); !reason.empty()) return fail(reason);
+  GLuint id = 0;
+  glCreateTextures(desc.target, 1, &id);
+  Texture texture(id);
+  texture.desc_ = desc;
+  const auto [mips, width, height, depth, layers, samples] =
+      std::array{static_cast<GLsizei>(desc.mips),   static_cast<GLsizei>(desc.width),
+                 static_cast<GLsizei>(desc.height), static_cast<GLsizei>(desc.depth),
+                 static_cast<GLsizei>(desc.layers), static_cast<GLsizei>(desc.samples)};
+  switch (desc.target) {
+    case GL_TEXTURE_2D:
+    case GL_TEXTURE_CUBE_MAP:
+      glTextureStorage2D(id, mips, desc.format, width, height);
+      break;
+    case GL_TEXTURE_2D_ARRAY:
+    case GL_TEXTURE_CUBE_MAP_ARRAY:
+      glTextureStorage3D(id, mips, desc.format, width, height, layers);
+      break;
+    case GL_TEXTURE_3D:
+      glTextureStorage3D(id, mips, desc.format, width, height, depth);
+      break;
+    case GL_TEXTURE_2D_MULTISAMPLE:
+      glTextureStorage2DMultisample(id, samples, desc.format, width, height, GL_TRUE);
+      break;
+    default:
+      return fail(fmt::format("{} is no target of this engine", enumName(desc.target)));
+  }
+  GLint stored = 0;
+  glGetTextureParameteriv(id, GL_TEXTURE_IMMUTABLE_FORMAT, &stored);
+  if (!stored) return fail(takeErrors());
+  setDefaults(id, desc.target, desc.mips);
+  labelObject(GL_TEXTURE, id, label);
+  return texture;
+}
+
+std::optional<TextureView> TextureView::create(const TextureRef& of, const ViewDesc& view,
+                                               std::string_view label, base::Diagnostics& diagnostics) {
+  GLuint id = 0;
+  glGenTextures(1, &id);  // workarounds.h: view-names-from-gen
+  TextureView texture(id);
+  const GLenum format = view.format == 0 ? of.desc.format : view.format;
+  glTextureView(id, view.target, of.id, format, view.mip, view.mips, view.layer, view.layers);
+  if (!glIsTexture(id)) {
+    diagnostics
+        .error(base::Code::viewNotCreated, {},
+               fmt::format("view '{}' of a texture ({}) cannot be created: {}", label, sizeText(of.desc),
+                           takeErrors()))
+        .found =
+        fmt::format("{} as {}, mips {} to {}, layers {} to {}", enumName(view.target), enumName(format),
+                    view.mip, view.mip + view.mips - 1, view.layer, view.layer + view.layers - 1);
+    return std::nullopt;
+  }
+  texture.desc_ = of.desc;
+  texture.desc_.target = view.target;
+  texture.desc_.format = format;
+  texture.desc_.width = std::max(1u, of.desc.width >> view.mip);
+  texture.desc_.height = std::max(1u, of.desc.height >> view.mip);
+  texture.desc_.depth = std::max(1u, of.desc.depth >> view.mip);
+  texture.desc_.layers = view.layers;
+  texture.desc_.mips = view.mips;
+  setDefaults(id, view.target, view.mips);
+  if (view.stencil)
+    glTextureParameteri(id, GL_DEPTH_STENCIL_TEXTURE_MODE, GL_STENCIL_INDEX);  // workarounds.h: stencil-view
+  labelObject(GL_TEXTURE, id, label);
+  return texture;
+}
+
+std::optional<Framebuffer> Framebuffer::create(std::span<const Attachment> attachments,
+                                               std::string_view label, base::Diagnostics& diagnostics,
+                                               std::uint32_t width, std::uint32_t height) {
+  GLuint id = 0;
+  glCreateFramebuffers(1, &id);
+  Framebuffer framebuffer(id);
+  std::array<GLenum, 32> draws{};
+  GLsizei drawCount = 0;
+  for (const Attachment& a : attachments) {
+    if (a.layer < 0)
+      glNamedFramebufferTexture(id, a.point, a.texture, static_cast<GLint>(a.mip));
+    else
+      glNamedFramebufferTextureLayer(id, a.point, a.texture, static_cast<GLint>(a.mip), a.layer);
+    if (a.point >= GL_COLOR_ATTACHMENT0 && a.point < GL_COLOR_ATTACHMENT0 + draws.size()) {
+      const auto index = static_cast<GLsizei>(a.point - GL_COLOR_ATTACHMENT0);
+      draws[static_cast<std::size_t>(index)] = a.point;
+      drawCount = std::max(drawCount, index + 1);
+    }
+  }
+  glNamedFramebufferDrawBuffers(id, drawCount, draws.data());  // absent ones are GL_NONE, which is 0
+  glNamedFramebufferReadBuffer(id, drawCount > 0 && draws[0] != GL_NONE ? draws[0] : GL_NONE);
+  if (width > 0) glNamedFramebufferParameteri(id, GL_FRAMEBUFFER_DEFAULT_WIDTH, static_cast<GLint>(width));
+  if (height > 0) glNamedFramebufferParameteri(id, GL_FRAMEBUFFER_DEFAULT_HEIGHT, static_cast<GLint>(height));
+  labelObject(GL_FRAMEBUFFER, id, label);
+  const GLenum status = glCheckNamedFramebufferStatus(id, GL_DRAW_FRAMEBUFFER);
+  if (status == GL_FRAMEBUFFER_COMPLETE) return framebuffer;
+
+  std::string parts;
+  for (const Attachment& a : attachments) {
+    GLint format = 0, samples = 0;
+    if (glIsTexture(a.texture)) {
+      glGetTextureLevelParameteriv(a.texture, static_cast<GLint>(a.mip), GL_TEXTURE_INTERNAL_FORMAT, &format);
+      glGetTextureLevelParameteriv(a.texture, static_cast<GLint>(a.mip), GL_TEXTURE_SAMPLES, &samples);
+    }
+    parts += fmt::format("{}{} mip {} layer {} samples {}", parts.empty() ? "" : "; ",
+                         enumName(static_cast<GLenum>(format)), a.mip, a.layer, samples);
+  }
+  const std::string errors = takeErrors();
+  diagnostics
+      .error(base::Code::incompleteFramebuffer, {},
+             fmt::format("framebuffer '{}' is incomplete: {} ({}{}{})", label, statusReason(status),
+                         enumName(status), errors.empty() ? "" : ", ", errors))
+      .found = parts.empty() ? "no attachments" : parts;
+  return std::nullopt;
+}
+
+// ---- synchronous uploads and read-backs, and the sizes and classes they need ----
+
+namespace {
+
+bool isOneOf(GLenum value, std::initializer_list<GLenum> values) {
+  return std::ranges::find(values, value) != values.end();
+}
+
+GLint toInt(std::uint32_t value) {
+  return static_cast<GLint>(value);
+}
+
+GLsizei byteCount(const Extent& extent, GLenum format, GLenum type) {
+  const std::uint64_t bytes = std::uint64_t{extent.width} * extent.height * texelBytes(format, type);
+  assert(bytes <= 0x7fffffff);
+  return static_cast<GLsizei>(bytes);
+}
+
+void getLayer(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format, GLenum type,
+              GLsizei bytes, void* where) {
+  const Extent extent = extentOf(texture.desc, mip);
+  assert(mip < texture.desc.mips && layer < extent.layers && texture.desc.samples == 1);
+  glGetTextureSubImage(texture.id, toInt(mip), 0, 0, toInt(layer), toInt(extent.width), toInt(extent.height),
+                       1, format, type, bytes, where);
+}
+
+}  // namespace
+
+Extent extentOf(const TextureDesc& desc, std::uint32_t mip) {
+  Extent extent{std::max(1u, desc.width >> mip), std::max(1u, desc.height >> mip), desc.layers};
+  if (desc.target == GL_TEXTURE_3D) extent.layers = std::max(1u, desc.depth >> mip);
+  return extent;
+}
+
+std::uint32_t texelBytes(GLenum format, GLenum type) {
+  if (type == GL_FLOAT_32_UNSIGNED_INT_24_8_REV) return 8;
+  if (isOneOf(type, {GL_UNSIGNED_INT_2_10_10_10_REV, GL_UNSIGNED_INT_10F_11F_11F_REV,
+                     GL_UNSIGNED_INT_5_9_9_9_REV, GL_UNSIGNED_INT_24_8}))
+    return 4;
+  const std::uint32_t channels = isOneOf(format, {GL_RGBA, GL_BGRA, GL_RGBA_INTEGER}) ? 4
+                                 : isOneOf(format, {GL_RGB, GL_RGB_INTEGER})          ? 3
+                                 : isOneOf(format, {GL_RG, GL_RG_INTEGER})            ? 2
+                                                                                      : 1;
+  return channels * (isOneOf(type, {GL_UNSIGNED_BYTE, GL_BYTE})                    ? 1
+                     : isOneOf(type, {GL_UNSIGNED_SHORT, GL_SHORT, GL_HALF_FLOAT}) ? 2
+                                                                                   : 4);
+}
+
+FormatClass classOf(GLenum format) {
+  if (isOneOf(format,
+              {GL_R8UI, GL_RGBA8UI, GL_R16UI, GL_RG16UI, GL_RGBA16UI, GL_R32UI, GL_RG32UI, GL_RGBA32UI}))
+    return FormatClass::unsigned_integer;
+  if (isOneOf(format, {GL_R32I, GL_RG32I, GL_RGBA32I})) return FormatClass::signed_integer;
+  if (isOneOf(format, {GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT32F}))
+    return FormatClass::depth;
+  if (isOneOf(format, {GL_DEPTH24_STENCIL8, GL_DEPTH32F_STENCIL8})) return FormatClass::depth_stencil;
+  return FormatClass::floating;
+}
+
+std::uint32_t floatChannelsOf(GLenum internalFormat) {
+  const FormatClass kind = classOf(internalFormat);
+  return kind == FormatClass::depth || kind == FormatClass::depth_stencil ? 1 : 4;
+}
+
+void uploadTexture(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format,
+                   GLenum type, std::span<const std::byte> data) {
+  const Extent extent = extentOf(texture.desc, mip);
+  assert(mip < texture.desc.mips && layer < extent.layers && texture.desc.samples == 1);
+  assert(data.size() == static_cast<std::size_t>(byteCount(extent, format, type)));
+  const GLsizei width = toInt(extent.width), height = toInt(extent.height);
+  if (texture.desc.target == GL_TEXTURE_2D)
+    glTextureSubImage2D(texture.id, toInt(mip), 0, 0, width, height, format, type, data.data());
+  else
+    glTextureSubImage3D(texture.id, toInt(mip), 0, 0, toInt(layer), width, height, 1, format, type,
+                        data.data());
+}
+
+std::vector<std::byte> readTexture(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer,
+                                   GLenum format, GLenum type) {
+  const GLsizei bytes = byteCount(extentOf(texture.desc, mip), format, type);
+  std::vector<std::byte> data(static_cast<std::size_t>(bytes));
+  getLayer(texture, mip, layer, format, type, bytes, data.data());
+  return data;
+}
+
+std::vector<float> readFloats(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer) {
+  const Extent extent = extentOf(texture.desc, mip);
+  std::vector<float> texels(std::size_t{extent.width} * extent.height * floatChannelsOf(texture.desc.format));
+  const auto bytes = static_cast<GLsizei>(texels.size() * sizeof(float));
+  switch (classOf(texture.desc.format)) {
+    case FormatClass::floating:
+      getLayer(texture, mip, layer, GL_RGBA, GL_FLOAT, bytes, texels.data());
+      break;
+    case FormatClass::depth:
+    case FormatClass::depth_stencil:
+      getLayer(texture, mip, layer, GL_DEPTH_COMPONENT, GL_FLOAT, bytes, texels.data());
+      break;
+    case FormatClass::unsigned_integer:
+      getLayer(texture, mip, layer, GL_RGBA_INTEGER, GL_UNSIGNED_INT, bytes, texels.data());
+      for (float& texel : texels) texel = static_cast<float>(std::bit_cast<std::uint32_t>(texel));
+      break;
+    case FormatClass::signed_integer:
+      getLayer(texture, mip, layer, GL_RGBA_INTEGER, GL_INT, bytes, texels.data());
+      for (float& texel : texels) texel = static_cast<float>(std::bit_cast<std::int32_t>(texel));
+      break;
+  }
+  return texels;
+}
+
+void readTextureInto(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format,
+                     GLenum type, GLuint buffer, std::uint64_t offset, std::uint64_t bytes) {
+  assert(bytes >= static_cast<std::uint64_t>(byteCount(extentOf(texture.desc, mip), format, type)));
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer);
+  getLayer(texture, mip, layer, format, type, static_cast<GLsizei>(bytes), reinterpret_cast<void*>(offset));
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+}
+
+void uploadBuffer(GLuint buffer, std::uint64_t offset, std::span<const std::byte> data) {
+  glNamedBufferSubData(buffer, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(data.size()),
+                       data.data());
+}
+
+std::vector<std::byte> readBuffer(GLuint buffer, std::uint64_t offset, std::uint64_t bytes) {
+  std::vector<std::byte> data(bytes);
+  glGetNamedBufferSubData(buffer, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data.data());
+  return data;
 }
 
 }  // namespace weft::gl

@@ -1,8 +1,7 @@
 // Move-only owners of GL objects, labelled for debug tools and counted per kind (leak tests). Creation that
 // depends on the machine or on an author's numbers returns an optional and a diagnostic; everything else
 // asserts. All functions act on the current context; an object must be destroyed in the context that made it. An
-// object that is default-made or moved from owns nothing. Does not: cache, pool, bind for drawing, or know the
-// engine's formats (internal formats are GLenum).
+// object that is default-made or moved from owns nothing.
 #pragma once
 
 #include <glad/gl.h>
@@ -41,9 +40,6 @@ struct LiveObjects {
   friend bool operator==(const LiveObjects&, const LiveObjects&) = default;
 };
 LiveObjects liveObjects();
-// All objects of the current context that the driver knows, whoever made them. Asks for each name up to `upTo`. Views
-// count as textures, shaders as programs; fences have no names.
-LiveObjects namedObjects(GLuint upTo = 1 << 14);
 // "2 textures, 1 buffer" or "none".
 std::string toText(const LiveObjects& objects);
 
@@ -72,9 +68,8 @@ class Owner {
 
 // Immutable storage. layers counts array layers, for cubes six per cube (6 for GL_TEXTURE_CUBE_MAP).
 struct TextureDesc {
-  GLenum target =
-      GL_TEXTURE_2D;  // 2D, 2D_ARRAY, CUBE_MAP, CUBE_MAP_ARRAY, 3D, 2D_MULTISAMPLE, 2D_MULTISAMPLE_ARRAY
-  GLenum format = GL_RGBA8;                        // sized internal format
+  GLenum target = GL_TEXTURE_2D;  // 2D, 2D_ARRAY, CUBE_MAP, CUBE_MAP_ARRAY, 3D, 2D_MULTISAMPLE
+  GLenum format = GL_RGBA8;       // sized internal format
   std::uint32_t width = 1, height = 1, depth = 1;  // depth: 3D only
   std::uint32_t layers = 1, mips = 1, samples = 1;
   friend bool operator==(const TextureDesc&, const TextureDesc&) = default;
@@ -160,6 +155,9 @@ struct SamplerDesc {
   GLenum minFilter = GL_NEAREST, magFilter = GL_NEAREST;
   GLenum wrap = GL_CLAMP_TO_EDGE;  // s, t and r
   GLenum compare = 0;              // GL_LEQUAL, …; 0: no comparison
+  // The color of GL_CLAMP_TO_BORDER, and the kind of its numbers: GL_FLOAT, GL_INT or GL_UNSIGNED_INT.
+  std::array<float, 4> border{};
+  GLenum borderBase = GL_FLOAT;
   friend bool operator==(const SamplerDesc&, const SamplerDesc&) = default;
 };
 
@@ -186,8 +184,10 @@ class VertexArray : public Owner<ObjectKind::vertex_array> {
   // element. `buffer` may be 0. Buffers are not owned.
   void setVertices(GLuint binding, GLuint buffer, std::uint64_t offset, std::uint32_t stride,
                    std::span<const VertexAttribute> attributes, GLuint divisor = 0);
-  void disable(std::span<const VertexAttribute> attributes);
-  void setIndices(GLuint buffer);
+  void disable(std::span<const VertexAttribute> attributes) {
+    for (const VertexAttribute& attribute : attributes) glDisableVertexArrayAttrib(id_, attribute.location);
+  }
+  void setIndices(GLuint buffer) { glVertexArrayElementBuffer(id_, buffer); }
 
  private:
   using Owner::Owner;
@@ -212,8 +212,8 @@ class Fence {
   Fence& operator=(Fence&& other) noexcept;
   ~Fence() { reset(); }
   explicit operator bool() const { return sync_ != nullptr; }
-  bool isSignalled() const;                    // never waits; flushes, so that the GPU gets to the fence
-  bool wait(std::uint64_t nanoseconds) const;  // true when signalled within that time
+  bool isSignalled() const { return wait(0); }  // never waits; flushes, so that the GPU gets to the fence
+  bool wait(std::uint64_t nanoseconds) const;   // true when signalled within that time
   void reset();
 
  private:

@@ -4,8 +4,6 @@
 #include <cassert>
 #include <chrono>
 
-#include "engine/gl/context/workarounds.h"
-
 namespace weft::gl {
 
 double steadyMs() {
@@ -14,15 +12,10 @@ double steadyMs() {
 }
 
 PassTimers::PassTimers(const DeviceInfo& device)
-    : queries_(device.hasTimerQueries && !workarounds::timerQueriesLie(device)) {}
+    : queries_(device.hasTimerQueries && !device.software) {}  // workarounds.h: timer-queries-lie
 
 void PassTimers::setEnabled(bool enabled) {
   if (enabled_ && !enabled) finish();
-  if (!enabled_ && enabled && queries_) {
-    GLint64 gpu = 0;
-    glGetInteger64v(GL_TIMESTAMP, &gpu);
-    clockOffset_ = steadyMs() - static_cast<double>(gpu) * 1e-6;
-  }
   enabled_ = enabled;
 }
 
@@ -48,7 +41,6 @@ void PassTimers::begin(std::uint32_t pass) {
   else
     glFinish();
   cpuStart_ = steadyMs();
-  if (!frame.times[pass].ran) frame.times[pass].cpuAt = frame.times[pass].gpuAt = cpuStart_;
 }
 
 void PassTimers::end(std::uint32_t pass) {
@@ -83,15 +75,11 @@ void PassTimers::endFrame() {
 void PassTimers::collect(Frame& frame) {
   if (queries_)
     for (std::size_t i = 0; i < frame.times.size(); ++i)
-      if (frame.times[i].ran) {
-        const std::uint64_t start = frame.starts[i].result();
-        frame.times[i].gpu = static_cast<double>(frame.ends[i].result() - start) * 1e-6;
-        frame.times[i].gpuAt = static_cast<double>(start) * 1e-6 + clockOffset_;
-      }
+      if (frame.times[i].ran)
+        frame.times[i].gpu = static_cast<double>(frame.ends[i].result() - frame.starts[i].result()) * 1e-6;
   results_.assign(frame.times.begin(), frame.times.end());
   resultFrame_ = frame.number;
   frame.number = 0;
-  if (listener_) listener_(resultFrame_, results_);
 }
 
 void PassTimers::finish() {

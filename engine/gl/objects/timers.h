@@ -1,13 +1,11 @@
 // Time per pass of a frame, in milliseconds. On hardware by timestamp queries that are collected some frames
 // later and never stall; on software rasterisers, whose timer queries lie, by the wall clock between
 // glFinish. Off until enabled: then begin() and end() do nothing. No heap allocation in a frame once its
-// number of passes was seen. Does not: smooth, aggregate or name anything.
+// number of passes was seen.
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "engine/gl/context/context.h"
@@ -17,12 +15,11 @@ namespace weft::gl {
 
 struct PassTime {
   bool ran = false;
-  double gpu = 0;               // ms
-  double cpu = 0;               // ms between begin() and end() on this thread, without the finish
-  double gpuAt = 0, cpuAt = 0;  // when they began: ms of the steady clock, the GPU's clock set to it
+  double gpu = 0;  // ms
+  double cpu = 0;  // ms between begin() and end() on this thread, without the finish
 };
 
-// The steady clock in ms: what PassTime counts in.
+// The steady clock in ms.
 double steadyMs();
 
 class PassTimers {
@@ -30,10 +27,6 @@ class PassTimers {
   explicit PassTimers(const DeviceInfo& device);
 
   void setEnabled(bool enabled);
-  // Called with every frame's number and times once they are complete, in order, from within beginFrame(), endFrame(),
-  // setEnabled() or finish(). Empty: nobody. Must not call back.
-  using Listener = std::function<void(std::uint64_t number, std::span<const PassTime> times)>;
-  void setListener(Listener listener) { listener_ = std::move(listener); }
   bool enabled() const { return enabled_; }
   bool usesQueries() const { return queries_; }
 
@@ -66,8 +59,6 @@ class PassTimers {
   std::size_t current_ = 0;
   std::uint64_t counter_ = 0, resultFrame_ = 0;
   double cpuStart_ = 0;
-  double clockOffset_ = 0;  // ms from the GPU's clock to the steady one
-  Listener listener_;
   std::vector<PassTime> results_;
 };
 

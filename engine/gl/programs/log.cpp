@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <cstdlib>
+#include <optional>
+#include <regex>
 
-#include "engine/base/characters.h"
 #include "engine/base/chars.h"
 #include "engine/base/nearest.h"
 #include "engine/base/words/foreign_words.h"
@@ -17,92 +18,46 @@ namespace weft::gl {
 
 namespace {
 
-// One message of a log: "file:line(column)" as numbers, severity and text.
-struct LogLine {
-  bool placed = false;
-  std::uint32_t file = 0, line = 0, column = 0;
-  base::Severity severity = base::Severity::error;
-  std::string_view text;
+// A message of a log, with its line in ShaderSource::text, from 1; 0: it is nowhere in it.
+struct LogMessage {
+  base::Diagnostic diagnostic;
+  std::uint32_t textLine = 0;
+  bool isError() const { return diagnostic.severity == base::Severity::error; }
 };
 
 std::string_view trim(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() &&
-         (text.back() == ' ' || text.back() == '\t' || text.back() == '\r' || text.back() == '\0'))
-    text.remove_suffix(1);
-  return text;
+  const std::size_t begin = text.find_first_not_of(" \t");
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(std::string_view(" \t\r\0", 4)) + 1 - begin);
 }
 
-bool takeNumber(std::string_view& text, std::uint32_t& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc()) return false;
-  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-  return true;
-}
+// What stands before the text of a message: its line and column, where it has them, and its severity.
+struct LogPrefix {
+  std::size_t length = 0;
+  std::uint32_t line = 0, column = 0;
+  base::Severity severity = base::Severity::error;
+};
 
-bool take(std::string_view& text, std::string_view token) {
-  if (!text.starts_with(token)) return false;
-  text.remove_prefix(token.size());
-  return true;
-}
-
-// "error: text", "preprocessor warning: text", "error C1234: text", "ERROR: text"; false when no severity
-// stands there.
-bool takeSeverity(std::string_view& text, base::Severity& severity) {
-  std::string_view rest = trim(text);
-  take(rest, "preprocessor ");
-  if (take(rest, "error") || take(rest, "ERROR") || take(rest, "fatal error")) {
-    severity = base::Severity::error;
-  } else if (take(rest, "warning") || take(rest, "WARNING")) {
-    severity = base::Severity::warning;
-  } else if (take(rest, "note")) {
-    severity = base::Severity::note;
-  } else {
-    return false;
-  }
-  const std::size_t colon = rest.find(':');
-  if (colon == std::string_view::npos || colon > 8) return false;
-  const std::string_view number = trim(rest.substr(0, colon));
-  if (!number.empty() && number.front() != 'C') return false;
-  text = trim(rest.substr(colon + 1));
-  return true;
-}
-
-std::optional<LogLine> parseLine(std::string_view raw) {
-  LogLine line;
-  std::string_view rest = raw;
-  // Mesa: 0:12(5): error: text
-  if (takeNumber(rest, line.file) && take(rest, ":") && takeNumber(rest, line.line) && take(rest, "(") &&
-      takeNumber(rest, line.column) && take(rest, "):") && takeSeverity(rest, line.severity)) {
-    line.placed = true;
-    line.text = rest;
-    return line;
-  }
-  // NVIDIA: 0(12) : error C1234: text
-  line = {};
-  rest = raw;
-  if (takeNumber(rest, line.file) && take(rest, "(") && takeNumber(rest, line.line) && take(rest, ")")) {
-    rest = trim(rest);
-    if (take(rest, ":") && takeSeverity(rest, line.severity)) {
-      line.placed = true;
-      line.text = rest;
-      return line;
-    }
-  }
-  // ERROR: 0:12: text, or a severity without a place
-  line = {};
-  rest = raw;
-  if (takeSeverity(rest, line.severity)) {
-    std::string_view after = rest;
-    if (takeNumber(after, line.file) && take(after, ":") && takeNumber(after, line.line) &&
-        take(after, ":")) {
-      line.placed = true;
-      line.text = trim(after);
-    } else {
-      line.file = line.line = 0;
-      line.text = rest;
-    }
-    return line;
+std::optional<LogPrefix> prefixOf(std::string_view raw) {
+  static const std::regex kForms[] = {
+      std::regex(R"(\d+:(\d+)\((\d+)\): (?:preprocessor )?(?:error|warning|note): )"),  // Mesa
+      std::regex(R"(\d+\((\d+)\) ?: (?:fatal )?(?:error|warning|note)(?: C\d+)?: )"),   // NVIDIA
+      std::regex(R"((?:ERROR|WARNING): \d+:(\d+): )"),
+      std::regex(R"((?:preprocessor |fatal )?(?:error|warning|note|ERROR|WARNING)(?: C\d+)?: )")};
+  const std::string head(raw.substr(0, 80));  // the work for long lines is bounded
+  std::smatch match;
+  for (const std::regex& form : kForms) {
+    if (!std::regex_search(head, match, form, std::regex_constants::match_continuous)) continue;
+    const std::string text = base::lowered(match.str());
+    const auto number = [&](std::size_t group) {
+      return group < match.size()
+                 ? static_cast<std::uint32_t>(std::strtoul(match.str(group).c_str(), nullptr, 10))
+                 : 0;
+    };
+    return LogPrefix{text.size(), number(1), number(2),
+                     text.find("warning") != std::string::npos ? base::Severity::warning
+                     : text.find("note") != std::string::npos  ? base::Severity::note
+                                                               : base::Severity::error};
   }
   return std::nullopt;
 }
@@ -124,15 +79,9 @@ std::uint32_t trueColumn(std::string_view line, std::uint32_t column) {
 
 // Headings and rules of NVIDIA's logs.
 bool isOrnament(std::string_view text) {
-  return text.empty() || text.find_first_not_of('-') == std::string_view::npos || text == "Vertex info" ||
+  return text.find_first_not_of('-') == std::string_view::npos || text == "Vertex info" ||
          text == "Fragment info" || text == "Compute info" || text == "Link info";
 }
-
-// A message with its line in source.text, from 1; 0: it is nowhere in it.
-struct LogMessage {
-  base::Diagnostic diagnostic;
-  std::uint32_t textLine = 0;
-};
 
 std::string_view lineOf(std::string_view text, std::uint32_t number) {
   for (; number > 1; --number) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
@@ -202,73 +151,72 @@ void advise(LogMessage& message, const glsl::ShaderSource& source, std::span<con
   if (const std::string_view name = quotedName(d.message); !name.empty()) {
     d.hint = hintForName(name, source, defines);
   } else if (message.textLine) {
-    const std::string_view line = lineOf(source.text, message.textLine);
-    const auto [word, before] = wordsAt(line, d.place.column);
-    const auto define = std::ranges::find(defines, word, &glsl::Define::name);
-    const auto stray =
-        std::ranges::find_if(line.substr(0, line.find("//")), [](char c) { return (c & 0x80) != 0; });
-    if (!word.empty() && define != defines.end())
+    const auto [word, before] = wordsAt(lineOf(source.text, message.textLine), d.place.column);
+    if (const auto define = std::ranges::find(defines, word, &glsl::Define::name); define != defines.end())
       d.hint = fmt::format("the graph defines '{}' as {}: rename the define", define->name, define->value);
-    else if (const auto at = static_cast<std::size_t>(stray - line.begin());
-             at < line.find("//") && at < line.size())
-      d.hint = base::describeStray(line.substr(at));
-    else
-      for (const std::string_view each : {before, word})
-        if (d.hint.empty() && isName(each)) d.hint = base::hintForForeign(base::Foreign::shader_name, each);
+    for (const std::string_view each : {before, word})
+      if (d.hint.empty() && isName(each)) d.hint = base::hintForForeign(base::Foreign::shader_name, each);
   }
   std::ranges::replace(d.message, '`', '\'');
   // "…; candidates are:", which stand on lines of their own.
   if (d.message.ends_with(':')) d.message.resize(std::min(d.message.rfind(';'), d.message.size() - 1));
 }
 
+// The place of the first function that a message without a place quotes, as that of recursion does.
+base::Place placeOfFunctionIn(const std::string& message, const glsl::ShaderSource& source,
+                              std::span<const glsl::Define> defines) {
+  const std::string_view quoted =
+      std::string_view(message).substr(std::min(message.find_first_of("`'"), message.size()));
+  for (const glsl::Token& token : glsl::splitTokens(quoted))
+    if (const glsl::Declaration* function =
+            source.interfaceWith(defines).find(token.text, glsl::Role::function))
+      return source.placeOf(function->at.line, function->at.column);
+  return {source.file, 0, 0};
+}
+
 }  // namespace
 
 std::size_t mapLog(std::string_view log, const glsl::ShaderSource& source, base::Code code,
                    base::Diagnostics& diagnostics, std::span<const glsl::Define> defines) {
-  static const auto prefix = std::make_shared<const std::string>("<defines>");
+  static const auto kDefines = std::make_shared<const std::string>("<defines>");
   std::vector<LogMessage> messages;
   while (!log.empty()) {
-    const std::size_t end = log.find('\n');
-    const std::string_view raw = trim(log.substr(0, end));
-    log = end == std::string_view::npos ? std::string_view() : log.substr(end + 1);
+    const std::string_view raw = trim(log.substr(0, log.find('\n')));
+    log.remove_prefix(std::min(log.find('\n'), log.size() - 1) + 1);
     if (isOrnament(raw)) continue;
-    const std::optional<LogLine> line = parseLine(raw);
-    if (!line && !messages.empty()) {
+    const std::optional<LogPrefix> prefix = prefixOf(raw);
+    if (!prefix && !messages.empty()) {
       messages.back().diagnostic.message += fmt::format(" {}", raw);
       continue;
     }
+    const LogPrefix at = prefix.value_or(LogPrefix{});
     LogMessage& message = messages.emplace_back();
     base::Diagnostic& d = message.diagnostic;
     d.code = code;
-    d.severity = line ? line->severity : base::Severity::error;
-    d.message = std::string(line ? line->text : raw);
-    if (line && line->placed && line->line >= glsl::kTextLine) {
-      message.textLine = line->line - glsl::kTextLine + 1;
+    d.severity = at.severity;
+    d.message = std::string(trim(raw.substr(at.length)));
+    if (at.line >= glsl::kTextLine) {
+      message.textLine = at.line - glsl::kTextLine + 1;
       d.place =
-          source.placeOf(message.textLine, trueColumn(lineOf(source.text, message.textLine), line->column));
-    } else if (line && line->placed) {
-      d.place = {prefix, line->line, line->column};
+          source.placeOf(message.textLine, trueColumn(lineOf(source.text, message.textLine), at.column));
+    } else if (at.line > 0) {
+      d.place = {kDefines, at.line, at.column};
     } else {
-      d.place = {source.file, 0, 0};
+      d.place = placeOfFunctionIn(d.message, source, defines);
     }
   }
   for (LogMessage& message : messages) advise(message, source, defines);
   // Of the errors of one line the others follow from one: from that which a hint can be given for, or the first.
-  const auto isError = [](const LogMessage& message) {
-    return message.diagnostic.severity == base::Severity::error;
-  };
-  const bool failed = std::ranges::any_of(messages, isError);
+  const bool failed = std::ranges::any_of(messages, &LogMessage::isError);
   std::size_t added = 0;
   for (const LogMessage& message : messages) {
-    const auto isCause = [&](const LogMessage& other) {
-      return other.textLine == message.textLine && isError(other) && !other.diagnostic.hint.empty();
-    };
-    const auto isBeside = [&](const LogMessage& other) {
-      return other.textLine == message.textLine && isError(other);
-    };
-    const auto cause = std::ranges::find_if(messages, isCause);
-    const LogMessage* kept = cause != messages.end() ? &*cause : &*std::ranges::find_if(messages, isBeside);
-    if (failed && (!isError(message) || (message.textLine != 0 && kept != &message))) continue;
+    const LogMessage* kept = nullptr;
+    for (const LogMessage& other : messages)
+      if (other.isError() && other.textLine == message.textLine &&
+          (!kept || (kept->diagnostic.hint.empty() && !other.diagnostic.hint.empty())))
+        kept = &other;
+    const bool isInDefines = message.textLine == 0 && message.diagnostic.place.file == kDefines;
+    if (failed && (!message.isError() || (kept != &message && !isInDefines))) continue;
     diagnostics.add(message.diagnostic);
     ++added;
   }

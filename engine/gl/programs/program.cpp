@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <numeric>
+#include <tuple>
 
 #include "engine/gl/context/debug.h"
 #include "engine/gl/programs/log.h"
-#include "engine/gl/programs/needs.h"
 
 namespace weft::gl {
 
@@ -51,12 +53,11 @@ std::string textOf(GLint length, GLuint id, void (*read)(GLuint, GLsizei, GLsize
   return text;
 }
 
-// The log as diagnostics, at least one error. Of what succeeded a driver says what it likes, and only while its caches are cold:
-// that is not passed on.
-void reportLog(const std::string& log, const glsl::ShaderSource& source, Code code, bool succeeded,
+// The log of what failed as diagnostics, at least one error. Of what succeeded a driver says what it likes, and only while its
+// caches are cold: that is not passed on.
+void reportLog(const std::string& log, const glsl::ShaderSource& source, Code code,
                const std::string& failure, Diagnostics& diagnostics,
                std::span<const glsl::Define> defines = {}) {
-  if (succeeded) return;
   Diagnostics found;
   mapLog(log, source, code, found, defines);
   diagnostics.append(found);
@@ -72,31 +73,184 @@ bool compileStage(const Shader& shader, const StageSource& stage, std::span<cons
   glCompileShader(shader.id());
   GLint compiled = 0, logLength = 0;
   glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
+  if (compiled) return true;
   glGetShaderiv(shader.id(), GL_INFO_LOG_LENGTH, &logLength);
   const std::string log = textOf(logLength, shader.id(), [](GLuint i, GLsizei n, GLsizei* w, GLchar* t) {
     glGetShaderInfoLog(i, n, w, t);
   });
-  reportLog(log, *stage.source, Code::shaderDoesNotCompile, compiled != 0,
+  reportLog(log, *stage.source, Code::shaderDoesNotCompile,
             fmt::format("the {} does not compile, and the driver does not say why", stageName(stage.stage)),
             diagnostics, defines);
-  return compiled != 0;
-}
-
-// Of a program that does not link: whether it needs more than the device has.
-bool reportExcess(std::span<const StageSource> stages, std::span<const glsl::Define> defines,
-                  std::string_view label, Diagnostics& diagnostics) {
-  const std::optional<Excess> excess = excessOf(needsOf(stages, defines), limitsOfDevice());
-  if (!excess) return false;
-  base::Diagnostic& d =
-      diagnostics.error(Code::programNeedsMore, {stages.back().source->file, 0, 0},
-                        fmt::format("program '{}' needs more {} than this device has", label, excess->what));
-  d.expected = fmt::format("at most {}", excess->allowed);
-  d.found = fmt::format("{}", excess->needed);
-  d.hint = excess->hint;
-  return true;
+  return false;
 }
 
 }  // namespace
+
+// ---- program interface queries (OpenGL 4.5 core, 7.3.1) to plain data, and the assignment of units and bindings ----
+
+namespace {
+
+constexpr std::string_view kFirst = "[0]";
+
+GLint countOf(GLuint program, GLenum interface) {
+  GLint n = 0;
+  glGetProgramInterfaceiv(program, interface, GL_ACTIVE_RESOURCES, &n);
+  return n;
+}
+
+std::string nameOf(GLuint program, GLenum interface, GLuint index) {
+  GLint length = 0;
+  const GLenum property = GL_NAME_LENGTH;
+  glGetProgramResourceiv(program, interface, index, 1, &property, 1, nullptr, &length);
+  if (length <= 1) return {};
+  std::string name(static_cast<std::size_t>(length), '\0');
+  glGetProgramResourceName(program, interface, index, length, nullptr, name.data());
+  name.pop_back();  // the terminator
+  return name;
+}
+
+template <std::size_t kCount>
+std::array<GLint, kCount> propertiesOf(GLuint program, GLenum interface, GLuint index,
+                                       const std::array<GLenum, kCount>& names) {
+  std::array<GLint, kCount> values{};
+  glGetProgramResourceiv(program, interface, index, static_cast<GLsizei>(kCount), names.data(),
+                         static_cast<GLsizei>(kCount), nullptr, values.data());
+  return values;
+}
+
+std::string withoutIndex(std::string name) {
+  if (name.ends_with(kFirst)) name.resize(name.size() - kFirst.size());
+  return name;
+}
+
+std::uint32_t toUnsigned(GLint value) {
+  return value < 0 ? 0 : static_cast<std::uint32_t>(value);
+}
+
+void readUniforms(GLuint program, Reflection& out) {
+  const GLint count = countOf(program, GL_UNIFORM);
+  for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
+    const auto [block, type, size, location] =
+        propertiesOf<4>(program, GL_UNIFORM, i, {GL_BLOCK_INDEX, GL_TYPE, GL_ARRAY_SIZE, GL_LOCATION});
+    if (block != -1 || location < 0) continue;
+    const std::string name = withoutIndex(nameOf(program, GL_UNIFORM, i));
+    const GlslType* known = findGlslType(static_cast<GLenum>(type));
+    const OpaqueUniform uniform{name, static_cast<GLenum>(type), location, std::max(1u, toUnsigned(size)), 0};
+    if (known && known->kind == GlslType::Kind::sampler)
+      out.samplers.push_back(uniform);
+    else if (known && known->kind == GlslType::Kind::image)
+      out.images.push_back(uniform);
+    else
+      out.looseUniforms.push_back({name, static_cast<GLenum>(type), location});
+  }
+}
+
+void assignUnits(GLuint program, std::vector<OpaqueUniform>& uniforms) {
+  std::sort(uniforms.begin(), uniforms.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  std::uint32_t next = 0;
+  std::vector<GLint> units;
+  for (OpaqueUniform& uniform : uniforms) {
+    uniform.unit = next;
+    units.resize(uniform.arraySize);
+    std::iota(units.begin(), units.end(), static_cast<GLint>(next));
+    glProgramUniform1iv(program, uniform.location, static_cast<GLsizei>(units.size()), units.data());
+    next += uniform.arraySize;
+  }
+}
+
+BlockMember readMember(GLuint program, bool storage, GLuint index, const std::string& block) {
+  const GLenum interface = storage ? GL_BUFFER_VARIABLE : GL_UNIFORM;
+  const auto [type, offset, size, stride, matrixStride, rowMajor] = propertiesOf<6>(
+      program, interface, index,
+      {GL_TYPE, GL_OFFSET, GL_ARRAY_SIZE, GL_ARRAY_STRIDE, GL_MATRIX_STRIDE, GL_IS_ROW_MAJOR});
+  BlockMember member;
+  member.name = withoutIndex(nameOf(program, interface, index));
+  // With an instance name, members are called "Block.member" (and an array of blocks "Block[0]", members
+  // "Block.member").
+  const std::string prefix = block.substr(0, block.find('[')) + ".";
+  if (member.name.starts_with(prefix)) member.name.erase(0, prefix.size());
+  member.type = static_cast<GLenum>(type);
+  member.offset = toUnsigned(offset);
+  member.arraySize = toUnsigned(size);
+  member.arrayStride = toUnsigned(stride);
+  member.matrixStride = toUnsigned(matrixStride);
+  member.rowMajor = rowMajor != 0;
+  if (storage) {
+    const auto [topSize, topStride] =
+        propertiesOf<2>(program, interface, index, {GL_TOP_LEVEL_ARRAY_SIZE, GL_TOP_LEVEL_ARRAY_STRIDE});
+    member.topLevelArraySize = toUnsigned(topSize);
+    member.topLevelArrayStride = toUnsigned(topStride);
+  }
+  return member;
+}
+
+std::vector<Block> readBlocks(GLuint program, bool storage) {
+  const GLenum interface = storage ? GL_SHADER_STORAGE_BLOCK : GL_UNIFORM_BLOCK;
+  const GLint count = countOf(program, interface);
+  std::vector<std::pair<Block, GLuint>> found;
+  for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
+    const auto [bytes, variables] =
+        propertiesOf<2>(program, interface, i, {GL_BUFFER_DATA_SIZE, GL_NUM_ACTIVE_VARIABLES});
+    Block block;
+    block.name = nameOf(program, interface, i);
+    block.storage = storage;
+    block.bytes = toUnsigned(bytes);
+    std::vector<GLint> indices(toUnsigned(variables));
+    const GLenum property = GL_ACTIVE_VARIABLES;
+    glGetProgramResourceiv(program, interface, i, 1, &property, variables, nullptr, indices.data());
+    for (const GLint index : indices)
+      block.members.push_back(readMember(program, storage, static_cast<GLuint>(index), block.name));
+    std::sort(block.members.begin(), block.members.end(), [](const auto& a, const auto& b) {
+      return std::tie(a.offset, a.name) < std::tie(b.offset, b.name);
+    });
+    found.emplace_back(std::move(block), i);
+  }
+  std::sort(found.begin(), found.end(),
+            [](const auto& a, const auto& b) { return a.first.name < b.first.name; });
+  std::vector<Block> blocks;
+  for (auto& [block, index] : found) {
+    block.binding = static_cast<std::uint32_t>(blocks.size());
+    if (storage)
+      glShaderStorageBlockBinding(program, index, block.binding);
+    else
+      glUniformBlockBinding(program, index, block.binding);
+    blocks.push_back(std::move(block));
+  }
+  return blocks;
+}
+
+std::vector<Interface> readInterface(GLuint program, GLenum interface) {
+  std::vector<Interface> found;
+  const GLint count = countOf(program, interface);
+  for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
+    const auto [type, location] = propertiesOf<2>(program, interface, i, {GL_TYPE, GL_LOCATION});
+    std::string name = nameOf(program, interface, i);
+    if (location < 0 || name.starts_with("gl_")) continue;
+    found.push_back({withoutIndex(std::move(name)), static_cast<GLenum>(type), location});
+  }
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.location < b.location; });
+  return found;
+}
+
+}  // namespace
+
+Reflection reflectProgram(GLuint program, bool compute) {
+  Reflection out;
+  readUniforms(program, out);
+  assignUnits(program, out.samplers);
+  assignUnits(program, out.images);
+  out.uniformBlocks = readBlocks(program, false);
+  out.storageBlocks = readBlocks(program, true);
+  if (compute) {
+    GLint size[3] = {};
+    glGetProgramiv(program, GL_COMPUTE_WORK_GROUP_SIZE, size);
+    for (int axis = 0; axis < 3; ++axis) out.workGroup[axis] = toUnsigned(size[axis]);
+  } else {
+    out.outputs = readInterface(program, GL_PROGRAM_OUTPUT);
+    out.attributes = readInterface(program, GL_PROGRAM_INPUT);
+  }
+  return out;
+}
 
 std::optional<Program> Program::compile(std::span<const StageSource> stages,
                                         std::span<const glsl::Define> defines,
@@ -123,14 +277,15 @@ std::optional<Program> Program::compile(std::span<const StageSource> stages,
   for (const Shader& shader : shaders) glDetachShader(program.id_, shader.id());
   GLint linked = 0, logLength = 0;
   glGetProgramiv(program.id_, GL_LINK_STATUS, &linked);
-  glGetProgramiv(program.id_, GL_INFO_LOG_LENGTH, &logLength);
-  const std::string log = textOf(logLength, program.id_, [](GLuint i, GLsizei n, GLsizei* w, GLchar* t) {
-    glGetProgramInfoLog(i, n, w, t);
-  });
-  if (linked || !reportExcess(stages, defines, label, diagnostics))
-    reportLog(log, *stages.back().source, Code::programDoesNotLink, linked != 0,
+  if (!linked) {
+    glGetProgramiv(program.id_, GL_INFO_LOG_LENGTH, &logLength);
+    const std::string log = textOf(logLength, program.id_, [](GLuint i, GLsizei n, GLsizei* w, GLchar* t) {
+      glGetProgramInfoLog(i, n, w, t);
+    });
+    reportLog(log, *stages.back().source, Code::programDoesNotLink,
               fmt::format("program '{}' does not link, and the driver does not say why", label), diagnostics);
-  if (!linked) return std::nullopt;
+    return std::nullopt;
+  }
   program.reflection_ = reflectProgram(program.id_, stages.front().stage == GL_COMPUTE_SHADER);
   return program;
 }

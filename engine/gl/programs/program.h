@@ -1,7 +1,6 @@
 // A linked program and what introspection says of it. Texture units, image units and block bindings are
 // assigned here at link time, in order of name, so that equal programs get equal bindings; shaders write no
-// `binding =`. Does not: bind anything for drawing, set uniforms other than units, or cache
-// (program_cache.h).
+// `binding =`.
 #pragma once
 
 #include <glad/gl.h>
@@ -30,17 +29,25 @@ struct OpaqueUniform {
 };
 
 struct BlockMember {
-  std::string
-      name;  // without the block's name; "instance[0].center", "threshold", "weights" (no "[0]" at the end)
+  // Without the block's name; "instance[0].center", "threshold", "weights" (no "[0]" at the end).
+  std::string name;
   GLenum type = 0;                // GL_FLOAT, GL_FLOAT_MAT4, …
   std::uint32_t offset = 0;       // bytes
   std::uint32_t arraySize = 1;    // 0: unsized, the last member of a storage block
   std::uint32_t arrayStride = 0;  // bytes, of the member's own array; 0 when it is none
   std::uint32_t matrixStride = 0;
   bool rowMajor = false;
-  std::uint32_t topLevelArraySize = 1,
-                topLevelArrayStride = 0;  // storage blocks: of the outermost array of structs
+  // Of the outermost array of structs, in storage blocks.
+  std::uint32_t topLevelArraySize = 1, topLevelArrayStride = 0;
 };
+
+// Null when there is none of that name.
+template <class Item>
+const Item* findNamed(const std::vector<Item>& items, std::string_view name) {
+  for (const Item& item : items)
+    if (item.name == name) return &item;
+  return nullptr;
+}
 
 struct Block {
   std::string name;  // of the block, not of its instance
@@ -48,7 +55,7 @@ struct Block {
   std::uint32_t binding = 0;         // assigned by us: uniform and storage blocks count separately
   std::uint32_t bytes = 0;           // minimum size; an unsized array counts one element
   std::vector<BlockMember> members;  // by offset
-  const BlockMember* find(std::string_view member) const;
+  const BlockMember* find(std::string_view member) const { return findNamed(members, member); }
 };
 
 struct Interface {  // a fragment output or a vertex attribute
@@ -65,11 +72,11 @@ struct Reflection {
   std::vector<Interface> looseUniforms;    // plain uniforms outside blocks, which the engine does not set
   std::uint32_t workGroup[3] = {0, 0, 0};  // compute; 0 otherwise
 
-  const OpaqueUniform* findSampler(std::string_view name) const;
-  const OpaqueUniform* findImage(std::string_view name) const;
-  const Block* findUniformBlock(std::string_view name) const;
-  const Block* findStorageBlock(std::string_view name) const;
-  const Interface* findOutput(std::string_view name) const;
+  const OpaqueUniform* findSampler(std::string_view name) const { return findNamed(samplers, name); }
+  const OpaqueUniform* findImage(std::string_view name) const { return findNamed(images, name); }
+  const Block* findUniformBlock(std::string_view name) const { return findNamed(uniformBlocks, name); }
+  const Block* findStorageBlock(std::string_view name) const { return findNamed(storageBlocks, name); }
+  const Interface* findOutput(std::string_view name) const { return findNamed(outputs, name); }
 };
 
 struct StageSource {
@@ -86,7 +93,7 @@ class Program : public Owner<ObjectKind::program> {
  public:
   // Compiles and links. `outputs` are bound to locations 0, 1, … before linking, in that order, so that attachment i
   // is outputs[i]. A name that the program lacks is ignored; `layout(location)` in the source wins. Reports the errors
-  // of every stage (W104), or else those of linking (W105), with true places. Warnings of the driver become warnings.
+  // of every stage (W104), or else those of linking (W105), with true places.
   static std::optional<Program> compile(std::span<const StageSource> stages,
                                         std::span<const glsl::Define> defines,
                                         std::span<const std::string> outputs, std::string_view label,
@@ -109,14 +116,23 @@ class Program : public Owner<ObjectKind::program> {
 // Introspects a linked program and assigns its units and bindings (Program does it by itself).
 Reflection reflectProgram(GLuint program, bool compute);
 
-// "float", "vec3", "mat4", "sampler2D", …, or the enum's name.
-std::string glslTypeName(GLenum type);
-// Components of a scalar, vector or matrix type, and whether its base type is float, int, uint or bool
-// (GL_FLOAT, …).
-struct TypeShape {
-  GLenum base = GL_FLOAT;
-  std::uint32_t columns = 1, rows = 1;  // a vec3 has one column of three rows
+// A type of values, or one of samplers or images that the engine binds.
+struct GlslType {
+  enum class Kind : std::uint8_t { value, sampler, image };
+  GLenum type = 0;   // GL_FLOAT_VEC3, GL_SAMPLER_2D, …
+  std::string name;  // "vec3", "usampler2D", …
+  Kind kind = Kind::value;
+  GLenum base = GL_FLOAT;  // of values and texels: GL_FLOAT, GL_INT, GL_UNSIGNED_INT, GL_BOOL or GL_DOUBLE
+  std::uint32_t columns = 1, rows = 1;  // of values: a vec3 has one column of three rows
+  GLenum target = 0;                    // of samplers and images: GL_TEXTURE_2D, …
+  bool shadow = false;
 };
-std::optional<TypeShape> shapeOf(GLenum type);
+// Null for a type that the engine does not know.
+const GlslType* findGlslType(GLenum type);
+const GlslType* findGlslType(std::string_view name);
+// Null for samplers and images, too.
+const GlslType* shapeOf(GLenum type);
+// "float", "vec3", "mat4", "sampler2D", …, or the enum's number.
+std::string glslTypeName(GLenum type);
 
 }  // namespace weft::gl

@@ -1,6 +1,8 @@
 #include "engine/gl/programs/program_cache.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cassert>
@@ -9,8 +11,7 @@
 
 #include "engine/base/files/file.h"
 #include "engine/base/hash.h"
-#include "engine/gl/programs/binary_folder.h"
-#include "engine/gl/programs/program_admission.h"
+#include "engine/glsl/interface.h"
 
 namespace weft::gl {
 
@@ -19,13 +20,26 @@ namespace {
 using base::Diagnostics;
 
 constexpr std::size_t kMostFailures = 256;
-constexpr std::size_t kMostEvicted = 256;  // above it, those that nobody holds are forgotten
-constexpr std::size_t kKeyLength = kBinaryKeyLength;
+constexpr std::size_t kMostKnown = 512;  // above it, those that nobody holds are forgotten
+constexpr std::string_view kMagic = "WEFTBIN1";
+
+constexpr std::size_t kBinaryKeyLength = 32;
+
+struct Binary {
+  std::filesystem::file_time_type used;
+  std::string path;
+  std::uint64_t bytes = 0;
+};
+
+bool hasBinaryName(const std::string& name) {
+  return name.size() == kBinaryKeyLength + 4 && name.ends_with(".bin") &&
+         name.find_first_not_of("0123456789abcdef") == kBinaryKeyLength;
+}
 
 // What stands before the binary in its file. The checksum keeps damaged bytes away from the driver.
 struct BinaryHeader {
-  char magic[kBinaryMagic.size()] = {};
-  char key[kKeyLength] = {};
+  char magic[kMagic.size()] = {};
+  char key[kBinaryKeyLength] = {};
   std::uint32_t format = 0;
   std::uint32_t compute = 0;
   std::uint64_t bytes = 0;
@@ -60,7 +74,7 @@ void appendFor(const ProgramRequest& request, const Diagnostics& from, Diagnosti
 ProgramCache::ProgramCache(const DeviceInfo& device, glsl::SourceLoader& loader, Options options)
     : device_(device), loader_(loader), options_(std::move(options)) {
   assert(options_.capacity >= 1);
-  trialTime_.all = options_.trialSeconds;
+  trials_ = {.command = options_.trial, .all = options_.trialSeconds};
   if (!device_.hasProgramBinaries) options_.folder.clear();
   std::error_code ignored;  // a folder that cannot be made is a cache that always misses
   if (!options_.folder.empty()) std::filesystem::create_directories(options_.folder, ignored);
@@ -79,102 +93,74 @@ std::shared_ptr<const Variant> ProgramCache::get(const ProgramRequest& request, 
   if (stages.size() != request.stages.size()) return nullptr;
 
   const std::string key = makeKey(stages, request, device_);
-  if (const auto known = index_.find(key); known != index_.end()) {
-    ++stats_.hits;
-    order_.splice(order_.begin(), order_, known->second);
-    return order_.front().variant;
-  }
+  if (const auto known = known_.find(key); known != known_.end())
+    if (auto variant = known->second.lock()) {
+      ++stats_.hits;
+      return keep(std::move(variant));
+    }
   if (const auto failed = failures_.find(key); failed != failures_.end()) {
     ++stats_.hits;
     appendFor(request, failed->second, diagnostics);
     return nullptr;
   }
   ++stats_.misses;
-  if (auto held = revive(key)) return remember(key, std::move(held));
-  const bool compute = stages.front().stage == GL_COMPUTE_SHADER;
   Diagnostics refused;
-  if (!checkProgramSize(stages, request.defines, refused)) {
+  bool good = true, unusual = false;
+  for (const StageSource& stage : stages) {
+    const glsl::Interface& interface = stage.source->interfaceWith(request.defines);
+    good &= glsl::checkShaderSize(interface.size, *stage.source, refused);
+    unusual |= glsl::isUnusual(interface);
+  }
+  const bool compute = stages.front().stage == GL_COMPUTE_SHADER;
+  std::optional<Program> program;
+  if (good) program = loadBinary(key, compute, request.label);
+  if (good && !program && unusual && !trials_.command.empty()) {
+    ++stats_.trials;
+    good = survivesTrial(trials_, device_, stages, request.defines, request.outputs, refused);
+  }
+  if (!good) {
     ++stats_.refusals;
     return refuse(key, request, std::move(refused), diagnostics);
   }
-  std::optional<Program> program = loadBinary(key, compute, request.label);
   if (!program) {
-    if (!options_.trial.empty() && isUnusual(stages, request.defines)) {
-      ++stats_.trials;
-      if (!survivesTrial(options_.trial, device_, stages, request.defines, request.outputs, trialTime_,
-                         refused)) {
-        ++stats_.refusals;
-        return refuse(key, request, std::move(refused), diagnostics);
-      }
-    }
     ++stats_.compilations;
-    Diagnostics log;
-    program = Program::compile(stages, request.defines, request.outputs, request.label, log);
+    program = Program::compile(stages, request.defines, request.outputs, request.label, refused);
     if (!program) {
       ++stats_.failures;
-      placeCircles(stages, request.defines, log);
-      return refuse(key, request, std::move(log), diagnostics);
+      return refuse(key, request, std::move(refused), diagnostics);
     }
-    appendFor(request, log, diagnostics);
     storeBinary(key, compute, *program);
   }
-  return remember(key, std::make_shared<const Variant>(
-                           Variant{std::move(*program), std::move(stages), key, request.defines}));
+  return keep(
+      std::make_shared<const Variant>(Variant{std::move(*program), std::move(stages), key, request.defines}));
 }
 
 void ProgramCache::touch(const std::shared_ptr<const Variant>& variant) {
-  if (const auto known = index_.find(variant->key); known != index_.end()) {
-    ++stats_.hits;
-    order_.splice(order_.begin(), order_, known->second);
-    return;
-  }
-  ++stats_.misses;
-  revive(variant->key);
-  remember(variant->key, variant);
+  ++stats_.hits;
+  keep(variant);
 }
 
 // Tells what is wrong, now and when it is asked for again.
-std::shared_ptr<const Variant> ProgramCache::refuse(std::string key, const ProgramRequest& request,
+std::shared_ptr<const Variant> ProgramCache::refuse(const std::string& key, const ProgramRequest& request,
                                                     Diagnostics said, Diagnostics& diagnostics) {
   appendFor(request, said, diagnostics);
   if (failures_.size() >= kMostFailures) failures_.clear();
-  failures_.emplace(std::move(key), std::move(said));
+  failures_.emplace(key, std::move(said));
   return nullptr;
 }
 
-std::shared_ptr<const Variant> ProgramCache::remember(std::string key,
-                                                      std::shared_ptr<const Variant> variant) {
-  order_.push_front({key, variant});
-  index_.emplace(std::move(key), order_.begin());
-  while (order_.size() > options_.capacity) {
-    ++stats_.evictions;
-    if (evicted_.size() >= kMostEvicted)
-      std::erase_if(evicted_, [](const auto& each) { return each.second.expired(); });
-    evicted_.insert_or_assign(order_.back().key, order_.back().variant);
-    index_.erase(order_.back().key);
-    order_.pop_back();
+// The variant becomes the most recently used one.
+std::shared_ptr<const Variant> ProgramCache::keep(std::shared_ptr<const Variant> variant) {
+  if (const auto at = std::ranges::find(recent_, variant); at != recent_.end()) {
+    recent_.splice(recent_.begin(), recent_, at);
+    return variant;
   }
+  if (known_.size() >= kMostKnown)
+    std::erase_if(known_, [](const auto& each) { return each.second.expired(); });
+  known_.insert_or_assign(variant->key, variant);
+  recent_.push_front(variant);
+  if (recent_.size() > options_.capacity) recent_.pop_back();
   return variant;
-}
-
-std::shared_ptr<const Variant> ProgramCache::revive(const std::string& key) {
-  const auto found = evicted_.find(key);
-  if (found == evicted_.end()) return nullptr;
-  std::shared_ptr<const Variant> held = found->second.lock();
-  evicted_.erase(found);
-  stats_.revivals += held ? 1 : 0;
-  return held;
-}
-
-void ProgramCache::clear() {
-  index_.clear();
-  order_.clear();
-  evicted_.clear();
-  failures_.clear();
-}
-
-std::string ProgramCache::pathOf(const std::string& key) const {
-  return options_.folder + "/" + key + ".bin";
 }
 
 std::optional<Program> ProgramCache::loadBinary(const std::string& key, bool compute,
@@ -192,8 +178,8 @@ std::optional<Program> ProgramCache::loadBinary(const std::string& key, bool com
   BinaryHeader header;
   std::memcpy(&header, bytes->data(), sizeof header);
   const std::string_view body = std::string_view(*bytes).substr(sizeof header);
-  if (std::string_view(header.magic, sizeof header.magic) != kBinaryMagic ||
-      std::string_view(header.key, kKeyLength) != key || header.bytes != body.size() ||
+  if (std::string_view(header.magic, sizeof header.magic) != kMagic ||
+      std::string_view(header.key, kBinaryKeyLength) != key || header.bytes != body.size() ||
       header.checksum != base::hashBytes(body) || (header.compute != 0) != compute)
     return reject();
   ProgramBinary binary;
@@ -203,7 +189,7 @@ std::optional<Program> ProgramCache::loadBinary(const std::string& key, bool com
   std::optional<Program> program = Program::load(binary, compute, label);
   if (!program) return reject();
   ++stats_.binaryLoads;
-  touchBinary(pathOf(key));
+  ::utimensat(AT_FDCWD, pathOf(key).c_str(), nullptr, 0);  // it was used now
   return program;
 }
 
@@ -212,8 +198,8 @@ void ProgramCache::storeBinary(const std::string& key, bool compute, const Progr
   const std::optional<ProgramBinary> binary = program.binary();
   if (!binary) return;
   BinaryHeader header;
-  std::memcpy(header.magic, kBinaryMagic.data(), kBinaryMagic.size());
-  std::memcpy(header.key, key.data(), kKeyLength);
+  std::memcpy(header.magic, kMagic.data(), kMagic.size());
+  std::memcpy(header.key, key.data(), kBinaryKeyLength);
   header.format = binary->format;
   header.compute = compute;
   header.bytes = binary->bytes.size();
@@ -229,17 +215,38 @@ void ProgramCache::storeBinary(const std::string& key, bool compute, const Progr
   Diagnostics unwritten;  // a cache that cannot be written is slow, not wrong
   if (!base::writeFile(pathOf(key), file, unwritten)) return;
   ++stats_.binaryWrites;
-  boundFolder(file.size());
-}
-
-// Looks at the folder with the first binary of this process, then when what it knows of and wrote itself is too much.
-void ProgramCache::boundFolder(std::uint64_t written) {
-  const std::uint64_t most = options_.folderBytes;
-  if (folderBytes_) *folderBytes_ += written;
-  if (folderBytes_.value_or(~0ull) <= most) return;
-  const BinaryFolderUse use = pruneBinaries(options_.folder, most);
+  // Looks at the folder with the first binary of this process, then when what it knows of and wrote itself is too much.
+  if (folderBytes_) *folderBytes_ += file.size();
+  if (folderBytes_ && *folderBytes_ <= options_.folderBytes) return;
+  const BinaryFolderUse use = pruneBinaries(options_.folder, options_.folderBytes);
   folderBytes_ = use.bytes;
   stats_.binaryRemovals += use.removed;
+}
+
+BinaryFolderUse pruneBinaries(const std::string& folder, std::uint64_t most) {
+  std::vector<Binary> all;
+  BinaryFolderUse use;
+  std::error_code ec;
+  for (std::filesystem::directory_iterator it(folder, ec), end; !ec && it != end; it.increment(ec)) {
+    if (!hasBinaryName(it->path().filename().string())) continue;
+    std::error_code gone;  // others may remove it meanwhile
+    if (it->symlink_status(gone).type() != std::filesystem::file_type::regular || gone) continue;
+    Binary binary{.used = it->last_write_time(gone), .path = it->path().string()};
+    if (!gone) binary.bytes = it->file_size(gone);
+    if (gone) continue;
+    use.bytes += binary.bytes;
+    all.push_back(std::move(binary));
+  }
+  if (use.bytes <= most) return use;
+  std::ranges::sort(all, {}, [](const Binary& binary) { return std::tie(binary.used, binary.path); });
+  for (const Binary& binary : all) {
+    if (use.bytes <= most - most / 8) break;
+    const bool removed = std::filesystem::remove(binary.path, ec);
+    if (ec) continue;  // it may not be removed
+    use.bytes -= binary.bytes;
+    use.removed += removed ? 1 : 0;
+  }
+  return use;
 }
 
 }  // namespace weft::gl

@@ -3,9 +3,8 @@
 // loaded again. The disk has all of them, as program binaries. A broken, foreign or rejected binary is a miss and is
 // written anew. A variant that does not compile gives its diagnostics and null, and the caller keeps the program it
 // has; the failure is remembered until the sources change, so that asking again compiles nothing. A shader that is
-// too large for the driver is refused; an unusually large one is first tried in a process of its own
-// (engine/glsl/bounds.h, shader_trial.h). The folder is kept below program_cache_bytes.
-// Does not: compile in the background, or watch files (SourceLoader looks at times).
+// too large for the driver is refused; an unusual one is first tried in a process of its own (glsl::isUnusual(),
+// shader_trial.h). The folder is kept below program_cache_bytes.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +19,7 @@
 #include "engine/base/limits.h"
 #include "engine/gl/context/context.h"
 #include "engine/gl/programs/program.h"
-#include "engine/gl/programs/program_admission.h"
+#include "engine/gl/programs/shader_trial.h"
 #include "engine/glsl/source.h"
 
 namespace weft::gl {
@@ -50,27 +49,22 @@ struct Variant {
 // hits + misses: calls whose sources could be read. A remembered failure is a hit. A binary that is absent is
 // neither load nor reject; a rejected one is compiled and written anew.
 struct ProgramCacheStats {
-  std::uint64_t hits = 0, misses = 0, evictions = 0;
-  std::uint64_t compilations = 0;  // from source, failed ones included
-  std::uint64_t failures = 0;      // of those
+  std::uint64_t hits = 0, misses = 0;
+  std::uint64_t compilations = 0, failures = 0;  // from source; of those
   std::uint64_t refusals =
       0;  // not compiled: too large (W203), or the driver did not survive the trial (W204)
   std::uint64_t trials = 0;
   std::uint64_t binaryLoads = 0, binaryRejects = 0, binaryWrites = 0, binaryRemovals = 0;
-  std::uint64_t revivals = 0;  // misses for a variant that had been evicted and was still held elsewhere
 };
 
 class ProgramCache {
  public:
   struct Options {
-    std::size_t capacity = 32;  // at least 1
-    std::string folder;         // of binaries, made when absent; "": no disk cache
-    // Starts a process that compiles first what is unusually large (shader_trial.h); empty: none, and what kills the
-    // driver kills this process.
-    std::vector<std::string> trial{};
-    double trialSeconds =
-        static_cast<double>(base::raised(5));  // of processor time, for all trials of a graph
-    std::uint64_t folderBytes = 256ull << 20;  // the least recently used binaries go
+    std::size_t capacity = 32;         // variants that are kept though nobody holds them; at least 1
+    std::string folder;                // of binaries, made when absent; "": no disk cache
+    std::vector<std::string> trial{};  // as Trials::command
+    double trialSeconds = static_cast<double>(base::raised(5));  // for all trials of a graph
+    std::uint64_t folderBytes = 256ull << 20;                    // the least recently used binaries go
   };
   // `device` and `loader` must outlive the cache.
   ProgramCache(const DeviceInfo& device, glsl::SourceLoader& loader, Options options);
@@ -79,41 +73,41 @@ class ProgramCache {
   std::shared_ptr<const Variant> get(const ProgramRequest& request, base::Diagnostics& diagnostics);
 
   // A graph begins to load: trials have all of their time again.
-  void startTrials() { trialTime_.spent = 0; }
+  void startTrials() { trials_.spent = 0; }
 
   // Does what get() does for the request that `variant` answers, and does not look at its sources. It is for a pass that is
   // known to be unchanged.
   void touch(const std::shared_ptr<const Variant>& variant);
 
   const ProgramCacheStats& stats() const { return stats_; }
-  std::size_t size() const { return order_.size(); }
-  // Drops the variants in memory; those held elsewhere live on.
-  void clear();
 
  private:
-  struct Entry {
-    std::string key;
-    std::shared_ptr<const Variant> variant;
-  };
-  std::shared_ptr<const Variant> refuse(std::string key, const ProgramRequest& request,
+  std::shared_ptr<const Variant> refuse(const std::string& key, const ProgramRequest& request,
                                         base::Diagnostics said, base::Diagnostics& diagnostics);
-  std::shared_ptr<const Variant> remember(std::string key, std::shared_ptr<const Variant> variant);
-  std::shared_ptr<const Variant> revive(const std::string& key);
+  std::shared_ptr<const Variant> keep(std::shared_ptr<const Variant> variant);
   std::optional<Program> loadBinary(const std::string& key, bool compute, std::string_view label);
   void storeBinary(const std::string& key, bool compute, const Program& program);
-  void boundFolder(std::uint64_t written);
-  std::string pathOf(const std::string& key) const;
+  std::string pathOf(const std::string& key) const { return options_.folder + "/" + key + ".bin"; }
 
   const DeviceInfo& device_;
   glsl::SourceLoader& loader_;
   Options options_;
   ProgramCacheStats stats_;
-  TrialTime trialTime_;
-  std::optional<std::uint64_t> folderBytes_;  // of binaries, as far as is known here
-  std::list<Entry> order_;                    // most recently used first
-  std::unordered_map<std::string, std::list<Entry>::iterator> index_;
-  std::unordered_map<std::string, std::weak_ptr<const Variant>> evicted_;
+  Trials trials_;
+  std::optional<std::uint64_t> folderBytes_;          // of binaries, as far as is known here
+  std::list<std::shared_ptr<const Variant>> recent_;  // most recently used first
+  std::unordered_map<std::string, std::weak_ptr<const Variant>> known_;
   std::unordered_map<std::string, base::Diagnostics> failures_;
 };
+
+struct BinaryFolderUse {
+  std::uint64_t bytes = 0;    // of the binaries that are there
+  std::uint64_t removed = 0;  // files
+};
+
+// Keeps a folder of program binaries below a size: above `most` bytes, removes those that were not used for longest until an
+// eighth of it is free. Several processes may write, use and remove at once. Only files with a name of 32 hex digits and
+// ".bin" are ever removed.
+BinaryFolderUse pruneBinaries(const std::string& folder, std::uint64_t most);
 
 }  // namespace weft::gl

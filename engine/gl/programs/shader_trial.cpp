@@ -3,18 +3,23 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <signal.h>
 #include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <fstream>
 
-#include "engine/gl/programs/shader_trial_text.h"
+#include "engine/glsl/interface.h"
 
 extern char** environ;
 
@@ -27,28 +32,62 @@ constexpr std::uint64_t kClockPerProcessor = 6;
 
 using Clock = std::chrono::steady_clock;
 
-// A descriptor that is closed when it goes out of scope.
-class Descriptor {
- public:
-  explicit Descriptor(int id) : id_(id) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() { close(); }
-  void close() {
-    if (id_ >= 0) ::close(id_);
-    id_ = -1;
-  }
-  int id() const { return id_; }
+// What the process says of how far it is.
+constexpr char kTrialOpened = 'o', kTrialLinked = 'l', kTrialDrawn = 'd';
 
- private:
-  int id_;
+// The program as fields that end with a zero byte, which no source has: a letter says what a field is.
+std::string writeTrial(std::span<const StageSource> stages, std::span<const glsl::Define> defines,
+                       std::span<const std::string> outputs) {
+  std::string text;
+  const auto add = [&](char kind, std::string_view field) { (text += kind).append(field) += '\0'; };
+  for (const StageSource& stage : stages)
+    add(stage.stage == GL_VERTEX_SHADER     ? 'v'
+        : stage.stage == GL_FRAGMENT_SHADER ? 'f'
+                                            : 'c',
+        stage.source->text);
+  for (const glsl::Define& define : defines) {
+    add('d', define.name);
+    add('=', define.value);
+  }
+  for (const std::string& output : outputs) add('o', output);
+  return text;
+}
+
+struct TrialProgram {
+  std::vector<StageSource> stages;
+  std::vector<glsl::Define> defines;
+  std::vector<std::string> outputs;
 };
 
-// The process, with the other end of `pair` as its standard input and output; -1 when it cannot be started.
-pid_t start(std::span<const std::string> command, const std::vector<std::string>& arguments, int end) {
+TrialProgram readTrial(std::string_view text) {
+  TrialProgram program;
+  while (!text.empty()) {
+    std::string field(text.substr(1, text.find('\0') - 1));
+    const char kind = text[0];
+    text.remove_prefix(std::min(field.size() + 2, text.size()));
+    if (kind == 'd') {
+      program.defines.push_back({std::move(field), ""});
+    } else if (kind == '=') {
+      program.defines.back().value = std::move(field);
+    } else if (kind == 'o') {
+      program.outputs.push_back(std::move(field));
+    } else {
+      auto source = std::make_shared<glsl::ShaderSource>();
+      source->file = std::make_shared<const std::string>("trial");
+      source->text = std::move(field);
+      program.stages.push_back({static_cast<GLenum>(kind == 'v'   ? GL_VERTEX_SHADER
+                                                    : kind == 'f' ? GL_FRAGMENT_SHADER
+                                                                  : GL_COMPUTE_SHADER),
+                                std::move(source)});
+    }
+  }
+  return program;
+}
+
+// The process, with the other end of a socket as its standard input and output; -1 when it cannot be started.
+pid_t start(std::vector<std::string> command, int end) {
   std::vector<char*> words;
-  for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
-  for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
+  for (std::string& word : command) words.push_back(word.data());
   words.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -71,7 +110,7 @@ bool sendAll(int to, std::string_view text) {
   return ::shutdown(to, SHUT_WR) == 0;
 }
 
-// What the process says of how far it is, until it ends or time is up.
+// What the process says until it ends or time is up.
 std::string listen(int from, Clock::time_point until, bool& late) {
   std::string said;
   for (;;) {
@@ -79,61 +118,54 @@ std::string listen(int from, Clock::time_point until, bool& late) {
     late = left <= 0;
     if (late) return said;
     pollfd ready{.fd = from, .events = POLLIN, .revents = 0};
-    const int count = ::poll(&ready, 1, static_cast<int>(std::min<long>(left, 1000)));
-    if (count <= 0) continue;
-    char bytes[16];
-    const ssize_t got = ::recv(from, bytes, sizeof bytes, 0);
+    if (::poll(&ready, 1, static_cast<int>(std::min<long>(left, 1000))) <= 0) continue;
+    char byte = 0;
+    const ssize_t got = ::recv(from, &byte, 1, 0);
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return said;
-    said.append(bytes, static_cast<std::size_t>(got));
+    said += byte;
   }
 }
 
-const char* stepOf(char last) {
-  switch (last) {
-    case kTrialOpened:
-      return "compiling";
-    case kTrialCompiled:
-      return "linking";
-    default:
-      return "making the machine code of";
-  }
-}
+struct TrialResult {
+  std::string what;             // "signal 11 (Segmentation fault)"; empty: it survived, or nothing is known
+  std::string during;           // "compiling"
+  double seconds = 0;           // of processor time
+  std::uint64_t mebibytes = 0;  // of memory at most
+};
 
-}  // namespace
-
-TrialResult tryProgram(std::span<const std::string> command, Backend backend,
-                       std::span<const StageSource> stages, std::span<const glsl::Define> defines,
-                       std::span<const std::string> outputs, std::uint64_t seconds) {
+TrialResult tryProgram(std::vector<std::string> command, Backend backend, const std::string& program,
+                       std::uint64_t seconds) {
   TrialResult result;
   int ends[2];
-  if (command.empty() || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return result;
-  Descriptor mine(ends[0]), its(ends[1]);
-  const std::vector<std::string> arguments{kTrialWord, nameOf(backend), std::to_string(seconds),
-                                           std::to_string(kMostTrialBytes)};
-  const pid_t pid = start(command, arguments, its.id());
-  its.close();
-  if (pid < 0) return result;
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return result;
+  for (const std::string& word : {std::string(kTrialWord), std::string(nameOf(backend)),
+                                  std::to_string(seconds), std::to_string(kMostTrialBytes)})
+    command.push_back(word);
+  const pid_t pid = start(std::move(command), ends[1]);
+  ::close(ends[1]);
+  if (pid < 0) {
+    ::close(ends[0]);
+    return result;
+  }
   // A process that does not read is not waited for.
   const timeval patience{.tv_sec = static_cast<time_t>(seconds), .tv_usec = 0};
-  ::setsockopt(mine.id(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
+  ::setsockopt(ends[0], SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
   bool late = false;
   std::string said;
-  if (sendAll(mine.id(), writeTrial(stages, defines, outputs)))
-    said = listen(mine.id(), Clock::now() + std::chrono::seconds(kClockPerProcessor * seconds), late);
-  const bool done = said.ends_with(kTrialDrawn);
-  // It has nothing more to say: what it tidies up is not waited for.
-  ::kill(pid, SIGKILL);
+  if (sendAll(ends[0], program))
+    said = listen(ends[0], Clock::now() + std::chrono::seconds(kClockPerProcessor * seconds), late);
+  ::close(ends[0]);
+  ::kill(pid, SIGKILL);  // what it tidies up is not waited for
   int status = 0;
   rusage used{};
   while (::wait4(pid, &status, 0, &used) < 0 && errno == EINTR) {
   }
   result.seconds = static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
                    1e-6 * static_cast<double>(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
-  if (done || said.empty()) return result;
-  result.survived = false;
-  result.during = stepOf(said.back());
-  result.bytes = static_cast<std::uint64_t>(used.ru_maxrss) << 10;
+  if (said.empty() || said.back() == kTrialDrawn) return result;
+  result.during = said.back() == kTrialOpened ? "compiling" : "making the machine code of";
+  result.mebibytes = static_cast<std::uint64_t>(used.ru_maxrss) >> 10;
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   if (late)
     result.what = fmt::format("no end after {} s by the clock", kClockPerProcessor * seconds);
@@ -144,6 +176,143 @@ TrialResult tryProgram(std::span<const std::string> command, Backend backend,
   else
     result.what = fmt::format("exit code {}", WEXITSTATUS(status));
   return result;
+}
+
+// ---- the process of a trial ----
+
+std::string readAll(int from) {
+  std::string text;
+  char bytes[65536];
+  for (;;) {
+    const ssize_t got = ::read(from, bytes, sizeof bytes);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return text;
+    text.append(bytes, static_cast<std::size_t>(got));
+  }
+}
+
+void say(char step) {
+  if (::write(STDOUT_FILENO, &step, 1) != 1) ::_exit(0);  // nobody listens
+}
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kBoundsMemory = false;  // the sanitizers map more than there is
+#else
+constexpr bool kBoundsMemory = true;
+#endif
+
+// The size of this process's address space.
+std::uint64_t mappedBytes() {
+  std::ifstream file("/proc/self/statm");
+  std::uint64_t pages = 0;
+  file >> pages;
+  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+void lower(int resource, std::uint64_t soft, std::uint64_t hard) {
+  rlimit limit{};
+  if (::getrlimit(static_cast<__rlimit_resource_t>(resource), &limit) != 0) return;
+  limit.rlim_max = std::min<rlim_t>(limit.rlim_max, hard);
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, soft);
+  ::setrlimit(static_cast<__rlimit_resource_t>(resource), &limit);
+}
+
+void takeLimits(std::uint64_t seconds, std::uint64_t bytes) {
+  // How this process ends is what it is for: by the signal itself, not by what a sanitizer or an embedder makes of it.
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, SIG_DFL);
+  rusage used{};
+  ::getrusage(RUSAGE_SELF, &used);
+  const auto spent = static_cast<std::uint64_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + 1;
+  lower(RLIMIT_CPU, spent + seconds, spent + seconds + 1);
+  lower(RLIMIT_CORE, 0, 0);
+  if (kBoundsMemory) lower(RLIMIT_AS, mappedBytes() + bytes, mappedBytes() + bytes);
+}
+
+// The machine code is made for a draw or a dispatch, also for one that has nothing to do. The objects go with the process.
+void drawNothing(const TrialProgram& program, GLuint linked) {
+  glUseProgram(linked);
+  if (program.stages[0].stage == GL_COMPUTE_SHADER) {
+    const GLuint none[3] = {0, 0, 0};
+    GLuint counts = 0;
+    glCreateBuffers(1, &counts);
+    glNamedBufferStorage(counts, sizeof none, none, 0);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, counts);
+    glDispatchComputeIndirect(0);
+    glFinish();
+    return;
+  }
+  GLuint vertices = 0, target = 0;
+  glCreateVertexArrays(1, &vertices);
+  glBindVertexArray(vertices);
+  glCreateFramebuffers(1, &target);
+  std::vector<GLenum> buffers;
+  const std::size_t outputs = std::clamp<std::size_t>(program.outputs.size(), 1, 8);
+  for (std::size_t i = 0; i < outputs; ++i) {
+    GLuint texture = 0;
+    glCreateTextures(GL_TEXTURE_2D, 1, &texture);
+    glTextureStorage2D(texture, 1, GL_RGBA16F, 4, 4);
+    buffers.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i));
+    glNamedFramebufferTexture(target, buffers.back(), texture, 0);
+  }
+  glNamedFramebufferDrawBuffers(target, static_cast<GLsizei>(outputs), buffers.data());
+  glBindFramebuffer(GL_FRAMEBUFFER, target);
+  glViewport(0, 0, 4, 4);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(0, 0, 0, 0);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glFinish();
+}
+
+}  // namespace
+
+bool survivesTrial(Trials& trials, const DeviceInfo& device, std::span<const StageSource> stages,
+                   std::span<const glsl::Define> defines, std::span<const std::string> outputs,
+                   base::Diagnostics& diagnostics) {
+  // A window's driver without its window.
+  const Backend backend = device.backend != Backend::glfw ? device.backend
+                          : device.software               ? Backend::osmesa
+                                                          : Backend::egl;
+  TrialResult result{.what = "unusual shaders before it took all of it", .during = ""};
+  if (const double left = trials.all - trials.spent; left > 0) {
+    result = tryProgram(trials.command, backend, writeTrial(stages, defines, outputs),
+                        static_cast<std::uint64_t>(std::ceil(left)));
+    trials.spent += result.seconds;
+    if (result.what.empty()) return true;
+  }
+  const StageSource& largest = *std::ranges::max_element(stages, {}, [&](const StageSource& stage) {
+    return stage.source->interfaceWith(defines).size.inlined;
+  });
+  const bool tried = !result.during.empty();
+  base::Diagnostic& error =
+      diagnostics.error(base::Code::driverDied, {largest.source->file, 0, 0},
+                        tried ? fmt::format("the driver did not survive {} this shader", result.during)
+                              : "there is no time left to try this shader");
+  error.expected = fmt::format("at most {} s of processor time for all unusual shaders and {} MiB",
+                               trials.all, kMostTrialBytes >> 20);
+  error.found = tried ? fmt::format("{}, after {:.1f} s of processor time and with {} MiB", result.what,
+                                    result.seconds, result.mebibytes)
+                      : result.what;
+  error.hint = "make it smaller, or give it more time with --limit 2 on a slow or busy machine";
+  return false;
+}
+
+void runTrial(int argc, char** argv) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // not longer than who asked for it
+  const auto backend = argc > 3 ? findBackend(argv[1]) : std::nullopt;
+  const TrialProgram program = backend ? readTrial(readAll(STDIN_FILENO)) : TrialProgram();
+  base::Diagnostics ignored;
+  const auto context =
+      program.stages.empty() ? nullptr : createContext({.backend = *backend, .debug = false}, ignored);
+  if (!context) ::_exit(0);
+  takeLimits(std::strtoull(argv[2], nullptr, 10), std::strtoull(argv[3], nullptr, 10));
+  say(kTrialOpened);
+  const auto linked = Program::compile(program.stages, program.defines, program.outputs, "trial", ignored);
+  if (linked) {
+    say(kTrialLinked);
+    drawNothing(program, linked->id());
+  }
+  say(kTrialDrawn);
+  ::_exit(0);
 }
 
 }  // namespace weft::gl

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
+#include <set>
+#include <utility>
 
 #include "engine/base/files/file.h"
 #include "engine/base/json/edit.h"
-#include "engine/graph/edit/write_back_target.h"
 #include "engine/graph/language/suffix.h"
 #include "engine/graph/read/read.h"
 
@@ -19,40 +19,15 @@ namespace {
 using base::Code;
 using base::Diagnostics;
 
-bool sameUniforms(const FlatGraph& a, const FlatGraph& b) {
-  if (a.specs.size() != b.specs.size()) return false;
-  for (std::size_t i = 0; i < a.specs.size(); ++i) {
-    const PassSpec &x = a.specs[i], &y = b.specs[i];
-    if (x.name != y.name || x.uniforms.size() != y.uniforms.size() || x.defines.size() != y.defines.size())
-      return false;
-    for (std::size_t u = 0; u < x.uniforms.size(); ++u)
-      if (x.uniforms[u].name != y.uniforms[u].name || !(x.uniforms[u].value == y.uniforms[u].value))
-        return false;
-    for (std::size_t d = 0; d < x.defines.size(); ++d)
-      if (x.defines[d].name != y.defines[d].name || x.defines[d].text != y.defines[d].text) return false;
-  }
-  return true;
-}
-
-bool sameResources(const FlatGraph& a, const FlatGraph& b) {
-  if (a.resourceNames != b.resourceNames || a.uses.size() != b.uses.size()) return false;
-  for (std::size_t r = 0; r < a.resources.size(); ++r) {
-    const FlatResource &x = a.resources[r], &y = b.resources[r];
-    if (x.format != y.format || x.bytes != y.bytes || x.width != y.width || x.height != y.height ||
-        x.mips != y.mips)
-      return false;
-  }
-  return true;
+std::filesystem::path wholePath(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::absolute(path, ignored).lexically_normal();
 }
 
 // Paths are the same when they lead to one file.
 bool sameValue(const ParameterDesc& desc, const Value& x, const Value& y) {
   if (desc.type != ParameterDesc::Type::file || x.symbol.empty() || y.symbol.empty()) return x == y;
-  std::error_code ignored;
-  const auto whole = [&](const std::string& path) {
-    return std::filesystem::absolute(path, ignored).lexically_normal();
-  };
-  return whole(x.symbol) == whole(y.symbol);
+  return wholePath(x.symbol) == wholePath(y.symbol);
 }
 
 bool sameParameters(const FlatGraph& a, const FlatGraph& b) {
@@ -62,15 +37,225 @@ bool sameParameters(const FlatGraph& a, const FlatGraph& b) {
   return std::ranges::equal(a.parameters, b.parameters, same);
 }
 
-// Passes that run, and those that are disabled, whatever disables them.
+// Whether two graphs run alike: parameters, passes that run and those that are disabled, whatever disables them, and what they use.
 bool samePasses(const FlatGraph& a, const FlatGraph& b) {
   const auto names = [](const FlatGraph& graph) {
-    std::vector<std::string> all;
-    for (const DisabledPass& pass : graph.disabled) all.push_back(pass.name);
-    std::ranges::sort(all);
+    std::set<std::string_view> all;
+    for (const DisabledPass& pass : graph.disabled) all.insert(pass.name);
     return all;
   };
   return a.passNames == b.passNames && names(a) == names(b);
+}
+bool sameGraph(const FlatGraph& a, const FlatGraph& b) {
+  const auto sameUniform = [](const UniformSpec& x, const UniformSpec& y) {
+    return x.name == y.name && x.value == y.value;
+  };
+  const auto sameSpec = [&](const PassSpec& x, const PassSpec& y) {
+    return x.name == y.name && std::ranges::equal(x.uniforms, y.uniforms, sameUniform) &&
+           x.defines == y.defines;
+  };
+  return sameParameters(a, b) && samePasses(a, b) && std::ranges::equal(a.specs, b.specs, sameSpec) &&
+         a.resourceNames == b.resourceNames && a.resources == b.resources && a.uses.size() == b.uses.size();
+}
+
+using base::JsonEdit;
+using base::JsonValue;
+
+struct TextEdit {
+  std::string path, text;
+};
+
+// The files from the graph's own down to the one that declares something: prefix of names and description.
+using Chain = std::vector<std::pair<std::string, const GraphDesc*>>;
+
+// Calls visit(chain) for the graph and for every file that it includes.
+template <class Visit>
+void eachFile(Chain& chain, const Visit& visit) {
+  const auto [prefix, desc] = chain.back();
+  visit(std::as_const(chain));
+  for (const PassDesc& pass : desc->passes)
+    if (pass.include && pass.include->graph) {
+      chain.emplace_back(prefix + pass.include->as + ".", pass.include->graph.get());
+      eachFile(chain, visit);
+      chain.pop_back();
+    }
+}
+
+// Calls visit(full name, pass) for every pass and include of the graph and of what it includes.
+template <class Visit>
+void eachPass(const GraphDesc& desc, const Visit& visit) {
+  Chain whole = {{"", &desc}};
+  eachFile(whole, [&](const Chain& chain) {
+    for (const PassDesc& pass : chain.back().second->passes) visit(chain.back().first + pass.name, pass);
+  });
+}
+
+struct DeclaredParameter {
+  Chain chain;
+  const ParameterDesc* desc = nullptr;
+};
+
+DeclaredParameter findDeclared(const GraphDesc& desc, const std::string& path) {
+  DeclaredParameter found;
+  Chain whole = {{"", &desc}};
+  eachFile(whole, [&](const Chain& chain) {
+    const auto [prefix, file] = chain.back();
+    for (const ParameterDesc& parameter : file->parameters)
+      if (prefix + parameter.name == path) found = {chain, &parameter};
+    for (const PassDesc& pass : file->passes)
+      for (const PassParameterDesc& parameter : pass.parameters)
+        if (parameter.declared && prefix + pass.name + "." + parameter.name == path)
+          found = {chain, &*parameter.declared};
+  });
+  return found;
+}
+
+std::string shortest(const std::string& path, std::span<const std::string> paths) {
+  for (std::size_t dot = path.rfind('.'); dot != std::string::npos && dot > 0;
+       dot = path.rfind('.', dot - 1)) {
+    const std::string suffix = path.substr(dot + 1);
+    if (suffixMatches(paths, suffix).size() == 1) return suffix;
+  }
+  return path;
+}
+
+// A number as it stood before stays one that reads as the same type: "2.0" does not become "3".
+std::string numberText(double x, std::string_view before) {
+  std::string text = fmt::format("{}", x == 0 ? 0.0 : x);
+  if (before.find_first_of(".eE") != std::string_view::npos && text.find_first_of(".e") == std::string::npos)
+    text += ".0";
+  return text;
+}
+
+std::string valueText(const Value& value) {
+  return value.type == Value::Type::symbol ? base::quoteJson(value.symbol) : toText(value);
+}
+
+// `value` in the place of what stands there; of a list only the items that differ.
+std::optional<std::string> putValue(const std::string& text, const Place& place, const Value& value) {
+  const JsonEdit edit(text);
+  if (!edit) return std::nullopt;
+  const JsonValue& at = edit.valueAt(place);
+  if (value.type == Value::Type::number) return edit.withValue(at, numberText(value.v[0], edit.written(at)));
+  if (value.type != Value::Type::list || at.items.size() != value.count)
+    return edit.withValue(at, valueText(value));
+  std::string out = text;
+  for (std::size_t i = at.items.size(); i-- > 0;)  // from behind, so that the others stay in their places
+    if (const JsonValue& item = at.items[i]; item.number != value.v[i])
+      out.replace(item.begin, item.end - item.begin, numberText(value.v[i], edit.written(item)));
+  return out;
+}
+
+std::optional<std::string> putInSet(const std::string& text, const std::string& name, const Value& value) {
+  const JsonEdit edit(text);
+  if (!edit) return std::nullopt;
+  const JsonValue& root = edit.root();
+  if (const JsonValue* set = root.find("set"))
+    return set->find(name) ? std::nullopt : std::optional(edit.withMember(*set, name, valueText(value)));
+  const char* after = root.find("extends") ? "extends" : root.find("name") ? "name" : "";
+  return edit.withMember(root, "set", fmt::format("{{ {}: {} }}", base::quoteJson(name), valueText(value)),
+                         after);
+}
+
+// The file that changes belong into when the graph is laid over others: the last preset, or the graph's own
+// when it extends another; else nothing.
+std::optional<std::string> overlayOf(const GraphDesc& desc, std::span<const std::string> presets,
+                                     const FileTexts& texts) {
+  if (!presets.empty()) return presets.back();
+  const auto own = texts.find(desc.path);
+  const bool extends = own != texts.end() && JsonEdit(*own->second).root().find("extends");
+  return extends ? std::optional(desc.path) : std::nullopt;
+}
+
+// The key of a pass or include behind which "enabled" is looked for.
+const char* lastOfHead(const JsonValue& stanza) {
+  for (const char* key : {"shader", "type", "like", "as"})
+    if (stanza.find(key)) return key;
+  return "include";
+}
+
+// Adds the file as `change` makes it; nothing when it does not.
+template <class Change>
+void addEdit(std::vector<TextEdit>& edits, const FileTexts& texts, const std::string& path,
+             const Change& change) {
+  const auto text = texts.find(path);
+  if (text == texts.end()) return;
+  if (auto edited = change(*text->second)) edits.push_back({path, *std::move(edited)});
+}
+
+// Where in the files `wanted.value` may be written for `wanted.path`, the best place first, as whole edited texts; `paths` are the
+// full names of all parameters.
+std::vector<TextEdit> editsOfParameter(const GraphDesc& desc, std::span<const std::string> presets,
+                                       const FileTexts& texts, const ParameterSpec& wanted,
+                                       std::span<const std::string> paths) {
+  const DeclaredParameter found = findDeclared(desc, wanted.path);
+  if (!found.desc) return {};
+  std::vector<TextEdit> edits;
+  // The outermost file has the last word, and in it the last entry.
+  const SetDesc* deciding = nullptr;
+  for (const auto& [prefix, file] : found.chain) {
+    std::vector<std::string> names;
+    for (const std::string& path : paths)
+      if (path.starts_with(prefix)) names.push_back(path.substr(prefix.size()));
+    for (auto set = file->sets.rbegin(); set != file->sets.rend() && !deciding; ++set)
+      if (const auto means = suffixMatches(names, set->name);
+          means.size() == 1 && prefix + names[means[0]] == wanted.path)
+        deciding = &*set;
+  }
+  // A path is written from the folder of the file it stands in.
+  const auto valueIn = [&](const std::string& path) {
+    Value value = wanted.value;
+    if (found.desc->type != ParameterDesc::Type::file || value.symbol.empty()) return value;
+    if (std::filesystem::path(value.symbol).is_absolute()) return value;
+    value.symbol = wholePath(value.symbol).lexically_relative(wholePath(path).parent_path()).string();
+    return value;
+  };
+  const auto put = [&](const Place& place) {
+    if (!place.file) return;
+    addEdit(edits, texts, *place.file,
+            [&](const std::string& text) { return putValue(text, place, valueIn(*place.file)); });
+  };
+  const auto putSet = [&](const std::string& path) {
+    const std::string name = shortest(wanted.path, paths);
+    addEdit(edits, texts, path, [&](const std::string& text) { return putInSet(text, name, valueIn(path)); });
+  };
+  if (deciding) put(deciding->valuePlace);
+  if (const auto overlay = overlayOf(desc, presets, texts)) putSet(*overlay);
+  put(found.desc->initialPlace);
+  putSet(desc.path);
+  return edits;
+}
+
+// The same for "enabled": false of the pass or include of this declared name.
+std::vector<TextEdit> editsOfPass(const GraphDesc& desc, std::span<const std::string> presets,
+                                  const FileTexts& texts, const std::string& name) {
+  std::vector<TextEdit> edits;
+  if (const auto overlay = overlayOf(desc, presets, texts))
+    addEdit(edits, texts, *overlay, [&](const std::string& text) -> std::optional<std::string> {
+      const JsonEdit edit(text);
+      if (!edit) return std::nullopt;
+      const std::string stanza = fmt::format("{{ \"name\": {}, \"enabled\": false }}", base::quoteJson(name));
+      if (const JsonValue* passes = edit.root().find("passes")) return edit.withItem(*passes, stanza);
+      return edit.withMember(edit.root(), "passes", "[" + stanza + "]");
+    });
+  const PassDesc* pass = nullptr;
+  eachPass(desc, [&](const std::string& each, const PassDesc& found) {
+    if (each == name) pass = &found;
+  });
+  if (pass && pass->place.file)
+    addEdit(edits, texts, *pass->place.file, [&](const std::string& text) -> std::optional<std::string> {
+      const JsonEdit edit(text);
+      if (!edit) return std::nullopt;
+      const JsonValue& stanza = edit.valueAt(pass->place);
+      const JsonValue* enabled = stanza.find("enabled");
+      if (!enabled) return edit.withMember(stanza, "enabled", "false", lastOfHead(stanza));
+      if (!enabled->is(JsonValue::Type::string)) return edit.withValue(*enabled, "false");
+      // The condition stays readable, and comes back when "&& false" is removed.
+      const bool loose = enabled->text.find_first_of("?|") != std::string::npos;
+      const std::string kept = loose ? "(" + enabled->text + ")" : enabled->text;
+      return edit.withValue(*enabled, base::quoteJson(kept + " && false"));
+    });
+  return edits;
 }
 
 class Planner {
@@ -88,17 +273,13 @@ class Planner {
 
   std::optional<WriteBack> run() {
     wanted_ = expand(desc_);
-    if (!wanted_) return fail("the graph with these changes", "nothing: it is not valid");
+    if (!wanted_) return fail("the graph with these changes", "nothing: it is not valid"), std::nullopt;
     for (const ParameterSpec& parameter : wanted_->parameters) paths_.push_back(parameter.path);
-    for (const std::string& path : tweaked())
-      if (!writeParameter(path)) return std::nullopt;
+    for (const ParameterSpec& parameter : wanted_->parameters)
+      if (!writeParameter(parameter)) return std::nullopt;
     const std::vector<Disable> disables = out_.rest.disables;
     for (const Disable& disable : disables)
       if (!writePass(disable.name)) return std::nullopt;
-    const auto made = expand(*now_);
-    if (!made || !sameParameters(*made, *wanted_) || !samePasses(*made, *wanted_) ||
-        !sameUniforms(*made, *wanted_) || !sameResources(*made, *wanted_))
-      return fail("the changes together", "the edited files would give another graph");
     for (const auto& [path, text] : texts_)
       if (const auto before = desc_.texts.find(path); *before->second != *text)
         out_.files.push_back({path, *before->second, *text});
@@ -106,12 +287,11 @@ class Planner {
   }
 
  private:
-  std::nullopt_t fail(const std::string& what, const std::string& found, const base::Place& place = {}) {
+  void fail(const std::string& what, const std::string& found, const base::Place& place = {}) {
     auto& d = diagnostics_.error(Code::cannotWriteBack, place,
                                  fmt::format("{} cannot be written into the files", what));
     d.found = found;
     d.hint = "write it by hand, or take the change back";
-    return std::nullopt;
   }
 
   std::shared_ptr<const FlatGraph> expand(const GraphDesc& desc) const {
@@ -119,62 +299,37 @@ class Planner {
     auto graph = expandGraph(desc, registry_, out_.rest, said);
     return said.hasErrors() ? nullptr : graph;
   }
-
-  // Full names behind the settings, each once.
-  std::vector<std::string> tweaked() const {
-    std::vector<std::string> paths;
-    for (const Setting& set : out_.rest.sets)
-      for (const std::size_t i : suffixMatches(paths_, set.name))
-        if (std::ranges::find(paths, paths_[i]) == paths.end()) paths.push_back(paths_[i]);
-    return paths;
+  bool isWanted(const GraphDesc& desc) const {
+    const auto made = expand(desc);
+    return made && sameGraph(*made, *wanted_);
   }
 
-  const ParameterSpec& wantedParameter(const std::string& path) const {
-    return *std::ranges::find(wanted_->parameters, path, &ParameterSpec::path);
-  }
-
-  bool writeParameter(const std::string& path) {
-    std::erase_if(out_.rest.sets, [&](const auto& set) {
+  bool writeParameter(const ParameterSpec& wanted) {
+    const auto means = [&](const Setting& set) {
       const auto found = suffixMatches(paths_, set.name);
-      return found.size() == 1 && paths_[found[0]] == path;
-    });
-    const ParameterSpec& wanted = wantedParameter(path);
-    const auto before = expand(*now_);
-    if (!before)
-      return fail(fmt::format("parameter '{}'", path), "what is left without it is not valid"), false;
-    const auto here = std::ranges::find(before->parameters, path, &ParameterSpec::path);
-    if (here == before->parameters.end())
-      return fail(fmt::format("parameter '{}'", path), "it is not in the files"), false;
-    if (sameValue(wanted.desc, here->value, wanted.value)) return true;  // the files say so already
-    const auto good = [&](const FlatGraph& made) {
-      return std::ranges::equal(made.parameters, before->parameters,
-                                [&](const ParameterSpec& x, const ParameterSpec& y) {
-                                  return x.path == y.path && x.desc.type == y.desc.type &&
-                                         sameValue(x.desc, x.value, x.path == path ? wanted.value : y.value);
-                                });
+      return found.size() == 1 && paths_[found[0]] == wanted.path;
     };
+    if (std::erase_if(out_.rest.sets, means) == 0 || isWanted(*now_))
+      return true;  // the files say so already
     for (const TextEdit& edit : editsOfParameter(*now_, presets_, texts_, wanted, paths_))
-      if (take(edit, good)) {
-        out_.parameters.push_back(path);
+      if (take(edit)) {
+        out_.parameters.push_back(wanted.path);
         return true;
       }
-    fail(fmt::format("parameter '{}'", path), toText(wanted.value), wanted.desc.place);
+    fail(fmt::format("parameter '{}'", wanted.path), toText(wanted.value), wanted.desc.place);
     return false;
   }
 
   bool writePass(const std::string& name) {
-    const std::vector<std::string> declared = declaredPasses(*now_);
+    std::vector<std::string> declared;
+    eachPass(*now_, [&](const std::string& each, const PassDesc&) { declared.push_back(each); });
     const std::vector<std::size_t> found = suffixMatches(declared, name);
     if (found.empty()) return true;  // an instance
     const std::string& pass = declared[found[0]];
-    const auto before = expand(*now_);
-    if (!before) return fail(fmt::format("pass '{}'", pass), "what is left without it is not valid"), false;
     std::erase_if(out_.rest.disables, [&](const Disable& each) { return each.name == name; });
-    const auto good = [&](const FlatGraph& made) {
-      return samePasses(made, *before) && sameParameters(made, *before);
-    };
+    if (isWanted(*now_)) return true;
     for (const TextEdit& edit : editsOfPass(*now_, presets_, texts_, pass))
-      if (take(edit, good)) {
+      if (take(edit)) {
         out_.passes.push_back(pass);
         return true;
       }
@@ -182,14 +337,13 @@ class Planner {
     return false;
   }
 
-  bool take(const TextEdit& edit, const std::function<bool(const FlatGraph&)>& good) {
+  // Keeps the edit when the files with it, and the settings that are left, give the graph that runs.
+  bool take(const TextEdit& edit) {
     FileTexts texts = texts_;
     texts[edit.path] = std::make_shared<const std::string>(edit.text);
     Diagnostics said;
     auto desc = readGraph(desc_.path, presets_, texts, said);
-    if (!desc || said.hasErrors()) return false;
-    const auto made = expand(*desc);
-    if (!made || !good(*made)) return false;
+    if (!desc || said.hasErrors() || !isWanted(*desc)) return false;
     texts_ = std::move(texts);
     kept_ = std::move(desc);
     now_ = kept_.get();

@@ -1,7 +1,6 @@
 // Writes what a person changed while a graph ran (values of parameters, disabled passes) into the files it came from. The
 // edits are the smallest ones (engine/base/json/edit.h), planned on the texts as they were read. Before anything is saved
 // they are proved: the edited texts, read and expanded without the changes, must give the graph that runs with them.
-// Does not: decide when, draw, or touch a file before save().
 #pragma once
 
 #include <optional>

@@ -6,7 +6,6 @@
 
 namespace weft::graph::expansion {
 
-bool isTexture(const FlatResource& shape);
 bool isInteger(Format format);
 // Not an attachment of a draw: of that only what its geometry covers is drawn.
 bool coversAll(const PassType* type, const SlotWork& work);

@@ -8,11 +8,7 @@
 #include "engine/base/limits.h"
 #include "engine/base/nearest.h"
 #include "engine/graph/expand/checks.h"
-#include "engine/graph/expand/first_value.h"
-#include "engine/graph/expand/names/unread.h"
 #include "engine/graph/expand/names/versions.h"
-#include "engine/graph/expand/spec.h"
-#include "engine/graph/expand/stanza.h"
 
 namespace weft::graph::expansion {
 
@@ -35,6 +31,53 @@ std::uint64_t slotsOf(const PassDesc& desc) {
     if (parameter.declared) count += parameter.declared->choices.size();
   return count;
 }
+
+// A pass that writes by this slot was left out for its mistakes: what is missing of the resource is no second mistake.
+void leaveOutWrite(Model& model, Scope& scope, const RefDesc& ref) {
+  const std::uint32_t found = findEntity(model, scope, ref.name, ref.import);
+  using Kind = ResourceDesc::Kind;
+  const Kind kind = found == kNone ? Kind::import : model.entities[found].kind;
+  if (kind == Kind::import || kind == Kind::alternatives)
+    model.incomplete = true;  // nobody knows which one is meant
+  else
+    model.entities[found].incomplete = true;
+}
+
+// A range that is empty whatever the settings are can hardly be meant to be: the bound that would make it longer is constant.
+bool isEmptyByMistake(const PassDesc& desc, const RangeDesc& range, std::int64_t step) {
+  for (const RangeDesc& outer : desc.repeat)
+    if (range.first.says(outer.index) || range.last.says(outer.index))
+      return false;  // empty for some of them
+  return (step > 0 ? range.last : range.first).isConstant();
+}
+
+// The "repeat" of a pass is empty, by `range`: what it would write says so when it is missing.
+void noteEmptyRepeat(Model& model, Scope& scope, const PassDesc& desc, const RangeDesc& range,
+                     EmptyRepeat empty) {
+  empty.mistake = empty.mistake && isEmptyByMistake(desc, range, empty.step);
+  const bool first = model.emptied.empty() || model.emptied.back().pass != empty.pass;  // range of the pass
+  for (const SlotDesc& slot : desc.slots) {
+    const std::uint32_t found = findEntity(model, scope, slot.ref.name, slot.ref.import);
+    if (found == kNone) continue;
+    if (first) wouldUse(model, found, slot.access, slot.ref.history);
+    if (slot.access != Access::read && model.entities[found].emptied == kNone)
+      model.entities[found].emptied = static_cast<std::uint32_t>(model.emptied.size());
+  }
+  ++model.position;
+  model.emptied.push_back(std::move(empty));
+}
+
+// A stanza, and what holds for all its instances.
+struct StanzaWalk {
+  Scope& scope;
+  const PassDesc& desc;
+  const PassType* type;
+  std::string declared;    // "bloom.glow_down"
+  const std::string& why;  // its include is disabled; "" when it is not
+  std::uint64_t slots;     // of one instance
+  bool sound = true;       // checkStanza() found nothing
+  bool failed = false;     // an instance has mistakes: the others would say the same
+};
 
 class PassWalk {
  public:
@@ -67,24 +110,17 @@ class PassWalk {
   // ---- one stanza: its repeats ----
 
   void walkStanza(Scope& scope, const PassDesc& desc, const std::string& why) {
-    scope_ = &scope;
-    desc_ = &desc;
-    declared_ = scope.prefix + desc.name;
-    scopeWhy_ = why;
-    type_ = findPassType(model_.registry, desc.type);
-    const auto rules = model_.disables.find(declared_);
-    rules_ = rules == model_.disables.end() ? nullptr : &rules->second;
-    failed_ = false;
-    slotsOfInstance_ = slotsOf(desc);
-    if (slotsOfInstance_ > base::raised(kMostSlotsOfPass))
+    StanzaWalk stanza{scope, desc,         findPassType(model_.registry, desc.type), scope.prefix + desc.name,
+                      why,   slotsOf(desc)};
+    if (stanza.slots > base::raised(kMostSlotsOfPass))
       return stopAt(model_, desc.place,
-                    fmt::format("pass '{}' has too many slots, parameters and defines", declared_),
+                    fmt::format("pass '{}' has too many slots, parameters and defines", stanza.declared),
                     kMostSlotsOfPass, "slots, parameters and defines of one pass");
-    stanzaGood_ = checkStanza(model_, scope, desc, type_, declared_);
-    if (!type_) type_ = typeMeantBy(desc.type);  // so that nothing else is reported because of it
+    stanza.sound = checkStanza(model_, scope, desc, stanza.type, stanza.declared);
+    if (!stanza.type) stanza.type = typeMeantBy(desc.type);  // so that nothing else is reported because of it
     Names names(model_, scope);
-    repeat(names, 0);
-    if (!failed_ && stanzaGood_) return;
+    repeat(stanza, names);
+    if (!stanza.failed && stanza.sound) return;
     for (const SlotDesc& slot : desc.slots)
       if (slot.access != Access::read) leaveOutWrite(model_, scope, slot.ref);
   }
@@ -96,61 +132,72 @@ class PassWalk {
   }
 
   // Whether `more` passes may follow; reports otherwise.
-  bool mayMake(std::uint64_t more, const Place& place) {
-    if (made_ + more <= base::raised(kMostPasses)) return true;
-    auto& d = model_.diagnostics.error(Code::tooManyPasses, place,
-                                       fmt::format("with pass '{}' the graph has more than {} passes",
-                                                   declared_, base::raised(kMostPasses)));
-    d.pass = declared_;
-    d.hint = base::hintToRaise(kMostPasses, made_ + more);
-    if (d.hint.empty()) d.hint = "let one compute pass have more threads";
+  bool mayMake(const StanzaWalk& stanza, std::uint64_t more, const Place& place) {
+    const std::uint64_t most = base::raised(kMostPasses);
+    if (made_ + more <= most) return true;
     model_.stopped = model_.incomplete = true;
-    return false;
+    return report(model_, Code::tooManyPasses, place,
+                  fmt::format("with pass '{}' the graph has more than {} passes", stanza.declared, most),
+                  {.expected = "one compute pass with more threads",
+                   .hint = base::hintToRaise(kMostPasses, made_ + more),
+                   .pass = stanza.declared});
   }
 
-  void repeat(Names& names, std::size_t depth) {
-    if (depth == desc_->repeat.size()) {
-      if (!mayMake(1, desc_->place)) return;
+  void repeat(StanzaWalk& stanza, Names& names) {
+    const std::size_t depth = names.indices.size();
+    if (depth == stanza.desc.repeat.size()) {
+      if (!mayMake(stanza, 1, stanza.desc.place)) return;
       ++made_;
-      instance(names);
+      instance(stanza, names);
       ++model_.position;
       return;
     }
-    const RangeDesc& range = desc_->repeat[depth];
+    const RangeDesc& range = stanza.desc.repeat[depth];
     constexpr std::int64_t kFar = 1'000'000'000;
     const auto first = evaluateWhole(names, range.first, 0, -kFar, kFar, "a bound of a repeat");
     const auto last = evaluateWhole(names, range.last, 0, -kFar, kFar, "a bound of a repeat");
     const auto step = evaluateWhole(names, range.step, 1, -kFar, kFar, "the step of a repeat");
+    if (step && *step == 0)
+      report(model_, Code::numberOutOfRange, range.place,
+             fmt::format("pass '{}' repeats '{}' in steps of 0", stanza.declared, range.index),
+             {.expected = "a step that leads from the first to the last index"});
     if (!first || !last || !step || *step == 0) {
-      if (step && *step == 0)
-        model_.diagnostics
-            .error(Code::numberOutOfRange, range.place,
-                   fmt::format("pass '{}' repeats '{}' in steps of 0", declared_, range.index))
-            .expected = "a step that leads from the first to the last index";
-      failed_ = true;
+      stanza.failed = true;
       return;
     }
     const std::int64_t steps = (*last - *first) / *step + 1;
     // Each step makes a pass, or ends at an empty range within.
-    if (!mayMake(static_cast<std::uint64_t>(std::max<std::int64_t>(steps, 1)), range.place)) return;
+    if (!mayMake(stanza, static_cast<std::uint64_t>(std::max<std::int64_t>(steps, 1)), range.place)) return;
     if (steps <= 0) {
       ++made_;
-      noteEmptyRepeat(model_, *scope_, *desc_, range,
-                      {declared_, range.index, *first, *last, *step, range.place, scopeWhy_.empty()});
+      noteEmptyRepeat(model_, stanza.scope, stanza.desc, range,
+                      {stanza.declared, range.index, *first, *last, *step, range.place, stanza.why.empty()});
       return;
     }
     names.indices.push_back({range.index, 0});
-    for (std::int64_t i = *first; (*step > 0 ? i <= *last : i >= *last) && !failed_ && !isOver(model_);
+    for (std::int64_t i = *first; (*step > 0 ? i <= *last : i >= *last) && !stanza.failed && !isOver(model_);
          i += *step) {
       names.indices.back().value = static_cast<double>(i);
-      repeat(names, depth + 1);
+      repeat(stanza, names);
     }
     names.indices.pop_back();
   }
 
+  // ---- one instance ----
+
+  // Whether there are not too many slots, and versions that they read.
+  bool maySee(const StanzaWalk& stanza) {
+    if (slotsMade_ + graph_.uses.size() + graph_.links.runs.size() <= base::raised(kMostSlots)) return true;
+    stopAt(
+        model_, stanza.desc.place,
+        fmt::format("with pass '{}' the graph has too many slots, parameters and defines", stanza.declared),
+        kMostSlots, "slots, parameters, defines and versions that are read, of all passes");
+    return false;
+  }
+
   // name_ and user_ of the instance.
-  void nameInstance(const Names& names) {
-    name_ = declared_;
+  void nameInstance(const StanzaWalk& stanza, const Names& names) {
+    name_ = stanza.declared;
     for (std::size_t i = 0; i < names.indices.size(); ++i)
       fmt::format_to(std::back_inserter(name_), "{}{}", i ? "," : "[",
                      static_cast<std::int64_t>(names.indices[i].value));
@@ -158,156 +205,108 @@ class PassWalk {
     user_.assign("pass '").append(name_).append("'");
   }
 
-  // ---- one instance ----
-
-  // Whether there are not too many slots, and versions that they read.
-  bool maySee() {
-    if (slotsMade_ + graph_.uses.size() + graph_.links.runs.size() <= base::raised(kMostSlots)) return true;
-    stopAt(model_, desc_->place,
-           fmt::format("with pass '{}' the graph has too many slots, parameters and defines", declared_),
-           kMostSlots, "slots, parameters, defines and versions that are read, of all passes");
-    return false;
+  // Why the instance is disabled; empty: it is not.
+  std::string whyDisabled(const StanzaWalk& stanza, bool enabled) const {
+    if (const auto rules = model_.disables.find(stanza.declared); rules != model_.disables.end())
+      for (const DisableRule& rule : rules->second)
+        if (rule.instance.empty() || rule.instance == name_) return rule.why;
+    return stanza.why.empty() && !enabled ? whyFalse(stanza.desc.enabled) : stanza.why;
   }
 
-  // Why it is disabled; empty: it is not. nullopt after a report.
-  std::optional<std::string> whyDisabled(Names& names, const std::string& name, bool& byItself) {
-    const auto enabled = evaluateCondition(names, desc_->enabled, true, "'enabled'");
-    if (!enabled) return std::nullopt;
-    byItself = !*enabled;
-    if (rules_)
-      for (const DisableRule& rule : *rules_)
-        if (rule.instance.empty() || rule.instance == name) return rule.why;
-    if (!scopeWhy_.empty()) return scopeWhy_;
-    if (!*enabled) return whyFalse(desc_->enabled);
-    return std::string();
-  }
-
-  void instance(Names& names) {
-    slotsMade_ += slotsOfInstance_;
-    if (!maySee()) return;
+  void instance(StanzaWalk& stanza, Names& names) {
+    slotsMade_ += stanza.slots;
+    if (!maySee(stanza)) return;
     const std::size_t before = model_.diagnostics.errorCount();
-    nameInstance(names);
-    bool byItself = false;
-    const auto why = whyDisabled(names, name_, byItself);
-    if (!why) {
-      failed_ = true;
+    nameInstance(stanza, names);
+    const auto holds = evaluateCondition(names, stanza.desc.enabled, true, "'enabled'");
+    if (!holds) {
+      stanza.failed = true;
       return;
     }
-    const bool enabled = why->empty();
-    const SlotContext context{model_, names, type_, user_, name_, enabled, !byItself, &leaves_};
-    const auto pass = static_cast<std::uint32_t>(graph_.passes.size());
+    std::string why = whyDisabled(stanza, *holds);
+    const bool enabled = why.empty();
+    const SlotContext context{model_, names, stanza.type, user_, name_, enabled, *holds, &leaves_};
+    const std::uint32_t pass = enabled ? static_cast<std::uint32_t>(graph_.passes.size()) : kNone;
 
     const std::size_t missed = model_.missing.size();
-    std::vector<SlotWork>& slots = slots_;
-    slots.clear();
+    slots_.clear();
     const SlotDesc* gone = nullptr;
-    for (const SlotDesc& slot : desc_->slots) {
+    for (const SlotDesc& slot : stanza.desc.slots) {
       if (isOver(model_)) return;
-      model_.slot = static_cast<std::uint32_t>(slots.size());
-      slots.push_back(resolveSlot(context, slot, enabled ? pass : kNone));
-      if (slots.back().state == State::empty && !gone) gone = &slot;
-      if (slots.back().state == State::failed && slot.access != Access::read)
-        leaveOutWrite(model_, *scope_, slot.ref);
+      model_.slot = static_cast<std::uint32_t>(slots_.size());
+      const State state = slots_.emplace_back(resolveSlot(context, slot, pass)).state;
+      if (state == State::empty && !gone) gone = &slot;
+      if (state == State::failed && slot.access != Access::read)
+        leaveOutWrite(model_, stanza.scope, slot.ref);
     }
     model_.slot = kNone;
-    firsts_.resolve(context, slots, enabled ? pass : kNone);
-    const std::vector<SlotWork>& all = firsts_.with(slots);
-    checkPassUses(context, *desc_, all);
+    resolveFirsts(context, slots_, firsts_, pass);
+    checkPassUses(context, stanza.desc, slots_);
     if (isOver(model_)) return;
     if (gone) model_.missing.resize(missed);  // nobody runs to miss it
-    const std::string off =
-        enabled && gone ? fmt::format("'{}' is not there at this size", gone->ref.text) : *why;
-    if (off.empty())
-      emit(context, slots, names);
+    if (enabled && gone) why = fmt::format("'{}' is not there at this size", gone->ref.text);
+    if (why.empty())
+      emit(stanza, context);
     else
-      disabledInstance(context, all, off);
-    // The other repeats would say the same.
-    if (model_.diagnostics.errorCount() > before && !names.indices.empty()) failed_ = true;
+      disable(stanza, context, why);
+    if (model_.diagnostics.errorCount() > before && !names.indices.empty()) stanza.failed = true;
   }
 
-  void disabledInstance(const SlotContext& context, const std::vector<SlotWork>& slots,
-                        const std::string& why) {
+  void disable(const StanzaWalk& stanza, const SlotContext& context, const std::string& why) {
     const auto index = static_cast<std::uint32_t>(graph_.disabled.size());
     graph_.disabled.push_back({name_, why});
-    if (desc_->sideEffect) wouldUse(model_, WouldUse{});
-    for (const SlotWork& work : slots)
+    if (stanza.desc.sideEffect) wouldUse(model_, WouldUse{});
+    for (const SlotWork& work : slots_)
       if (work.state == State::empty && work.slot->access != Access::read)
         wouldUse(model_, WouldUse{});  // who knows what reads it at another size
       else if (work.state == State::connected && work.slot->access == Access::read)
         wouldUse(model_, {WouldUse::Why::off, work.entity, work.firstElement, work.elementCount, work.use});
       else if (work.state == State::connected)
-        record(slots, work, kNone, index);
-    if (!context.ranges || !stanzaGood_) return;
+        record(work, kNone, index);
+    if (!context.ranges || !stanza.sound) return;
     PassSpec ignored;
-    values_.clear();
-    fillSpec(context, *desc_, slots, ignored, values_);
+    fillSpec(context, stanza.desc, slots_, ignored, kNone, nullptr);
   }
 
   // ---- what goes into the graph ----
 
-  void record(const std::vector<SlotWork>& slots, const SlotWork& work, std::uint32_t pass,
-              std::uint32_t disabled) {
+  void record(const SlotWork& work, std::uint32_t pass, std::uint32_t disabled) {
     model_.writes.push_back({work.entity, work.firstElement, work.elementCount, work.use, model_.position,
                              pass, disabled, work.whole,
-                             std::ranges::any_of(slots, [&](const auto& o) { return needs(o, work); })});
+                             std::ranges::any_of(slots_, [&](const auto& o) { return needs(o, work); })});
   }
 
-  std::uint32_t groupOf() {
-    std::string name = desc_->group.empty() ? std::string() : scope_->prefix + desc_->group;
-    if (name.empty() && desc_->cadence != Cadence::always) name = scope_->group;
+  std::uint32_t groupOf(const StanzaWalk& stanza) {
+    const PassDesc& desc = stanza.desc;
+    std::string name = desc.group.empty() ? std::string() : stanza.scope.prefix + desc.group;
+    if (name.empty() && desc.cadence != Cadence::always) name = stanza.scope.group;
     if (name.empty()) return kNone;
     const auto [at, fresh] = groups_.try_emplace(name, static_cast<std::uint32_t>(graph_.groupNames.size()));
     if (fresh) graph_.groupNames.push_back(name);
     return at->second;
   }
 
-  void addCadence(const SlotContext& context, Names& names, FlatPass& flat) {
-    flat.cadence = desc_->cadence;
-    flat.sideEffect = desc_->sideEffect;
-    if (type_) flat.touches = type_->touches;
-    flat.group = groupOf();
-    const auto slices = evaluateWhole(names, desc_->slices, 1, 0, 65536, "the number of slices");
+  void addCadence(const StanzaWalk& stanza, const SlotContext& context, FlatPass& flat) {
+    const PassDesc& desc = stanza.desc;
+    flat.cadence = desc.cadence;
+    flat.sideEffect = desc.sideEffect;
+    if (stanza.type) flat.touches = stanza.type->touches;
+    flat.group = groupOf(stanza);
+    const auto slices = evaluateWhole(context.names, desc.slices, 1, 0, 65536, "the number of slices");
     if (!slices) return;
     flat.slices = static_cast<std::uint32_t>(*slices);
-    if (flat.slices > 1 && type_ && type_->shader == ShaderShape::none) {
-      auto& d =
-          model_.diagnostics.error(Code::badSlices, desc_->slices.place(),
-                                   fmt::format("{} is a {}, which runs whole", context.user, desc_->type));
-      d.pass = context.pass;
-      d.hint = "remove \"slices\": the pass takes one frame of its group";
-    }
-    if (flat.slices > 0 || flat.group != kNone) return;
-    auto& d = model_.diagnostics.error(
-        Code::badSlices, desc_->slices.place(),
-        fmt::format("{} has no slices of its own and no group to ride with", context.user));
-    d.pass = context.pass;
-    d.hint = "0 slices go with a \"group\": the pass runs with its predecessor";
+    if (flat.slices > 1 && stanza.type && stanza.type->shader == ShaderShape::none)
+      context.report(Code::badSlices, desc.slices.place(),
+                     fmt::format("is a {}, which runs whole", desc.type),
+                     {.hint = "remove \"slices\": the pass takes one frame of its group"});
+    if (flat.slices == 0 && flat.group == kNone)
+      context.report(Code::badSlices, desc.slices.place(), "has no slices of its own and no group",
+                     {.hint = "0 slices go with a \"group\": the pass runs with its predecessor"});
   }
 
-  // Uses of one slot, in element order. Reads and modifies take the current resource.
-  void emitUses(const SlotWork& work, std::uint32_t pass) {
-    for (std::uint32_t e = work.firstElement; e < work.firstElement + work.elementCount; ++e) {
-      FlatUse use = work.use;
-      use.feedback = desc_->feedback && use.access == Access::modify;
-      use.exact = type_ && type_->exactCopies;  // finishGraph() looks at the shapes
-      addUse(model_, work.entity, e, use, pass);
-    }
-  }
-
-  void emitWrites(const std::vector<SlotWork>& slots, const SlotWork& work, const SlotSpec& spec,
-                  std::uint32_t pass) {
-    for (std::uint32_t i = 0; i < work.elementCount; ++i) {
-      const std::uint32_t e = work.firstElement + i, index = spec.firstUse + i;
-      FlatUse& use = graph_.uses[index];
-      if (use.access == Access::write)
-        use.resource = resourceToWrite(model_, work.entity, e, work.whole, coversAll(type_, work));
-      model_.versions.write(index);
-    }
-    record(slots, work, pass, kNone);
-  }
-
-  // The slot as the executor needs it, with its uses. False when the graph has too many.
-  bool emitSlot(const SlotWork& work, std::uint32_t pass) {
+  // The slot as the executor needs it, with its uses in element order. Reads and modifies take the current resource. False
+  // when the graph has too many.
+  bool emitSlot(const StanzaWalk& stanza, const SlotWork& work, std::uint32_t pass) {
     SlotSpec& slot = graph_.slots.emplace_back();
     slot.name = work.slot->name;
     slot.access = work.slot->access;
@@ -320,44 +319,64 @@ class PassWalk {
     slot.array = work.array;
     slot.optional = work.slot->ref.optional;
     slot.place = work.slot->place;
-    slot.inherited = base::isSamePlace(slot.place, desc_->likePlace);
+    slot.inherited = base::isSamePlace(slot.place, stanza.desc.likePlace);
     slot.firstUse = static_cast<std::uint32_t>(graph_.uses.size());
     const bool used =
         work.state == State::connected ||
         (work.state == State::missing && work.entity != kNone && work.slot->access != Access::write);
-    if (used && model_.entities[work.entity].state == Progress::done) emitUses(work, pass);
+    if (used && model_.entities[work.entity].state == Progress::done)
+      for (std::uint32_t e = work.firstElement; e < work.firstElement + work.elementCount; ++e) {
+        FlatUse use = work.use;
+        use.feedback = stanza.desc.feedback && use.access == Access::modify;
+        use.exact = stanza.type && stanza.type->exactCopies;  // finishGraph() looks at the shapes
+        addUse(model_, work.entity, e, use, pass);
+      }
     slot.useCount = static_cast<std::uint32_t>(graph_.uses.size()) - slot.firstUse;
-    if (slot.useCount > 0) firsts_.emit(model_, work, pass, slot);
-    return maySee();
+    for (const SlotWork& first : slots_)
+      if (slot.useCount > 0 && first.firstOf == static_cast<std::size_t>(&work - slots_.data())) {
+        slot.firstValue = static_cast<std::uint32_t>(graph_.uses.size());
+        addUse(model_, first.entity, first.firstElement, first.use, pass);
+      }
+    return maySee(stanza);
   }
 
-  void emit(const SlotContext& context, const std::vector<SlotWork>& slots, Names& names) {
+  void emitWrites(const StanzaWalk& stanza, const SlotWork& work, const SlotSpec& spec, std::uint32_t pass) {
+    for (std::uint32_t i = 0; i < work.elementCount; ++i) {
+      const std::uint32_t e = work.firstElement + i, index = spec.firstUse + i;
+      FlatUse& use = graph_.uses[index];
+      if (use.access == Access::write)
+        use.resource = resourceToWrite(model_, work.entity, e, work.whole, coversAll(stanza.type, work));
+      model_.versions.write(index);
+    }
+    record(work, pass, kNone);
+  }
+
+  void emit(const StanzaWalk& stanza, const SlotContext& context) {
+    const PassDesc& desc = stanza.desc;
     const auto pass = static_cast<std::uint32_t>(graph_.passes.size());
     FlatPass flat;
-    addCadence(context, names, flat);
+    addCadence(stanza, context, flat);
     PassSpec spec{.name = name_,
-                  .declared = declared_,
-                  .type = desc_->type,
-                  .shader = desc_->shader,
-                  .vertexShader = desc_->vertexShader,
-                  .place = desc_->place,
-                  .shaderPlace = desc_->shaderPlace,
+                  .declared = stanza.declared,
+                  .type = desc.type,
+                  .shader = desc.shader,
+                  .vertexShader = desc.vertexShader,
+                  .place = desc.place,
+                  .shaderPlace = desc.shaderPlace,
                   .firstSlot = static_cast<std::uint32_t>(graph_.slots.size()),
-                  .slotCount = static_cast<std::uint32_t>(slots.size())};
-    values_.clear();
-    if (stanzaGood_) fillSpec(context, *desc_, slots, spec, values_);
+                  .slotCount = static_cast<std::uint32_t>(desc.slots.size())};
+    if (stanza.sound) fillSpec(context, desc, slots_, spec, pass, &deferred_);
     flat.firstUse = static_cast<std::uint32_t>(graph_.uses.size());
-    for (const SlotWork& work : slots)
-      if (!emitSlot(work, pass)) return;
+    for (std::size_t i = 0; i < desc.slots.size(); ++i)
+      if (!emitSlot(stanza, slots_[i], pass)) return;
     flat.useCount = static_cast<std::uint32_t>(graph_.uses.size()) - flat.firstUse;
-    for (std::size_t i = 0; i < slots.size(); ++i) {
+    for (std::size_t i = 0; i < desc.slots.size(); ++i) {
       const SlotSpec& slot = graph_.slots[spec.firstSlot + i];
       if (slot.useCount == 0 || slot.access == Access::read) continue;
       if (slot.access == Access::modify && flat.cadence == Cadence::always)
-        checkAccumulation(context, slots[i], slot.firstUse);
-      emitWrites(slots, slots[i], slot, pass);
+        checkAccumulation(context, slots_[i], slot.firstUse);
+      emitWrites(stanza, slots_[i], slot, pass);
     }
-    for (const DeferredValue& value : values_) deferred_.push_back({pass, value, scope_, names.indices});
     graph_.passes.push_back(flat);
     graph_.passNames.push_back(name_);
     graph_.specs.push_back(std::move(spec));
@@ -367,21 +386,12 @@ class PassWalk {
   Model& model_;
   FlatGraph& graph_;
   std::vector<DeferredUniform>& deferred_;
-  NameMap<std::uint32_t> groups_;
+  std::map<std::string, std::uint32_t> groups_;
   std::uint64_t made_ = 0, slotsMade_ = 0;  // passes, disabled ones and empty ranges counted; their slots
-  // of the stanza
-  Scope* scope_ = nullptr;
-  const PassDesc* desc_ = nullptr;
-  const PassType* type_ = nullptr;
-  const std::vector<DisableRule>* rules_ = nullptr;
-  std::string declared_, scopeWhy_;
-  std::uint64_t slotsOfInstance_ = 0;
-  bool failed_ = false, stanzaGood_ = true;
   // of the instance; kept from one to the next for their memory
   std::string name_, user_;  // "glow_down[3]", "pass 'glow_down[3]'"
   std::vector<SlotWork> slots_;
-  FirstValues firsts_;
-  std::vector<DeferredValue> values_;
+  std::deque<SlotDesc> firsts_;
   std::vector<Leaf> leaves_;
 };
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "engine/graph/expand/slots.h"
-#include "engine/graph/expand/spec.h"
 
 namespace weft::graph::expansion {
 
@@ -13,13 +12,31 @@ constexpr std::uint64_t kMostSlotsOfPass = 1024;  // slots, parameters and defin
 constexpr std::uint64_t kMostSlots = std::uint64_t{1}
                                      << 18;  // of all passes, and the versions that they read
 
-// A uniform or define of a pass, and the scope and indices with which its expression is evaluated.
+// ---- the steps of it for one stanza and one instance ----
+
+// What is checked once per stanza: type, keys, slots of fixed types, draw list, geometry, cadence,
+// expressions in branches not taken. (That slots, parameters and defines share one namespace is the
+// reader's.)
+bool checkStanza(Model& model, Scope& scope, const PassDesc& desc, const PassType* type,
+                 const std::string& declared);
+
+// A uniform or "instances" that may change without another plan: it is folded when all versions and all structural
+// parameters are known.
 struct DeferredUniform {
   std::uint32_t pass = 0;
-  DeferredValue value;
-  Scope* scope = nullptr;
+  std::uint32_t uniform = kNone;    // kNone: "instances"
+  const Expr* expr = nullptr;       // null: `parameter` alone
+  std::uint32_t parameter = kNone;  // the one that it is, or kNone
+  Scope* scope = nullptr;           // in which, with the indices, the expression is evaluated
   std::vector<Names::Index> indices;
 };
+
+// Fills everything of `spec`, of `pass`, but names, slots and the values of uniforms whose expression contains
+// age(). `deferred`, unless it is null, gets those, and every uniform that names a parameter.
+void fillSpec(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots,
+              PassSpec& spec, std::uint32_t pass, std::vector<DeferredUniform>* deferred);
+
+// ---- the walk ----
 
 // Fills passes, uses, slots, specs, disabled and groupNames.
 void expandPasses(Model& model, std::vector<DeferredUniform>& deferred);

@@ -6,120 +6,73 @@
 
 #include "engine/graph/expand/checks.h"
 #include "engine/graph/expand/names/versions.h"
+#include "engine/graph/subresource.h"
 
 namespace weft::graph::expansion {
 
 namespace {
 
-using base::Diagnostic;
 using State = SlotWork::State;
-
-Diagnostic& report(const SlotContext& context, Code code, const Place& place, std::string message,
-                   const std::string& resource) {
-  Diagnostic& d = context.model.diagnostics.error(code, place, std::move(message));
-  d.pass = context.pass;
-  d.resource = resource;
-  return d;
-}
 
 // Further out than any limit; ranges are checked against shapes later.
 constexpr std::int64_t kFar = 1'000'000;
-
-std::optional<Selection::Span> evaluateSpan(Names& names, const SpanDesc& desc, const char* word) {
-  const auto first = evaluateWhole(names, desc.first, 0, -kFar, kFar, word);
-  const auto last = evaluateWhole(names, desc.last, 0, -kFar, kFar, word);
-  if (!first || !last) return std::nullopt;
-  return Selection::Span{*first, desc.range ? *last : *first, desc.range && !desc.first.present(),
-                         desc.range && !desc.last.present(),
-                         desc.first.present() ? desc.first.place() : desc.last.place()};
-}
+constexpr const char* kPartWords[] = {"level", "layer", "face", "element"};  // by Selection::Part
 
 // Adds the selectors of `ref` to what is selected already (from outside: a slot that selects in an alternative).
 bool addSelection(const SlotContext& context, Names& names, const RefDesc& ref, Selection& into) {
-  const auto add = [&](std::optional<Selection::Span>& selected, const SpanDesc& said, const char* word) {
-    const auto span = evaluateSpan(names, said, word);
-    if (!span) return false;
-    if (selected) {
-      auto& d = report(context, Code::badSelector, ref.place,
-                       fmt::format("{} selects twice in '{}'", context.user, ref.text), ref.name);
-      d.hint = "the list of alternatives selects this already";
-      return false;
-    }
-    selected = span;
-    return true;
-  };
   into.stencil = into.stencil || ref.stencil;
-  return (!ref.mip || add(into.mip, *ref.mip, "the level")) &&
-         (!ref.layer || add(into.layer, *ref.layer, "the layer")) &&
-         (!ref.face || add(into.face, *ref.face, "the face")) &&
-         (!ref.element || add(into.element, {.first = *ref.element}, "the element"));
+  if (!ref.mip && !ref.layer && !ref.face && !ref.element) return true;
+  SpanDesc element;
+  if (ref.element) element.first = *ref.element;
+  const SpanDesc* const parts[] = {ref.mip ? &*ref.mip : nullptr, ref.layer ? &*ref.layer : nullptr,
+                                   ref.face ? &*ref.face : nullptr, ref.element ? &element : nullptr};
+  for (std::size_t i = 0; i < std::size(parts); ++i) {
+    if (!parts[i]) continue;
+    const SpanDesc& said = *parts[i];
+    const auto first = evaluateWhole(names, said.first, 0, -kFar, kFar, kPartWords[i]);
+    const auto last = evaluateWhole(names, said.last, 0, -kFar, kFar, kPartWords[i]);
+    if (!first || !last) return false;
+    if (into.parts[i])
+      return context.report(Code::badSelector, ref.place, fmt::format("selects twice in '{}'", ref.text),
+                            {.hint = "the list of alternatives selects this already", .resource = ref.name});
+    into.parts[i] = {*first, said.range ? *last : *first, said.range && !said.first.present(),
+                     said.range && !said.last.present(),
+                     said.first.present() ? said.first.place() : said.last.place()};
+  }
+  return true;
 }
 
-bool selectorMisfit(const SlotContext& context, const RefDesc& ref, const Entity& entity, std::string message,
-                    std::string hint) {
-  message = fmt::format("{}: {}", context.user, message);
-  auto& d = report(context, Code::badSelector, ref.place, std::move(message), entity.name);
-  d.found = ref.text;
-  d.hint = hint.empty() ? "leave the selector out, or name a resource that has such parts" : std::move(hint);
-  return false;
-}
-
-// A kind of part of a resource: its word, how many there are, and as the file says: levels between the two were removed by the
-// clamp to the size.
-struct Extent {
-  const char* word;
-  std::int64_t count, written;
-  bool levels = false;
-};
 struct Range {
   std::int64_t first = 0, size = 1;
   bool empty = false;  // nothing of the span is there at this size
 };
 
-// Fills open ends and holds a span against what there is; all of it without a span. nullopt after a report.
-std::optional<Range> closeSpan(const SlotContext& context, const RefDesc& ref, const Entity& entity,
-                               const Extent& extent, const std::optional<Selection::Span>& said) {
-  const auto& [word, count, written, levels] = extent;
-  if (!said) return Range{0, count};
-  const std::int64_t first = said->openFirst ? 0 : said->first;
-  std::int64_t last = said->openLast ? count - 1 : said->last;
+// Fills open ends and holds a span against how many parts there are; `written`: as the file says, levels between the two were
+// removed by the clamp to the size. nullopt: it is not there.
+std::optional<Range> closeSpan(const Selection::Span& said, std::int64_t count, std::int64_t written,
+                               bool ranges) {
+  const std::int64_t first = said.openFirst ? 0 : said.first;
+  std::int64_t last = said.openLast ? count - 1 : said.last;
   const bool clamped = first >= 0 && first < written && last >= first && last < written;
   if (clamped) last = std::min(last, count - 1);
-  const std::int64_t size = last - first + 1;
   const bool nothingLeft =
-      clamped ? first >= count : said->openLast && first >= count && first <= std::max(count, written);
-  const bool there = first >= 0 && last < count && size >= 1;
-  if (nothingLeft || (!context.ranges && !there)) return Range{.empty = true};
-  if (there) return Range{first, size};
-  auto& d = report(
-      context, Code::missingSubresource, said->place.line ? said->place : ref.place,
-      fmt::format("{} uses {} {} of '{}', which is not there", context.user, word,
-                  first == last ? fmt::format("{}", first) : fmt::format("{}..{}", first, last), entity.name),
-      entity.name);
-  d.expected =
-      count == 1 ? fmt::format("{} 0, the only one", word) : fmt::format("{} 0 to {}", word, count - 1);
-  d.found = ref.text;
-  if (levels)
-    d.hint =
-        fmt::format("\"mips\" says how many levels there are; bounds can be written with mips({})", ref.name);
-  return std::nullopt;
+      clamped ? first >= count : said.openLast && first >= count && first <= std::max(count, written);
+  const bool there = first >= 0 && last < count && last >= first;
+  if (nothingLeft || (!ranges && !there)) return Range{.empty = true};
+  return there ? std::optional(Range{first, last - first + 1}) : std::nullopt;
 }
 
-// All concrete candidates of a reference whose conditions hold, in order. False after a report.
-bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref, const Leaf& outer,
+// All concrete candidates of a reference whose conditions hold, in order. `leaf` says what `ref` means, and what is said of it from
+// outside. False after a report.
+bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref, Leaf leaf,
                    std::vector<Leaf>& leaves) {
   Model& model = context.model;
-  Leaf leaf = outer;
-  leaf.entity = findEntityOrReport(model, names.scope(), ref.name, ref.import, ref.place,
-                                   {context.user, "uses", context.pass});
-  if (leaf.entity == kNone) return false;
   if (!addSelection(context, names, ref, leaf.selection)) return false;
   if (!leaf.kind) leaf.kind = ref.kind;
   if (leaf.sampler.wrap == Wrap::clamp) leaf.border = ref.border;
   leaf.sampler = layOver(leaf.sampler, ref.sampler);
   leaf.history += ref.history;
   Entity& entity = model.entities[leaf.entity];
-  entity.read = true;
   entity.firstRead = std::min(entity.firstRead, model.position);
   if (entity.kind != ResourceDesc::Kind::alternatives) {
     leaves.push_back(std::move(leaf));
@@ -136,9 +89,11 @@ bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref,
     if (!holds) good = false;
     if (holds && !*holds)
       wouldUse(model, entity.candidates[i], Access::read, leaf.history + alternative.history);
+    if (!holds || !*holds) continue;
     Leaf within = leaf;
+    within.entity = entity.candidates[i];
     within.conditional = leaf.conditional || alternative.condition.present();
-    if (holds && *holds) good = collectLeaves(context, listNames, alternative, within, leaves) && good;
+    good = collectLeaves(context, listNames, alternative, std::move(within), leaves) && good;
   }
   return good;
 }
@@ -152,57 +107,62 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
   const Entity& entity = model.entities[leaf.entity];
   const FlatResource& shape = entity.shape;
   const Selection& selection = leaf.selection;
-  const bool texture = isTexture(shape), cube = isCube(shape);
-  const auto misfit = [&](std::string message, std::string hint = {}) {
-    return selectorMisfit(context, ref, entity, fmt::format("'{}' {}", entity.name, message),
-                          std::move(hint));
+  const bool texture = !isBuffer(shape), cube = isCube(shape), deep = shape.target == Target::texture_3d;
+  const auto misfit = [&](std::string_view what, std::string hint = {}) {
+    if (hint.empty()) hint = "leave the selector out, or name a resource that has such parts";
+    return context.report(Code::badSelector, ref.place,
+                          fmt::format("selects in '{}', which {}", entity.name, what),
+                          {.found = ref.text, .hint = std::move(hint), .resource = entity.name});
   };
-  if (!texture && (selection.mip || selection.layer || selection.face || selection.stencil))
-    return misfit("is no texture, it has no levels, layers or planes");
-  if (selection.element && entity.arrayCount == 0)
-    return misfit("is no array", selection.element->first < 0
-                                     ? fmt::format("write '{}@{}' for an earlier frame", entity.name,
-                                                   selection.element->first)
-                                     : fmt::format("a level is '{}.mip[…]'", entity.name));
-  if (selection.layer && shape.target == Target::texture_3d)
-    return misfit("is a 3d texture, it has no layers");
-  if (selection.face && !cube) return misfit("is no cube, it has no faces");
-  if (selection.stencil && !hasStencil(shape.format))
-    return misfit(
-        fmt::format("({}) has no stencil", infoOf(shape.format).name),
-        isDepth(shape.format) ? "formats with a stencil are depth24_stencil8 and depth32f_stencil8" : "");
-
-  const auto close = [&](const char* word, std::uint32_t count, const std::optional<Selection::Span>& said) {
-    return closeSpan(context, ref, entity, {word, count, count}, said);
-  };
-  const std::uint32_t layerCount = cube ? shape.layers / 6 : shape.layers;
-  const auto mips =
-      closeSpan(context, ref, entity, {"level", shape.mips, entity.writtenMips, true}, selection.mip);
-  if (!mips) return false;
-  auto layers = close("layer", layerCount, selection.layer);
-  if (!layers) return false;
-  if (cube) {
-    const auto faces = close("face", 6, selection.face);
-    if (!faces) return false;
-    if (faces->size < 6 && layers->size > 1)
-      return misfit("has faces of several cubes, which are not next to each other");
-    layers = Range{layers->first * 6 + faces->first, faces->size < 6 ? faces->size : layers->size * 6,
-                   layers->empty || faces->empty};
+  const std::int64_t counts[] = {texture ? shape.mips : 0,
+                                 !texture || deep ? 0
+                                 : cube           ? shape.layers / 6
+                                                  : shape.layers,
+                                 cube ? 6 : 0, entity.arrayCount};
+  Range ranges[4];
+  bool empty = false;
+  for (std::size_t i = 0; i < std::size(counts); ++i) {
+    const auto& said = selection.parts[i];
+    ranges[i].size = std::max<std::int64_t>(1, counts[i]);
+    if (!said) continue;
+    if (i == Selection::element && counts[i] == 0)
+      return misfit("is no array", said->first < 0 ? fmt::format("write '{}@{}' for an earlier frame",
+                                                                 entity.name, said->first)
+                                                   : fmt::format("a level is '{}.mip[…]'", entity.name));
+    if (counts[i] == 0) return misfit(fmt::format("has no {}s", kPartWords[i]));
+    const auto range =
+        closeSpan(*said, counts[i], i == Selection::level ? entity.writtenMips : counts[i], context.ranges);
+    if (!range)
+      return context.report(
+          Code::missingSubresource, said->place.line ? said->place : ref.place,
+          fmt::format("uses a {} of '{}' that is not there", kPartWords[i], entity.name),
+          {.expected = fmt::format("{} 0 to {}", kPartWords[i], counts[i] - 1),
+           .found = said->first == said->last ? fmt::format("{}", said->first)
+                                              : fmt::format("{}..{}", said->first, said->last),
+           .resource = entity.name});
+    ranges[i] = *range;
+    empty = empty || range->empty;
   }
-  const auto elements = close("element", entity.arrayCount, selection.element);
-  if (!elements) return false;
-  work.array = entity.arrayCount > 0 && !selection.element;
-  work.firstElement = static_cast<std::uint32_t>(elements->first);
-  work.elementCount = static_cast<std::uint32_t>(std::max<std::int64_t>(1, elements->size));
-  work.whole = !selection.mip && !selection.layer && !selection.face && !selection.stencil;
-  work.use.mip = static_cast<std::uint16_t>(mips->first);
-  work.use.mips = static_cast<std::uint16_t>(mips->size);
-  work.use.layer = static_cast<std::uint16_t>(layers->first);
-  work.use.layers = static_cast<std::uint16_t>(layers->size);
+  auto& [levels, layers, faces, elements] = ranges;
+  if (selection.stencil && !hasStencil(shape.format))
+    return misfit("has no stencil", "formats with a stencil are depth24_stencil8 and depth32f_stencil8");
+  if (cube && faces.size < 6 && layers.size > 1)
+    return misfit("has faces of several cubes, which are not next to each other");
+  if (cube) layers = {layers.first * 6 + faces.first, faces.size < 6 ? faces.size : layers.size * 6};
+  const auto selects = [](const auto& said) { return said.has_value(); };
+  work.array = entity.arrayCount > 0 && !selection.parts[Selection::element];
+  work.firstElement = static_cast<std::uint32_t>(elements.first);
+  work.elementCount = static_cast<std::uint32_t>(elements.size);
+  work.whole = !selection.stencil && std::none_of(&selection.parts[Selection::level],
+                                                  &selection.parts[Selection::element], selects);
+  work.use.mip = static_cast<std::uint16_t>(levels.first);
+  work.use.mips = static_cast<std::uint16_t>(levels.size);
+  work.use.layer = static_cast<std::uint16_t>(layers.first);
+  work.use.layers = static_cast<std::uint16_t>(layers.size);
   work.use.planes = selection.stencil ? 2 : planeMask(shape);
   work.sampler = leaf.sampler;
   work.border = leaf.border;
-  work.state = mips->empty || layers->empty || elements->empty ? State::empty : State::connected;
+  work.state = empty ? State::empty : State::connected;
   return true;
 }
 
@@ -218,28 +178,21 @@ bool finishUse(const SlotContext& context, const Leaf& leaf, const RefDesc& ref,
   return checkUse(context, ref, access, work);
 }
 
+const char* verbOf(Access access) {
+  return access == Access::read ? "reads" : access == Access::write ? "writes" : "modifies";
+}
+
 bool isWritable(const SlotContext& context, const SlotDesc& slot, std::uint32_t found) {
   const Entity& entity = context.model.entities[found];
-  const char* why = nullptr;
-  std::string hint;
-  if (slot.ref.history > 0) {
-    why = "an earlier publication";
-    hint = "write the resource without @-n";
-  } else if (entity.kind == ResourceDesc::Kind::import) {
-    why = "an import";
-    hint = "write a texture or buffer of the graph's own";
-  } else if (entity.kind == ResourceDesc::Kind::alternatives) {
-    why = "a list of alternatives";
-    hint = "write one of those it lists";
-  } else {
-    return true;
-  }
-  auto& d = report(context, Code::notWritable, slot.ref.place,
-                   fmt::format("{} {} '{}', which is {} and cannot be written", context.user,
-                               slot.access == Access::write ? "writes" : "modifies", slot.ref.text, why),
-                   entity.name);
-  d.hint = hint;
-  return false;
+  const char* const why = slot.ref.history > 0                              ? "an earlier publication"
+                          : entity.kind == ResourceDesc::Kind::import       ? "an import"
+                          : entity.kind == ResourceDesc::Kind::alternatives ? "a list of alternatives"
+                                                                            : nullptr;
+  return !why ||
+         context.report(Code::notWritable, slot.ref.place,
+                        fmt::format("{} '{}', which is {} and cannot be written", verbOf(slot.access),
+                                    slot.ref.text, why),
+                        {.hint = "write a texture or buffer of the graph's own", .resource = entity.name});
 }
 
 void noteWould(Model& model, const SlotWork& work, WouldUse::Why why) {
@@ -247,88 +200,88 @@ void noteWould(Model& model, const SlotWork& work, WouldUse::Why why) {
 }
 
 // A slot whose condition, or that of each of its alternatives, may leave it without a resource.
-class SlotChoice {
- public:
-  // `context`: of the slot. `pass`: whose it is, for what is missing.
-  SlotChoice(const SlotContext& context, const SlotDesc& slot, std::uint32_t pass,
-             const std::vector<Leaf>& leaves)
-      : context_(context), model_(context.model), slot_(slot), pass_(pass), leaves_(leaves) {}
+struct SlotChoice {
+  const SlotContext& context;
+  const SlotDesc& slot;
+  std::uint32_t pass;  // whose the slot is, for what is missing
+  const std::vector<Leaf>& leaves;
+  std::vector<MissingRead::Wanted> wanted{};
 
   // Its condition is false.
   SlotWork off() {
     SlotWork work = none(State::failed);
-    if (!leaves_.empty()) {
-      if (!place(leaves_[0], work)) return none(State::failed);
+    if (!leaves.empty()) {
+      if (!place(leaves[0], work)) return none(State::failed);
       const bool placed = work.state == State::connected;
-      if (placed && context_.versions) noteWould(model_, work, WouldUse::Why::off);
-      if (context_.versions) noteOthers(placed ? 1 : 0);
+      if (placed && context.versions) noteWould(context.model, work, WouldUse::Why::off);
+      if (context.versions) noteOthers(placed ? 1 : 0);
     }
-    work.state = slot_.access == Access::read && !slot_.ref.optional ? State::missing : State::absent;
+    work.state = slot.access == Access::read && !slot.ref.optional ? State::missing : State::absent;
     if (work.state == State::missing) addMissing(MissingRead::Cause::condition);
     return work;
   }
 
   // The first alternative that has a version, or the first with no more than version zero, or nothing.
   SlotWork choose() {
-    bool onlyImports = !leaves_.empty(), byCondition = false;
+    bool onlyImports = !leaves.empty(), byCondition = false;
     std::optional<SlotWork> zero, first;
-    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
       SlotWork work = none(State::failed);
-      if (!place(leaves_[i], work)) return none(State::failed);
+      if (!place(leaves[i], work)) return none(State::failed);
       if (work.state == State::empty) {
-        if (slot_.ref.optional) work.state = State::absent;
+        if (slot.ref.optional) work.state = State::absent;
         return work;
       }
-      const bool import = model_.entities[work.entity].kind == ResourceDesc::Kind::import;
-      const bool asks = context_.versions && slot_.access != Access::write && work.use.history == 0;
+      const bool import = context.model.entities[work.entity].kind == ResourceDesc::Kind::import;
+      const bool asks = context.versions && slot.access != Access::write && work.use.history == 0;
       const VersionCheck found = asks ? versionsOf(work) : VersionCheck{.real = true};
       // Those behind one that is there by a condition, or from outside, are off as long as it is.
-      byCondition = byCondition || leaves_[i].conditional || import;
+      byCondition = byCondition || leaves[i].conditional || import;
       if (found.complete && found.real) {
-        if (byCondition || !context_.versions) noteOthers(i + 1);
+        if (byCondition || !context.versions) noteOthers(i + 1);
         return work;
       }
       onlyImports = onlyImports && import;
-      if (slot_.access == Access::read)
-        noteWould(model_, work,
-                  found.complete && !slot_.ref.optional ? WouldUse::Why::zero : WouldUse::Why::empty);
+      if (slot.access == Access::read)
+        noteWould(context.model, work,
+                  found.complete && !slot.ref.optional ? WouldUse::Why::zero : WouldUse::Why::empty);
       if (found.complete && !zero) zero = work;
       if (!first) first = std::move(work);
     }
-    if (zero && !slot_.ref.optional) return *zero;
+    if (zero && !slot.ref.optional) return *zero;
     SlotWork work = first.value_or(none(State::failed));
-    work.state = slot_.ref.optional || !context_.versions ? State::absent : State::missing;
+    work.state = slot.ref.optional || !context.versions ? State::absent : State::missing;
     if (work.state == State::missing)
-      addMissing(leaves_.empty() ? MissingRead::Cause::condition
-                 : onlyImports   ? MissingRead::Cause::import
-                                 : MissingRead::Cause::version);
+      addMissing(leaves.empty() ? MissingRead::Cause::condition
+                 : onlyImports  ? MissingRead::Cause::import
+                                : MissingRead::Cause::version);
     return work;
   }
 
- private:
   SlotWork none(State state) const {
     SlotWork work;
-    work.slot = &slot_;
+    work.slot = &slot;
     work.state = state;
-    work.use.access = slot_.access;
+    work.use.access = slot.access;
     return work;
   }
 
   bool place(const Leaf& leaf, SlotWork& work) const {
-    if (!placeSelection(context_, leaf, slot_.ref, work) ||
-        !finishUse(context_, leaf, slot_.ref, slot_.access, work))
+    if (!placeSelection(context, leaf, slot.ref, work) ||
+        !finishUse(context, leaf, slot.ref, slot.access, work))
       return false;
     work.use.history = static_cast<std::uint8_t>(leaf.history);
-    return leaf.history == 0 || checkHistory(context_, slot_.ref, leaf.history, model_.entities[work.entity]);
+    return leaf.history == 0 ||
+           checkHistory(context, slot.ref, leaf.history, context.model.entities[work.entity]);
   }
 
   // Of all elements together. Notes what is not there.
   VersionCheck versionsOf(const SlotWork& work) {
     VersionCheck all;
     for (std::uint32_t e = work.firstElement; e < work.firstElement + work.elementCount; ++e) {
-      const VersionCheck check = checkVersion(model_, work.entity, e, work.use);
+      const VersionCheck check = checkVersion(context.model, work.entity, e, work.use);
       all.real = all.real || check.real;
-      if (all.complete && !check.complete) wanted_.push_back({work.entity, e, check.missing, work.use});
+      if (all.complete && !check.complete) wanted.push_back({work.entity, e, check.missing, work.use});
       all.complete = all.complete && check.complete;
     }
     return all;
@@ -336,36 +289,31 @@ class SlotChoice {
 
   // The alternatives from `first` on, which are off.
   void noteOthers(std::size_t first) const {
-    for (std::size_t i = first; i < leaves_.size(); ++i)
-      wouldUse(model_, leaves_[i].entity, slot_.access, leaves_[i].history);
+    for (std::size_t i = first; i < leaves.size(); ++i)
+      wouldUse(context.model, leaves[i].entity, slot.access, leaves[i].history);
   }
 
   void addMissing(MissingRead::Cause cause) {
-    if (context_.versions)
-      model_.missing.push_back(
-          {cause, pass_, model_.position, slot_.name, slot_.ref, false, slot_.access, std::move(wanted_)});
+    if (context.versions)
+      context.model.missing.push_back(
+          {cause, pass, context.model.position, slot.name, slot.ref, false, slot.access, std::move(wanted)});
   }
-
-  const SlotContext& context_;
-  Model& model_;
-  const SlotDesc& slot_;
-  const std::uint32_t pass_;
-  const std::vector<Leaf>& leaves_;
-  std::vector<MissingRead::Wanted> wanted_;
 };
 
 }  // namespace
+
+bool SlotContext::report(Code code, const Place& place, std::string_view message, Says says) const {
+  says.pass = pass;
+  return expansion::report(model, code, place, fmt::format("{} {}", user, message), std::move(says));
+}
 
 SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint32_t pass) {
   const RefDesc& ref = slot.ref;
   SlotWork failed;
   failed.slot = &slot;
   failed.use.access = slot.access;
-  const char* const verb = slot.access == Access::read    ? "reads"
-                           : slot.access == Access::write ? "writes"
-                                                          : "modifies";
-  const std::uint32_t found = findEntityOrReport(context.model, context.names.scope(), ref.name, ref.import,
-                                                 ref.place, {context.user, verb, context.pass, slot.name});
+  const std::uint32_t found = findEntityOrReport(context.model, context.names.scope(), ref,
+                                                 {context.user, verbOf(slot.access), context.pass});
   if (found == kNone || (slot.access != Access::read && !isWritable(context, slot, found))) return failed;
   const auto holds = evaluateCondition(context.names, ref.condition, true, "the condition of a slot");
   if (!holds) return failed;
@@ -375,9 +323,103 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
   std::vector<Leaf> own;
   std::vector<Leaf>& leaves = context.room ? *context.room : own;
   leaves.clear();
-  if (!collectLeaves(checked, context.names, ref, Leaf{}, leaves)) return failed;
-  SlotChoice choice(checked, slot, pass, leaves);
+  if (!collectLeaves(checked, context.names, ref, {.entity = found}, leaves)) return failed;
+  SlotChoice choice{checked, slot, pass, leaves};
   return *holds ? choice.choose() : choice.off();
+}
+
+// ---- what stands in for a publication that is not there yet ----
+
+namespace {
+
+bool sameNumbers(Format a, Format b) {
+  return isInteger(a) == isInteger(b) && (!isInteger(a) || infoOf(a).kind == infoOf(b).kind);
+}
+
+// "a texture of 8x8, 6 layers, rgba16f"
+std::string shapeText(const FlatResource& shape, std::uint32_t mip, std::uint32_t layers) {
+  if (isBuffer(shape)) return fmt::format("a buffer of {} bytes", shape.bytes);
+  const auto side = [&](std::uint32_t texels) { return std::max(1u, texels >> mip); };
+  std::string text =
+      fmt::format("a {} of {}x{}", isCube(shape) ? "cube" : "texture", side(shape.width), side(shape.height));
+  if (shape.target == Target::texture_3d) text += fmt::format("x{}", side(shape.depth));
+  if (layers != 1) text += fmt::format(", {} layers", layers);
+  if (shape.samples != 1) text += fmt::format(", {} samples", shape.samples);
+  return text;
+}
+
+// Whether `first`, the whole of `theirs`, can be read where `work` reads the history of `mine`.
+bool canReplace(const FlatResource& mine, const SlotWork& work, const FlatResource& theirs,
+                const SlotWork& first) {
+  if (first.array || first.use.history > 0 || isBuffer(mine) != isBuffer(theirs)) return false;
+  if (isBuffer(mine)) return theirs.kind == ResourceKind::buffer && theirs.bytes >= mine.bytes;
+  // A pass that tests depth against the history attaches it.
+  if (work.use.kind == Kind::depth || work.use.mip >= first.use.mips) return false;
+  if (isCube(mine) != (isCube(theirs) && first.use.layers % 6 == 0) ||
+      shapeText(mine, 0, mine.layers) != shapeText(theirs, first.use.mip, first.use.layers))
+    return false;
+  if (work.use.kind != Kind::sampled || work.use.planes != 1) return mine.format == theirs.format;
+  return sameNumbers(mine.format, theirs.format) && (!work.sampler.compare || isDepth(theirs.format));
+}
+
+// For `work`, a slot that reads @-n: the same part of what `first` of the resource names, read in the same way. Is not
+// `connected` when `first` is a value, when its "?" left nothing, and after a report. `slot` is filled in.
+SlotWork resolveFirst(const SlotContext& context, const SlotWork& work, std::uint32_t pass, SlotDesc& slot) {
+  Model& model = context.model;
+  Entity& entity = model.entities[work.entity];
+  if (!entity.firstRef) return {};
+  const RefDesc& ref = *entity.firstRef;
+  slot = {work.slot->name, ref.place, Access::read, ref};
+  slot.ref.kind = work.use.kind;
+  Names names(model, *entity.firstScope);
+  const SlotContext inside{
+      model, names, context.type, context.user, context.pass, context.versions, context.ranges, context.room};
+  const std::size_t missed = model.missing.size();
+  SlotWork first = resolveSlot(inside, slot, pass);
+  if (model.missing.size() > missed) model.missing.back().first = true;
+  if (first.state != SlotWork::State::connected) return {};
+
+  const FlatResource& source = model.entities[first.entity].shape;
+  if (!canReplace(entity.shape, work, source, first)) {
+    const auto formatOf = [](const FlatResource& shape) {
+      return !isBuffer(shape) ? fmt::format(", {}", infoOf(shape.format).name) : std::string();
+    };
+    context.report(
+        Code::badFormat, ref.place,
+        fmt::format("cannot read '{}' as the first value of '{}'", ref.text, entity.name),
+        {.expected =
+             shapeText(entity.shape, 0, entity.shape.layers) + formatOf(entity.shape) + ", in this frame",
+         .found = shapeText(source, first.use.mip, first.use.layers) + formatOf(source),
+         .hint =
+             "let a pass write a texture of that size and format, with \"update\": \"once\", and name that",
+         .resource = entity.name});
+    return {};
+  }
+  entity.firstUse = first.use;
+  entity.firstUse.resource = currentResource(model, first.entity, first.firstElement);
+  if (!isBuffer(source)) {
+    const std::uint32_t levels = first.use.mips - work.use.mip;
+    first.use.mip = static_cast<std::uint16_t>(first.use.mip + work.use.mip);
+    first.use.mips = static_cast<std::uint16_t>(std::min<std::uint32_t>(work.use.mips, levels));
+    first.use.layer = static_cast<std::uint16_t>(first.use.layer + work.use.layer);
+    first.use.layers = work.use.layers;
+    first.use.planes = work.use.planes;
+  }
+  first.elementCount = 1;
+  return first;
+}
+
+}  // namespace
+
+void resolveFirsts(const SlotContext& context, std::vector<SlotWork>& slots, std::deque<SlotDesc>& descs,
+                   std::uint32_t pass) {
+  descs.clear();
+  for (std::size_t i = 0, own = slots.size(); i < own; ++i) {
+    if (slots[i].state != State::connected || slots[i].use.history == 0) continue;
+    SlotWork first = resolveFirst(context, slots[i], pass, descs.emplace_back());
+    first.firstOf = i;
+    if (first.state == State::connected) slots.push_back(std::move(first));
+  }
 }
 
 }  // namespace weft::graph::expansion

@@ -1,8 +1,12 @@
 // Slots: from a reference as written to the texture, buffer or import it means and the sub-resources it
 // selects, with alternatives chosen by condition and version, and every check of a single use (selectors,
-// ranges, kinds, formats). Does not: make versions (passes.cpp does, in slot order) or compare slots with
-// each other (checks.h).
+// ranges, kinds, formats). passes.cpp makes versions, in slot order; checks.h compares slots with each other.
 #pragma once
+
+#include <array>
+#include <deque>
+#include <optional>
+#include <vector>
 
 #include "engine/graph/expand/names/names.h"
 #include "engine/graph/expand/names/resources.h"
@@ -17,7 +21,8 @@ struct Selection {
     bool openFirst = false, openLast = false;
     Place place;
   };
-  std::optional<Span> mip, layer, face, element;
+  enum Part : std::uint8_t { level, layer, face, element };
+  std::array<std::optional<Span>, 4> parts;  // by Part
   bool stencil = false;
 };
 
@@ -49,6 +54,8 @@ struct SlotWork {
   FlatUse use;         // everything but the resource
   Sampler sampler;
   BorderColor border{};
+  std::size_t firstOf =
+      ~std::size_t{0};  // the index of the slot in whose place it is read; see resolveFirsts()
 };
 
 // Whether a slot needs what another slot of the pass writes: some pass must have written it before.
@@ -69,10 +76,19 @@ struct SlotContext {
   bool ranges = true;       // false: sub-resource ranges are not held against sizes
   std::vector<Leaf>* room =
       nullptr;  // for candidates, so that not every slot takes memory of its own for them
+
+  // Reports a mistake of the pass: "pass 'glow_down[3]' MESSAGE". Returns false.
+  bool report(Code code, const Place& place, std::string_view message, Says says = {}) const;
 };
 
 // Resolves one slot. Reads and modifies look for versions; a required slot without one is recorded in
 // model.missing (with `pass` as its pass) and comes back as `missing`.
 SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint32_t pass);
+
+// A pass reads something else in the place of a history's publication that is not there yet, where "first" names a texture or
+// buffer; the executor chooses between the two in every frame. Adds to `slots`, for each of them that reads @-n, the same
+// part of what is named, read in the same way (SlotWork::firstOf). Reports what does not fit. `descs` holds what they point to.
+void resolveFirsts(const SlotContext& context, std::vector<SlotWork>& slots, std::deque<SlotDesc>& descs,
+                   std::uint32_t pass);
 
 }  // namespace weft::graph::expansion

@@ -1,12 +1,13 @@
-#include "engine/graph/expand/stanza.h"
-
+// What is checked once per stanza, however often it repeats. Declared in passes.h.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "engine/base/nearest.h"
+#include "engine/base/words/foreign_words.h"
+#include "engine/graph/desc_walk.h"
 #include "engine/graph/expand/checks.h"
+#include "engine/graph/expand/passes.h"
 
 namespace weft::graph::expansion {
 
@@ -19,318 +20,186 @@ struct Stanza {
   const PassType* type;
   const std::string& declared;
 
-  void check(const Expr& expr, bool dynamicAllowed = false) const {
-    checkExpr(model, scope, expr, dynamicAllowed, desc.repeat);
-  }
-  base::Diagnostic& error(Code code, const Place& place, std::string message) const {
-    base::Diagnostic& d = model.diagnostics.error(code, place.line ? place : desc.place,
-                                                  fmt::format("pass '{}' {}", declared, std::move(message)));
-    d.pass = declared;
-    return d;
+  void error(Code code, const Place& place, std::string_view message, Says says = {}) const {
+    says.pass = declared;
+    report(model, code, place.line ? place : desc.place, fmt::format("pass '{}' {}", declared, message),
+           std::move(says));
   }
 };
 
-// Whether the type takes the key; every use of one it does not take is reported.
-void checkKey(const Stanza& stanza, bool present, const char* key, const Place& place) {
-  const auto& keys = stanza.type->keys;
-  if (!present || std::find(keys.begin(), keys.end(), key) != keys.end()) return;
-  auto& d =
-      stanza.error(Code::keyNotTaken, place,
-                   fmt::format("has the key '{}', which a {} pass does not take", key, stanza.type->name));
-  d.hint = keys.empty() ? "" : base::nearestHint(key, keys);
+template <class T>
+std::vector<std::string> namesOf(const std::vector<T>& things) {
+  std::vector<std::string> names;
+  for (const T& thing : things) names.push_back(thing.name);
+  return names;
 }
 
 // A file says by its name for which stage it is written; another stage would not compile it, with riddles for messages.
-constexpr std::pair<const char*, ShaderShape> kStages[] = {{".comp.glsl", ShaderShape::compute},
-                                                           {".frag.glsl", ShaderShape::fragment},
-                                                           {".vert.glsl", ShaderShape::draw}};
-
-const char* stageOf(std::string_view path) {
-  for (const auto& [ending, shape] : kStages)
-    if (path.ends_with(ending)) return ending;
-  return nullptr;
+const char* endingOf(ShaderShape shape) {
+  return shape == ShaderShape::compute ? ".comp.glsl"
+         : shape == ShaderShape::draw  ? ".vert.glsl"
+                                       : ".frag.glsl";
 }
 
-// A vertex and a fragment shader, each by its path.
-void checkPair(const Stanza& stanza) {
-  const auto check = [&](const std::string& path, const char* key, const char* ending) {
-    const char* const stage = stageOf(path);
-    if (!stage || std::string_view(stage) == ending) return;
-    auto& d = stanza.error(Code::keyNotTaken, stanza.desc.shaderPlace,
-                           fmt::format("names '{}' as its {} shader, a shader of another stage", path, key));
-    d.expected = fmt::format("a path that ends in '{}'", ending);
-    d.hint = "name another shader";
-  };
-  check(stanza.desc.vertexShader, "vertex", kStages[2].first);
-  check(stanza.desc.shader, "fragment", kStages[1].first);
-}
-
-void checkStage(const Stanza& stanza) {
-  if (!stanza.desc.vertexShader.empty()) {
-    if (stanza.type->shader != ShaderShape::compute) checkPair(stanza);  // a compute pass takes none
-    return;
-  }
-  const std::string& path = stanza.desc.shader;
-  const char* const stage = stageOf(path);
+void checkShaders(const Stanza& stanza) {
+  const PassDesc& desc = stanza.desc;
   const ShaderShape shader = stanza.type->shader;
-  if (!stage) return;
-  const ShaderShape shape = std::ranges::find(kStages, std::string_view(stage), [](const auto& each) {
-                              return std::string_view(each.first);
-                            })->second;
-  const std::string stem = path.substr(0, path.size() - std::string_view(stage).size());
-  if (shader == ShaderShape::draw && shape != ShaderShape::compute) {
-    auto& d = stanza.error(Code::keyNotTaken, stanza.desc.shaderPlace,
-                           fmt::format("is a {} pass, which has two shaders, and names '{}', one of them",
-                                       stanza.type->name, path));
-    d.expected = "a path without stage and ending, or { \"vertex\": …, \"fragment\": … }";
-    d.hint = fmt::format("write '{}' for '{}.vert.glsl' and '{}.frag.glsl'", stem, stem, stem);
-    return;
-  }
-  if (shape == shader) return;
-  auto& d = stanza.error(
-      Code::keyNotTaken, stanza.desc.shaderPlace,
-      fmt::format("is a {} pass and names '{}', a shader of another stage", stanza.type->name, path));
-  d.expected = shader == ShaderShape::draw
-                   ? "a path without stage and ending, or { \"vertex\": …, \"fragment\": … }"
-                   : fmt::format("a path that ends in '{}'",
-                                 shader == ShaderShape::compute ? kStages[0].first : kStages[1].first);
-  const auto& types = stanza.model.registry.passTypes;
-  const auto other = std::ranges::find(types, shape, &PassType::shader);
-  d.hint = other == types.end() ? "name another shader"
-                                : fmt::format("say \"type\": \"{}\", or name another shader", other->name);
+  const bool draw = shader == ShaderShape::draw, pair = !desc.vertexShader.empty();
+  if (pair && shader == ShaderShape::compute)
+    return stanza.error(
+        Code::keyNotTaken, desc.shaderPlace,
+        fmt::format("names a vertex shader, which a {} pass does not take", stanza.type->name),
+        {.expected = fmt::format("\"shader\": \"{}\"", desc.shader)});
+  const auto check = [&](const std::string& path, ShaderShape own) {
+    for (const ShaderShape stage : {ShaderShape::compute, ShaderShape::fragment, ShaderShape::draw})
+      if (path.ends_with(endingOf(stage)) && (stage != own || (draw && !pair)))
+        stanza.error(
+            Code::keyNotTaken, desc.shaderPlace,
+            fmt::format("is a {} pass and names '{}', which is for another stage", stanza.type->name, path),
+            {.expected = draw && !pair
+                             ? "a path without stage and ending, or { \"vertex\": …, \"fragment\": … }"
+                             : fmt::format("a path that ends in '{}'", endingOf(own))});
+  };
+  if (pair) check(desc.vertexShader, ShaderShape::draw);
+  check(desc.shader, pair ? ShaderShape::fragment : shader);
+  if (!pair && desc.shader.empty())
+    stanza.error(Code::keyNeeded, desc.namePlace, "lacks a shader",
+                 {.expected = draw ? "\"shader\": \"spheres/billboard\", without stage and ending, or "
+                                     "{ \"vertex\": …, \"fragment\": … }"
+                                   : "\"shader\": \"folder/name.stage.glsl\""});
 }
 
 void checkKeys(const Stanza& stanza) {
   const PassDesc& desc = stanza.desc;
-  checkKey(stanza, desc.threads.present(), "threads", desc.threads.place());
-  checkKey(stanza, desc.instances.present(), "instances", desc.instances.place());
-  checkKey(stanza, !desc.list.empty(), "list", desc.listPlace);
-  checkKey(stanza, !desc.geometry.empty(), "geometry", desc.geometryPlace);
-  const auto modifies = [](const SlotDesc& slot) { return slot.access == Access::modify; };
-  if (desc.feedback && std::ranges::none_of(desc.slots, modifies)) {
-    auto& d = stanza.error(Code::keyNotTaken, desc.namePlace, "has the key 'feedback' and modifies nothing");
-    d.expected = "a slot in \"modify\" whose own texel it reads";
-    d.hint = "leave \"feedback\" out, or say \"modify\" where the slot says \"write\"";
-  }
-  if (!desc.list.empty() && desc.instances.present())
-    stanza
-        .error(Code::keyNotTaken, desc.instances.place(),
-               "has \"instances\" and a \"list\", which says how many")
-        .hint = "leave one of the two out";
   const ShaderShape shader = stanza.type->shader;
-  const auto notTaken = [&](const char* key, const Place& place) {
-    stanza.error(Code::keyNotTaken, place,
-                 fmt::format("has the key '{}', which a {} pass does not take", key, stanza.type->name));
+  const bool hasShader = shader != ShaderShape::none, draw = shader == ShaderShape::draw;
+  const auto check = [&](const char* key, bool present, bool taken, const Place& place) {
+    const auto& keys = stanza.type->keys;
+    if (present && !taken && std::ranges::find(keys, key) == keys.end())
+      stanza.error(Code::keyNotTaken, place,
+                   fmt::format("has the key '{}', which a {} pass does not take", key, stanza.type->name),
+                   {.hint = fmt::format("remove \"{}\"", key)});
   };
-  if (!desc.state.empty() && shader != ShaderShape::fragment && shader != ShaderShape::draw)
-    notTaken("state", desc.state[0].place);
-  if (shader == ShaderShape::none) {
-    if (!desc.shader.empty()) notTaken("shader", desc.shaderPlace);
-    if (desc.view) notTaken("view", desc.view->place);
-    if (!desc.parameters.empty()) notTaken("parameters", desc.parameters[0].place);
-    if (!desc.defines.empty()) notTaken("defines", desc.defines[0].place);
-    return;
-  }
+  check("threads", desc.threads.present(), false, desc.threads.place());
+  check("instances", desc.instances.present(), false, desc.instances.place());
+  check("list", !desc.list.empty(), false, desc.listPlace);
+  check("geometry", !desc.geometry.empty(), false, desc.geometryPlace);
+  check("shader", !desc.shader.empty(), hasShader, desc.shaderPlace);
+  if (!desc.state.empty()) check("state", true, draw || shader == ShaderShape::fragment, desc.state[0].place);
+  if (desc.view) check("view", true, hasShader, desc.view->place);
+  if (!desc.parameters.empty()) check("parameters", true, hasShader, desc.parameters[0].place);
+  if (!desc.defines.empty()) check("defines", true, hasShader, desc.defines[0].place);
+  const auto modifies = [](const SlotDesc& slot) { return slot.access == Access::modify; };
+  if (desc.feedback && std::ranges::none_of(desc.slots, modifies))
+    stanza.error(Code::keyNotTaken, desc.namePlace, "has the key 'feedback' and modifies nothing",
+                 {.expected = "a slot in \"modify\" whose own texel it reads",
+                  .hint = "leave \"feedback\" out, or say \"modify\" where the slot says \"write\""});
+  if (!desc.list.empty() && desc.instances.present())
+    stanza.error(Code::keyNotTaken, desc.instances.place(),
+                 "has \"instances\" and a \"list\", which says how many",
+                 {.hint = "leave one of the two out"});
+  if (!hasShader) return;
+  checkShaders(stanza);
   const auto lacks = [&](const char* what, const char* expected) {
-    stanza.error(Code::keyNeeded, desc.namePlace, fmt::format("lacks {}", what)).expected = expected;
+    stanza.error(Code::keyNeeded, desc.namePlace, fmt::format("lacks {}", what), {.expected = expected});
   };
-  if (!desc.vertexShader.empty() && shader != ShaderShape::draw && shader != ShaderShape::fragment) {
-    auto& d =
-        stanza.error(Code::keyNotTaken, desc.shaderPlace,
-                     fmt::format("names a vertex shader, which a {} pass does not take", stanza.type->name));
-    d.expected = fmt::format("\"shader\": \"{}\"", desc.shader);
-  }
-  checkStage(stanza);
-  if (desc.shader.empty() && desc.vertexShader.empty())
-    lacks("a shader", shader == ShaderShape::draw ? "\"shader\": \"spheres/billboard\", without stage and "
-                                                    "ending, or { \"vertex\": …, \"fragment\": … }"
-                                                  : "\"shader\": \"folder/name.stage.glsl\"");
-  if (shader == ShaderShape::draw) {
-    if (desc.list.empty() && !desc.instances.present()) lacks("what to draw", "\"list\" or \"instances\"");
-    if (desc.geometry.empty()) lacks("a geometry", "\"geometry\": \"quad\", \"icosphere(3)\", \"mesh\", …");
-  }
+  if (draw && desc.list.empty() && !desc.instances.present())
+    lacks("what to draw", "\"list\" or \"instances\"");
+  if (draw && desc.geometry.empty())
+    lacks("a geometry", "\"geometry\": \"quad\", \"icosphere(3)\", \"mesh\", …");
+  const auto attaches = [](const SlotDesc& slot) {
+    return slot.access != Access::read && slot.ref.kind != Kind::image && slot.ref.kind != Kind::storage;
+  };
   if (shader != ShaderShape::compute && !stanza.model.incomplete &&
-      std::none_of(desc.slots.begin(), desc.slots.end(), [](const SlotDesc& s) {
-        return s.access != Access::read && s.ref.kind != Kind::image && s.ref.kind != Kind::storage;
-      }))
+      std::ranges::none_of(desc.slots, attaches))
     lacks("something to draw into",
           "a slot in \"write\" or \"modify\" that is an attachment: it gives the size of what is drawn, and "
-          "the "
-          "shader need not write it if nobody reads it");
+          "the shader need not write it if nobody reads it");
 }
 
 void checkLists(const Stanza& stanza) {
   const PassDesc& desc = stanza.desc;
-  const Registry& registry = stanza.model.registry;
-  if (!desc.list.empty() &&
-      std::find(registry.drawLists.begin(), registry.drawLists.end(), desc.list) == registry.drawLists.end())
-    stanza.error(Code::unknownDrawList, desc.listPlace, fmt::format("draws the unknown list '{}'", desc.list))
-        .hint = base::nearestHint(desc.list, registry.drawLists);
+  const auto& drawLists = stanza.model.registry.drawLists;
+  const auto& geometries = stanza.model.registry.geometries;
+  if (!desc.list.empty() && std::ranges::find(drawLists, desc.list) == drawLists.end())
+    stanza.error(Code::unknownDrawList, desc.listPlace, fmt::format("draws the unknown list '{}'", desc.list),
+                 {.hint = base::nearestHint(desc.list, drawLists)});
   if (desc.geometry.empty()) return;
-  const auto geometry = std::ranges::find(registry.geometries, desc.geometry, &GeometryType::name);
-  if (geometry == registry.geometries.end()) {
-    std::vector<std::string> names;
-    for (const GeometryType& type : registry.geometries) names.push_back(type.name);
-    stanza
-        .error(Code::unknownGeometry, desc.geometryPlace,
-               fmt::format("draws the unknown geometry '{}'", desc.geometry))
-        .hint = base::nearestHint(desc.geometry, names);
-  } else if (geometry->meshes && desc.list.empty()) {
-    auto& d = stanza.error(Code::keyNeeded, desc.geometryPlace,
-                           fmt::format("draws '{}' of no list", desc.geometry));
-    d.expected = "\"list\": the draw list whose meshes are drawn";
-  } else if (desc.geometryArguments.size() > geometry->arguments.size()) {
-    auto& d = stanza.error(Code::numberOutOfRange, desc.geometryPlace,
-                           fmt::format("gives '{}' too many arguments", desc.geometry));
-    d.expected = geometry->arguments.empty() ? "none" : fmt::format("at most {}", geometry->arguments.size());
-    d.found = fmt::format("{}", desc.geometryArguments.size());
-  }
+  const auto geometry = std::ranges::find(geometries, desc.geometry, &GeometryType::name);
+  if (geometry == geometries.end())
+    stanza.error(Code::unknownGeometry, desc.geometryPlace,
+                 fmt::format("draws the unknown geometry '{}'", desc.geometry),
+                 {.hint = base::nearestHint(desc.geometry, namesOf(geometries))});
+  else if (geometry->meshes && desc.list.empty())
+    stanza.error(Code::keyNeeded, desc.geometryPlace, fmt::format("draws '{}' of no list", desc.geometry),
+                 {.expected = "\"list\": the draw list whose meshes are drawn"});
+  else if (desc.geometryArguments.size() > geometry->arguments.size())
+    stanza.error(Code::numberOutOfRange, desc.geometryPlace,
+                 fmt::format("gives '{}' too many arguments", desc.geometry),
+                 {.expected = fmt::format("at most {}", geometry->arguments.size()),
+                  .found = fmt::format("{}", desc.geometryArguments.size())});
 }
 
-bool names(const Stanza& stanza, const std::string& slot) {
-  return std::ranges::any_of(stanza.desc.slots, [&](const SlotDesc& s) { return s.name == slot; });
-}
-bool isRead(Access access) {
-  return access == Access::read;
-}
-
-// The slot of the type that `slot`, which is none of them, stands for: one of a like name, else the only one of its
-// side that the pass lacks.
-std::string fixedSlotMeantBy(const Stanza& stanza, const SlotDesc& slot) {
-  std::vector<std::string> open, all;
-  for (const FixedSlot& fixed : stanza.type->fixedSlots) {
-    if (names(stanza, fixed.name)) continue;
-    all.push_back(fixed.name);
-    if (isRead(fixed.access) == isRead(slot.access)) open.push_back(fixed.name);
-  }
-  const std::string near = base::nearestName(slot.name, all);
-  return near.empty() && open.size() == 1 ? open[0] : near;
-}
-
+// The slots of a pass type without a shader. What is wrong with them is one mistake.
 void checkFixedSlots(const Stanza& stanza) {
   const auto& fixed = stanza.type->fixedSlots;
+  const auto& slots = stanza.desc.slots;
   if (fixed.empty()) return;
-  std::vector<std::string> known;
-  for (const FixedSlot& slot : fixed) known.push_back(slot.name);
-  std::vector<std::string> meant;  // by slots of other names
-  for (const SlotDesc& slot : stanza.desc.slots) {
-    const auto found = std::ranges::find(fixed, slot.name, &FixedSlot::name);
-    if (found == fixed.end()) {
-      auto& d = stanza.error(
-          Code::badSlots, slot.place,
-          fmt::format("has the slot '{}', which a {} pass does not have", slot.name, stanza.type->name));
-      const std::string own = fixedSlotMeantBy(stanza, slot);
-      const bool taken = own.empty() || std::ranges::find(meant, own) != meant.end();
-      d.hint = base::nearestHint(slot.name, known);
-      if (!taken && !d.hint.starts_with("did you")) d.hint = fmt::format("call it '{}'", own);
-      if (!taken) meant.push_back(own);
-    } else if (isRead(slot.access) != isRead(found->access)) {
-      auto& d = stanza.error(Code::badSlots, slot.place,
-                             fmt::format("has the slot '{}' on the wrong side", slot.name));
-      d.expected = fmt::format("'{}' in \"{}\"", slot.name, nameOf(found->access));
-    }
-  }
+  const auto isWrong = [&](const SlotDesc& slot) {
+    const auto own = std::ranges::find(fixed, slot.name, &FixedSlot::name);
+    return own == fixed.end() || (own->access == Access::read) != (slot.access == Access::read);
+  };
+  const auto isLacking = [&](const FixedSlot& slot) {
+    return std::ranges::find(slots, slot.name, &SlotDesc::name) == slots.end();
+  };
+  const auto wrong = std::ranges::find_if(slots, isWrong);
+  if (wrong == slots.end() && std::ranges::none_of(fixed, isLacking)) return;
+  std::string expected;
   for (const FixedSlot& slot : fixed)
-    if (!names(stanza, slot.name) && std::ranges::find(meant, slot.name) == meant.end())
-      stanza.error(Code::badSlots, stanza.desc.namePlace, fmt::format("lacks the slot '{}'", slot.name))
-          .expected = fmt::format("\"{}\": {{ \"{}\": … }}", nameOf(slot.access), slot.name);
-}
-
-void checkReference(const Stanza& stanza, const RefDesc& ref) {
-  stanza.check(ref.condition);
-  if (ref.element) stanza.check(*ref.element);
-  for (const std::optional<SpanDesc>* span : {&ref.mip, &ref.layer, &ref.face})
-    if (*span) {
-      stanza.check((*span)->first);
-      stanza.check((*span)->last);
-    }
-  markStructural(stanza.model, stanza.scope, ref);
+    expected += fmt::format("{}\"{}\": {{ \"{}\": … }}", expected.empty() ? "" : ", ", nameOf(slot.access),
+                            slot.name);
+  if (wrong == slots.end())
+    return stanza.error(Code::badSlots, stanza.desc.namePlace, "lacks a slot", {.expected = expected});
+  stanza.error(
+      Code::badSlots, wrong->place,
+      fmt::format("has the slot '{}', which a {} pass does not have there", wrong->name, stanza.type->name),
+      {.expected = expected, .hint = base::nearestHint(wrong->name, namesOf(fixed))});
 }
 
 void checkExpressions(const Stanza& stanza) {
-  Model& model = stanza.model;
-  Scope& scope = stanza.scope;
   const PassDesc& desc = stanza.desc;
-  const auto structural = [&](const Expr& expr) {
-    stanza.check(expr);
-    markStructural(model, scope, expr);
-  };
-  stanza.check(desc.enabled);
-  markStructural(model, scope, desc.enabled);
-  for (const RangeDesc& range : desc.repeat)
-    for (const Expr* expr : {&range.first, &range.last, &range.step}) structural(*expr);
-  for (const SlotDesc& slot : desc.slots) checkReference(stanza, slot.ref);
-  if (desc.view) checkReference(stanza, *desc.view);
-  for (const NamedExpr& define : desc.defines) {
-    stanza.check(define.expr);
-    markStructural(model, scope, define.expr);
-  }
-  for (const NamedExpr& state : desc.state) structural(state.expr);
-  for (const Expr* expr : {&desc.slices, &desc.threads}) structural(*expr);
-  stanza.check(desc.instances, true);
-  markStructural(model, scope, desc.instances);
-  for (const Expr& argument : desc.geometryArguments) structural(argument);
-  for (const PassParameterDesc& parameter : desc.parameters) {
-    if (!parameter.declared) stanza.check(parameter.value, true);
+  for (const PassParameterDesc& parameter : desc.parameters)
     if (parameter.declared && parameter.declared->define)
-      if (Parameter* const own = findPassParameter(model, scope, desc.name, parameter.name))
-        own->structural = true;
-  }
+      if (const std::uint32_t own = findPassParameter(stanza.scope, desc.name, parameter.name); own != kNone)
+        stanza.model.parameters[own].structural = true;
+  const auto check = [&](const Expr& expr) {
+    if (!expr.present() || expr.isConstant()) return;
+    // The value of a uniform is live, and may contain age(); so may "instances".
+    const auto isValue = [&](const PassParameterDesc& parameter) { return &parameter.value == &expr; };
+    const bool uniform = std::ranges::any_of(desc.parameters, isValue);
+    checkExpr(stanza.model, stanza.scope, expr, uniform || &expr == &desc.instances, desc.repeat);
+    if (!uniform) markStructural(stanza.model, stanza.scope, expr);
+  };
+  visitPass(desc, check, [](const RefDesc&) {});
 }
 
 void checkCadence(const Stanza& stanza) {
   const PassDesc& desc = stanza.desc;
-  if (desc.cadence == Cadence::always && desc.slices.present()) {
-    auto& d = stanza.error(Code::badSlices, desc.slices.place(), "is time-sliced but runs in every frame");
-    d.hint = "slices go with \"update\": \"on_change\" or \"once\"";
+  if (desc.cadence == Cadence::always) {
+    if (desc.slices.present())
+      stanza.error(Code::badSlices, desc.slices.place(), "is time-sliced but runs in every frame",
+                   {.hint = "slices go with \"update\": \"on_change\" or \"once\""});
+    return;
   }
-  if (desc.cadence == Cadence::always) return;
+  const auto check = [&](const Expr& expr, std::string_view what) {
+    if (isDynamic(stanza.model, stanza.scope, expr))
+      stanza.error(Code::badTime, expr.place(),
+                   fmt::format("sees time in {}, but does not run in every frame", what),
+                   {.found = expr.text(), .hint = "use age() in passes that are \"update\": \"always\""});
+  };
   for (const PassParameterDesc& parameter : desc.parameters)
-    if (!parameter.declared && isDynamic(stanza.model, stanza.scope, parameter.value)) {
-      auto& d = stanza.error(
-          Code::badTime, parameter.value.place(),
-          fmt::format("sees time in parameter '{}', but does not run in every frame", parameter.name));
-      d.found = parameter.value.text();
-      d.hint = "age() belongs into passes that are \"update\": \"always\"";
-    }
-  if (isDynamic(stanza.model, stanza.scope, desc.instances)) {
-    auto& d = stanza.error(Code::badTime, desc.instances.place(),
-                           "sees time in \"instances\", but does not run in every frame");
-    d.found = desc.instances.text();
-    d.hint = "age() belongs into passes that are \"update\": \"always\"";
-  }
-}
-
-std::string hintForType(const std::string& type, const std::vector<std::string>& known) {
-  constexpr std::pair<std::string_view, const char*> kTheirs[] = {
-      {"raster", "write 'draw', or 'fullscreen' for a picture"},
-      {"graphics", "write 'draw', or 'fullscreen' for a picture"},
-      {"render", "write 'draw', or 'fullscreen' for a picture"},
-      {"geometry", "write 'draw'"},
-      {"mesh", "write 'draw'"},
-      {"scene", "write 'draw'"},
-      {"quad", "write 'fullscreen'"},
-      {"screen", "write 'fullscreen'"},
-      {"post", "write 'fullscreen'"},
-      {"postprocess", "write 'fullscreen'"},
-      {"post_process", "write 'fullscreen'"},
-      {"postprocessing", "write 'fullscreen'"},
-      {"fragment", "write 'fullscreen'"},
-      {"pixel", "write 'fullscreen'"},
-      {"image", "write 'fullscreen'"},
-      {"shader", "write 'fullscreen'"},
-      {"copy", "write 'blit'"},
-      {"resolve", "write 'blit'"},
-      {"transfer", "write 'blit'"},
-      {"dispatch", "write 'compute'"},
-      {"cs", "write 'compute'"},
-      {"mips", "write 'mipmap'"},
-      {"generate_mips", "write 'mipmap'"},
-      {"mipmaps", "write 'mipmap'"},
-      {"clear", "a texture says with what it begins: \"clear\" in \"resources\""}};
-  for (const auto& [theirs, hint] : kTheirs)
-    if (type == theirs && std::ranges::find(known, type) == known.end()) return hint;
-  return base::nearestHint(type, known);
+    if (!parameter.declared) check(parameter.value, fmt::format("parameter '{}'", parameter.name));
+  check(desc.instances, "\"instances\"");
 }
 
 }  // namespace
@@ -344,10 +213,10 @@ bool checkStanza(Model& model, Scope& scope, const PassDesc& desc, const PassTyp
     checkLists(stanza);
     checkFixedSlots(stanza);
   } else {
-    std::vector<std::string> types;
-    for (const PassType& known : model.registry.passTypes) types.push_back(known.name);
-    stanza.error(Code::unknownPassType, desc.typePlace, fmt::format("is of the unknown type '{}'", desc.type))
-        .hint = hintForType(desc.type, types);
+    std::string theirs = base::hintForForeign(base::Foreign::pass_type, desc.type);
+    stanza.error(
+        Code::unknownPassType, desc.typePlace, fmt::format("is of the unknown type '{}'", desc.type),
+        {.hint = theirs.empty() ? base::nearestHint(desc.type, namesOf(model.registry.passTypes)) : theirs});
   }
   checkExpressions(stanza);
   checkCadence(stanza);

@@ -2,6 +2,8 @@
 // each is stands in the runtime.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstdint>
 
 namespace weft::graph {
@@ -20,6 +22,11 @@ enum BarrierBit : std::uint16_t {
   kBarrierStorage = 1 << 9,        // SHADER_STORAGE
 };
 constexpr int kBarrierBitCount = 10;
-const char* barrierName(BarrierBit bit);
+constexpr const char* barrierName(BarrierBit bit) {
+  constexpr std::array<const char*, kBarrierBitCount> kNames = {
+      "vertex",  "index",          "uniform",       "texture_fetch", "image_access",
+      "command", "texture_update", "buffer_update", "framebuffer",   "shader_storage"};
+  return kNames[static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(bit)))];
+}
 
 }  // namespace weft::graph

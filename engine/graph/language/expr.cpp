@@ -4,68 +4,57 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cctype>
+#include <iterator>
 #include <set>
 
+#include "engine/base/chars.h"
 #include "engine/base/nearest.h"
 #include "engine/base/words/foreign_words.h"
 #include "engine/graph/language/expr_node.h"
 
 namespace weft::graph {
 
+namespace {
+
+// In the order of ExprOp, from `component` on.
+constexpr OpInfo kOps[] = {{".", 8},
+                           {"-", 7},
+                           {"!", 7},
+                           {"+", 5},
+                           {"-", 5},
+                           {"*", 6},
+                           {"/", 6},
+                           {"%", 6},
+                           {"==", 4},
+                           {"!=", 4},
+                           {"<", 4},
+                           {"<=", 4},
+                           {">", 4},
+                           {">=", 4},
+                           {"&&", 3},
+                           {"||", 2},
+                           {"?", 1},
+                           {"min", 0, 2, 8},
+                           {"max", 0, 2, 8},
+                           {"ceil", 0, 1, 1},
+                           {"floor", 0, 1, 1},
+                           {"log2ceil", 0, 1, 1},
+                           {"pow2ceil", 0, 1, 1},
+                           {"abs", 0, 1, 1}};
+constexpr auto kFirstOp = static_cast<std::size_t>(ExprOp::component);
+static_assert(std::size(kOps) == static_cast<std::size_t>(ExprOp::abs) - kFirstOp + 1);
+
+}  // namespace
+
 OpInfo infoOf(ExprOp op) {
-  switch (op) {
-    case ExprOp::conditional:
-      return {"?", 1};
-    case ExprOp::logical_or:
-      return {"||", 2};
-    case ExprOp::logical_and:
-      return {"&&", 3};
-    case ExprOp::equal:
-      return {"==", 4};
-    case ExprOp::not_equal:
-      return {"!=", 4};
-    case ExprOp::less:
-      return {"<", 4};
-    case ExprOp::less_equal:
-      return {"<=", 4};
-    case ExprOp::greater:
-      return {">", 4};
-    case ExprOp::greater_equal:
-      return {">=", 4};
-    case ExprOp::add:
-      return {"+", 5};
-    case ExprOp::subtract:
-      return {"-", 5};
-    case ExprOp::multiply:
-      return {"*", 6};
-    case ExprOp::divide:
-      return {"/", 6};
-    case ExprOp::modulo:
-      return {"%", 6};
-    case ExprOp::negate:
-      return {"-", 7};
-    case ExprOp::logical_not:
-      return {"!", 7};
-    case ExprOp::component:
-      return {".", 8};
-    case ExprOp::minimum:
-      return {"min", 0};
-    case ExprOp::maximum:
-      return {"max", 0};
-    case ExprOp::ceil:
-      return {"ceil", 0};
-    case ExprOp::floor:
-      return {"floor", 0};
-    case ExprOp::log2ceil:
-      return {"log2ceil", 0};
-    case ExprOp::pow2ceil:
-      return {"pow2ceil", 0};
-    case ExprOp::abs:
-      return {"abs", 0};
-    default:
-      return {"", 0};
-  }
+  const auto at = static_cast<std::size_t>(op);
+  return at < kFirstOp ? OpInfo{"", 0} : kOps[at - kFirstOp];
+}
+
+ExprOp findOp(std::string_view spelling, ExprOp first, ExprOp last) {
+  for (auto op = first; op <= last; op = static_cast<ExprOp>(static_cast<int>(op) + 1))
+    if (infoOf(op).spelling == spelling) return op;
+  return ExprOp::constant;
 }
 
 const char* nameOf(Fact fact) {
@@ -115,56 +104,24 @@ ExprPtr makeConstant(Value value, base::Place place) {
 
 namespace {
 
-std::size_t countVariables(const ExprNode& node) {
-  std::size_t count = node.op == ExprOp::variable ? 1 : 0;
-  for (const ExprPtr& child : node.children) count += countVariables(*child);
-  return count;
+// Calls f for the node and everything below it.
+template <class F>
+void visitNodes(const ExprNode& node, const F& f) {
+  f(node);
+  for (const ExprPtr& child : node.children) visitNodes(*child, f);
 }
-
-// `isNew` says whether a name is not in `out` yet.
-template <class IsNew>
-void collectVariables(const ExprNode& node, std::vector<std::string>& out, const IsNew& isNew) {
-  if (node.op == ExprOp::variable && isNew(node.name)) out.push_back(node.name);
-  for (const ExprPtr& child : node.children) collectVariables(*child, out, isNew);
-}
-
-std::shared_ptr<const std::vector<std::string>> namedBelow(const ExprNode& root) {
-  constexpr std::size_t kFew = 16;  // a look at each is faster than a set
-  const std::size_t count = root.op == ExprOp::constant ? 0 : countVariables(root);
-  if (count == 0) return nullptr;
-  auto out = std::make_shared<std::vector<std::string>>();
-  if (count <= kFew) {
-    out->reserve(count);
-    collectVariables(root, *out,
-                     [&](const std::string& name) { return std::ranges::find(*out, name) == out->end(); });
-    return out;
-  }
-  std::set<std::string_view> seen;
-  collectVariables(root, *out, [&](const std::string& name) { return seen.insert(name).second; });
-  return out;
-}
-
-}  // namespace
-
-ExprPtr withStart(const ExprPtr& root, const base::Place& start) {
-  auto copy = std::make_shared<ExprNode>(*root);
-  copy->start = start;
-  copy->variables = namedBelow(*root);
-  return copy;
-}
-
-namespace {
 
 // Canonical text; parentheses only where the grammar needs them. `outer` is the precedence of the
 // surroundings.
 void print(const ExprNode& node, int outer, std::string& out) {
   const OpInfo info = infoOf(node.op);
   const bool parens = info.precedence > 0 && info.precedence < outer;
-  const auto commaSeparated = [&] {
+  const auto list = [&](const char* open, char close) {
     for (std::size_t i = 0; i < node.children.size(); ++i) {
-      if (i > 0) out += ", ";
+      out += i > 0 ? ", " : open;
       print(*node.children[i], 0, out);
     }
+    out += close;
   };
   if (parens) out += '(';
   switch (node.op) {
@@ -175,25 +132,20 @@ void print(const ExprNode& node, int outer, std::string& out) {
       break;
     }
     case ExprOp::list:
-      out += '[';
-      commaSeparated();
-      out += ']';
+      list("[", ']');
       break;
     case ExprOp::variable:
-      out += '$' + node.name;
-      break;
     case ExprOp::identifier:
     case ExprOp::builtin:
-      out += node.name;
+      out += (node.op == ExprOp::variable ? "$" : "") + node.name;
       break;
     case ExprOp::fact:
       out += fmt::format("{}({})", nameOf(node.fact), node.name);
       break;
     case ExprOp::age_key:
-      out += fmt::format("age(#{})", node.key);
-      break;
     case ExprOp::parameter_key:
-      out += fmt::format("$#{}", node.key);
+      out += fmt::format("{}{}{}", node.op == ExprOp::age_key ? "age(#" : "$#", node.key,
+                         node.op == ExprOp::age_key ? ")" : "");
       break;
     case ExprOp::component:
       print(*node.children[0], info.precedence, out);
@@ -215,9 +167,7 @@ void print(const ExprNode& node, int outer, std::string& out) {
     default:
       if (info.precedence == 0) {
         out += info.spelling;
-        out += '(';
-        commaSeparated();
-        out += ')';
+        list("(", ')');
         break;
       }
       // Comparisons do not chain, so both their sides need a tighter operator.
@@ -228,29 +178,19 @@ void print(const ExprNode& node, int outer, std::string& out) {
   if (parens) out += ')';
 }
 
-void collectParameters(const ExprNode& node, std::vector<std::uint32_t>& out) {
-  if (!node.live) return;
-  if (node.op == ExprOp::parameter_key) out.push_back(node.key);
-  for (const ExprPtr& child : node.children) collectParameters(*child, out);
-}
-
-void collectFacts(const ExprNode& node, std::vector<std::pair<Fact, std::string>>& out) {
-  if (node.op == ExprOp::fact) out.emplace_back(node.fact, node.name);
-  for (const ExprPtr& child : node.children) collectFacts(*child, out);
-}
-
-bool findsWord(const ExprNode& node, std::string_view word) {
-  if (node.op == ExprOp::identifier && node.name == word) return true;
-  return std::ranges::any_of(node.children, [&](const ExprPtr& child) { return findsWord(*child, word); });
-}
-
 }  // namespace
 
+Expr::Expr(ExprPtr root, base::Place start) : root_(std::move(root)), start_(std::move(start)) {
+  std::vector<std::string> names;
+  std::set<std::string_view> seen;
+  visitNodes(*root_, [&](const ExprNode& node) {
+    if (node.op == ExprOp::variable && seen.insert(node.name).second) names.push_back(node.name);
+  });
+  if (!names.empty()) variables_ = std::make_shared<const std::vector<std::string>>(std::move(names));
+}
+
 Expr Expr::constant(Value value, base::Place place) {
-  Expr expr;
-  ExprPtr node = makeConstant(std::move(value), place);
-  expr.root_ = withStart(node, place);
-  return expr;
+  return {makeConstant(std::move(value), place), place};
 }
 
 Expr Expr::parameter(std::uint32_t key, base::Place place) {
@@ -258,39 +198,30 @@ Expr Expr::parameter(std::uint32_t key, base::Place place) {
   node->op = ExprOp::parameter_key;
   node->key = key;
   node->live = node->folded = true;
-  node->place = node->start = std::move(place);
-  Expr expr;
-  expr.root_ = std::move(node);
-  return expr;
+  node->place = place;
+  return {std::move(node), std::move(place)};
 }
 
 Expr Expr::listOf(std::vector<Expr> items, base::Place place) {
   assert(!items.empty() && items.size() <= 4);
   std::vector<ExprPtr> children;
-  children.reserve(items.size());
-  bool numbers = true;
   Value value;
   value.type = Value::Type::list;
   for (const Expr& item : items) {
     assert(item.present() && item.root_->height < kMaxExprHeight);
-    const bool number = item.root_->op == ExprOp::constant && item.root_->value.type == Value::Type::number;
-    numbers = numbers && number;
-    if (number) value.v[value.count++] = item.root_->value.v[0];
+    if (item.isConstant() && item.root_->value.type == Value::Type::number)
+      value.v[value.count++] = item.root_->value.v[0];
     children.push_back(item.root_);
   }
-  if (numbers) return constant(std::move(value), std::move(place));
-  Expr expr;
-  expr.root_ = withStart(makeNode(ExprOp::list, place, std::move(children)), place);
-  return expr;
+  if (value.count == items.size()) return constant(std::move(value), std::move(place));
+  return {makeNode(ExprOp::list, place, std::move(children)), place};
 }
 
 std::optional<Expr> Expr::parse(std::string_view text, const base::Place& place,
                                 base::Diagnostics& diagnostics) {
-  const ExprPtr root = parseExprTree(text, place, diagnostics);
+  ExprPtr root = parseExprTree(text, place, diagnostics);
   if (!root) return std::nullopt;
-  Expr expr;
-  expr.root_ = withStart(root, place);
-  return expr;
+  return Expr(std::move(root), place);
 }
 
 bool Expr::dynamic() const {
@@ -302,11 +233,12 @@ bool Expr::live() const {
 }
 
 std::vector<std::uint32_t> Expr::parameterKeys() const {
-  std::vector<std::uint32_t> keys;
-  if (root_) collectParameters(*root_, keys);
-  std::sort(keys.begin(), keys.end());
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-  return keys;
+  std::set<std::uint32_t> keys;
+  if (live())
+    visitNodes(*root_, [&](const ExprNode& node) {
+      if (node.op == ExprOp::parameter_key) keys.insert(node.key);
+    });
+  return {keys.begin(), keys.end()};
 }
 
 std::string Expr::text() const {
@@ -315,18 +247,9 @@ std::string Expr::text() const {
   return out;
 }
 
-const base::Place& Expr::place() const {
-  static const base::Place none;
-  return root_ ? root_->start : none;
-}
-
-std::vector<std::string> Expr::variables() const {
-  return variablesOf(*this);
-}
-
-const std::vector<std::string>& variablesOf(const Expr& expr) {
+const std::vector<std::string>& Expr::variables() const {
   static const std::vector<std::string> kNoNames;
-  return expr.root() && expr.root()->variables ? *expr.root()->variables : kNoNames;
+  return variables_ ? *variables_ : kNoNames;
 }
 
 const std::string* onlyVariableOf(const Expr& expr) {
@@ -334,37 +257,25 @@ const std::string* onlyVariableOf(const Expr& expr) {
 }
 
 bool Expr::says(std::string_view word) const {
-  return root_ && findsWord(*root_, word);
+  bool found = false;
+  if (root_)
+    visitNodes(*root_, [&](const ExprNode& node) {
+      found = found || (node.op == ExprOp::identifier && node.name == word);
+    });
+  return found;
 }
 
 std::vector<std::pair<Fact, std::string>> Expr::facts() const {
   std::vector<std::pair<Fact, std::string>> out;
-  if (root_) collectFacts(*root_, out);
+  if (root_)
+    visitNodes(*root_, [&](const ExprNode& node) {
+      if (node.op == ExprOp::fact) out.emplace_back(node.fact, node.name);
+    });
   return out;
 }
 
 bool Expr::isConstant() const {
   return root_ && root_->op == ExprOp::constant;
-}
-
-bool reportBareWords(const ExprNode& comparison, EvalScope& scope, base::Diagnostics& diagnostics) {
-  const auto isWord = [&](const ExprNode& node) {
-    return node.op == ExprOp::identifier && !scope.index(node.name);
-  };
-  const ExprNode &left = *comparison.children[0], &right = *comparison.children[1];
-  if (!isWord(left) || !isWord(right)) return false;
-  const std::vector<std::string> variables = scope.candidates(EvalScope::NameKind::variable);
-  const auto isVariable = [&](const ExprNode& node) {
-    return std::ranges::find(variables, node.name) != variables.end();
-  };
-  const ExprNode& meant = !isVariable(left) && isVariable(right) ? right : left;
-  base::Diagnostic& d =
-      diagnostics.error(base::Code::unknownVariable, meant.place,
-                        fmt::format("'{}' and '{}' are bare words: comparing them always gives the same",
-                                    left.name, right.name));
-  d.expected = "a parameter or an index of \"repeat\" on one side";
-  d.hint = hintForWord(scope, Value::text(meant.name));
-  return true;
 }
 
 std::string hintForWord(EvalScope& scope, const Value& value) {
@@ -379,9 +290,9 @@ std::string hintForWord(EvalScope& scope, const Value& value) {
     return foreign;
   const std::string near = base::nearestName(value.symbol, variables);
   if (!near.empty()) return fmt::format("did you mean '${}'?", near);
-  const bool bare = std::ranges::all_of(
-      value.symbol, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; });
-  return bare ? "a bare word is an index of \"repeat\" or 'screen'; a parameter begins with '$'" : "";
+  return std::ranges::all_of(value.symbol, base::isIdentChar)
+             ? "a bare word is an index of \"repeat\" or 'screen'; a parameter begins with '$'"
+             : "";
 }
 
 // ---- folding: what stays while a plan runs becomes a constant, age() and live parameters become keys ----
@@ -392,47 +303,27 @@ bool isConstantNumeric(const ExprPtr& node) {
   return node->op == ExprOp::constant && node->value.isNumeric();
 }
 
-// `node` with every variable that the scope answers with a folded tree replaced by that tree; null after an
-// error.
-ExprPtr substitute(const ExprPtr& node, EvalScope& scope, base::Diagnostics& diagnostics) {
-  if (node->op == ExprOp::variable) {
-    const Expr* folded = scope.folded(node->name);
-    if (folded && !folded->present()) return nullptr;  // reported where it was folded
-    if (folded) return folded->root()->shared_from_this();
-    const std::optional<std::uint32_t> key = scope.parameterKey(node->name);
-    return key ? Expr::parameter(*key, node->place).root()->shared_from_this() : node;
-  }
-  bool changed = false;
-  std::vector<ExprPtr> children;
-  for (const ExprPtr& child : node->children) {
-    ExprPtr other = substitute(child, scope, diagnostics);
-    if (!other) return nullptr;
-    changed = changed || other != child;
-    children.push_back(std::move(other));
-  }
-  if (!changed) return node;
-  if (heightOver(children) > kMaxExprHeight) {
-    diagnostics.error(base::Code::badExpression, node->place,
-                      "the expression and the \"let\" it uses chain too many operators");
-    return nullptr;
-  }
-  auto copy = std::make_shared<ExprNode>(*node);
-  setChildren(*copy, std::move(children));
-  if (copy->terms > kMaxFoldedTerms) {
-    diagnostics
-        .error(base::Code::badExpression, node->place,
-               fmt::format("the expression and the \"let\" it uses have more than {} operators and operands",
-                           kMaxFoldedTerms))
-        .hint = "age() changes in every frame, and all of it is evaluated then: use it fewer times";
-    return nullptr;
-  }
-  return copy;
+// Whether a node, or something below it, is known only while a plan runs.
+bool changesLater(const ExprNode& root, EvalScope& scope) {
+  bool changes = root.dynamic || root.live;
+  visitNodes(root, [&](const ExprNode& node) {
+    changes = changes ||
+              (node.op == ExprOp::variable && (scope.folded(node.name) || scope.parameterKey(node.name)));
+  });
+  return changes;
 }
 
 // Null after an error.
 ExprPtr foldNode(const ExprPtr& node, EvalScope& scope, base::Diagnostics& diagnostics) {
   if (node->folded) return node;
-  if (!node->dynamic && !node->live) {
+  if (node->op == ExprOp::variable) {
+    if (const Expr* folded = scope.folded(node->name))
+      return folded->present() ? folded->root()->shared_from_this()
+                               : nullptr;  // reported where it was folded
+    if (const std::optional<std::uint32_t> key = scope.parameterKey(node->name))
+      return Expr::parameter(*key, node->place).root()->shared_from_this();
+  }
+  if (!changesLater(*node, scope)) {
     Value value = evaluateNode(*node, scope, diagnostics);
     return value.type == Value::Type::none ? nullptr : makeConstant(std::move(value), node->place);
   }
@@ -464,6 +355,16 @@ ExprPtr foldNode(const ExprPtr& node, EvalScope& scope, base::Diagnostics& diagn
     }
     children.push_back(std::move(child));
   }
+  if (heightOver(children) > kMaxExprHeight || termsOver(children) > kMaxFoldedTerms) {
+    diagnostics
+        .error(
+            base::Code::badExpression, node->place,
+            fmt::format("the expression and the \"let\" it uses have more than {} operators and operands, or "
+                        "too many in a row",
+                        kMaxFoldedTerms))
+        .hint = "age() changes in every frame, and all of it is evaluated then: use it fewer times";
+    return nullptr;
+  }
   auto folded = std::make_shared<ExprNode>(*node);
   setChildren(*folded, std::move(children));
   folded->folded = true;
@@ -475,16 +376,13 @@ ExprPtr foldNode(const ExprPtr& node, EvalScope& scope, base::Diagnostics& diagn
 }  // namespace
 
 Expr Expr::fold(EvalScope& scope, base::Diagnostics& diagnostics) const {
-  Expr out;
-  const ExprPtr whole = root_ ? substitute(root_, scope, diagnostics) : nullptr;
-  const ExprPtr folded = whole ? foldNode(whole, scope, diagnostics) : nullptr;
-  if (!folded) return out;
+  const ExprPtr folded = root_ ? foldNode(root_, scope, diagnostics) : nullptr;
+  if (!folded) return {};
   if (folded->dynamic && !folded->live) {  // else the caller knows the values of the parameters
     const AgeFunction trialAge = [](std::uint32_t) { return kTrialAge; };
-    if (evaluateNode(*folded, trialAge, {}, &diagnostics).type == Value::Type::none) return out;
+    if (evaluateNode(*folded, trialAge, {}, &diagnostics).type == Value::Type::none) return {};
   }
-  out.root_ = withStart(folded, root_->start);
-  return out;
+  return {folded, start_};
 }
 
 }  // namespace weft::graph

@@ -1,6 +1,6 @@
 // Expressions of graph files: parsed once into a shared immutable tree, evaluated against a scope.
 // The grammar is in docs/graph-format.md. Errors are diagnostics at the expression's place (column of the offending
-// token inside the string where known). Does not know resources or files: the scope answers for every name.
+// token inside the string where known). The scope answers for every name.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +19,8 @@
 namespace weft::graph {
 
 struct ExprNode;  // engine/graph/language/expr_node.h
+// Seconds since the publication behind a key.
+using AgeFunction = std::function<double(std::uint32_t key)>;
 class Expr;
 
 enum class Fact : std::uint8_t { size, mips, count, has, age };
@@ -76,9 +78,9 @@ class Expr {
   std::vector<std::uint32_t> parameterKeys() const;
   // Canonical text, fit to be parsed again.
   std::string text() const;
-  const base::Place& place() const;
-  // Every $variable it names (for culling conditions, hot reload and `explain`).
-  std::vector<std::string> variables() const;
+  const base::Place& place() const { return start_; }
+  // Every $variable it names, each once (for culling conditions, hot reload and `explain`).
+  const std::vector<std::string>& variables() const;
   // True when the bare `word` stands in it: a repeat index or a choice.
   bool says(std::string_view word) const;
   // Every size(x), mips(x), count(x), has(x), age(x) it asks, with the name as written (an @ included), in
@@ -88,7 +90,7 @@ class Expr {
   // live parameters.
   bool isConstant() const;
 
-  // The value, or type none after an error was reported. age() is an error here unless `scope.fact` answers
+  // The value, or type none after an error was reported; a misspelt variable is reported and read as the nearest. age() is an error here unless `scope.fact` answers
   // it. Branches that are not taken (of ?: && ||) are not evaluated.
   Value evaluate(EvalScope& scope, base::Diagnostics& diagnostics) const;
   // Reports names and choices that do not exist, also in branches that evaluate() would not take. Asks the
@@ -100,14 +102,21 @@ class Expr {
   // Evaluates a folded expression; no heap allocation for numbers and lists. `age` gives seconds since
   // publication, which may be infinite; `parameters` the values by their keys. Type none (all components 0)
   // when the result has none, such as a division by zero.
-  Value evaluateFolded(const std::function<double(std::uint32_t key)>& age,
-                       std::span<const Value> parameters = {}) const;
+  Value evaluateFolded(const AgeFunction& age, std::span<const Value> parameters = {}) const;
 
   const ExprNode* root() const { return root_.get(); }
 
  private:
+  Expr(std::shared_ptr<const ExprNode> root, base::Place start);
+
   std::shared_ptr<const ExprNode> root_;
+  base::Place start_;
+  std::shared_ptr<const std::vector<std::string>> variables_;  // null: there are none
 };
+
+inline const std::vector<std::string>& variablesOf(const Expr& expr) {
+  return expr.variables();
+}
 
 // What to write for a size in another format's spelling: "50%", "1920x1080", "512px", and for a number
 // with a unit or a color of the web; "" for anything else.

@@ -1,6 +1,7 @@
 // Evaluation and checking of expression trees. One evaluator serves both the static case (a scope,
 // with diagnostics) and the folded one (an age function, silent). Declared in expr_node.h and expr.h.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -56,6 +57,14 @@ double combine(ExprOp op, double a, double b) {
       return a <= 1 ? 1 : std::exp2(log2ceil(a));
     case ExprOp::abs:
       return std::fabs(a);
+    case ExprOp::less:
+      return a < b ? 1 : 0;
+    case ExprOp::less_equal:
+      return a <= b ? 1 : 0;
+    case ExprOp::greater:
+      return a > b ? 1 : 0;
+    case ExprOp::greater_equal:
+      return a >= b ? 1 : 0;
     default:
       return NAN;
   }
@@ -63,27 +72,22 @@ double combine(ExprOp op, double a, double b) {
 
 // ---- values ----
 
-// What an operand is, for messages: "the number 2", "a list of 2", "the symbol 'fill'".
+// What an operand is, for messages: "the number 2", "a list of 2", "the word 'fill'".
 std::string describe(const Value& value) {
-  switch (value.type) {
-    case Value::Type::number:
-      return fmt::format("the number {}", toText(value));
-    case Value::Type::boolean:
-      return toText(value);
-    case Value::Type::list:
-      return fmt::format("a list of {}", value.count);
-    case Value::Type::symbol:
-      return fmt::format("the word '{}'", value.symbol);
-    case Value::Type::none:
-      break;
-  }
-  return "no value";
+  if (value.type == Value::Type::number) return fmt::format("the number {}", toText(value));
+  if (value.type == Value::Type::list) return fmt::format("a list of {}", value.count);
+  return value.type == Value::Type::symbol ? fmt::format("the word '{}'", value.symbol) : toText(value);
 }
 
 bool isFinite(const Value& value) {
   return std::all_of(value.v.begin(), value.v.begin() + value.count,
                      [](double x) { return std::isfinite(x); });
 }
+
+// What a message says beside its sentence.
+struct Said {
+  std::string expected{}, found{}, hint{};
+};
 
 class Evaluator {
  public:
@@ -142,15 +146,14 @@ class Evaluator {
   Value variable(const ExprNode& node) {
     if (!scope_) return {};
     if (std::optional<Value> value = scope_->variable(node.name)) return *std::move(value);
-    return unknown(node, fmt::format("unknown variable '${}'", node.name), node.name,
-                   EvalScope::NameKind::variable, "$");
+    return unknown(node, fmt::format("unknown variable '${}'", node.name), EvalScope::NameKind::variable,
+                   "$");
   }
 
   Value builtin(const ExprNode& node) {
     if (!scope_) return {};
     if (std::optional<Value> value = scope_->builtin(node.name)) return *std::move(value);
-    return unknown(node, fmt::format("unknown value '{}'", node.name), node.name,
-                   EvalScope::NameKind::builtin, "");
+    return unknown(node, fmt::format("unknown value '{}'", node.name), EvalScope::NameKind::builtin, "");
   }
 
   // False, with a message, when one side is a choice parameter and the other a word that is none of its
@@ -161,26 +164,30 @@ class Evaluator {
   }
 
  private:
-  base::Diagnostic* error(Code code, const ExprNode& node, std::string message) {
-    return diagnostics_ ? &diagnostics_->error(code, node.place, std::move(message)) : nullptr;
+  Value fail(Code code, const ExprNode& node, std::string message, Said said = {}) {
+    if (!diagnostics_) return {};
+    base::Diagnostic& d = diagnostics_->error(code, node.place, std::move(message));
+    d.expected = std::move(said.expected);
+    d.found = std::move(said.found);
+    d.hint = std::move(said.hint);
+    return {};
   }
 
-  Value unknown(const ExprNode& node, std::string message, std::string_view name, EvalScope::NameKind kind,
-                const char* sigil) {
-    if (base::Diagnostic* d = error(Code::unknownVariable, node, std::move(message))) {
-      std::vector<std::string> names = scope_->candidates(kind);
-      std::sort(names.begin(), names.end());
-      const bool index = kind == EvalScope::NameKind::variable && scope_->index(name);
-      if (index || std::ranges::count(scope_->candidates(EvalScope::NameKind::builtin), name) > 0)
-        d->hint = fmt::format("write '{}', without the '$'{}", name, index ? ": it is an index" : "");
-      else if (std::string foreign = base::hintForForeign(base::Foreign::value, name); !foreign.empty())
-        d->hint = std::move(foreign);
-      else if (const std::string nearest = base::nearestName(name, names); !nearest.empty())
-        d->hint = fmt::format("did you mean '{}{}'?", sigil, nearest);
-      else
-        d->hint = base::nearestHint(name, names);
-    }
-    return {};
+  Value unknown(const ExprNode& node, std::string message, EvalScope::NameKind kind, const char* sigil) {
+    std::vector<std::string> names = scope_->candidates(kind);
+    std::ranges::sort(names);
+    const std::string &name = node.name, nearest = base::nearestName(name, names);
+    const bool variable = kind == EvalScope::NameKind::variable;
+    const bool bare = variable && (scope_->index(name) || scope_->builtin(name));
+    const std::string foreign = base::hintForForeign(base::Foreign::value, name);
+    const bool misspelt = !bare && foreign.empty() && !nearest.empty();
+    std::string hint = bare       ? fmt::format("write '{}', without the '$'", name)
+                       : misspelt ? fmt::format("did you mean '{}{}'?", sigil, nearest)
+                                  : foreign;
+    if (hint.empty()) hint = base::nearestHint(name, names);
+    fail(Code::unknownVariable, node, std::move(message), {.hint = std::move(hint)});
+    // It is read as the one that is meant, so that nothing else is reported because of it.
+    return misspelt && variable ? scope_->variable(nearest).value_or(Value{}) : Value{};
   }
 
   Value identifier(const ExprNode& node) {
@@ -192,36 +199,28 @@ class Evaluator {
   Value fact(const ExprNode& node) {
     if (!scope_) return {};
     if (std::optional<Value> value = scope_->fact(node.fact, node.name, node.place)) return *std::move(value);
-    if (node.fact == Fact::age && scope_->ageKey(node.name)) {
-      if (base::Diagnostic* d = error(Code::operandsDoNotFit, node,
-                                      fmt::format("age({}) is not known before the frame runs", node.name)))
-        d->hint =
-            "age() may stand in parameters and \"instances\" of passes and in \"let\" used by them, not in "
-            "sizes, conditions, repeats or defines";
-      return {};
-    }
+    if (node.fact == Fact::age && scope_->ageKey(node.name))
+      return fail(
+          Code::operandsDoNotFit, node, fmt::format("age({}) is not known before the frame runs", node.name),
+          {.hint =
+               "age() may stand in parameters and \"instances\" of passes and in \"let\" used by them, not "
+               "in sizes, conditions, repeats or defines"});
     return unknown(node, fmt::format("{}() of unknown resource '{}'", nameOf(node.fact), node.name),
-                   node.name, EvalScope::NameKind::fact_argument, "");
+                   EvalScope::NameKind::fact_argument, "");
   }
 
-  std::string hintFor(const Value& operand) { return scope_ ? hintForWord(*scope_, operand) : std::string(); }
-
-  Value misfit(const ExprNode& blamed, std::string message, std::string expected, const Value& operand,
-               std::string hint = {}) {
-    if (base::Diagnostic* d = error(Code::operandsDoNotFit, blamed, std::move(message))) {
-      d->expected = std::move(expected);
-      d->found = describe(operand);
-      d->hint = hint.empty() ? hintFor(operand) : std::move(hint);
-    }
-    return {};
+  Value misfit(const ExprNode& blamed, std::string message, std::string expected, const Value& operand) {
+    return operand.type == Value::Type::none
+               ? Value{}
+               : fail(Code::operandsDoNotFit, blamed, std::move(message),
+                      {std::move(expected), describe(operand), scope_ ? hintForWord(*scope_, operand) : ""});
   }
 
   bool condition(const Value& operand, const ExprNode& from, const ExprNode& node) {
-    if (operand.isNumeric()) return true;
-    if (operand.type != Value::Type::none)
+    if (!operand.isNumeric())
       misfit(from, fmt::format("'{}' needs a condition", infoOf(node.op).spelling), "true, false or a number",
              operand);
-    return false;
+    return operand.isNumeric();
   }
 
   Value list(const ExprNode& node) {
@@ -229,15 +228,8 @@ class Evaluator {
     out.type = Value::Type::list;
     for (const ExprPtr& child : node.children) {
       const Value item = run(*child);
-      if (item.type == Value::Type::none) return {};
-      const bool nested = item.type == Value::Type::list;
       if (!item.isNumeric())
-        return misfit(*child, "a list holds numbers", "a number", item,
-                      nested
-                          ? fmt::format("take a part of it, such as 'screen.{0}' or 'size(a).{0}'; or write "
-                                        "the whole without brackets around it",
-                                        "xyzw"[std::min<std::size_t>(out.count, 3)])
-                          : "");
+        return misfit(*child, "a list holds numbers", "a number, such as 'screen.x' or 'size(a).y'", item);
       out.v[out.count++] = item.v[0];
     }
     return out;
@@ -245,12 +237,8 @@ class Evaluator {
 
   Value component(const ExprNode& node) {
     const Value operand = run(*node.children[0]);
-    if (operand.type == Value::Type::none) return {};
-    const char name = "xyzw"[node.key];
-    if (operand.type != Value::Type::list)
-      return misfit(node, fmt::format("'.{}' of something that has no components", name), "a list", operand);
-    if (node.key >= operand.count)
-      return misfit(node, fmt::format("'.{}' of a list that is too short", name),
+    if (operand.type != Value::Type::list || node.key >= operand.count)
+      return misfit(node, fmt::format("'.{}' of what has no such component", "xyzw"[node.key]),
                     fmt::format("a list of at least {}", node.key + 1), operand);
     return Value::number(operand.v[node.key]);
   }
@@ -272,14 +260,11 @@ class Evaluator {
     const std::vector<std::string> choices = scope_->choicesOf(parameter.name);
     const std::string& found = word.op == ExprOp::identifier ? word.name : word.value.symbol;
     if (choices.empty() || std::find(choices.begin(), choices.end(), found) != choices.end()) return true;
-    if (base::Diagnostic* d =
-            error(Code::notAChoice, word,
-                  fmt::format("'{}' is not one of the choices of '${}'", found, parameter.name))) {
-      for (const std::string& choice : choices) d->expected += (d->expected.empty() ? "" : ", ") + choice;
-      d->found = found;
-      if (const std::string nearest = base::nearestName(found, choices); !nearest.empty())
-        d->hint = fmt::format("did you mean '{}'?", nearest);
-    }
+    const std::string nearest = base::nearestName(found, choices);
+    fail(Code::notAChoice, word,
+         fmt::format("'{}' is not one of the choices of '${}'", found, parameter.name),
+         {fmt::format("{}", fmt::join(choices, ", ")), found,
+          nearest.empty() ? "" : fmt::format("did you mean '{}'?", nearest)});
     return false;
   }
 
@@ -287,21 +272,24 @@ class Evaluator {
     const Value left = run(*node.children[0]);
     const Value right = run(*node.children[1]);
     if (left.type == Value::Type::none || right.type == Value::Type::none || !choicesFit(node)) return {};
-    if (scope_ && diagnostics_ && reportBareWords(node, *scope_, *diagnostics_)) return {};
+    const auto bare = [&](const ExprPtr& side) {
+      return scope_ && side->op == ExprOp::identifier && !scope_->index(side->name);
+    };
+    if (bare(node.children[0]) && bare(node.children[1]))
+      return fail(Code::unknownVariable, *node.children[0],
+                  fmt::format("'{}' and '{}' are bare words: comparing them always gives the same",
+                              left.symbol, right.symbol),
+                  {"a parameter or an index of \"repeat\" on one side", "", hintForWord(*scope_, left)});
     const bool comparable = left.isNumeric() ? right.isNumeric()
                             : left.type == Value::Type::list
                                 ? right.type == Value::Type::list && left.count == right.count
                                 : right.type == Value::Type::symbol;
-    if (!comparable) {
-      Value odd = left.type == Value::Type::symbol ? left : right;
-      if (base::Diagnostic* d = error(Code::operandsDoNotFit, node,
-                                      fmt::format("'{}' compares {} with {}", infoOf(node.op).spelling,
-                                                  describe(left), describe(right)))) {
-        d->expected = "two numbers, two lists of one length, or two words";
-        d->hint = hintFor(odd);
-      }
-      return {};
-    }
+    if (!comparable)
+      return fail(
+          Code::operandsDoNotFit, node,
+          fmt::format("'{}' compares {} with {}", infoOf(node.op).spelling, describe(left), describe(right)),
+          {"two numbers, two lists of one length, or two words", "",
+           scope_ ? hintForWord(*scope_, left.type == Value::Type::symbol ? left : right) : ""});
     const bool same = left.isNumeric()                 ? left.v[0] == right.v[0]
                       : left.type == Value::Type::list ? left.v == right.v
                                                        : left.symbol == right.symbol;
@@ -312,77 +300,48 @@ class Evaluator {
     const Value left = run(*node.children[0]);
     const Value right = run(*node.children[1]);
     if (left.type == Value::Type::none || right.type == Value::Type::none) return {};
-    for (const int side : {0, 1}) {
-      const Value& operand = side == 0 ? left : right;
-      if (!operand.isNumeric())
-        return misfit(
-            operand.type == Value::Type::symbol ? *node.children[static_cast<std::size_t>(side)] : node,
-            fmt::format("'{}' compares numbers only", infoOf(node.op).spelling), "a number", operand);
-    }
-    const double a = left.v[0], b = right.v[0];
-    switch (node.op) {
-      case ExprOp::less:
-        return Value::boolean(a < b);
-      case ExprOp::less_equal:
-        return Value::boolean(a <= b);
-      case ExprOp::greater:
-        return Value::boolean(a > b);
-      default:
-        return Value::boolean(a >= b);
-    }
+    for (const Value* operand : {&left, &right})
+      if (!operand->isNumeric())
+        return misfit(operand->type == Value::Type::symbol ? *node.children[operand == &left ? 0 : 1] : node,
+                      fmt::format("'{}' compares numbers only", infoOf(node.op).spelling), "a number",
+                      *operand);
+    return Value::boolean(combine(node.op, left.v[0], right.v[0]) != 0);
   }
 
   bool arithmeticOperand(const Value& operand, const ExprNode& from, const ExprNode& node) {
-    if (operand.isNumeric() || operand.type == Value::Type::list) return true;
-    if (operand.type != Value::Type::none)
+    const bool good = operand.isNumeric() || operand.type == Value::Type::list;
+    if (!good)
       misfit(from, fmt::format("'{}' needs numbers", infoOf(node.op).spelling), "a number or a list",
              operand);
-    return false;
+    return good;
   }
 
   Value noResult(const ExprNode& node, const Value& left, const Value& right, bool binary) {
     const char* spelling = infoOf(node.op).spelling;
-    const bool divides = node.op == ExprOp::divide || node.op == ExprOp::modulo;
-    std::string message = fmt::format("'{}' has no finite result", spelling);
-    std::string expected = "a result that a double can hold", hint;
-    if (divides &&
-        std::find(right.v.begin(), right.v.begin() + right.count, 0.0) != right.v.begin() + right.count) {
-      message = fmt::format("'{}' divides by zero", spelling);
-      expected = "a divisor that is not zero";
-      hint = "guard it: 'b == 0 ? 0 : a / b'";
-    } else if (node.op == ExprOp::log2ceil) {
-      message = fmt::format("log2ceil() of {}, which is not above zero", toText(left));
-      expected = "a number above zero";
-      hint = "guard it: 'n > 0 ? log2ceil(n) : 0'";
-    }
-    if (base::Diagnostic* d = error(Code::noFiniteResult, node, std::move(message))) {
-      d->expected = std::move(expected);
-      d->found = binary ? fmt::format("{} {} {}", toText(left), spelling, toText(right))
-                        : fmt::format("{}({})", spelling, toText(left));
-      d->hint = std::move(hint);
-    }
-    return {};
+    const auto end = right.v.begin() + right.count;
+    const bool byZero = (node.op == ExprOp::divide || node.op == ExprOp::modulo) &&
+                        std::find(right.v.begin(), end, 0.0) != end;
+    return fail(Code::noFiniteResult, node, fmt::format("'{}' has no finite result", spelling),
+                {byZero                        ? "a divisor that is not zero"
+                 : node.op == ExprOp::log2ceil ? "a number above zero"
+                                               : "a result that a double can hold",
+                 binary ? fmt::format("{} {} {}", toText(left), spelling, toText(right))
+                        : fmt::format("{}({})", spelling, toText(left)),
+                 byZero ? "guard it: 'b == 0 ? 0 : a / b'" : ""});
   }
 
   Value apply(const ExprNode& node, const Value& left, const Value& right, bool binary) {
+    const bool listLeft = left.type == Value::Type::list, listRight = right.type == Value::Type::list;
+    if (listLeft && listRight && left.count != right.count)
+      return fail(Code::operandsDoNotFit, node,
+                  fmt::format("'{}' of two lists that differ in length", infoOf(node.op).spelling),
+                  {describe(left), describe(right)});
     Value out;
-    const bool lists = left.type == Value::Type::list || right.type == Value::Type::list;
-    if (left.type == Value::Type::list && right.type == Value::Type::list && left.count != right.count) {
-      if (base::Diagnostic* d =
-              error(Code::operandsDoNotFit, node,
-                    fmt::format("'{}' of two lists that differ in length", infoOf(node.op).spelling))) {
-        d->expected = fmt::format("a list of {}", left.count);
-        d->found = fmt::format("a list of {}", right.count);
-      }
-      return {};
-    }
-    out.type = lists ? Value::Type::list : Value::Type::number;
-    out.count = std::max(left.count, right.count);
-    if (left.type == Value::Type::list) out.count = left.count;
-    if (right.type == Value::Type::list) out.count = right.count;
+    out.type = listLeft || listRight ? Value::Type::list : Value::Type::number;
+    out.count = listLeft ? left.count : listRight ? right.count : std::uint8_t{1};
     for (std::size_t i = 0; i < out.count; ++i) {
-      const double a = left.v[left.type == Value::Type::list ? i : 0];
-      const double b = right.v[right.type == Value::Type::list ? i : 0];
+      const double a = left.v[listLeft ? i : 0];
+      const double b = right.v[listRight ? i : 0];
       out.v[i] = combine(node.op, a, b);
       // Infinite ages pass through; a NaN, or an infinity made of finite operands, does not.
       if (std::isnan(out.v[i]) || (!std::isfinite(out.v[i]) && isFinite(left) && isFinite(right)))

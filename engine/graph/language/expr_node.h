@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/diagnostic.h"
@@ -61,12 +62,9 @@ struct ExprNode : std::enable_shared_from_this<ExprNode> {
   std::uint32_t terms =
       1;              // number of nodes from here down; a node that stands in several places counts in each
   base::Place place;  // of the token to blame: the operator, the name, the function
-  base::Place start;  // of the whole expression; set on roots only
   Value value{};
   std::string name{};
   std::vector<std::shared_ptr<const ExprNode>> children{};
-  // Every $variable from here down, each once; set on roots only. Null: there is none.
-  std::shared_ptr<const std::vector<std::string>> variables{};
 };
 
 using ExprPtr = std::shared_ptr<const ExprNode>;
@@ -76,18 +74,18 @@ constexpr int kMaxExprHeight = 200;
 // all its terms wherever it is used, because the expression is evaluated as a tree.
 constexpr std::uint32_t kMaxFoldedTerms = 10'000;
 
+// Spelling and precedence of operators, from `component` on; of functions how many operands they take.
 struct OpInfo {
   const char* spelling;
-  std::uint8_t precedence;  // 0: not an infix operator; larger binds tighter
+  std::uint8_t precedence;  // 0: no operator; larger binds tighter
+  std::uint8_t least = 0, most = 0;
 };
-
-// "+" and 5 for add; the function's name for calls.
 OpInfo infoOf(ExprOp op);
+// The operator or function among [first, last] with that spelling; `constant` when there is none.
+ExprOp findOp(std::string_view spelling, ExprOp first, ExprOp last);
 
 // A hint for a word that stands where a number or a condition belongs: it was probably a parameter without its $, or a
 // misspelt `screen`. "" when the value is no word, or nothing is near.
-// True after a report: '==' or '!=' of two bare words, neither of them an index, is always the same.
-bool reportBareWords(const ExprNode& comparison, EvalScope& scope, base::Diagnostics& diagnostics);
 std::string hintForWord(EvalScope& scope, const Value& value);
 
 // "size", "mips", "count", "has", "age".
@@ -96,25 +94,16 @@ const char* nameOf(Fact fact);
 // A node over `children`, with height and dynamic filled in. The caller has checked the height.
 ExprPtr makeNode(ExprOp op, base::Place place, std::vector<ExprPtr> children);
 ExprPtr makeConstant(Value value, base::Place place);
-// 1 + the greatest height among `children`.
+// 1 + the greatest height among `children`, and 1 + all their terms.
 int heightOver(const std::vector<ExprPtr>& children);
-// 1 + all terms of `children`.
 std::uint32_t termsOver(const std::vector<ExprPtr>& children);
 // Sets what a node's children decide: height (which the caller has checked), dynamic, live, terms.
 void setChildren(ExprNode& node, std::vector<ExprPtr> children);
-// What expr.variables() has, without a copy.
-const std::vector<std::string>& variablesOf(const Expr& expr);
 // The name of the only $variable that the expression consists of; null when it is something else.
 const std::string* onlyVariableOf(const Expr& expr);
 
-// A copy of `root` that knows where the whole expression starts, and which variables it names.
-ExprPtr withStart(const ExprPtr& root, const base::Place& start);
-
 // The trees of Expr::parse; null after an error.
 ExprPtr parseExprTree(std::string_view text, const base::Place& place, base::Diagnostics& diagnostics);
-
-// Seconds since the publication behind a key.
-using AgeFunction = std::function<double(std::uint32_t key)>;
 
 // The value of a tree, or type none after an error. The first form is for expansion; the second is for folded trees, while
 // frames run.

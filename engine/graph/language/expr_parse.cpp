@@ -7,6 +7,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <regex>
 #include <utility>
 
 #include "engine/base/nearest.h"
@@ -19,128 +20,49 @@ namespace weft::graph {
 
 namespace {
 
-// "#ff8000" and "#f80" to "[1, 0.502, 0]": the numbers of the picture file, not linear light. "" for anything else.
-std::string hintForColor(std::string_view text) {
-  const std::size_t digits = text.empty() || text[0] != '#' ? 0 : text.size() - 1;
-  if (digits != 3 && digits != 6 && digits != 8) return {};
-  std::string list;
-  const std::size_t each = digits == 3 ? 1 : 2;
-  for (std::size_t at = 1; at < text.size(); at += each) {
-    unsigned value = 0;
-    const char* const end = text.data() + at + each;
-    const auto [stop, error] = std::from_chars(text.data() + at, end, value, 16);
-    if (error != std::errc() || stop != end) return {};
-    list += fmt::format("{}{:.3g}", list.empty() ? "" : ", ", value / (each == 1 ? 15.0 : 255.0));
-  }
-  return fmt::format("a color is a list of numbers, which Weft takes as they are: [{}]", list);
-}
+// Values as other formats spell them, and what is said of each. "$1" is the first group.
+struct Spelling {
+  const char *theirs, *hint;
+};
+constexpr Spelling kSpellings[] = {
+    {"#[0-9a-fA-F]{3,8}", "a color is a list of numbers, which Weft takes as they are, such as [1, 0.5, 0]"},
+    {R"(([\d.]+)%)", "write the part of what it is: 'screen*0.5' for 50%"},
+    {R"((.*[*/])([\d.]+)%)", "write '$1 0.5' for 50%"},
+    {R"(([\d.]+)\s*[xX,]\s*([\d.]+))", "write [$1, $2]"},
+    {R"(([\d.]+)x)", "write 'screen*$1'"},
+    {R"(([\d.]+)[KM]i?B)", "sizes of buffers are bytes: write $1*1024, or $1*1048576"},
+    {R"(([\d.]+)[A-Za-z]+)", "numbers have no unit and no ending: write $1"},
+    {R"((.*)px)", "texels have no unit: write '$1'"},
+    {R"(\w+\[(\d+)\])", "sizes of buffers are bytes: write $1*4 for that many words"},
+    {R"(width\s*,\s*height)", "write 'screen'"},
+    {R"(width\s*/\s*([\d.]+)\s*,.*)", "write 'screen/$1'"},
+    {R"((.*)\.width)", "a size has .x and .y: write '$1.x'"},
+    {R"((.*)\.height)", "a size has .x and .y: write '$1.y'"}};
 
-// "1920,1080" to "[1920, 1080]".
-std::string hintForPair(std::string_view text) {
-  double first = 0, second = 0;
-  const char* const end = text.data() + text.size();
-  const auto comma = std::from_chars(text.data(), end, first);
-  if (comma.ec != std::errc() || comma.ptr == end || *comma.ptr != ',') return {};
-  const auto last = std::from_chars(comma.ptr + 1, end, second);
-  return last.ec == std::errc() && last.ptr == end ? fmt::format("write [{}, {}]", first, second) : "";
-}
-
-// "uint[256]" and "256uints" to "256*4": how many bytes that is.
-std::string hintForElements(std::string_view text) {
-  double count = 0;
-  std::string_view type = text;
-  if (const std::size_t open = text.find('['); open != std::string_view::npos && text.ends_with(']')) {
-    const char* const end = text.data() + text.size() - 1;
-    const auto number = std::from_chars(text.data() + open + 1, end, count);
-    if (number.ec != std::errc() || number.ptr != end) return {};
-    type = text.substr(0, open);
-  } else {
-    const auto number = std::from_chars(text.data(), text.data() + text.size(), count);
-    if (number.ec != std::errc()) return {};
-    type.remove_prefix(static_cast<std::size_t>(number.ptr - text.data()));
-  }
-  if (type.ends_with('s')) type.remove_suffix(1);
-  for (const auto& [name, bytes] : {std::pair{"uint", 4}, std::pair{"int", 4}, std::pair{"float", 4},
-                                    std::pair{"uvec2", 8}, std::pair{"vec2", 8}, std::pair{"uvec4", 16},
-                                    std::pair{"vec4", 16}, std::pair{"uint32", 4}, std::pair{"float32", 4}})
-    if (type == name) return fmt::format("sizes of buffers are bytes: write {}*{}", count, bytes);
-  return {};
+// What "scene.width" and the like of other languages is called here, or "".
+std::string hintForMember(std::string_view name, std::string_view member) {
+  for (const std::string_view theirs : {"size", "width", "height", "mips", "levels", "count", "length"})
+    if (member == theirs)
+      return fmt::format("ask size({0}), mips({0}) or count({0}); a size has .x and .y", name);
+  if (isReservedWord(member))
+    return fmt::format("values know the whole of it: size({0}) is that of level 0, mips({0}) says how many",
+                       name);
+  return base::hintForForeign(base::Foreign::value, fmt::format("{}.{}", name, member));
 }
 
 }  // namespace
 
-std::string hintForSize(std::string_view whole) {
-  if (std::string color = hintForColor(whole); !color.empty()) return color;
-  std::string packed(whole);
-  std::erase_if(packed, isSpace);
-  const std::string_view text = packed;
-  if (text == "width,height") return "write 'screen'";
-  if (std::string list = hintForPair(text); !list.empty()) return list;
-  if (std::string bytes = hintForElements(text); !bytes.empty()) return bytes;
-  // "screen*50%", "width/2,height/2", "screen.width"
-  if (text.starts_with("screen*") && text.ends_with('%')) {
-    double part = 0;
-    const auto [at, error] = std::from_chars(text.data() + 7, text.data() + text.size(), part);
-    if (error == std::errc() && at + 1 == text.data() + text.size())
-      return fmt::format("write 'screen*{}'", part / 100);
-  }
-  if (text.starts_with("width/")) {
-    const std::string_view by = text.substr(6, text.find(',') - std::min<std::size_t>(6, text.size()));
-    double part = 0;
-    const bool divides =
-        std::from_chars(by.data(), by.data() + by.size(), part).ptr == by.data() + by.size() && part > 0;
-    if (divides && text == fmt::format("width/{},height/{}", by, by))
-      return fmt::format("write 'screen/{}'", by);
-  }
-  for (const auto& [theirs, ours] : {std::pair{".width", ".x"}, std::pair{".height", ".y"}})
-    if (const std::size_t at = text.find(theirs); at != std::string_view::npos)
-      return fmt::format("a size has .x and .y: write '{}{}'", text.substr(0, at), ours);
-  if (text.ends_with("px") && text.find(',') == std::string_view::npos && !isDigit(text[0]))
-    return fmt::format("texels have no unit: write '{}'", text.substr(0, text.size() - 2));
-  double first = 0, second = 0;
-  const char* const begin = text.data();
-  const char* const end = begin + text.size();
-  const auto number = std::from_chars(begin, end, first);
-  if (number.ec != std::errc() || number.ptr == end) return {};
-  const std::string_view rest(number.ptr, static_cast<std::size_t>(end - number.ptr));
-  if (rest == "%")
-    return fmt::format("write '{}' of what it is a part of: 'screen*{}'", first / 100, first / 100);
-  if (rest == "px") return fmt::format("texels have no unit: write {}", first);
-  if (rest == "x") return fmt::format("write 'screen*{}'", first);
-  for (const std::string_view unit : {"f", "F", "deg", "rad", "s", "ms", "B", "bytes", "texels", "pixels"})
-    if (rest == unit) return fmt::format("numbers have no unit and no ending: write {}", first);
-  for (const auto& [unit, bytes] :
-       {std::pair{"KB", 1024}, std::pair{"KiB", 1024}, std::pair{"MB", 1 << 20}, std::pair{"MiB", 1 << 20}})
-    if (rest == unit) return fmt::format("sizes of buffers are bytes: write {}*{}", first, bytes);
-  if (rest[0] != 'x' && rest[0] != 'X') return {};
-  const auto other = std::from_chars(number.ptr + 1, end, second);
-  return other.ec == std::errc() && other.ptr == end ? fmt::format("write [{}, {}]", first, second) : "";
+std::string hintForSize(std::string_view text) {
+  constexpr std::size_t kLongest = 80;  // a longer text is no slip of this kind
+  if (text.size() > kLongest) return {};
+  std::cmatch found;
+  for (const auto& [theirs, hint] : kSpellings)
+    if (std::regex_match(text.data(), text.data() + text.size(), found, std::regex(theirs)))
+      return found.format(hint);
+  return {};
 }
 
 namespace {
-
-// What there is in place of a value of "x.mip[i]" and the like.
-std::string hintForPart(std::string_view name) {
-  return fmt::format(
-      "values know the whole: size({0}) is that of level 0, count({0}) and mips({0}) say how many; "
-      "\"threads\" left "
-      "out is the size of the level that the pass writes, and a shader asks textureSize() or imageSize()",
-      name);
-}
-
-// What "scene.width" and the like of other languages is called here, or "".
-std::string hintForMember(std::string_view name, std::string_view member) {
-  struct Theirs {
-    const char *member, *before, *after;
-  };
-  constexpr Theirs kTheirs[] = {
-      {"size", "size(", ")"},   {"width", "size(", ").x"}, {"height", "size(", ").y"}, {"mips", "mips(", ")"},
-      {"levels", "mips(", ")"}, {"count", "count(", ")"},  {"length", "count(", ")"}};
-  for (const Theirs& theirs : kTheirs)
-    if (member == theirs.member) return fmt::format("write '{}{}{}'", theirs.before, name, theirs.after);
-  if (isReservedWord(member)) return hintForPart(name);
-  return base::hintForForeign(base::Foreign::value, fmt::format("{}.{}", name, member));
-}
 
 // ---- tokens: numbers, identifiers, operators ----
 
@@ -152,21 +74,6 @@ struct Token {
   double number = 0;
 };
 
-std::size_t endOfNumber(std::string_view text, std::size_t at) {
-  const auto digits = [&](std::size_t i) {
-    while (i < text.size() && isDigit(text[i])) ++i;
-    return i;
-  };
-  at = digits(at);
-  if (at + 1 < text.size() && text[at] == '.' && isDigit(text[at + 1])) at = digits(at + 1);
-  if (at < text.size() && (text[at] == 'e' || text[at] == 'E')) {
-    std::size_t exponent = at + 1;
-    if (exponent < text.size() && (text[exponent] == '+' || text[exponent] == '-')) ++exponent;
-    if (exponent < text.size() && isDigit(text[exponent])) at = digits(exponent);
-  }
-  return at;
-}
-
 // The token at or after `from`, spaces left out; of kind `end` behind the last. A number that a double cannot hold is `bad`; what is
 // no token of the language is punctuation that no grammar accepts. Never cuts a UTF-8 sequence in half.
 Token scanToken(std::string_view text, std::size_t from) {
@@ -177,9 +84,9 @@ Token scanToken(std::string_view text, std::size_t from) {
   const char c = text[from];
   std::size_t end = from + 1;
   if (isDigit(c)) {
-    end = endOfNumber(text, from);
+    const auto result = std::from_chars(text.data() + from, text.data() + text.size(), token.number);
+    end = static_cast<std::size_t>(result.ptr - text.data());
     token.kind = Token::Kind::number;
-    const auto result = std::from_chars(text.data() + from, text.data() + end, token.number);
     if (result.ec != std::errc() || !std::isfinite(token.number)) token.kind = Token::Kind::bad;
   } else if (isIdentStart(c)) {
     while (end < text.size() && isIdentChar(text[end])) ++end;
@@ -197,36 +104,13 @@ Token scanToken(std::string_view text, std::size_t from) {
 // ---- the grammar ----
 
 constexpr int kMaxNesting = 64;
-constexpr std::size_t kMostItems =
-    64;  // of a list or a call, counted for the message before they are too many
+constexpr std::size_t kMostItems = 4, kMostArguments = 8;
 constexpr int kMaxParsedHeight =
     kMaxExprHeight - 1;  // leaves one level for the list that Expr::listOf puts around it
 constexpr std::uint32_t kMaxParsedTerms = 1000;
 
-struct Function {
-  const char* name;
-  ExprOp op;
-  std::size_t least, most;
-};
-constexpr std::array kFunctions = {Function{"min", ExprOp::minimum, 2, 8},
-                                   Function{"max", ExprOp::maximum, 2, 8},
-                                   Function{"ceil", ExprOp::ceil, 1, 1},
-                                   Function{"floor", ExprOp::floor, 1, 1},
-                                   Function{"log2ceil", ExprOp::log2ceil, 1, 1},
-                                   Function{"pow2ceil", ExprOp::pow2ceil, 1, 1},
-                                   Function{"abs", ExprOp::abs, 1, 1}};
 constexpr std::array kFacts = {Fact::size, Fact::mips, Fact::count, Fact::has, Fact::age};
 
-struct Infix {
-  const char* spelling;
-  ExprOp op;
-};
-constexpr std::array kInfix = {
-    Infix{"||", ExprOp::logical_or}, Infix{"&&", ExprOp::logical_and}, Infix{"==", ExprOp::equal},
-    Infix{"!=", ExprOp::not_equal},  Infix{"<=", ExprOp::less_equal},  Infix{">=", ExprOp::greater_equal},
-    Infix{"<", ExprOp::less},        Infix{">", ExprOp::greater},      Infix{"+", ExprOp::add},
-    Infix{"-", ExprOp::subtract},    Infix{"*", ExprOp::multiply},     Infix{"/", ExprOp::divide},
-    Infix{"%", ExprOp::modulo}};
 constexpr int kComparison = 4;
 
 class Parser {
@@ -268,20 +152,8 @@ class Parser {
     }
     if (token_.kind == Token::Kind::end)
       return fail(token_, fmt::format("the expression ends where {} is expected", expected), "", expected);
-    std::string hint;
-    if (token_.text == "and" || token_.text == "&") hint = "write '&&'";
-    if (token_.text == "or" || token_.text == "|") hint = "write '||'";
-    if (token_.text == "not") hint = "write '!'";
-    if (text_.substr(0, token_.begin).ends_with("not ")) hint = "write '!' for 'not'";
-    if (token_.text == "'") hint = "words of a choice stand without quotes";
-    if (token_.text == "=") hint = "write '==' to compare";
-    if (token_.text == "^" || (token_.text == "*" && text_.substr(0, token_.begin).ends_with("*")))
-      hint = "there is no power: write 'a * a', or compute it in the shader";
-    if (token_.text == "if") hint = "write 'condition ? a : b'";
-    if (token_.text == "{") hint = "write '$name' for a parameter, without braces";
-    if (token_.text == ":") hint = "a ':' belongs to 'condition ? a : b'";
-    return fail(token_, fmt::format("unexpected '{}' where {} is expected", token_.text, expected), hint,
-                expected);
+    return fail(token_, fmt::format("unexpected '{}' where {} is expected", token_.text, expected),
+                base::hintForForeign(base::Foreign::expression, token_.text), expected);
   }
 
   // ---- tokens ----
@@ -300,32 +172,30 @@ class Parser {
   // ---- grammar ----
 
   ExprPtr build(ExprOp op, const Token& blamed, std::vector<ExprPtr> children) {
-    if (heightOver(children) > kMaxParsedHeight)
-      return fail(blamed, fmt::format("the expression chains more than {} operators", kMaxParsedHeight - 1),
-                  "split it with \"let\"");
-    if (termsOver(children) > kMaxParsedTerms)
+    if (heightOver(children) > kMaxParsedHeight || termsOver(children) > kMaxParsedTerms)
       return fail(blamed,
-                  fmt::format("the expression has more than {} operators and operands", kMaxParsedTerms),
+                  fmt::format("the expression chains more than {} operators, or has more than {} operands",
+                              kMaxParsedHeight - 1, kMaxParsedTerms),
                   "split it with \"let\"");
     return makeNode(op, placeOf(blamed), std::move(children));
   }
 
-  class Nesting {
-   public:
-    explicit Nesting(int& depth) : depth_(depth) { ++depth_; }
-    ~Nesting() { --depth_; }
-    Nesting(const Nesting&) = delete;
-    Nesting& operator=(const Nesting&) = delete;
-
-   private:
-    int& depth_;
-  };
-
-  ExprPtr parseConditional() {
-    const Nesting nesting(depth_);
-    if (depth_ > kMaxNesting)
+  // One level deeper while `parse` runs; an error where that is too deep.
+  template <class Parse>
+  ExprPtr nested(const Parse& parse) {
+    if (depth_ == kMaxNesting)
       return fail(token_, fmt::format("the expression is nested more than {} levels deep", kMaxNesting),
                   "split it with \"let\"");
+    ++depth_;
+    ExprPtr inner = parse();
+    --depth_;
+    return inner;
+  }
+
+  ExprPtr parseConditional() {
+    return nested([&] { return parseWithin(); });
+  }
+  ExprPtr parseWithin() {
     ExprPtr condition = parseInfix(2);
     if (!condition || !at("?")) return condition;
     const Token mark = token_;
@@ -338,25 +208,24 @@ class Parser {
     return build(ExprOp::conditional, mark, {condition, yes, no});
   }
 
-  const Infix* infixAt() const {
-    if (token_.kind != Token::Kind::punctuation) return nullptr;
-    for (const Infix& infix : kInfix)
-      if (token_.text == infix.spelling) return &infix;
-    return nullptr;
+  // The infix operator at hand; `constant` for anything else.
+  ExprOp infixAt() const {
+    return token_.kind == Token::Kind::punctuation ? findOp(token_.text, ExprOp::add, ExprOp::logical_or)
+                                                   : ExprOp::constant;
   }
 
   ExprPtr parseInfix(int least) {
     ExprPtr left = parseUnary();
     while (left) {
-      const Infix* infix = infixAt();
-      if (!infix || infoOf(infix->op).precedence < least) return left;
-      const int precedence = infoOf(infix->op).precedence;
+      const ExprOp infix = infixAt();
+      const int precedence = infoOf(infix).precedence;
+      if (precedence == 0 || precedence < least) return left;
       const Token blamed = token_;
       advance();
       ExprPtr right = parseInfix(precedence + 1);
       if (!right) return nullptr;
-      left = build(infix->op, blamed, {left, right});
-      if (left && precedence == kComparison && infixAt() && infoOf(infixAt()->op).precedence == kComparison)
+      left = build(infix, blamed, {left, right});
+      if (left && precedence == kComparison && infoOf(infixAt()).precedence == kComparison)
         return fail(token_, fmt::format("comparisons do not chain: '{}' follows another one", token_.text),
                     "join two comparisons with '&&'");
     }
@@ -366,11 +235,8 @@ class Parser {
   ExprPtr parseUnary() {
     if (!at("-") && !at("!")) return parsePostfix();
     const Token blamed = token_;
-    const Nesting nesting(depth_);
-    if (depth_ > kMaxNesting)
-      return fail(token_, fmt::format("the expression is nested more than {} levels deep", kMaxNesting));
     advance();
-    ExprPtr operand = parseUnary();
+    ExprPtr operand = nested([&] { return parseUnary(); });
     if (!operand) return nullptr;
     const bool literal = operand->op == ExprOp::constant && operand->value.type == Value::Type::number;
     if (blamed.text == "-" && literal)
@@ -429,12 +295,11 @@ class Parser {
       if (!item) return nullptr;
       if (item->op == ExprOp::list) return fail(itemStart, "a list holds numbers, not lists");
       if (items.size() == kMostItems)
-        return fail(bracket, fmt::format("a list of more than {} items: at most 4 are allowed", kMostItems));
+        return fail(bracket, fmt::format("a list of more than {} items", kMostItems), "",
+                    fmt::format("at most {} items", kMostItems));
       items.push_back(std::move(item));
     } while (accept(","));
     if (!accept("]")) return failUnexpected("',' or ']'");
-    if (items.size() > 4)
-      return fail(bracket, fmt::format("a list of {} items: at most 4 are allowed", items.size()));
     return build(ExprOp::list, bracket, std::move(items));
   }
 
@@ -467,7 +332,7 @@ class Parser {
       }
       if (isReservedWord(next.text))
         return fail(next, fmt::format("'.{}' selects a sub-resource, where a name is expected", next.text),
-                    hintForPart(name)),
+                    hintForMember(name, next.text)),
                false;
       advance();
       name += '.';
@@ -501,14 +366,12 @@ class Parser {
     advance();  // (
     for (const Fact fact : kFacts)
       if (word.text == nameOf(fact)) return parseFact(fact, word);
-    const Function* function = nullptr;
-    std::vector<std::string> known;
-    for (const Fact fact : kFacts) known.emplace_back(nameOf(fact));
-    for (const Function& f : kFunctions) {
-      known.emplace_back(f.name);
-      if (word.text == f.name) function = &f;
-    }
-    if (!function) {
+    const ExprOp function = findOp(word.text, ExprOp::minimum, ExprOp::abs);
+    const OpInfo info = infoOf(function);
+    if (function == ExprOp::constant) {
+      std::vector<std::string> known = {"size", "mips", "count", "has", "age"};
+      for (auto op = ExprOp::minimum; op <= ExprOp::abs; op = static_cast<ExprOp>(static_cast<int>(op) + 1))
+        known.emplace_back(infoOf(op).spelling);
       auto& d = diagnostics_.error(base::Code::badFunctionCall, placeOf(word),
                                    fmt::format("unknown function '{}'", word.text));
       d.hint = base::hintForForeign(base::Foreign::expression, word.text);
@@ -520,22 +383,21 @@ class Parser {
       do {
         ExprPtr argument = parseConditional();
         if (!argument) return nullptr;
-        if (arguments.size() == kMostItems)
-          return fail(word, fmt::format("{}() with more than {} arguments", word.text, kMostItems));
+        if (arguments.size() == kMostArguments)
+          return fail(word, fmt::format("{}() with more than {} arguments", word.text, kMostArguments));
         arguments.push_back(std::move(argument));
       } while (accept(","));
     }
     if (!accept(")")) return failUnexpected("',' or ')'");
-    if (arguments.size() < function->least || arguments.size() > function->most) {
+    if (arguments.size() < info.least || arguments.size() > info.most) {
       auto& d = diagnostics_.error(base::Code::badFunctionCall, placeOf(word),
                                    fmt::format("{}() with the wrong number of arguments", word.text));
-      d.expected = function->least == function->most
-                       ? fmt::format("{}", function->least)
-                       : fmt::format("{} to {}", function->least, function->most);
+      d.expected = info.least == info.most ? fmt::format("{}", info.least)
+                                           : fmt::format("{} to {}", info.least, info.most);
       d.found = fmt::format("{}", arguments.size());
       return nullptr;
     }
-    return build(function->op, word, std::move(arguments));
+    return build(function, word, std::move(arguments));
   }
 
   ExprPtr parseWord() {
@@ -558,14 +420,10 @@ class Parser {
     if (node->op == ExprOp::identifier && at(".")) {
       const Token next = peek();
       std::string meant = hintForMember(word.text, next.text);
+      if (meant.empty())
+        meant = fmt::format("'${}.{}' for a parameter, or size() of a resource", word.text, next.text);
       if (next.kind == Token::Kind::identifier && componentIndex(next.text) < 0)
-        return fail(
-            word, fmt::format("'{}.{}' is no value", word.text, next.text),
-            !meant.empty()
-                ? std::move(meant)
-                : fmt::format(
-                      "'${}.{}' for a parameter, or size(), mips(), count(), has(), age() of a resource",
-                      word.text, next.text));
+        return fail(word, fmt::format("'{}.{}' is no value", word.text, next.text), std::move(meant));
     }
     return node;
   }

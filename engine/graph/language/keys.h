@@ -1,6 +1,6 @@
-// Every key and word the graph format knows, in one place: the reader rejects what is not here, and the JSON
-// Schema is printed from here. `schema` is the JSON Schema of the value, or "@name" for one of the shapes in
-// schema.cpp.
+// Every key and word of the graph format. The keys come from its JSON Schema, docs/graph.schema.json, which the build puts into
+// the program: what the reader accepts, what completion offers and what editors check through "$schema" is one text. It
+// describes shapes and words; names, expressions and references are checked by the reader and by expansion.
 #pragma once
 
 #include <array>
@@ -23,10 +23,11 @@ constexpr std::array<std::string_view, 8> kCompareNames = {
 constexpr std::array<std::string_view, 3> kCullWords = {"none", "front", "back"};
 constexpr std::array<std::string_view, 2> kPolygonWords = {"fill", "line"};
 
+// The text of the schema (draft 2020-12).
+extern const char* const kGraphSchema;
+
 struct KeySpec {
-  std::string_view key;
-  std::string_view schema;
-  std::string_view doc;
+  std::string_view key, doc;
   bool required = false;
   std::span<const std::string_view> words = {};  // that it may be, where these are few
 };

@@ -32,7 +32,9 @@ std::string commonSuffix(std::string_view a, std::string_view b) {
 }
 
 std::string suffixHint(std::string_view wanted, std::span<const std::string> names) {
-  if (const std::string near = base::nearestName(wanted, names); !near.empty())
+  const std::vector<std::size_t> ending = suffixMatches(names, wanted);
+  if (const std::string near = ending.empty() ? base::nearestName(wanted, names) : names[ending[0]];
+      !near.empty())
     return fmt::format("did you mean '{}'?", near);
   // A suffix is whole parts between dots; part of a part may be what was meant.
   std::string holding;

@@ -1,5 +1,5 @@
 // Dotted names and the suffixes that stand for them: `--set`, `--disable` and "set" of files take any unique
-// suffix of a name; elsewhere in files names are whole. Does not know what is named.
+// suffix of a name; elsewhere in files names are whole.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,8 @@ std::vector<std::size_t> suffixMatches(std::span<const std::string> names, std::
 // The longest suffix of both.
 std::string commonSuffix(std::string_view a, std::string_view b);
 
-// The nearest of the names and of their last parts, as a hint; "" when nothing is near and the list is long.
+// The name that ends in `wanted`, else the nearest of the names and of their last parts, as a hint; "" when nothing is near
+// and the list is long.
 std::string suffixHint(std::string_view wanted, std::span<const std::string> names);
 
 }  // namespace weft::graph

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <system_error>
 
+#include "engine/graph/language/names.h"
+
 namespace weft::graph {
 
 std::string toText(const Value& value) {
@@ -27,18 +29,8 @@ std::string toText(const Value& value) {
   return out + "]";
 }
 
-namespace {
-
-std::string_view trim(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  return text;
-}
-
-}  // namespace
-
 std::optional<double> parseNumber(std::string_view text) {
-  text = trim(text);
+  text = trimmed(text);
   double x = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
   if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(x)) return std::nullopt;
@@ -54,7 +46,7 @@ const char* whyNoNumber(std::string_view text) {
 }
 
 Value parseValue(std::string_view text) {
-  text = trim(text);
+  text = trimmed(text);
   if (text == "true" || text == "false") return Value::boolean(text == "true");
   if (const auto number = parseNumber(text)) return Value::number(*number);
   if (text.size() >= 2 && text.front() == '[' && text.back() == ']') {

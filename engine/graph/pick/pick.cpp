@@ -1,109 +1,222 @@
 #include "engine/graph/pick/pick.h"
 
-#include <charconv>
+#include <fmt/format.h>
 
-#include "engine/graph/language/names.h"
+#include <algorithm>
+#include <charconv>
+#include <regex>
+#include <unordered_set>
+
+#include "engine/base/nearest.h"
+#include "engine/graph/language/suffix.h"
 
 namespace weft::graph {
 
 namespace {
 
-// Takes a whole number off the front.
-bool takeWhole(std::string_view& text, std::uint32_t& out) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
-  if (error != std::errc{} || end == text.data()) return false;
-  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-  return true;
+using base::Code;
+
+// A whole number; nothing when it is too large.
+std::optional<std::uint32_t> wholeOf(std::string_view digits) {
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  return error == std::errc() ? std::optional(number) : std::nullopt;
 }
 
-bool takeWord(std::string_view& text, std::string_view word) {
-  if (!text.starts_with(word)) return false;
-  text.remove_prefix(word.size());
-  return true;
+base::Diagnostic& reportPick(base::Diagnostics& diagnostics, Code code, const Pick& pick,
+                             std::string message) {
+  const std::string option = pick.option + (pick.option.empty() ? "" : " ") + pick.text;
+  base::Diagnostic& d = diagnostics.error(code, base::placeOfOption(option), std::move(message));
+  d.resource = pick.name;
+  return d;
 }
 
-// "mip[3]" and the like.
-bool takeSelector(std::string_view& text, std::string_view word, std::uint32_t& out) {
-  return takeWord(text, word) && takeWord(text, "[") && takeWhole(text, out) && takeWord(text, "]");
+// Which version of its name a resource is, from 1.
+std::uint32_t versionOf(std::string_view resourceName) {
+  const std::size_t at = resourceName.find('#');
+  return at == std::string_view::npos
+             ? 1
+             : static_cast<std::uint32_t>(std::stoul(std::string(resourceName.substr(at + 1))));
 }
 
-// A dotted name, which ends before a selector; with the [k] of an array.
-std::string takeName(std::string_view& text) {
-  std::string name(takeWord(text, "@") ? "@" : "");
-  for (bool first = true;; first = false) {
-    const std::string_view rest = first ? text : text.substr(text.starts_with('.') ? 1 : 0);
-    if (!first && rest.size() == text.size()) break;
-    std::size_t length = 0;
-    while (length < rest.size() && isIdentChar(rest[length])) ++length;
-    const std::string_view word = rest.substr(0, length);
-    if (!isIdent(word)) return first ? std::string{} : name;
-    if (!first && isReservedWord(word)) break;
-    name += (first ? "" : ".") + std::string(word);
-    text = rest.substr(length);
+std::uint32_t findVersion(const FlatGraph& graph, const Pick& pick, base::Diagnostics& diagnostics) {
+  std::vector<std::string> names;  // each once
+  std::unordered_set<std::string_view> known;
+  for (const std::string& name : graph.resourceNames)
+    if (const std::string_view shared = sharedName(name); known.insert(shared).second)
+      names.emplace_back(shared);
+  constexpr const char* kPathHint = "a path with = in it is written ./a=b.png";
+  if (!parsePick(pick.text)) {
+    auto& d = reportPick(diagnostics, Code::unknownResource, pick,
+                         fmt::format("'{}' cannot name a resource", pick.text));
+    d.expected = "a name such as depth, hdr#1 or 'glow.mip[2]'";
+    const std::string near = suffixHint(pick.text.substr(0, pick.text.find_first_of(".#[@ ")), names);
+    d.hint = near + (near.empty() ? "" : "; ") + kPathHint;
+    return kNone;
   }
-  if (std::string_view rest = text; takeWord(rest, "[")) {
-    std::uint32_t element = 0;
-    if (!takeWhole(rest, element) || !takeWord(rest, "]")) return {};
-    name += "[" + std::to_string(element) + "]";
-    text = rest;
+  const std::vector<std::size_t> matches = suffixMatches(names, pick.name);
+  if (matches.size() != 1) {
+    auto& d = reportPick(diagnostics, matches.empty() ? Code::unknownResource : Code::ambiguousName, pick,
+                         matches.empty()
+                             ? fmt::format("no pass that is enabled uses a resource '{}'", pick.name)
+                             : fmt::format("'{}' may be any of {} resources", pick.name, matches.size()));
+    d.hint = matches.empty() ? suffixHint(pick.name, names)
+                             : fmt::format("write '{}' or '{}'", names[matches[0]], names[matches[1]]);
+    if (d.hint.empty() && pick.option == "-o") d.hint = kPathHint;
+    return kNone;
   }
-  return name;
+  std::uint32_t found = kNone, last = 0;
+  for (std::uint32_t r = 0; r < graph.resources.size(); ++r) {
+    if (sharedName(graph.resourceNames[r]) != names[matches[0]]) continue;
+    const std::uint32_t version = versionOf(graph.resourceNames[r]);
+    if (pick.version == 0 ? version > last : version == pick.version) found = r;
+    last = std::max(last, version);
+  }
+  if (found == kNone) {
+    auto& d = reportPick(diagnostics, Code::missingSubresource, pick,
+                         fmt::format("'{}' has no version {}", pick.name, pick.version));
+    d.expected = fmt::format("#1 to #{}", last);
+    d.found = fmt::format("#{}", pick.version);
+  }
+  return found;
+}
+
+bool checkParts(const FlatResource& resource, const Pick& pick, base::Diagnostics& diagnostics) {
+  const auto within = [&](const char* what, std::uint32_t value, std::uint32_t count, Code code) {
+    if (value < count) return true;
+    auto& d = reportPick(diagnostics, code, pick, fmt::format("'{}' has no {} {}", pick.name, what, value));
+    d.expected = count == 1 ? fmt::format("only {} 0", what) : fmt::format("{} 0 to {}", what, count - 1);
+    return false;
+  };
+  const std::uint32_t slices = resource.target == Target::texture_3d
+                                   ? std::max(1u, resource.depth >> std::min<std::uint32_t>(pick.mip, 31))
+                                   : resource.layers;
+  if (!within("level", pick.mip, resource.mips, Code::missingSubresource) ||
+      !within("layer", pick.layer, slices, Code::missingSubresource))
+    return false;
+  if (pick.history > resource.history) {
+    auto& d = reportPick(diagnostics, Code::noHistory, pick,
+                         fmt::format("'{}' keeps {} of its publications", pick.name,
+                                     resource.history == 0 ? "none" : std::to_string(resource.history)));
+    d.hint = fmt::format("write \"history\": {} into its declaration", pick.history);
+    return false;
+  }
+  if (pick.stencil && !hasStencil(resource.format)) {
+    reportPick(diagnostics, Code::badSelector, pick, fmt::format("'{}' has no stencil", pick.name)).found =
+        infoOf(resource.format).name;
+    return false;
+  }
+  return true;
 }
 
 }  // namespace
 
 std::optional<Pick> parsePick(std::string_view text) {
-  Pick pick{.text = std::string(text), .name = {}, .pass = {}};
-  std::string_view rest = text;
-  pick.name = takeName(rest);
-  if (pick.name.empty()) return std::nullopt;
-  if (takeWord(rest, "#") && (!takeWhole(rest, pick.version) || pick.version == 0)) return std::nullopt;
-  std::uint32_t face = 0, cube = 0;
+  constexpr std::size_t kLongest = 1000;
+  // The name ends before a word that selects a part.
+  static const std::regex kPick(
+      R"((@?[A-Za-z_]\w*(?:\.(?!(?:mip|layer|face|stencil|[xyzw])(?!\w))[A-Za-z_]\w*)*(?:\[\d+\])?)(?:#(\d+))?)"
+      R"(((?:\.(?:mip|layer|face)\[\d+\]|\.stencil)*)(?:@-(\d+))?(?: after (.+))?)");
+  static const std::regex kSelector(R"(\.(\w+)(?:\[(\d+)\])?)");
+  const std::string whole(text);
+  std::smatch found;
+  if (whole.size() > kLongest || !std::regex_match(whole, found, kPick)) return std::nullopt;
+  Pick pick{.text = whole, .name = found[1], .pass = found[5]};
+  for (const auto& [group, out] : {std::pair(2, &pick.version), std::pair(4, &pick.history)}) {
+    if (!found[group].matched) continue;
+    const auto number = wholeOf(found[group].str());
+    if (!number || *number == 0) return std::nullopt;
+    *out = *number;
+  }
+  std::uint32_t face = 0, layer = 0;
   bool ofCube = false;
-  while (takeWord(rest, ".")) {
-    if (rest.starts_with("mip")) {
-      if (!takeSelector(rest, "mip", pick.mip)) return std::nullopt;
-    } else if (rest.starts_with("layer")) {
-      if (!takeSelector(rest, "layer", cube)) return std::nullopt;
-    } else if (rest.starts_with("face")) {
-      if (!takeSelector(rest, "face", face) || face > 5) return std::nullopt;
-      ofCube = true;
-    } else if (takeWord(rest, "stencil")) {
-      pick.stencil = true;
-    } else {
+  const std::string selectors = found[3];
+  for (std::sregex_iterator each(selectors.begin(), selectors.end(), kSelector), end; each != end; ++each) {
+    const std::string word = (*each)[1];
+    const auto number = wholeOf((*each)[2].str());
+    pick.stencil = pick.stencil || word == "stencil";
+    if (word == "stencil") continue;
+    if (!number || (word == "face" && *number > 5) || (word == "layer" && *number > 0xffff))
       return std::nullopt;
-    }
+    (word == "mip" ? pick.mip : word == "face" ? face : layer) = *number;
+    ofCube = ofCube || word == "face";
   }
-  if (cube > 0xffff) return std::nullopt;
-  pick.layer = ofCube ? cube * 6 + face : cube;
-  if (takeWord(rest, "@-") && (!takeWhole(rest, pick.history) || pick.history == 0)) return std::nullopt;
-  if (takeWord(rest, " after ")) {
-    pick.pass = rest;
-    rest = {};
-    if (pick.pass.empty()) return std::nullopt;
-  }
-  return rest.empty() ? std::optional(std::move(pick)) : std::nullopt;
+  pick.layer = ofCube ? layer * 6 + face : layer;
+  return pick;
 }
 
 bool matchesPattern(std::string_view pattern, std::string_view text) {
-  // The last * and how much of the text it has taken: when the rest does not match, it takes one letter more.
-  std::size_t p = 0, t = 0, star = std::string_view::npos, taken = 0;
-  while (t < text.size()) {
-    if (p < pattern.size() && pattern[p] == '*') {
-      star = p++;
-      taken = t;
-    } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t])) {
-      ++p;
-      ++t;
-    } else if (star != std::string_view::npos) {
-      p = star + 1;
-      t = ++taken;
-    } else {
-      return false;
+  // Whether what was looked at of the pattern matches the first t letters of the text.
+  std::vector<char> matches(text.size() + 1, 0);
+  matches[0] = 1;
+  for (const char c : pattern) {
+    if (c == '*') {
+      for (std::size_t t = 1; t <= text.size(); ++t) matches[t] |= matches[t - 1];
+      continue;
+    }
+    for (std::size_t t = text.size(); t > 0; --t)
+      matches[t] = matches[t - 1] & (c == '?' || c == text[t - 1] ? 1 : 0);
+    matches[0] = 0;
+  }
+  return matches.back() != 0;
+}
+
+std::string_view sharedName(std::string_view resourceName) {
+  return resourceName.substr(0, resourceName.find('#'));
+}
+
+std::optional<FoundPick> findPick(const FlatGraph& graph, const Pick& pick, base::Diagnostics& diagnostics) {
+  const std::uint32_t resource = findVersion(graph, pick, diagnostics);
+  if (resource == kNone || !checkParts(graph.resources[resource], pick, diagnostics)) return std::nullopt;
+  if (pick.pass.empty()) return FoundPick{resource, kNone};
+  // Without a version, that which the pass wrote is meant.
+  const auto isMeant = [&](std::uint32_t each) {
+    return each == resource || (pick.version == 0 && sharedName(graph.resourceNames[each]) ==
+                                                         sharedName(graph.resourceNames[resource]));
+  };
+  std::vector<std::string> writers;
+  std::vector<FoundPick> written;
+  for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
+    const FlatPass& pass = graph.passes[p];
+    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
+      const FlatUse& use = graph.uses[u];
+      const FoundPick found{use.resource, p};
+      if (use.access == Access::read || !isMeant(use.resource)) continue;
+      if (!written.empty() && written.back() == found) continue;
+      writers.push_back(graph.passNames[p]);
+      written.push_back(found);
     }
   }
-  while (p < pattern.size() && pattern[p] == '*') ++p;
-  return p == pattern.size();
+  const std::vector<std::size_t> matches = suffixMatches(writers, pick.pass);
+  if (matches.size() == 1) {
+    const FoundPick found = written[matches[0]];
+    if (!checkParts(graph.resources[found.resource], pick, diagnostics)) return std::nullopt;
+    return found;
+  }
+  const std::string name(pick.version == 0 ? sharedName(graph.resourceNames[resource])
+                                           : std::string_view(graph.resourceNames[resource]));
+  auto& d = reportPick(
+      diagnostics, matches.empty() ? Code::unknownPass : Code::ambiguousName, pick,
+      fmt::format("{} '{}' that writes '{}'", matches.empty() ? "there is no pass" : "more than one pass is",
+                  pick.pass, name));
+  for (const std::string& writer : writers) d.expected += (d.expected.empty() ? "" : ", ") + writer;
+  return std::nullopt;
+}
+
+void keepPicks(FlatGraph& graph, std::span<const Pick> picks, base::Diagnostics& diagnostics) {
+  for (const Pick& pick : picks) {
+    const std::optional<FoundPick> found = findPick(graph, pick, diagnostics);
+    if (!found) continue;
+    for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
+      FlatPass& pass = graph.passes[p];
+      for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
+        FlatUse& use = graph.uses[u];
+        if (use.resource != found->resource || use.access == Access::read) continue;
+        use.keep = true;
+        pass.sideEffect = true;
+      }
+    }
+  }
 }
 
 }  // namespace weft::graph

@@ -9,50 +9,31 @@
 #include "engine/base/files/file_access.h"
 #include "engine/base/files/text_file.h"
 #include "engine/base/limits.h"
-#include "engine/graph/language/enough.h"
-#include "engine/graph/read/misspelt_keys.h"
-#include "engine/graph/read/overlay_apply.h"
+#include "engine/graph/read/merge.h"
+#include "engine/graph/read/misspelt.h"
+#include "engine/graph/read/read_context.h"
 
 namespace weft::graph {
 
 using base::Code;
-using base::JsonMember;
-using base::JsonValue;
 using Type = JsonValue::Type;
 
 namespace {
 
-// The keys of stanzas in overlays mean nothing where there is nothing to lay them over.
-void reportOverlayStanzas(const JsonValue& root, base::Diagnostics& diagnostics) {
-  const JsonValue* passes = root.find("passes");
-  if (!passes || !passes->is(Type::array)) return;
-  for (const JsonValue& stanza : passes->items)
-    for (const JsonMember& member : stanza.members)
-      if (member.key == "before" || member.key == "after" || member.key == "remove") {
-        if (enoughErrors(diagnostics)) return;
-        auto& d = diagnostics.error(Code::overlayOutOfPlace, member.place,
-                                    fmt::format("\"{}\" in a file that extends no other", member.key));
-        d.pass = stanzaName(stanza);
-        d.hint = "write the pass at its place in the list, or say what this file \"extends\"";
-      }
-}
-
-std::size_t valuesOf(const JsonValue& value) {
-  std::size_t count = 1;
-  for (const JsonValue& item : value.items) count += valuesOf(item);
-  for (const JsonMember& member : value.members) count += valuesOf(member.value);
-  return count;
-}
-
-void eraseMember(JsonValue& object, std::string_view key) {
-  std::erase_if(object.members, [&](const JsonMember& member) { return member.key == key; });
-}
-
-void eraseStanzaKeys(JsonValue& root) {
-  for (JsonMember& member : root.members)
-    if (member.key == "passes")
-      for (JsonValue& stanza : member.value.items)
-        for (const char* key : {"before", "after", "remove"}) eraseMember(stanza, key);
+// Takes the keys of stanzas in overlays away, which mean nothing where there is nothing to lay them over.
+void dropOverlayKeys(JsonValue& root, base::Diagnostics& diagnostics) {
+  JsonMember* passes = memberOf(root, "passes");
+  if (!passes) return;
+  for (JsonValue& stanza : passes->value.items)
+    std::erase_if(stanza.members, [&](const JsonMember& member) {
+      if (member.key != "before" && member.key != "after" && member.key != "remove") return false;
+      ReadContext said(diagnostics);
+      said.pass = stanzaName(stanza);
+      said.error(Code::overlayOutOfPlace, member.place,
+                 fmt::format("\"{}\" in a file that extends no other", member.key))
+          .hint = "write the pass at its place in the list, or say what this file \"extends\"";
+      return true;
+    });
 }
 
 // What "extends" names: a path, or a list of paths. Empty after a report.
@@ -64,9 +45,8 @@ std::vector<const JsonValue*> namesIn(const JsonValue& extends, base::Diagnostic
       std::ranges::find_if(names, [](const JsonValue* name) { return !name->is(Type::string); });
   if (!names.empty() && wrong == names.end()) return names;
   const JsonValue& found = names.empty() ? extends : **wrong;
-  auto& d = diagnostics.error(Code::wrongType, found.place, "\"extends\" has the wrong type");
-  d.expected = "the path of a graph, from this file's folder, or a list of that and of overlays";
-  d.found = describe(found);
+  ReadContext(diagnostics)
+      .wrongType(found, "\"extends\"", "the path of a graph, or a list of that and of overlays");
   return {};
 }
 
@@ -81,12 +61,6 @@ bool isWholeGraph(const JsonValue& root) {
 }
 
 }  // namespace
-
-std::string includePrefix(const JsonValue& stanza) {
-  if (const JsonValue* as = stanza.find("as")) return as->text;
-  const JsonValue* include = stanza.find("include");
-  return include ? std::filesystem::path(include->text).stem().string() : std::string();
-}
 
 std::string pathBeside(const JsonValue& written) {
   const std::filesystem::path from = written.place.file ? *written.place.file : std::string();
@@ -104,101 +78,87 @@ std::string identityOf(const std::string& path) {
 std::shared_ptr<const Source> SourceLoader::file(const std::string& path, const base::Place& from) {
   const std::string identity = identityOf(path);
   if (const auto known = known_.find(identity); known != known_.end()) return known->second;
-  const std::shared_ptr<const std::string> bytes = bytesOf(path, from);
-  std::shared_ptr<const Source> source = bytes ? text(*bytes, path) : nullptr;
-  known_[identity] = source;
-  return source;
+  std::optional<JsonValue> root = parse(path, from, false);
+  return known_[identity] = root ? complete(*std::move(root), path) : nullptr;
 }
 
-std::shared_ptr<const std::string> SourceLoader::bytesOf(const std::string& path, const base::Place& from) {
-  if (const auto found = given_.find(path); found != given_.end()) return texts_[path] = found->second;
-  std::optional<std::string> bytes = base::readTextFile(path, diagnostics_, Code::unreadableFile, from);
-  return bytes ? texts_[path] = std::make_shared<const std::string>(*std::move(bytes)) : nullptr;
-}
-
-std::shared_ptr<const Source> SourceLoader::text(std::string_view text, const std::string& path) {
-  if (!texts_.contains(path)) texts_[path] = std::make_shared<const std::string>(text);
+std::optional<JsonValue> SourceLoader::parse(const std::string& path, const base::Place& from, bool preset) {
+  if (const auto found = given_.find(path); found != given_.end()) {
+    texts_[path] = found->second;
+  } else {
+    std::optional<std::string> bytes = base::readTextFile(path, diagnostics_, Code::unreadableFile, from);
+    if (!bytes) return std::nullopt;
+    texts_[path] = std::make_shared<const std::string>(*std::move(bytes));
+  }
   std::optional<JsonValue> root =
-      base::parseJson(text, std::make_shared<const std::string>(path), diagnostics_);
-  if (!root) return nullptr;
-  mendKeys(*root, false, diagnostics_);
-  return complete(*std::move(root), path);
+      base::parseJson(*texts_[path], std::make_shared<const std::string>(path), diagnostics_);
+  if (root) mendKeys(*root, preset, diagnostics_);
+  return root;
 }
 
 bool SourceLoader::mayCopy(const Source& source, const base::Place& place) {
   values_ += source.values;
   if (values_ <= base::raised(base::kMostValues)) return true;
-  if (!std::exchange(tooMany_, true)) {
-    auto& d =
-        base::reportLimit(diagnostics_, place,
-                          "the files of the graph and the copies that overlays change hold too many values",
-                          base::kMostValues, "values");
-    d.found = fmt::format("{} with '{}'", values_, source.path);
-  }
+  if (!std::exchange(tooMany_, true))
+    base::reportLimit(diagnostics_, place,
+                      "the files of the graph and the copies that overlays change hold too many values",
+                      base::kMostValues, "values")
+        .found = fmt::format("{} with '{}'", values_, source.path);
   return false;
 }
 
 std::shared_ptr<const Source> SourceLoader::complete(JsonValue root, const std::string& path) {
-  if (const JsonValue* extends = root.find("extends")) return completeOverlay(root, *extends, path);
   Source source{.path = path, .identity = identityOf(path), .files = {path}};
   const JsonValue* set = root.find("set");
-  if (set && !root.find("passes")) {
-    auto& d = diagnostics_.error(Code::overlayOutOfPlace, set->place,
-                                 fmt::format("'{}' is a preset, not a graph", path));
-    d.hint = fmt::format(
+  const JsonValue* extends = root.find("extends");
+  if (!extends && set && !root.find("passes")) {
+    diagnostics_
+        .error(Code::overlayOutOfPlace, set->place, fmt::format("'{}' is a preset, not a graph", path))
+        .hint = fmt::format(
         "lay it over a graph: weft check GRAPH --preset {}; or say what this file \"extends\"", path);
     return nullptr;
   }
-  if (set && set->is(Type::object)) {
-    for (const base::JsonMember& member : set->members) source.sets.push_back({member, Origin::file});
-    eraseMember(root, "set");
+  if (!extends) {
+    if (set && set->is(Type::object)) {
+      for (const JsonMember& member : set->members) source.sets.push_back({member, Origin::file});
+      std::erase_if(root.members, [](const JsonMember& member) { return member.key == "set"; });
+    }
+    dropOverlayKeys(root, diagnostics_);
+    source.values = valuesOf(root);
+    if (!mayCopy(source, root.place)) return nullptr;
+    source.root = std::move(root);
+    return std::make_shared<const Source>(std::move(source));
   }
-  reportOverlayStanzas(root, diagnostics_);
-  eraseStanzaKeys(root);
-  source.values = valuesOf(root);
-  if (!mayCopy(source, root.place)) return nullptr;
-  source.root = std::move(root);
-  return std::make_shared<const Source>(std::move(source));
-}
-
-std::shared_ptr<const Source> SourceLoader::completeOverlay(const JsonValue& root, const JsonValue& extends,
-                                                            const std::string& path) {
-  Source source{.path = path, .identity = identityOf(path), .files = {path}};
-  const std::vector<const JsonValue*> below = namesIn(extends, diagnostics_);
+  const std::vector<const JsonValue*> below = namesIn(*extends, diagnostics_);
   if (below.empty()) return nullptr;
   open_.emplace_back(source.identity, path);
-  const std::shared_ptr<const Source> base = openBase(*below[0]);
-  bool good = base && mayCopy(*base, extends.place);
+  const std::shared_ptr<const Source> base =
+      mayExtend(*below[0]) ? file(pathBeside(*below[0]), below[0]->place) : nullptr;
+  bool good = base && mayCopy(*base, extends->place);
   if (good) {
-    source.files.insert(source.files.end(), base->files.begin(), base->files.end());
-    source.root = base->root;
-    source.sets = base->sets;
-    source.changed = base->changed;
-    source.removed = base->removed;
-    source.named = base->named;
-    for (std::size_t i = 1; i < below.size(); ++i) {
-      const std::string over = pathBeside(*below[i]);
-      good = extendBy(source, over, *below[i], false) && good;
-    }
+    const std::string identity = source.identity;
+    source = *base;
+    source.path = source.top = path;
+    source.identity = identity;
+    source.files.insert(source.files.begin(), path);
+    for (std::size_t i = 1; i < below.size(); ++i)
+      good = layOver(source, pathBeside(*below[i]), below[i], false) && good;
+    source.top = path;
     if (source.root.is(Type::object)) {
       source.root.place = root.place;
-      for (const char* own : {"name", "description"}) eraseMember(source.root, own);  // of the base
+      std::erase_if(source.root.members, [](const JsonMember& member) {  // of the base
+        return member.key == "name" || member.key == "description";
+      });
       applyOverlay(*this, root, false, source, diagnostics_);
     }
     source.values = valuesOf(source.root);
-    source.top = path;
   }
   open_.pop_back();
   return good ? std::make_shared<const Source>(std::move(source)) : nullptr;
 }
 
-std::shared_ptr<const Source> SourceLoader::openBase(const JsonValue& written) {
-  const std::string below = pathBeside(written);
-  return mayExtend(written, below) ? file(below, written.place) : nullptr;
-}
-
-bool SourceLoader::mayExtend(const JsonValue& written, const std::string& below) {
-  const std::string identity = identityOf(below);
+bool SourceLoader::mayExtend(const JsonValue& written) {
+  const std::string below = pathBeside(written), identity = identityOf(below);
   if (open_.size() > kMostInRow) {
     auto& limit = diagnostics_.error(Code::limitExceeded, written.place,
                                      "overlays extend each other in too long a row");
@@ -219,7 +179,7 @@ bool SourceLoader::mayExtend(const JsonValue& written, const std::string& below)
 }
 
 bool SourceLoader::isOpen(const std::string& identity) const {
-  return std::any_of(open_.begin(), open_.end(), [&](const auto& file) { return file.first == identity; });
+  return std::ranges::any_of(open_, [&](const auto& file) { return file.first == identity; });
 }
 
 std::shared_ptr<const Source> SourceLoader::withPreset(const Source& source, const std::string& path) {
@@ -229,38 +189,25 @@ std::shared_ptr<const Source> SourceLoader::withPreset(const Source& source, con
   return std::make_shared<const Source>(std::move(made));
 }
 
-bool SourceLoader::extendBy(Source& made, const std::string& path, const JsonValue& written, bool preset) {
-  if (broken_.contains(identityOf(path))) return false;
-  if (mayExtend(written, path) && layOver(made, path, &written, preset)) return true;
-  broken_.insert(identityOf(path));
-  return false;
-}
-
 bool SourceLoader::layOver(Source& made, const std::string& path, const JsonValue* written, bool preset) {
-  const std::shared_ptr<const std::string> bytes = bytesOf(path, written ? written->place : base::Place{});
-  if (!bytes) return false;
-  std::optional<JsonValue> root =
-      base::parseJson(*bytes, std::make_shared<const std::string>(path), diagnostics_);
-  if (!root) return false;
-  mendKeys(*root, true, diagnostics_);
-  if (!root->is(Type::object)) {
-    auto& d = diagnostics_.error(Code::wrongType, root->place, "a preset has the wrong type");
-    d.expected = "an object";
-    d.found = describe(*root);
+  const std::string own = identityOf(path);
+  if (written && (broken_.contains(own) || !mayExtend(*written))) {
+    broken_.insert(own);
     return false;
   }
-  const JsonValue* extends = root->find("extends");
-  if (written && !extends && isWholeGraph(*root)) {
+  const std::optional<JsonValue> root = parse(path, written ? written->place : base::Place{}, true);
+  const JsonValue* extends = root ? root->find("extends") : nullptr;
+  bool good = root && ReadContext(diagnostics_).expect(*root, Type::object, "a preset");
+  if (good && written && !extends && isWholeGraph(*root)) {
     auto& d =
         diagnostics_.error(Code::overlayOutOfPlace, written->place,
                            fmt::format("'{}' is a graph of its own, which nothing can be laid under", path));
     d.expected = fmt::format("an overlay on '{}', or a preset", made.path);
     d.hint = "a file extends one graph, the first of its list; give the others as includes";
-    return false;
+    good = false;
   }
-  open_.emplace_back(identityOf(path), path);
-  bool good = true;
-  if (extends) {
+  open_.emplace_back(own, path);
+  if (good && extends) {
     const std::vector<const JsonValue*> below = namesIn(*extends, diagnostics_);
     good = !below.empty();
     for (const JsonValue* each : below) {
@@ -268,7 +215,7 @@ bool SourceLoader::layOver(Source& made, const std::string& path, const JsonValu
       const bool there = std::ranges::any_of(
           made.files, [&](const std::string& known) { return identityOf(known) == identity; });
       if (there && !isOpen(identity)) continue;  // it is below already
-      good = extendBy(made, file, *each, preset) && good;
+      good = layOver(made, file, each, preset) && good;
     }
   }
   good = good && mayCopy(made, root->place);
@@ -276,6 +223,8 @@ bool SourceLoader::layOver(Source& made, const std::string& path, const JsonValu
     made.files.push_back(path);
     made.top = path;
     if (made.root.is(Type::object)) applyOverlay(*this, *root, preset, made, diagnostics_);
+  } else if (written) {
+    broken_.insert(own);
   }
   open_.pop_back();
   return good;

@@ -1,7 +1,6 @@
 // Lays overlays over graph files, as JSON, before they are read as graphs: a file over the one that it `extends`, and
 // presets over the result. Every value keeps the file, line and column at which it was written. An overlay may change an
-// included file, whose names it gives whole; the changed copy is kept beside the include. Does not: know what values mean,
-// or read files that nothing refers to.
+// included file, whose names it gives whole; the changed copy is kept beside the include.
 #pragma once
 
 #include <map>
@@ -21,7 +20,7 @@ constexpr std::size_t kMostInRow = 64;  // files that include each other, and ov
 // A file, extended and overlaid.
 struct Source {
   std::string path;                // as opened
-  std::string identity;            // canonical path, so that two spellings of one file are recognised
+  std::string identity;            // canonical path, so that two spellings of one file are recognized
   std::vector<std::string> files;  // itself, the files it extends, the presets
   base::JsonValue root;            // whatever stands in the file; no "extends" and "set", no stanza of an
                                    // overlay
@@ -37,8 +36,6 @@ struct Source {
   std::size_t values = 0;                                        // of root: what a copy costs
 };
 
-// What an include stanza is called: "as", else the file's name without its ending. "" when it says neither.
-std::string includePrefix(const base::JsonValue& stanza);
 // The path behind "include" or "extends": relative to the folder of the file it is written in.
 std::string pathBeside(const base::JsonValue& written);
 std::string identityOf(const std::string& path);
@@ -51,7 +48,6 @@ class SourceLoader {
 
   // Null after a report (the same file again: null without another).
   std::shared_ptr<const Source> file(const std::string& path, const base::Place& from);
-  std::shared_ptr<const Source> text(std::string_view text, const std::string& path);
   // `source` with the overlay in `path` on top. Null after an error that leaves nothing to lay over it.
   std::shared_ptr<const Source> withPreset(const Source& source, const std::string& path);
   // True while the overlay of this identity is being laid over its base: it includes or extends itself.
@@ -62,27 +58,25 @@ class SourceLoader {
   bool mayCopy(const Source& source, const base::Place& place);
 
  private:
-  std::shared_ptr<const std::string> bytesOf(const std::string& path, const base::Place& from);
+  std::optional<base::JsonValue> parse(const std::string& path, const base::Place& from, bool preset);
   std::shared_ptr<const Source> complete(base::JsonValue root, const std::string& path);
-  std::shared_ptr<const Source> completeOverlay(const base::JsonValue& root, const base::JsonValue& extends,
-                                                const std::string& path);
-  // Null, or false, after a report. `written`: an entry of "extends".
-  std::shared_ptr<const Source> openBase(const base::JsonValue& written);
-  bool mayExtend(const base::JsonValue& written, const std::string& below);
+  // False after a report. `written`: an entry of "extends".
+  bool mayExtend(const base::JsonValue& written);
   // Lays the overlay in `path`, and first those that it extends, over `made`. `written`: what names it; null: the command line.
   bool layOver(Source& made, const std::string& path, const base::JsonValue* written, bool preset);
-
-  // layOver() for what "extends" names. What failed once is not tried again: its mistakes are said.
-  bool extendBy(Source& made, const std::string& path, const base::JsonValue& written, bool preset);
 
   base::Diagnostics& diagnostics_;
   const FileTexts& given_;
   FileTexts texts_;
-  std::set<std::string> broken_;                                // identities of overlays that failed
+  std::set<std::string> broken_;  // identities of overlays that failed: what is wrong with them is said once
   std::map<std::string, std::shared_ptr<const Source>> known_;  // by identity; null for files that failed
   std::vector<std::pair<std::string, std::string>> open_;       // identity and path of such overlays
   std::uint64_t values_ = 0;                                    // of all files and copies so far
   bool tooMany_ = false;
 };
+
+// Changes `target` as `overlay` says, and reports what does not fit (overlay_apply.cpp). A preset keeps the name of the graph.
+void applyOverlay(SourceLoader& loader, const base::JsonValue& overlay, bool preset, Source& target,
+                  base::Diagnostics& diagnostics);
 
 }  // namespace weft::graph

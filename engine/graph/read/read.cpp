@@ -3,14 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <utility>
 
-#include "engine/graph/read/misspelt_keys.h"
+#include "engine/graph/read/merge.h"
+#include "engine/graph/read/misspelt.h"
 #include "engine/graph/read/overlay.h"
 #include "engine/graph/read/read_context.h"
-#include "engine/graph/read/read_like.h"
 
 namespace weft::graph {
 
@@ -20,23 +21,12 @@ using base::Code;
 using base::Diagnostics;
 using Type = JsonValue::Type;
 
-// One file of a chain of includes, innermost last.
-struct OpenFile {
-  std::string identity;
-  std::string path;
-};
-
 class GraphReader {
  public:
   GraphReader(Diagnostics& diagnostics, const FileTexts& given)
       : diagnostics_(diagnostics), loader_(diagnostics, given) {}
 
   const FileTexts& texts() const { return loader_.texts(); }
-
-  std::shared_ptr<const GraphDesc> readText(std::string_view text, const std::string& path) {
-    const std::shared_ptr<const Source> source = loader_.text(text, path);
-    return source ? readSource(*source).graph : nullptr;
-  }
 
   std::shared_ptr<const GraphDesc> readWith(const std::string& path, std::span<const std::string> presets) {
     std::shared_ptr<const Source> source = loader_.file(path, {});
@@ -62,7 +52,7 @@ class GraphReader {
   }
 
   Weighed readSource(const Source& source) {
-    open_.push_back({source.identity, source.path});
+    open_.emplace_back(source.identity, source.path);
     Weighed before = std::exchange(weight_, {.graph = nullptr, .values = source.values});
     std::shared_ptr<const GraphDesc> graph = readRoot(source);
     open_.pop_back();
@@ -74,7 +64,7 @@ class GraphReader {
   std::shared_ptr<const GraphDesc> readRoot(const Source& source) {
     const JsonValue& root = source.root;
     ReadContext context(diagnostics_);
-    if (!context.expect(root, Type::object, "a graph")) return nullptr;
+    if (!context.expect(root, Type::object, "a graph") || isOtherFile(root, context)) return nullptr;
     auto graph = std::make_shared<GraphDesc>();
     graph->path = source.path;
     graph->place = root.place;
@@ -82,26 +72,32 @@ class GraphReader {
     graph->removed = source.removed;
     graph->named = source.named;
     graph->top = source.top;
-    if (isOtherFile(root, context)) return nullptr;
-    context.checkKeys(root, kGraphKeys, "a graph", base::Foreign::graph_key);
-    context.text(root.find("$schema"), "\"$schema\"");
-    graph->name = context.text(root.find("name"), "\"name\"");
-    context.text(root.find("description"), "\"description\"");
+    checkKeys(root, diagnostics_);
+    context.text(root, "$schema");
+    context.text(root, "description");
+    graph->name = context.text(root, "name");
     if (graph->name.empty()) graph->name = std::filesystem::path(source.path).stem().string();
     readVariables(context, root, *graph);
-    for (const JsonMember& member : membersOf(context, root, "resources")) {
+    for (const JsonMember& member : context.members(root, "resources")) {
       if (!context.goesOn()) break;
       if (std::optional<ResourceDesc> resource = readResource(context, member))
         graph->resources.push_back(*std::move(resource));
       else
         graph->unread.push_back(member.key);
     }
-    readSets(context, source, *graph);
+    context.members(root, "set");
+    for (const auto& [member, origin] : source.sets) {
+      if (std::optional<Value> value = valueOf(member.value))
+        graph->sets.push_back({member.key, origin, member.place, member.value.place, *std::move(value)});
+      else
+        context.wrongType(member.value, fmt::format("the value of '{}'", member.key),
+                          "a number, true or false, a word, a path, or a list of two to four numbers");
+    }
     readPasses(context, source, *graph);
-    graph->present = context.ref(root.find("present"), "\"present\"");
-    for (const JsonMember& member : membersOf(context, root, "outputs")) {
-      const bool named = context.checkName(member.key, member.place, "an output");
-      std::optional<RefDesc> ref = context.ref(&member.value, fmt::format("the output '{}'", member.key));
+    graph->present = context.ref(root, "present");
+    for (const JsonMember& member : context.members(root, "outputs")) {
+      const bool named = context.checkName(member.key, member.place, {"an output"});
+      std::optional<RefDesc> ref = context.refOf(member.value, fmt::format("the output '{}'", member.key));
       if (named && ref) graph->outputs.push_back({member.key, *std::move(ref)});
     }
     mendNames(*graph, diagnostics_);
@@ -109,57 +105,37 @@ class GraphReader {
     return graph;
   }
 
-  // A file of another kind that was given as a graph: one report says what it is and who takes it.
+  // A file without any key of a graph, such as a scene: one report says what it lacks and who may take it.
   static bool isOtherFile(const JsonValue& root, ReadContext& context) {
     for (const char* own :
          {"passes", "resources", "parameters", "let", "set", "extends", "present", "outputs"})
       if (root.find(own)) return false;
-    for (const std::string_view key : kSceneKeys)
-      if (root.find(key)) {
-        const std::string file = root.place.file ? *root.place.file : "FILE";
-        auto& d = context.error(
-            Code::missingKey, root,
-            fmt::format("this file has \"{}\" and no \"passes\": it is a scene, not a graph", key));
-        d.expected = "a graph, with \"passes\"";
-        d.hint = fmt::format("the option --scene takes it: weft check GRAPH --scene {}", file);
-        return true;
-      }
-    return false;
-  }
-
-  static const std::vector<JsonMember>& membersOf(ReadContext& context, const JsonValue& root,
-                                                  const char* key) {
-    static const std::vector<JsonMember> none;
-    const JsonValue* value = root.find(key);
-    return value && context.expect(*value, Type::object, fmt::format("\"{}\"", key)) ? value->members : none;
+    auto& d = context.error(Code::missingKey, root, "this file has no \"passes\": it is not a graph");
+    d.expected = "a graph, with \"passes\"";
+    d.hint = fmt::format("add \"passes\": [ … ]; a scene goes with a graph: weft check GRAPH --scene {}",
+                         root.place.file ? *root.place.file : "FILE");
+    return true;
   }
 
   // Parameters and lets share the names behind '$'.
   static void readVariables(ReadContext& context, const JsonValue& root, GraphDesc& graph) {
     ReadContext::Seen seen;
-    for (const JsonMember& member : membersOf(context, root, "parameters")) {
+    for (const JsonMember& member : context.members(root, "parameters")) {
       seen.emplace(member.key, member.place);
       if (std::optional<ParameterDesc> parameter = readParameter(context, member))
         graph.parameters.push_back(*std::move(parameter));
       else
         graph.unread.push_back(member.key);
     }
-    for (const JsonMember& member : membersOf(context, root, "let")) {
-      bool good = context.checkName(member.key, member.place, "a \"let\"");
+    for (const JsonMember& member : context.members(root, "let")) {
+      bool good = context.checkName(member.key, member.place, {"a \"let\""});
       good = context.checkFresh(seen, member.key, member.place, "the variable") && good;
-      Expr expr = context.expr(&member.value, fmt::format("the \"let\" '{}'", member.key));
+      Expr expr = context.exprOf(member.value, fmt::format("the \"let\" '{}'", member.key));
       if (good && expr.present())
         graph.lets.push_back({member.key, member.place, std::move(expr)});
       else
         graph.unread.push_back(member.key);
     }
-  }
-
-  static void readSets(ReadContext& context, const Source& source, GraphDesc& graph) {
-    if (const JsonValue* set = source.root.find("set")) context.expect(*set, Type::object, "\"set\"");
-    for (const auto& [member, origin] : source.sets)
-      if (std::optional<Value> value = readValue(context, member))
-        graph.sets.push_back({member.key, origin, member.place, member.value.place, *std::move(value)});
   }
 
   void readPasses(ReadContext& context, const Source& source, GraphDesc& graph) {
@@ -168,53 +144,31 @@ class GraphReader {
                                    "write a list, each with its name: \"passes\": [ { \"name\": … }, … ]"))
       return;
     ReadContext::Seen seen;
-    graph.passes.reserve(passes->items.size());
-    LikePasses alike(context, passes->items);
-    for (std::size_t i = 0; i < passes->items.size(); ++i) {
-      if (!context.goesOn()) break;
-      const JsonValue& item = passes->items[i];
-      const JsonValue* whole = alike.at(i);
-      std::optional<PassDesc> pass = whole ? readWhole(context, *whole, whole != &item) : std::nullopt;
-      const JsonValue* name = item.find("name");
+    std::deque<JsonValue> made;
+    const std::vector<const JsonValue*> stanzas = writeOut(passes->items, made, diagnostics_);
+    for (std::size_t i = 0; i < stanzas.size() && context.goesOn(); ++i) {
+      std::optional<PassDesc> pass = stanzas[i] ? readPass(context, *stanzas[i]) : std::nullopt;
+      const JsonValue* name = passes->items[i].find("name");
       if (name && name->is(Type::string) && (!pass || (!pass->include && pass->name != name->text)))
         graph.unread.push_back(name->text);
       if (!pass) continue;
-      // A pass that is like another may have taken over even this from it.
-      const char* const key = pass->include ? "include" : "name";
-      const JsonValue* const named = item.find(key) ? item.find(key) : whole->find(key);
       context.pass = pass->name;
       context.checkFresh(seen, pass->name, pass->namePlace, "pass");
       context.pass.clear();
-      if (pass->include && named) follow(*named, *pass->include, source, graph);
+      if (pass->include) follow(*stanzas[i]->find("include"), *pass->include, source, graph);
       graph.passes.push_back(*std::move(pass));
     }
-  }
-
-  // A pass that is like another: what is wrong with the other was said there.
-  std::optional<PassDesc> readWhole(ReadContext& context, const JsonValue& stanza, bool alike) {
-    if (!alike) return readPass(context, stanza);
-    Diagnostics said;
-    ReadContext own(said);
-    std::optional<PassDesc> pass = readPass(own, stanza);
-    const std::vector<base::Diagnostic>& before = diagnostics_.items();
-    for (const base::Diagnostic& each : said.items())
-      if (std::ranges::none_of(before, [&](const base::Diagnostic& d) {
-            return d.code == each.code && base::isSamePlace(d.place.inFile(), each.place.inFile());
-          }))
-        diagnostics_.add(each);
-    return pass;
   }
 
   void follow(const JsonValue& stanza, IncludeDesc& include, const Source& source, GraphDesc& graph) {
     if (tooMuch_) return;
     const std::string path = pathBeside(stanza);
     const std::string identity = identityOf(path);
-    const auto again = std::find_if(open_.begin(), open_.end(),
-                                    [&](const OpenFile& file) { return file.identity == identity; });
+    const auto again = std::ranges::find(open_, identity, &std::pair<std::string, std::string>::first);
     if (again != open_.end()) {
       auto& d =
           diagnostics_.error(Code::includesItself, stanza.place, fmt::format("'{}' includes itself", path));
-      for (auto file = again; file != open_.end(); ++file) d.found += file->path + " -> ";
+      for (auto file = again; file != open_.end(); ++file) d.found += file->second + " -> ";
       d.found += path;
       d.hint = "remove one of these includes";
       return;
@@ -226,10 +180,8 @@ class GraphReader {
     if (tooMuch_) return;
     // A file that was read before may stand deeper here.
     if (isTooDeep(open_.size() + below.depth, stanza) ||
-        exceeds(kMostIncludes, "files", weight_.files + below.files, stanza,
-                "the graph includes too many files") ||
-        exceeds(base::kMostValues, "values", weight_.values + below.values, stanza,
-                "the included files hold too many values"))
+        exceeds(kMostIncludes, "files", weight_.files + below.files, stanza) ||
+        exceeds(base::kMostValues, "values", weight_.values + below.values, stanza))
       return;
     weight_.files += below.files;
     weight_.values += below.values;
@@ -248,12 +200,12 @@ class GraphReader {
     d.found = fmt::format("{} with '{}'", count, stanza.text);
     return true;
   }
-  bool exceeds(std::uint64_t bound, const char* counts, std::uint64_t count, const JsonValue& stanza,
-               const char* message) {
+  bool exceeds(std::uint64_t bound, const char* counts, std::uint64_t count, const JsonValue& stanza) {
     if (count <= base::raised(bound)) return false;
     tooMuch_ = true;
-    auto& d = base::reportLimit(diagnostics_, stanza.place, message, bound, counts, count);
-    d.found = fmt::format("{} with '{}'", count, stanza.text);
+    base::reportLimit(diagnostics_, stanza.place, fmt::format("the graph includes too many {}", counts),
+                      bound, counts, count)
+        .found = fmt::format("{} with '{}'", count, stanza.text);
     return true;
   }
 
@@ -266,34 +218,28 @@ class GraphReader {
 
   Diagnostics& diagnostics_;
   SourceLoader loader_;
-  std::vector<OpenFile> open_;
-  std::map<std::string, Weighed> finished_;  // by identity
-  Weighed weight_;                           // of the file that is being read, so far
+  std::vector<std::pair<std::string, std::string>> open_;  // identity and path of a chain of includes
+  std::map<std::string, Weighed> finished_;                // by identity
+  Weighed weight_;                                         // of the file that is being read, so far
   bool tooMuch_ = false;
 };
-
-// Diagnostics come in the order of the text, whatever order the reader looked at things.
-template <class Read>
-std::shared_ptr<const GraphDesc> readSorted(const FileTexts& given, Diagnostics& diagnostics, Read read) {
-  Diagnostics said;
-  GraphReader reader(said, given);
-  std::shared_ptr<const GraphDesc> graph = read(reader);
-  for (const auto& [path, text] : reader.texts()) base::PointerScope(path, *text, said);
-  said.sortByPlace();
-  diagnostics.append(said);
-  return graph;
-}
 
 }  // namespace
 
 std::shared_ptr<const GraphDesc> readGraph(const std::string& path, std::span<const std::string> presets,
                                            const FileTexts& given, Diagnostics& diagnostics) {
-  return readSorted(given, diagnostics, [&](GraphReader& reader) { return reader.readWith(path, presets); });
+  Diagnostics said;
+  GraphReader reader(said, given);
+  std::shared_ptr<const GraphDesc> graph = reader.readWith(path, presets);
+  for (const auto& [file, text] : reader.texts()) base::PointerScope(file, *text, said);
+  said.sortByPlace();  // in the order of the text, whatever order the reader looked at things
+  diagnostics.append(said);
+  return graph;
 }
 
 std::shared_ptr<const GraphDesc> readGraphText(std::string_view text, const std::string& name,
                                                Diagnostics& diagnostics) {
-  return readSorted({}, diagnostics, [&](GraphReader& reader) { return reader.readText(text, name); });
+  return readGraph(name, {}, {{name, std::make_shared<const std::string>(text)}}, diagnostics);
 }
 
 }  // namespace weft::graph

@@ -1,9 +1,7 @@
-// What the parts of the reader share: checked access to JSON values, with diagnostics that know the pass and
-// the resource being read. Every accessor takes null for an absent key and then yields the absent value
-// silently. Private to engine/graph/read.
+// What the readers of parameters, resources and passes share: checked access to JSON values, with diagnostics that know the pass
+// and the resource at hand. An absent key yields the absent value silently; checkKeys (misspelt.h) reports missing keys.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,8 +20,13 @@ namespace weft::graph {
 using base::JsonMember;
 using base::JsonValue;
 
-// Keys by which a file that was given as a graph is known as a scene.
-constexpr std::array<std::string_view, 3> kSceneKeys = {"cameras", "models", "lamp_grids"};
+// What a name names: "a slot".
+struct Named {
+  const char* noun;
+  bool inShader = false;     // slots, parameters and defines of passes are spelled alike in shaders
+  bool isDefine = false;     // it hides functions, too
+  bool underscores = false;  // "__" may be in it, as importers keep the names of parameters
+};
 
 class ReadContext {
  public:
@@ -31,40 +34,39 @@ class ReadContext {
 
   std::string pass, resource;  // set while one is read
 
-  base::Diagnostic& error(base::Code code, const JsonValue& value, std::string message);
-  base::Diagnostic& errorAt(base::Code code, const Place& place, std::string message);
-
+  base::Diagnostic& error(base::Code code, const Place& place, std::string message);
+  base::Diagnostic& error(base::Code code, const JsonValue& value, std::string message) {
+    return error(code, value.place, std::move(message));
+  }
+  // Code::wrongType. `what` has the wrong type.
+  base::Diagnostic& wrongType(const JsonValue& value, std::string_view what, std::string expected);
   // False, with Code::wrongType, when `value` is something else. `what` names it: "\"passes\"".
   bool expect(const JsonValue& value, JsonValue::Type type, std::string_view what, std::string hint = {});
 
-  // Code::unknownKey for keys that are not in `keys`, Code::missingKey for required ones that are missing. A missing key that
-  // an unknown one is a misspelling of is not reported again.
-  // `foreign`: where the keys of other engines are looked up for the hint.
-  void checkKeys(const JsonValue& object, std::span<const KeySpec> keys, std::string_view what,
-                 std::optional<base::Foreign> foreign = std::nullopt);
-
-  // Code::notAName unless `name` is an identifier without reserved words.
-  bool checkName(std::string_view name, const Place& place, std::string_view what);
-  // The same, and not a word of GLSL: slots, parameters and defines are spelled alike in shaders.
-  bool checkShaderName(std::string_view name, const Place& place, std::string_view what);
+  // Code::notAName unless `name` is an identifier without reserved words, and, of what shaders name too, no word of GLSL.
+  bool checkName(std::string_view name, const Place& place, const Named& named);
   // Code::duplicateName when `name` was already registered in `seen`.
   using Seen = std::unordered_map<std::string, Place>;
   bool checkFresh(Seen& seen, const std::string& name, const Place& place, std::string_view what);
 
-  std::string text(const JsonValue* value, std::string_view what);
-  bool flag(const JsonValue* value, std::string_view what);
-  std::optional<double> number(const JsonValue* value, std::string_view what);
+  // The value of a key of an object.
+  std::string text(const JsonValue& object, std::string_view key);
+  bool flag(const JsonValue& object, std::string_view key);
+  std::optional<double> number(const JsonValue& object, std::string_view key);
   // One of `words`, or Code::unknownWord with the nearest.
-  std::optional<std::string> word(const JsonValue* value, std::span<const std::string_view> words,
-                                  std::string_view what);
+  std::optional<std::string> word(const JsonValue& object, std::string_view key,
+                                  std::span<const std::string_view> words);
+  Expr expr(const JsonValue& object, std::string_view key);
+  std::optional<RefDesc> ref(const JsonValue& object, std::string_view key);
+  const std::vector<JsonMember>& members(const JsonValue& object, std::string_view key);
+
   // A number, a boolean, a list of 1 to 4, or an expression.
-  Expr expr(const JsonValue* value, std::string_view what);
-  std::optional<RefDesc> ref(const JsonValue* value, std::string_view what);
+  Expr exprOf(const JsonValue& value, std::string_view what);
+  std::optional<RefDesc> refOf(const JsonValue& value, std::string_view what);
   // The strings of a list, or a single one.
   std::vector<const JsonValue*> strings(const JsonValue* value, std::string_view what);
 
-  // For the parsers of strings, which know neither pointer nor pass: adopt() what they said into a fresh
-  // Diagnostics.
+  // For the parsers of strings, which know no pass: adopt() what they said into a fresh Diagnostics.
   void adopt(const base::Diagnostics& said);
 
   // False once there are enough errors (enough.h): further ones are not kept.
@@ -75,10 +77,13 @@ class ReadContext {
   base::Diagnostic unkept_;
 };
 
+// "an array of 3", "the number 7".
+std::string foundText(const JsonValue& value);
+
 // The parts, by what stands in the file; each takes a value of any type and reports what does not fit.
 std::optional<ParameterDesc> readParameter(ReadContext& context, const JsonMember& member);
-// A value of "set": a number, a boolean, a word or path, a list of two to four numbers.
-std::optional<Value> readValue(ReadContext& context, const JsonMember& member);
+// A number, a boolean, a word or path, a list of two to four numbers; nothing, without a report, for anything else.
+std::optional<Value> valueOf(const JsonValue& value);
 std::optional<ResourceDesc> readResource(ReadContext& context, const JsonMember& member);
 // Include stanzas come back with include->graph still null.
 std::optional<PassDesc> readPass(ReadContext& context, const JsonValue& value);

@@ -1,9 +1,8 @@
-// Parameters, of the graph and of passes: type, default, range, choices.
+// Parameters, of the graph and of passes: type, default, range, choices. Declared in read_context.h.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "engine/base/files/file.h"
@@ -15,265 +14,192 @@ namespace weft::graph {
 namespace {
 
 using base::Code;
-using ParameterType = ParameterDesc::Type;
+using Type = JsonValue::Type;
+using ValueKind = ParameterDesc::Type;
 
+struct ParameterKind {
+  ValueKind kind;
+  Type json;
+  std::size_t count;  // of an array
+  bool numeric;
+  const char* expected;  // of the default
+};
 // In the order of kParameterTypes.
-constexpr std::array kTypes = {ParameterType::boolean, ParameterType::integer, ParameterType::number,
-                               ParameterType::vec2,    ParameterType::vec3,    ParameterType::vec4,
-                               ParameterType::choice,  ParameterType::file};
-
-std::string_view nameOf(ParameterType type) {
-  return kParameterTypes[static_cast<std::size_t>(std::find(kTypes.begin(), kTypes.end(), type) -
-                                                  kTypes.begin())];
-}
-
-bool isNumeric(ParameterType type) {
-  return type != ParameterType::boolean && type != ParameterType::choice && type != ParameterType::file;
-}
-std::size_t componentCount(ParameterType type) {
-  return type == ParameterType::vec2   ? 2
-         : type == ParameterType::vec3 ? 3
-         : type == ParameterType::vec4 ? 4
-                                       : 1;
-}
+constexpr ParameterKind kParameterKinds[] = {
+    {ValueKind::boolean, Type::boolean, 0, false, "true or false"},
+    {ValueKind::integer, Type::number, 0, true, "a whole number"},
+    {ValueKind::number, Type::number, 0, true, "a number"},
+    {ValueKind::vec2, Type::array, 2, true, "a list of 2 numbers"},
+    {ValueKind::vec3, Type::array, 3, true, "a list of 3 numbers"},
+    {ValueKind::vec4, Type::array, 4, true, "a list of 4 numbers"},
+    {ValueKind::choice, Type::string, 0, false, "one of the \"choices\""},
+    {ValueKind::file, Type::string, 0, false, "a path in a string, or \"\""}};
 
 class ParameterReader {
  public:
-  ParameterReader(ReadContext& context, const JsonMember& member) : context_(context), object_(member.value) {
+  ParameterReader(ReadContext& context, const JsonMember& member)
+      : context_(context), object_(member.value), what_(fmt::format("the parameter '{}'", member.key)) {
     out_.name = member.key;
     out_.place = member.place;
-    what_ = fmt::format("the parameter '{}'", member.key);
   }
 
   std::optional<ParameterDesc> run() {
-    if (!object_.is(JsonValue::Type::object)) {
-      auto& d = context_.error(Code::wrongType, object_, fmt::format("{} has the wrong type", what_));
-      d.expected = "an object with a \"default\"";
-      d.found = describe(object_);
-      if (object_.is(JsonValue::Type::number) || object_.is(JsonValue::Type::boolean))
-        d.hint = fmt::format("write {{ \"default\": {} }}", object_.is(JsonValue::Type::boolean)
-                                                                ? describe(object_)
-                                                                : fmt::format("{}", object_.number));
-      else if (object_.is(JsonValue::Type::array))
-        d.hint = "write { \"default\": […] }";
-      else if (object_.text.starts_with('#'))
-        d.hint = "a colour is three numbers: { \"default\": [1.0, 0.5, 0.0] }";
+    if (!object_.is(Type::object)) {
+      context_.wrongType(object_, what_, "an object with a \"default\"").hint =
+          "write { \"default\": … }; a color is a list of three numbers";
       return std::nullopt;
     }
-    context_.checkKeys(object_, kParameterKeys, what_, base::Foreign::value_key);
-    out_.label = context_.text(object_.find("label"), "\"label\"");
-    out_.doc = context_.text(object_.find("doc"), "\"doc\"");
-    out_.define = context_.flag(object_.find("define"), "\"define\"");
-    out_.min = context_.number(object_.find("min"), "\"min\"");
-    out_.max = context_.number(object_.find("max"), "\"max\"");
-    out_.step = context_.number(object_.find("step"), "\"step\"");
+    out_.label = context_.text(object_, "label");
+    out_.doc = context_.text(object_, "doc");
+    out_.define = context_.flag(object_, "define");
+    out_.min = context_.number(object_, "min");
+    out_.max = context_.number(object_, "max");
+    out_.step = context_.number(object_, "step");
     readChoices();
     const JsonValue* initial = object_.find("default");
-    if (!initial) return std::nullopt;
-    out_.initialPlace = initial->place;
-    const std::optional<ParameterType> type = typeOf(*initial);
-    if (!type) return std::nullopt;
-    out_.type = *type;
-    if (!readDefault(*initial)) return std::nullopt;
+    if (!initial || !findKind(*initial) || !readDefault(*initial)) return std::nullopt;
     checkRange(*initial);
-    checkCompany();
+    // Keys that say nothing about a parameter of this type.
+    for (const char* key : {"min", "max", "step", "choices"}) {
+      const bool fits =
+          std::string_view(key) == "choices" ? kind_->kind == ValueKind::choice : kind_->numeric;
+      if (const JsonValue* value = object_.find(key); value && !fits)
+        context_
+            .error(Code::keysExclude, *value,
+                   fmt::format("\"{}\" does not go with a parameter of type \"{}\"", key, typeName()))
+            .hint = "remove the key, or change the type";
+    }
     return std::move(out_);
   }
 
  private:
+  std::string_view typeName() const {
+    return kParameterTypes[static_cast<std::size_t>(kind_ - kParameterKinds)];
+  }
+
   void readChoices() {
     const JsonValue* choices = object_.find("choices");
-    if (!choices || !context_.expect(*choices, JsonValue::Type::array, "\"choices\"")) return;
+    if (!choices || !context_.expect(*choices, Type::array, "\"choices\"")) return;
     ReadContext::Seen seen;
-    for (const JsonValue& choice : choices->items) {
-      if (!context_.expect(choice, JsonValue::Type::string, "a choice")) continue;
-      if (!context_.checkName(choice.text, choice.place, "a choice")) continue;
-      if (context_.checkFresh(seen, choice.text, choice.place, "choice")) out_.choices.push_back(choice.text);
-    }
-    if (choices->items.empty()) {
-      auto& d = context_.error(Code::wrongType, *choices, "\"choices\" is empty");
-      d.expected = "an array of words";
-    }
+    for (const JsonValue& choice : choices->items)
+      if (context_.expect(choice, Type::string, "a choice") &&
+          context_.checkName(choice.text, choice.place, {"a choice"}) &&
+          context_.checkFresh(seen, choice.text, choice.place, "choice"))
+        out_.choices.push_back(choice.text);
+    if (choices->items.empty()) context_.wrongType(*choices, "\"choices\"", "an array of words");
   }
 
-  bool allWhole() const {
-    for (const char* key : {"default", "min", "max", "step"}) {
-      const JsonValue* value = object_.find(key);
-      if (value && value->is(JsonValue::Type::number) && !value->whole) return false;
+  // The type that is written, else the one the default shows. False after a report.
+  bool findKind(const JsonValue& initial) {
+    const auto choose = [&](ValueKind kind) {
+      kind_ = std::ranges::find(kParameterKinds, kind, &ParameterKind::kind);
+      out_.type = kind;
+      return true;
+    };
+    if (object_.find("type")) {
+      const std::optional<std::string> word = context_.word(object_, "type", kParameterTypes);
+      return word &&
+             choose(
+                 kParameterKinds[std::ranges::find(kParameterTypes, *word) - kParameterTypes.begin()].kind);
     }
-    return true;
-  }
-
-  // What a text in the place of a number, or of a word among "choices", is meant as.
-  static std::string hintForText(const std::string& text) {
-    if (std::string color = text.starts_with('#') ? hintForSize(text) : ""; !color.empty()) return color;
-    std::string number = text;
-    std::ranges::replace(number, ',', '.');
-    double value = 0;
-    const char* const end = number.data() + number.size();
-    const auto [at, error] = std::from_chars(number.data(), end, value);
-    if (!number.empty() && error == std::errc() && at == end)
-      return fmt::format("write {}, without quotes", number);
-    if (text == "true" || text == "false") return fmt::format("write {}, without quotes", text);
-    return "list the \"choices\", or say \"type\": \"file\"";
-  }
-
-  // The type that is written, else the one the default shows.
-  std::optional<ParameterType> typeOf(const JsonValue& initial) {
-    if (const JsonValue* written = object_.find("type")) {
-      const std::optional<std::string> word = context_.word(written, kParameterTypes, "\"type\"");
-      if (!word) return std::nullopt;
-      return kTypes[static_cast<std::size_t>(
-          std::find(kParameterTypes.begin(), kParameterTypes.end(), *word) - kParameterTypes.begin())];
+    if (initial.is(Type::boolean)) return choose(ValueKind::boolean);
+    if (initial.is(Type::number)) {
+      const bool whole = std::ranges::all_of(object_.members, [](const JsonMember& member) {
+        return !member.value.is(Type::number) || member.value.whole;
+      });
+      return choose(whole ? ValueKind::integer : ValueKind::number);
     }
-    switch (initial.type) {
-      case JsonValue::Type::boolean:
-        return ParameterType::boolean;
-      case JsonValue::Type::number:
-        return allWhole() ? ParameterType::integer : ParameterType::number;
-      case JsonValue::Type::array:
-        if (initial.items.size() == 2) return ParameterType::vec2;
-        if (initial.items.size() == 3) return ParameterType::vec3;
-        if (initial.items.size() == 4) return ParameterType::vec4;
-        break;
-      case JsonValue::Type::string: {
-        if (object_.find("choices")) return ParameterType::choice;
-        auto& d = context_.error(Code::missingKey, object_,
-                                 fmt::format("{} has a string as its default, but no \"choices\"", what_));
-        d.hint = hintForText(initial.text);
-        return std::nullopt;
-      }
-      default:
-        break;
+    for (const ParameterKind& kind : kParameterKinds)
+      if (kind.count > 0 && initial.is(Type::array) && initial.items.size() == kind.count)
+        return choose(kind.kind);
+    if (initial.is(Type::string) && object_.find("choices")) return choose(ValueKind::choice);
+    if (!initial.is(Type::string)) {
+      context_.wrongType(initial, fmt::format("the default of {}", what_),
+                         "a number, a boolean, a list of 2 to 4 numbers, or a word among \"choices\"");
+      return false;
     }
-    auto& d =
-        context_.error(Code::wrongType, initial, fmt::format("the default of {} has the wrong type", what_));
-    d.expected = "a number, a boolean, a list of 2 to 4 numbers, or a word among \"choices\"";
-    d.found = initial.is(JsonValue::Type::array) ? fmt::format("an array of {}", initial.items.size())
-                                                 : describe(initial);
-    return std::nullopt;
-  }
-
-  bool wrongDefault(const JsonValue& initial, std::string expected) {
-    auto& d = context_.error(
-        Code::wrongType, initial,
-        fmt::format("the default of {} does not fit its type \"{}\"", what_, nameOf(out_.type)));
-    d.expected = std::move(expected);
-    d.found = initial.is(JsonValue::Type::array) ? fmt::format("an array of {}", initial.items.size())
-                                                 : describe(initial);
-    if (out_.type == ParameterType::boolean && initial.is(JsonValue::Type::number))
-      d.hint = initial.number == 0 ? "write false" : "write true";
+    auto& d = context_.error(Code::missingKey, object_,
+                             fmt::format("{} has a string as its default, but no \"choices\"", what_));
+    d.hint = hintForSize(initial.text);
+    if (d.hint.empty())
+      d.hint = parseValue(initial.text).type == Value::Type::symbol
+                   ? "list the \"choices\", or say \"type\": \"file\""
+                   : fmt::format("write {}, without quotes", initial.text);
     return false;
   }
 
   bool readDefault(const JsonValue& initial) {
-    switch (out_.type) {
-      case ParameterType::boolean:
-        if (!initial.is(JsonValue::Type::boolean)) return wrongDefault(initial, "true or false");
-        out_.initial = Value::boolean(initial.flag);
-        return true;
-      case ParameterType::integer:
-        if (!initial.is(JsonValue::Type::number) || initial.number != std::floor(initial.number))
-          return wrongDefault(initial, "a whole number");
-        out_.initial = Value::number(initial.number);
-        return true;
-      case ParameterType::number:
-        if (!initial.is(JsonValue::Type::number)) return wrongDefault(initial, "a number");
-        out_.initial = Value::number(initial.number);
-        return true;
-      case ParameterType::file:
-        if (!initial.is(JsonValue::Type::string)) return wrongDefault(initial, "a path in a string, or \"\"");
-        out_.initial = Value::text(base::besideFile(initial.textPlace(), initial.text));
-        return true;
-      case ParameterType::choice: {
-        if (!initial.is(JsonValue::Type::string)) return wrongDefault(initial, "one of the \"choices\"");
-        out_.initial = Value::text(initial.text);
-        if (!object_.find("choices")) {
-          context_.error(Code::missingKey, object_, fmt::format("{} is a choice without \"choices\"", what_))
-              .hint = "list the words it may be";
+    out_.initialPlace = initial.place;
+    if (kind_->count > 0 && initial.is(Type::array) && initial.items.size() == kind_->count)
+      for (const JsonValue& item : initial.items)
+        if (!context_.expect(item, Type::number, fmt::format("a component of the default of {}", what_)))
           return false;
-        }
-        if (out_.choices.empty() ||
-            std::find(out_.choices.begin(), out_.choices.end(), initial.text) != out_.choices.end())
-          return true;
-        auto& d = context_.error(Code::notAChoice, initial,
-                                 fmt::format("the default of {} is not one of its choices", what_));
-        d.expected = fmt::format("{}", fmt::join(out_.choices, ", "));
-        d.found = initial.text;
-        if (const std::string nearest = base::nearestName(initial.text, out_.choices); !nearest.empty())
-          d.hint = fmt::format("did you mean \"{}\"?", nearest);
-        out_.initial =
-            Value::text(out_.choices[0]);  // expressions that it stands in have no mistake of their own
-        return true;
-      }
-      default:
-        break;
+    const std::optional<Value> value = valueOf(initial);
+    if (!value || !initial.is(kind_->json) || initial.items.size() != kind_->count ||
+        (kind_->kind == ValueKind::integer && initial.number != std::floor(initial.number))) {
+      auto& d =
+          context_.error(Code::wrongType, initial,
+                         fmt::format("the default of {} does not fit its type \"{}\"", what_, typeName()));
+      d.expected = kind_->expected;
+      d.found = foundText(initial);
+      return false;
     }
-    const std::size_t count = componentCount(out_.type);
-    if (!initial.is(JsonValue::Type::array) || initial.items.size() != count)
-      return wrongDefault(initial, fmt::format("a list of {} numbers", count));
-    out_.initial.type = Value::Type::list;
-    for (const JsonValue& item : initial.items) {
-      if (!context_.expect(item, JsonValue::Type::number,
-                           fmt::format("a component of the default of {}", what_)))
-        return false;
-      out_.initial.v[out_.initial.count++] = item.number;
+    out_.initial = *value;
+    if (kind_->kind == ValueKind::file)
+      out_.initial = Value::text(base::besideFile(initial.textPlace(), initial.text));
+    if (kind_->kind != ValueKind::choice) return true;
+    if (!object_.find("choices")) {
+      context_.error(Code::missingKey, object_, fmt::format("{} is a choice without \"choices\"", what_))
+          .hint = "list the words it may be";
+      return false;
     }
+    if (out_.choices.empty() || std::ranges::find(out_.choices, initial.text) != out_.choices.end())
+      return true;
+    auto& d = context_.error(Code::notAChoice, initial,
+                             fmt::format("the default of {} is not one of its choices", what_));
+    d.expected = fmt::format("{}", fmt::join(out_.choices, ", "));
+    d.found = initial.text;
+    if (const std::string nearest = base::nearestName(initial.text, out_.choices); !nearest.empty())
+      d.hint = fmt::format("did you mean \"{}\"?", nearest);
+    out_.initial =
+        Value::text(out_.choices[0]);  // expressions that it stands in have no mistake of their own
     return true;
   }
 
   void checkRange(const JsonValue& initial) {
-    if (!isNumeric(out_.type)) return;
-    if (out_.min && out_.max && *out_.min > *out_.max) {
-      auto& d = context_.error(Code::outOfRange, *object_.find("min"),
-                               fmt::format("the range of {} is empty", what_));
-      d.found = fmt::format("min {}, max {}", *out_.min, *out_.max);
-      d.hint = "min is the smaller one";
-      return;
-    }
+    if (!kind_->numeric) return;
+    const auto report = [&](const JsonValue& at, std::string message, std::string found,
+                            std::string expected) {
+      auto& d = context_.error(Code::outOfRange, at, std::move(message));
+      d.found = std::move(found);
+      d.expected = std::move(expected);
+    };
+    if (out_.min && out_.max && *out_.min > *out_.max)
+      return report(*object_.find("min"), fmt::format("the range of {} is empty", what_),
+                    fmt::format("min {}, max {}", *out_.min, *out_.max), "a \"min\" below \"max\"");
     if (out_.step && *out_.step <= 0)
-      context_
-          .error(Code::outOfRange, *object_.find("step"),
-                 fmt::format("the step of {} is not above zero", what_))
-          .found = fmt::format("{}", *out_.step);
-    if (out_.type == ParameterType::integer)
+      report(*object_.find("step"), fmt::format("the step of {} is not above zero", what_),
+             fmt::format("{}", *out_.step), "a number above zero");
+    if (kind_->kind == ValueKind::integer)
       for (const char* key : {"min", "max", "step"})
         if (const JsonValue* bound = object_.find(key);
-            bound && bound->is(JsonValue::Type::number) && bound->number != std::floor(bound->number))
-          context_
-              .error(Code::wrongType, *bound,
-                     fmt::format("\"{}\" of {}, which is an int, is not whole", key, what_))
-              .expected = "a whole number";
+            bound && bound->is(Type::number) && bound->number != std::floor(bound->number))
+          context_.wrongType(*bound, fmt::format("\"{}\" of {}, which is an int,", key, what_),
+                             "a whole number");
     for (std::size_t i = 0; i < out_.initial.count; ++i) {
       const double x = out_.initial.v[i];
       if (!(out_.min && x < *out_.min) && !(out_.max && x > *out_.max)) continue;
-      const JsonValue& at = initial.is(JsonValue::Type::array) ? initial.items[i] : initial;
-      auto& d =
-          context_.error(Code::outOfRange, at, fmt::format("the default of {} is out of its range", what_));
-      d.expected = out_.min && out_.max ? fmt::format("a number from {} to {}", *out_.min, *out_.max)
-                   : out_.min           ? fmt::format("a number from {} up", *out_.min)
-                                        : fmt::format("a number up to {}", *out_.max);
-      d.found = fmt::format("{}", x);
+      report(initial.is(Type::array) ? initial.items[i] : initial,
+             fmt::format("the default of {} is out of its range", what_), fmt::format("{}", x),
+             out_.min && out_.max ? fmt::format("a number from {} to {}", *out_.min, *out_.max)
+             : out_.min           ? fmt::format("a number from {} up", *out_.min)
+                                  : fmt::format("a number up to {}", *out_.max));
     }
-  }
-
-  // Keys that say nothing about a parameter of this type.
-  void checkCompany() {
-    const auto reject = [&](const char* key) {
-      if (const JsonValue* value = object_.find(key)) {
-        auto& d = context_.error(
-            Code::keysExclude, *value,
-            fmt::format("\"{}\" does not go with a parameter of type \"{}\"", key, nameOf(out_.type)));
-        d.hint = "remove the key, or change the type";
-      }
-    };
-    if (!isNumeric(out_.type))
-      for (const char* key : {"min", "max", "step"}) reject(key);
-    if (out_.type != ParameterType::choice) reject("choices");
   }
 
   ReadContext& context_;
   const JsonValue& object_;
+  const ParameterKind* kind_ = nullptr;
   ParameterDesc out_;
   std::string what_;
 };
@@ -281,37 +207,23 @@ class ParameterReader {
 }  // namespace
 
 std::optional<ParameterDesc> readParameter(ReadContext& context, const JsonMember& member) {
-  const bool named = context.checkName(member.key, member.place, "a parameter");
+  const bool named = context.checkName(member.key, member.place, {"a parameter"});
   std::optional<ParameterDesc> parameter = ParameterReader(context, member).run();
   return named ? parameter : std::nullopt;
 }
 
-std::optional<Value> readValue(ReadContext& context, const JsonMember& member) {
-  const JsonValue& value = member.value;
-  switch (value.type) {
-    case JsonValue::Type::number:
-      return Value::number(value.number);
-    case JsonValue::Type::boolean:
-      return Value::boolean(value.flag);
-    case JsonValue::Type::string:
-      return Value::text(value.text);
-    case JsonValue::Type::array: {
-      Value list;
-      list.type = Value::Type::list;
-      for (const JsonValue& item : value.items)
-        if (item.is(JsonValue::Type::number) && list.count < list.v.size())
-          list.v[list.count++] = item.number;
-      if (value.items.size() >= 2 && list.count == value.items.size()) return list;
-      break;
-    }
-    default:
-      break;
+std::optional<Value> valueOf(const JsonValue& value) {
+  if (value.is(Type::number)) return Value::number(value.number);
+  if (value.is(Type::boolean)) return Value::boolean(value.flag);
+  if (value.is(Type::string)) return Value::text(value.text);
+  Value list;
+  if (value.items.size() < 2 || value.items.size() > list.v.size()) return std::nullopt;
+  list.type = Value::Type::list;
+  for (const JsonValue& item : value.items) {
+    if (!item.is(Type::number)) return std::nullopt;
+    list.v[list.count++] = item.number;
   }
-  auto& d =
-      context.error(Code::wrongType, value, fmt::format("the value of '{}' has the wrong type", member.key));
-  d.expected = "a number, true or false, a word, a path, or a list of two to four numbers";
-  d.found = describe(value);
-  return std::nullopt;
+  return list;
 }
 
 }  // namespace weft::graph

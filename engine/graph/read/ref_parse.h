@@ -1,8 +1,8 @@
 // Reference strings of graph files: `name{.mip[..]|.layer[..]|.face[..]|[k]|.stencil} @-n as words if
-// condition ?`. Errors carry the column of the offending character and the fix. Does not know which resources
-// exist.
+// condition ?`. Errors carry the column of the offending character and the fix.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +12,10 @@
 #include "engine/graph/desc.h"
 
 namespace weft::graph {
+
+// The words that may follow `as`, besides kKindNames (subresource.h).
+constexpr std::array<std::string_view, 7> kSamplerWords = {"linear", "nearest", "wrap",   "clamp",
+                                                           "mirror", "border",  "compare"};
 
 // `text` stands at `place`. Empty after Code::badReference, or Code::badExpression inside an index or a condition; stops at the
 // first.

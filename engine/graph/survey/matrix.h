@@ -1,5 +1,5 @@
 // A graph tried in all its simple variations, without a device: each pass disabled, each pair of passes disabled, each
-// choice of each parameter. Does not: change several parameters at once, compile shaders, or print.
+// choice of each parameter.
 #pragma once
 
 #include <cstdint>

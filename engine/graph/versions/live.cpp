@@ -1,4 +1,3 @@
-// A backward sweep over passes follows the links; a worklist holds what a history asks of passes behind the sweep.
 #include "engine/graph/versions/live.h"
 
 #include <cassert>
@@ -7,7 +6,8 @@ namespace weft::graph {
 
 namespace {
 
-// Where every link leads back: one backward sweep over the uses, without a branch on what they are.
+// Where every link leads back: one backward sweep over the uses, without a branch on what they are. A worklist takes a third more
+// of compile()'s time.
 void sweepBack(const FlatGraph& graph, std::uint8_t* const livePass, std::uint8_t* const liveUse) {
   const VersionLinks& links = graph.links;
   const std::uint32_t* const passOf = links.passOf.data();
@@ -23,62 +23,13 @@ void sweepBack(const FlatGraph& graph, std::uint8_t* const livePass, std::uint8_
                           [&](std::uint32_t writer) { liveUse[writer] = livePass[passOf[writer]] = 1; });
       continue;
     }
-    // A use without a writer stands for one: what it says of its pass is said already, of itself below.
+    // A use without a writer takes its own place: what it says of its pass is said already, of itself below.
     const std::size_t writer = link == kNone ? u : link;
     liveUse[writer] |= live;
     livePass[passOf[writer]] |= live;
     liveUse[u] = live;
   }
 }
-
-// The same where a history leads to its own pass or a later one.
-class Sweep {
- public:
-  Sweep(const FlatGraph& graph, Liveness& live)
-      : graph_(graph), livePass_(live.pass.data()), liveUse_(live.use.data()), swept_(graph.passes.size()) {}
-
-  void run() {
-    while (swept_ > 0) {
-      --swept_;
-      if (livePass_[swept_] == 0) continue;
-      enliven(swept_);
-      while (!stack_.empty()) {
-        const std::uint32_t u = stack_.back();
-        stack_.pop_back();
-        if (const std::uint32_t pass = graph_.links.passOf[u]; livePass_[pass] == 0)
-          enliven(pass);
-        else if (graph_.uses[u].access == Access::modify)
-          follow(u);
-      }
-    }
-  }
-
- private:
-  void enliven(std::size_t pass) {
-    livePass_[pass] = 1;
-    const std::uint32_t first = graph_.passes[pass].firstUse, end = first + graph_.passes[pass].useCount;
-    for (std::uint32_t u = first; u < end; ++u) {
-      const FlatUse& use = graph_.uses[u];
-      if (use.access == Access::read || use.keep) liveUse_[u] = 1;
-      if (liveUse_[u] != 0) follow(u);
-    }
-  }
-  void follow(std::uint32_t use) {
-    graph_.links.forEachWriter(graph_.links.seen[use], [&](std::uint32_t writer) {
-      if (liveUse_[writer] != 0) return;
-      liveUse_[writer] = 1;
-      if (const std::uint32_t pass = graph_.links.passOf[writer]; pass < swept_)
-        livePass_[pass] = 1;
-      else
-        stack_.push_back(writer);
-    });
-  }
-
-  const FlatGraph& graph_;
-  std::uint8_t *const livePass_, *const liveUse_;
-  std::vector<std::uint32_t> stack_;
-  std::size_t swept_;  // passes from here on have been looked at; what is asked of them waits on the stack
-};
 
 }  // namespace
 
@@ -88,14 +39,37 @@ Liveness findLive(const FlatGraph& graph) {
   Liveness live;
   live.pass.assign(graph.passes.size(), 0);
   live.use.assign(graph.uses.size(), 0);
-  const auto keep = [&](std::uint32_t writer) { live.use[writer] = live.pass[links.passOf[writer]] = 1; };
-  links.forEachWriter(links.present, keep);
-  for (const std::uint32_t output : links.outputs) links.forEachWriter(output, keep);
-  for (std::size_t p = 0; p < graph.passes.size(); ++p) live.pass[p] |= graph.passes[p].sideEffect ? 1 : 0;
-  if (links.forward)
-    Sweep(graph, live).run();
-  else
+  const auto eachRoot = [&](const auto& keep, const auto& enliven) {
+    links.forEachWriter(links.present, keep);
+    for (const std::uint32_t output : links.outputs) links.forEachWriter(output, keep);
+    for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
+      if (graph.passes[p].sideEffect) enliven(p);
+  };
+  if (!links.forward) {
+    eachRoot([&](std::uint32_t use) { live.use[use] = live.pass[links.passOf[use]] = 1; },
+             [&](std::uint32_t pass) { live.pass[pass] = 1; });
     sweepBack(graph, live.pass.data(), live.use.data());
+    return live;
+  }
+  std::vector<std::uint32_t> open;  // live uses that were not looked at yet
+  const auto keep = [&](std::uint32_t use) {
+    if (live.use[use] == 0) open.push_back(use);
+    live.use[use] = 1;
+  };
+  const auto enliven = [&](std::uint32_t pass) {
+    if (live.pass[pass] != 0) return;
+    live.pass[pass] = 1;
+    const std::uint32_t first = graph.passes[pass].firstUse, end = first + graph.passes[pass].useCount;
+    for (std::uint32_t u = first; u < end; ++u)
+      if (graph.uses[u].access == Access::read || graph.uses[u].keep) keep(u);
+  };
+  eachRoot(keep, enliven);
+  while (!open.empty()) {
+    const std::uint32_t use = open.back();
+    open.pop_back();
+    enliven(links.passOf[use]);
+    links.forEachWriter(links.seen[use], keep);
+  }
   return live;
 }
 

@@ -1,6 +1,5 @@
 // Finds the live passes, and the uses for which they are needed, along FlatGraph::links. There is no other such walk: the
-// checks of expansion warn by its result, and compile() culls by it. Does not: say why (print/explain.h), or know
-// versions.
+// checks of expansion warn by its result, and compile() culls by it.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,7 @@
 // The one walk of versions. It visits passes in declared order, keeps which use wrote each sub-resource last, and makes
 // FlatGraph::links of that. Expansion moves it on use by use, because which version a write makes depends on what was
 // read; linkVersions runs it over a whole graph. The time is linear in the uses,
-// and in the sub-resources of uses that touch a resource in part or after such a write. Does not: decide whether a missing
-// version is an error, or what is live (versions/live.h).
+// and in the sub-resources of uses that touch a resource in part or after such a write.
 #pragma once
 
 #include <cstdint>
@@ -46,10 +45,6 @@ class VersionWalk {
   // After the last pass: reads of earlier frames, present and outputs. The resources of all uses are known by then.
   void finish();
 
-  // True when its sub-resources have writers of their own: a use of it may see several.
-  bool isSplit(std::uint32_t resource) const {
-    return resource < latest_.size() && latest_[resource] == kSplit;
-  }
   // True when some sub-resource of it was written.
   bool isWritten(std::uint32_t resource) const {
     return resource < latest_.size() && latest_[resource] != kNone;

@@ -8,9 +8,8 @@
 
 #include "engine/assets/environments/environment_map.h"
 #include "engine/base/diagnostic.h"
-#include "engine/gl/objects/level_stream.h"
 #include "engine/gl/objects/objects.h"
-#include "engine/gl/objects/pixel_stream.h"
+#include "engine/gl/objects/streams.h"
 #include "engine/imports/import.h"
 
 namespace weft::imports {

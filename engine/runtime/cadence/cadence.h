@@ -1,10 +1,9 @@
 // Decides which passes of a plan run in a frame, and which slices of each. `always` passes run in every frame. `once`
 // passes run until they have run on the storage that they write. `on_change` passes run when their inputs, parameters,
 // program or storage have changed since they last ran. Of the passes of one group (plan.h) all run or none. A time-sliced
-// group runs one slice of one pass per frame and starts again when something it has read changes; its owner publishes it
-// at the start of the frame after its last slice. A pass that is not `always` waits while something it reads was never
-// published. Works on hashes and generations only. Does not: know GL, or keep anything
-// across plans; the owner carries PassMemory over by pass name. decide() allocates nothing.
+// group runs one slice of one pass per frame and starts again when something it has read changes; its owner publishes it at
+// the start of the frame after its last slice. A pass that is not `always` waits while something it reads was never
+// published. Works on hashes and generations only.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // What outlives a plan on one GL context: programs, samplers, geometries, pass types, what graphs import, timers.
-// Does not: own the context.
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/gl/context/context.h"
@@ -17,8 +17,15 @@ namespace weft::runtime {
 
 struct Device {
   // `trial` as in gl::ProgramCache::Options.
-  Device(gl::Context& context, std::vector<std::string> shaderRoots, std::string cacheFolder,
-         std::vector<std::string> trial = {}, PlugIns plugIns = {});
+  Device(gl::Context& c, std::vector<std::string> shaderRoots, std::string cacheFolder,
+         std::vector<std::string> trial = {}, PlugIns names = {})
+      : context(c),
+        sources(std::move(shaderRoots)),
+        programs(c.device(), sources, {.folder = std::move(cacheFolder), .trial = std::move(trial)}),
+        plugIns(std::move(names)),
+        imports(plugIns.imports),
+        passTypes(*plugIns.passTypes),
+        timers(c.device()) {}
   gl::Context& context;
   glsl::SourceLoader sources;
   gl::ProgramCache programs;

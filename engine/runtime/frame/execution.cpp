@@ -1,12 +1,11 @@
 #include "engine/runtime/frame/execution.h"
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <utility>
 
 #include "engine/graph/language/expr_node.h"
-#include "engine/runtime/prepare/prepare.h"
+#include "engine/runtime/prepare/prepared_pass.h"
 #include "engine/runtime/storage/formats.h"
 
 namespace weft::runtime {
@@ -67,7 +66,7 @@ Execution::Execution(Device& device, PreparedPlan prepared, const Execution* bef
       steps_(plan(), *prepared_.pool, device.imports, prepared_.passes, before ? &before->steps_ : nullptr),
       publications_(plan(), *prepared_.pool, device.imports, steps_.cadence(), prepared_.passes,
                     before ? &before->publications_ : nullptr),
-      runner_(plan(), device, *prepared_.pool, uniforms_.arena()),
+      runner_(plan(), device, *prepared_.pool, uniforms_),
       followsPointer_(readsPointer(plan(), device.imports)) {}
 
 FrameReport Execution::frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics) {
@@ -75,7 +74,7 @@ FrameReport Execution::frame(const World& world, const FrameInput& input, base::
   beginFrame(world, input);
   publishFinished(diagnostics);
   refreshUniforms(false);
-  steps_.refreshHashes(uniforms_.arena());
+  steps_.refreshHashes(uniforms_);
   if (input.headless) runAhead(report, diagnostics);
   chooseSteps();
   runSteps(watch_, report, diagnostics);
@@ -142,12 +141,18 @@ void Execution::runSteps(const StepWatch& watch, FrameReport& report, base::Diag
     report.whole = report.whole && !(input_.obsolete && input_.obsolete());
     if (steps_.runs(step) && (report.whole || steps_.isLasting(step))) {
       steps_.markRan(step);
-      if (watch.lookBefore(step)) runner_.forgetState();
+      if (watch.before) {
+        watch.before(static_cast<std::uint32_t>(step));
+        runner_.forgetState();
+      }
       runner_.run(step, passes[step], steps_.slices(step).begins(), diagnostics);
     } else if (planned.barriersAfterClears) {
       glMemoryBarrier(glBarriersOf(planned.barriersAfterClears));
     }
-    if (report.whole && watch.lookAfter(step)) runner_.forgetState();
+    if (report.whole && watch.after) {
+      watch.after(static_cast<std::uint32_t>(step));
+      runner_.forgetState();
+    }
   }
   steps_.endRound(publications_.generationsBefore(), publications_.generations());
 }
@@ -228,17 +233,6 @@ gl::TextureRef Execution::presented() {
   if (use.resource == kNone) return {};
   base::Diagnostics ignored;
   return prepared_.pool->view(plan(), use, (*prepared_.pool)[use.resource].copyOf(0), GL_TEXTURE_2D, ignored);
-}
-
-gl::TextureRef Execution::presentedWhole() {
-  FlatUse all = plan().graph->present;
-  if (all.resource == kNone) return {};
-  const graph::FlatResource& desc = plan().graph->resources[all.resource];
-  all.mip = all.layer = 0;
-  all.mips = desc.mips;
-  all.layers = desc.layers;
-  base::Diagnostics ignored;
-  return prepared_.pool->view(plan(), all, (*prepared_.pool)[all.resource].copyOf(0), 0, ignored);
 }
 
 bool Execution::remembers(const World& world) const {

@@ -1,33 +1,35 @@
 // Execution: runs a Plan on the GPU, frame after frame. Each part has one job: PreparedPlan has the storage, and knows what
-// each step binds; VariantChoice chooses the variant of a pass, StepChoice the steps that run; FrameUniforms has their
-// uniforms; Publications decides what other passes see; StepRunner makes the GL calls; ReadBack brings outputs to the CPU.
-// A new execution is made beside the running one and shares with it the storage that both have, so the running one goes on
-// when the new one has an error.
-// Does not: read files, decide the order (the plan has it), or own the context. A frame of an unchanged plan allocates
-// nothing on the heap.
+// each step binds; StepChoice chooses the steps that run; FrameUniforms has their uniforms; Publications decides what other
+// passes see; StepRunner makes the GL calls; ReadBack brings outputs to the CPU. A new execution is made beside the running
+// one and shares with it the storage that both have, so the running one goes on when the new one has an error. A frame of an
+// unchanged plan allocates nothing on the heap.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string_view>
 #include <vector>
 
 #include "engine/graph/plan.h"
 #include "engine/runtime/frame/device.h"
+#include "engine/runtime/frame/frame_report.h"
 #include "engine/runtime/frame/prepared_plan.h"
 #include "engine/runtime/frame/publications.h"
 #include "engine/runtime/frame/read_back.h"
 #include "engine/runtime/frame/step_choice.h"
 #include "engine/runtime/frame/step_runner.h"
-#include "engine/runtime/frame/step_watch.h"
 #include "engine/runtime/uniforms/frame_uniforms.h"
 
 namespace weft::runtime {
 
-struct FrameReport {
-  std::uint32_t passesRun = 0, passesSkipped = 0, barriers = 0;
-  bool whole = true;  // false: FrameInput::obsolete left passes out, and the picture must not be shown
-  std::uint32_t slowRun = 0;  // how many of passesRun are not `always`
+// Functions that are called around the steps of a frame while it runs, to look at results: `before` right before a step that
+// runs, when its barriers are issued and its clears are not yet made; `after` right after a step, also when it was skipped,
+// while its results are still in their storage (later steps may put other resources there). Both may read, copy and draw
+// into textures of their own, and leave other GL state; they do not change the plan or what runs.
+struct StepWatch {
+  using Look = std::function<void(std::uint32_t step)>;
+  Look before{}, after{};
 };
 
 class Execution {
@@ -65,8 +67,6 @@ class Execution {
 
   // The presented level and layer of a texture; id 0 when the graph presents nothing.
   gl::TextureRef presented();
-  // The whole presented texture, with all its levels.
-  gl::TextureRef presentedWhole();
   // The current texture or buffer of a resource by its name in the graph ("hdr", "ibl.brdf"), for tests and inspectors:
   // the last version of that name, or nothing when it is not live.
   gl::TextureRef texture(std::string_view resource);
@@ -78,7 +78,7 @@ class Execution {
   // Sets a watch over the steps of every frame. Work that time-sliced groups do ahead of a headless frame is not watched.
   // There is one watch at a time, and none in a new execution. An empty watch removes it.
   void watch(StepWatch watch) { watch_ = std::move(watch); }
-  bool watched() const { return watch_.isSet(); }
+  bool watched() const { return watch_.before || watch_.after; }
 
  private:
   Execution(Device& device, PreparedPlan prepared, const Execution* before);

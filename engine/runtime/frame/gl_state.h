@@ -1,18 +1,21 @@
-// Fixed-function state of a pass, set whole before each pass so that nothing leaks from one to the next.
+// GL state outside of passes: open masks, released bindings, samples.
 #pragma once
 
 #include "engine/gl/context/state_cache.h"
-#include "engine/runtime/prepare/prepared_pass.h"
+#include "engine/gl/objects/objects.h"
 
 namespace weft::runtime {
 
-void applyState(const PreparedPass& pass, gl::StateCache& states);
-// Confines rendering to the rows of the pass's slices; off for a pass that runs whole.
-void scissorTo(const PreparedPass& pass, gl::StateCache& states);
 // Opens every mask and turns the scissor off, as clears and blits need it.
 void openMasks(gl::StateCache& states);
 // The same outside the frame loop, where the GL state is not known.
 void openMasks();
+
+// GL_COLOR_ATTACHMENT0, GL_DEPTH_ATTACHMENT or GL_DEPTH_STENCIL_ATTACHMENT, by the internal format.
+GLenum attachmentPointOf(GLenum format);
+// Writes the mean of the samples, or the first sample of depth and stencil, of a texture to one of the same format and size.
+// False when the driver has no framebuffer for them.
+bool resolveSamples(const gl::TextureRef& from, GLuint to);
 
 // Binds framebuffer 0 for drawing and reading, and no program, vertex array, or texture and sampler in unit 0. A library that
 // draws over the picture starts from there, so that it puts back nothing afterwards that a reload may have deleted.

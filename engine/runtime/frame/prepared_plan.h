@@ -1,6 +1,5 @@
 // A plan that can run on a device: its storage, and for each step what runs it. A new plan is prepared beside the one that
-// runs, and shares with it storage that fits and passes that are the same. Does not: lay out uniforms, or run anything
-// (Execution does).
+// runs, and shares with it storage that fits and passes that are the same.
 #pragma once
 
 #include <cstdint>

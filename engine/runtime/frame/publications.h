@@ -1,9 +1,8 @@
 // Publications: decides when all passes see the new contents of a resource. Each resource has a generation, which rises
-// with every change, and an age, the time since it was published. A pass that runs publishes what it writes and rotates
-// its history by one. A time-sliced group publishes all it wrote at once, in the frame after its last slice. An import
-// that Provider::hold() keeps appears together with what a group makes of it. Histories are reset when what they depend on
-// changes.
-// Does not: decide which passes run (FrameCadence), or own storage (ResourcePool). A frame allocates nothing.
+// with every change, and an age, the time since it was published. A pass that runs publishes what it writes and rotates its
+// history by one. A time-sliced group publishes all it wrote at once, in the frame after its last slice. An import that
+// Provider::hold() keeps appears together with what a group makes of it. Histories are reset when what they depend on
+// changes. A frame allocates nothing.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,7 @@
 // Brings to the CPU what a graph's "outputs" held at the end of a frame. After the last step each live output is copied
 // into the next of a ring of persistently mapped buffers, followed by a fence; later frames take the copies that have
 // arrived. Only finish() waits, and a frame of an unchanged plan allocates nothing. A copy that would have to wait for its
-// buffer is left out. A buffer arrives as it is, a texture as 32-bit numbers. Does not: keep anything alive (an output that
-// no pass makes is left out), place barriers (the plan did), or know what the numbers mean.
+// buffer is left out. A buffer arrives as it is, a texture as 32-bit numbers.
 #pragma once
 
 #include <array>

@@ -8,6 +8,8 @@
 #include "engine/base/files/file_access.h"
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/read/read.h"
+#include "engine/runtime/frame/device.h"
+#include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/gl_state.h"
 #include "engine/runtime/storage/formats.h"
 
@@ -48,9 +50,16 @@ std::vector<std::string> givenFiles(const std::string& graphPath, const Renderer
 Renderer::Renderer(gl::Context& context, const std::string& graphPath, Options options)
     : graphPath_(graphPath),
       options_(std::move(options)),
-      device_(context, shaderRootsOf(givenFiles(graphPath, options_), options_.dataFolder),
-              options_.cacheFolder, options_.trial, options_.plugIns),
-      registry_(makeRegistry(device_.plugIns, {})) {}
+      device_(std::make_unique<Device>(context,
+                                       shaderRootsOf(givenFiles(graphPath, options_), options_.dataFolder),
+                                       options_.cacheFolder, options_.trial, options_.plugIns)),
+      registry_(makeRegistry(device_->plugIns, {})) {}
+
+Renderer::~Renderer() = default;
+
+bool Renderer::setParameter(std::string_view path, const graph::Value& value) {
+  return execution_ && execution_->uniforms().set(path, value);
+}
 
 bool Renderer::load(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics) {
   base::Diagnostics said;
@@ -59,10 +68,10 @@ bool Renderer::load(const graph::Settings& settings, const World& world, base::D
   triedFiles_ = desc ? desc->files : std::vector<std::string>{graphPath_};
   refused_.clear();
   if (!desc) return false;
-  const std::vector<std::string> running = device_.sources.roots();
-  device_.sources.setRoots(shaderRootsOf(desc->files, options_.dataFolder));
+  const std::vector<std::string> running = device_->sources.roots();
+  device_->sources.setRoots(shaderRootsOf(desc->files, options_.dataFolder));
   if (!said.hasErrors() && switchTo(desc, ShaderFiles::read, settings, world, diagnostics)) return true;
-  if (execution_) device_.sources.setRoots(running);
+  if (execution_) device_->sources.setRoots(running);
   const graph::Registry& registry = registryOf(world);
   if (said.hasErrors()) graph::expandGraph(*desc, registry, settings, diagnostics);  // for what else is wrong
   refused_ = graph::findRefused(*desc, registry, settings);
@@ -76,8 +85,15 @@ bool Renderer::apply(const graph::Settings& settings, const World& world, base::
 }
 
 const graph::Registry& Renderer::registryOf(const World& world) {
-  changeWorld(registry_, device_.plugIns, world.facts(), &device_.imports.files());
+  changeWorld(registry_, device_->plugIns, world.facts(), &device_->imports.files());
   return registry_;
+}
+
+std::vector<double> Renderer::output(std::string_view name) const {
+  std::vector<double> numbers;
+  if (const Output* found = execution_ ? execution_->readBack().find(name) : nullptr)
+    for (std::size_t i = 0; i < found->count(); ++i) numbers.push_back(found->number(i));
+  return numbers;
 }
 
 std::vector<std::string> Renderer::files() const {
@@ -89,13 +105,13 @@ std::vector<std::string> Renderer::files() const {
 bool Renderer::switchTo(std::shared_ptr<const graph::GraphDesc> desc, ShaderFiles files,
                         const graph::Settings& settings, const World& world, base::Diagnostics& all) {
   base::Diagnostics diagnostics;  // of this attempt alone
-  device_.sources.forgetTouched();
-  device_.programs.startTrials();
-  imports::Files& imported = device_.imports.files();
+  device_->sources.forgetTouched();
+  device_->programs.startTrials();
+  imports::Files& imported = device_->imports.files();
   imported.forgetTouched();
   auto made = makeExecution(*desc, files, settings, world, diagnostics);
   all.append(diagnostics);
-  const std::set<std::string>& shaders = device_.sources.touched();
+  const std::set<std::string>& shaders = device_->sources.touched();
   triedFiles_.insert(triedFiles_.end(), shaders.begin(), shaders.end());
   triedFiles_.insert(triedFiles_.end(), imported.touched().begin(), imported.touched().end());
   std::ranges::sort(triedFiles_);
@@ -114,12 +130,12 @@ std::unique_ptr<Execution> Renderer::makeExecution(const graph::GraphDesc& desc,
   const graph::Registry& registry = registryOf(world);
   const auto flat = graph::expandGraph(desc, registry, settings, diagnostics);
   if (!flat || diagnostics.hasErrors()) return nullptr;
-  device_.imports.prepare(*flat);
+  device_->imports.prepare(*flat);
   auto plan = std::make_shared<const graph::Plan>(graph::compile(flat, options_.compile));
   if (!graph::checkMemory(*plan, diagnostics)) return nullptr;
   ++plansBuilt_;
   if (!prepareStandIns(*flat, world, diagnostics)) return nullptr;
-  return Execution::create(device_, std::move(plan), execution_.get(), files, diagnostics);
+  return Execution::create(*device_, std::move(plan), execution_.get(), files, diagnostics);
 }
 
 bool Renderer::prepareStandIns(const graph::FlatGraph& graph, const World& world,
@@ -129,7 +145,7 @@ bool Renderer::prepareStandIns(const graph::FlatGraph& graph, const World& world
     // No resource has this import when a list of alternatives has something else in its place.
     if (std::ranges::find(graph.resources, i, &graph::FlatResource::import) == graph.resources.end())
       continue;
-    const std::string name = device_.imports.standInGraph(import, world);
+    const std::string name = device_->imports.standInGraph(import, world);
     if (name.empty()) continue;
     std::unique_ptr<Renderer>& standIn = standIns_[name];
     if (!standIn) {
@@ -137,9 +153,9 @@ bool Renderer::prepareStandIns(const graph::FlatGraph& graph, const World& world
       options.presets.clear();
       options.compile = {};
       auto made = std::make_unique<Renderer>(
-          device_.context, (std::filesystem::path(options_.dataFolder) / name).string(), std::move(options));
+          device_->context, (std::filesystem::path(options_.dataFolder) / name).string(), std::move(options));
       graph::Settings settings;
-      settings.software = device_.context.device().software;
+      settings.software = device_->context.device().software;
       if (!made->load(settings, world, diagnostics)) return false;
       made->frame(world, headlessFrame(world, 0, 60), diagnostics);
       // Its plan does not know the readers.
@@ -147,14 +163,16 @@ bool Renderer::prepareStandIns(const graph::FlatGraph& graph, const World& world
                       GL_FRAMEBUFFER_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
       standIn = std::move(made);
     }
-    device_.imports.setStandIn(import, standIn->execution_->presentedWhole());
+    const std::uint32_t shown = standIn->execution_->plan().graph->present.resource;
+    device_->imports.setStandIn(
+        import, shown == graph::kNone ? gl::TextureRef{} : standIn->execution_->texture(shown));
   }
   return true;
 }
 
 FrameReport Renderer::frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics) {
   if (!execution_) return {};
-  if (device_.imports.isPending(*execution_->plan().graph, world)) {
+  if (device_->imports.isPending(*execution_->plan().graph, world)) {
     blackOut();
     return {};
   }
@@ -162,7 +180,7 @@ FrameReport Renderer::frame(const World& world, const FrameInput& input, base::D
 }
 
 void Renderer::dropUploaded(World& world) const {
-  device_.imports.dropUploaded(world);
+  device_->imports.dropUploaded(world);
 }
 
 void Renderer::blackOut() {
@@ -173,20 +191,28 @@ void Renderer::blackOut() {
                graph::Value{graph::Value::Type::list, 4, {0, 0, 0, 1}, {}});
 }
 
+namespace {
+
+// The rows of a picture, the last one first.
+template <class To, class From>
+std::vector<To> flipped(const std::vector<From>& texels, std::size_t row) {
+  std::vector<To> out;
+  out.reserve(texels.size());
+  for (std::size_t end = texels.size(); end > 0; end -= row)
+    for (std::size_t i = end - row; i < end; ++i) out.push_back(static_cast<To>(texels[i]));
+  return out;
+}
+
+}  // namespace
+
 std::optional<assets::ImageF> Renderer::readPresentedFloat() {
   const gl::TextureRef texture = execution_ ? execution_->presented() : gl::TextureRef{};
   if (texture.id == 0) return std::nullopt;
   const gl::Extent extent = gl::extentOf(texture.desc, 0);
-  const std::vector<float> texels = gl::readFloats(texture);
   const std::size_t channels = gl::floatChannelsOf(texture.desc.format);
-  assets::ImageF image{
-      static_cast<int>(extent.width), static_cast<int>(extent.height), static_cast<int>(channels), {}};
-  image.texels.resize(texels.size());
-  const std::size_t row = extent.width * channels;
-  for (std::size_t y = 0; y < extent.height; ++y)
-    std::copy_n(texels.begin() + static_cast<std::ptrdiff_t>((extent.height - 1 - y) * row), row,
-                image.texels.begin() + static_cast<std::ptrdiff_t>(y * row));
-  return image;
+  return assets::ImageF{static_cast<int>(extent.width), static_cast<int>(extent.height),
+                        static_cast<int>(channels),
+                        flipped<float>(gl::readFloats(texture), extent.width * channels)};
 }
 
 assets::Image8 toBytes(const assets::ImageF& picture) {
@@ -213,16 +239,9 @@ std::optional<assets::Image8> Renderer::readPresented8() {
   }
   const gl::TextureRef texture = execution_->presented();
   const gl::Extent extent = gl::extentOf(texture.desc, 0);
-  assets::Image8 image{static_cast<int>(extent.width), static_cast<int>(extent.height), 4, {}};
-  const std::size_t row = std::size_t{extent.width} * 4;
-  image.texels.resize(row * extent.height);
-  const std::vector<std::byte> exact = gl::readTexture(texture, 0, 0, GL_RGBA, GL_UNSIGNED_BYTE);
-  for (std::size_t y = 0; y < extent.height; ++y)
-    std::transform(exact.begin() + static_cast<std::ptrdiff_t>((extent.height - 1 - y) * row),
-                   exact.begin() + static_cast<std::ptrdiff_t>((extent.height - y) * row),
-                   image.texels.begin() + static_cast<std::ptrdiff_t>(y * row),
-                   [](std::byte b) { return std::to_integer<std::uint8_t>(b); });
-  return image;
+  return assets::Image8{static_cast<int>(extent.width), static_cast<int>(extent.height), 4,
+                        flipped<std::uint8_t>(gl::readTexture(texture, 0, 0, GL_RGBA, GL_UNSIGNED_BYTE),
+                                              std::size_t{extent.width} * 4)};
 }
 
 void Renderer::present(std::uint32_t width, std::uint32_t height) {

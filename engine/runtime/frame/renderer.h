@@ -1,8 +1,9 @@
 // Runs a graph file on a device: reads, expands, compiles and prepares it, then runs frame after frame. Loading replaces
 // the running graph only when the new one has no error; after an error the last good execution goes on.
-// Does not: own the window, decode assets, or decide the time.
+// Of the runtime this and what it includes is installed for embedders (cmake/install.cmake).
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -11,11 +12,23 @@
 #include <vector>
 
 #include "engine/assets/images/image.h"
+#include "engine/gl/context/context.h"
+#include "engine/gl/objects/objects.h"
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/expand/expand.h"
-#include "engine/runtime/frame/execution.h"
+#include "engine/imports/world.h"
+#include "engine/runtime/frame/frame_report.h"
+#include "engine/runtime/imports/registry.h"
 
 namespace weft::runtime {
+
+using imports::FrameInput;
+using imports::headlessFrame;
+using imports::World;
+
+struct Device;
+class Execution;
+enum class ShaderFiles : std::uint8_t;
 
 // Where a graph's shaders are looked for: beside each of its files and beside that file's folder, in the order of
 // GraphDesc::files (the graph, what it extends, presets, includes), then the bundled ones.
@@ -36,6 +49,7 @@ class Renderer {
     graph::CompileOptions compile{};     // another order or storage, for those who test plans
   };
   Renderer(gl::Context& context, const std::string& graphPath, Options options);
+  ~Renderer();
 
   // Reads the graph file again and switches to it. False after errors.
   bool load(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics);
@@ -43,14 +57,15 @@ class Renderer {
   // programs, whatever is on disk.
   bool apply(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics);
   // Sets a live parameter at once, as FrameUniforms::set() does.
-  bool setParameter(std::string_view path, const graph::Value& value) {
-    return execution_ && execution_->uniforms().set(path, value);
-  }
+  bool setParameter(std::string_view path, const graph::Value& value);
   // The settings that the graph of the last load() does not take; empty when there was no error.
   std::span<const graph::Refusal> refused() const { return refused_; }
   // The files to watch (graphs, shaders, includes, tables): those of the running graph, and those that the last load() or
   // apply() read or did not find.
   std::vector<std::string> files() const;
+  // The numbers of one of the graph's live "outputs", the latest that have arrived, which are one or a few frames old; empty
+  // when there is none of that name.
+  std::vector<double> output(std::string_view name) const;
   // Runs nothing and presents black while an import of the graph is still being loaded (World::expectEnvironment).
   FrameReport frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics);
 
@@ -62,7 +77,7 @@ class Renderer {
   // The running graph, as it was read; null before the first load().
   const graph::GraphDesc* desc() const { return desc_.get(); }
   std::span<const std::string> presets() const { return options_.presets; }
-  Device& device() { return device_; }
+  Device& device() { return *device_; }
   const std::string& graphPath() const { return graphPath_; }
   // Graphs compiled to plans so far, also those that could not be prepared.
   std::uint64_t plansBuilt() const { return plansBuilt_; }
@@ -88,7 +103,7 @@ class Renderer {
 
   std::string graphPath_;
   Options options_;
-  Device device_;
+  std::unique_ptr<Device> device_;
   graph::Registry registry_;  // of the device's plug-ins
   std::unique_ptr<Execution> execution_;
   std::shared_ptr<const graph::GraphDesc> desc_;  // what runs

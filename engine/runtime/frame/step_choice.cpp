@@ -1,6 +1,5 @@
 #include "engine/runtime/frame/step_choice.h"
 
-#include <algorithm>
 #include <string_view>
 #include <unordered_map>
 
@@ -29,19 +28,15 @@ StepChoice::StepChoice(const graph::Plan& plan, ResourcePool& pool, Imports& imp
       cadence_.memories()[step] = before->cadence_.memories()[old->second];
 }
 
-void StepChoice::beginFrame() {
-  std::ranges::fill(ran_, std::uint8_t{0});
-}
-
-void StepChoice::refreshHashes(const UniformArena& arena) {
+void StepChoice::refreshHashes(const FrameUniforms& uniforms) {
   for (std::size_t step = 0; step < passes_.size(); ++step)
-    if (!isAlways(step)) hashes_[step] = hashOf(passes_[step], arena);
+    if (!isAlways(step)) hashes_[step] = hashOf(passes_[step], uniforms);
 }
 
-std::uint64_t StepChoice::hashOf(const PreparedPass& pass, const UniformArena& arena) {
+std::uint64_t StepChoice::hashOf(const PreparedPass& pass, const FrameUniforms& uniforms) {
   std::uint64_t hash = pass.programHash;
-  hash = arena.hash(pass.parametersOffset, pass.parametersBlock, hash);
-  hash = arena.hash(pass.viewOffset, pass.viewBlock, hash);
+  hash = uniforms.hash(pass.parametersOffset, pass.parametersBlock, hash);
+  hash = uniforms.hash(pass.viewOffset, pass.viewBlock, hash);
   for (const std::uint32_t resource : pass.written)
     hash = base::hashCombine(hash, pool_[resource].serial + (pool_[resource].resets << 40));
   // Adds the imports that this pass sees later than they change.
@@ -54,22 +49,6 @@ std::uint64_t StepChoice::hashOf(const PreparedPass& pass, const UniformArena& a
     hash = base::hashCombine(
         hash, imports_.generation(static_cast<scene::DrawList>(pass.list), pass.meshes != nullptr));
   return hash;
-}
-
-void StepChoice::choose(const std::vector<std::uint64_t>& generations) {
-  cadence_.decide(hashes_, generations);
-}
-
-bool StepChoice::chooseAhead(const std::vector<std::uint64_t>& generations) {
-  return cadence_.decideAhead(hashes_, generations);
-}
-
-bool StepChoice::isAlways(std::size_t step) const {
-  return plan_.passOf(step).cadence == graph::Cadence::always;
-}
-
-void StepChoice::endRound(const std::vector<std::uint64_t>& before, const std::vector<std::uint64_t>& after) {
-  cadence_.endFrame(hashes_, before, after);
 }
 
 }  // namespace weft::runtime

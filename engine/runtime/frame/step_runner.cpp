@@ -1,8 +1,6 @@
 // One step of a frame: clears, bindings, the pass itself.
 #include "engine/runtime/frame/step_runner.h"
 
-#include <cstring>
-
 #include "engine/runtime/frame/gl_state.h"
 #include "engine/runtime/storage/formats.h"
 
@@ -10,6 +8,67 @@ namespace weft::runtime {
 
 using graph::FlatUse;
 using graph::kNone;
+
+namespace {
+
+// In the order of graph::Blend, behind `none`.
+constexpr gl::StateCache::Blend kBlends[] = {
+    {GL_FUNC_ADD, GL_ONE, GL_ONE, GL_ONE, GL_ONE},
+    {GL_FUNC_ADD, GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA},
+    {GL_FUNC_ADD, GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA},
+    {GL_FUNC_ADD, GL_DST_COLOR, GL_ZERO, GL_DST_COLOR, GL_ZERO},
+    {GL_MIN, GL_ONE, GL_ONE, GL_ONE, GL_ONE},
+    {GL_MAX, GL_ONE, GL_ONE, GL_ONE, GL_ONE}};
+
+std::optional<gl::StateCache::Blend> blendOf(graph::Blend blend) {
+  if (blend == graph::Blend::none) return std::nullopt;
+  return kBlends[static_cast<std::size_t>(blend) - 1];
+}
+
+// Sets the fixed-function state whole before each pass, so that nothing leaks from one to the next.
+void applyState(const PreparedPass& pass, gl::StateCache& states) {
+  const graph::StateSpec& state = pass.context.spec->state;
+  bool depthAttached = false, depthWritable = false;
+  for (const AttachmentBinding& attachment : pass.attachments) {
+    const bool depth =
+        attachment.point == GL_DEPTH_ATTACHMENT || attachment.point == GL_DEPTH_STENCIL_ATTACHMENT;
+    depthAttached |= depth;
+    depthWritable |= depth && attachment.use.access != graph::Access::read;
+    if (depth || attachment.point == GL_STENCIL_ATTACHMENT) continue;
+    const GLuint index = attachment.point - GL_COLOR_ATTACHMENT0;
+    graph::Blend mode = graph::Blend::none;
+    for (const auto& [buffer, blend] : pass.blends)
+      if (buffer == index) mode = blend;
+    states.blend(index, blendOf(mode));
+  }
+  states.enable(GL_FRAMEBUFFER_SRGB, pass.encodesSrgb);
+  states.viewport(static_cast<GLsizei>(pass.width), static_cast<GLsizei>(pass.height));
+  const bool depthTest = depthAttached && state.depthTest;
+  states.enable(GL_DEPTH_TEST, depthTest);
+  if (depthTest) states.depthFunc(glCompareOf(state.depthCompare));
+  states.depthMask(depthTest && depthWritable && state.depthWrite);
+  states.colorMask(pass.writesColor);
+  states.enable(GL_CULL_FACE, state.cull != graph::Cull::none);
+  if (state.cull != graph::Cull::none) states.cullFace(state.cull == graph::Cull::back ? GL_BACK : GL_FRONT);
+  states.polygonMode(state.lines ? GL_LINE : GL_FILL);
+  const bool offset = state.offsetFactor != 0 || state.offsetUnits != 0;
+  states.enable(GL_POLYGON_OFFSET_FILL, offset);
+  if (offset)
+    states.polygonOffset(static_cast<GLfloat>(state.offsetFactor), static_cast<GLfloat>(state.offsetUnits));
+}
+
+// Confines rendering to the rows of the pass's slices; off for a pass that runs whole.
+void scissorTo(const PreparedPass& pass, gl::StateCache& states) {
+  const passes::PassContext& c = pass.context;
+  const bool confined = c.sliceCount != c.slices;
+  states.enable(GL_SCISSOR_TEST, confined);
+  if (!confined) return;
+  const auto at = [&](std::uint64_t slice) { return static_cast<GLint>(pass.height * slice / c.slices); };
+  const GLint from = at(c.slice);
+  states.scissor(from, static_cast<GLsizei>(pass.width), at(c.slice + c.sliceCount) - from);
+}
+
+}  // namespace
 
 void StepRunner::run(std::size_t step, PreparedPass& pass, bool clears, base::Diagnostics& diagnostics) {
   const gl::DebugGroup group(device_.context.debugLog(), pass.context.spec->name);
@@ -63,18 +122,14 @@ void StepRunner::clearAttachment(GLuint framebuffer, GLenum point, const ClearCo
                                 list ? static_cast<GLint>(value[1]) : 0);
       break;
     }
-    case graph::TexelKind::unsigned_integer: {
-      GLuint bits[4];
-      std::memcpy(bits, texel.bytes.data(), sizeof bits);
-      glClearNamedFramebufferuiv(framebuffer, GL_COLOR, index, bits);
+    case graph::TexelKind::unsigned_integer:
+      glClearNamedFramebufferuiv(framebuffer, GL_COLOR, index,
+                                 reinterpret_cast<const GLuint*>(texel.bytes.data()));
       break;
-    }
-    case graph::TexelKind::signed_integer: {
-      GLint bits[4];
-      std::memcpy(bits, texel.bytes.data(), sizeof bits);
-      glClearNamedFramebufferiv(framebuffer, GL_COLOR, index, bits);
+    case graph::TexelKind::signed_integer:
+      glClearNamedFramebufferiv(framebuffer, GL_COLOR, index,
+                                reinterpret_cast<const GLint*>(texel.bytes.data()));
       break;
-    }
     default:
       glClearNamedFramebufferfv(framebuffer, GL_COLOR, index, value.data());
   }
@@ -99,17 +154,6 @@ GLuint viewOf(const GpuResource& resource, const std::vector<GLuint>& views, std
   return views.empty() ? resource.importedFor(group).id : views[resource.copyOf(history, group)];
 }
 
-GLenum attachmentPointOf(graph::Format format) {
-  switch (graph::infoOf(format).kind) {
-    case graph::TexelKind::depth:
-      return GL_DEPTH_ATTACHMENT;
-    case graph::TexelKind::depth_stencil:
-      return GL_DEPTH_STENCIL_ATTACHMENT;
-    default:
-      return GL_COLOR_ATTACHMENT0;
-  }
-}
-
 }  // namespace
 
 template <class Binding>
@@ -131,13 +175,13 @@ bool StepRunner::bind(PreparedPass& pass, base::Diagnostics& diagnostics) {
   };
   for (const TextureBinding& binding : pass.textures) {
     if (!holds(binding.firstOf)) continue;
-    states_.bindTexture(binding.unit, textureOf(binding, pass, diagnostics));
-    states_.bindSampler(binding.unit, binding.sampler);
-  }
-  for (const ImageBinding& binding : pass.images) {
-    if (!holds(binding.firstOf)) continue;
-    states_.bindImage(binding.unit, textureOf(binding, pass, diagnostics), binding.layered, binding.access,
-                      binding.format);
+    const GLuint texture = textureOf(binding, pass, diagnostics);
+    if (binding.access) {
+      states_.bindImage(binding.unit, texture, binding.layered, binding.access, binding.format);
+    } else {
+      states_.bindTexture(binding.unit, texture);
+      states_.bindSampler(binding.unit, binding.sampler);
+    }
   }
   for (const BufferBinding& binding : pass.buffers)
     if (holds(binding.firstOf)) bindBuffer(binding, pass.group, diagnostics);
@@ -183,7 +227,7 @@ void StepRunner::bindBuffer(const BufferBinding& binding, std::uint32_t group,
 }
 
 void StepRunner::bindBlock(const gl::Block* block, std::uint32_t offset) {
-  if (block) states_.bindBuffer(GL_UNIFORM_BUFFER, block->binding, arena_.buffer(), offset, block->bytes);
+  if (block) states_.bindBuffer(GL_UNIFORM_BUFFER, block->binding, uniforms_.buffer(), offset, block->bytes);
 }
 
 // Binds what a pass type without a shader works on: GL names of textures, and framebuffers around them if it wants some.
@@ -205,9 +249,10 @@ bool StepRunner::bindFixed(const FixedBinding& binding, PreparedPass& pass, base
   bound.level = static_cast<GLint>(binding.mip);
   bound.layer = std::max(0, binding.layer);
   if (pass.context.exact) return true;
-  const GLenum point = attachmentPointOf(shape.format);
-  const gl::Attachment attachment{
-      .point = point, .texture = whole, .mip = binding.mip, .layer = binding.layer};
+  const gl::Attachment attachment{.point = attachmentPointOf(glFormatOf(shape.format)),
+                                  .texture = whole,
+                                  .mip = binding.mip,
+                                  .layer = binding.layer};
   bound.framebuffer = framebuffers_.get({&attachment, 1}, pass.context.spec->name, diagnostics);
   return true;
 }

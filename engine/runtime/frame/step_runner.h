@@ -1,6 +1,5 @@
 // Runs one step of a plan: clears, the barrier after them, program, bindings, framebuffer, fixed-function state, and the
-// pass type's execute(). Owns framebuffers and the known GL state. Does not: decide whether the step runs, or issue the
-// barrier before it. Allocates only when a framebuffer is used for the first time.
+// pass type's execute(). Owns framebuffers and the known GL state. Allocates only when a framebuffer is used for the first time.
 #pragma once
 
 #include <vector>
@@ -12,15 +11,15 @@
 #include "engine/runtime/prepare/prepared_pass.h"
 #include "engine/runtime/storage/framebuffer_cache.h"
 #include "engine/runtime/storage/resource_pool.h"
-#include "engine/runtime/uniforms/uniform_arena.h"
+#include "engine/runtime/uniforms/frame_uniforms.h"
 
 namespace weft::runtime {
 
 class StepRunner {
  public:
   // All must outlive this.
-  StepRunner(const graph::Plan& plan, Device& device, ResourcePool& pool, const UniformArena& arena)
-      : plan_(plan), device_(device), pool_(pool), arena_(arena) {}
+  StepRunner(const graph::Plan& plan, Device& device, ResourcePool& pool, const FrameUniforms& uniforms)
+      : plan_(plan), device_(device), pool_(pool), uniforms_(uniforms) {}
 
   // `clears`: whether the clears of the step run too; of a pass in slices they run with the first slice.
   void run(std::size_t step, PreparedPass& pass, bool clears, base::Diagnostics& diagnostics);
@@ -45,7 +44,7 @@ class StepRunner {
   const graph::Plan& plan_;
   Device& device_;
   ResourcePool& pool_;
-  const UniformArena& arena_;
+  const FrameUniforms& uniforms_;
   FramebufferCache framebuffers_;
   gl::StateCache states_;
   std::vector<gl::Attachment> scratch_;

@@ -1,5 +1,5 @@
 // The imports of graphs on one device: finds the provider of an import, which is made when a graph first asks for it, and
-// hands it the frame. Outlives plans. Does not: know what an import is (engine/imports has a folder for each), or know passes.
+// hands it the frame. Outlives plans.
 #pragma once
 
 #include <glad/gl.h>

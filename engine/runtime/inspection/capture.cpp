@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "engine/graph/pick/find_pick.h"
+#include "engine/graph/pick/pick.h"
 
 namespace weft::runtime {
 

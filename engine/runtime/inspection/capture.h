@@ -1,6 +1,5 @@
 // What passes wrote, at the place in the frame where they wrote it, read to the CPU: for commands that look at a graph
-// without a person. Uses the viewer's inspector, so that both show the same. Does not: write files, or choose names for
-// them.
+// without a person. Uses the viewer's inspector, so that both show the same.
 #pragma once
 
 #include <cstdint>

@@ -2,22 +2,6 @@
 
 namespace weft::runtime {
 
-FrameProfiler::FrameProfiler(gl::PassTimers& timers, std::size_t capacity)
-    : timers_(timers), capacity_(capacity) {
-  timers_.setListener([this](std::uint64_t number, std::span<const gl::PassTime> times) {
-    for (Pending& each : pending_)
-      if (each.number == number) {
-        each.profile.passes.assign(times.begin(), times.end());
-        each.done = true;
-      }
-    complete();
-  });
-}
-
-FrameProfiler::~FrameProfiler() {
-  timers_.setListener({});
-}
-
 void FrameProfiler::begin(const graph::Plan& plan, std::uint64_t frame) {
   if (named_ != plan.graph) {
     std::vector<std::string> names;
@@ -33,20 +17,16 @@ void FrameProfiler::begin(const graph::Plan& plan, std::uint64_t frame) {
   pending.profile.start = gl::steadyMs();
 }
 
+// GPU times of a frame may come some frames later, and those of several frames at once: then only the last has some.
 void FrameProfiler::end(const FrameReport& report) {
   if (pending_.empty()) return;
-  // The listener may have completed the frame already, when no GPU clock is waited for; complete() leaves it until it has
-  // an end.
-  Pending& pending = pending_.back();
-  pending.profile.end = gl::steadyMs();
-  pending.profile.report = report;
-  if (pending.number == 0) pending.done = true;
-  complete();
-}
-
-void FrameProfiler::complete() {
-  while (!pending_.empty() && pending_.front().done && pending_.front().profile.end > 0) {
-    history_.push_back(std::move(pending_.front().profile));
+  pending_.back().profile.end = gl::steadyMs();
+  pending_.back().profile.report = report;
+  while (!pending_.empty() && pending_.front().number <= timers_.resultFrame()) {
+    FrameProfile& profile = pending_.front().profile;
+    if (pending_.front().number != 0 && pending_.front().number == timers_.resultFrame())
+      profile.passes.assign(timers_.results().begin(), timers_.results().end());
+    history_.push_back(std::move(profile));
     pending_.pop_front();
     if (history_.size() > capacity_) history_.pop_front();
   }

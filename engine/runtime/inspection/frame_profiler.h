@@ -1,5 +1,5 @@
 // What the last frames cost: wall clock around each, and CPU and GPU time per pass where the timers are on. Names of passes
-// stay right when plans change in between. Does not: turn timers on, smooth, or draw.
+// stay right when plans change in between.
 #pragma once
 
 #include <cstdint>
@@ -24,11 +24,9 @@ struct FrameProfile {
 
 class FrameProfiler {
  public:
-  // `timers` must outlive this, which takes their listener.
-  explicit FrameProfiler(gl::PassTimers& timers, std::size_t capacity = 240);
-  ~FrameProfiler();
-  FrameProfiler(const FrameProfiler&) = delete;
-  FrameProfiler& operator=(const FrameProfiler&) = delete;
+  // `timers` must outlive this.
+  explicit FrameProfiler(const gl::PassTimers& timers, std::size_t capacity = 240)
+      : timers_(timers), capacity_(capacity) {}
 
   // Around Execution::frame() of this plan.
   void begin(const graph::Plan& plan, std::uint64_t frame);
@@ -40,16 +38,14 @@ class FrameProfiler {
   struct Pending {
     FrameProfile profile;
     std::uint64_t number = 0;  // of the timers; 0: they were off
-    bool done = false;
   };
-  void complete();
 
-  gl::PassTimers& timers_;
+  const gl::PassTimers& timers_;
   std::size_t capacity_;
   std::deque<Pending> pending_;
   std::deque<FrameProfile> history_;
-  std::shared_ptr<const graph::FlatGraph>
-      named_;  // whose steps names_ are; held so that no other takes its place
+  // The graph whose steps names_ are; held so that no other takes its place.
+  std::shared_ptr<const graph::FlatGraph> named_;
   std::shared_ptr<const std::vector<std::string>> names_;
 };
 

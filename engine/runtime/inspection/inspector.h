@@ -1,6 +1,5 @@
-// One texture or buffer of a running graph, at one place in the frame: copied there by a watch (step_watch.h) into storage of
+// One texture or buffer of a running graph, at one place in the frame: copied there by a watch (StepWatch) into storage of
 // the inspector's own, then shown and read at leisure. Sees what a pass wrote although its storage is used again later.
-// Does not: know windows, decide what to look at, or cost anything while it looks at nothing.
 #pragma once
 
 #include <array>
@@ -33,7 +32,7 @@ struct InspectView {
   InspectChannel channel = InspectChannel::rgb;
   float low = 0, high = 1;  // values shown black and white
   float ev = 0;             // stops, before the range
-  bool falseColor = false;  // one channel (rgb: its luminance) as a colour scale
+  bool falseColor = false;  // one channel (rgb: its luminance) as a color scale
   bool encode = true;       // sRGB curve, for linear light
   bool highlight = true;    // NaN magenta, infinities and what is outside the range marked
   bool depth = false;       // reversed depth d as near / d: distance in units of `near`
@@ -44,7 +43,6 @@ struct InspectView {
 
 // A texel's value as it is stored.
 struct InspectTexel {
-  gl::FormatClass kind = gl::FormatClass::floating;
   std::uint32_t channels = 4;
   std::array<double, 4> value{};  // integers and floats exactly; missing channels 0
   std::string text() const;       // "0.5, 1, nan, 2"
@@ -92,7 +90,10 @@ class Inspector {
   // Takes `target` for what to look at; the step after which, or kNone when it is not there.
   std::uint32_t aim(Execution& execution, const InspectTarget& target);
   void copy();
-  bool prepareTexture(const gl::TextureRef& from, const graph::FlatResource& desc);
+  bool prepareTexture(const gl::TextureRef& from);
+  // Numbers of a texel, and those of a part of the picture, as they are stored, row 0 at the bottom.
+  std::uint32_t numbers() const;
+  std::vector<double> read(std::uint32_t x, std::uint32_t y, std::uint32_t width, std::uint32_t height) const;
   bool prepareBuffer(std::uint64_t bytes);
 
   Device& device_;
@@ -104,8 +105,7 @@ class Inspector {
   std::uint64_t copies_ = 0;
   gl::Texture picture_, canvas_;
   gl::Buffer buffer_, uniforms_;
-  gl::Framebuffer canvasTarget_, resolveFrom_, resolveTo_;
-  GLuint resolvedTexture_ = 0;
+  gl::Framebuffer canvasTarget_;
   gl::VertexArray vertices_;
 };
 

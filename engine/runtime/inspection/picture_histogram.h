@@ -1,5 +1,5 @@
 // Histograms of the presented picture: shares of its texels by luminance and by channel. They come from a small copy, which
-// is read back some frames later, without waiting. Does not: know scene-referred values (a graph's output `histogram` does).
+// is read back some frames later, without waiting.
 #pragma once
 
 #include <array>

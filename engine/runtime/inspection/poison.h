@@ -1,6 +1,6 @@
-// Fills what a transient resource finds in its storage with values that no pass would write, right before the first step that
-// touches it. A pass that promised to write everything and does not, or that reads what nobody wrote, then shows in the picture.
-// Does not: touch what persists, imports, or what a clear will overwrite to another effect.
+// Fills what a transient resource finds in its storage with values that no pass would write, right before the first step
+// that touches it. A pass that promised to write everything and does not, or that reads what nobody wrote, then shows in
+// the picture.
 #pragma once
 
 #include <cstdint>

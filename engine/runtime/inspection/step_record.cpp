@@ -109,24 +109,10 @@ void StepRecorder::keep(std::string pass, std::string resource) {
 // The mean of the samples, through a texture of one sample.
 std::vector<float> StepRecorder::readSamples(const gl::TextureRef& texture) {
   base::Diagnostics ignored;
-  const gl::TextureDesc wanted{
-      .format = texture.desc.format, .width = texture.desc.width, .height = texture.desc.height};
-  const auto resolved = gl::Texture::create(wanted, "record", ignored);
-  if (!resolved) return {};
-  const gl::FormatClass kind = gl::classOf(wanted.format);
-  const GLenum point = kind == gl::FormatClass::depth           ? GL_DEPTH_ATTACHMENT
-                       : kind == gl::FormatClass::depth_stencil ? GL_DEPTH_STENCIL_ATTACHMENT
-                                                                : GL_COLOR_ATTACHMENT0;
-  const gl::Attachment from{.point = point, .texture = texture.id},
-      to{.point = point, .texture = resolved->id()};
-  const auto source = gl::Framebuffer::create({&from, 1}, "record", ignored),
-             target = gl::Framebuffer::create({&to, 1}, "record", ignored);
-  if (!source || !target) return {};
-  openMasks();
-  const auto width = static_cast<GLint>(wanted.width), height = static_cast<GLint>(wanted.height);
-  glBlitNamedFramebuffer(source->id(), target->id(), 0, 0, width, height, 0, 0, width, height,
-                         point == GL_COLOR_ATTACHMENT0 ? GL_COLOR_BUFFER_BIT : GL_DEPTH_BUFFER_BIT,
-                         GL_NEAREST);
+  const auto resolved = gl::Texture::create(
+      {.format = texture.desc.format, .width = texture.desc.width, .height = texture.desc.height}, "record",
+      ignored);
+  if (!resolved || !resolveSamples(texture, resolved->id())) return {};
   return gl::readFloats(resolved->ref());
 }
 

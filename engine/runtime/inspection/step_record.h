@@ -1,6 +1,5 @@
-// What each pass of a frame left in what it writes, small enough to be kept beside a picture: a hash, and means over parts of it, by
-// which frames of different drivers can be compared. So two frames tell the first pass at which they differ. Does not: keep
-// pictures (but for one that is asked for), look at stencil, or look at work that is done ahead of the frame.
+// What each pass of a frame left in what it writes, small enough to be kept beside a picture: a hash, and means over parts
+// of it, by which frames of different drivers can be compared. So two frames tell the first pass at which they differ.
 #pragma once
 
 #include <array>

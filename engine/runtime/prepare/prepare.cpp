@@ -1,11 +1,11 @@
-#include "engine/runtime/prepare/prepare.h"
-
+// Prepares a step of a plan: finds units and bindings by introspection of its program, makes views, and chooses samplers.
+// Declared in prepared_pass.h.
 #include <algorithm>
 #include <cassert>
 
 #include "engine/base/hash.h"
+#include "engine/runtime/prepare/prepared_pass.h"
 #include "engine/runtime/prepare/program_request.h"
-#include "engine/runtime/prepare/sampler_types.h"
 #include "engine/runtime/storage/formats.h"
 
 namespace weft::runtime {
@@ -34,7 +34,7 @@ class Preparer {
     out_.group = c_.plan.groups.groupOf(step_.pass);
     collectUses();
     const bool shaded = type.shader != graph::ShaderShape::none;
-    out_.usable = !shaded || takeProgram(type);
+    out_.usable = !shaded || takeProgram();
     if (!out_.usable) return std::move(out_);
     out_.usable = shaded ? bindSlots() : bindFixed();
     if (out_.usable && shaded) prepareGeometry(type);
@@ -60,14 +60,10 @@ class Preparer {
     }
   }
 
-  bool takeProgram(const graph::PassType& type) {
+  bool takeProgram() {
     out_.variant = c_.variant;
     if (!out_.variant) return false;
-    out_.programHash = base::kHashSeed;
-    for (const gl::StageSource& stage : out_.variant->stages)
-      out_.programHash = base::hashCombine(out_.programHash, stage.source->hash);
-    for (const glsl::Define& define : programRequestOf(graph_, c_.plan, step_.pass, type).defines)
-      out_.programHash = base::hashBytes(define.name + "=" + define.value, out_.programHash);
+    out_.programHash = base::hashBytes(out_.variant->key);
     const gl::Reflection& reflection = out_.variant->program.reflection();
     out_.parametersBlock = reflection.findUniformBlock("Parameters");
     out_.viewBlock = reflection.findUniformBlock("View");
@@ -144,12 +140,10 @@ class Preparer {
   // For a read of @-n: also binds, in the same place, what "first" of the resource names.
   bool bindFirst(const SlotSpec& slot, std::uint32_t index, std::uint32_t element) {
     if (slot.firstValue == kNone) return true;
-    const std::size_t textures = out_.textures.size(), images = out_.images.size(),
-                      buffers = out_.buffers.size();
+    const std::size_t textures = out_.textures.size(), buffers = out_.buffers.size();
     const bool good = bindUse(slot, slot.firstValue, element);
     const FirstOf firstOf{graph_.uses[index].resource, graph_.uses[index].history};
     for (std::size_t i = textures; i < out_.textures.size(); ++i) out_.textures[i].firstOf = firstOf;
-    for (std::size_t i = images; i < out_.images.size(); ++i) out_.images[i].firstOf = firstOf;
     for (std::size_t i = buffers; i < out_.buffers.size(); ++i) out_.buffers[i].firstOf = firstOf;
     return good;
   }
@@ -173,34 +167,31 @@ class Preparer {
     const gl::Reflection& reflection = out_.variant->program.reflection();
     const FlatResource& resource = graph_.resources[use.resource];
     switch (slot.kind) {
-      case Kind::sampled: {
-        const gl::OpaqueUniform* sampler = reflection.findSampler(slot.name);
-        if (!sampler) return true;
-        TextureBinding binding{
-            .unit = sampler->unit + element, .resource = use.resource, .history = use.history, .views = {}};
-        const graph::TexelKind texels =
-            use.planes == 2 ? graph::TexelKind::unsigned_integer : graph::infoOf(resource.format).kind;
-        binding.sampler = c_.samplers.get(slot.sampler, graph_.borderOf(slot), use.mips > 1, texels);
-        binding.views = viewsOf(use, opaqueTypeOf(gl::glslTypeName(sampler->type)).target);
-        binding.part = importPartOf(use, opaqueTypeOf(gl::glslTypeName(sampler->type)).target);
+      case Kind::sampled:
+      case Kind::image: {
+        const bool image = slot.kind == Kind::image;
+        const gl::OpaqueUniform* uniform =
+            image ? reflection.findImage(slot.name) : reflection.findSampler(slot.name);
+        if (!uniform) return true;
+        const GLenum target = gl::findGlslType(uniform->type)->target;
+        TextureBinding binding{.unit = uniform->unit + element,
+                               .resource = use.resource,
+                               .history = use.history,
+                               .views = viewsOf(use, target),
+                               .part = importPartOf(use, target)};
+        if (image) {
+          binding.access = slot.access == Access::read    ? GL_READ_ONLY
+                           : slot.access == Access::write ? GL_WRITE_ONLY
+                                                          : GL_READ_WRITE;
+          binding.format = glFormatOf(resource.format);
+          binding.layered = target != GL_TEXTURE_2D && target != GL_TEXTURE_2D_MULTISAMPLE;
+        } else {
+          const graph::TexelKind texels =
+              use.planes == 2 ? graph::TexelKind::unsigned_integer : graph::infoOf(resource.format).kind;
+          binding.sampler = c_.samplers.get(slot.sampler, graph_.borderOf(slot), use.mips > 1, texels);
+        }
         out_.textures.push_back(std::move(binding));
         return complete(out_.textures.back().views);
-      }
-      case Kind::image: {
-        const gl::OpaqueUniform* image = reflection.findImage(slot.name);
-        if (!image) return true;
-        ImageBinding binding{
-            .unit = image->unit + element, .resource = use.resource, .history = use.history, .views = {}};
-        binding.access = slot.access == Access::read    ? GL_READ_ONLY
-                         : slot.access == Access::write ? GL_WRITE_ONLY
-                                                        : GL_READ_WRITE;
-        binding.format = glFormatOf(resource.format).internal;
-        const GLenum target = opaqueTypeOf(gl::glslTypeName(image->type)).target;
-        binding.layered = target != GL_TEXTURE_2D && target != GL_TEXTURE_2D_MULTISAMPLE;
-        binding.views = viewsOf(use, target);
-        binding.part = importPartOf(use, target);
-        out_.images.push_back(std::move(binding));
-        return complete(out_.images.back().views);
       }
       case Kind::uniform:
       case Kind::storage: {

@@ -15,38 +15,32 @@
 #include "engine/graph/plan.h"
 #include "engine/imports/mesh_draws.h"
 #include "engine/imports/row_table.h"
+#include "engine/passes/draw/geometry.h"
 #include "engine/passes/pass_registry.h"
 #include "engine/runtime/imports/import_part.h"
+#include "engine/runtime/prepare/sampler_cache.h"
 #include "engine/runtime/storage/block_writer.h"
 #include "engine/runtime/storage/resource_pool.h"
 
 namespace weft::runtime {
 
-// When a binding holds. That of what "first" of a resource names holds only until publication @-history of that resource is
-// there.
+// Condition of a binding: that of what "first" of a resource names is used until publication @-history of that resource exists.
 struct FirstOf {
   std::uint32_t resource = graph::kNone;  // kNone: the binding holds always
   std::uint8_t history = 0;
 };
 
+// A sampler or an image.
 struct TextureBinding {
   std::uint32_t unit = 0, resource = 0;
   std::uint8_t history = 0;
   GLuint sampler = 0;
-  std::vector<GLuint>
-      views;  // per copy; empty for an import, which is bound by the current texture of its resource
+  GLenum access = 0, format = GL_NONE;  // of an image; access 0: a sampler
+  GLboolean layered = GL_FALSE;
+  // Per copy; empty for an import, which is bound by the current texture of its resource.
+  std::vector<GLuint> views;
   std::shared_ptr<ImportPart> part{};  // of an import; null: the whole
   FirstOf firstOf{};                   // a binding with one stands behind the binding that it replaces
-};
-
-struct ImageBinding {
-  std::uint32_t unit = 0, resource = 0;
-  std::uint8_t history = 0;
-  GLenum access = GL_READ_WRITE, format = GL_NONE;
-  GLboolean layered = GL_FALSE;
-  std::vector<GLuint> views;           // per copy, of exactly the level and layers
-  std::shared_ptr<ImportPart> part{};  // as above
-  FirstOf firstOf{};
 };
 
 struct BufferBinding {
@@ -104,7 +98,6 @@ struct PreparedPass {
       variant;          // null for types without a shader, or when it failed to compile
   bool usable = false;  // false: the pass is skipped until its shader compiles
   std::vector<TextureBinding> textures;
-  std::vector<ImageBinding> images;
   std::vector<BufferBinding> buffers;
   std::vector<AttachmentBinding> attachments;
   std::vector<FixedBinding> fixed;
@@ -128,5 +121,22 @@ struct PreparedPass {
   std::uint64_t programHash = 0;
   std::vector<std::pair<GLuint, graph::Blend>> blends;  // draw buffer index, mode
 };
+
+// What preparePass() needs of the executor.
+struct PrepareContext {
+  const graph::Plan& plan;
+  const passes::PassRegistry& types;
+  std::shared_ptr<const gl::Variant> variant;  // of the pass to prepare; null for types without a shader
+  ResourcePool& pool;
+  passes::Geometries& geometries;
+  SamplerCache& samplers;
+  base::Diagnostics& diagnostics;
+};
+
+// Fills everything but the uniform offsets. Reports what does not fit; `usable` says whether the pass can run.
+PreparedPass preparePass(PrepareContext& context, std::size_t step);
+
+// How many instances a draw has whose number contains age(), see PassSpec::timedInstances.
+std::uint32_t instancesAt(const graph::Expr& timed, const std::function<double(std::uint32_t)>& ageOf);
 
 }  // namespace weft::runtime

@@ -5,20 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "engine/base/chars.h"
 #include "engine/base/nearest.h"
 #include "engine/base/words/foreign_words.h"
 #include "engine/base/words/glsl_words.h"
-#include "engine/gl/programs/glsl_type.h"
 #include "engine/glsl/interface.h"
 #include "engine/graph/subresource.h"
 #include "engine/imports/row_table.h"
 #include "engine/passes/compute/work_groups.h"
-#include "engine/runtime/prepare/pass_errors.h"
 #include "engine/runtime/prepare/program_request.h"
-#include "engine/runtime/prepare/sampler_types.h"
-#include "engine/runtime/prepare/shader_advice.h"
 #include "engine/runtime/storage/block_writer.h"
 
 namespace weft::runtime {
@@ -34,6 +31,8 @@ using graph::Kind;
 using graph::PassSpec;
 using graph::Plan;
 using graph::SlotSpec;
+using graph::Target;
+using graph::TexelKind;
 
 namespace {
 
@@ -73,12 +72,104 @@ GLenum baseOf(graph::TexelKind kind) {
                                                     : GL_FLOAT;
 }
 
-class Checker : PassErrors {
+// The prefix of "sampler2D" and "vec4": "", "u" or "i".
+const char* prefixFor(const FlatUse& use, const FlatResource& resource) {
+  const TexelKind kind = graph::infoOf(resource.format).kind;
+  if (use.planes == 2 || kind == TexelKind::unsigned_integer) return "u";
+  return kind == TexelKind::signed_integer ? "i" : "";
+}
+
+std::string shapeFor(const FlatUse& use, const FlatResource& resource) {
+  if (resource.samples > 1) return "2DMS";
+  if (resource.target == Target::texture_3d) return "3D";
+  const bool cubes = resource.target == Target::texture_cube || resource.target == Target::texture_cube_array;
+  if (cubes && use.layers % 6 == 0 && use.layer % 6 == 0) return use.layers == 6 ? "Cube" : "CubeArray";
+  return use.layers > 1 ? "2DArray" : "2D";
+}
+
+// "" when a sampler or image type fits, else what is expected ("a 2DArray type", "an unsigned int type", …). `type`: null for
+// one that the engine does not bind.
+std::string opaqueMismatch(const gl::GlslType* type, const FlatResource& resource, const FlatUse& use,
+                           bool compare) {
+  const bool cubes = resource.target == Target::texture_cube || resource.target == Target::texture_cube_array;
+  const auto fitsTarget = [&] {
+    switch (type ? type->target : 0) {
+      case GL_TEXTURE_2D:
+        return resource.target != Target::texture_3d && use.layers == 1 && resource.samples == 1;
+      case GL_TEXTURE_2D_ARRAY:
+        return resource.target != Target::texture_3d && resource.samples == 1;
+      case GL_TEXTURE_CUBE_MAP:
+        return cubes && use.layers == 6 && use.layer % 6 == 0;
+      case GL_TEXTURE_CUBE_MAP_ARRAY:
+        return cubes && use.layers % 6 == 0 && use.layer % 6 == 0;
+      case GL_TEXTURE_3D:
+        return resource.target == Target::texture_3d;
+      case GL_TEXTURE_2D_MULTISAMPLE:
+        return resource.samples > 1;
+      default:
+        return false;
+    }
+  };
+  if (!fitsTarget()) {
+    if (resource.samples > 1) return "a 2DMS type";
+    if (resource.target == Target::texture_3d) return "a 3D type";
+    if (use.layers == 1) return "a 2D type";
+    if (cubes && use.layers % 6 == 0)
+      return use.layers == 6 ? "a Cube or 2DArray type" : "a CubeArray or 2DArray type";
+    return "a 2DArray type";
+  }
+  const std::string_view prefix = prefixFor(use, resource);
+  const GLenum base = prefix == "u" ? GL_UNSIGNED_INT : prefix == "i" ? GL_INT : GL_FLOAT;
+  if (type->base != base)
+    return base == GL_FLOAT ? "a float type" : base == GL_INT ? "an int type" : "an unsigned int type";
+  if (type->shadow && !compare) return "a type without Shadow (or say `as compare` in the slot)";
+  if (!type->shadow && compare) return "a Shadow type (the slot says `as compare`)";
+  return {};
+}
+
+// "uniform usampler2DArray maps;", "layout(rgba16f) uniform writeonly image2D result;", "out vec4 result;", …: what the
+// shader declares for a slot of `kind` that holds `use` of `resource`.
+std::string declarationFor(const graph::SlotSpec& slot, Kind kind, const FlatUse& use,
+                           const FlatResource& resource) {
+  const std::string count = slot.array ? fmt::format("[{}]", slot.useCount) : "";
+  const char* const qualifier = slot.access == graph::Access::read    ? "readonly "
+                                : slot.access == graph::Access::write ? "writeonly "
+                                                                      : "";
+  switch (kind) {
+    case Kind::sampled:
+      return fmt::format("uniform {}sampler{}{} {}{};", prefixFor(use, resource), shapeFor(use, resource),
+                         slot.sampler.compare ? "Shadow" : "", slot.name, count);
+    case Kind::image:
+      return fmt::format("layout({}) uniform {}{}image{} {}{};", graph::infoOf(resource.format).name,
+                         qualifier, prefixFor(use, resource), shapeFor(use, resource), slot.name, count);
+    case Kind::storage:
+      return fmt::format("layout(std430) {}buffer {} {{ … }};", qualifier, slot.name);
+    case Kind::uniform:
+      return fmt::format("layout(std140) uniform {} {{ … }};", slot.name);
+    case Kind::color:
+      return fmt::format("out {}vec4 {};", prefixFor(use, resource), slot.name);
+    default:
+      return {};
+  }
+}
+
+// "float", "vec3" or "bool": the member of the Parameters block for such a value.
+std::string memberTypeFor(const graph::Value& value) {
+  switch (value.type) {
+    case graph::Value::Type::boolean:
+      return "bool";
+    case graph::Value::Type::list:
+      return fmt::format("vec{}", value.count);
+    default:
+      return "float";
+  }
+}
+
+class Checker {
  public:
   Checker(const Plan& plan, std::uint32_t pass, std::span<const gl::StageSource> stages,
           std::span<const glsl::Define> defines, const LinkedProgram* linked, base::Diagnostics& diagnostics)
-      : PassErrors(plan.graph->specs[pass].name, diagnostics),
-        plan_(plan),
+      : plan_(plan),
         graph_(*plan.graph),
         spec_(graph_.specs[pass]),
         pass_(pass),
@@ -99,10 +190,24 @@ class Checker : PassErrors {
     }
     warnUnwritten();
     warnTimeless();
-    return !any();
+    return !failed_;
   }
 
  private:
+  // The caller fills in the other fields.
+  base::Diagnostic& fail(Code code, const base::Place& place, std::string message) {
+    failed_ = true;
+    base::Diagnostic& d = diagnostics_.error(code, place, std::move(message));
+    d.pass = spec_.name;
+    return d;
+  }
+  // Whether the same was said of another pass, of a shader that both have, say: the mistake is in one place.
+  bool isSaid(Code code, const std::string& message) const {
+    return std::ranges::any_of(diagnostics_.items(), [&](const base::Diagnostic& d) {
+      return d.code == code && d.message == message;
+    });
+  }
+
   const glsl::Interface& of(const gl::StageSource& stage) const {
     return *interfaces_[static_cast<std::size_t>(&stage - stages_.data())];
   }
@@ -210,7 +315,7 @@ class Checker : PassErrors {
     const Declaration* declared = find(slot.name, role);
     switch (slot.kind) {
       case Kind::depth:
-        if (declared) reportOutputToDepth(slot, use);
+        if (declared) reportType(slot, use, "output", "a texture with a color format, such as rgba16f");
         return;
       case Kind::sampled:
       case Kind::image:
@@ -236,8 +341,11 @@ class Checker : PassErrors {
                    columnsOf(graph_, use), slot.place);
     } else {
       checkOpaque(slot, use, *declared);
+      // Stores and loads through another format than the texture's are undefined (OpenGL 4.5 core, 8.26), and silent.
       const std::string other = otherFormat(declared->layout, resourceOf(use).format);
-      if (slot.kind == Kind::image && !other.empty()) reportImageFormat(slot, use, other);
+      if (slot.kind == Kind::image && !other.empty())
+        reportType(slot, use, fmt::format("layout({})", other),
+                   fmt::format("layout({})", graph::infoOf(resourceOf(use).format).name));
     }
   }
 
@@ -259,40 +367,15 @@ class Checker : PassErrors {
                   : fmt::format("slot '{}' is not in the shader '{}'", slot.name, shaders_));
     d.resource = nameOf(graph_.uses[slot.firstUse]);
     d.expected = fmt::format("{} named '{}'", glsl::nameOf(role), slot.name);
+    // Of the things that fit the slot, the only one that no slot has; else the nearest name.
     std::vector<std::string> fitting = namesIn(stagesFor(role), role);
     std::erase_if(fitting, [&](const std::string& name) { return isSlot(name); });
-    const std::string near = base::nearestName(slot.name, namesIn(stages_, std::nullopt));
-    if (!what && slot.inherited)
-      d.hint = fmt::format("remove it: \"{}\": {{ \"{}\": null }}", graph::nameOf(slot.access), slot.name);
-    else if (what && fitting.size() == 1)
-      d.hint = fmt::format("did you mean '{}'?", fitting[0]);
-    else if (!what && !near.empty())
-      d.hint = fmt::format("did you mean '{}'?", near);
-    else
-      d.hint = fmt::format("declare `{}`", declarationOf(slot));
-  }
-
-  void reportOutputToDepth(const SlotSpec& slot, const FlatUse& use) {
-    base::Diagnostic& d =
-        fail(Code::slotTypeMismatch, slot.place,
-             fmt::format("slot '{}' is an output of the shader, and its texture is one of depth", slot.name));
-    d.resource = nameOf(use);
-    d.expected = "a texture with a color format, such as r32f or rgba16f";
-    d.found = graph::infoOf(resourceOf(use).format).name;
-    d.hint = fmt::format("give '{}' a color format, or write gl_FragDepth and remove the output '{}'",
-                         d.resource, slot.name);
-  }
-
-  // Stores and loads through another format than the texture's are undefined (OpenGL 4.5 core, 8.26), and silent.
-  void reportImageFormat(const SlotSpec& slot, const FlatUse& use, const std::string& other) {
-    const char* const own = graph::infoOf(resourceOf(use).format).name;
-    base::Diagnostic& d = fail(
-        Code::slotTypeMismatch, slot.place,
-        fmt::format("slot '{}' is a texture of {}, and the shader's image of {}", slot.name, own, other));
-    d.resource = nameOf(use);
-    d.expected = fmt::format("layout({})", own);
-    d.found = fmt::format("layout({}) in '{}'", other, shaders_);
-    d.hint = fmt::format("declare `{}`, or make the texture {}", declarationOf(slot), other);
+    const std::string near = what ? (fitting.size() == 1 ? fitting[0] : "")
+                                  : base::nearestName(slot.name, namesIn(stages_, std::nullopt));
+    d.hint = !what && slot.inherited
+                 ? fmt::format("remove it: \"{}\": {{ \"{}\": null }}", graph::nameOf(slot.access), slot.name)
+             : !near.empty() ? fmt::format("did you mean '{}'?", near)
+                             : fmt::format("declare `{}`", declarationOf(slot));
   }
 
   void reportType(const SlotSpec& slot, const FlatUse& use, const std::string& type, std::string expected) {
@@ -301,14 +384,16 @@ class Checker : PassErrors {
     d.resource = nameOf(use);
     d.expected = std::move(expected);
     d.found = type;
-    d.hint = fmt::format("declare `{}`, or name another resource", declarationOf(slot));
+    d.hint = slot.kind == Kind::depth
+                 ? fmt::format("give '{}' a color format, or write gl_FragDepth", d.resource)
+                 : fmt::format("declare `{}`, or name another resource", declarationOf(slot));
   }
 
   // Writing float outputs to integer formats, or the other way round, leaves undefined texels (OpenGL 4.5 core, 15.2.3).
   void checkOutput(const SlotSpec& slot, const FlatUse& use, const Declaration& output) {
     const gl::GlslType* type = gl::findGlslType(output.type);
     const GLenum base = baseOf(graph::infoOf(resourceOf(use).format).kind);
-    if (!type || type->kind != gl::GlslKind::value || type->shape.base == base) return;
+    if (!type || type->kind != gl::GlslType::Kind::value || type->base == base) return;
     reportType(slot, use, type->name,
                fmt::format("{} output for {}",
                            base == GL_FLOAT ? "a float"
@@ -320,17 +405,13 @@ class Checker : PassErrors {
   void checkOpaque(const SlotSpec& slot, const FlatUse& use, const Declaration& uniform) {
     const std::string type(uniform.type);
     const bool compare = slot.kind == Kind::sampled && slot.sampler.compare;
-    if (std::string problem = opaqueMismatch(opaqueTypeOf(type), resourceOf(use), use, compare);
+    if (std::string problem = opaqueMismatch(gl::findGlslType(type), resourceOf(use), use, compare);
         !problem.empty())
       reportType(slot, use, type, std::move(problem));
     const std::uint32_t elements = uniform.elements;
-    if (elements == 0 || (elements >= slot.useCount && (slot.array || elements == 1))) return;
-    base::Diagnostic& d = fail(Code::slotTypeMismatch, slot.place,
-                               fmt::format("slot '{}' has {} textures and the shader an array of {}",
-                                           slot.name, slot.useCount, elements));
-    d.expected = fmt::format("{}[{}]", slot.name, slot.useCount);
-    d.found = fmt::format("{}[{}]", slot.name, elements);
-    d.hint = fmt::format("declare `{}`", declarationOf(slot));
+    if (elements != 0 && (elements < slot.useCount || (!slot.array && elements != 1)))
+      reportType(slot, use, fmt::format("array of {}", elements),
+                 fmt::format("an array of {}", slot.useCount));
   }
 
   void checkTable(const gl::Block* block, std::span<const graph::TableColumn> columns,
@@ -344,13 +425,11 @@ class Checker : PassErrors {
         fmt::format("the block '{}' of '{}' does not fit its table: {}", block->name, shaders_, problem));
     d.expected = "an array of a struct with fields among";
     for (const graph::TableColumn& column : columns)
-      d.expected += fmt::format(" {} {},", column.type, column.name);
-    d.expected.pop_back();
+      d.expected += fmt::format(" {} {};", column.type, column.name);
     d.hint = "include the file of shaders/scene that declares it, or declare a struct of these fields";
   }
 
   void checkParameters() {
-    std::string misnamed;  // a block that has the parameters under another name
     bool missing = false;
     for (const graph::UniformSpec& uniform : spec_.uniforms) {
       const Declaration* member = findMember("Parameters", uniform.name);
@@ -366,8 +445,8 @@ class Checker : PassErrors {
       missing = true;
       if (const std::string block = blockOf(uniform.name); block.empty())
         reportMissing(uniform);
-      else if (misnamed.empty())
-        reportBlockName(misnamed = block);
+      else if (misnamed_.empty())
+        reportBlockName(misnamed_ = block);
     }
     const Declaration* block = find("Parameters", Role::uniform_block);
     // One misspelling is one mistake.
@@ -410,15 +489,27 @@ class Checker : PassErrors {
     const char* const what = whatIs(uniform.name);
     base::Diagnostic& d = fail(
         Code::parameterNotInShader, uniform.place,
-        what ? fmt::format("parameter '{}' is {} in the shader '{}', not a member of the block Parameters",
-                           uniform.name, what, shaders_)
-             : fmt::format("parameter '{}' is not in the shader '{}'", uniform.name, shaders_));
+        fmt::format("parameter '{}' is {} in the shader '{}'", uniform.name,
+                    what ? fmt::format("{}, not a member of the block Parameters,", what) : "not", shaders_));
     const std::string near = what ? "" : base::nearestName(uniform.name, namesIn(stages_, std::nullopt));
-    d.hint = fmt::format("declare it: `layout(std140) uniform Parameters {{ {} {}; }};`{}",
-                         memberTypeFor(uniform.value), uniform.name,
-                         what           ? ", and rename what has its name"
-                         : near.empty() ? ""
-                                        : fmt::format(", or did you mean '{}'?", near));
+    d.hint = fmt::format("declare it: `layout(std140) uniform Parameters {{ {} {}; }};`",
+                         memberTypeFor(uniform.value), uniform.name);
+    if (!near.empty()) d.hint += fmt::format(", or did you mean '{}'?", near);
+  }
+
+  void reportMember(const graph::UniformSpec& uniform, const gl::GlslType& type,
+                    const std::string& expected) {
+    const std::string message =
+        fmt::format("parameter '{}' does not fit the shader's {}", uniform.name, type.name);
+    if (isSaid(Code::parameterTypeMismatch, message)) {
+      failed_ = true;
+      return;
+    }
+    base::Diagnostic& d = fail(Code::parameterTypeMismatch, uniform.place, message);
+    d.expected = expected;
+    d.found = graph::toText(uniform.value);
+    d.hint = fmt::format("declare `{} {};` in the block, or give it {}", memberTypeFor(uniform.value),
+                         uniform.name, expected);
   }
 
   void checkParameter(const graph::UniformSpec& uniform, const Declaration& declared) {
@@ -428,19 +519,12 @@ class Checker : PassErrors {
     const gl::BlockMember member{.name = uniform.name, .type = type->type, .arraySize = declared.elements};
     std::string expected;
     if (memberTakes(member, uniform.value, expected)) return checkWhole(uniform, *type);
-    base::Diagnostic* const d =
-        failOnce(graph_, Code::parameterTypeMismatch, uniform.place,
-                 fmt::format("parameter '{}' does not fit the shader's {}", uniform.name, type->name),
-                 fmt::format("declare `{} {};` in the block, or give it {}", memberTypeFor(uniform.value),
-                             uniform.name, expected));
-    if (!d) return;
-    d->expected = expected;
-    d->found = graph::toText(uniform.value);
+    reportMember(uniform, *type, expected);
   }
 
   // Reports numbers in the graph, and sliders, that would lose their fraction in an integer member. What an expression computes is cut.
   void checkWhole(const graph::UniformSpec& uniform, const gl::GlslType& type) {
-    const GLenum base = type.shape.base;
+    const GLenum base = type.base;
     if (base != GL_INT && base != GL_UNSIGNED_INT) return;
     const auto parameter = std::ranges::find(graph_.parameters, uniform.path, &graph::ParameterSpec::path);
     const bool slider = !uniform.path.empty() && parameter != graph_.parameters.end() &&
@@ -449,44 +533,27 @@ class Checker : PassErrors {
     for (std::size_t i = 0; i < uniform.value.count; ++i)
       whole = whole && uniform.value.v[i] == std::floor(uniform.value.v[i]) &&
               (uniform.value.v[i] >= 0 || base == GL_INT);
-    if (!slider && (!uniform.constant || whole)) return;
-    base::Diagnostic& d =
-        fail(Code::parameterTypeMismatch, uniform.place,
-             slider ? fmt::format("parameter '{}' is a float, and the shader's {} would lose its fraction",
-                                  uniform.name, type.name)
-                    : fmt::format("parameter '{}' does not fit the shader's {}", uniform.name, type.name));
-    d.expected =
-        fmt::format("{} for {}", base == GL_INT ? "whole numbers" : "whole numbers from 0 on", type.name);
-    d.found = graph::toText(uniform.value);
-    d.hint = slider
-                 ? fmt::format("give the parameter \"type\": \"int\", or declare `float {};` in the shader",
-                               uniform.name)
-                 : fmt::format("write whole numbers, or declare `{} {};` in the shader",
-                               memberTypeFor(uniform.value), uniform.name);
+    if (slider)
+      reportMember(uniform, type, fmt::format("\"type\": \"int\", for {}", type.name));
+    else if (uniform.constant && !whole)
+      reportMember(
+          uniform, type,
+          fmt::format("{} for {}", base == GL_INT ? "whole numbers" : "whole numbers from 0 on", type.name));
   }
 
   // A member that the pass does not set: it would be 0, which mostly gives a black picture.
   void reportUnset(const Declaration& member) {
     const std::string type = std::string(member.type) + member.array;
-    if (!member.array.empty()) {
-      base::Diagnostic& d =
-          fail(Code::undeclaredShaderInput, spec_.shaderPlace,
-               fmt::format("the shader '{}' reads the parameter '{}', an array, which no graph can set",
-                           shaders_, member.name));
-      d.expected = "a number or a vector";
-      d.found = fmt::format("{} {}", type, member.name);
-      d.hint =
-          "make it a constant of the shader, one member for each element, or rows of a storage buffer that a "
-          "pass writes";
-      return;
-    }
     base::Diagnostic& d =
         fail(Code::undeclaredShaderInput, spec_.shaderPlace,
              fmt::format("the shader '{}' reads the parameter '{}', which pass '{}' does not set", shaders_,
                          member.name, spec_.declared));
     d.expected = fmt::format("\"parameters\": {{ \"{}\": … }}, of type {}", member.name, type);
-    d.hint = fmt::format("set it, or guard the member and its use with `#ifdef {}`",
-                         presenceDefineOf(member.name));
+    d.hint =
+        member.array.empty()
+            ? fmt::format("set it, or guard the member and its use with `#ifdef {}`",
+                          presenceDefineOf(member.name))
+            : "no graph can set an array: make it one member for each element, or rows of a storage buffer";
   }
 
   // What the blocks that the engine fills may have.
@@ -519,24 +586,13 @@ class Checker : PassErrors {
     for (std::uint32_t i = 0; i < spec_.slotCount; ++i)
       names.push_back(graph_.slots[spec_.firstSlot + i].name);
     const std::string nearest = base::nearestName(name, names);
-    const auto isIt = [&](const Declaration& block) { return block.name == name && isSlot(block.instance); };
-    const bool instance = maybe(Role::storage_block, isIt) || maybe(Role::uniform_block, isIt);
-    auto& d = fail(Code::undeclaredShaderInput, spec_.shaderPlace,
-                   fmt::format("the shader '{}' uses {} '{}', which pass '{}' does not name", shaders_, what,
-                               name, spec_.declared));
+    base::Diagnostic& d = fail(Code::undeclaredShaderInput, spec_.shaderPlace,
+                               fmt::format("the shader '{}' uses {} '{}', which pass '{}' does not name",
+                                           shaders_, what, name, spec_.declared));
     d.expected = fmt::format("a slot '{}' in \"read\", \"write\" or \"modify\"", name);
-    d.hint = instance
-                 ? fmt::format("a slot has the name of the block, not of its instance: call it '{}'", name)
-             : !nearest.empty() ? fmt::format("did you mean '{}'?", nearest)
-                                : fmt::format("add \"{}\": \"RESOURCE\", or guard its use with `#ifdef {}`",
-                                              name, presenceDefineOf(name));
-  }
-
-  // One that has the parameters was reported with them.
-  bool hasParameters(const std::string& block) const {
-    return std::ranges::any_of(spec_.uniforms, [&](const graph::UniformSpec& uniform) {
-      return !findMember("Parameters", uniform.name) && blockOf(uniform.name) == block;
-    });
+    d.hint = !nearest.empty() ? fmt::format("did you mean '{}'?", nearest)
+                              : fmt::format("add \"{}\": \"RESOURCE\", or guard its use with `#ifdef {}`",
+                                            name, presenceDefineOf(name));
   }
 
   // What the linked program has besides.
@@ -555,16 +611,18 @@ class Checker : PassErrors {
     }
     for (const auto& block : reflection.uniformBlocks) {
       const bool ours = block.name == "View" || block.name == "Slice" || block.name == "Parameters";
-      if (!ours && !isSlot(block.name) && !hasParameters(block.name)) unfed("a uniform block", block.name);
+      if (!ours && !isSlot(block.name) && block.name != misnamed_) unfed("a uniform block", block.name);
     }
     for (const auto& loose : reflection.looseUniforms) {
       std::string hint = isViewMember(loose.name)
                              ? fmt::format("remove it: #include \"common/view.glsl\" has '{}'", loose.name)
                              : base::hintForForeign(base::Foreign::shader_name, loose.name);
       if (hint.empty()) hint = "move it into `layout(std140) uniform Parameters { … };`";
-      failOnce(graph_, Code::parameterNotInShader, spec_.shaderPlace,
-               fmt::format("the shader '{}' has a uniform '{}' outside a block", shaders_, loose.name),
-               std::move(hint));
+      std::string message =
+          fmt::format("the shader '{}' has a uniform '{}' outside a block", shaders_, loose.name);
+      failed_ = true;
+      if (!isSaid(Code::parameterNotInShader, message))
+        fail(Code::parameterNotInShader, spec_.shaderPlace, std::move(message)).hint = std::move(hint);
     }
   }
 
@@ -642,8 +700,7 @@ class Checker : PassErrors {
   // Of repeats of one pass the first is warned of.
   void warnOnce(Code code, const base::Place& place, const std::string& message, std::string hint,
                 const std::string& resource) {
-    const auto isSaid = [&](const base::Diagnostic& d) { return d.code == code && d.message == message; };
-    if (std::ranges::any_of(diagnostics_.items(), isSaid)) return;
+    if (isSaid(code, message)) return;
     base::Diagnostic& d = diagnostics_.warning(code, place, message);
     d.pass = spec_.name;
     d.resource = resource;
@@ -661,31 +718,9 @@ class Checker : PassErrors {
   // For messages, between quotes.
   const std::string shaders_ =
       spec_.vertexShader.empty() ? spec_.shader : spec_.vertexShader + "' and '" + spec_.shader;
-  bool slotMissing_ = false;
+  std::string misnamed_;  // a block that has the parameters under another name
+  bool slotMissing_ = false, failed_ = false;
 };
-
-// A define that is 0, and "#ifdef" of it: it is defined, whatever it is.
-void warnOfTests(const std::string& pass, const gl::StageSource& stage, std::span<const glsl::Define> defines,
-                 base::Diagnostics& diagnostics) {
-  const auto isOff = [](const glsl::Define& define) { return define.value == "0"; };
-  if (std::ranges::none_of(defines, isOff)) return;
-  for (const glsl::Token& word : glsl::onlyTested(stage.source->text)) {
-    const auto off = std::ranges::find_if(
-        defines, [&](const glsl::Define& define) { return isOff(define) && define.name == word.text; });
-    if (off == defines.end()) continue;
-    const base::Place place = stage.source->placeOf(word.line, word.column);
-    const auto isSaid = [&](const base::Diagnostic& d) {
-      return d.code == Code::undeclaredShaderInput && base::isSamePlace(d.place.inFile(), place);
-    };
-    if (std::ranges::any_of(diagnostics.items(), isSaid)) continue;
-    base::Diagnostic& d = diagnostics.warning(
-        Code::undeclaredShaderInput, place,
-        fmt::format("'{}' is 0 here, and the shader asks only whether it is defined, which it always is",
-                    off->name));
-    d.pass = pass;
-    d.hint = fmt::format("write '#if {}' for '#ifdef', '#if !{}' for '#ifndef'", off->name, off->name);
-  }
-}
 
 }  // namespace
 
@@ -699,29 +734,47 @@ void warnOfConditions(const std::string& pass, std::span<const gl::StageSource> 
                       std::span<const glsl::Define> defines, base::Diagnostics& diagnostics) {
   std::vector<std::string> names;
   for (const glsl::Define& define : defines) names.push_back(define.name);
-  for (const gl::StageSource& stage : stages) warnOfTests(pass, stage, defines, diagnostics);
-  for (const gl::StageSource& stage : stages)
-    for (const glsl::UnknownCondition& unknown : glsl::unknownInConditions(stage.source->text, defines)) {
-      const auto likeIt = [&](const std::string& name) {
-        return base::lowered(name) == base::lowered(unknown.word.text);
-      };
-      const auto other = std::ranges::find_if(names, likeIt);
-      // A word that is only asked for may well be a slot that this pass does not have.
-      const std::string meant = other != names.end() ? *other
-                                : unknown.value      ? base::nearestName(unknown.word.text, names)
-                                                     : "";
-      const base::Place place = stage.source->placeOf(unknown.word.line, unknown.word.column);
-      if (meant.empty() || std::ranges::any_of(diagnostics.items(), [&](const base::Diagnostic& d) {
+  for (const gl::StageSource& stage : stages) {
+    const glsl::Conditions conditions = glsl::conditionsOf(stage.source->text);
+    const auto warn = [&](const glsl::Token& word, const std::string& message, std::string hint) {
+      const base::Place place = stage.source->placeOf(word.line, word.column);
+      if (std::ranges::any_of(diagnostics.items(), [&](const base::Diagnostic& d) {
             return d.code == Code::undeclaredShaderInput && base::isSamePlace(d.place.inFile(), place);
           }))
-        continue;
-      base::Diagnostic& d =
-          diagnostics.warning(Code::undeclaredShaderInput, place,
-                              fmt::format("nothing defines '{}': {}", unknown.word.text,
-                                          unknown.value ? "to the compiler it is 0" : "it never is"));
+        return;
+      base::Diagnostic& d = diagnostics.warning(Code::undeclaredShaderInput, place, message);
       d.pass = pass;
-      d.hint = fmt::format("did you mean '{}'?", meant);
-    }
+      d.hint = std::move(hint);
+    };
+    std::set<std::string_view> seen;
+    const auto look = [&](const glsl::Token& word, bool valued) {
+      if (!seen.insert(word.text).second) return;
+      const auto define = std::ranges::find(defines, word.text, &glsl::Define::name);
+      if (define != defines.end()) {
+        if (define->value == "0" && !conditions.used.contains(word.text))
+          warn(word,
+               fmt::format(
+                   "'{}' is 0 here, and the shader asks only whether it is defined, which it always is",
+                   word.text),
+               fmt::format("write '#if {}' for '#ifdef', '#if !{}' for '#ifndef'", word.text, word.text));
+        return;
+      }
+      if (conditions.made.contains(word.text) || word.text.starts_with("GL_") || word.text.starts_with("__"))
+        return;
+      const auto other = std::ranges::find_if(
+          names, [&](const std::string& name) { return base::lowered(name) == base::lowered(word.text); });
+      // A word that is only asked for may well be a slot that this pass does not have.
+      const std::string meant = other != names.end() ? *other
+                                : valued             ? base::nearestName(word.text, names)
+                                                     : "";
+      if (!meant.empty())
+        warn(word, fmt::format("nothing defines '{}'", word.text), fmt::format("did you mean '{}'?", meant));
+    };
+    for (const glsl::Token& word : conditions.valued)
+      if (std::ranges::find(conditions.tested, word.text, &glsl::Token::text) == conditions.tested.end())
+        look(word, true);
+    for (const glsl::Token& word : conditions.tested) look(word, false);
+  }
 }
 
 }  // namespace weft::runtime

@@ -1,7 +1,6 @@
 // Checks whether the shaders of a pass agree with it: slots and parameters against what the shaders declare (glsl/interface.h), with a
 // linked program and without. What the linked program alone knows comes on top: what the linker dropped is not asked for, and
 // every thing that is left must be given. A name may be missing from a variant when another branch of an #if declares it.
-// Does not: compile.
 #pragma once
 
 #include <span>

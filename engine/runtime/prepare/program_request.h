@@ -1,5 +1,4 @@
 // What a pass asks of the program cache: the stages, defines and outputs of a variant.
-// Does not: compile anything, or know how a pass is bound.
 #pragma once
 
 #include <cstdint>

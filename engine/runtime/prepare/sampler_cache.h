@@ -5,6 +5,7 @@
 
 #include "engine/gl/objects/objects.h"
 #include "engine/graph/flat_graph.h"
+#include "engine/runtime/storage/formats.h"
 
 namespace weft::runtime {
 
@@ -13,23 +14,30 @@ class SamplerCache {
   // The GL name of the sampler. `mipmapped`: the view has more than one level. `texels` is the kind of the texture's texels,
   // and of `color`. One that compares says how: expansion has settled it.
   GLuint get(const graph::Sampler& sampler, const graph::BorderColor& color, bool mipmapped,
-             graph::TexelKind texels);
+             graph::TexelKind texels) {
+    gl::SamplerDesc desc;
+    const bool linear = sampler.linear || sampler.compare;
+    desc.magFilter = linear ? GL_LINEAR : GL_NEAREST;
+    desc.minFilter = !mipmapped ? desc.magFilter
+                     : linear   ? GL_LINEAR_MIPMAP_LINEAR
+                                : GL_NEAREST_MIPMAP_NEAREST;
+    constexpr GLenum kWraps[] = {GL_CLAMP_TO_EDGE, GL_REPEAT, GL_MIRRORED_REPEAT, GL_CLAMP_TO_BORDER};
+    desc.wrap = kWraps[static_cast<std::size_t>(sampler.wrap)];
+    if (sampler.compare) desc.compare = glCompareOf(sampler.function.value_or(graph::Compare::greater));
+    if (sampler.wrap == graph::Wrap::border) {
+      desc.border = color;
+      desc.borderBase = texels == graph::TexelKind::signed_integer     ? GL_INT
+                        : texels == graph::TexelKind::unsigned_integer ? GL_UNSIGNED_INT
+                                                                       : GL_FLOAT;
+    }
+    for (const auto& [known, object] : entries_)
+      if (known == desc) return object.id();
+    entries_.emplace_back(desc, gl::SamplerObject::create(desc, linear ? "linear" : "nearest"));
+    return entries_.back().second.id();
+  }
 
  private:
-  // The border's colour, as numbers of the texture's kind.
-  struct Border {
-    graph::BorderColor color{};
-    graph::TexelKind texels = graph::TexelKind::none;
-    friend bool operator==(const Border&, const Border&) = default;
-  };
-  struct Entry {
-    gl::SamplerDesc desc;
-    Border border;
-    gl::SamplerObject object;
-  };
-  static void setBorder(GLuint sampler, const Border& border);
-
-  std::vector<Entry> entries_;
+  std::vector<std::pair<gl::SamplerDesc, gl::SamplerObject>> entries_;
 };
 
 }  // namespace weft::runtime

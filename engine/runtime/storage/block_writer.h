@@ -1,5 +1,5 @@
 // Writes parameters and the View block into uniform blocks, at the offsets that introspection reports. Layouts are the
-// shader's; nothing here repeats a struct. Does not: own buffers, or choose values.
+// shader's; nothing here repeats a struct.
 #pragma once
 
 #include <cstddef>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 
 namespace weft::runtime {
 
@@ -9,50 +10,44 @@ namespace {
 
 using graph::Format;
 
-constexpr std::size_t kFormatCount = static_cast<std::size_t>(Format::count_);
-
-std::array<GlFormat, kFormatCount> makeTable() {
-  std::array<GlFormat, kFormatCount> t{};
-  const auto set = [&](Format f, GLenum internal, GLenum format, GLenum type) {
-    t[static_cast<std::size_t>(f)] = {internal, format, type};
-  };
-  set(Format::r8, GL_R8, GL_RED, GL_UNSIGNED_BYTE);
-  set(Format::rg8, GL_RG8, GL_RG, GL_UNSIGNED_BYTE);
-  set(Format::rgba8, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
-  set(Format::srgb8_a8, GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE);
-  set(Format::r8_snorm, GL_R8_SNORM, GL_RED, GL_BYTE);
-  set(Format::rg8_snorm, GL_RG8_SNORM, GL_RG, GL_BYTE);
-  set(Format::rgba8_snorm, GL_RGBA8_SNORM, GL_RGBA, GL_BYTE);
-  set(Format::r16, GL_R16, GL_RED, GL_UNSIGNED_SHORT);
-  set(Format::rg16, GL_RG16, GL_RG, GL_UNSIGNED_SHORT);
-  set(Format::rgba16, GL_RGBA16, GL_RGBA, GL_UNSIGNED_SHORT);
-  set(Format::r16f, GL_R16F, GL_RED, GL_HALF_FLOAT);
-  set(Format::rg16f, GL_RG16F, GL_RG, GL_HALF_FLOAT);
-  set(Format::rgba16f, GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT);
-  set(Format::r32f, GL_R32F, GL_RED, GL_FLOAT);
-  set(Format::rg32f, GL_RG32F, GL_RG, GL_FLOAT);
-  set(Format::rgba32f, GL_RGBA32F, GL_RGBA, GL_FLOAT);
-  set(Format::r11f_g11f_b10f, GL_R11F_G11F_B10F, GL_RGB, GL_UNSIGNED_INT_10F_11F_11F_REV);
-  set(Format::rgb10_a2, GL_RGB10_A2, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV);
-  set(Format::rgb9_e5, GL_RGB9_E5, GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV);
-  set(Format::r8ui, GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE);
-  set(Format::r16ui, GL_R16UI, GL_RED_INTEGER, GL_UNSIGNED_SHORT);
-  set(Format::r32ui, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT);
-  set(Format::rg16ui, GL_RG16UI, GL_RG_INTEGER, GL_UNSIGNED_SHORT);
-  set(Format::rg32ui, GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT);
-  set(Format::rgba8ui, GL_RGBA8UI, GL_RGBA_INTEGER, GL_UNSIGNED_BYTE);
-  set(Format::rgba16ui, GL_RGBA16UI, GL_RGBA_INTEGER, GL_UNSIGNED_SHORT);
-  set(Format::rgba32ui, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
-  set(Format::r32i, GL_R32I, GL_RED_INTEGER, GL_INT);
-  set(Format::rg32i, GL_RG32I, GL_RG_INTEGER, GL_INT);
-  set(Format::rgba32i, GL_RGBA32I, GL_RGBA_INTEGER, GL_INT);
-  set(Format::depth16, GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT, GL_UNSIGNED_SHORT);
-  set(Format::depth24, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT);
-  set(Format::depth32f, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT);
-  set(Format::depth24_stencil8, GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8);
-  set(Format::depth32f_stencil8, GL_DEPTH32F_STENCIL8, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV);
-  return t;
-}
+// In the order of Format.
+constexpr GLenum kFormats[] = {GL_NONE,
+                               GL_R8,
+                               GL_RG8,
+                               GL_RGBA8,
+                               GL_SRGB8_ALPHA8,
+                               GL_R8_SNORM,
+                               GL_RG8_SNORM,
+                               GL_RGBA8_SNORM,
+                               GL_R16,
+                               GL_RG16,
+                               GL_RGBA16,
+                               GL_R16F,
+                               GL_RG16F,
+                               GL_RGBA16F,
+                               GL_R32F,
+                               GL_RG32F,
+                               GL_RGBA32F,
+                               GL_R11F_G11F_B10F,
+                               GL_RGB10_A2,
+                               GL_RGB9_E5,
+                               GL_R8UI,
+                               GL_R16UI,
+                               GL_R32UI,
+                               GL_RG16UI,
+                               GL_RG32UI,
+                               GL_RGBA8UI,
+                               GL_RGBA16UI,
+                               GL_RGBA32UI,
+                               GL_R32I,
+                               GL_RG32I,
+                               GL_RGBA32I,
+                               GL_DEPTH_COMPONENT16,
+                               GL_DEPTH_COMPONENT24,
+                               GL_DEPTH_COMPONENT32F,
+                               GL_DEPTH24_STENCIL8,
+                               GL_DEPTH32F_STENCIL8};
+static_assert(std::size(kFormats) == static_cast<std::size_t>(Format::count_));
 
 template <class T>
 ClearTexel texelOf(GLenum format, GLenum type, const T& data) {
@@ -69,9 +64,8 @@ std::array<double, 4> channels(const graph::Value& value) {
 
 }  // namespace
 
-const GlFormat& glFormatOf(Format format) {
-  static const auto table = makeTable();
-  return table[static_cast<std::size_t>(format)];
+GLenum glFormatOf(Format format) {
+  return kFormats[static_cast<std::size_t>(format)];
 }
 
 GLenum glTargetOf(graph::Target target) {

@@ -11,13 +11,7 @@
 
 namespace weft::runtime {
 
-struct GlFormat {
-  GLenum internal = GL_NONE;  // sized internal format
-  GLenum format = GL_NONE;    // client format, with `type` for read-back
-  GLenum type = GL_NONE;
-};
-
-const GlFormat& glFormatOf(graph::Format format);
+GLenum glFormatOf(graph::Format format);  // sized internal format
 GLenum glTargetOf(graph::Target target);
 GLbitfield glBarriersOf(std::uint16_t barriers);
 GLenum glCompareOf(graph::Compare compare);
@@ -26,7 +20,7 @@ GLenum glCompareOf(graph::Compare compare);
 // a depth-stencil list is [depth, stencil].
 struct ClearTexel {
   GLenum format = GL_NONE, type = GL_NONE;
-  std::array<std::uint8_t, 16> bytes{};
+  alignas(16) std::array<std::uint8_t, 16> bytes{};
 };
 ClearTexel clearTexelOf(graph::Format format, const graph::Value& value);
 // The same value as four floats.

@@ -2,7 +2,7 @@
 // textures that are attached.
 #pragma once
 
-#include <memory>
+#include <algorithm>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,15 +14,20 @@ namespace weft::runtime {
 
 class FramebufferCache {
  public:
-  // The GL name; 0 after an error. Without attachments, width and height give the area that is rasterised.
+  // The GL name; 0 after an error.
   GLuint get(std::span<const gl::Attachment> attachments, const std::string& label,
-             base::Diagnostics& diagnostics, std::uint32_t width = 0, std::uint32_t height = 0);
-  std::size_t size() const { return entries_.size(); }
+             base::Diagnostics& diagnostics) {
+    for (const Entry& entry : entries_)
+      if (std::ranges::equal(entry.attachments, attachments)) return entry.framebuffer.id();
+    auto made = gl::Framebuffer::create(attachments, label, diagnostics);
+    if (!made) return 0;
+    entries_.push_back({{attachments.begin(), attachments.end()}, std::move(*made)});
+    return entries_.back().framebuffer.id();
+  }
 
  private:
   struct Entry {
     std::vector<gl::Attachment> attachments;
-    std::uint32_t width = 0, height = 0;
     gl::Framebuffer framebuffer;
   };
   std::vector<Entry> entries_;

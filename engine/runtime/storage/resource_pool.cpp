@@ -30,7 +30,7 @@ std::uint64_t nextSerial() {
 
 gl::TextureDesc descOf(const Storage& s) {
   return {.target = glTargetOf(s.target),
-          .format = glFormatOf(s.format).internal,
+          .format = glFormatOf(s.format),
           .width = s.width,
           .height = s.height,
           .depth = s.depth,
@@ -252,17 +252,10 @@ bool ResourcePool::createArena(const Plan& plan, const ResourcePool* before, bas
     arena_ = before->arena_;
     return true;
   }
-  base::Diagnostics refused;
-  arena_ = createBuffer(1, plan.arenaBytes, "transient buffers", refused);
-  // The message names the largest of the buffers, which gives it a place.
-  for (base::Diagnostic each : refused.items()) {
-    if (const std::uint32_t largest = largestTransientOf(plan); largest != kNone) {
-      each.resource = names_[largest];
-      each.hint = fmt::format("'{}' is the largest of them, {} bytes: make it smaller", names_[largest],
-                              plan.graph->resources[largest].bytes);
-    }
-    diagnostics.add(std::move(each));
-  }
+  // A refusal is reported by the largest of the buffers, which has a place.
+  const std::uint32_t largest = largestTransientOf(plan);
+  arena_ =
+      createBuffer(1, plan.arenaBytes, largest == kNone ? "transient buffers" : names_[largest], diagnostics);
   return arena_ != nullptr;
 }
 
@@ -301,7 +294,7 @@ gl::TextureRef ResourcePool::view(const Plan& plan, const FlatUse& use, std::uin
   GpuResource& mine = resources_[use.resource];
   if (!mine.texture) return mine.imported;
   gl::ViewDesc view{.target = target ? target : glTargetOf(desc.target),
-                    .format = glFormatOf(desc.format).internal,
+                    .format = glFormatOf(desc.format),
                     .mip = use.mip,
                     .mips = use.mips,
                     .layer = use.layer,

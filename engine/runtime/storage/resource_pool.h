@@ -1,7 +1,6 @@
 // The GPU storage of a plan: physical textures with their views, the arena of transient buffers, persistent buffers, and
 // for each resource the place where it is now (history rotates among copies). A pool is built from a plan; when the graph
 // has changed, it shares storage of the same shape and owner with the pool before, until one of the two is destroyed.
-// Does not: decide what shares (the plan did), write contents other than first values, or know passes.
 #pragma once
 
 #include <glad/gl.h>

@@ -1,14 +1,79 @@
 #include "engine/runtime/uniforms/frame_uniforms.h"
 
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "engine/base/hash.h"
+#include "engine/graph/expand/names/settings.h"
 #include "engine/passes/compute/work_groups.h"
-#include "engine/runtime/prepare/prepare.h"
+#include "engine/runtime/prepare/prepared_pass.h"
+#include "engine/runtime/storage/block_writer.h"
 
 namespace weft::runtime {
 
+namespace {
+
+constexpr std::size_t kLargestMember = 32;  // bytes of a vector of four doubles
+
+double trialAge(std::uint32_t) {
+  return graph::kTrialAge;
+}
+
+}  // namespace
+
+FrameUniforms::FrameUniforms(const graph::Plan& plan, Imports& imports, std::uint32_t alignment)
+    : plan_(plan), imports_(imports), alignment_(alignment) {
+  for (const graph::ParameterSpec& parameter : plan.graph->parameters) {
+    parameterOf_.emplace(parameter.path, static_cast<std::uint32_t>(parameters_.size()));
+    parameters_.push_back(parameter.value);
+  }
+}
+
 bool FrameUniforms::layOut(std::span<PreparedPass> passes, base::Diagnostics& diagnostics) {
-  if (!arena_.layOut(passes, diagnostics)) return false;
-  values_.fill(passes, arena_);
+  std::uint32_t end = 0;
+  const auto place = [&](const gl::Block* block, std::uint32_t& offset) {
+    offset = end;
+    if (block) end += (block->bytes + alignment_ - 1) / alignment_ * alignment_;
+  };
+  for (PreparedPass& pass : passes) {
+    place(pass.parametersBlock, pass.parametersOffset);
+    place(pass.viewBlock, pass.viewOffset);
+    place(pass.sliceBlock, pass.sliceOffset);
+  }
+  bytes_.assign(end, std::byte{0});
+  if (end > 0) {
+    auto buffer = gl::Buffer::create(end, GL_DYNAMIC_STORAGE_BIT, "uniforms", diagnostics);
+    if (!buffer) return false;
+    buffer_ = std::move(*buffer);
+  }
+  readersOf_.resize(parameters_.size());
+  for (PreparedPass& pass : passes) fill(pass);
+  std::size_t most = 0;
+  for (const auto& readers : readersOf_) most = std::max(most, readers.size());
+  results_.resize(most);
   return true;
+}
+
+// Writes what does not change with time, and lists what does and who reads live parameters.
+void FrameUniforms::fill(PreparedPass& pass) {
+  pass.dynamics.clear();
+  if (!pass.parametersBlock) return;
+  for (const graph::UniformSpec& uniform : pass.context.spec->uniforms) {
+    const gl::BlockMember* member = pass.parametersBlock->find(uniform.name);
+    if (!member) continue;
+    const bool live = uniform.dynamic.live();
+    if (uniform.dynamic.dynamic())
+      pass.dynamics.push_back({*member, uniform.dynamic});
+    else
+      write(pass.parametersOffset, *member,
+            live ? uniform.dynamic.evaluateFolded(trialAge, parameters_) : uniform.value);
+    if (!live) continue;
+    for (const std::uint32_t key : uniform.dynamic.parameterKeys())
+      readersOf_[key].push_back({member, &uniform.dynamic, pass.parametersOffset});
+  }
 }
 
 void FrameUniforms::refresh(std::span<PreparedPass> passes, const std::function<double(std::uint32_t)>& ageOf,
@@ -18,13 +83,15 @@ void FrameUniforms::refresh(std::span<PreparedPass> passes, const std::function<
     PreparedPass& pass = passes[step];
     const bool timeless = graph.passes[plan_.steps[step].pass].cadence != graph::Cadence::always;
     if (!pass.usable || (alwaysOnly && timeless)) continue;
-    values_.refresh(pass, ageOf, arena_);
+    for (const DynamicUniform& uniform : pass.dynamics)
+      write(pass.parametersOffset, uniform.member, uniform.expr.evaluateFolded(ageOf, parameters_));
     if (const graph::Expr& timed = pass.context.spec->timedInstances; timed.present())
       pass.context.instances = instancesAt(timed, ageOf);
     if (!pass.viewBlock) continue;
-    const scene::ViewData& view = imports_.view(graph, *pass.context.spec, pass.width, pass.height);
-    arena_.writeView(pass.viewOffset, *pass.viewBlock, view,
-                     {static_cast<float>(pass.width), static_cast<float>(pass.height)}, timeless);
+    writeView(bytes_.data() + pass.viewOffset, *pass.viewBlock,
+              imports_.view(graph, *pass.context.spec, pass.width, pass.height),
+              {static_cast<float>(pass.width), static_cast<float>(pass.height)}, timeless);
+    changed_ = true;
   }
 }
 
@@ -38,8 +105,49 @@ void FrameUniforms::setSlices(PreparedPass& pass, const SliceRange& range) {
     graph::Value value{graph::Value::Type::list, 3, {}, {}};
     for (std::size_t axis = 0; axis < 3; ++axis)
       value.v[axis] = groups.first[axis] * (member.name == "first_group" ? 1u : pass.context.groupSize[axis]);
-    arena_.write(pass.sliceOffset, member, value);
+    write(pass.sliceOffset, member, value);
   }
+}
+
+bool FrameUniforms::set(std::string_view path, const graph::Value& value) {
+  const auto found = parameterOf_.find(path);
+  if (found == parameterOf_.end()) return false;
+  const graph::ParameterSpec& parameter = plan_.graph->parameters[found->second];
+  if (parameter.structural || !graph::takesValue(parameter.desc, value)) return false;
+  graph::Value& mine = parameters_[found->second];
+  graph::Value before = std::exchange(mine, value);
+  const std::vector<Reader>& readers = readersOf_[found->second];
+  std::string unexpected;
+  for (std::size_t i = 0; i < readers.size(); ++i) {
+    results_[i] = readers[i].expr->evaluateFolded(trialAge, parameters_);
+    if (memberTakes(*readers[i].member, results_[i], unexpected)) continue;
+    mine = std::move(before);
+    return false;
+  }
+  for (std::size_t i = 0; i < readers.size(); ++i)
+    if (!readers[i].expr->dynamic()) write(readers[i].block, *readers[i].member, results_[i]);
+  return true;
+}
+
+void FrameUniforms::write(std::uint32_t block, const gl::BlockMember& member, const graph::Value& value) {
+  std::byte* const at = bytes_.data() + block + member.offset;
+  const std::size_t window = std::min<std::size_t>(kLargestMember, bytes_.size() - block - member.offset);
+  std::array<std::byte, kLargestMember> before;
+  std::memcpy(before.data(), at, window);
+  writeValue(bytes_.data() + block, member, value);
+  changed_ |= std::memcmp(before.data(), at, window) != 0;
+}
+
+std::uint64_t FrameUniforms::hash(std::uint32_t block, const gl::Block* layout, std::uint64_t seed) const {
+  if (!layout) return seed;
+  const auto* bytes = reinterpret_cast<const char*>(bytes_.data() + block);
+  return base::hashBytes({bytes, layout->bytes}, seed);
+}
+
+void FrameUniforms::upload() {
+  if (!changed_ || bytes_.empty()) return;
+  gl::uploadBuffer(buffer(), 0, bytes_);
+  changed_ = false;
 }
 
 }  // namespace weft::runtime

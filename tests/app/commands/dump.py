@@ -170,7 +170,7 @@ def check_places(bench):
     spot = folder / names[1]
     before = (bench.folder / "shaders/double.frag.glsl").read_bytes()
     for made, says in ((os.mkfifo, "a pipe"), (os.mkdir, "a folder"), (lambda path: os.symlink("/dev/null", path), "a device"),
-                       (lambda path: os.link(bench.folder / "shaders/double.frag.glsl", path), "which this run reads")):
+                       (lambda path: os.symlink(bench.folder / "shaders/double.frag.glsl", path), "which this run reads")):
         spot.unlink()
         made(spot)
         ran = dump(folder)
@@ -185,7 +185,7 @@ def check_places(bench):
 
 def check_progress(bench):
     ran = run(bench.weft, "render", bench.folder / "graph.json", "-o", bench.folder / "p_%d.png", "--frames", "0:5")
-    bench.report.check(ran.code == 0 and re.search(r"^6/6 frames in .+ s$", ran.err, re.M) and not set("\r\x1b") & set(ran.err), f"progress on a pipe is a line now and then: {ran.err!r}")
+    bench.report.check(ran.code == 0 and "frames" not in ran.err and not set("\r\x1b") & set(ran.err), f"a quick run says nothing on a pipe: {ran.err!r}")
 
 
 def main():

@@ -78,15 +78,12 @@ def main():
                      f"the list of presets: {found}")
         (folder / "a_file").touch()
         for command in (["check", graph, "--no-shaders"], ["presets"]):
-            for wrong, says in (("nowhere", "there is no folder"), ("a_file", "expected a folder")):
+            for wrong, says in (("nowhere", "does not exist"), ("a_file", "is actually a file")):
                 ran = run(weft, *command, "--preset-folder", folder / wrong, env=environment)
                 report.check(ran.code == 2 and says in ran.err and wrong in ran.err, f"{command[0]} --preset-folder {wrong}: {ran.code} {ran.err}")
-        # A preset of another graph is one mistake; a name that is misspelt is another.
-        write("mine/foreign.json", '{ "set": { "sun_azimuth": 1, "levle": 2, "bokeh": 3, "haze": 4 } }')
+        write("mine/foreign.json", '{ "set": { "sun_azimuth": 1, "levle": 2, "bokeh": 3 } }')
         ran = run(weft, "check", graph, "--no-shaders", "--preset", folder / "mine/foreign.json")
-        told = [d["text"] for d in ran.diagnostics]
-        report.check(ran.codes() == ["W044"] and sorted(told) == ["no parameter is called 'levle'", "no parameters are called 'sun_azimuth', 'bokeh', 'haze'"], f"a preset of another graph: {ran.err}")
-        report.check("did you mean 'level'?" in ran.err and "the preset is for a graph that has them" in ran.err, f"its hints: {ran.err}")
+        report.check(ran.codes() == ["W044"] and len(ran.diagnostics) == 3 and "did you mean 'level'?" in ran.err, f"a preset of another graph: {ran.err}")
         missing = run(weft, "check", graph, "--preset", "cinma", env=environment)
         report.check(missing.code == 1 and missing.codes() == ["W001"] and "cinema" in missing.err, f"a name that nobody has: {missing.err}")
         # A folder where the command is started hides no preset; a file that cannot be read hides the bundled one here and there.

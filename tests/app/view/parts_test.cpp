@@ -1,4 +1,4 @@
-// The parts of the viewer that need no window: keys, clock, rest, layout of the help.
+// The parts of the viewer that need no window: keys, clock, rest.
 #include <doctest/doctest.h>
 
 #include <fstream>
@@ -8,16 +8,24 @@
 
 #include "app/ui/log.h"
 #include "app/ui/pass_switch.h"
-#include "app/view/actions.h"
 #include "app/view/frame_clock.h"
-#include "app/view/help_layout.h"
 #include "app/view/key_bindings.h"
-#include "app/view/picture_rest.h"
 
 namespace weft::app {
 namespace {
 
 using How = KeyBinding::How;
+
+// What is listed, as a Markdown table.
+std::string keyTable() {
+  std::string text = "| input | does |\n|---|---|\n";
+  for (const KeyBinding& binding : keyBindings()) {
+    if (!*binding.keys) continue;
+    const char* quote = binding.how == How::mouse ? "" : "`";
+    text += std::string("| ") + quote + binding.keys + quote + " | " + binding.does + " |\n";
+  }
+  return text;
+}
 
 TEST_CASE("docs/viewer.md has the table of keys as it is") {
   std::ifstream file(WEFT_SOURCE_DIR "/docs/viewer.md");
@@ -46,32 +54,9 @@ TEST_CASE("no key has two meanings, and each that is pressed is found") {
   CHECK(actionOf(-1, false).empty());
 }
 
-TEST_CASE("actions run by name") {
-  Actions actions;
-  int ran = 0;
-  actions.add("one", [&] { ++ran; });
-  CHECK(actions.run("one"));
-  CHECK_FALSE(actions.run("two"));
-  CHECK(ran == 1);
-}
-
-TEST_CASE("the help fits every window") {
-  const int rows = 40;
-  for (const float scale : {0.5f, 1.0f, 1.5f, 2.0f, 4.0f})
-    for (const auto& [width, height] :
-         {std::pair(1280.0f, 720.0f), {320.0f, 180.0f}, {3840.0f, 2160.0f}, {100.0f, 720.0f}}) {
-      const float rowHeight = 17 * scale, rowWidth = 480 * scale;
-      const HelpLayout fit = fitHelp(rows, rowHeight, rowWidth, width, height);
-      const float high = static_cast<float>((rows + fit.columns - 1) / fit.columns);
-      CHECK(fit.scale > 0);
-      CHECK(fit.scale <= 1);
-      CHECK(high * rowHeight * fit.scale <= height * 1.0001f);
-      CHECK(static_cast<float>(fit.columns) * rowWidth * fit.scale <= width * 1.0001f);
-    }
-  CHECK(fitHelp(40, 17, 480, 1280, 720).scale == 1);  // where there is room, as large as the rest
-}
-
-TEST_CASE("time: the wall's, none while nothing is drawn, fixed steps while recording") {
+TEST_CASE(
+    "time: the wall's, none while nothing is drawn, fixed steps while "
+    "recording") {
   FrameClock clock;
   CHECK(clock.tick(100).time == 0);
   CHECK(clock.tick(100.5).time == doctest::Approx(0.5));
@@ -127,7 +112,8 @@ TEST_CASE("rest is several equal looks in a row, and ends with a disturbance") {
 
 }  // namespace
 TEST_CASE(
-    "the log shows errors first, the newest on top, and forgets what was dismissed until it is said again") {
+    "the log shows errors first, the newest on top, and forgets what was "
+    "dismissed until it is said again") {
   using app::ui::Log;
   const auto said = [](base::Severity severity, const char* message) {
     base::Diagnostic diagnostic;

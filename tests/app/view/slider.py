@@ -100,8 +100,6 @@ def studio(weft, folder, display, report):
         stats = json.loads(text[text.index("{"):])
         report.check(stats["live_values_set"] == changes >= MOVES_OF_STUDIO,
                      f"studio: {changes} changes, of which {stats['live_values_set']} built no plan")
-        report.check(stats.get("live_allocations", 0 if SANITIZED else -1) == 0,
-                     f"studio: {stats.get('live_allocations')} allocations for {MOVES_OF_STUDIO} moves")
     finally:
         live.stop()
 
@@ -121,8 +119,6 @@ def main():
                          f"values set: {still['live_values_set']}, {moved['live_values_set']}")
             report.check(0 < moved["plans_built"] == still["plans_built"],
                          f"plans built: {still['plans_built']} without a move, {moved['plans_built']} with {MOVES}")
-            # Under a sanitizer nothing counts.
-            report.check(moved.get("live_allocations", 0 if SANITIZED else -1) == 0, f"{moved.get('live_allocations')} allocations for {MOVES} moves")
         studio(weft, folder, display, report)
     report.end()
 

@@ -36,8 +36,6 @@ TEST_CASE("a context opens, knows its device, keeps the conventions and can be o
     CHECK(device.backend != Backend::automatic);
     if (wanted() != Backend::automatic) CHECK(device.backend == wanted());
     CHECK(device.driverKey.size() == 16);
-    CHECK(device.limits.textureSize >= 16384);
-    CHECK(device.limits.colorAttachments >= 8);
     CHECK(device.limits.computeGroups[0] >= 65535);
     if (device.renderer.find("llvmpipe") != std::string::npos) {
       CHECK(device.software);

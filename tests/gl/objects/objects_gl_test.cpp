@@ -63,23 +63,6 @@ TEST_CASE("owners move, count and delete") {
   CHECK(toText(liveObjects()) == "none");
 }
 
-TEST_CASE("the driver's count sees what no owner knows of") {
-  CleanScope clean;
-  const LiveObjects before = namedObjects();
-  GLuint texture = 0, buffer = 0;
-  glCreateTextures(GL_TEXTURE_2D, 1, &texture);
-  glCreateBuffers(1, &buffer);
-  const GLuint program = glCreateProgram();
-  const LiveObjects now = namedObjects();
-  for (const ObjectKind kind : {ObjectKind::texture, ObjectKind::buffer, ObjectKind::program})
-    CHECK(now.of(kind) == before.of(kind) + 1);
-  CHECK(now.total() == before.total() + 3);
-  glDeleteTextures(1, &texture);
-  glDeleteBuffers(1, &buffer);
-  glDeleteProgram(program);
-  CHECK(namedObjects() == before);
-}
-
 TEST_CASE("every target takes an upload and gives it back, level by level and layer by layer") {
   CleanScope clean;
   const TextureDesc descs[] = {
@@ -149,12 +132,7 @@ TEST_CASE("textures that cannot be are refused with the number that is wrong") {
   const std::pair<TextureDesc, const char*> cases[] = {
       {{.width = 100000}, "largest side"},
       {{.width = 8, .height = 8, .mips = 1000000000}, "at most 4 mips"},
-      {{.width = 0}, "zero"},
-      {{.target = GL_TEXTURE_CUBE_MAP, .width = 8, .height = 4, .layers = 6}, "square"},
-      {{.target = GL_TEXTURE_CUBE_MAP, .width = 8, .height = 8, .layers = 1}, "layers"},
-      {{.target = GL_TEXTURE_CUBE_MAP_ARRAY, .width = 8, .height = 8, .layers = 7}, "multiple of six"},
       {{.target = GL_TEXTURE_2D_ARRAY, .layers = 1000000}, "layers"},
-      {{.samples = 4}, "no samples"},
       {{.target = GL_TEXTURE_2D_MULTISAMPLE, .samples = 4096}, "samples"},
   };
   for (const auto& [desc, reason] : cases) {

@@ -1,4 +1,4 @@
-#include "engine/gl/objects/pixel_stream.h"
+#include "engine/gl/objects/streams.h"
 #include "tests/gl/gl_test.h"
 
 using namespace weft;

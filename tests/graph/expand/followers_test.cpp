@@ -102,7 +102,7 @@ TEST_CASE("an index with a $ is told that it is bare, wherever it stands") {
                             said("level", "1", "$level >= 0")}) {
     REQUIRE(found.errorCount() == 1);
     CHECK(found.items()[0].code == base::Code::unknownVariable);
-    CHECK(found.items()[0].hint == "write 'level', without the '$': it is an index");
+    CHECK(found.items()[0].hint == "write 'level', without the '$'");
   }
 }
 

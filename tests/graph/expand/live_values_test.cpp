@@ -6,7 +6,7 @@
 #include <random>
 
 #include "engine/graph/compile/compile.h"
-#include "engine/graph/expand/names/parameter_check.h"
+#include "engine/graph/expand/names/settings.h"
 #include "engine/graph/print/print.h"
 #include "tests/graph/expand/support.h"
 

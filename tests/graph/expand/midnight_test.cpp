@@ -74,15 +74,12 @@ TEST_CASE("a mistake at midnight: expressions in the words of other languages") 
   checkOne(size, "\"rgba8\", \"size\": \"1920,1080\"", badExpression, "is no value", "write [1920, 1080]");
   checkOne(size, "\"rgba8\", \"size\": \"screen*0.5px\"", badExpression, "is no value", "write 'screen*0.5'");
   checkOne(size, "\"rgba8\", \"size\": \"scene\"", wrongValueType, "is no size", "write 'size(scene)'");
-  checkOne(size, "\"rgba8\", \"size\": \"scene.size\"", badExpression, "is no value", "write 'size(scene)'");
-  checkOne(size, "\"rgba8\", \"size\": \"scene.width/2\"", badExpression, "is no value",
-           "write 'size(scene).x'");
+  checkOne(size, "\"rgba8\", \"size\": \"scene.size\"", badExpression, "is no value", "size(scene)");
+  checkOne(size, "\"rgba8\", \"size\": \"scene.width/2\"", badExpression, "is no value", "size(scene)");
   checkOne(bytes, "\"uint[256]\"", badExpression, "is no value", "write 256*4");
-  checkOne(bytes, "\"64 vec4s\"", badExpression, "is no value", "write 64*16");
-  checkOne(enabled, "\"enabled\": \"not $bloom\"", badExpression, "unexpected '$'", "write '!' for 'not'");
   checkOne(enabled, "\"enabled\": \"$tone == 'hard'\"", badExpression, "unexpected '''", "without quotes");
-  checkOne("\"blend\": \"none\"", "\"blend\": [\"src_alpha\", \"one\"]", badState, "a list of words",
-           "'alpha' is src_alpha");
+  checkOne("\"blend\": \"none\"", "\"blend\": [\"src_alpha\", \"one\"]", badState,
+           "unknown value for the state", "'alpha' is src_alpha");
   checkOne("\"blend\": \"none\"", "\"blend\": { \"src\": \"one\", \"dst\": \"one\" }", badState,
            "blends 'src'", "'alpha' is src_alpha");
   checkOne(bytes, "\"4 * 2^8\"", badExpression, "unexpected '^'", "there is no power");
@@ -97,22 +94,18 @@ TEST_CASE("a mistake at midnight: expressions in the words of other languages") 
   checkOne(enabled, "\"groups\": [8, 8, 1]", unknownKey, "\"groups\"", "\"threads\" counts invocations");
   checkOne(enabled, "\"clear_color\": [0, 0, 0]", unknownKey, "\"clear_color\"",
            "set \"clear\" on the texture");
-  checkOne(enabled, "\"update\": \"every_frame\"", unknownWord, "every_frame", "write \"always\"");
   checkOne("\"fullscreen\"", "\"postprocess\"", unknownPassType, "unknown type", "write 'fullscreen'");
 }
 
 TEST_CASE("a mistake at midnight: references") {
   using enum base::Code;
   checkOne("\"now\": \"scene\"", "\"now\": \"$scene\"", badReference, "'$' where a name is expected",
-           "write 'scene'");
+           "resources have no '$'");
   checkOne("\"now\": \"scene\"", "\"now\": \"scene linear\"", badReference, "unexpected 'linear'",
            "write 'as linear'");
-  checkOne("\"now\": \"scene\"", "\"now\": \"trail.previous\"", unknownResource, "'trail.previous'",
-           "'trail@-1'");
   checkOne("\"now\": \"scene\"", "\"now\": \"trail@prev\"", badReference, "history is written",
            "write 'trail@-1'");
   checkOne("\"now\": \"scene\"", "\"now\": \"trail[-1]\"", badSelector, "is no array", "write 'trail@-1'");
-  checkOne("\"glow.mip[0]\"", "\"glow.lod[0]\"", unknownResource, "'glow.lod'", "'glow.mip[…]'");
   checkOne("\"glow.mip[0]\"", "\"glow[0]\"", badSelector, "is no array", "'glow.mip[…]'");
   checkOne("\"now\": \"scene\"", "\"now\": \"depth.stencil\"", badSelector, "has no stencil",
            "depth32f_stencil8");
@@ -130,20 +123,15 @@ TEST_CASE("a mistake at midnight: references") {
 TEST_CASE(
     "a mistake at midnight: declarations in the form of another engine, and nothing follows from them") {
   using enum base::Code;
-  checkOne("{ \"texture\": \"rgba8\", \"size\": \"screen\" }", "{ \"texture\": \"paper.png\" }",
-           unknownFormat, "a file in the place of a format",
-           "\"import\": \"image\", \"file\": \"paper.png\"");
   checkOne("\"texture\": \"rgba8\"", "\"texture\": { \"format\": \"rgba8\" }", wrongType,
-           "\"texture\" has the wrong type", "write \"texture\": \"rgba8\"");
+           "\"texture\" has the wrong type", "write the format here");
   checkOne("\"buffer\": \"4*256\"", "\"buffer\": { \"bytes\": 1024 }", wrongType,
-           "\"buffer\" has the wrong type", "write \"buffer\": 1024");
+           "\"buffer\" has the wrong type", "");
   checkOne("\"mips\": 4", "\"mips\": true", wrongValueType, "the number of mips", "\"full\"");
   checkOne("\"mips\": 4", "\"mips\": \"all\"", wrongValueType, "the number of mips", "\"full\"");
   checkOne("\"history\": 1, \"first\": 0", "\"first\": 0", keysExclude, "keeps no history", "\"history\": 1");
-  checkOne("\"default\": 0.9", "\"default\": \"0,9\"", missingKey, "a string as its default",
-           "write 0.9, without quotes");
   checkOne("\"default\": 0.9", "\"default\": \"#ffffff\"", missingKey, "a string as its default",
-           "[1, 1, 1]");
+           "a color is a list of numbers");
   checkOne("\"default\": \"soft\"", "\"default\": \"Soft\"", notAChoice, "not one of its choices",
            "\"soft\"");
   checkOne("\"name\": \"paint\", \"type\": \"fullscreen\"", "\"name\": \"paint\"", missingKey,
@@ -151,7 +139,7 @@ TEST_CASE(
   checkOne("\"repeat\": { \"i\": [1, 3] }", "\"repeat\": { \"i\": 3 }", wrongType, "the range of 'i'",
            "\"i\": [0, 2]");
   checkOne("\"repeat\": { \"i\": [1, 3] }", "\"repeat\": { \"i\": [1, \"glow.mips - 1\"] }", badExpression,
-           "is no value", "write 'mips(glow)'");
+           "is no value", "mips(glow)");
   checkOne("{ \"radiance\": \"scene\" }", "{ \"radiance\": \"@environment\" }", notWritable,
            "which is an import", "of the graph's own");
 }

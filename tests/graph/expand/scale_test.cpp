@@ -3,12 +3,6 @@
 #include <array>
 #include <string_view>
 
-#include "engine/graph/expand/finish.h"
-#include "engine/graph/expand/judge/judge.h"
-#include "engine/graph/expand/names/apply_settings.h"
-#include "engine/graph/expand/names/resources.h"
-#include "engine/graph/expand/names/scope.h"
-#include "engine/graph/expand/passes.h"
 #include "tests/graph/allocation_count.h"
 #include "tests/graph/expand/support.h"
 
@@ -63,26 +57,14 @@ struct Work {
   std::array<std::size_t, 3> counts{};
 };
 
-// The steps of expandGraph.
 Work workOf(const std::string& json) {
-  using namespace expansion;
   base::Diagnostics diagnostics;
   const auto desc = readGraphText(json, "test.json", diagnostics);
   REQUIRE_MESSAGE(desc, diagnostics.text());
   const Registry registry = testRegistry();
-  const Settings settings;
   const std::size_t allocations = allocationCount(), bytes = allocatedBytes();
-  Model model{*desc, registry, settings, diagnostics};
-  buildScopes(model);
-  applySettings(model);
-  for (std::uint32_t i = 0; i < model.entities.size(); ++i) ensureShape(model, i);
-  std::vector<DeferredUniform> deferred;
-  expandPasses(model, deferred);
-  finishGraph(model, deferred);
-  reportMissingReads(model);
-  if (!diagnostics.hasErrors()) warnUnread(model);
-  CHECK_FALSE(model.stopped);
-  return {{model.graph.links.seen.size() + model.graph.links.runs.size(), allocationCount() - allocations,
+  const auto graph = expandGraph(*desc, registry, {}, diagnostics);
+  return {{graph ? graph->links.seen.size() + graph->links.runs.size() : 0, allocationCount() - allocations,
            allocatedBytes() - bytes}};
 }
 

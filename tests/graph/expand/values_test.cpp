@@ -115,11 +115,6 @@ TEST_CASE("--set: suffixes, types, ranges, choices") {
   CHECK(tryPass(pass, head, with({{"v", "[1]"}})).has(Code::badParameterValue));
   CHECK(tryPass(pass, head, with({{"c", "yess"}})).of(Code::badParameterValue).hint == "did you mean 'yes'?");
   CHECK(tryPass(pass, head, with({{"owm", "2"}})).of(Code::unknownParameter).hint == "did you mean 'own'?");
-  for (const char* name : {"density", "p.density"})
-    CHECK(tryPass(R"J("parameters": { "density": 2 })J", "", with({{name, "3"}}))
-              .of(Code::unknownParameter)
-              .hint ==
-          "pass 'p' sets its 'density' and declares no parameter: write { \"default\": … } there");
 }
 
 TEST_CASE("--set and --disable of names that several things end in") {

@@ -1,8 +1,7 @@
 // What a name of a person leads to in a graph with versions and elements.
-#include "engine/graph/pick/find_pick.h"
-
 #include <doctest/doctest.h>
 
+#include "engine/graph/pick/pick.h"
 #include "tests/graph/expand/support.h"
 
 using namespace weft;
@@ -52,5 +51,5 @@ TEST_CASE("an array is named by an element") {
   REQUIRE_MESSAGE(expanded.graph, expanded.text());
   CHECK(foundBy(expanded, "maps[1]") == "maps[1]");
   CHECK(foundBy(expanded, "maps") ==
-        "no pass that is enabled uses a resource 'maps'; it has elements: name one, such as 'maps[0]'");
+        "no pass that is enabled uses a resource 'maps'; names that hold it: 'maps[0]', 'maps[1]'");
 }

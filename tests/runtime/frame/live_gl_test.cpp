@@ -58,8 +58,7 @@ TEST_CASE("live: two hundred changes build no plan, allocate nothing, and give t
   REQUIRE_MESSAGE(fresh.load(), fresh.diagnostics.text());
   for (std::uint32_t frame = 0; frame < 4; ++frame) fresh.run(frame);
   CHECK(live == fresh.pixels());
-  CHECK(
-      sameBytes(stage.execution().uniforms().arena().bytes(), fresh.execution().uniforms().arena().bytes()));
+  CHECK(sameBytes(stage.execution().uniforms().bytes(), fresh.execution().uniforms().bytes()));
 }
 
 TEST_CASE("live: every live parameter of the studio, one after the other, leaves the bytes of a fresh run") {
@@ -95,8 +94,7 @@ TEST_CASE("live: every live parameter of the studio, one after the other, leaves
     fresh.run(frame);
     stage.run(frame);
   }
-  CHECK(
-      sameBytes(stage.execution().uniforms().arena().bytes(), fresh.execution().uniforms().arena().bytes()));
+  CHECK(sameBytes(stage.execution().uniforms().bytes(), fresh.execution().uniforms().bytes()));
 }
 
 TEST_CASE("live: a pass that runs on change wakes, and what it feeds; the rest is kept") {
@@ -154,8 +152,8 @@ TEST_CASE("live: what is no live value changes nothing") {
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   stage.run(0);
   const float before = stage.value();
-  const std::vector<std::byte> bytes(stage.execution().uniforms().arena().bytes().begin(),
-                                     stage.execution().uniforms().arena().bytes().end());
+  const std::vector<std::byte> bytes(stage.execution().uniforms().bytes().begin(),
+                                     stage.execution().uniforms().bytes().end());
   const auto set = [&](const char* path, const Value& value) {
     return stage.renderer().setParameter(path, value);
   };
@@ -164,7 +162,7 @@ TEST_CASE("live: what is no live value changes nothing") {
   CHECK_FALSE(set("gain", Value::number(1000)));   // out of its range
   CHECK_FALSE(set("gain", Value::boolean(true)));  // of another type
   CHECK_FALSE(set("gain", Value::number(0)));      // 8 / 0
-  CHECK(sameBytes(stage.execution().uniforms().arena().bytes(), bytes));
+  CHECK(sameBytes(stage.execution().uniforms().bytes(), bytes));
   CHECK(stage.execution().uniforms().parameters()[0] == Value::number(2));
   stage.run(1);
   CHECK(stage.value() == before);

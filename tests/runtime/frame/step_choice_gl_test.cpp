@@ -33,7 +33,7 @@ struct ChosenSteps {
   // The names of the steps that a frame runs, in order.
   std::string frame() {
     steps.beginFrame();
-    steps.refreshHashes(uniforms.arena());
+    steps.refreshHashes(uniforms);
     steps.choose(generations);
     std::string names;
     for (std::size_t step = 0; step < on.passes.size(); ++step) {
@@ -105,7 +105,7 @@ TEST_CASE("what follows an execution of the same passes runs none of them again"
   live.frame();
   const auto runsKept = [&](const runtime::StepChoice* before) {
     runtime::StepChoice next(*live.on.plan, *live.on.pool, live.on.device.imports, live.on.passes, before);
-    next.refreshHashes(live.uniforms.arena());
+    next.refreshHashes(live.uniforms);
     next.choose(live.generations);
     return next.runs(live.on.step("kept"));
   };

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "engine/runtime/frame/step_runner.h"
-#include "engine/runtime/uniforms/uniform_values.h"
+#include "engine/runtime/uniforms/frame_uniforms.h"
 #include "tests/runtime/gl_recorder.h"
 #include "tests/runtime/plan_on_device.h"
 #include "tests/runtime/stage.h"
@@ -15,15 +15,16 @@ namespace {
 
 struct Steps {
   PlanOnDevice prepared;
-  runtime::UniformArena arena{256};
+  runtime::FrameUniforms uniforms;
   runtime::StepRunner runner;
   base::Diagnostics diagnostics;
 
   explicit Steps(const std::string& graph)
-      : prepared(graph), runner(*prepared.plan, prepared.device, *prepared.pool, arena) {
-    arena.layOut(prepared.passes, diagnostics);
-    runtime::UniformValues(*prepared.plan->graph).fill(prepared.passes, arena);
-    arena.upload();
+      : prepared(graph),
+        uniforms(*prepared.plan, prepared.device.imports, 256),
+        runner(*prepared.plan, prepared.device, *prepared.pool, uniforms) {
+    uniforms.layOut(prepared.passes, diagnostics);
+    uniforms.upload();
     prepared.device.timers.beginFrame(static_cast<std::uint32_t>(prepared.passes.size()));
   }
   void run(const char* pass, bool clears = true) {

@@ -1,6 +1,6 @@
 // 10,000 random toggles of the effects of graphs/post.json through the whole renderer. A model of a
-// least-recently-used cache, fed with the same requests, must count the same hits, misses and evictions;
-// nothing is compiled from source twice; and with the binaries on disk nothing is compiled at all.
+// least-recently-used cache, fed with the same requests, must not hit more often, as it knows nothing of what is held; nothing
+// is compiled from source twice; and with the binaries on disk nothing is compiled at all.
 #include <algorithm>
 #include <array>
 #include <list>
@@ -33,7 +33,7 @@ std::string keyOf(const gl::ProgramRequest& request) {
 struct Model {
   std::list<std::string> order;  // most recently used first
   std::set<std::string> distinct;
-  std::uint64_t hits = 0, misses = 0, evictions = 0;
+  std::uint64_t hits = 0, misses = 0;
 
   void request(const std::string& key) {
     distinct.insert(key);
@@ -44,10 +44,7 @@ struct Model {
     }
     ++misses;
     order.push_front(key);
-    if (order.size() > kCapacity) {
-      ++evictions;
-      order.pop_back();
-    }
+    if (order.size() > kCapacity) order.pop_back();
   }
 };
 
@@ -120,12 +117,10 @@ TEST_CASE("ten thousand toggles: each variant is compiled once, and the least re
     Model model;
     const gl::ProgramCacheStats stats = toggleAll(folder.at("binaries"), model);
     MESSAGE(model.distinct.size() << " distinct variants, " << stats.compilations << " compiled from source, "
-                                  << stats.hits << " hits, " << stats.misses << " misses, " << stats.evictions
-                                  << " evictions");
+                                  << stats.hits << " hits, " << stats.misses << " misses");
     CHECK(model.distinct.size() > 4 * kCapacity);  // else nothing was shown
-    CHECK(stats.hits == model.hits);
-    CHECK(stats.misses == model.misses);
-    CHECK(stats.evictions == model.evictions);
+    CHECK(stats.hits + stats.misses == model.hits + model.misses);
+    CHECK(stats.hits >= model.hits);
     CHECK(stats.failures == 0);
     CHECK(stats.compilations == (warm ? 0 : model.distinct.size()));
     CHECK(stats.binaryRejects == 0);

@@ -1,9 +1,9 @@
-// What the programs of every bundled graph need of a device, held to the least that OpenGL 4.5 gives (gl::kLeastDevice). Without GL:
+// What the programs of every bundled graph need of a device, held to the least that OpenGL 4.5 gives (gl::test::kLeastDevice). Without GL:
 // every graph and preset, with each boolean and choice at each of its values and each pass disabled, over two scenes; with
 // WEFT_ALL_VARIANTS=1 in the environment all pairs of those, too. Prints the table of what each graph needs at most. The count, which
 // is made from the source, is judged by a driver: each stage of each graph's defaults is linked as a separable program, and what it
 // then has active is within the same limits and, but for varyings, never more than was counted.
-#include "engine/gl/programs/needs.h"
+#include "tests/runtime/prepare/needs.h"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -70,8 +70,8 @@ class Linked {
   Linked& operator=(const Linked&) = delete;
 
   // locations, components: of inputs of a fragment shader.
-  gl::ProgramNeeds needs(GLenum stage) const {
-    gl::ProgramNeeds found;
+  gl::test::ProgramNeeds needs(GLenum stage) const {
+    gl::test::ProgramNeeds found;
     each(GL_PROGRAM_INPUT, [&](const std::string& name, GLenum type, std::uint32_t elements) {
       if (stage != GL_FRAGMENT_SHADER || name.starts_with("gl_")) return;
       const auto [columns, rows] = extentOf(type);
@@ -202,13 +202,13 @@ class Survey {
                                          ? sources_.load(stage.file, diagnostics)
                                          : sources_.loadText(stage.text, stage.file, diagnostics)});
     REQUIRE_MESSAGE(!diagnostics.hasErrors(), diagnostics.text());
-    const gl::ProgramNeeds needs = gl::needsOf(stages, request.defines);
+    const gl::test::ProgramNeeds needs = gl::test::needsOf(stages, request.defines);
     row.locations.raise(needs.locations, request.pass);
     row.components.raise(needs.components, request.pass);
     row.samplers.raise(needs.samplers, request.pass);
     row.together.raise(needs.together, request.pass);
     if (driver_) askDriver(stages, request);
-    const auto excess = gl::excessOf(needs, gl::kLeastDevice);
+    const auto excess = gl::test::excessOf(needs, gl::test::kLeastDevice);
     row.beyond += excess.has_value();
     CHECK_MESSAGE(!excess,
                   fmt::format("'{}' needs {} {}, of {}: {}", request.pass, excess ? excess->needed : 0,
@@ -217,14 +217,14 @@ class Survey {
 
   static void askDriver(const std::vector<gl::StageSource>& stages, const gl::ProgramRequest& request) {
     for (const gl::StageSource& stage : stages) {
-      const gl::StageNeeds counted = gl::needsOf(stage, request.defines);
-      const gl::ProgramNeeds active =
+      const gl::test::StageNeeds counted = gl::test::needsOf(stage, request.defines);
+      const gl::test::ProgramNeeds active =
           Linked(stage.stage, glsl::assembleSource(*stage.source, request.defines)).needs(stage.stage);
       CAPTURE(request.pass);
       // Of varyings the device's limits alone are asked: linked alone, a stage keeps inputs that it does not read.
       CHECK(active.samplers <= counted.samplers);
       CHECK(active.together <= counted.images + counted.storageBlocks + counted.outputs);
-      CHECK(!gl::excessOf(active, gl::kLeastDevice));
+      CHECK(!gl::test::excessOf(active, gl::test::kLeastDevice));
     }
   }
 
@@ -325,7 +325,7 @@ TEST_CASE("needs: what is counted, by hand") {
   glsl::SourceLoader loader({});
   base::Diagnostics diagnostics;
   const auto needsOf = [&](GLenum stage, const std::string& text, std::vector<glsl::Define> defines = {}) {
-    return gl::needsOf(gl::StageSource{stage, loader.loadText(text, "<text>", diagnostics)}, defines);
+    return gl::test::needsOf(gl::StageSource{stage, loader.loadText(text, "<text>", diagnostics)}, defines);
   };
   const std::string kText = R"(
 struct Pair { vec3 a; float b[2]; };
@@ -356,7 +356,7 @@ void main() {
   id = 1u;
 }
 )";
-  const gl::StageNeeds plain = needsOf(GL_FRAGMENT_SHADER, kText);
+  const gl::test::StageNeeds plain = needsOf(GL_FRAGMENT_SHADER, kText);
   CHECK(plain.locations == 1 + 3 + 3);
   CHECK(plain.components == 2 + 9 + 5);
   CHECK(plain.samplers == 4 + 1);
@@ -364,7 +364,7 @@ void main() {
   CHECK(plain.storageBlocks == 1 + 3);
   CHECK(plain.outputs == 2);
   CHECK(needsOf(GL_FRAGMENT_SHADER, kText, {{"HAS_MORE", "1"}}).components == 16 + 6);
-  const gl::StageNeeds vertex =
+  const gl::test::StageNeeds vertex =
       needsOf(GL_VERTEX_SHADER,
               "out Block { vec3 at; flat int row; } made;\nin vec3 position;\nout vec2 uv;\n"
               "void main() { made.at = position; made.row = 1; uv = vec2(0); }\n");

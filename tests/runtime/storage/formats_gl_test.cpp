@@ -118,7 +118,7 @@ TEST_CASE("a format can what the list says that it can") {
     const graph::Format format = *graph::findFormat(name);
     const graph::FormatInfo& info = graph::infoOf(format);
     const graph::FormatUses uses = graph::usesOf(format);
-    const GLenum internal = runtime::glFormatOf(format).internal;
+    const GLenum internal = runtime::glFormatOf(format);
     // Table 8.12 of the specification does not require these to be rendered to; this driver can, another need not.
     const bool notRequired = name.ends_with("_snorm") || name == "rgb9_e5";
     CHECK(uses.attachment != notRequired);

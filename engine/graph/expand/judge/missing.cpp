@@ -10,7 +10,6 @@
 #include "engine/graph/expand/judge/judge.h"
 #include "engine/graph/expand/names/resources.h"
 #include "engine/graph/expand/names/scope.h"
-#include "engine/graph/expand/names/unread.h"
 #include "engine/graph/versions/live.h"
 
 namespace weft::graph::expansion {

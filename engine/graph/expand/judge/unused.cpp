@@ -146,8 +146,7 @@ std::string hintFor(const Model& model, const Scope& scope, const ParameterDesc&
     if (std::ranges::find(pass.parameters, name, &PassParameterDesc::name) != pass.parameters.end())
       return fmt::format("pass '{}' has a '{}' of its own: write \"{}\": \"${}\" there", pass.name, name,
                          name, name);
-  const auto same = model.parametersByLeaf.find(name);
-  for (std::uint32_t index = same->second.first; index != kNone; index = model.parameters[index].nextOfLeaf)
+  for (const std::uint32_t index : model.parametersByLeaf.find(name)->second)
     if (const std::string& path = model.parameters[index].path;
         model.parameters[index].desc != &unread && path.starts_with(scope.prefix))
       return fmt::format(
@@ -242,7 +241,7 @@ const PassDesc* findUnconditional(const Model& model, const std::string& declare
 // The pass that always writes all of it before anybody reads the list, or null.
 const PassDesc* alwaysWrites(const Model& model, std::uint32_t candidate, const Entity& list) {
   for (const WriteRecord& write : model.writes) {
-    if (write.entity != candidate || write.pass == kNone || !write.whole || !list.read ||
+    if (write.entity != candidate || write.pass == kNone || !write.whole || list.firstRead == kNone ||
         write.position >= list.firstRead)
       continue;
     const PassDesc* pass = findUnconditional(model, model.graph.specs[write.pass].declared);

@@ -1,8 +1,9 @@
 // The working tables of one expansion: scopes of included files, their parameters and lets, and entities (declared
 // resources and imports). They are plain data, live while expandGraph runs and point into the GraphDesc; each file of
-// engine/graph/expand does one job on them. Does not: outlive expandGraph.
+// engine/graph/expand does one job on them.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -25,13 +26,7 @@ namespace weft::graph::expansion {
 
 using base::Code;
 
-struct NameHash {
-  using is_transparent = void;
-  std::size_t operator()(std::string_view name) const { return std::hash<std::string_view>{}(name); }
-};
-template <class T>
-using NameMap = std::unordered_map<std::string, T, NameHash, std::equal_to<>>;
-// The same for names that stand in the GraphDesc, or in another table of the Model, and do not move.
+// By names that stand in the GraphDesc, or in another table of the Model, and do not move.
 template <class T>
 using KnownNames = std::unordered_map<std::string_view, T>;
 
@@ -54,12 +49,6 @@ struct Parameter {
   bool structural = false;
   Where valuePlace{};  // where `value` was written: a default, a "set", the command line
   Origin origin = Origin::declaration;
-  std::uint32_t nextOfLeaf = kNone;  // the next parameter of the same name, in any file
-};
-
-// The parameters of one name: the first, linked by Parameter::nextOfLeaf in their order.
-struct Leaves {
-  std::uint32_t first = kNone, last = kNone, count = 0;
 };
 
 struct Let {
@@ -112,8 +101,7 @@ struct Entity {
   std::vector<std::uint32_t>
       candidates;  // alternatives: entities, parallel to desc->alternatives; kNone: unknown
   std::vector<Element> elements;
-  bool read = false;  // some slot names it, at this position first
-  std::uint32_t firstRead = kNone;
+  std::uint32_t firstRead = kNone;  // the first position at which some slot names it
 };
 
 // One file instance.
@@ -125,29 +113,16 @@ struct Scope {
   std::string group;                    // full name of the group that the include puts its passes into, or ""
   KnownNames<std::uint32_t> resources;  // entities
   KnownNames<Variable> variables;       // parameters, lets, and parameters of passes: "composite.fog"
-  KnownNames<Variable> below;           // found in the files that are included below, so far
+  std::map<std::string, Variable, std::less<>> below;  // found in the files that are included below, so far
   KnownNames<Scope*> includes;
   KnownNames<const PassDesc*> passes;
   std::string disabledBy;  // "--disable post"; empty: not disabled
   bool broken = false;     // an include below it could not be read: names it does not know may be from there
 };
 
-// References `name.…` in a file that includes nothing under that name. All of them are one mistake.
-struct Unincluded {
-  struct Use {
-    Place place;
-    std::string text;  // "pass 'skybox' reads the unknown resource 'ibl.brdf'"
-    std::string resource, pass;
-  };
-  Scope* scope = nullptr;
-  std::string name;
-  std::vector<Use> uses;  // of different places
-};
-
 // What --disable matched.
 struct DisableRule {
   std::string why;       // "--disable fxaa"
-  std::string declared;  // full declared name of a pass
   std::string instance;  // full instance name, or empty: all repeats
 };
 
@@ -210,15 +185,15 @@ struct Model {
   base::Diagnostics& diagnostics;
   FlatGraph graph{};
   VersionWalk versions{graph};
-  // None of these moves: buildScopes() counts what there will be, and makes room for it.
+  // None of these moves: buildScopes() makes room for all that there will be.
   std::vector<Scope> scopes{};  // scopes[0] is the root
   std::vector<Parameter> parameters{};
   std::vector<Let> lets{};
   std::vector<Entity> entities{};
-  NameMap<std::uint32_t> implicitImports{};                        // "environment" of @environment
+  std::map<std::string, std::uint32_t, std::less<>> implicitImports{};  // "environment" of @environment
   std::vector<std::uint32_t> importResource{};                     // per import: its FlatResource or kNone
   std::unordered_map<std::uint64_t, std::uint32_t> importIndex{};  // by keyOf(request)
-  KnownNames<Leaves> parametersByLeaf{};
+  KnownNames<std::vector<std::uint32_t>> parametersByLeaf{};  // all of one name, in any file, in their order
   std::unordered_map<std::string, std::vector<DisableRule>> disables{};  // by declared name
   std::vector<WriteRecord> writes{};
   std::vector<WouldUse> would{};  // by position
@@ -232,9 +207,12 @@ struct Model {
   struct ElementOf {
     std::uint32_t entity, element;
   };
-  std::vector<ElementOf> elementOf{};                             // per FlatResource
-  std::vector<Unincluded> unincluded{};                           // reported at the end
-  std::set<std::pair<const Scope*, std::string>> unknownFacts{};  // what expressions ask of, and was reported
+  std::vector<ElementOf> elementOf{};  // per FlatResource
+  // Names that were reported as unknown, where one report is enough: what expressions ask of, and the first part of
+  // `name.…` in a file that includes nothing under that name.
+  std::set<std::pair<const Scope*, std::string>> unknown{};
+  std::deque<std::string>
+      misspelt{};  // names that expressions use of parameters whose declaration is misspelt
   // Some write is missing because of a mistake, and nobody knows of what: missing versions are not reported. Where it is
   // known, Entity::incomplete says so.
   bool incomplete = false;
@@ -243,7 +221,6 @@ struct Model {
   std::uint32_t position = 0;             // of the instance being expanded
   std::uint32_t slot = kNone;             // of it, while it is resolved
   std::vector<std::string> evaluating{};  // what is being evaluated now, for the path of a cycle
-  std::uint32_t depth = 0;                // definitions that are being evaluated, each for the one before
   bool stopped = false;                   // a bound was exceeded and reported: nothing more is expanded
 };
 
@@ -252,19 +229,29 @@ bool isOver(const Model& model);
 // W201: more than a bound allows, of `counts`. Ends the expansion.
 void stopAt(Model& model, const Where& place, std::string message, std::uint64_t bound, const char* counts);
 
-// Lives while one definition (a let, a size, what an input stands for, a list of alternatives) is evaluated for another. This
-// recurses, so it is not good when there are too many; that is reported with `label`, unless `quiet`, and ends the expansion.
-class Descent {
+// What a message says beside its sentence. All may be empty.
+struct Says {
+  std::string expected{}, found{}, hint{}, resource{}, pass{};
+};
+// Reports an error; returns false, so that a check can end with it.
+bool report(Model& model, Code code, const Where& place, std::string message, Says says = {});
+
+// Lives while a definition (a let, a size, what an input stands for, a list of alternatives) is evaluated for another.
+// `state` is that of the definition. It is not good when the definition is being evaluated already (W050: BEFORE LABEL AFTER:
+// "a -> b -> a"), or when too many wait for each other, which would end the stack (W201). Then the state is `failed`.
+class Evaluation {
  public:
   static constexpr std::uint32_t kMost = 32;
-  Descent(Model& model, const Place& place, std::string_view label, bool quiet = false);
-  ~Descent() { --depth_; }
-  Descent(const Descent&) = delete;
-  Descent& operator=(const Descent&) = delete;
-  bool good() const { return depth_ <= kMost; }
+  Evaluation(Model& model, Progress& state, std::string label, const Place& place, std::string_view before,
+             std::string_view after, std::size_t most = kMost);
+  ~Evaluation();
+  Evaluation(const Evaluation&) = delete;
+  Evaluation& operator=(const Evaluation&) = delete;
+  bool good() const { return good_; }
 
  private:
-  std::uint32_t& depth_;
+  Model& model_;
+  bool good_ = true;
 };
 
 // Who names something, for the message when it is not there: "pass 'blur' reads the unknown resource 'hdr'".
@@ -272,17 +259,7 @@ struct NamedBy {
   std::string_view user;       // "pass 'blur'"
   const char* verb = "names";  // "reads"
   std::string_view pass = {};  // "blur"
-  std::string_view slot = {};
-  bool orPass = false;  // the name may be one of a pass
+  bool orPass = false;         // the name may be one of a pass
 };
-
-// "a -> b -> a" from the stack of what is being evaluated, closed by `again`.
-std::string cyclePath(const Model& model, const std::string& again);
-
-// W050 with the message and what to do about it.
-base::Diagnostic& reportCycle(Model& model, const Place& place, std::string message);
-
-// A number to people: shortest text.
-std::string numberText(double x);
 
 }  // namespace weft::graph::expansion

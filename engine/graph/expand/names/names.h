@@ -1,5 +1,5 @@
-// The EvalScope of expansion: answers for names while expressions of one scope are evaluated, and evaluation with an
-// expected type. Does not find names (scope.h).
+// The EvalScope of expansion: answers for names, which scope.h finds, while expressions of one scope are evaluated; and
+// evaluation with an expected type.
 #pragma once
 
 #include <cstdint>
@@ -42,6 +42,9 @@ class Names final : public EvalScope {
 
  private:
   const Expr* foldedLive(Let& let);
+  std::optional<Value> factOfShape(Fact fact, std::uint32_t target, std::uint32_t mip, const Place& place);
+  // What a fact asks of: an entity, or kNone.
+  std::uint32_t find(std::string_view resource);
 
   Model& model_;
   Scope& scope_;

@@ -1,5 +1,5 @@
 // What a person asked of a graph beside its files: the screen, values of parameters, disabled passes. Plain data; what a
-// name means is found when the graph is expanded (apply_settings.h).
+// name means is found when the graph is expanded (apply_settings.h). Also whether a parameter takes a value.
 #pragma once
 
 #include <cstdint>
@@ -48,5 +48,15 @@ struct Settings {
 // exposure" and "switching off fxaa here" of a panel.
 std::string sourceOf(const Setting& setting);
 std::string sourceOf(const Disable& disable);
+
+// 2 to 4 of a list, else 0.
+int componentsOf(ParameterDesc::Type type);
+// Whether a value fits the type and the choices of a parameter; whether one that fits the type is in the range, of a list
+// every component. They allocate nothing, so that a value can be set between two frames.
+bool fitsType(const ParameterDesc& desc, const Value& value);
+bool fitsRange(const ParameterDesc& desc, const Value& value);
+inline bool takesValue(const ParameterDesc& desc, const Value& value) {
+  return fitsType(desc, value) && fitsRange(desc, value);
+}
 
 }  // namespace weft::graph

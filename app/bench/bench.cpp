@@ -1,0 +1,283 @@
+#include "app/bench/bench.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <limits>
+
+#include "app/live/live_graph.h"
+#include "app/output/standard_streams.h"
+#include "app/session/device_session.h"
+#include "app/session/session.h"
+#include "engine/graph/read/read.h"
+
+namespace weft::app {
+
+namespace {
+
+using graph::ParameterDesc;
+using graph::Value;
+using Json = nlohmann::ordered_json;
+
+constexpr int kRounds = 9;
+
+// Milliseconds: the wall's, of all threads of the process, of this thread.
+struct Cost {
+  double wall = std::numeric_limits<double>::infinity(), process = wall, thread = wall;
+};
+
+double clockNow(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
+Cost costNow() {
+  return {clockNow(CLOCK_MONOTONIC), clockNow(CLOCK_PROCESS_CPUTIME_ID), clockNow(CLOCK_THREAD_CPUTIME_ID)};
+}
+
+// What `work` takes, with what it asks the GPU for; `work` alone for the thread.
+template <class Work>
+Cost measure(const Work& work) {
+  glFinish();
+  const Cost before = costNow();
+  work();
+  const double thread = clockNow(CLOCK_THREAD_CPUTIME_ID);
+  glFinish();
+  const Cost after = costNow();
+  return {after.wall - before.wall, after.process - before.process, thread - before.thread};
+}
+
+void keepLeast(Cost& least, const Cost& cost) {
+  least.wall = std::min(least.wall, cost.wall);
+  least.process = std::min(least.process, cost.process);
+}
+
+double median(std::vector<double> all) {
+  if (all.empty()) return 0;
+  std::ranges::sort(all);
+  return all[all.size() / 2];
+}
+
+double rounded(double x, double steps) {
+  return std::round(x * steps) / steps;
+}
+
+Json headOf(const Options& options, const DeviceSession& session) {
+  return {{"graph", options.graph},
+          {"device", session.context->device().renderer},
+          {"size", {options.width, options.height}}};
+}
+
+// ---- edits ----
+
+// A value beside `value` that the parameter takes too; none for a word or a path.
+std::optional<Value> neighborOf(const ParameterDesc& desc, Value value) {
+  using Type = ParameterDesc::Type;
+  if (desc.type == Type::boolean) return Value::boolean(!value.truth());
+  if (desc.type == Type::choice || desc.type == Type::file) return std::nullopt;
+  double step = desc.type == Type::integer ? 1 : 0.01;
+  if (desc.type != Type::integer && desc.min && desc.max) step = (*desc.max - *desc.min) / 128;
+  for (std::size_t i = 0; i < value.count; ++i)
+    value.v[i] += desc.max && value.v[i] + step > *desc.max ? -step : step;
+  return value;
+}
+
+// The median in microseconds of what the edits take, one after another; all of them together change nothing. What takes
+// less than 200 us is repeated within one timing.
+double timeOf(const std::vector<std::function<void()>>& edits) {
+  std::vector<double> times;
+  double once = 0;
+  for (const auto& edit : edits) edit();  // compiles what is not compiled yet
+  for (const auto& edit : edits) once += measure(edit).thread;
+  const int repeats = once < 0.2 * static_cast<double>(edits.size()) ? 32 : 1;
+  for (int round = 0; round < kRounds; ++round) {
+    if (repeats == 1) {
+      for (const auto& edit : edits) times.push_back(measure(edit).thread * 1e3);
+      continue;
+    }
+    const Cost all = measure([&] {
+      for (int i = 0; i < repeats; ++i)
+        for (const auto& edit : edits) edit();
+    });
+    times.push_back(all.thread * 1e3 / (repeats * static_cast<double>(edits.size())));
+  }
+  return median(times);
+}
+
+// What an edit costs until the next frame may start, as the viewer makes it
+// (app/live/live_graph.h): a live parameter, a structural one, a saved file.
+// CPU time of the calling thread, with every program cached, without drawing:
+// only before the first edit are there frames. A live change: one value more; a
+// toggle: a structural boolean, on and off; a save: all files of the graph are
+// read again. "worst" is the largest of the medians. Empty after errors.
+std::optional<Json> benchEdits(const Options& options, base::Diagnostics& diagnostics) {
+  auto world = loadWorld(options, diagnostics);
+  if (!world || diagnostics.hasErrors()) return std::nullopt;
+  auto session = openDevice(options, diagnostics);
+  if (!session) return std::nullopt;
+  runtime::Renderer& renderer = session->renderer;
+  LiveGraph live(options, renderer, std::move(*world),
+                 settingsOf(options, session->context->device().software));
+  if (!live.load(diagnostics)) return std::nullopt;
+  for (std::uint32_t frame = 0; frame < 2; ++frame)
+    renderer.frame(live.world(), runtime::headlessFrame(live.world(), frame, 60), diagnostics);
+  const std::vector<graph::ParameterSpec> parameters = renderer.execution()->plan().graph->parameters;
+  std::vector<double> lives{0}, toggles{0};
+  std::uint64_t livePlans = 0;
+  std::string worst;
+  for (const graph::ParameterSpec& parameter : parameters) {
+    const auto other = neighborOf(parameter.desc, parameter.value);
+    if (!other || (parameter.structural && parameter.desc.type != ParameterDesc::Type::boolean)) continue;
+    const auto set = [&](const Value& value) { live.setParameter(parameter.path, value, diagnostics); };
+    const std::uint64_t before = renderer.plansBuilt();
+    const double us = timeOf({[&] { set(*other); }, [&] { set(parameter.value); }});
+    if (diagnostics.hasErrors()) return std::nullopt;
+    if (!parameter.structural) livePlans += renderer.plansBuilt() - before;
+    if (parameter.structural && us > std::ranges::max(toggles)) worst = parameter.path;
+    (parameter.structural ? toggles : lives).push_back(us);
+  }
+  const double save = timeOf({[&] { live.load(diagnostics); }});
+  if (diagnostics.hasErrors()) return std::nullopt;
+  const auto add = [&](Json& out, const std::string& name, std::vector<double>& all) {
+    all.erase(all.begin());
+    out[name + "_us"] = rounded(median(all), 100);
+    out[name + "_worst_us"] = rounded(all.empty() ? 0 : std::ranges::max(all), 100);
+  };
+  Json out = headOf(options, *session);
+  out["live_parameters"] = lives.size() - 1;
+  add(out, "live", lives);
+  out["live_plans_built"] = livePlans;
+  out["toggles"] = toggles.size() - 1;
+  add(out, "toggle", toggles);
+  out["toggle_worst"] = worst;
+  out["save_us"] = rounded(save, 100);
+  return out;
+}
+
+// ---- frames ----
+
+// The named effects, as far as the graph has parameters that end in these names.
+graph::Settings settingsWith(const Options& options, const graph::GraphDesc& desc, bool software,
+                             std::string_view variant) {
+  graph::Settings settings = settingsOf(options, software);
+  if (variant == "default") return settings;
+  std::vector<std::string> names;
+  const auto collect = [&](const auto& self, const graph::GraphDesc& each) -> void {
+    for (const graph::ParameterDesc& parameter : each.parameters) names.push_back(parameter.name);
+    for (const graph::PassDesc& pass : each.passes)
+      if (pass.include && pass.include->graph) self(self, *pass.include->graph);
+  };
+  collect(collect, desc);
+  for (const std::string_view effect : {"bloom", "dof", "auto_exposure", "motion_blur", "fxaa"})
+    if (std::ranges::find(names, effect) != names.end())
+      settings.sets.emplace_back(std::string(effect),
+                                 variant == "all" || effect == "fxaa" ? "true" : "false");
+  return settings;
+}
+
+// Costs of a graph's frame in full-screen copies (graphs/bench_copy.json), both measured alternately in one run, so that
+// the ratio means something on a busy machine too. Milliseconds between glFinish, the least of all rounds; on software
+// rasterizers "cpu_copies" is the same ratio in CPU time of the process. Variants: "plain" (every effect of the post chain
+// off but fxaa), "default", and "all" (bloom, dof, auto_exposure, motion_blur and fxaa on). Empty after errors.
+std::optional<Json> benchFrame(const Options& options, base::Diagnostics& diagnostics) {
+  auto world = loadWorld(options, diagnostics);
+  if (!world || diagnostics.hasErrors()) return std::nullopt;
+  auto session = openDevice(options, diagnostics);
+  const auto desc = session ? graph::readGraph(options.graph, diagnostics) : nullptr;
+  if (!desc || diagnostics.hasErrors()) return std::nullopt;
+  const bool software = session->context->device().software;
+  const auto frameOf = [&](runtime::Renderer& renderer, std::uint32_t frame) {
+    renderer.frame(*world, runtime::headlessFrame(*world, frame, 60), diagnostics);
+  };
+  const runtime::Renderer::Options uncached{.dataFolder = dataFolder(), .cacheFolder = ""};
+  runtime::Renderer copy(*session->context, dataFolder() + "/graphs/bench_copy.json", uncached);
+  if (!copy.load({.screenWidth = options.width, .screenHeight = options.height, .software = software}, *world,
+                 diagnostics))
+    return std::nullopt;
+  for (std::uint32_t frame = 0; frame < 2; ++frame) frameOf(copy, frame);
+  Json out = headOf(options, *session), variants = Json::array();
+  Cost unit;
+  std::vector<Cost> costs;
+  for (const char* variant : {"plain", "default", "all"}) {
+    runtime::Renderer renderer(*session->context, options.graph, uncached);
+    if (!renderer.load(settingsWith(options, *desc, software, variant), *world, diagnostics))
+      return std::nullopt;
+    std::uint32_t frame = 0;
+    const auto next = [&] { frameOf(renderer, frame++); };
+    const Cost first = measure(next);
+    next();
+    Cost& least = costs.emplace_back();
+    for (int round = 0; round < kRounds; ++round) {
+      keepLeast(unit, measure([&] { frameOf(copy, 2); }));
+      keepLeast(least, measure(next));
+    }
+    gl::PassTimers& timers = renderer.device().timers;
+    timers.setEnabled(true);
+    const graph::Plan& plan = renderer.execution()->plan();
+    std::vector<double> times(plan.steps.size(), std::numeric_limits<double>::infinity());
+    for (int round = 0; round < 3; ++round) {
+      next();
+      timers.finish();
+      for (std::size_t step = 0; step < timers.results().size() && step < times.size(); ++step)
+        if (timers.results()[step].ran) times[step] = std::min(times[step], timers.results()[step].gpu);
+    }
+    if (diagnostics.hasErrors()) return std::nullopt;
+    Json row = {{"name", variant},
+                {"first_frame_ms", rounded(first.wall, 1000)},
+                {"frame_ms", rounded(least.wall, 1000)},
+                {"passes", Json::array()}};
+    for (std::size_t step = 0; step < times.size(); ++step)
+      if (std::isfinite(times[step]))
+        row["passes"].push_back(
+            {{"pass", plan.graph->passNames[plan.steps[step].pass]}, {"ms", rounded(times[step], 1000)}});
+    variants.push_back(std::move(row));
+  }
+  out["copy_ms"] = rounded(unit.wall, 1000);
+  if (software) out["copy_cpu_ms"] = rounded(unit.process, 1000);
+  for (std::size_t i = 0; i < costs.size(); ++i) {
+    variants[i]["copies"] = rounded(costs[i].wall / unit.wall, 1000);
+    if (software) variants[i]["cpu_copies"] = rounded(costs[i].process / unit.process, 1000);
+    for (Json& pass : variants[i]["passes"])
+      pass["copies"] = rounded(pass["ms"].get<double>() / unit.wall, 1000);
+  }
+  out["variants"] = std::move(variants);
+  return out;
+}
+
+struct BenchOptions : Options {
+  std::string frameGraph, editGraph;
+};
+
+int runBench(BenchOptions& options) {
+  base::Diagnostics diagnostics;
+  const bool both = options.frameGraph.empty() && options.editGraph.empty();
+  Options frame = options, edit = options;
+  frame.graph = both ? dataFolder() + "/graphs/studio.json" : options.frameGraph;
+  edit.graph = both ? frame.graph : options.editGraph;
+  const auto edits = edit.graph.empty() ? std::nullopt : benchEdits(edit, diagnostics);
+  const auto frames =
+      frame.graph.empty() || diagnostics.hasErrors() ? std::nullopt : benchFrame(frame, diagnostics);
+  if (!diagnostics.hasErrors())
+    print(dumpJson(both ? Json{{"edit", *edits}, {"frame", *frames}} : edits ? *edits : *frames) + "\n");
+  return report(diagnostics);
+}
+
+}  // namespace
+
+void addBench(CommandLine& line) {
+  const auto [command, options] = line.add("bench", "measure; prints JSON", runBench);
+  addPath(command, "--frame", options.frameGraph,
+          "a graph file: the cost of its frame in full-screen copies");
+  addPath(command, "--edit", options.editGraph,
+          "a graph file: what a changed parameter and a saved file cost before the next frame")
+      ->excludes("--frame");
+  addPath(command, "--environment", options.environment, "environment map, .hdr or .exr");
+  addPath(command, "--scene", options.scene, "scene file");
+  command.add_option("--camera", options.camera, "camera of the scene");
+  addPath(command, "--materials", options.materials, "material library");
+  options.addSize(command);
+  options.addBackend(command);
+}
+
+}  // namespace weft::app
