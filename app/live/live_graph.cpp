@@ -74,27 +74,33 @@ bool LiveGraph::tryLoad(Attempt attempt, base::Diagnostics& diagnostics) {
 }
 
 bool LiveGraph::tryGraph(Attempt attempt, const runtime::World& world, base::Diagnostics& diagnostics) {
+  graph::Settings wanted = settings_, lost;
+  wanted.sets.insert(wanted.sets.end(), lost_.sets.begin(), lost_.sets.end());
+  wanted.disables.insert(wanted.disables.end(), lost_.disables.begin(), lost_.disables.end());
   base::Diagnostics said;
-  const bool good = renderer_.load(settings_, world, said);
-  if (good || attempt == Attempt::early || !running() || renderer_.refused().empty()) {
-    diagnostics.append(said);
-    return good;
+  bool good = renderer_.load(wanted, world, said);
+  if (!good && attempt == Attempt::final && running() && !renderer_.refused().empty()) {
+    said = {};
+    for (const graph::Refusal& refusal : std::views::reverse(renderer_.refused())) {
+      base::Diagnostic warning = refusal.why;
+      warning.severity = base::Severity::warning;
+      warning.message += "; left out until the files take it";
+      said.add(std::move(warning));
+      const auto at = static_cast<std::ptrdiff_t>(refusal.index);
+      if (refusal.disable) {
+        lost.disables.push_back(std::move(wanted.disables[refusal.index]));
+        wanted.disables.erase(wanted.disables.begin() + at);
+      } else {
+        lost.sets.push_back(std::move(wanted.sets[refusal.index]));
+        wanted.sets.erase(wanted.sets.begin() + at);
+      }
+    }
+    good = renderer_.load(wanted, world, said);
   }
-  // The settings that the graph, as its files are, does not take.
-  graph::Settings rest = settings_;
-  for (const graph::Refusal& refusal : std::views::reverse(renderer_.refused())) {
-    base::Diagnostic warning = refusal.why;
-    warning.severity = base::Severity::warning;
-    warning.message += "; it is left out";
-    diagnostics.add(std::move(warning));
-    const auto at = static_cast<std::ptrdiff_t>(refusal.index);
-    if (refusal.disable)
-      rest.disables.erase(rest.disables.begin() + at);
-    else
-      rest.sets.erase(rest.sets.begin() + at);
-  }
-  if (!renderer_.load(rest, world, diagnostics)) return false;
-  settings_ = std::move(rest);
+  diagnostics.append(said);
+  if (!good) return false;
+  settings_ = std::move(wanted);
+  lost_ = std::move(lost);
   return true;
 }
 

@@ -90,6 +90,7 @@ class LiveGraph {
   runtime::Renderer& renderer_;
   runtime::World world_;
   graph::Settings settings_;
+  graph::Settings lost_;  // that the files, as they are, do not take: tried again at each load
   LiveScene scene_;
   LiveEnvironment environment_;
   base::FileWatcher watcher_;

@@ -157,8 +157,7 @@ def numbers(test):
     test.works("render", GLOW, *SMALL, "--fps", "23.976", "-o", "fps.png")
     for bad in ("nan", "inf", "-inf", "1e999", "-1e999"):
         done = test.refused("W047", "render", STUDIO, *SMALL, "--set", f"exposure={bad}", "-o", "a.png", says=f"command line: --set exposure={bad}")
-        why = "is not a finite number" if "e" not in bad else "is beyond what a number can hold"
-        test.report.check(why in done.err and "did you mean" not in done.err, f"--set exposure={bad}: {done.err}")
+        test.report.check("expected: a number from -10 to 10" in done.err and "did you mean" not in done.err, f"--set exposure={bad}: {done.err}")
     test.refused("W047", "render", STUDIO, *SMALL, "--set", "lift=[0, nan, 0]", "-o", "a.png")
 
 

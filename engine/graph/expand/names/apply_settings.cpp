@@ -69,7 +69,7 @@ bool checkParameterValue(Model& model, const Parameter& parameter, const Value& 
       if (text == word) meant = text == "1" || text == "yes" || text == "on" ? "true" : "false";
   return report(model, fits ? Code::numberOutOfRange : Code::badParameterValue, by.place,
                 fmt::format("{}parameter '{}': '{}' is {}", by.before, parameter.path, text,
-                            fits ? "out of its range" : "no value of it"),
+                            fits ? "out of its range" : "not a value for it"),
                 {.expected = std::move(expected),
                  .hint = meant.empty() ? "" : fmt::format("did you mean '{}'?", meant)});
 }
