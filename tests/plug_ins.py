@@ -23,7 +23,6 @@ OTHER_MEANINGS = {
     ("engine/scene/files/scene_file.cpp", "ground"): "a key of scene files",
     ("engine/imports/mesh_draws.cpp", "joints"): "an attribute of vertices",
     ("engine/passes/draw/geometry.cpp", "position"): "an attribute of vertices",
-    ("engine/graph/expand/checks.cpp", "image"): "a kind of use",
     ("engine/graph/read/overlay_apply.cpp", "name"): "a key of passes",
     ("engine/graph/read/overlay.cpp", "name"): "a key of graphs",
     ("engine/graph/read/misspelt.cpp", "name"): "a key of passes",
