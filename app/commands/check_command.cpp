@@ -309,12 +309,11 @@ int tell(const CheckOptions& options, Checked& checked) {
 
 // Returns when some of the files changed and then nothing did for a moment: a save may be several writes.
 std::vector<std::string> waitForChange(base::FileWatcher& watcher) {
-  constexpr int kQuiet = 50, kLook = 500;  // milliseconds
+  constexpr int kQuiet = 50;  // milliseconds
   std::vector<std::string> changed;
   while (true) {
     pollfd waiting{watcher.descriptor(), POLLIN, 0};
-    poll(&waiting, watcher.works() ? 1 : 0, changed.empty() ? kLook : kQuiet);
-    watcher.poller().look();
+    poll(&waiting, 1, changed.empty() ? -1 : kQuiet);
     const std::vector<std::string> more = watcher.poll();
     if (more.empty() && !changed.empty()) return changed;
     changed.insert(changed.end(), more.begin(), more.end());
@@ -326,7 +325,10 @@ int runCheck(CheckOptions& options) {
   if (options.watch) watcher.watch({options.graph});  // what it includes is known after the first check
   while (true) {
     Checked checked = checkOnce(options);
-    if (options.watch) watcher.watch(checked.files);
+    if (options.watch) {
+      watcher.watch(checked.files);
+      checked.diagnostics.append(watcher.takeNotices());
+    }
     const int code = tell(options, checked);
     if (!options.watch) return code;
     const bool text = options.format == "text";

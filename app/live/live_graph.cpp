@@ -22,8 +22,6 @@ namespace {
 constexpr double kQuietSeconds = 0.03;
 // The wait for a file that went away: some programs write it anew only a while later.
 constexpr double kGoneSeconds = 0.3;
-// Between looks at files of which the system tells nothing, as on a network mount.
-constexpr double kLookSeconds = 0.5;
 
 void forget(graph::Settings& settings, const std::string& name) {
   std::erase_if(settings.sets, [&](const graph::Setting& set) { return set.name == name; });
@@ -133,10 +131,6 @@ void LiveGraph::watch(base::Diagnostics* diagnostics) {
 }
 
 bool LiveGraph::wantsLoad(double now) {
-  if (now - lookedAt_ > kLookSeconds) {
-    watcher_.poller().look();
-    lookedAt_ = now;
-  }
   const std::vector<std::string> changed = watcher_.poll();
   if (!changed.empty()) {
     const auto gone = [](const std::string& file) {

@@ -96,9 +96,9 @@ class LiveGraph {
   base::FileWatcher watcher_;
   bool expectsScene_ = false;  // the world's stands in for it
   bool graphStale_ = false, good_ = false, environmentGood_ = true;
-  bool untried_ = false;                             // as the files are since the last change
-  std::string changedEnvironment_;                   // to be loaded again, or empty
-  double changedAt_ = 0, quiet_ = 0, lookedAt_ = 0;  // seconds
+  bool untried_ = false;              // as the files are since the last change
+  std::string changedEnvironment_;    // to be loaded again, or empty
+  double changedAt_ = 0, quiet_ = 0;  // seconds
   std::uint64_t switches_ = 0, livesSet_ = 0, changes_ = 0;
 };
 

@@ -19,29 +19,33 @@ constexpr int kParseError = -32700, kInvalidRequest = -32600, kUnknownMethod = -
               kInvalidParameters = -32602, kInternalError = -32603, kNotInitialized = -32002,
               kRequestFailed = -32803;
 
-// Thrown for wrong parameters of a message; caught where the message is answered.
-struct WrongParameters {
+// Thrown where a message cannot be answered; caught where it is.
+struct Failure {
+  int code;
   std::string what;
 };
+
+[[noreturn]] void failBy(std::string what) {
+  throw Failure{kInvalidParameters, std::move(what)};
+}
 
 const Json& member(const Json& object, const char* key) {
   const auto found = object.is_object() ? object.find(key) : object.end();
   if (!object.is_object() || found == object.end())
-    throw WrongParameters{fmt::format("expected \"{}\", found nothing", key)};
+    failBy(fmt::format("expected \"{}\", found nothing", key));
   return *found;
 }
 
 const std::string& textOf(const Json& object, const char* key) {
   const Json& value = member(object, key);
-  if (!value.is_string())
-    throw WrongParameters{fmt::format("\"{}\": expected a string, found {}", key, value.type_name())};
+  if (!value.is_string()) failBy(fmt::format("\"{}\": expected a string, found {}", key, value.type_name()));
   return value.get_ref<const std::string&>();
 }
 
 std::uint32_t numberOf(const Json& object, const char* key) {
   const Json& value = member(object, key);
   if (!value.is_number_unsigned() || value.get<std::uint64_t>() > 0x7fffffff)
-    throw WrongParameters{fmt::format("\"{}\": expected a whole number from 0 to 2147483647", key)};
+    failBy(fmt::format("\"{}\": expected a whole number from 0 to 2147483647", key));
   return value.get<std::uint32_t>();
 }
 
@@ -53,30 +57,11 @@ std::string pathOf(const Json& parameters) {
   const std::string& uri = textOf(member(parameters, "textDocument"), "uri");
   const std::string path = pathOfUri(uri);
   if (path.empty())
-    throw WrongParameters{
-        fmt::format("expected a file: URI, found '{}'", base::printable(base::shortened(uri)))};
+    failBy(fmt::format("expected a file: URI, found '{}'", base::printable(base::shortened(uri))));
   return path;
 }
 
-// How deep brackets may be nested in a message; the code that reads and copies JSON recurses.
-constexpr int kMostDepth = 500;
-
-bool isTooDeep(std::string_view text) {
-  int depth = 0;
-  bool inString = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (inString && c == '\\')
-      ++i;
-    else if (c == '"')
-      inString = !inString;
-    else if (!inString && (c == '[' || c == '{') && ++depth > kMostDepth)
-      return true;
-    else if (!inString && (c == ']' || c == '}'))
-      --depth;
-  }
-  return false;
-}
+constexpr int kMostDepth = 500;  // of brackets in a message; the code that reads and copies JSON recurses
 
 }  // namespace
 
@@ -89,10 +74,13 @@ void Server::refuse(const std::string& problem) {
 }
 
 void Server::take(std::string_view text) {
-  if (isTooDeep(text))
-    return refuse(fmt::format("the message is nested too deeply: more than {} brackets around one another",
-                              kMostDepth));
-  const Json message = Json::parse(text, nullptr, false);
+  bool deep = false;
+  const auto look = [&](int depth, Json::parse_event_t, Json&) {
+    deep = deep || depth > kMostDepth;
+    return !deep;
+  };
+  const Json message = Json::parse(text, look, false);
+  if (deep) return refuse(fmt::format("a message with more than {} brackets around one another", kMostDepth));
   if (message.is_discarded()) return refuse("the message is no JSON");
   if (!message.is_object()) return fail(nullptr, kInvalidRequest, "a message is an object");
   const auto id = message.find("id");
@@ -113,10 +101,8 @@ void Server::take(std::string_view text) {
       request(*id, name, parameters);
     else
       notify(name, parameters);
-  } catch (const WrongParameters& wrong) {
-    if (asks)
-      fail(*id, kInvalidParameters,
-           fmt::format("{}: {}", base::printable(base::shortened(name)), wrong.what));
+  } catch (const Failure& failure) {
+    if (asks) fail(*id, failure.code, failure.what);
   } catch (const std::exception& thrown) {  // a library threw: that ends an answer, not the server
     if (asks) fail(*id, kInternalError, thrown.what());
   }
@@ -126,12 +112,7 @@ void Server::request(const Json& id, const std::string& method, const Json& para
   if (shutDown_) return fail(id, kInvalidRequest, "the server was shut down");
   if (!initialized_ && method != "initialize") return fail(id, kNotInitialized, "\"initialize\" comes first");
   if (method == "initialize" && initialized_) return fail(id, kInvalidRequest, "\"initialize\" comes once");
-  if (method == "textDocument/rename") return rename(id, parameters);
-  Json result = answer(method, parameters);
-  if (result.is_discarded())
-    return fail(id, kUnknownMethod,
-                fmt::format("there is no method '{}'", base::printable(base::shortened(method))));
-  send_({{"jsonrpc", "2.0"}, {"id", id}, {"result", std::move(result)}});
+  send_({{"jsonrpc", "2.0"}, {"id", id}, {"result", answer(method, parameters)}});
 }
 
 Json Server::answer(const std::string& method, const Json& parameters) {
@@ -140,20 +121,24 @@ Json Server::answer(const std::string& method, const Json& parameters) {
     shutDown_ = true;
     return nullptr;
   }
-  const bool here = method == "textDocument/completion" || method == "textDocument/hover" ||
-                    method == "textDocument/definition" || method == "textDocument/references" ||
-                    method == "textDocument/prepareRename";
-  if (!here && method != "textDocument/documentSymbol") return Json(Json::value_t::discarded);
+  constexpr std::string_view kMethods[] = {"completion",    "hover",  "definition",    "references",
+                                           "prepareRename", "rename", "documentSymbol"};
+  constexpr std::string_view kDocument = "textDocument/";
+  const std::string_view what = std::string_view(method).substr(std::min(kDocument.size(), method.size()));
+  if (!method.starts_with(kDocument) || std::ranges::find(kMethods, what) == std::end(kMethods))
+    throw Failure{kUnknownMethod,
+                  fmt::format("there is no method '{}'", base::printable(base::shortened(method)))};
+  const bool here = what != "documentSymbol";
   settle();  // answers are about the text as it is
-  project_.forget();
   const std::shared_ptr<const Text> text = texts_.of(pathOf(parameters));
   const Position position = here ? positionOf(member(parameters, "position")) : Position{};
+  if (!text && what == "rename") throw Failure{kRequestFailed, "there is no such file"};
   if (!text) return nullptr;
-  const Context context{texts_, project_, analysis_};
-  if (!here) return symbolsOf(context, *text);
+  if (!here) return symbolsOf(*text);
+  workspace_.readAll();
   const std::size_t offset = text->map().offsetOf(position);
-  if (method == "textDocument/completion") return completionAt(context, *text, offset);
-  if (method == "textDocument/hover") return hoverAt(context, *text, offset);
+  if (what == "completion") return completionAt(workspace_, *text, offset);
+  if (what == "hover") return hoverAt(workspace_, *text, offset);
   const auto locations = [&](const auto& all) {
     Json list = Json::array();
     for (const Location& each : all)
@@ -161,9 +146,14 @@ Json Server::answer(const std::string& method, const Json& parameters) {
         list.push_back({{"uri", uriOfPath(each.path)}, {"range", lsp::toJson(file->map(), each.range)}});
     return list;
   };
-  if (method == "textDocument/definition") return locations(definitionsAt(context, *text, offset));
-  const Uses uses = usesAt(context, *text, offset);
-  if (method == "textDocument/references") return locations(uses.locations);
+  if (what == "definition") return locations(definitionsAt(workspace_, *text, offset));
+  if (what == "rename") {
+    Renamed renamed = renameAt(workspace_, *text, offset, textOf(parameters, "newName"));
+    if (!renamed.problem.empty()) throw Failure{kRequestFailed, renamed.problem};
+    return std::move(renamed.edit);
+  }
+  const Uses uses = usesAt(workspace_, *text, offset);
+  if (what == "references") return locations(uses.locations);
   if (!uses.found) return nullptr;
   return {{"range", lsp::toJson(text->map(), uses.here)}, {"placeholder", uses.name}};
 }
@@ -185,7 +175,7 @@ Json Server::initialize(const Json& parameters) {
              parameters.is_object() && root != parameters.end()) {
     add(*root);
   }
-  project_.setFolders(std::move(folders));
+  workspace_.setFolders(std::move(folders));
   initialized_ = true;
   Json signs = Json::array({"\"", "$", "@", ".", "(", "/"});
   return {{"capabilities",
@@ -198,18 +188,6 @@ Json Server::initialize(const Json& parameters) {
             {"renameProvider", {{"prepareProvider", true}}},
             {"documentSymbolProvider", true}}},
           {"serverInfo", {{"name", "weft"}, {"version", kVersion}}}};
-}
-
-void Server::rename(const Json& id, const Json& parameters) {
-  settle();
-  project_.forget();
-  const std::shared_ptr<const Text> text = texts_.of(pathOf(parameters));
-  const Position position = positionOf(member(parameters, "position"));
-  const std::string& name = textOf(parameters, "newName");
-  if (!text) return fail(id, kRequestFailed, "there is no such file");
-  Renamed renamed = renameAt({texts_, project_, analysis_}, *text, text->map().offsetOf(position), name);
-  if (!renamed.problem.empty()) return fail(id, kRequestFailed, renamed.problem);
-  send_({{"jsonrpc", "2.0"}, {"id", id}, {"result", std::move(renamed.edit)}});
 }
 
 void Server::notify(const std::string& method, const Json& parameters) {
@@ -234,7 +212,7 @@ void Server::notify(const std::string& method, const Json& parameters) {
     changed_.insert(path);
   } else if (method == "workspace/didChangeWatchedFiles") {
     const Json& changes = member(parameters, "changes");
-    if (!changes.is_array()) throw WrongParameters{"\"changes\": expected an array"};
+    if (!changes.is_array()) failBy("\"changes\": expected an array");
     for (const Json& each : changes)
       if (const std::string path = pathOfUri(textOf(each, "uri")); !path.empty()) changed_.insert(path);
   }
@@ -246,7 +224,7 @@ void Server::change(const Json& parameters) {
   if (document.contains("version") && document["version"].is_number_integer())
     texts_.setVersion(path, document["version"].get<std::int64_t>());
   const Json& changes = member(parameters, "contentChanges");
-  if (!changes.is_array()) throw WrongParameters{"\"contentChanges\": expected an array"};
+  if (!changes.is_array()) failBy("\"contentChanges\": expected an array");
   for (const Json& each : changes) {
     if (each.is_object() && each.contains("range"))
       texts_.change(path, positionOf(member(each["range"], "start")),
@@ -259,18 +237,17 @@ void Server::change(const Json& parameters) {
 
 void Server::settle() {
   if (changed_.empty()) return;
-  project_.forget();
-  const std::set<std::string> touched = analysis_.refresh(std::exchange(changed_, {}));
+  const std::set<std::string> touched = workspace_.refresh(std::exchange(changed_, {}));
   for (const std::string& path : touched) publish(path);
 }
 
 void Server::publish(const std::string& path) {
-  const std::vector<base::Diagnostic> said = analysis_.diagnosticsOf(path);
+  const std::vector<base::Diagnostic> said = workspace_.diagnosticsOf(path);
   const bool shown = published_.contains(path);
   if (said.empty() && !shown && !texts_.isOpen(path)) return;
   const std::shared_ptr<const Text> text = texts_.of(path);
   Json list = Json::array();
-  const Text nothing(path, std::make_shared<const std::string>());
+  const Text nothing(path, "");
   for (const base::Diagnostic& each : said) list.push_back(toJson(each, text ? *text : nothing));
   if (said.empty())
     published_.erase(path);
@@ -278,7 +255,7 @@ void Server::publish(const std::string& path) {
     published_.insert(path);
   Json parameters{{"uri", uriOfPath(path)}};
   if (const auto opened = texts_.opened().find(path); opened != texts_.opened().end())
-    parameters["version"] = opened->second.version;
+    parameters["version"] = opened->second;
   parameters["diagnostics"] = std::move(list);
   send_(
       {{"jsonrpc", "2.0"}, {"method", "textDocument/publishDiagnostics"}, {"params", std::move(parameters)}});
@@ -299,15 +276,10 @@ Json Server::toJson(const base::Diagnostic& d, const Text& text) const {
     if (range.end == range.begin && range.end < all.size() && all[range.end] != '\n') ++range.end;
   }
   std::string message = d.message;
-  const auto add = [&](const char* label, const std::string& what) {
-    if (!what.empty()) message += fmt::format("\n{}: {}", label, base::shortened(what));
-  };
-  add("expected", d.expected);
-  add("found", d.found);
-  add("fix", d.hint);
-  const int severity = d.severity == base::Severity::error     ? 1
-                       : d.severity == base::Severity::warning ? 2
-                                                               : 3;
+  using Line = std::pair<const char*, const std::string&>;
+  for (const auto& [label, said] : {Line{"expected", d.expected}, {"found", d.found}, {"fix", d.hint}})
+    if (!said.empty()) message += fmt::format("\n{}: {}", label, base::shortened(said));
+  const int severity = 3 - static_cast<int>(d.severity);
   return {{"range", lsp::toJson(text.map(), range)},
           {"severity", severity},
           {"code", base::nameOf(d.code)},

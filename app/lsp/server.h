@@ -1,6 +1,6 @@
 // The language server: takes messages of the Language Server Protocol 3.17, and sends messages. It has one thread. Changes
 // that have already arrived are taken together before graphs are checked again. Every request is answered by a result or an
-// error. Does not: read or frame the stream (text/framing.h).
+// error.
 #pragma once
 
 #include <functional>
@@ -8,20 +8,18 @@
 #include <set>
 #include <string>
 
-#include "app/lsp/files/analysis.h"
-#include "app/lsp/files/project.h"
+#include "app/lsp/files/workspace.h"
 
 namespace weft::app::lsp {
 
 class Server {
  public:
   using Send = std::function<void(const Json&)>;
-  Server(const Options& options, Send send)
-      : send_(std::move(send)), project_(texts_), analysis_(options, texts_, project_) {}
+  Server(const Options& options, Send send) : send_(std::move(send)), workspace_(options, texts_) {}
 
   // Handles one message, given as its JSON text.
   void take(std::string_view text);
-  // Answers what was no message, with the error of framing.
+  // Answers what was no message.
   void refuse(const std::string& problem);
   // To be called when no more messages wait: checks what has changed, and publishes diagnostics.
   void settle();
@@ -35,14 +33,12 @@ class Server {
   Json answer(const std::string& method, const Json& parameters);
   Json initialize(const Json& parameters);
   void change(const Json& parameters);
-  void rename(const Json& id, const Json& parameters);
   void publish(const std::string& path);
   Json toJson(const base::Diagnostic& diagnostic, const Text& text) const;
 
   Send send_;
   Texts texts_;
-  Project project_;
-  Analysis analysis_;
+  Workspace workspace_;
   std::set<std::string> changed_;    // since the last settle()
   std::set<std::string> published_;  // files of which the editor shows messages
   bool initialized_ = false, shutDown_ = false;

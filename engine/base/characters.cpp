@@ -4,19 +4,6 @@
 
 namespace weft::base {
 
-namespace {
-
-bool isOtherSpace(std::uint32_t c) {
-  return c == 0xA0 || c == 0x1680 || (c >= 0x2000 && c <= 0x200D) || c == 0x202F || c == 0x205F ||
-         c == 0x2060 || c == 0x3000 || c == 0xFEFF;
-}
-
-bool isOtherQuote(std::uint32_t c) {
-  return c == 0xAB || c == 0xBB || c == 0xB4 || (c >= 0x2018 && c <= 0x201F) || c == 0x2032 || c == 0x2033;
-}
-
-}  // namespace
-
 Character firstCharacterOf(std::string_view text) {
   const auto byteAt = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byteAt(0);
@@ -33,14 +20,10 @@ Character firstCharacterOf(std::string_view text) {
   return good ? Character{value, bytes, true} : Character{lead, 1, false};
 }
 
-StrayCharacter describeStray(std::string_view text) {
+std::string describeStray(std::string_view text) {
   const Character c = firstCharacterOf(text);
-  if (!c.good) return {fmt::format("the byte 0x{:02X} is not UTF-8", c.value), "save the file as UTF-8"};
-  if (isOtherSpace(c.value))
-    return {fmt::format("U+{:04X} is no plain space", c.value), "write a plain space in its place"};
-  const std::string shown = fmt::format("'{}' (U+{:04X})", text.substr(0, c.bytes), c.value);
-  if (isOtherQuote(c.value)) return {shown + " is no plain quote", "write a plain quote in its place"};
-  return {shown + " has no meaning here", ""};
+  return c.good ? fmt::format("'{}' (U+{:04X}) has no meaning here", text.substr(0, c.bytes), c.value)
+                : fmt::format("the byte 0x{:02X} is not UTF-8", c.value);
 }
 
 }  // namespace weft::base

@@ -1,5 +1,4 @@
-// Characters of UTF-8, and what is said of one that stands where no language has it: a quote of a word processor, a
-// space of a web page. Does not: normalise, or know what is printed in how many columns.
+// Characters of UTF-8, and what is said of one that no language has where it stands.
 #pragma once
 
 #include <cstddef>
@@ -18,11 +17,7 @@ struct Character {
 // The first character of a text that is not empty (RFC 3629: no overlong forms, no surrogates).
 Character firstCharacterOf(std::string_view text);
 
-// Of the character that a text begins with, and that is not ASCII: "'“' (U+201C) is no plain quote", "U+00A0 is a space that
-// only looks like one". What to do about it is the hint, "" for one that is neither.
-struct StrayCharacter {
-  std::string message, hint;
-};
-StrayCharacter describeStray(std::string_view text);
+// Of the character that a text begins with, and that is not ASCII: "'“' (U+201C) has no meaning here".
+std::string describeStray(std::string_view text);
 
 }  // namespace weft::base

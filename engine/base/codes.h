@@ -145,7 +145,7 @@ namespace weft::base {
   X(W202, texturesTooLarge,          "textures larger than the memory limit")                       \
   X(W203, shaderTooLarge,            "shader larger than the driver survives")                      \
   X(W204, driverDied,                "shader that the driver did not survive")                      \
-  X(W205, filesArePolled,            "files are polled")                                            \
+  X(W205, filesNotWatched,           "files are not watched")                                       \
   X(W206, tooManyWorkGroups,         "work groups beyond the limit of the device")                  \
   X(W207, pictureNotFinite,          "picture of values that are no colours")                       \
   X(W208, messagesLeftOut,           "further messages are left out")                               \

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <limits>
 #include <optional>
 
@@ -21,13 +20,6 @@ constexpr std::uint64_t kPerCandidate = 4;
 
 std::atomic<std::uint64_t> spent{0};
 std::atomic<std::size_t> uncompared{0};
-
-// Which characters a name has, in 64 classes: each edit brings in at most one that was not there.
-std::uint64_t classesOf(std::string_view text) {
-  std::uint64_t classes = 0;
-  for (const char c : text) classes |= std::uint64_t{1} << (static_cast<unsigned char>(lower(c)) & 63);
-  return classes;
-}
 
 // The distance of names in lower case. Only the cells within `limit` of the diagonal can lie on a way that is short
 // enough.
@@ -90,7 +82,6 @@ std::optional<Nearest> findNearest(std::string_view name, std::span<const std::s
   if (name.empty()) return std::nullopt;
   std::size_t limit = std::min(allowed, name.size() - 1);
   const std::string wanted = lowered(name);
-  const std::uint64_t classes = classesOf(wanted);
   std::optional<Nearest> found;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const std::string& candidate = candidates[i];
@@ -100,10 +91,6 @@ std::optional<Nearest> findNearest(std::string_view name, std::span<const std::s
     }
     const std::size_t shorter = std::min(candidate.size(), wanted.size());
     if (candidate.size() + wanted.size() - 2 * shorter > limit) continue;
-    const std::uint64_t others = classesOf(candidate);
-    if (static_cast<std::size_t>(
-            std::max(std::popcount(classes & ~others), std::popcount(others & ~classes))) > limit)
-      continue;
     const std::string other = lowered(candidate);
     const std::size_t distance = bandedDistance(wanted, other, limit);
     if (distance > limit || isFar(wanted, other, distance)) continue;

@@ -1,5 +1,7 @@
 #include "engine/base/report.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <nlohmann/json.hpp>
@@ -19,24 +21,6 @@ const char* wordFor(Severity severity) {
 
 std::string dumped(const Json& json, int indent) {
   return printableJson(json.dump(indent, ' ', false, Json::error_handler_t::replace));
-}
-
-// A path as a relative or absolute reference of a URI.
-std::string uriOf(std::string_view path) {
-  constexpr std::string_view kPlain = "-._~/";
-  constexpr std::string_view kDigits = "0123456789ABCDEF";
-  std::string uri;
-  for (const char c : path) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (std::isalnum(byte) != 0 || kPlain.find(c) != std::string_view::npos) {
-      uri += c;
-    } else {
-      uri += '%';
-      uri += kDigits[byte >> 4];
-      uri += kDigits[byte & 15];
-    }
-  }
-  return uri.starts_with('/') ? "file://" + uri : uri;
 }
 
 Json locationOf(const Place& place) {
@@ -62,6 +46,16 @@ std::string wholeMessage(const Diagnostic& d) {
 }
 
 }  // namespace
+
+std::string uriOf(std::string_view path) {
+  std::string uri = path.starts_with('/') ? "file://" : "";
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = std::isalnum(byte) != 0 || std::string_view("-._~/").find(c) != std::string_view::npos;
+    uri += plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
+  }
+  return uri;
+}
 
 std::string diagnosticsJson(const Diagnostics& diagnostics, int indent) {
   Json all = Json::array();

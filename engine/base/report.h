@@ -9,6 +9,9 @@
 
 namespace weft::base {
 
+// A path as an absolute URI, or as a relative reference.
+std::string uriOf(std::string_view path);
+
 // An array of objects: severity, code, title, message, and where they are known file, line, column (from 1, in bytes),
 // pointer, pass, resource, expected, found, fix. `indent` as of a JSON printer; -1: one line.
 std::string diagnosticsJson(const Diagnostics& diagnostics, int indent = 2);

@@ -162,10 +162,12 @@ struct PassParameterDesc {
 };
 
 struct IncludeDesc {
-  std::string file;   // as written, relative to the including file
+  std::string file;  // as written, relative to the including file
+  Place filePlace;
   std::string as;     // prefix; never empty after reading
   std::string group;  // for its passes that are not `always` and name no group; may be empty
   std::vector<std::pair<std::string, RefDesc>> binds;
+  std::vector<Place> bindPlaces;                  // parallel: of the keys
   std::shared_ptr<const struct GraphDesc> graph;  // null when it could not be read
 };
 
@@ -173,7 +175,8 @@ struct PassDesc {
   std::string name;  // for an include: its prefix
   Place place;       // of the stanza's opening brace
   Place namePlace;
-  Place likePlace;  // of what "like" says
+  std::string like;  // what "like" says
+  Place likePlace;
   std::optional<IncludeDesc> include;
   std::string type;
   Place typePlace;
@@ -228,6 +231,13 @@ struct RemovedPass {
   std::vector<std::string> writes;  // names of resources, as written
 };
 
+// What an overlay names to change it: a parameter, let or resource by a key, a pass or include by a string.
+struct NamedDesc {
+  std::string name;  // whole, from the file that the overlays lie over
+  Place place;       // in the overlay, of the opening quote
+  Place declared;    // of the opening quote of its declaration
+};
+
 // Files by path, as they were read.
 using FileTexts = std::map<std::string, std::shared_ptr<const std::string>>;
 
@@ -243,6 +253,7 @@ struct GraphDesc {
   std::vector<OutputDesc> outputs;
   std::vector<SetDesc> sets;  // in order: the last wins
   std::vector<RemovedPass> removed;
+  std::vector<NamedDesc> named;     // by overlays
   std::vector<std::string> unread;  // names declared in this file that were reported as wrong and left out:
                                     // a use of one is no second error
   std::vector<std::string> files;   // this file, what it extends, its presets, and all of every file

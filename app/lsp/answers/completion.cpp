@@ -1,19 +1,22 @@
-// What may stand at the cursor: keys by the object they are in, words and names by their key. Declared in features.h.
+// What may stand at the cursor: keys by the object they are in, words and names by their key, from the trees of the texts as they
+// are. Declared in features.h.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 #include "app/lsp/answers/features.h"
-#include "app/lsp/answers/items.h"
-#include "app/lsp/answers/key_tables.h"
 #include "engine/glsl/source.h"
 #include "engine/graph/language/format.h"
 #include "engine/graph/language/keys.h"
 #include "engine/graph/language/names.h"
+#include "engine/graph/read/merge.h"
+#include "engine/graph/read/overlay.h"
 #include "engine/graph/read/ref_parse.h"
 #include "engine/graph/subresource.h"
+#include "engine/runtime/prepare/program_request.h"
 
 namespace weft::app::lsp {
 
@@ -21,6 +24,19 @@ namespace {
 
 using Type = JsonValue::Type;
 namespace fs = std::filesystem;
+
+// Kinds of items of the protocol.
+enum class ItemKind {
+  text = 1,
+  function = 3,
+  field = 5,
+  variable = 6,
+  module = 9,
+  property = 10,
+  value = 12,
+  keyword = 14,
+  file = 17
+};
 
 struct Item {
   std::string label;
@@ -32,18 +48,27 @@ bool isSlotGroup(std::string_view key) {
   return key == "read" || key == "write" || key == "modify";
 }
 
+// The members of an object of the document, or none.
+const std::vector<JsonMember>& membersOf(const JsonValue& root, std::string_view key) {
+  static const std::vector<JsonMember> none;
+  const JsonValue* const section = root.find(key);
+  return section ? section->members : none;
+}
+
+const std::vector<JsonValue>& stanzasOf(const JsonValue& root) {
+  static const std::vector<JsonValue> none;
+  const JsonValue* const passes = root.find("passes");
+  return passes ? passes->items : none;
+}
+
 class Completer {
  public:
-  Completer(const Context& context, const Text& text, std::size_t offset)
-      : context_(context),
-        text_(text),
-        offset_(offset),
-        registry_(context.analysis.registry()),
-        file_(context.project.index(text.path())) {}
+  Completer(const Workspace& workspace, const Text& text, std::size_t offset)
+      : workspace_(workspace), text_(text), offset_(offset), registry_(workspace.registry()) {}
 
   Json run() {
     Spot spot = spotAt(text_.json(), offset_);
-    if (!file_ || spot.inComment) return nullptr;
+    if (spot.inComment) return nullptr;
     const JsonMember* const typed = spot.inKey ? spot.way.back().member : nullptr;
     if (spot.inKey) spot.way.pop_back();
     way_ = std::move(spot.way);
@@ -67,6 +92,33 @@ class Completer {
   template <class Words>
   void addWords(const Words& words, ItemKind kind = ItemKind::value) {
     for (const auto& word : words) add(std::string(word), kind);
+  }
+
+  // Calls f(root, prefix of its names, file name) for the text and what it includes or extends, each file once.
+  using SeeFile = std::function<void(const JsonValue&, const std::string&, const std::string&)>;
+  void eachFile(const SeeFile& f) const {
+    std::set<std::string> seen;
+    eachFile(text_.path(), "", seen, f);
+  }
+  void eachFile(const std::string& path, const std::string& prefix, std::set<std::string>& seen,
+                const SeeFile& f) const {
+    const auto text = seen.size() < graph::kMostInRow * 4 && seen.insert(path).second
+                          ? workspace_.texts().of(path)
+                          : nullptr;
+    if (!text || !text->isJson()) return;
+    const JsonValue& root = text->json().root;
+    f(root, prefix, fs::path(path).filename().string());
+    const auto follow = [&](const JsonValue& file, const std::string& below) {
+      if (file.is(Type::string))
+        eachFile(pathKey((fs::path(path).parent_path() / file.text).string()), below, seen, f);
+    };
+    if (const JsonValue* extends = root.find("extends")) {
+      follow(*extends, prefix);
+      for (const JsonValue& each : extends->items) follow(each, prefix);
+    }
+    for (const JsonValue& stanza : stanzasOf(root))
+      if (const JsonValue* include = stanza.find("include"))
+        follow(*include, prefix + graph::includePrefix(stanza) + ".");
   }
 
   Json finish(const Range& range, const char* quote) const {
@@ -93,16 +145,15 @@ class Completer {
     for (KeyDoc& key : keysOf(registry_, way_))
       add(std::move(key.key), ItemKind::property, std::move(key.doc));
     if (stanza && way.size() == 3 && isSlotGroup(way[2])) slotKeys(*stanza, way[2]);
-    if (stanza && way.size() == 3 && way[2] == "parameters") shaderNames(*stanza, {GlslName::Kind::member});
+    if (stanza && way.size() == 3 && way[2] == "parameters") shaderNames(*stanza, {glsl::Role::member});
     if (stanza && way.size() == 3 && way[2] == "bind") inputs(*stanza);
     if (stanza && way.size() == 4 && way[3] == "blend")
       for (const char* group : {"write", "modify"})
         if (const JsonValue* slots = stanza->find(group))
           for (const JsonMember& slot : slots->members) add(slot.key, ItemKind::field);
     if (way.size() == 1 && way[0] == "set")
-      for (const std::string& path : context_.project.closure(text_.path()))
-        if (const auto file = context_.project.index(path))
-          for (const auto& [name, range] : file->variables) add(name, ItemKind::variable);
+      eachFile(
+          [&](const JsonValue& root, const std::string&, const std::string&) { variablesOf(root, "", ""); });
     for (const JsonMember& child : object.members)
       if (&child != typed) std::erase_if(items_, [&](const Item& item) { return item.label == child.key; });
   }
@@ -113,7 +164,7 @@ class Completer {
         for (const graph::FixedSlot& slot : type.fixedSlots)
           if ((slot.access == graph::Access::read) == (group == "read"))
             add(slot.name, ItemKind::field, slot.doc);
-    using enum GlslName::Kind;
+    using enum glsl::Role;
     if (group == "read")
       shaderNames(stanza, {sampler, image, uniform_block, storage_block});
     else
@@ -124,32 +175,46 @@ class Completer {
           std::erase_if(items_, [&](const Item& item) { return item.label == slot.key; });
   }
 
+  // The files of the program of a stanza, which may be like another.
+  std::vector<std::string> shaderFilesOf(const JsonValue& stanza) const {
+    const JsonValue* at = &stanza;
+    for (int depth = 0; at && !at->find("shader") && depth < 32; ++depth) {
+      const std::string_view like = textOf(*at, "like");
+      const auto& all = stanzasOf(text_.json().root);
+      const auto other =
+          std::ranges::find_if(all, [&](const JsonValue& each) { return textOf(each, "name") == like; });
+      at = other == all.end() ? nullptr : &*other;
+    }
+    const JsonValue* const shader = at ? at->find("shader") : nullptr;
+    std::vector<std::string> files;
+    if (!shader) return files;
+    const bool pair = shader->is(Type::object);
+    const std::vector<std::string> folders = workspace_.shaderFolders(text_);
+    for (const std::string& each : shadersOf(pair ? std::string(textOf(*shader, "fragment")) : shader->text,
+                                             pair ? std::string(textOf(*shader, "vertex")) : ""))
+      for (std::string& file : workspace_.shaderFiles(each, folders)) files.push_back(std::move(file));
+    return files;
+  }
+
   // Offers the names of these kinds that the program of a pass declares.
-  void shaderNames(const JsonValue& stanza, std::initializer_list<GlslName::Kind> kinds) {
+  void shaderNames(const JsonValue& stanza, std::initializer_list<glsl::Role> roles) {
     // Blocks that the engine itself gives to shaders.
     constexpr std::string_view kOwn[] = {"View", "Parameters", "Slice", "instances"};
-    const Project::Program program = context_.project.programOf(file_, stanza);
-    for (const std::string& path : program.files) {
-      const auto text = context_.texts.of(path);
-      if (!text) continue;
-      for (const GlslName& name : text->glsl().names()) {
-        const bool wanted = std::ranges::find(kinds, name.kind) != kinds.end();
-        if (!wanted || std::ranges::find(kOwn, name.name) != std::end(kOwn)) continue;
-        if (name.kind == GlslName::Kind::member && name.block != "Parameters") continue;
-        const auto statement = std::string_view(text->bytes())
-                                   .substr(name.statement.begin, name.statement.end - name.statement.begin);
-        add(std::string(name.name), ItemKind::field, std::string(statement));
-      }
-    }
+    for (const std::string& path : shaderFilesOf(stanza))
+      if (const auto text = workspace_.texts().of(path))
+        for (const GlslName& name : text->glsl().names)
+          if (name.role && std::ranges::find(roles, *name.role) != roles.end() &&
+              std::ranges::find(kOwn, name.name) == std::end(kOwn) &&
+              (name.role != glsl::Role::member || name.block == "Parameters"))
+            add(std::string(name.name), ItemKind::field, std::string(name.statement));
   }
 
   void inputs(const JsonValue& stanza) {
-    const auto include = file_->includes.find(prefixOf(stanza));
-    const auto below = include == file_->includes.end() ? nullptr : context_.project.index(include->second);
-    if (!below) return;
-    if (const JsonValue* resources = below->text->json().root.find("resources"))
-      for (const JsonMember& resource : resources->members)
-        if (resource.value.find("input")) add(resource.key, ItemKind::variable);
+    const auto text = workspace_.texts().of(
+        pathKey((fs::path(text_.path()).parent_path() / textOf(stanza, "include")).string()));
+    if (!text || !text->isJson()) return;
+    for (const JsonMember& resource : membersOf(text->json().root, "resources"))
+      if (resource.value.find("input")) add(resource.key, ItemKind::variable);
   }
 
   // ---- values ----
@@ -213,17 +278,16 @@ class Completer {
     } else if (group == "geometry") {
       for (const graph::GeometryType& type : registry_.geometries) add(type.name, ItemKind::value);
     } else if (group == "like" || group == "before" || group == "after") {
-      for (const std::string& path : context_.project.closure(text_.path()))
-        if (const auto file = context_.project.index(path); file && (group != "like" || path == text_.path()))
-          for (const auto& [name, range] : file->passes)
-            add(context_.project.prefixIn(text_.path(), path).value_or("") + name, ItemKind::function);
-    } else if (group == "group") {
-      for (const JsonValue* other : file_->stanzas)
-        if (const std::string_view name = textOf(*other, "group"); !name.empty() && other != &around())
-          add(std::string(name), ItemKind::value);
+      eachFile([&](const JsonValue& root, const std::string& prefix, const std::string&) {
+        for (const JsonValue& stanza : stanzasOf(root))
+          if (group != "like" || &root == &text_.json().root)
+            add(prefix + std::string(stanza.find("include") ? graph::includePrefix(stanza)
+                                                            : textOf(stanza, "name")),
+                ItemKind::function);
+      });
     } else if (group == "state" && way.size() > 3 && way[3] == "blend") {
       addWords(graph::kBlendWords);
-    } else if (group != "name" && group != "as") {
+    } else if (group != "name" && group != "as" && group != "group") {
       expression(node);
     }
   }
@@ -277,40 +341,35 @@ class Completer {
       add(function, ItemKind::function);
     addWords(std::initializer_list<const char*>{"screen", "device.software", "true", "false"},
              ItemKind::keyword);
-    const JsonValue* const repeat = stanza() ? stanza()->find("repeat") : nullptr;
-    if (!repeat) return;
-    const auto indices = [&](const JsonValue& ranges) {
-      for (const JsonMember& index : ranges.members)
-        add(index.key, ItemKind::variable, "index of the repeat");
-    };
-    indices(*repeat);
-    for (const JsonValue& item : repeat->items) indices(item);
   }
 
   void resources() {
-    const auto addOf = [&](const FileIndex& file, const std::string& prefix) {
-      for (const auto& [name, range] : file.resources)
-        add(prefix + name, ItemKind::variable, fs::path(file.text->path()).filename().string());
-    };
-    addOf(*file_, "");
-    for (const std::string& path : context_.project.closure(text_.path()))
-      if (const auto prefix =
-              path == text_.path() ? std::nullopt : context_.project.prefixIn(text_.path(), path))
-        if (const auto file = context_.project.index(path)) addOf(*file, *prefix);
+    eachFile([&](const JsonValue& root, const std::string& prefix, const std::string& file) {
+      for (const JsonMember& each : membersOf(root, "resources"))
+        add(prefix + each.key, ItemKind::variable, file);
+    });
     for (const graph::ImportType& type : registry_.imports) add("@" + type.name, ItemKind::module, type.doc);
   }
 
+  void variablesOf(const JsonValue& root, const std::string& prefix, const std::string& file) {
+    for (const char* section : {"parameters", "let"})
+      for (const JsonMember& each : membersOf(root, section))
+        add(prefix + each.key, ItemKind::variable, file);
+    for (const JsonValue& stanza : stanzasOf(root))
+      for (const JsonMember& each : membersOf(stanza, "parameters"))
+        if (each.value.is(Type::object))
+          add(fmt::format("{}{}.{}", prefix, textOf(stanza, "name"), each.key), ItemKind::variable, file);
+  }
+
   void variables() {
-    for (const std::string& path : context_.project.closure(text_.path()))
-      if (const auto prefix = context_.project.prefixIn(text_.path(), path))
-        if (const auto file = context_.project.index(path))
-          for (const auto& [name, range] : file->variables)
-            add(*prefix + name, ItemKind::variable,
-                path == text_.path() ? "" : fs::path(path).filename().string());
-    for (const std::string& includer : context_.project.includersOf(text_.path()))
-      if (const auto file = context_.project.index(includer))
-        for (const auto& [name, range] : file->variables)
-          add(name, ItemKind::variable, fs::path(includer).filename().string());
+    eachFile([&](const JsonValue& root, const std::string& prefix, const std::string& file) {
+      variablesOf(root, prefix, file);
+    });
+    // Of the files that include this one.
+    for (const Graph* graph : workspace_.graphs())
+      if (graph->texts.contains(text_.path()) && graph->desc->path != text_.path())
+        if (const auto text = workspace_.texts().of(graph->desc->path))
+          variablesOf(text->json().root, "", fs::path(text->path()).filename().string());
   }
 
   // ---- files ----
@@ -344,7 +403,7 @@ class Completer {
       ending = key == "vertex" ? ".vert.glsl" : ".frag.glsl";
       stem = false;
     }
-    const std::vector<std::string> all = glsl::shadersBelow(context_.project.shaderFolders(text_.path()));
+    const std::vector<std::string> all = glsl::shadersBelow(workspace_.shaderFolders(text_));
     for (const std::string& path : all) {
       if (!stem && path.ends_with(ending)) add(path, ItemKind::file);
       if (stem && path.ends_with(".vert.glsl")) {
@@ -354,21 +413,47 @@ class Completer {
     }
   }
 
-  const Context& context_;
+  const Workspace& workspace_;
   const Text& text_;
   const std::size_t offset_;
   const graph::Registry& registry_;
-  const std::shared_ptr<const FileIndex> file_;
   Way way_;  // to the value, or to the object around the key
   std::vector<Item> items_;
   std::optional<Range> fragment_;  // of a string: what the choice replaces
   char sign_ = '\0';
 };
 
+// Offers the slots, parameters and defines of the shader's passes, and HAS_… of slots and parameters.
+Json completionInGlsl(const Workspace& workspace, const Text& text, std::size_t offset) {
+  Range range{offset, offset};
+  const std::string_view all = text.bytes();
+  while (range.begin > 0 && graph::isIdentChar(all[range.begin - 1])) --range.begin;
+  while (range.end < all.size() && graph::isIdentChar(all[range.end])) ++range.end;
+  Json items = Json::array();
+  std::set<std::string> seen;
+  const auto add = [&](const std::string& label, ItemKind kind, const std::string& detail) {
+    if (seen.insert(label).second)
+      items.push_back({{"label", label},
+                       {"kind", static_cast<int>(kind)},
+                       {"detail", detail},
+                       {"textEdit", {{"range", toJson(text.map(), range)}, {"newText", label}}}});
+  };
+  constexpr const char* kKinds[] = {"slot", "parameter", "define"};
+  for (const Program& program : workspace.programs())
+    for (const ShaderKey& key : program.keys) {
+      if (!program.has(text.path())) break;
+      add(key.name, key.kind == ShaderKey::Kind::slot ? ItemKind::field : ItemKind::property,
+          fmt::format("{} of pass '{}'", kKinds[static_cast<std::size_t>(key.kind)], program.name));
+      if (key.kind != ShaderKey::Kind::define)
+        add(runtime::presenceDefineOf(key.name), ItemKind::keyword, "1 where the pass has it");
+    }
+  return {{"isIncomplete", false}, {"items", std::move(items)}};
+}
+
 }  // namespace
 
-Json completionAt(const Context& context, const Text& text, std::size_t offset) {
-  return text.isJson() ? Completer(context, text, offset).run() : completionInGlsl(context, text, offset);
+Json completionAt(const Workspace& workspace, const Text& text, std::size_t offset) {
+  return text.isJson() ? Completer(workspace, text, offset).run() : completionInGlsl(workspace, text, offset);
 }
 
 }  // namespace weft::app::lsp

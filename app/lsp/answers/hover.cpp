@@ -4,89 +4,64 @@
 #include <algorithm>
 
 #include "app/lsp/answers/features.h"
-#include "app/lsp/answers/key_tables.h"
 #include "engine/graph/language/format.h"
 #include "engine/graph/print/print.h"
+#include "engine/graph/read/merge.h"
 
 namespace weft::app::lsp {
 
 namespace {
 
-using Kind = Mention::Kind;
 using Type = JsonValue::Type;
 
 std::string fenced(const char* language, std::string_view text) {
   return fmt::format("```{}\n{}{}```\n", language, text, text.ends_with('\n') ? "" : "\n");
 }
 
-// What `weft explain` says of a name of a file, by the plan of the graph that it belongs to.
-std::string explained(const Context& context, const std::string& path, const std::string& name) {
-  const Analysis::Found found = context.analysis.graphWith(path);
-  if (!found.graph) return "";
-  for (const std::string& wanted : {found.prefix + name, "@" + name, name}) {
-    base::Diagnostics ignored;
-    if (auto text = graph::describe(*found.graph->plan, wanted, ignored))
-      return *text + (found.graph->current ? "" : "(of the last plan without errors)\n");
+const char* ageOf(const Graph& graph) {
+  return graph.current ? "" : "(of the last plan without errors)\n";
+}
+
+// As Markdown; "" when the type is no import.
+std::string docOfImport(const graph::Registry& registry, std::string_view name) {
+  for (const graph::ImportType& type : registry.imports) {
+    if (type.name != name) continue;
+    std::string text = fmt::format("**@{}**: {}\n", type.name, type.doc);
+    for (const graph::ImportArgument& argument : type.arguments)
+      text += fmt::format("- `{}` (default {}): {}\n", argument.name, graph::toText(argument.initial),
+                          argument.doc);
+    for (const graph::TableColumn& column : type.columns)
+      text += fmt::format("- `.{}` {}: {}\n", column.name, column.type, column.doc);
+    return text;
   }
   return "";
 }
 
-// The lines of a pass's explanation about one of its slots or parameters.
-std::string linesAbout(const std::string& text, const std::string& name) {
-  std::string found;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    const std::string line = text.substr(at, end - at);
-    at = end + 1;
-    const bool pass = line.starts_with("pass ");
-    const bool about = line.find(" " + name + ": ") != std::string::npos ||
-                       line.find(" " + name + " = ") != std::string::npos ||
-                       line.starts_with("  define " + name + " ");
-    if (pass || about) found += line + "\n";
-  }
-  return found;
+// What the plan does with a name that a pass shares with its shader.
+std::string ofKey(const Program& program, const std::string& name) {
+  const auto& plan = program.graph->plan;
+  const std::string text = plan ? graph::describeInPass(*plan, program.name, name) : "";
+  return text.empty() ? "" : fenced("text", text + ageOf(*program.graph));
 }
 
-std::string ofShaderName(const Context& context, const FileIndex& file, const Mention& mention) {
-  const auto graph = context.project.index(file.text->path());
-  const Project::Program program = context.project.programOf(graph, *mention.pass);
-  std::string text;
-  if (const auto declared = context.project.findInShaders(program, mention.name)) {
-    const auto shader = context.texts.of(declared->path);
-    if (const GlslName* name = shader->glsl().find(mention.name))
-      text += fenced("glsl", std::string_view(shader->bytes())
-                                 .substr(name->statement.begin, name->statement.end - name->statement.begin));
-  }
-  if (const JsonValue* pass = nameOf(*mention.pass))
-    if (const std::string lines = linesAbout(explained(context, file.text->path(), pass->text), mention.name);
-        !lines.empty())
-      text += fenced("text", lines);
-  return text;
-}
-
-std::string ofMention(const Context& context, const FileIndex& file, const Mention& mention) {
-  switch (mention.kind) {
-    case Kind::slot:
-    case Kind::parameter:
-    case Kind::define:
-      return mention.pass ? ofShaderName(context, file, mention) : "";
-    case Kind::file:
-    case Kind::shader: {
-      const auto definition = context.project.resolve(file, mention);
-      return definition ? fmt::format("`{}`\n", definition->path) : "";
+std::string ofNamed(const Workspace& workspace, const Named& named) {
+  if (named.key) {
+    std::string text;
+    if (const auto declared = workspace.findInShaders(workspace.filesOf(*named.program), named.key->name)) {
+      const auto shader = workspace.texts().of(declared->path);
+      if (const GlslName* name = shader->glsl().find(named.key->name)) text = fenced("glsl", name->statement);
     }
-    default: {
-      const std::string name = mention.kind == Kind::import ? "@" + mention.name : mention.name;
-      if (const std::string text = explained(context, file.text->path(), name); !text.empty())
-        return fenced("text", text);
-      if (mention.kind == Kind::import) return docOfImport(context.analysis.registry(), mention.name);
-      return "";
-    }
+    return text + ofKey(*named.program, named.key->name);
   }
+  base::Diagnostics ignored;
+  const std::string& full = named.use->full;
+  const auto& plan = named.graph->plan;
+  if (const auto text = plan ? graph::describe(*plan, full, ignored) : std::nullopt)
+    return fenced("text", *text + ageOf(*named.graph));
+  return full.starts_with('@') ? docOfImport(workspace.registry(), full.substr(1)) : "";
 }
 
-std::string ofValue(const Context& context, std::string_view key, const std::string& text) {
-  const graph::Registry& registry = context.analysis.registry();
+std::string ofValue(const graph::Registry& registry, std::string_view key, const std::string& text) {
   if (key == "texture")
     if (const auto format = graph::findFormat(text)) {
       const graph::FormatInfo& info = graph::infoOf(*format);
@@ -101,45 +76,42 @@ std::string ofValue(const Context& context, std::string_view key, const std::str
   return "";
 }
 
-Json inJson(const Context& context, const Text& text, std::size_t offset) {
-  const auto file = context.project.index(text.path());
-  if (!file) return nullptr;
-  std::string shown;
-  Range range;
-  Spot spot = spotAt(text.json(), offset);
-  if (const Mention* mention = file->at(offset)) {
-    shown = ofMention(context, *file, *mention);
-    range = mention->range;
-  } else if (const JsonMember* member = spot.way.back().member; member && spot.inKey) {
-    spot.way.pop_back();
-    for (const KeyDoc& key : keysOf(context.analysis.registry(), spot.way))
-      if (key.key == member->key) shown = fmt::format("**{}**: {}\n", key.key, key.doc);
-    range = inside(*member);
-  } else if (member) {
-    shown = ofValue(context, member->key, member->value.text);
-    range = rangeOf(member->value);
-  }
+Json hover(const Text& text, const std::string& shown, const Range& range) {
   if (shown.empty()) return nullptr;
   return {{"contents", {{"kind", "markdown"}, {"value", shown}}}, {"range", toJson(text.map(), range)}};
 }
 
-Json inGlsl(const Context& context, const Text& text, std::size_t offset) {
+Json inJson(const Workspace& workspace, const Text& text, std::size_t offset) {
+  if (const Named named = namedAt(workspace, text, offset); named.graph)
+    return hover(text, ofNamed(workspace, named), named.here);
+  Spot spot = spotAt(text.json(), offset);
+  const JsonMember* const member = spot.way.back().member;
+  if (const auto file = fileAt(workspace, text, offset))
+    return hover(text, fmt::format("`{}`\n", file->path), rangeOf(spot.value()));
+  if (!member) return nullptr;
+  if (!spot.inKey)
+    return hover(text, ofValue(workspace.registry(), member->key, member->value.text),
+                 rangeOf(member->value));
+  spot.way.pop_back();
+  for (const KeyDoc& key : keysOf(workspace.registry(), spot.way))
+    if (key.key == member->key)
+      return hover(text, fmt::format("**{}**: {}\n", key.key, key.doc), inside(*member));
+  return nullptr;
+}
+
+Json inGlsl(const Workspace& workspace, const Text& text, std::size_t offset) {
   constexpr int kMostShown = 5;
   const GlslWord* const word = text.glsl().wordAt(offset);
   if (!word || word->member) return nullptr;
   std::string shown;
   int count = 0;
-  for (const Project::Program& program : context.project.programsWith({text.path()})) {
-    const JsonValue* const pass = nameOf(*program.stanza);
-    if (!pass || count >= kMostShown) continue;
-    const std::string about =
-        linesAbout(explained(context, program.graph->text->path(), pass->text), std::string(word->text));
-    if (about.find("\n  ") == std::string::npos) continue;
-    shown += fenced("text", about);
-    ++count;
-  }
-  if (shown.empty()) return nullptr;
-  return {{"contents", {{"kind", "markdown"}, {"value", shown}}}, {"range", toJson(text.map(), word->range)}};
+  for (const Program& program : workspace.programs())
+    if (count < kMostShown && program.has(text.path()))
+      if (const std::string about = ofKey(program, std::string(word->text)); !about.empty()) {
+        shown += about;
+        ++count;
+      }
+  return hover(text, shown, word->range);
 }
 
 // Kinds of symbols of the protocol.
@@ -156,9 +128,11 @@ Json symbol(const LineMap& map, std::string_view name, std::string_view detail, 
 }
 
 Json ofStanza(const LineMap& map, const JsonValue& stanza) {
-  const JsonValue* const name = nameOf(stanza);
+  const JsonValue* name = nullptr;
+  for (const char* key : {"include", "as", "name"})
+    if (const JsonValue* value = stanza.find(key); value && value->is(Type::string)) name = value;
   if (!name) return nullptr;
-  const std::string prefix = prefixOf(stanza);
+  const std::string prefix = stanza.find("include") ? graph::includePrefix(stanza) : "";
   Json json =
       prefix.empty()
           ? symbol(map, name->text, textOf(stanza, "type"), kFunction, rangeOf(stanza), inside(*name))
@@ -175,24 +149,21 @@ Json ofStanza(const LineMap& map, const JsonValue& stanza) {
 
 }  // namespace
 
-Json hoverAt(const Context& context, const Text& text, std::size_t offset) {
-  return text.isJson() ? inJson(context, text, offset) : inGlsl(context, text, offset);
+Json hoverAt(const Workspace& workspace, const Text& text, std::size_t offset) {
+  return text.isJson() ? inJson(workspace, text, offset) : inGlsl(workspace, text, offset);
 }
 
-Json symbolsOf(const Context& context, const Text& text) {
+Json symbolsOf(const Text& text) {
   const LineMap& map = text.map();
   Json all = Json::array();
   if (!text.isJson()) {
-    for (const GlslName& name : text.glsl().names())
-      all.push_back(symbol(map, name.name,
-                           std::string_view(text.bytes())
-                               .substr(name.statement.begin, name.statement.end - name.statement.begin),
-                           name.kind == GlslName::Kind::define ? kConstant : kVariable, name.statement,
-                           name.range));
+    for (const GlslName& name : text.glsl().names) {
+      const auto begin = static_cast<std::size_t>(name.statement.data() - text.bytes().data());
+      all.push_back(symbol(map, name.name, name.statement, name.role ? kVariable : kConstant,
+                           {begin, begin + name.statement.size()}, name.range));
+    }
     return all;
   }
-  const auto file = context.project.index(text.path());
-  if (!file || !text.json().root.is(Type::object)) return all;
   for (const JsonMember& member : text.json().root.members) {
     const bool named = member.key == "parameters" || member.key == "let" || member.key == "resources";
     if (!named && member.key != "passes") continue;

@@ -1,9 +1,7 @@
-#include "app/lsp/answers/key_tables.h"
-
-#include <fmt/format.h>
-
+// Which keys an object of a graph file may have at its place, from the tables of the reader and the registry. Declared in features.h.
 #include <algorithm>
 
+#include "app/lsp/answers/features.h"
 #include "engine/graph/language/keys.h"
 
 namespace weft::app::lsp {
@@ -81,20 +79,6 @@ std::vector<KeyDoc> keysOf(const graph::Registry& registry, const Way& steps) {
     append(keys, graph::kParameterKeys);
   }
   return keys;
-}
-
-std::string docOfImport(const graph::Registry& registry, std::string_view name) {
-  for (const graph::ImportType& type : registry.imports) {
-    if (type.name != name) continue;
-    std::string text = fmt::format("**@{}**: {}\n", type.name, type.doc);
-    for (const graph::ImportArgument& argument : type.arguments)
-      text += fmt::format("- `{}` (default {}): {}\n", argument.name, graph::toText(argument.initial),
-                          argument.doc);
-    for (const graph::TableColumn& column : type.columns)
-      text += fmt::format("- `.{}` {}: {}\n", column.name, column.type, column.doc);
-    return text;
-  }
-  return "";
 }
 
 }  // namespace weft::app::lsp

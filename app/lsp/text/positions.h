@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/base/json/dom.h"
 
 namespace weft::app::lsp {
@@ -18,7 +17,6 @@ using Json = nlohmann::ordered_json;
 
 struct Position {
   std::uint32_t line = 0, character = 0;
-  friend auto operator<=>(const Position&, const Position&) = default;
 };
 
 using Range = base::ByteRange;
@@ -30,12 +28,10 @@ class LineMap {
   explicit LineMap(std::string_view text);
   std::size_t offsetOf(const Position& position) const;
   Position positionOf(std::size_t offset) const;
-  std::string_view text() const { return text_; }
 
  private:
-  std::size_t endOfLine(std::size_t line) const;
   struct Mark {
-    std::size_t offset = 0;   // where a character begins
+    std::size_t offset = 0;
     std::uint32_t units = 0;  // from the beginning of its line
   };
   std::string_view text_;
@@ -43,11 +39,13 @@ class LineMap {
   std::vector<Mark> marks_;  // one for each kStride bytes, so that a mark is near in a long line, too
 };
 
-Json toJson(const Position& position);
 Json toJson(const LineMap& map, const Range& range);
 
 // The path of a file: URI; "" for another URI.
 std::string pathOfUri(std::string_view uri);
 std::string uriOfPath(std::string_view path);
+
+// An absolute path without "." and "..".
+std::string pathKey(const std::string& path);
 
 }  // namespace weft::app::lsp

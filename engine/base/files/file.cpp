@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -14,8 +15,6 @@
 
 #include "engine/base/files/file_access.h"
 #include "engine/base/files/file_overlay.h"
-#include "engine/base/files/folder_names.h"
-#include "engine/base/files/temporary_name.h"
 #include "engine/base/nearest.h"
 
 namespace weft::base {
@@ -44,10 +43,25 @@ std::string hintForMissing(const std::filesystem::path& path) {
       missing = missing.parent_path();
     return fmt::format("check the path: there is no folder '{}'", missing.string());
   }
-  const std::shared_ptr<const std::vector<std::string>> names = namesIn(folder.string());
-  const std::string near = nearestName(path.filename().string(), *names);
+  constexpr std::size_t kMostNames = 5000;
+  std::vector<std::string> names;
+  for (auto entry = std::filesystem::directory_iterator(folder, ec);
+       !ec && entry != std::filesystem::directory_iterator() && names.size() < kMostNames;
+       entry.increment(ec))
+    names.push_back(entry->path().filename().string());
+  std::ranges::sort(names);
+  const std::string near = nearestName(path.filename().string(), names);
   return near.empty() ? "check the path"
                       : fmt::format("did you mean '{}'?", (path.parent_path() / near).string());
+}
+
+// Where the bytes of a file stand until they are whole and it is renamed, also where its name is as long as a name may be.
+std::string temporaryBeside(const std::string& path) {
+  constexpr std::size_t kLongest = 255;  // bytes, of most file systems
+  static std::atomic<unsigned> made = 0;
+  const std::filesystem::path beside = fmt::format("{}.{}.tmp", path, ::getpid());
+  if (beside.filename().string().size() <= kLongest) return beside.string();
+  return (beside.parent_path() / fmt::format(".weft.{}.{}.tmp", ::getpid(), ++made)).string();
 }
 
 // Whether a pipe has bytes or its end; false after a moment without, so that whoever waits can be asked.

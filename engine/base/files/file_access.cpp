@@ -7,12 +7,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <map>
 #include <mutex>
-#include <utility>
 #include <vector>
 
 namespace weft::base {
@@ -28,11 +26,9 @@ constexpr int kMostLinks = 40;  // on one path; as Linux
 struct Access {
   std::mutex mutex;
   bool confined = false;
-  std::vector<std::string> named;    // as the person wrote them
-  std::vector<std::string> folders;  // real paths
-  std::vector<std::string> own;      // of allowFolder(), absolute
-  std::vector<std::pair<std::string, std::string>>
-      spelled;                        // a folder as written, and its real path, where they differ
+  std::vector<std::string> named;     // as the person wrote them
+  std::vector<std::string> folders;   // real paths
+  std::vector<std::string> own;       // of allowFolder(), absolute
   std::map<std::string, int> chosen;  // by absolute path: how often it may be a pipe
 };
 
@@ -40,25 +36,6 @@ Access& access() {
   static Access all;
   return all;
 }
-
-// A descriptor of a folder, for a while.
-class Folder {
- public:
-  Folder() = default;
-  explicit Folder(int descriptor) : descriptor_(descriptor) {}
-  Folder(Folder&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-  Folder& operator=(Folder&& other) noexcept {
-    std::swap(descriptor_, other.descriptor_);
-    return *this;
-  }
-  ~Folder() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  int get() const { return descriptor_; }
-
- private:
-  int descriptor_ = -1;
-};
 
 std::string absoluteOf(const std::string& path) {
   std::error_code ec;
@@ -68,10 +45,14 @@ std::string absoluteOf(const std::string& path) {
   return text;
 }
 
-std::string realOf(const std::string& path) {
+// Where an absolute path leads, all links followed, whether or not something is there.
+std::string realOf(const fs::path& path, int links = 0) {
   std::error_code ec;
-  const fs::path real = fs::weakly_canonical(path, ec);
-  return ec ? path : absoluteOf(real.string());
+  if (fs::path real = fs::canonical(path, ec); !ec) return real.string();
+  if (fs::is_symlink(fs::symlink_status(path, ec)) && links < kMostLinks)
+    return realOf(path.parent_path() / fs::read_symlink(path, ec), links + 1);
+  if (path == path.parent_path()) return path.string();
+  return (fs::path(realOf(path.parent_path(), links)) / path.filename()).lexically_normal().string();
 }
 
 // `path` is `folder` or below it.
@@ -80,121 +61,14 @@ bool isBelow(const std::string& path, const std::string& folder) {
   return path.size() > folder.size() && path.starts_with(folder) && path[folder.size()] == '/';
 }
 
-void addSpelling(Access& all, const std::string& written, const std::string& real) {
-  if (written != real && std::ranges::find(all.spelled, std::pair(written, real)) == all.spelled.end())
-    all.spelled.emplace_back(written, real);
-}
-
 void addFolder(Access& all, const std::string& folder) {
-  const std::string written = absoluteOf(folder), real = realOf(written);
-  if (std::ranges::find(all.folders, real) == all.folders.end()) all.folders.push_back(real);
-  addSpelling(all, written, real);
+  std::string real = realOf(absoluteOf(folder));
+  if (std::ranges::find(all.folders, real) == all.folders.end()) all.folders.push_back(std::move(real));
 }
 
-// Where a path leads: the folder that holds it and its name there, all links followed.
-struct Walk {
-  State state = State::open;
-  Folder folder{};
-  std::string name{};
-  int error = 0;
-};
-
-class Walker {
- public:
-  explicit Walker(const Access& all) : all_(all) { enterRoot(); }
-
-  Walk walk(const std::string& path) {
-    push(withRealFolder(absoluteOf(path)));
-    int links = 0;
-    while (!ahead_.empty()) {
-      const std::string step = std::move(ahead_.back());
-      ahead_.pop_back();
-      if (step == "..") {
-        if (folders_.size() > 1) folders_.pop_back(), at_.resize(at_.rfind('/'));
-        continue;
-      }
-      const std::string next = at_ + "/" + step;
-      const bool last = ahead_.empty();
-      if (!isInside(next) && !isAbove(next)) return {.state = State::outside};
-      struct stat status {};
-      if (::fstatat(folders_.back().get(), step.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0)
-        return failure(errno);
-      if (S_ISLNK(status.st_mode)) {
-        if (++links > kMostLinks) return failure(ELOOP);
-        if (const int error = follow(step)) return failure(error);
-        continue;
-      }
-      if (last) {
-        if (!isInside(next)) return {.state = State::outside};
-        return {.state = State::open, .folder = std::move(folders_.back()), .name = step};
-      }
-      Folder below(
-          ::openat(folders_.back().get(), step.c_str(), O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
-      if (below.get() < 0) return failure(errno);
-      folders_.push_back(std::move(below));
-      at_ = next;
-    }
-    if (!isInside(at_)) return {.state = State::outside};
-    return {.state = State::open, .folder = std::move(folders_.back()), .name = "."};
-  }
-
- private:
-  static Walk failure(int error) {
-    const bool missing = error == ENOENT || error == ENOTDIR;
-    return {.state = missing ? State::missing : State::unreadable, .error = error};
-  }
-
-  bool isInside(const std::string& path) const {
-    return std::ranges::any_of(all_.folders,
-                               [&](const std::string& folder) { return isBelow(path, folder); });
-  }
-  // On the way to a folder: that it exists is no secret.
-  bool isAbove(const std::string& path) const {
-    return std::ranges::any_of(all_.folders,
-                               [&](const std::string& folder) { return isBelow(folder, path); });
-  }
-
-  void enterRoot() {
-    folders_.clear();
-    folders_.emplace_back(::open("/", O_PATH | O_DIRECTORY | O_CLOEXEC));
-    at_.clear();
-  }
-
-  void push(const std::string& path) {
-    std::vector<std::string> steps;
-    for (const fs::path& each : fs::path(path).relative_path())
-      if (!each.empty() && each != ".") steps.push_back(each.string());
-    ahead_.insert(ahead_.end(), steps.rbegin(), steps.rend());
-  }
-
-  // 0, or the error.
-  int follow(const std::string& link) {
-    std::array<char, 4096> target;
-    const ssize_t length = ::readlinkat(folders_.back().get(), link.c_str(), target.data(), target.size());
-    if (length < 0) return errno;
-    const std::string to(target.data(), static_cast<std::size_t>(length));
-    if (to.starts_with('/')) enterRoot();
-    push(to);
-    return 0;
-  }
-
-  // The way to a folder that the person spelled by links is no way out of it.
-  std::string withRealFolder(const std::string& path) const {
-    std::string best = path;
-    std::size_t longest = 0;
-    for (const auto& [written, real] : all_.spelled)
-      if (written.size() >= longest && isBelow(path, written)) {
-        longest = written.size();
-        best = real + path.substr(written.size());
-      }
-    return best;
-  }
-
-  const Access& all_;
-  std::vector<Folder> folders_;     // from the root to where the walk stands
-  std::string at_;                  // its real path; "" is the root
-  std::vector<std::string> ahead_;  // steps to go, the next one last
-};
+bool isInside(const Access& all, const std::string& real) {
+  return std::ranges::any_of(all.folders, [&](const std::string& folder) { return isBelow(real, folder); });
+}
 
 State judge(mode_t mode, bool mayBePipe, bool wasChosen) {
   if (S_ISREG(mode)) return State::open;
@@ -213,8 +87,6 @@ void chooseFile(const std::string& path) {
   ++all.chosen[written];
   std::error_code ec;
   if (fs::is_directory(written, ec)) addFolder(all, written);
-  const std::string folder = absoluteOf(fs::path(written).parent_path().string());
-  addSpelling(all, folder, realOf(folder));
 }
 
 std::optional<std::string> confineTo(const std::string& folder) {
@@ -248,8 +120,8 @@ bool isOwnData(const std::string& path) {
 bool mayRead(const std::string& path) {
   Access& all = access();
   const std::lock_guard lock(all.mutex);
-  if (!all.confined || all.chosen.contains(absoluteOf(path))) return true;
-  return Walker(all).walk(path).state != State::outside;
+  const std::string absolute = absoluteOf(path);
+  return !all.confined || all.chosen.contains(absolute) || isInside(all, realOf(absolute));
 }
 
 void reportOutside(const std::string& path, Diagnostics& diagnostics, const Place& place) {
@@ -276,55 +148,53 @@ void resetFileAccess() {
   all.named.clear();
   all.folders.clear();
   all.own.clear();
-  all.spelled.clear();
   all.chosen.clear();
 }
 
 OpenedFile openFile(const std::string& path) {
-  int folder = AT_FDCWD, follow = 0, noFollow = 0;
-  std::string name = path;
-  bool mayBePipe = false, wasChosen = false;
-  Walk walk;
+  bool mayBePipe = false, wasChosen = false, free = true;
+  const std::string absolute = absoluteOf(path);
+  Access& all = access();
   {
-    Access& all = access();
     const std::lock_guard lock(all.mutex);
-    const auto chosen = all.chosen.find(absoluteOf(path));
+    const auto chosen = all.chosen.find(absolute);
     wasChosen = chosen != all.chosen.end();
     mayBePipe = wasChosen && chosen->second > 0;
     if (mayBePipe) --chosen->second;
-    if (all.confined && !wasChosen) {
-      walk = Walker(all).walk(path);
-      if (walk.state != State::open) return {.state = walk.state, .error = walk.error};
-      folder = walk.folder.get();
-      name = walk.name;
-      follow = AT_SYMLINK_NOFOLLOW;
-      noFollow = O_NOFOLLOW;
-    }
+    free = !all.confined || wasChosen;
   }
-  const auto failure = [](int error) {
-    return OpenedFile{.state = error == ENOENT || error == ENOTDIR ? State::missing : State::unreadable,
-                      .error = error};
+  // Looked at before it is opened: opening a device can do something by itself. A handle reads nothing and does nothing.
+  const int handle = path.empty() ? -1 : ::open(free ? path.c_str() : absolute.c_str(), O_PATH | O_CLOEXEC);
+  int error = handle < 0 ? path.empty() ? ENOENT : errno : 0;
+  const std::string behind = fmt::format("/proc/self/fd/{}", handle);
+  const auto done = [&](OpenedFile opened) {
+    if (handle >= 0) ::close(handle);
+    return opened;
   };
-  // Looked at before it is opened: opening a device can do something by itself.
-  struct stat status {};
-  if (::fstatat(folder, name.c_str(), &status, follow) != 0) return failure(errno);
-  if (const State state = judge(status.st_mode, mayBePipe, wasChosen); state != State::open)
-    return {.state = state};
-  const int descriptor =
-      ::openat(folder, name.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC | noFollow);
-  if (descriptor < 0) return failure(errno);
-  // And again: it may have been replaced in between.
-  State state = State::unreadable;
-  if (::fstat(descriptor, &status) == 0) state = judge(status.st_mode, mayBePipe, wasChosen);
-  if (state != State::open) {
-    ::close(descriptor);
-    return {.state = state};
+  if (!free) {
+    std::error_code ec;
+    const std::string real = handle < 0 ? realOf(absolute) : fs::read_symlink(behind, ec).string();
+    const std::lock_guard lock(all.mutex);
+    if (!isInside(all, real)) return done({.state = State::outside});
   }
+  const auto failure = [&] {
+    const bool missing = error == ENOENT || error == ENOTDIR;
+    return done({.state = missing ? State::missing : State::unreadable, .error = error});
+  };
+  if (error != 0) return failure();
+  struct stat status {};
+  State state =
+      ::fstat(handle, &status) == 0 ? judge(status.st_mode, mayBePipe, wasChosen) : State::unreadable;
+  if (state != State::open) return done({.state = state});
+  // What was looked at is what is opened, whatever has the name by now.
+  const int descriptor = ::open(behind.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  if (descriptor < 0) error = errno;
+  if (error != 0) return failure();
   const bool regular = S_ISREG(status.st_mode);
-  return {.state = state,
-          .descriptor = descriptor,
-          .endless = !regular,
-          .bytes = regular ? static_cast<std::uint64_t>(status.st_size) : 0};
+  return done({.state = state,
+               .descriptor = descriptor,
+               .endless = !regular,
+               .bytes = regular ? static_cast<std::uint64_t>(status.st_size) : 0});
 }
 
 }  // namespace weft::base

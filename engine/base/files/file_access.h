@@ -7,13 +7,11 @@
 // the process, as the command line does; so it is kept here, and not in every function that reads.
 //
 // Paths are free, as a compiler's are, until reading is confined to a folder (--confine). From then on only files
-// that really lie in such a folder, or in an allowed one, are opened. Each step of a path is checked, with links
-// followed, before it is opened; so no answer tells whether something exists outside. What the person named on
-// the command line stays free.
+// that really lie in such a folder, or in an allowed one, with links followed, are read; no answer tells whether something exists
+// outside. What the person named on the command line stays free.
 //
 // The file that was checked is the file that is opened: no other can take its place in between.
-// Safe from any thread. Does not: restrict writing, or stop the shader compiler and libraries from opening
-// their own files.
+// Safe from any thread. The shader compiler and libraries open their own files as they like.
 #pragma once
 
 #include <cstdint>

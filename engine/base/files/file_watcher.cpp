@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <sys/inotify.h>
-#include <sys/vfs.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -33,41 +32,10 @@ bool holdsSomething(const std::string& path) {
   return fs::is_regular_file(path, ec) && fs::file_size(path, ec) > 0 && !ec;
 }
 
-// File systems that other machines or programs write to behind the kernel's back (linux/magic.h and their
-// sources); "" for all others.
-const char* networkOf(const std::string& file) {
-  struct statfs status {};
-  fs::path at = file;
-  while (::statfs(at.c_str(), &status) != 0) {
-    if (at == at.parent_path()) return "";
-    at = at.parent_path();
-  }
-  switch (static_cast<std::uint32_t>(status.f_type)) {
-    case 0x6969:
-      return "NFS";
-    case 0x517B:
-    case 0xFF534D42:
-    case 0xFE534D42:
-      return "CIFS";
-    case 0x65735546:
-      return "FUSE";
-    case 0x01021997:
-      return "9P";
-    case 0x5346414F:
-    case 0x6B414653:
-      return "AFS";
-    case 0x00C36400:
-      return "Ceph";
-    default:
-      return "";
-  }
-}
-
 }  // namespace
 
-FileWatcher::FileWatcher(Means means) {
-  if (means == Means::inotify) descriptor_ = ::inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
-  if (descriptor_ < 0) error_ = means == Means::inotify ? errno : EMFILE;
+FileWatcher::FileWatcher() : descriptor_(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC)) {
+  if (descriptor_ < 0) error_ = errno;
 }
 
 FileWatcher::~FileWatcher() {
@@ -90,77 +58,51 @@ void FileWatcher::arm() {
   folders_.clear();
   watched_.clear();
   awaited_.clear();
-  std::map<Reason, std::vector<std::string>> looked;
+  std::map<int, std::vector<std::string>> failed;
   for (const std::string& file : files_) {
     const std::string absolute = watchedPath(file);
-    Reason reason = armFile(absolute, file);
+    int error = armFile(absolute, file);
     std::error_code ec;
-    if (const fs::path real = fs::canonical(absolute, ec); !ec && real.string() != absolute) {
-      const Reason behind = armFile(real.string(), file);
-      if (reason == Reason::told) reason = behind;
-    }
-    if (reason == Reason::told && *networkOf(absolute)) reason = Reason::network;
-    if (reason != Reason::told) looked[reason].push_back(file);
+    if (const fs::path real = fs::canonical(absolute, ec); !ec && real.string() != absolute)
+      error = std::max(error, armFile(real.string(), file));
+    if (error != 0) failed[error].push_back(file);
   }
-  std::vector<std::string> all;
-  for (const auto& [reason, files] : looked) {
-    all.insert(all.end(), files.begin(), files.end());
-    tell(reason, files);
-  }
-  poller_.watch(all);
+  for (const auto& [error, files] : failed) tell(error, files);
   for (const auto& [watch, names] : before)
     if (!folders_.contains(watch)) ::inotify_rm_watch(descriptor_, watch);
 }
 
-FileWatcher::Reason FileWatcher::armFile(const std::string& absolute, const std::string& given) {
-  if (descriptor_ < 0) return Reason::no_instance;
+int FileWatcher::armFile(const std::string& absolute, const std::string& given) {
+  if (descriptor_ < 0) return error_;
   watched_[absolute].insert(given);
   fs::path folder = fs::path(absolute).parent_path();
   for (;;) {
     const int watch = ::inotify_add_watch(descriptor_, folder.c_str(), kEvents);
     if (watch >= 0) {
       folders_[watch].insert(folder.string());
-      return Reason::told;
+      return 0;
     }
-    if (errno == ENOSPC || errno == ENOMEM) return Reason::no_watch;
-    if (errno == EACCES) return Reason::unreadable;
-    if (folder == folder.parent_path()) return Reason::unreadable;
+    const bool missing = errno == ENOENT || errno == ENOTDIR;
+    if (!missing || folder == folder.parent_path()) return errno;
     awaited_.insert(folder.string());
     folder = folder.parent_path();
   }
 }
 
-void FileWatcher::tell(Reason reason, const std::vector<std::string>& files) {
-  if (!toldReasons_.insert(reason).second) return;
-  const std::string& first = files.front();
+void FileWatcher::tell(int error, const std::vector<std::string>& files) {
+  if (!told_.insert(error).second) return;
   Diagnostic d{.severity = Severity::note,
-               .code = Code::filesArePolled,
-               .message = fmt::format("{} looked at twice a second instead of being told of changes",
-                                      files.size() == 1
-                                          ? fmt::format("'{}' is", first)
-                                          : fmt::format("'{}' and {} more {} are", first, files.size() - 1,
-                                                        files.size() == 2 ? "file" : "files")),
-               .place = {std::make_shared<const std::string>(first)}};
-  switch (reason) {
-    case Reason::told:
-      return;
-    case Reason::no_instance:
-      d.found = fmt::format("no inotify instance: {}", std::strerror(error_));
-      d.hint = "end other programs that watch files, or raise fs.inotify.max_user_instances with sysctl";
-      break;
-    case Reason::no_watch:
-      d.found = "no inotify watch is left for its folder";
-      d.hint = "end other programs that watch files, or raise fs.inotify.max_user_watches with sysctl";
-      break;
-    case Reason::unreadable:
-      d.found = "its folder may not be read, so inotify may not watch it";
-      d.hint = "give yourself the right to read the folder";
-      break;
-    case Reason::network:
-      d.found = fmt::format("it lies on a mount ({}) that others write to without inotify's knowledge",
-                            networkOf(watchedPath(first)));
-      break;
-  }
+               .code = Code::filesNotWatched,
+               .message = fmt::format("changes of '{}'{} are not seen", files.front(),
+                                      files.size() == 1 ? "" : fmt::format(" and {} more", files.size() - 1)),
+               .place = {std::make_shared<const std::string>(files.front())}};
+  d.found = fmt::format("{}: {}", descriptor_ < 0 ? "no inotify instance" : "no inotify watch for its folder",
+                        std::strerror(error));
+  d.hint = error == EACCES ? "give yourself the right to read the folder"
+                           : fmt::format(
+                                 "end other programs that watch files, or raise fs.inotify.max_user_{} with "
+                                 "sysctl",
+                                 descriptor_ < 0 ? "instances" : "watches");
   notices_.add(std::move(d));
 }
 
@@ -175,7 +117,6 @@ void FileWatcher::note(const std::string& path, bool created) {
 }
 
 std::vector<std::string> FileWatcher::poll() {
-  changed_.merge(poller_.take());
   alignas(inotify_event) char bytes[16384];
   bool again = false;
   for (ssize_t got = 0; descriptor_ >= 0 && (got = ::read(descriptor_, bytes, sizeof bytes)) > 0;) {

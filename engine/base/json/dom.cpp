@@ -5,13 +5,10 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
-#include <locale>
-#include <sstream>
 #include <unordered_map>
 
 #include "engine/base/characters.h"
 #include "engine/base/chars.h"
-#include "engine/base/files/file_kind.h"
 #include "engine/base/files/text_file.h"
 #include "engine/base/limits.h"
 
@@ -51,9 +48,9 @@ double numberOf(std::string_view written) {
   double number = 0;
   const auto [end, error] = std::from_chars(written.data(), written.data() + written.size(), number);
   if (error != std::errc::result_out_of_range) return number + 0.0;  // no -0
-  std::istringstream stream{std::string(written)};  // tells what is too large from what is too small
-  stream.imbue(std::locale::classic());
-  return stream >> number ? number : std::numeric_limits<double>::infinity();
+  const std::size_t exponent = written.find_first_of("eE");
+  const bool small = exponent != std::string_view::npos && written.substr(exponent + 1).starts_with('-');
+  return small ? 0 : std::numeric_limits<double>::infinity();
 }
 
 // Reads a text by recursive descent. With diagnostics it stops at the first mistake of grammar and reports it; without it
@@ -132,13 +129,8 @@ class Parser {
     const std::string_view all = text_.substr(first_);
     if (std::ranges::all_of(all, isSpace))
       stop(first_, "the file is empty", "", "an object: { … }");
-    else if (const std::optional<FileKind> kind = kindOfFile(all))
-      stop(first_, fmt::format("this is {}, not JSON", kind->what), std::string(kind->hint),
-           "a JSON document in UTF-8");
     else if (const std::size_t zero = text_.find('\0'); zero != std::string_view::npos)
-      stop(zero, "a zero byte: this is no UTF-8 text", "save the file as UTF-8");
-    else if (all[0] == kByteOrderMark[0])
-      stop(first_, "a damaged byte order mark", "save the file as UTF-8");
+      stop(zero, "a zero byte: this is no text, or not in UTF-8", "name a JSON file, or save it as UTF-8");
     return !stopped_;
   }
 
@@ -203,32 +195,18 @@ class Parser {
     if (isIdentChar(text_[at]))
       while (isIdentChar(before(at))) --at;
     const std::string_view rest = text_.substr(at);
-    if (before(at) == '\n' || at == first_)
-      for (const std::string_view mark : {"<<<<<<<", "=======", ">>>>>>>", "|||||||"})
-        if (rest.starts_with(mark))
-          return stop(at, "a merge conflict is left in the file", "keep one side, and take the marks away");
     const std::string found = wordAt(at);
     if (at > 0 && at == stringEnd_)
       return stop(stringBegin_,
                   fmt::format("the string '{}' ends before '{}'", printed(stringBegin_, at), found),
                   "a '\"' is missing in it, or one is too many");
-    if (static_cast<unsigned char>(text_[at]) >= 0x80) {
-      const StrayCharacter stray = describeStray(rest);
-      return stop(at, stray.message,
-                  stray.hint.empty() ? "outside of strings a graph is plain ASCII" : stray.hint);
-    }
+    if (static_cast<unsigned char>(text_[at]) >= 0x80)
+      return stop(at, describeStray(rest), "outside of strings a graph is plain ASCII, in a file in UTF-8");
     if (asKey && isIdentStart(found[0]))
       return stop(at, fmt::format("the key '{}' has no quotes", found), fmt::format("write \"{}\"", found),
                   "a key in double quotes");
-    const std::string lower = lowered(found);
     std::string hint = "values are numbers, true, false, null, \"strings\", [arrays] and {objects}";
-    if (lower == "true" || lower == "false" || lower == "null")
-      hint = fmt::format("write '{}' in lower case", lower);
-    if (lower == "none" || lower == "nil" || lower == "undefined") hint = "write 'null'";
-    if (lower == "nan" || lower.starts_with("inf") || lower == "+inf")
-      hint = "JSON has no such number; leave the key out";
     if (found == "'") hint = "strings stand in double quotes";
-    if (found[0] == '.' || found[0] == '+') hint = "a number begins with a digit or '-'";
     if (found[0] == '#') hint = "comments are // to the end of the line and /* … */";
     stop(at, fmt::format("'{}' is not a JSON value", found), hint);
   }

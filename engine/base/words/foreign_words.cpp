@@ -56,17 +56,6 @@ bool isSeparator(char c) {
   return c == '_' || c == '-' || c == ' ';
 }
 
-// What Weft writes behind the bits for their word of the kind of number.
-const char* numberSuffix(std::string_view word) {
-  constexpr std::pair<std::string_view, const char*> kSuffixes[] = {
-      {"", ""},        {"unorm", ""}, {"typeless", ""},    {"f", "f"},       {"float", "f"},
-      {"sfloat", "f"}, {"half", "f"}, {"ui", "ui"},        {"uint", "ui"},   {"i", "i"},
-      {"sint", "i"},   {"int", "i"},  {"snorm", "_snorm"}, {"srgb", "srgb"}, {"unormsrgb", "srgb"}};
-  for (const auto& [theirs, ours] : kSuffixes)
-    if (word == theirs) return ours;
-  return nullptr;
-}
-
 }  // namespace
 
 const ForeignWord& findForeignWord(Foreign where, std::string_view word) {
@@ -89,31 +78,8 @@ std::string formatMeantBy(std::string_view word) {
   std::string text = lowered(word);
   dropPrefix(text, {"dxgi_format_", "vk_format_", "gl_", "mtlpixelformat", "pixelformat.", "format_", "pf_",
                     "three."});
-  if (std::string ours = findForeign("format", text).hint; !ours.empty()) return ours;
-  // Channels, bits, and the kind of number: "r16g16b16a16_float", "rgba8unorm", "rgbahalf".
-  std::string letters, bits;
-  std::size_t at = 0;
-  while (at < text.size() && std::string_view("rgbax").find(text[at]) != std::string_view::npos) {
-    letters += text[at] == 'x' ? 'a' : text[at];
-    const std::size_t digits = ++at;
-    while (at < text.size() && isDigit(text[at])) ++at;
-    const std::string own = text.substr(digits, at - digits);
-    if (!bits.empty() && own != bits) return {};
-    bits = own;
-  }
-  std::string number = text.substr(at);
-  std::erase_if(number, isSeparator);
-  const char* suffix = numberSuffix(number);
-  if (!suffix) return {};
-  if (bits.empty() && number == "half") bits = "16";
-  if (bits.empty() && number == "float") bits = "32";
-  if (letters == "bgra" || letters == "rgb" || letters == "bgr" || letters == "argb" || letters == "abgr")
-    letters = "rgba";
-  if (letters != "r" && letters != "rg" && letters != "rgba") return {};
-  if (std::string_view(suffix) == "srgb") return bits == "8" ? "srgb8_a8" : "";
-  if (bits == "32" && !*suffix) return letters + "32f";
-  if (bits != "8" && bits != "16" && bits != "32") return {};
-  return letters + bits + (bits == "8" && std::string_view(suffix) == "f" ? "" : suffix);
+  std::erase_if(text, isSeparator);
+  return findForeign("format", text).hint;
 }
 
 }  // namespace weft::base

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <vector>
 
 namespace weft::base {
 
@@ -41,156 +42,34 @@ bool isGlslWord(std::string_view word) {
 }
 
 std::span<const std::string_view> glslFunctions() {
-  static constexpr std::string_view kFunctions[] = {"abs",
-                                                    "acos",
-                                                    "acosh",
-                                                    "all",
-                                                    "any",
-                                                    "asin",
-                                                    "asinh",
-                                                    "atan",
-                                                    "atanh",
-                                                    "atomicAdd",
-                                                    "atomicAnd",
-                                                    "atomicCompSwap",
-                                                    "atomicExchange",
-                                                    "atomicMax",
-                                                    "atomicMin",
-                                                    "atomicOr",
-                                                    "atomicXor",
-                                                    "barrier",
-                                                    "bitCount",
-                                                    "bitfieldExtract",
-                                                    "bitfieldInsert",
-                                                    "bitfieldReverse",
-                                                    "ceil",
-                                                    "clamp",
-                                                    "cos",
-                                                    "cosh",
-                                                    "cross",
-                                                    "dFdx",
-                                                    "dFdxCoarse",
-                                                    "dFdxFine",
-                                                    "dFdy",
-                                                    "dFdyCoarse",
-                                                    "dFdyFine",
-                                                    "degrees",
-                                                    "determinant",
-                                                    "distance",
-                                                    "dot",
-                                                    "equal",
-                                                    "exp",
-                                                    "exp2",
-                                                    "faceforward",
-                                                    "findLSB",
-                                                    "findMSB",
-                                                    "floatBitsToInt",
-                                                    "floatBitsToUint",
-                                                    "floor",
-                                                    "fma",
-                                                    "fract",
-                                                    "frexp",
-                                                    "fwidth",
-                                                    "fwidthCoarse",
-                                                    "fwidthFine",
-                                                    "greaterThan",
-                                                    "greaterThanEqual",
-                                                    "groupMemoryBarrier",
-                                                    "imageAtomicAdd",
-                                                    "imageAtomicAnd",
-                                                    "imageAtomicCompSwap",
-                                                    "imageAtomicExchange",
-                                                    "imageAtomicMax",
-                                                    "imageAtomicMin",
-                                                    "imageAtomicOr",
-                                                    "imageAtomicXor",
-                                                    "imageLoad",
-                                                    "imageSamples",
-                                                    "imageSize",
-                                                    "imageStore",
-                                                    "imulExtended",
-                                                    "intBitsToFloat",
-                                                    "interpolateAtCentroid",
-                                                    "interpolateAtOffset",
-                                                    "interpolateAtSample",
-                                                    "inverse",
-                                                    "inversesqrt",
-                                                    "isinf",
-                                                    "isnan",
-                                                    "ldexp",
-                                                    "length",
-                                                    "lessThan",
-                                                    "lessThanEqual",
-                                                    "log",
-                                                    "log2",
-                                                    "matrixCompMult",
-                                                    "max",
-                                                    "memoryBarrier",
-                                                    "memoryBarrierAtomicCounter",
-                                                    "memoryBarrierBuffer",
-                                                    "memoryBarrierImage",
-                                                    "memoryBarrierShared",
-                                                    "min",
-                                                    "mix",
-                                                    "mod",
-                                                    "modf",
-                                                    "normalize",
-                                                    "not",
-                                                    "notEqual",
-                                                    "outerProduct",
-                                                    "packDouble2x32",
-                                                    "packHalf2x16",
-                                                    "packSnorm2x16",
-                                                    "packSnorm4x8",
-                                                    "packUnorm2x16",
-                                                    "packUnorm4x8",
-                                                    "pow",
-                                                    "radians",
-                                                    "reflect",
-                                                    "refract",
-                                                    "round",
-                                                    "roundEven",
-                                                    "sign",
-                                                    "sin",
-                                                    "sinh",
-                                                    "smoothstep",
-                                                    "sqrt",
-                                                    "step",
-                                                    "tan",
-                                                    "tanh",
-                                                    "texelFetch",
-                                                    "texelFetchOffset",
-                                                    "texture",
-                                                    "textureGather",
-                                                    "textureGatherOffset",
-                                                    "textureGatherOffsets",
-                                                    "textureGrad",
-                                                    "textureGradOffset",
-                                                    "textureLod",
-                                                    "textureLodOffset",
-                                                    "textureOffset",
-                                                    "textureProj",
-                                                    "textureProjGrad",
-                                                    "textureProjGradOffset",
-                                                    "textureProjLod",
-                                                    "textureProjLodOffset",
-                                                    "textureProjOffset",
-                                                    "textureQueryLevels",
-                                                    "textureQueryLod",
-                                                    "textureSamples",
-                                                    "textureSize",
-                                                    "transpose",
-                                                    "trunc",
-                                                    "uaddCarry",
-                                                    "uintBitsToFloat",
-                                                    "umulExtended",
-                                                    "unpackDouble2x32",
-                                                    "unpackHalf2x16",
-                                                    "unpackSnorm2x16",
-                                                    "unpackSnorm4x8",
-                                                    "unpackUnorm2x16",
-                                                    "unpackUnorm4x8",
-                                                    "usubBorrow"};
+  static const std::vector<std::string_view> kFunctions = [] {
+    constexpr std::string_view kAll =
+        "abs acos acosh all any asin asinh atan atanh atomicAdd atomicAnd atomicCompSwap atomicExchange "
+        "atomicMax atomicMin atomicOr atomicXor barrier bitCount bitfieldExtract bitfieldInsert "
+        "bitfieldReverse ceil clamp cos cosh cross dFdx dFdxCoarse dFdxFine dFdy dFdyCoarse dFdyFine degrees "
+        "determinant distance dot equal exp exp2 faceforward findLSB findMSB floatBitsToInt floatBitsToUint "
+        "floor fma fract frexp fwidth fwidthCoarse fwidthFine greaterThan greaterThanEqual "
+        "groupMemoryBarrier imageAtomicAdd imageAtomicAnd imageAtomicCompSwap imageAtomicExchange "
+        "imageAtomicMax imageAtomicMin imageAtomicOr imageAtomicXor imageLoad imageSamples imageSize "
+        "imageStore imulExtended intBitsToFloat interpolateAtCentroid interpolateAtOffset "
+        "interpolateAtSample inverse inversesqrt isinf isnan ldexp length lessThan lessThanEqual log log2 "
+        "matrixCompMult max memoryBarrier memoryBarrierAtomicCounter memoryBarrierBuffer memoryBarrierImage "
+        "memoryBarrierShared min mix mod modf normalize not notEqual outerProduct packDouble2x32 "
+        "packHalf2x16 packSnorm2x16 packSnorm4x8 packUnorm2x16 packUnorm4x8 pow radians reflect refract "
+        "round roundEven sign sin sinh smoothstep sqrt step tan tanh texelFetch texelFetchOffset texture "
+        "textureGather textureGatherOffset textureGatherOffsets textureGrad textureGradOffset textureLod "
+        "textureLodOffset textureOffset textureProj textureProjGrad textureProjGradOffset textureProjLod "
+        "textureProjLodOffset textureProjOffset textureQueryLevels textureQueryLod textureSamples "
+        "textureSize transpose trunc uaddCarry uintBitsToFloat umulExtended unpackDouble2x32 unpackHalf2x16 "
+        "unpackSnorm2x16 unpackSnorm4x8 unpackUnorm2x16 unpackUnorm4x8 usubBorrow";
+    std::vector<std::string_view> words;
+    for (std::size_t at = 0; at < kAll.size();) {
+      const std::size_t end = std::min(kAll.find(' ', at), kAll.size());
+      words.push_back(kAll.substr(at, end - at));
+      at = end + 1;
+    }
+    return words;
+  }();
   return kFunctions;
 }
 

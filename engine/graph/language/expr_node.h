@@ -58,7 +58,7 @@ struct ExprNode : std::enable_shared_from_this<ExprNode> {
   bool dynamic = false;     // contains age()
   bool live = false;        // contains a live parameter, folded
   bool folded = false;      // nothing in it is left to fold
-  std::uint32_t key = 0;
+  std::uint32_t key = 0;    // of a parsed fact: bytes from `place` to the resource, without its @
   std::uint32_t terms =
       1;              // number of nodes from here down; a node that stands in several places counts in each
   base::Place place;  // of the token to blame: the operator, the name, the function

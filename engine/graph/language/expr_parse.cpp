@@ -346,6 +346,7 @@ class Parser {
     std::string name;
     if (accept("@")) name = "@";
     if (token_.kind != Token::Kind::identifier) return failUnexpected("the name of a resource");
+    const std::size_t begin = token_.begin;
     std::string rest;
     if (!parseDotted(rest, false)) return nullptr;
     if (at("["))
@@ -355,6 +356,7 @@ class Parser {
     node->op = ExprOp::fact;
     node->fact = fact;
     node->dynamic = fact == Fact::age;
+    node->key = static_cast<std::uint32_t>(begin - word.begin);
     node->place = placeOf(word);
     node->name = name + rest;
     return node;

@@ -71,6 +71,19 @@ class Describer {
       if (graph_.parameters[i].path == name) addParameter(i);
   }
 
+  // Whether the pass, called so without an index, has a slot, parameter or define of the name. Adds what it does with it.
+  bool addInPass(std::string_view pass, std::string_view name) {
+    bool found = false;
+    for (std::uint32_t i = 0; i < graph_.passes.size(); ++i) {
+      if (graph_.specs[i].declared != pass) continue;
+      addTitle(graph_.specs[i]);
+      const std::size_t before = text_.size();
+      addNames(i, name);
+      found = found || text_.size() > before;
+    }
+    return found;
+  }
+
   const std::string& text() const { return text_; }
 
  private:
@@ -114,7 +127,7 @@ class Describer {
     const PassSpec& spec = graph_.specs[pass];
     const FlatPass& flat = graph_.passes[pass];
     const std::uint32_t step = plan_.stepOf[pass];
-    line(0, "pass {}: {}{}", spec.name, spec.type, placeText(spec.place));
+    addTitle(spec);
     if (step != kNone) line(1, "step {} of {}", step, plan_.steps.size());
     line(1, "{}", explainer_.whyPass(pass));
     if (const std::string here = explainer_.whyHere(pass); !here.empty()) line(1, "{}", here);
@@ -122,15 +135,29 @@ class Describer {
     if (flat.slices != 1) line(1, "slices {}", flat.slices);
     if (!spec.vertexShader.empty()) line(1, "vertex shader {}", spec.vertexShader);
     if (!spec.shader.empty()) line(1, "shader {}", spec.shader);
-    for (const DefineSpec& define : spec.defines) line(1, "define {} {}", define.name, define.text);
-    for (const UniformSpec& uniform : spec.uniforms)
-      line(1, "parameter {} = {}{}{}", uniform.name, toText(uniform.value),
-           uniform.path.empty() ? "" : fmt::format(" ({})", uniform.path),
-           uniform.dynamic.present() && uniform.dynamic.dynamic() ? ", changes with time" : "");
-    for (std::uint32_t i = 0; i < spec.slotCount; ++i) addSlot(graph_.slots[spec.firstSlot + i], pass);
+    addNames(pass, "");
     if (step == kNone) return;
     for (const bool afterClears : {false, true})
       for (const std::string& why : explainer_.whyBarriers(step, afterClears)) line(1, "barrier {}", why);
+  }
+
+  void addTitle(const PassSpec& spec) {
+    line(0, "pass {}: {}{}", spec.name, spec.type, placeText(spec.place));
+  }
+
+  // Defines, parameters and slots; all of them, or those of one name.
+  void addNames(std::uint32_t pass, std::string_view only) {
+    const PassSpec& spec = graph_.specs[pass];
+    const auto wanted = [&](const std::string& name) { return only.empty() || name == only; };
+    for (const DefineSpec& define : spec.defines)
+      if (wanted(define.name)) line(1, "define {} {}", define.name, define.text);
+    for (const UniformSpec& uniform : spec.uniforms)
+      if (wanted(uniform.name))
+        line(1, "parameter {} = {}{}{}", uniform.name, toText(uniform.value),
+             uniform.path.empty() ? "" : fmt::format(" ({})", uniform.path),
+             uniform.dynamic.present() && uniform.dynamic.dynamic() ? ", changes with time" : "");
+    for (std::uint32_t i = 0; i < spec.slotCount; ++i)
+      if (const SlotSpec& slot = graph_.slots[spec.firstSlot + i]; wanted(slot.name)) addSlot(slot, pass);
   }
 
   void addSlot(const SlotSpec& slot, std::uint32_t pass) {
@@ -239,6 +266,11 @@ std::optional<std::string> describe(const Plan& plan, std::string_view name, bas
     d.found += (i ? ", " : "") + names[matches[i]];
   d.hint = fmt::format("write more of the name, such as '{}'", names[matches[0]]);
   return std::nullopt;
+}
+
+std::string describeInPass(const Plan& plan, std::string_view pass, std::string_view name) {
+  Describer describer(plan);
+  return describer.addInPass(pass, name) ? describer.text() : "";
 }
 
 }  // namespace weft::graph

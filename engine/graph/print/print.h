@@ -35,6 +35,8 @@ std::string graphFileOf(const Plan& plan);
 // Everything that `name` means: the pass or its repeats, the resource and its versions, the parameter. `name` is any unique
 // suffix. Nothing after a report: unknown (W045, with the nearest) or ambiguous (W046).
 std::optional<std::string> describe(const Plan& plan, std::string_view name, base::Diagnostics& diagnostics);
+// What a pass, called by its whole name without an index, does with a slot, parameter or define; "" when it has none.
+std::string describeInPass(const Plan& plan, std::string_view pass, std::string_view name);
 
 // What a texture of a format can be used for in a graph, as OpenGL 4.5 promises.
 struct FormatUses {

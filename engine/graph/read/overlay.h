@@ -30,6 +30,7 @@ struct Source {
   };
   std::vector<Set> sets;             // of "set", in the order they apply: the last wins
   std::vector<RemovedPass> removed;  // by overlays
+  std::vector<NamedDesc> named;      // by overlays
   std::string top;                   // as GraphDesc::top
   std::map<std::string, std::shared_ptr<const Source>> changed;  // by prefix: includes reached into
   std::size_t values = 0;                                        // of root: what a copy costs

@@ -37,6 +37,7 @@ struct Spot {
   std::vector<std::string> below;    // the prefixes of the includes that it begins with, from the source down
   std::string own;                   // what is left of the name, in the file at their end
   std::optional<std::size_t> index;  // there, among the members of the section or the stanzas of "passes"
+  base::Place declared;              // of its name there
 };
 
 // The stanza without "before", "after" and "remove", called `name` in its own file; without a name when that is "".
@@ -49,6 +50,13 @@ JsonValue withoutPlace(const JsonValue& stanza, std::string_view name) {
   for (JsonMember& member : out.members)
     if (member.key == "name" || member.key == "as") member.value.text = name;
   return out;
+}
+
+// The value that a stanza is called by; null when it has none.
+const JsonValue* calledBy(const JsonValue& stanza) {
+  for (const char* key : {"name", "as", "include"})
+    if (const JsonValue* named = stanza.find(key)) return named;
+  return nullptr;
 }
 
 // What a pass stanza writes and modifies: the names of the resources.
@@ -173,9 +181,22 @@ class Applier {
     }
     const JsonValue* own = spot.own.empty() ? nullptr : sectionOf(*at, section);
     for (std::size_t i = 0; own && i < own->members.size() && !spot.index; ++i)
-      if (own->members[i].key == spot.own) spot.index = i;
+      if (own->members[i].key == spot.own) {
+        spot.index = i;
+        spot.declared = own->members[i].place;
+      }
     for (std::size_t i = 0; own && i < own->items.size() && !spot.index; ++i)
-      if (stanzaName(own->items[i]) == spot.own) spot.index = i;
+      if (stanzaName(own->items[i]) == spot.own) {
+        spot.index = i;
+        spot.declared = calledBy(own->items[i])->place;
+      }
+    return spot;
+  }
+
+  // As locate(); what is there is also noted as named by the overlay at `place`.
+  Spot find(std::string_view section, std::string_view name, const base::Place& place) {
+    Spot spot = locate(section, name);
+    if (spot.index) target_.named.push_back({std::string(name), place, spot.declared});
     return spot;
   }
 
@@ -240,7 +261,7 @@ class Applier {
 
   void applyEntry(const JsonMember& section, const JsonMember& entry) {
     said_.resource = section.key == "resources" ? entry.key : "";
-    const Spot spot = locate(section.key, entry.key);
+    const Spot spot = find(section.key, entry.key, entry.place);
     if (spot.index) {
       edit(target_, spot.below, entry.place, [&](Source& source) {
         JsonMember& there = *memberOf(source.root, section.key);
@@ -314,7 +335,7 @@ class Applier {
   // A new pass, or one that moves.
   void putAt(const JsonValue& stanza, const JsonValue& anchor, bool after) {
     if (!said_.expect(anchor, Type::string, after ? "\"after\"" : "\"before\"")) return;
-    Spot beside = locate("passes", anchor.text);
+    Spot beside = find("passes", anchor.text, anchor.place);
     if (!beside.index) {
       const std::vector<std::string> names = allNames("passes");
       Diagnostic& d = said_.error(Code::passWithoutPlace, anchor.place,
@@ -326,7 +347,8 @@ class Applier {
       const std::vector<std::string> whole = wholeOf(anchor.text, names);
       beside = locate("passes", whole.empty() ? base::nearestName(anchor.text, names) : whole[0]);
     }
-    const Spot moved = locate("passes", said_.pass);
+    const JsonValue* named = calledBy(stanza);
+    const Spot moved = find("passes", said_.pass, named ? named->place : stanza.place);
     const std::string own = moved.below == beside.below ? moved.own : said_.pass;
     if (!mayStand(stanza, anchor, beside, moved, own)) return;
     if (!beside.index) {
@@ -381,10 +403,9 @@ class Applier {
   }
 
   void change(const JsonValue& stanza, bool remove) {
-    const JsonValue* named = stanza.find("name");
-    if (!named) named = stanza.find("as") ? stanza.find("as") : stanza.find("include");
+    const JsonValue* named = calledBy(stanza);
     const base::Place place = named ? named->place : stanza.place;
-    const Spot spot = locate("passes", said_.pass);
+    const Spot spot = find("passes", said_.pass, place);
     if (!spot.index) {
       const std::vector<std::string> names = allNames("passes");
       Diagnostic& d = said_.error(remove ? Code::nothingToChange : Code::passWithoutPlace, place,

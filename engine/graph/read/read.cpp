@@ -70,6 +70,7 @@ class GraphReader {
     graph->place = root.place;
     graph->files = source.files;
     graph->removed = source.removed;
+    graph->named = source.named;
     graph->top = source.top;
     checkKeys(root, diagnostics_);
     context.text(root, "$schema");

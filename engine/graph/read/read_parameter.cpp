@@ -15,10 +15,10 @@ namespace {
 
 using base::Code;
 using Type = JsonValue::Type;
-using Kind = ParameterDesc::Type;
+using ValueKind = ParameterDesc::Type;
 
 struct ParameterKind {
-  Kind kind;
+  ValueKind kind;
   Type json;
   std::size_t count;  // of an array
   bool numeric;
@@ -26,14 +26,14 @@ struct ParameterKind {
 };
 // In the order of kParameterTypes.
 constexpr ParameterKind kParameterKinds[] = {
-    {Kind::boolean, Type::boolean, 0, false, "true or false"},
-    {Kind::integer, Type::number, 0, true, "a whole number"},
-    {Kind::number, Type::number, 0, true, "a number"},
-    {Kind::vec2, Type::array, 2, true, "a list of 2 numbers"},
-    {Kind::vec3, Type::array, 3, true, "a list of 3 numbers"},
-    {Kind::vec4, Type::array, 4, true, "a list of 4 numbers"},
-    {Kind::choice, Type::string, 0, false, "one of the \"choices\""},
-    {Kind::file, Type::string, 0, false, "a path in a string, or \"\""}};
+    {ValueKind::boolean, Type::boolean, 0, false, "true or false"},
+    {ValueKind::integer, Type::number, 0, true, "a whole number"},
+    {ValueKind::number, Type::number, 0, true, "a number"},
+    {ValueKind::vec2, Type::array, 2, true, "a list of 2 numbers"},
+    {ValueKind::vec3, Type::array, 3, true, "a list of 3 numbers"},
+    {ValueKind::vec4, Type::array, 4, true, "a list of 4 numbers"},
+    {ValueKind::choice, Type::string, 0, false, "one of the \"choices\""},
+    {ValueKind::file, Type::string, 0, false, "a path in a string, or \"\""}};
 
 class ParameterReader {
  public:
@@ -61,7 +61,8 @@ class ParameterReader {
     checkRange(*initial);
     // Keys that say nothing about a parameter of this type.
     for (const char* key : {"min", "max", "step", "choices"}) {
-      const bool fits = std::string_view(key) == "choices" ? kind_->kind == Kind::choice : kind_->numeric;
+      const bool fits =
+          std::string_view(key) == "choices" ? kind_->kind == ValueKind::choice : kind_->numeric;
       if (const JsonValue* value = object_.find(key); value && !fits)
         context_
             .error(Code::keysExclude, *value,
@@ -90,7 +91,7 @@ class ParameterReader {
 
   // The type that is written, else the one the default shows. False after a report.
   bool findKind(const JsonValue& initial) {
-    const auto choose = [&](Kind kind) {
+    const auto choose = [&](ValueKind kind) {
       kind_ = std::ranges::find(kParameterKinds, kind, &ParameterKind::kind);
       out_.type = kind;
       return true;
@@ -101,17 +102,17 @@ class ParameterReader {
              choose(
                  kParameterKinds[std::ranges::find(kParameterTypes, *word) - kParameterTypes.begin()].kind);
     }
-    if (initial.is(Type::boolean)) return choose(Kind::boolean);
+    if (initial.is(Type::boolean)) return choose(ValueKind::boolean);
     if (initial.is(Type::number)) {
       const bool whole = std::ranges::all_of(object_.members, [](const JsonMember& member) {
         return !member.value.is(Type::number) || member.value.whole;
       });
-      return choose(whole ? Kind::integer : Kind::number);
+      return choose(whole ? ValueKind::integer : ValueKind::number);
     }
     for (const ParameterKind& kind : kParameterKinds)
       if (kind.count > 0 && initial.is(Type::array) && initial.items.size() == kind.count)
         return choose(kind.kind);
-    if (initial.is(Type::string) && object_.find("choices")) return choose(Kind::choice);
+    if (initial.is(Type::string) && object_.find("choices")) return choose(ValueKind::choice);
     if (!initial.is(Type::string)) {
       context_.wrongType(initial, fmt::format("the default of {}", what_),
                          "a number, a boolean, a list of 2 to 4 numbers, or a word among \"choices\"");
@@ -135,7 +136,7 @@ class ParameterReader {
           return false;
     const std::optional<Value> value = valueOf(initial);
     if (!value || !initial.is(kind_->json) || initial.items.size() != kind_->count ||
-        (kind_->kind == Kind::integer && initial.number != std::floor(initial.number))) {
+        (kind_->kind == ValueKind::integer && initial.number != std::floor(initial.number))) {
       auto& d =
           context_.error(Code::wrongType, initial,
                          fmt::format("the default of {} does not fit its type \"{}\"", what_, typeName()));
@@ -144,9 +145,9 @@ class ParameterReader {
       return false;
     }
     out_.initial = *value;
-    if (kind_->kind == Kind::file)
+    if (kind_->kind == ValueKind::file)
       out_.initial = Value::text(base::besideFile(initial.textPlace(), initial.text));
-    if (kind_->kind != Kind::choice) return true;
+    if (kind_->kind != ValueKind::choice) return true;
     if (!object_.find("choices")) {
       context_.error(Code::missingKey, object_, fmt::format("{} is a choice without \"choices\"", what_))
           .hint = "list the words it may be";
@@ -179,7 +180,7 @@ class ParameterReader {
     if (out_.step && *out_.step <= 0)
       report(*object_.find("step"), fmt::format("the step of {} is not above zero", what_),
              fmt::format("{}", *out_.step), "a number above zero");
-    if (kind_->kind == Kind::integer)
+    if (kind_->kind == ValueKind::integer)
       for (const char* key : {"min", "max", "step"})
         if (const JsonValue* bound = object_.find(key);
             bound && bound->is(Type::number) && bound->number != std::floor(bound->number))

@@ -45,14 +45,17 @@ class PassReader {
 
   std::optional<PassDesc> readInclude() {
     IncludeDesc& include = out_.include.emplace();
-    include.file = textAt("include", out_.namePlace);
+    include.file = textAt("include", include.filePlace);
+    out_.namePlace = include.filePlace;
     include.group = context_.text(value_, "group");
     out_.enabled = context_.expr(value_, "enabled");
     for (const JsonMember& member : context_.members(value_, "bind")) {
       const bool named = context_.checkName(member.key, member.place, {"an input"});
       std::optional<RefDesc> ref =
           context_.refOf(member.value, fmt::format("the binding of '{}'", member.key));
-      if (named && ref) include.binds.emplace_back(member.key, *std::move(ref));
+      if (!named || !ref) continue;
+      include.binds.emplace_back(member.key, *std::move(ref));
+      include.bindPlaces.push_back(member.place);
     }
     const JsonValue& file = *value_.find("include");
     if (include.file.empty()) {
@@ -83,7 +86,10 @@ class PassReader {
   // ---- pass ----
 
   std::optional<PassDesc> readPass() {
-    if (const JsonValue* like = value_.find("like")) out_.likePlace = like->place;
+    if (const JsonValue* like = value_.find("like")) {
+      out_.like = like->text;
+      out_.likePlace = like->place;
+    }
     out_.name = textAt("name", out_.namePlace);
     // The rest of a stanza whose name cannot be one is checked too. Nothing refers to passes by slots, so no second mistake
     // comes of another name.

@@ -59,11 +59,10 @@ run_script hostile_graphs hostile/graphs "$weft" &
 graphs=$!
 code=0
 { run_script broken_inputs hostile/broken_inputs "$weft" && run_script hostile_files hostile/files "$weft" && run_script hostile_files_cache hostile/files "$weft" --cache &&
-  run_script hostile_outputs hostile/outputs "$kept" && run_script hostile_shaders hostile/shaders "$kept" "$compare" && run_script view_files view/files "$kept" "$compare" &&
-  run_script view_files_without_inotify view/files "$kept" "$compare" --without-inotify; } || code=1
+  run_script hostile_outputs hostile/outputs "$kept" && run_script hostile_shaders hostile/shaders "$kept" "$compare" && run_script view_files view/files "$kept" "$compare"; } || code=1
 wait "$graphs" || code=1
 [ "$code" = 0 ] || exit 1
-echo "broken and hostile inputs: $(runs broken_inputs hostile_graphs hostile_files hostile_files_cache hostile_outputs hostile_shaders view_files view_files_without_inotify) runs of the program, 0 reports"
+echo "broken and hostile inputs: $(runs broken_inputs hostile_graphs hostile_files hostile_files_cache hostile_outputs hostile_shaders view_files) runs of the program, 0 reports"
 { run_script view view/basics "$kept" "$compare" && run_script view_window view/basics "$kept" "$compare" --window; } &
 views=$!
 { run_script view_session view/session "$kept" "$compare" && run_script environments view/environments "$kept" "$compare" && run_script environments_window view/environments "$kept" "$compare" --window &&

@@ -33,7 +33,7 @@ TEST_CASE("a write and a replacement by rename are seen once, neighbours are not
   const std::string a = folder / "a.json", b = folder / "b.glsl";
   save(a), save(b);
   FileWatcher watcher;
-  REQUIRE(watcher.works());
+  REQUIRE(watcher.descriptor() >= 0);
   watcher.watch({a, b});
   CHECK(watcher.poll().empty());
   save(a);
@@ -109,62 +109,9 @@ TEST_CASE("names stay as given, links are followed, another set takes over") {
   CHECK(watcher.poll().empty());
 }
 
-namespace {
-
-// What a watcher without inotify has to do.
-void checkLooking(FileWatcher& watcher, const WatchedFolder& folder) {
+TEST_CASE("what is not watched is said once") {
+  const WatchedFolder folder;
   const std::string a = folder / "a.json", late = folder / "x/late.glsl";
-  save(a);
-  watcher.watch({a, late});
-  CHECK_FALSE(watcher.poller().look());
-  CHECK(watcher.poll().empty());
-  save(a, "longer text");
-  CHECK(watcher.poll().empty());  // nobody looked
-  CHECK(watcher.poller().look());
-  CHECK(watcher.poll() == Names{a});
-  CHECK(watcher.poll().empty());
-  CHECK_FALSE(watcher.poller().look());
-  // By a rename, with the same size and time: another file.
-  fs::copy_file(a, folder / "a.json~");
-  fs::last_write_time(folder / "a.json~", fs::last_write_time(a));
-  fs::rename(folder / "a.json~", a);
-  CHECK(watcher.poller().look());
-  CHECK(watcher.poll() == Names{a});
-  fs::create_directories(folder.path / "x");
-  save(late);
-  fs::remove(a);
-  CHECK(watcher.poller().look());
-  CHECK(watcher.poll() == Names{a, late});
-  // An empty file is about to be written, or stays empty.
-  save(a, "");
-  CHECK_FALSE(watcher.poller().look());
-  CHECK(watcher.poller().look());
-  CHECK(watcher.poll() == Names{a});
-  save(late, "changed, and then given up");
-  watcher.poller().look();
-  watcher.watch({a});
-  CHECK(watcher.poll().empty());
-  const auto said = watcher.takeNotices();
-  REQUIRE(said.size() == 1);
-  CHECK(said.items()[0].code == weft::base::Code::filesArePolled);
-  CHECK(said.items()[0].severity == weft::base::Severity::note);
-  CHECK(said.items()[0].message ==
-        "'" + a + "' and 1 more file are looked at twice a second instead of being told of changes");
-  CHECK(said.items()[0].found.starts_with("no inotify instance: "));
-  CHECK(watcher.takeNotices().empty());
-}
-
-}  // namespace
-
-TEST_CASE("without inotify files are looked at, which is said once") {
-  const WatchedFolder folder;
-  FileWatcher watcher(FileWatcher::Means::looking);
-  CHECK_FALSE(watcher.works());
-  checkLooking(watcher, folder);
-}
-
-TEST_CASE("the same when the system has nothing left to give") {
-  const WatchedFolder folder;
   rlimit before{};
   REQUIRE(::getrlimit(RLIMIT_NOFILE, &before) == 0);
   const int next = ::open("/dev/null", O_RDONLY);  // the lowest that is free
@@ -174,6 +121,15 @@ TEST_CASE("the same when the system has nothing left to give") {
   REQUIRE(::setrlimit(RLIMIT_NOFILE, &none) == 0);
   FileWatcher watcher;
   REQUIRE(::setrlimit(RLIMIT_NOFILE, &before) == 0);
-  REQUIRE_FALSE(watcher.works());
-  checkLooking(watcher, folder);
+  REQUIRE(watcher.descriptor() < 0);
+  watcher.watch({a, late});
+  save(a);
+  CHECK(watcher.poll().empty());
+  const auto said = watcher.takeNotices();
+  REQUIRE(said.size() == 1);
+  CHECK(said.items()[0].code == weft::base::Code::filesNotWatched);
+  CHECK(said.items()[0].severity == weft::base::Severity::note);
+  CHECK(said.items()[0].found.starts_with("no inotify instance: "));
+  watcher.watch({a});
+  CHECK(watcher.takeNotices().empty());
 }

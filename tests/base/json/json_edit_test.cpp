@@ -85,5 +85,5 @@ TEST_CASE("a new item stands behind the last") {
 }
 
 TEST_CASE("strings are escaped as JSON wants it") {
-  CHECK(quoteJson("a \"b\" \\ \n ü") == "\"a \\\"b\\\" \\\\ \\u000a ü\"");
+  CHECK(quoteJson("a \"b\" \\ \n ü") == "\"a \\\"b\\\" \\\\ \\n ü\"");
 }

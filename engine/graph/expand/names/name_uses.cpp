@@ -1,0 +1,205 @@
+#include "engine/graph/expand/names/name_uses.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "engine/graph/desc_walk.h"
+#include "engine/graph/expand/names/scope.h"
+#include "engine/graph/language/expr_node.h"
+
+namespace weft::graph {
+
+namespace expansion {
+
+namespace {
+
+using UseOf = NameUse::Kind;
+
+auto nameOrderOf(const Place& place) {
+  return std::tuple(place.file ? std::string_view(*place.file) : std::string_view(), place.line,
+                    place.column);
+}
+
+Place placeAfter(Place place, std::size_t bytes) {
+  place.column += static_cast<std::uint32_t>(bytes);
+  return place;
+}
+
+Place insideOf(const Place& quote) {
+  return placeAfter(quote, 1);
+}
+
+class NameFinder {
+ public:
+  explicit NameFinder(Model& model) : model_(model) {}
+
+  std::vector<NameUse> run() {
+    for (Scope& scope : model_.scopes) addFile(scope);
+    const auto before = [](const NameUse& a, const NameUse& b) {
+      return nameOrderOf(a.place) < nameOrderOf(b.place);
+    };
+    std::ranges::stable_sort(uses_, before);
+    const auto same = [](const NameUse& a, const NameUse& b) {
+      return nameOrderOf(a.place) == nameOrderOf(b.place);
+    };
+    uses_.erase(std::unique(uses_.begin(), uses_.end(), same), uses_.end());
+    // What an overlay writes anew is declared below it all the same.
+    for (NameUse& use : uses_)
+      if (use.declared.file)
+        for (const NamedDesc& named : model_.desc.named)
+          if (nameOrderOf(insideOf(named.place)) == nameOrderOf(use.declared))
+            use.declared = insideOf(named.declared);
+    return std::move(uses_);
+  }
+
+ private:
+  void add(UseOf kind, std::string_view name, std::string full, Place place, Place declared) {
+    if (place.file)
+      uses_.push_back({kind, std::string(name), std::move(full), std::move(place), std::move(declared)});
+  }
+  void declare(UseOf kind, const std::string& name, std::string full, const Place& quote) {
+    add(kind, name, std::move(full), insideOf(quote), insideOf(quote));
+  }
+
+  static Place placeOf(const PassDesc& pass) {
+    const bool path = pass.include && base::isSamePlace(pass.namePlace, pass.include->filePlace);
+    return path ? pass.namePlace : insideOf(pass.namePlace);
+  }
+
+  void addFile(Scope& scope) {
+    const GraphDesc& desc = *scope.desc;
+    for (const NamedDesc& named : desc.named) addNamed(scope, named);
+    for (const ParameterDesc& each : desc.parameters)
+      declare(UseOf::variable, each.name, scope.prefix + each.name, each.place);
+    for (const NamedExpr& each : desc.lets)
+      declare(UseOf::variable, each.name, scope.prefix + each.name, each.place);
+    for (const ResourceDesc& each : desc.resources)
+      declare(UseOf::resource, each.name, scope.prefix + each.name, each.place);
+    for (const SetDesc& set : desc.sets) addVariable(scope, set.name, insideOf(set.place));
+    for (const PassDesc& pass : desc.passes) addPass(scope, pass);
+    visitMentions(
+        desc,
+        [&](const Expr& expr) {
+          if (expr.present()) addNode(scope, *expr.root());
+        },
+        [&](const RefDesc& ref) { addRef(scope, ref); });
+  }
+
+  void addPass(Scope& scope, const PassDesc& pass) {
+    add(UseOf::pass, pass.name, scope.prefix + pass.name, placeOf(pass), placeOf(pass));
+    for (const PassParameterDesc& each : pass.parameters)
+      if (each.declared)
+        declare(UseOf::variable, each.name, scope.prefix + pass.name + "." + each.name, each.declared->place);
+    if (const auto like = scope.passes.find(pass.like); like != scope.passes.end())
+      addTo(scope, *like->second, insideOf(pass.likePlace));
+    const auto child = pass.include ? scope.includes.find(pass.name) : scope.includes.end();
+    if (child == scope.includes.end()) return;
+    for (std::size_t i = 0; i < pass.include->binds.size(); ++i) {
+      const auto& [input, ref] = pass.include->binds[i];
+      addResource(*child->second, input, insideOf(pass.include->bindPlaces[i]), false);
+      addRef(scope, ref);
+    }
+  }
+
+  // A pass or an include of the file of `scope`.
+  void addTo(const Scope& scope, const PassDesc& pass, const Place& place) {
+    add(UseOf::pass, pass.name, scope.prefix + pass.name, place, placeOf(pass));
+  }
+
+  // The prefixes of a dotted name. Returns the scope of what is left of the name.
+  Scope& addPrefixes(Scope& scope, std::string_view& name, Place& place) {
+    Scope* in = &scope;
+    for (std::size_t dot = name.find('.'); dot != std::string_view::npos; dot = name.find('.')) {
+      const auto child = in->includes.find(name.substr(0, dot));
+      if (child == in->includes.end()) break;
+      addTo(*in, *child->second->stanza, place);
+      in = child->second;
+      name.remove_prefix(dot + 1);
+      place = placeAfter(place, dot + 1);
+    }
+    return *in;
+  }
+
+  void addRef(Scope& scope, const RefDesc& ref) {
+    const std::size_t at = ref.text.find(ref.name);
+    if (at != std::string::npos) addResource(scope, ref.name, placeAfter(ref.place, at), ref.import);
+  }
+
+  void addResource(Scope& scope, std::string_view name, Place place, bool import) {
+    if (import && name.find('.') == std::string_view::npos) {
+      const std::uint32_t found = findEntity(model_, scope, name, true);
+      if (found == kNone) return;
+      const Entity& entity = model_.entities[found];
+      return add(UseOf::resource, name, entity.name, place,
+                 entity.desc ? insideOf(entity.desc->place) : Place{});
+    }
+    Scope& in = addPrefixes(scope, name, place);
+    if (const auto own = in.resources.find(name); own != in.resources.end()) {
+      const Entity& entity = model_.entities[own->second];
+      add(UseOf::resource, name, entity.name, place, insideOf(entity.desc->place));
+    } else if (const auto pass = in.passes.find(name); pass != in.passes.end()) {
+      addTo(in, *pass->second, place);  // of has(pass)
+    }
+  }
+
+  // The nearest file that knows the first part has the prefixes.
+  void addVariable(Scope& scope, std::string_view name, const Place& place) {
+    const Variable found = findVariable(model_, scope, name);
+    if (found.kind != Variable::Kind::parameter && found.kind != Variable::Kind::let) return;
+    const bool parameter = found.kind == Variable::Kind::parameter;
+    const std::string& full = parameter ? model_.parameters[found.index].path : model_.lets[found.index].path;
+    const Place& declared =
+        parameter ? model_.parameters[found.index].desc->place : model_.lets[found.index].desc->place;
+    const std::size_t leaf = name.rfind('.') + 1;
+    for (Scope* from = &scope; leaf > 0 && from; from = from->parent) {
+      std::string_view rest = name;
+      Place at = place;
+      if (!from->includes.contains(name.substr(0, name.find('.'))) && !from->variables.contains(name))
+        continue;
+      const Scope& in = addPrefixes(*from, rest, at);
+      if (const std::size_t dot = rest.find('.'); dot != std::string_view::npos)
+        if (const auto pass = in.passes.find(rest.substr(0, dot)); pass != in.passes.end())
+          addTo(in, *pass->second, at);
+      break;
+    }
+    add(UseOf::variable, name.substr(leaf), full, placeAfter(place, leaf), insideOf(declared));
+  }
+
+  void addNode(Scope& scope, const ExprNode& node) {
+    if (node.op == ExprOp::variable) {
+      addVariable(scope, node.name, placeAfter(node.place, 1));
+    } else if (node.op == ExprOp::fact) {
+      const bool import = node.name.starts_with('@');
+      addResource(scope, std::string_view(node.name).substr(import ? 1 : 0), placeAfter(node.place, node.key),
+                  import);
+    }
+    for (const ExprPtr& child : node.children) addNode(scope, *child);
+  }
+
+  void addNamed(Scope& scope, const NamedDesc& named) {
+    std::string_view name = named.name;
+    Place place = insideOf(named.place);
+    const Scope& in = addPrefixes(scope, name, place);
+    const UseOf kind = in.resources.contains(name)   ? UseOf::resource
+                       : in.variables.contains(name) ? UseOf::variable
+                                                     : UseOf::pass;
+    add(kind, name, in.prefix + std::string(name), place, insideOf(named.declared));
+  }
+
+  Model& model_;
+  std::vector<NameUse> uses_;
+};
+
+}  // namespace
+
+}  // namespace expansion
+
+std::vector<NameUse> findNameUses(const GraphDesc& desc, const Registry& registry) {
+  const Settings settings;
+  base::Diagnostics ignored;
+  expansion::Model model{desc, registry, settings, ignored};
+  expansion::buildScopes(model);
+  return model.stopped ? std::vector<NameUse>() : expansion::NameFinder(model).run();
+}
+
+}  // namespace weft::graph
