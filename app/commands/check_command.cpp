@@ -309,8 +309,8 @@ int tell(const CheckOptions& options, Checked& checked) {
 
 // Returns when some of the files changed and then nothing did for a moment: a save may be several writes.
 std::vector<std::string> waitForChange(base::FileWatcher& watcher) {
-  constexpr int kQuiet = 50;  // milliseconds
-  std::vector<std::string> changed;
+  constexpr int kQuiet = 50;                          // milliseconds
+  std::vector<std::string> changed = watcher.poll();  // what happened before the last watch(), too
   while (true) {
     pollfd waiting{watcher.descriptor(), POLLIN, 0};
     poll(&waiting, 1, changed.empty() ? -1 : kQuiet);

@@ -70,6 +70,22 @@ bool isInside(const Access& all, const std::string& real) {
   return std::ranges::any_of(all.folders, [&](const std::string& folder) { return isBelow(real, folder); });
 }
 
+// Whether no link on the way of an absolute path below a folder lies outside of the folders: not even that one leads back in is told.
+bool staysInside(const Access& all, const fs::path& path, int& links) {
+  if (std::ranges::find(all.folders, realOf(path)) != all.folders.end()) return true;
+  if (path == path.parent_path() || !staysInside(all, path.parent_path(), links)) return false;
+  std::error_code ec;
+  const fs::path parent = realOf(path.parent_path()), here = parent / path.filename();
+  if (!fs::is_symlink(fs::symlink_status(here, ec))) return true;
+  return ++links > kMostLinks ||  // it cannot be opened
+         staysInside(all, (parent / fs::read_symlink(here, ec)).lexically_normal(), links);
+}
+
+bool isInside(const Access& all, const std::string& absolute, const std::string& real) {
+  int links = 0;
+  return isInside(all, real) && staysInside(all, absolute, links);
+}
+
 State judge(mode_t mode, bool mayBePipe, bool wasChosen) {
   if (S_ISREG(mode)) return State::open;
   if (S_ISDIR(mode)) return State::directory;
@@ -121,7 +137,7 @@ bool mayRead(const std::string& path) {
   Access& all = access();
   const std::lock_guard lock(all.mutex);
   const std::string absolute = absoluteOf(path);
-  return !all.confined || all.chosen.contains(absolute) || isInside(all, realOf(absolute));
+  return !all.confined || all.chosen.contains(absolute) || isInside(all, absolute, realOf(absolute));
 }
 
 void reportOutside(const std::string& path, Diagnostics& diagnostics, const Place& place) {
@@ -175,7 +191,7 @@ OpenedFile openFile(const std::string& path) {
     std::error_code ec;
     const std::string real = handle < 0 ? realOf(absolute) : fs::read_symlink(behind, ec).string();
     const std::lock_guard lock(all.mutex);
-    if (!isInside(all, real)) return done({.state = State::outside});
+    if (!isInside(all, absolute, real)) return done({.state = State::outside});
   }
   const auto failure = [&] {
     const bool missing = error == ENOENT || error == ENOTDIR;

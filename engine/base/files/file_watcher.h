@@ -22,7 +22,8 @@ class FileWatcher {
   FileWatcher(const FileWatcher&) = delete;
   FileWatcher& operator=(const FileWatcher&) = delete;
 
-  // Readable while poll() has something to look at; -1 when it never has. Not to be read.
+  // Readable when something happened since the last watch() or poll(); -1 when it never is. Ask poll() before waiting for it: watch()
+  // keeps what happened before. Not to be read.
   int descriptor() const { return descriptor_; }
 
   // Replaces the set. Names that were watched before keep what has happened to them and was not asked for

@@ -128,7 +128,8 @@ std::optional<std::string> ReadContext::word(const JsonValue& object, std::strin
   if (std::ranges::find(words, value->text) != words.end()) return value->text;
   auto& d = error(Code::unknownWord, *value, fmt::format("unknown word \"{}\" for \"{}\"", value->text, key));
   d.expected = fmt::format("{}", fmt::join(words, ", "));
-  if (key == "type") d.hint = base::hintForForeign(base::Foreign::value_type, value->text);
+  if (key == "type")  // of a parameter
+    d.hint = base::hintForForeign(base::Foreign::value_type, value->text);
   const std::string nearest =
       base::nearestName(value->text, std::vector<std::string>(words.begin(), words.end()));
   if (!d.hint.empty() || nearest.empty()) return std::nullopt;
