@@ -63,7 +63,7 @@ struct StepRecorder::Sum {
   std::array<double, kParts> weights{};
   std::array<double, 4> channels{};
   double texels = 0, broken = 0;
-  bool texture = false, keep = false;
+  bool texture = false;
 
   void addLayer(const std::vector<float>& values, std::uint32_t width, std::uint32_t height,
                 std::uint32_t stride) {
@@ -99,12 +99,6 @@ struct StepRecorder::Sum {
     return out;
   }
 };
-
-void StepRecorder::keep(std::string pass, std::string resource) {
-  keptPass_ = std::move(pass);
-  keptResource_ = std::move(resource);
-  kept_.reset();
-}
 
 // The mean of the samples, through a texture of one sample.
 std::vector<float> StepRecorder::readSamples(const gl::TextureRef& texture) {
@@ -154,9 +148,6 @@ void StepRecorder::add(Execution& execution, const graph::FlatUse& use, Sum& sum
       const std::vector<float> values = readLayer(texture, mip, layer, sum.hash);
       if (values.size() < std::size_t{extent.width} * extent.height * stride) continue;
       sum.addLayer(values, extent.width, extent.height, stride);
-      if (!sum.keep) continue;
-      if (!kept_) kept_ = WrittenTexels{.values = {}, .stride = stride, .width = extent.width};
-      kept_->values.insert(kept_->values.end(), values.begin(), values.end());
     }
   }
 }
@@ -189,11 +180,7 @@ void StepRecorder::look(Execution& execution, std::uint32_t step) {
   plan.forEachWrite(step, [&](const graph::FlatUse& use) {
     const std::string name = nameWithoutVersion(graph.resourceNames[use.resource]);
     auto sum = std::ranges::find(sums, name, &std::pair<std::string, Sum>::first);
-    if (sum == sums.end()) {
-      sum = sums.emplace(sums.end(), name, Sum{});
-      sum->second.keep = name == keptResource_ && graph.passNames[index] == keptPass_;
-      if (sum->second.keep) kept_.reset();
-    }
+    if (sum == sums.end()) sum = sums.emplace(sums.end(), name, Sum{});
     add(execution, use, sum->second);
   });
   for (const auto& [name, sum] : sums)

@@ -30,13 +30,6 @@ struct StepRecord {
 // The largest relative difference of two signatures: 0 for equal ones, 1 for a part that is black in one of them.
 double differenceOf(const Signature& a, const Signature& b);
 
-// All texels that a pass wrote to one resource, level by level and layer by layer: four floats each, or one of depth.
-struct WrittenTexels {
-  std::vector<float> values;
-  std::uint32_t stride = 4;  // values per texel
-  std::uint32_t width = 0;   // of the first level
-};
-
 class StepRecorder {
  public:
   // To be called in StepWatch::before. Zeroes the buffers that the step writes anew: what it leaves out, padding and the end
@@ -44,12 +37,9 @@ class StepRecorder {
   void prepare(Execution& execution, std::uint32_t step);
   // To be called in StepWatch::after. No record is made of a step that has no results (StepChoice::hasResults).
   void look(Execution& execution, std::uint32_t step);
-  // Keeps the texels that this pass writes to this resource (names as in StepRecord), too.
-  void keep(std::string pass, std::string resource);
 
   // The records of the steps since the last call, in their order.
   std::vector<StepRecord> take() { return std::exchange(records_, {}); }
-  const std::optional<WrittenTexels>& kept() const { return kept_; }
 
  private:
   struct Sum;
@@ -59,8 +49,6 @@ class StepRecorder {
   void add(Execution& execution, const graph::FlatUse& use, Sum& sum);
 
   std::vector<StepRecord> records_;
-  std::string keptPass_, keptResource_;
-  std::optional<WrittenTexels> kept_;
 };
 
 }  // namespace weft::runtime
