@@ -5,11 +5,11 @@
 #include <string>
 #include <string_view>
 
-#include "engine/base/json/dom.h"
+#include "engine/text/json/dom.h"
 
 namespace weft::test {
 
-using base::JsonValue;
+using text::JsonValue;
 
 // Null when there is none.
 inline const JsonValue* findPointer(const JsonValue& root, std::string_view pointer) {

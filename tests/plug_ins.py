@@ -26,7 +26,7 @@ OTHER_MEANINGS = {
     ("engine/graph/read/overlay_apply.cpp", "name"): "a key of passes",
     ("engine/graph/read/overlay.cpp", "name"): "a key of graphs",
     ("engine/graph/read/misspelt.cpp", "name"): "a key of passes",
-    ("engine/base/words/glsl_words.cpp", "image"): "how types of GLSL begin",
+    ("engine/text/words/glsl_words.cpp", "image"): "how types of GLSL begin",
     ("engine/glsl/interface.cpp", "image"): "how types of GLSL begin",
     ("engine/gl/programs/glsl_type.cpp", "image"): "how types of GLSL begin",
     ("engine/graph/subresource.h", "image"): "a kind of use",

@@ -111,7 +111,7 @@ double timeOf(const std::vector<std::function<void()>>& edits) {
 // only before the first edit are there frames. A live change: one value more; a
 // toggle: a structural boolean, on and off; a save: all files of the graph are
 // read again. "worst" is the largest of the medians. Empty after errors.
-std::optional<Json> benchEdits(const Options& options, base::Diagnostics& diagnostics) {
+std::optional<Json> benchEdits(const Options& options, text::Diagnostics& diagnostics) {
   auto world = loadWorld(options, diagnostics);
   if (!world || diagnostics.hasErrors()) return std::nullopt;
   auto session = openDevice(options, diagnostics);
@@ -180,7 +180,7 @@ graph::Settings settingsWith(const Options& options, const graph::GraphDesc& des
 // the ratio means something on a busy machine too. Milliseconds between glFinish, the least of all rounds; on software
 // rasterizers "cpu_copies" is the same ratio in CPU time of the process. Variants: "plain" (every effect of the post chain
 // off but fxaa), "default", and "all" (bloom, dof, auto_exposure, motion_blur and fxaa on). Empty after errors.
-std::optional<Json> benchFrame(const Options& options, base::Diagnostics& diagnostics) {
+std::optional<Json> benchFrame(const Options& options, text::Diagnostics& diagnostics) {
   auto world = loadWorld(options, diagnostics);
   if (!world || diagnostics.hasErrors()) return std::nullopt;
   auto session = openDevice(options, diagnostics);
@@ -250,7 +250,7 @@ struct BenchOptions : Options {
 };
 
 int runBench(BenchOptions& options) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const bool both = options.frameGraph.empty() && options.editGraph.empty();
   Options frame = options, edit = options;
   frame.graph = both ? dataFolder() + "/graphs/studio.json" : options.frameGraph;

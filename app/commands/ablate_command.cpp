@@ -8,7 +8,7 @@
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
 #include "app/trials/report_page.h"
-#include "engine/base/counted.h"
+#include "engine/text/counted.h"
 
 namespace weft::app {
 
@@ -47,11 +47,11 @@ Ablation leaveOut(gl::Context& context, const Options& options, const runtime::W
     row.ownMs = own->second;
   Options without = options;
   without.disables.emplace_back(pass);
-  base::Diagnostics said;
+  text::Diagnostics said;
   const bool possible = makePlan(without, world.facts(), context.device().software, said) != nullptr;
   const auto shot = possible ? takeShot(context, without, world, wish, said) : std::nullopt;
   if (!shot) {
-    const auto error = std::ranges::find(said.items(), base::Severity::error, &base::Diagnostic::severity);
+    const auto error = std::ranges::find(said.items(), text::Severity::error, &text::Diagnostic::severity);
     row.needed = error == said.items().end() ? "it fails without" : error->message;
     return row;
   }
@@ -114,7 +114,7 @@ std::string jsonOf(const std::vector<Ablation>& rows, const Shot& whole) {
 }
 
 int ablate(gl::Context& context, const AblateOptions& options, const runtime::World& world,
-           base::Diagnostics& diagnostics) {
+           text::Diagnostics& diagnostics) {
   const ShotWish wish{.frames = {options.lastFrame}, .repeats = options.repeats};
   const auto whole = takeShot(context, options, world, wish, diagnostics);
   if (!whole) return 1;
@@ -127,7 +127,7 @@ int ablate(gl::Context& context, const AblateOptions& options, const runtime::Wo
   }
   if (options.format == "json") return print(jsonOf(rows, *whole)), 0;
   const std::string sum =
-      fmt::format("{} run, {:.2f} ms, {} bytes", base::counted(whole->plan->steps.size(), "pass"),
+      fmt::format("{} run, {:.2f} ms, {} bytes", text::counted(whole->plan->steps.size(), "pass"),
                   whole->milliseconds, whole->plan->bytesAllocated);
   const std::vector<std::string> titles{"pass",  "own ms", "saved ms", "saved bytes",
                                         "steps", "FLIP",   "at most"};
@@ -143,7 +143,7 @@ int ablate(gl::Context& context, const AblateOptions& options, const runtime::Wo
 int runAblate(AblateOptions& options) {
   const Options* const one = &options;
   return runOnDevice({one, 1}, 1,
-                     [&](gl::Context& context, const runtime::World& world, base::Diagnostics& diagnostics) {
+                     [&](gl::Context& context, const runtime::World& world, text::Diagnostics& diagnostics) {
                        return ablate(context, options, world, diagnostics);
                      });
 }

@@ -12,10 +12,6 @@
 #include "app/output/standard_streams.h"
 #include "app/session/device_session.h"
 #include "app/session/session.h"
-#include "engine/base/counted.h"
-#include "engine/base/files/file_watcher.h"
-#include "engine/base/printable.h"
-#include "engine/base/report.h"
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/language/enough.h"
 #include "engine/graph/read/read.h"
@@ -24,6 +20,10 @@
 #include "engine/runtime/imports/registry.h"
 #include "engine/runtime/prepare/program_check.h"
 #include "engine/runtime/prepare/program_request.h"
+#include "engine/text/counted.h"
+#include "engine/text/files/file_watcher.h"
+#include "engine/text/printable.h"
+#include "engine/text/report.h"
 
 namespace weft::app {
 
@@ -49,8 +49,8 @@ std::string keyOf(const gl::ProgramRequest& request) {
 }
 
 // What tells messages apart: the place and the words.
-std::string keyOf(const base::Diagnostic& d) {
-  const base::Place& place = d.place.inFile();
+std::string keyOf(const text::Diagnostic& d) {
+  const text::Place& place = d.place.inFile();
   return fmt::format("{}:{}:{} {}", place.file ? *place.file : "", place.line, place.column, d.message);
 }
 
@@ -62,11 +62,11 @@ class ShaderCheck {
 
   // All variants of the live passes. `with`: how the plan differs from the graph as it is, for messages; or "". Nothing
   // more is compiled once a context could not be opened, which is reported.
-  void check(const graph::Plan& plan, const std::string& with, base::Diagnostics& diagnostics) {
+  void check(const graph::Plan& plan, const std::string& with, text::Diagnostics& diagnostics) {
     if (options_.shaders && !open(diagnostics)) return;
     glsl::SourceLoader& sources = session_ ? session_->renderer.device().sources : sources_;
     sources.setRoots(runtime::shaderRootsOf(plan.graph->files, dataFolder()));
-    base::Diagnostics said;
+    text::Diagnostics said;
     for (const graph::Step& step : plan.steps) {
       if (graph::enoughErrors(said)) break;
       const graph::PassSpec& spec = plan.graph->specs[step.pass];
@@ -80,8 +80,8 @@ class ShaderCheck {
         checkDeclared(plan, step.pass, request, said);
     }
     // A warning about a shader's text is the same in all its variants.
-    for (base::Diagnostic each : said.items()) {
-      if (each.severity == base::Severity::warning && !told_.insert(keyOf(each)).second) continue;
+    for (text::Diagnostic each : said.items()) {
+      if (each.severity == text::Severity::warning && !told_.insert(keyOf(each)).second) continue;
       if (!with.empty()) each.message += fmt::format(" (with {})", with);
       diagnostics.add(std::move(each));
     }
@@ -90,7 +90,7 @@ class ShaderCheck {
 
   // A graph that cannot be compiled has no variants; its shader files are read all the same, so that a misspelt
   // path or include is reported together with the graph's own mistakes. Needs no OpenGL.
-  void checkFiles(const graph::GraphDesc& desc, base::Diagnostics& diagnostics) {
+  void checkFiles(const graph::GraphDesc& desc, text::Diagnostics& diagnostics) {
     glsl::SourceLoader sources(runtime::shaderRootsOf(desc.files, dataFolder()));
     checkFiles(desc, sources, diagnostics);
     read_.insert(sources.touched().begin(), sources.touched().end());
@@ -98,12 +98,12 @@ class ShaderCheck {
 
   std::size_t variants() const { return known_.size(); }
   // Shaders that are missing, or an include of theirs, where none is compiled: they were not looked at.
-  const base::Diagnostics& unread() const { return unread_; }
+  const text::Diagnostics& unread() const { return unread_; }
   // Every file that was read or looked for.
   std::vector<std::string> files() const { return {read_.begin(), read_.end()}; }
 
  private:
-  bool open(base::Diagnostics& diagnostics) {
+  bool open(text::Diagnostics& diagnostics) {
     if (failed_ || session_) return !failed_;
     Options headless = options_;
     headless.backend = "auto";
@@ -113,7 +113,7 @@ class ShaderCheck {
   }
 
   void checkCompiled(const graph::Plan& plan, std::uint32_t pass, const gl::ProgramRequest& request,
-                     base::Diagnostics& said) {
+                     text::Diagnostics& said) {
     const auto variant = session_->renderer.device().programs.get(request, said);
     if (!variant) return;
     const runtime::LinkedProgram linked{variant->program.reflection(), session_->context->device().limits};
@@ -122,7 +122,7 @@ class ShaderCheck {
   }
 
   void checkDeclared(const graph::Plan& plan, std::uint32_t pass, const gl::ProgramRequest& request,
-                     base::Diagnostics& said) {
+                     text::Diagnostics& said) {
     std::vector<gl::StageSource> stages;
     for (const gl::ProgramRequest::Stage& stage : request.stages) {
       if (!stage.text.empty()) continue;
@@ -136,7 +136,7 @@ class ShaderCheck {
     runtime::warnOfConditions(request.pass, stages, request.defines, said);
   }
 
-  void checkFiles(const graph::GraphDesc& desc, glsl::SourceLoader& sources, base::Diagnostics& diagnostics) {
+  void checkFiles(const graph::GraphDesc& desc, glsl::SourceLoader& sources, text::Diagnostics& diagnostics) {
     for (const graph::PassDesc& pass : desc.passes) {
       if (graph::enoughErrors(diagnostics)) return;
       if (pass.include && pass.include->graph) checkFiles(*pass.include->graph, sources, diagnostics);
@@ -149,9 +149,9 @@ class ShaderCheck {
         continue;  // a shader of one stage, for a draw (W067)
       else if (type->reflect().shader == graph::ShaderShape::draw)
         files = {pass.shader + ".vert.glsl", pass.shader + ".frag.glsl"};
-      base::Diagnostics said;
+      text::Diagnostics said;
       for (const std::string& file : files) sources.load(file, said, pass.shaderPlace);
-      for (const base::Diagnostic& each :
+      for (const text::Diagnostic& each :
            said.items())  // a pass that is like another has its shader from there
         if (told_.insert(keyOf(each)).second) diagnostics.add(each);
     }
@@ -165,22 +165,22 @@ class ShaderCheck {
   std::set<std::string> known_;                             // variants, by what they are made of
   std::set<std::string> read_, told_;                       // files, messages
   std::set<std::string> missing_;                           // files that unread_ is about
-  base::Diagnostics unread_;
+  text::Diagnostics unread_;
 };
 
 struct Checked {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   std::shared_ptr<const graph::Plan> plan;  // null after errors of the graph
   std::optional<graph::Matrix> matrix;
   std::size_t variants = 0;        // of shaders that were compiled
   std::vector<std::string> files;  // that were read
-  base::Diagnostics unread;        // why shaders were not looked at (--no-shaders)
+  text::Diagnostics unread;        // why shaders were not looked at (--no-shaders)
 };
 
 // The variations of the graph: what they refuse, and with --all the shader variants that they reach.
 graph::Matrix tryVariations(const CheckOptions& options, const graph::GraphDesc& desc,
                             const runtime::WorldFacts& facts, ShaderCheck& shaders,
-                            base::Diagnostics& diagnostics) {
+                            text::Diagnostics& diagnostics) {
   const graph::Registry registry = runtime::makeRegistry({}, facts);
   graph::MatrixOptions wanted{.pairs = options.matrix};
   if (options.allVariants)
@@ -193,16 +193,16 @@ graph::Matrix tryVariations(const CheckOptions& options, const graph::GraphDesc&
 
 Checked checkOnce(const CheckOptions& options) {
   Checked checked;
-  base::Diagnostics& diagnostics = checked.diagnostics;
+  text::Diagnostics& diagnostics = checked.diagnostics;
   const auto world = loadWorld(options, diagnostics);
   const runtime::WorldFacts facts = world ? world->facts() : factsWithoutWorld();
   checked.plan = makePlan(options, facts, true, diagnostics);
   ShaderCheck shaders(options);
   if (checked.plan) shaders.check(*checked.plan, "", diagnostics);
   // Beyond a limit nothing that follows can be trusted, and there may be very much of it.
-  const bool over = diagnostics.contains(base::Code::limitExceeded);
+  const bool over = diagnostics.contains(text::Code::limitExceeded);
   const bool vary = checked.plan && !diagnostics.hasErrors() && (options.matrix || options.allVariants);
-  base::Diagnostics again;
+  text::Diagnostics again;
   if (const auto desc = over || (checked.plan && !vary)
                             ? nullptr
                             : graph::readGraph(options.graph, options.presets, again)) {
@@ -218,7 +218,7 @@ Checked checkOnce(const CheckOptions& options) {
   if (checked.matrix && options.matrix)
     for (const auto* told : {&checked.matrix->broken, &checked.matrix->lost})
       for (const graph::RefusedVariation& variation : *told)
-        for (base::Diagnostic each : variation.said.items()) {
+        for (text::Diagnostic each : variation.said.items()) {
           each.message += fmt::format(" (with {})", variation.variation.text());
           diagnostics.add(std::move(each));
         }
@@ -232,18 +232,18 @@ std::string matrixText(const CheckOptions& options, const Checked& checked) {
   const graph::Matrix& matrix = *checked.matrix;
   std::string text;
   if (options.matrix) {
-    text = fmt::format("matrix: {} and {} disabled, {} set\n", base::counted(matrix.passes, "pass"),
-                       base::counted(matrix.pairs, "pair"), base::counted(matrix.values, "value"));
+    text = fmt::format("matrix: {} and {} disabled, {} set\n", text::counted(matrix.passes, "pass"),
+                       text::counted(matrix.pairs, "pair"), text::counted(matrix.values, "value"));
     for (const graph::RefusedVariation& needed : matrix.needed)
       text += fmt::format("  needed: {}: {}\n",
-                          base::printable(fmt::format("{}", fmt::join(needed.variation.disables, " or "))),
-                          base::printable(needed.said.items()[0].message));
+                          text::printable(fmt::format("{}", fmt::join(needed.variation.disables, " or "))),
+                          text::printable(needed.said.items()[0].message));
     text += matrix.broken.empty()
                 ? "  nothing else is refused\n"
                 : fmt::format("  {} of these are refused without saying so\n", matrix.broken.size());
   }
   if (options.allVariants && options.shaders)
-    text += fmt::format("shaders: {} compiled\n", base::counted(checked.variants, "variant"));
+    text += fmt::format("shaders: {} compiled\n", text::counted(checked.variants, "variant"));
   return text;
 }
 
@@ -251,14 +251,14 @@ int tellText(const CheckOptions& options, Checked& checked) {
   const int code = report(checked.diagnostics);
   if (checked.matrix) print(matrixText(options, checked));
   if (code == 0)
-    print(fmt::format("{}: {}, {} run, {} {} {} of {} declared bytes\n", base::printable(options.graph),
-                      base::counted(checked.plan->graph->passes.size(), "pass"), checked.plan->steps.size(),
-                      base::counted(checked.plan->storages.size(), "texture"),
+    print(fmt::format("{}: {}, {} run, {} {} {} of {} declared bytes\n", text::printable(options.graph),
+                      text::counted(checked.plan->graph->passes.size(), "pass"), checked.plan->steps.size(),
+                      text::counted(checked.plan->storages.size(), "texture"),
                       checked.plan->storages.size() == 1 ? "takes" : "share", checked.plan->bytesAllocated,
                       checked.plan->bytesDeclared));
   // A graph may stand apart from its shaders: no mistake, but then nobody has looked at them.
-  for (const base::Diagnostic& each : checked.unread.items())
-    if (code == 0) print(fmt::format("  not looked at: {}\n", base::printable(each.message)));
+  for (const text::Diagnostic& each : checked.unread.items())
+    if (code == 0) print(fmt::format("  not looked at: {}\n", text::printable(each.message)));
   return code;
 }
 
@@ -268,21 +268,21 @@ Json refusedJson(const std::vector<graph::RefusedVariation>& refused) {
   Json all = Json::array();
   for (const graph::RefusedVariation& each : refused)
     all.push_back({{"with", each.variation.text()},
-                   {"diagnostics", Json::parse(base::diagnosticsJson(each.said, -1))}});
+                   {"diagnostics", Json::parse(text::diagnosticsJson(each.said, -1))}});
   return all;
 }
 
 Json documentOf(const CheckOptions& options, const Checked& checked) {
   Json out{{"graph", options.graph},
            {"errors", checked.diagnostics.errorCount()},
-           {"diagnostics", Json::parse(base::diagnosticsJson(checked.diagnostics, -1))}};
+           {"diagnostics", Json::parse(text::diagnosticsJson(checked.diagnostics, -1))}};
   if (checked.plan)
     out["plan"] = {{"passes", checked.plan->graph->passes.size()},
                    {"run", checked.plan->steps.size()},
                    {"textures", checked.plan->storages.size()},
                    {"bytes_declared", checked.plan->bytesDeclared},
                    {"bytes_allocated", checked.plan->bytesAllocated}};
-  for (const base::Diagnostic& each : checked.unread.items()) out["not_looked_at"].push_back(each.message);
+  for (const text::Diagnostic& each : checked.unread.items()) out["not_looked_at"].push_back(each.message);
   if (options.shaders) out["shader_variants"] = checked.variants;
   if (checked.matrix && options.matrix)
     out["matrix"] = {{"passes", checked.matrix->passes},
@@ -297,9 +297,9 @@ Json documentOf(const CheckOptions& options, const Checked& checked) {
 int tell(const CheckOptions& options, Checked& checked) {
   if (options.format == "text") return tellText(options, checked);
   if (options.format == "sarif")
-    print(base::diagnosticsSarif(checked.diagnostics, kVersion) + "\n");
+    print(text::diagnosticsSarif(checked.diagnostics, kVersion) + "\n");
   else if (options.watch)  // a line for each time
-    print(base::printableJson(
+    print(text::printableJson(
               documentOf(options, checked).dump(-1, ' ', false, Json::error_handler_t::replace)) +
           "\n");
   else
@@ -308,7 +308,7 @@ int tell(const CheckOptions& options, Checked& checked) {
 }
 
 // Returns when some of the files changed and then nothing did for a moment: a save may be several writes.
-std::vector<std::string> waitForChange(base::FileWatcher& watcher) {
+std::vector<std::string> waitForChange(text::FileWatcher& watcher) {
   constexpr int kQuiet = 50;                          // milliseconds
   std::vector<std::string> changed = watcher.poll();  // what happened before the last watch(), too
   while (true) {
@@ -321,7 +321,7 @@ std::vector<std::string> waitForChange(base::FileWatcher& watcher) {
 }
 
 int runCheck(CheckOptions& options) {
-  base::FileWatcher watcher;
+  text::FileWatcher watcher;
   if (options.watch) watcher.watch({options.graph});  // what it includes is known after the first check
   while (true) {
     Checked checked = checkOnce(options);
@@ -332,10 +332,10 @@ int runCheck(CheckOptions& options) {
     const int code = tell(options, checked);
     if (!options.watch) return code;
     const bool text = options.format == "text";
-    if (text) print(fmt::format("watching {}\n", base::counted(checked.files.size(), "file")));
+    if (text) print(fmt::format("watching {}\n", text::counted(checked.files.size(), "file")));
     flushPrinted();
     const std::vector<std::string> changed = waitForChange(watcher);
-    if (text) print(fmt::format("\nchanged: {}\n", base::printable(changed[0])));
+    if (text) print(fmt::format("\nchanged: {}\n", text::printable(changed[0])));
   }
 }
 

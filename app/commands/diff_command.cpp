@@ -12,8 +12,8 @@
 #include "app/session/session.h"
 #include "app/trials/divergence.h"
 #include "app/trials/shot.h"
-#include "engine/base/printable.h"
 #include "engine/graph/print/print.h"
+#include "engine/text/printable.h"
 
 namespace weft::app {
 
@@ -88,7 +88,7 @@ std::string textOf(const DiffOptions& options, const std::string& plans, const S
   if (options.format == "text")
     return pair ? plans + pair->pictureText() + "\n" +
                       (pair->first
-                           ? "first that differs: " + base::shortened(base::printable(pair->first->text()))
+                           ? "first that differs: " + text::shortened(text::printable(pair->first->text()))
                            : "no pass differs") +
                       "\n"
                 : plans;
@@ -102,7 +102,7 @@ std::string textOf(const DiffOptions& options, const std::string& plans, const S
 
 // Writes before.png, after.png and difference.png, and nothing over a file that was read. A difference of an earlier run is
 // removed where the pictures have different sizes.
-void leavePictures(const DiffOptions& options, const ShotPair& pair, base::Diagnostics& diagnostics) {
+void leavePictures(const DiffOptions& options, const ShotPair& pair, text::Diagnostics& diagnostics) {
   std::vector<std::string> files;
   std::vector<OutputFile> outputs;
   for (const char* name : {"/before.png", "/after.png", "/difference.png"})
@@ -121,7 +121,7 @@ void leavePictures(const DiffOptions& options, const ShotPair& pair, base::Diagn
 }
 
 int renderBoth(gl::Context& context, const DiffOptions& options, std::span<const Options, 2> sides,
-               const runtime::World& world, base::Diagnostics& diagnostics) {
+               const runtime::World& world, text::Diagnostics& diagnostics) {
   const ShotWish wish{.frames = {options.lastFrame}, .records = true};
   auto before = takeShot(context, sides[0], world, wish, diagnostics);
   auto after = before ? takeShot(context, sides[1], world, wish, diagnostics) : std::nullopt;
@@ -141,10 +141,10 @@ int runDiff(DiffOptions& options) {
   const Options sides[] = {options, otherOf(options)};
   if (options.render)
     return runOnDevice(
-        sides, 2, [&](gl::Context& context, const runtime::World& world, base::Diagnostics& diagnostics) {
+        sides, 2, [&](gl::Context& context, const runtime::World& world, text::Diagnostics& diagnostics) {
           return renderBoth(context, options, sides, world, diagnostics);
         });
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto world = loadWorld(options, diagnostics);
   const runtime::WorldFacts facts = world ? world->facts() : factsWithoutWorld();
   const auto before = makePlan(sides[0], facts, true, diagnostics);

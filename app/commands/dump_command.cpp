@@ -11,11 +11,11 @@
 #include "app/output/standard_streams.h"
 #include "app/session/device_session.h"
 #include "app/session/session.h"
-#include "engine/base/files/file.h"
-#include "engine/base/printable.h"
 #include "engine/graph/language/suffix.h"
 #include "engine/graph/pick/pick.h"
 #include "engine/runtime/inspection/capture.h"
+#include "engine/text/files/file.h"
+#include "engine/text/printable.h"
 
 namespace weft::app {
 
@@ -43,14 +43,14 @@ std::string fileNameOf(const runtime::CaptureItem& item, const graph::Plan& plan
 }
 
 void reportNoMatch(const graph::Plan& plan, const std::vector<std::string>& patterns,
-                   base::Diagnostics& diagnostics) {
+                   text::Diagnostics& diagnostics) {
   const graph::FlatGraph& graph = *plan.graph;
   std::vector<std::string> names;
   for (const std::string& name : graph.resourceNames) names.emplace_back(graph::sharedName(name));
   for (const std::string& pattern : patterns) {
     if (!runtime::captureItems(plan, {&pattern, 1}).empty()) continue;
     diagnostics
-        .error(base::Code::unknownResource, base::placeOfOption(pattern),
+        .error(text::Code::unknownResource, text::placeOfOption(pattern),
                fmt::format("no pass that runs writes a resource '{}'", pattern))
         .hint = graph::suffixHint(pattern, names);
   }
@@ -63,7 +63,7 @@ struct DumpOptions : Options {
 };
 
 int runDump(DumpOptions& options) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   int exitCode = 0;
   auto opened = openGraph(options, diagnostics, exitCode);
   if (!opened) return exitCode;
@@ -89,7 +89,7 @@ int runDump(DumpOptions& options) {
   // 64 bits, so that the last frame there is ends it.
   for (std::uint64_t next = begin; next <= options.lastFrame && !diagnostics.hasErrors(); ++next) {
     const auto frame = static_cast<std::uint32_t>(next);
-    base::Diagnostics said;
+    text::Diagnostics said;
     if (frame == options.lastFrame)
       capture.start(execution, items, [&](std::size_t item, runtime::Inspector& inspector) {
         const auto& [pass, resource] = std::tie(items[item].target.pass, items[item].target.resource);
@@ -97,13 +97,13 @@ int runDump(DumpOptions& options) {
         bool saved = false;
         if (inspector.picture().id == 0) {
           const std::vector<std::byte> bytes = inspector.bytes(0, inspector.bufferBytes());
-          saved = base::writeFile(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, said);
+          saved = text::writeFile(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, said);
         } else {
           saved =
               saveInspected(inspector, path, said) && saveInspected(inspector, stems[item] + ".exr", said);
         }
         if (saved && !options.quiet)
-          print(base::printable(fmt::format("{}  {} after {}", path, resource, pass)) + "\n");
+          print(text::printable(fmt::format("{}  {} after {}", path, resource, pass)) + "\n");
       });
     renderer.frame(world, runtime::headlessFrame(world, frame, options.fps, options.pointer), diagnostics);
     diagnostics.append(said);
@@ -112,7 +112,7 @@ int runDump(DumpOptions& options) {
   capture.stop(execution);
   for (std::size_t i = 0; i < items.size() && !options.quiet; ++i)
     if ((i == 0 || items[i - 1].step != items[i].step) && !execution.steps().hasResults(items[i].step))
-      print(base::printable(fmt::format("'{}' did not run in frame {}: nothing of it is written",
+      print(text::printable(fmt::format("'{}' did not run in frame {}: nothing of it is written",
                                         items[i].target.pass, options.lastFrame)) +
             "\n");
   return report(diagnostics, !options.quiet);

@@ -40,7 +40,7 @@ int runExplain(ExplainOptions& options) {
     printError("explain: give a graph and a name, or a code such as W053\n");
     return 2;
   }
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   if (const auto plan = planOf(options, diagnostics))
     if (const auto text = graph::describe(*plan, options.name, diagnostics)) print(*text);
   return report(diagnostics);

@@ -5,36 +5,36 @@
 #include "app/commands/commands.h"
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
-#include "engine/base/files/file.h"
-#include "engine/base/files/text_file.h"
-#include "engine/base/json/dom.h"
-#include "engine/base/json/layout.h"
-#include "engine/base/printable.h"
+#include "engine/text/files/file.h"
+#include "engine/text/files/text_file.h"
+#include "engine/text/json/dom.h"
+#include "engine/text/json/layout.h"
+#include "engine/text/printable.h"
 
 namespace weft::app {
 
 namespace {
 
-void formatFile(const std::string& path, bool checkOnly, base::Diagnostics& diagnostics) {
-  const auto text = base::readTextFile(path, diagnostics);
+void formatFile(const std::string& path, bool checkOnly, text::Diagnostics& diagnostics) {
+  const auto text = text::readTextFile(path, diagnostics);
   if (!text) return;
   const auto file = std::make_shared<const std::string>(path);
-  base::Diagnostics said;
-  base::parseJson(*text, file, said);
+  text::Diagnostics said;
+  text::parseJson(*text, file, said);
   diagnostics.append(said);
   if (said.hasErrors()) return;
   const std::string laid =
-      base::layoutJson(*text, {.packed = {"set"}, .starts = {"read", "write", "modify"}});
+      text::layoutJson(*text, {.packed = {"set"}, .starts = {"read", "write", "modify"}});
   if (laid == *text) return;
   if (checkOnly) {
     const auto same = std::ranges::mismatch(*text, laid).in1;
     const auto line = static_cast<std::uint32_t>(1 + std::count(text->begin(), same, '\n'));
     diagnostics
-        .error(base::Code::laidOutDifferently, {file, line, 1},
+        .error(text::Code::laidOutDifferently, {file, line, 1},
                "the file is not laid out as `weft format` does it")
         .hint = "weft format " + path;
-  } else if (base::writeFile(path, laid, diagnostics)) {
-    print(base::printable(path) + "\n");
+  } else if (text::writeFile(path, laid, diagnostics)) {
+    print(text::printable(path) + "\n");
   }
 }
 
@@ -44,7 +44,7 @@ struct FormatOptions {
 };
 
 int runFormat(FormatOptions& options) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   for (const std::string& file : options.files) formatFile(file, options.checkOnly, diagnostics);
   return report(diagnostics);
 }

@@ -7,8 +7,8 @@
 #include "app/session/device_session.h"
 #include "app/trials/divergence.h"
 #include "app/trials/fuzz.h"
-#include "engine/base/counted.h"
-#include "engine/base/printable.h"
+#include "engine/text/counted.h"
+#include "engine/text/printable.h"
 
 namespace weft::app {
 
@@ -48,8 +48,8 @@ std::string reordered(const graph::Plan& declared, const graph::Plan& plan) {
 
 // Returns the exit code.
 int fuzz(gl::Context& context, const FuzzOptions& options, const runtime::World& world,
-         base::Diagnostics& diagnostics) {
-  const auto shoot = [&](const FuzzTrial& trial, base::Diagnostics& said) {
+         text::Diagnostics& diagnostics) {
+  const auto shoot = [&](const FuzzTrial& trial, text::Diagnostics& said) {
     const ShotWish wish{.frames = {options.lastFrame},
                         .records = true,
                         .compile = trial.compileOptions(),
@@ -62,7 +62,7 @@ int fuzz(gl::Context& context, const FuzzOptions& options, const runtime::World&
   const std::optional<Shot> declared = shoot({}, diagnostics);
   if (!declared) return 2;
   std::optional<Shot> other;  // the last picture that differed
-  base::Diagnostics problems;
+  text::Diagnostics problems;
   const auto differs = [&](const FuzzTrial& trial) {
     problems.clear();
     auto shot = shoot(trial, problems);
@@ -87,23 +87,23 @@ int fuzz(gl::Context& context, const FuzzOptions& options, const runtime::World&
       print("a picture differs: " + difference->text() + "\n");
     const std::string& driver = context.device().driverKey;
     if (const auto first = findDivergence(recordsOf(*declared, driver), recordsOf(*other, driver)))
-      print("    first that differs: " + base::printable(first->text()) + "\n");
+      print("    first that differs: " + text::printable(first->text()) + "\n");
     print(fmt::format("    found with {}\n", found.arguments()));
     if (trial.seed != 0)
-      print("    in this order: " + base::printable(reordered(*declared->plan, *other->plan)) + "\n");
+      print("    in this order: " + text::printable(reordered(*declared->plan, *other->plan)) + "\n");
     print(fmt::format("    repeat: the same command with {}\n", trial.arguments()));
     return 1;
   }
-  print(fmt::format("{} of {} in {}: every picture is the same\n", base::counted(trials.size(), "run"),
-                    base::counted(declared->plan->steps.size(), "pass"),
-                    base::counted(options.seed ? 1 : options.runs + 1, "order")));
+  print(fmt::format("{} of {} in {}: every picture is the same\n", text::counted(trials.size(), "run"),
+                    text::counted(declared->plan->steps.size(), "pass"),
+                    text::counted(options.seed ? 1 : options.runs + 1, "order")));
   return 0;
 }
 
 int runFuzz(FuzzOptions& options) {
   const Options* const one = &options;
   return runOnDevice({one, 1}, 2,
-                     [&](gl::Context& context, const runtime::World& world, base::Diagnostics& diagnostics) {
+                     [&](gl::Context& context, const runtime::World& world, text::Diagnostics& diagnostics) {
                        return fuzz(context, options, world, diagnostics);
                      });
 }

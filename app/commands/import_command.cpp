@@ -10,18 +10,18 @@
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
 #include "engine/assets/images/image.h"
-#include "engine/base/files/file.h"
-#include "engine/base/files/file_access.h"
-#include "engine/base/printable.h"
 #include "engine/graph/language/names.h"
+#include "engine/text/files/file.h"
+#include "engine/text/files/file_access.h"
+#include "engine/text/printable.h"
 
 namespace weft::app {
 
 namespace {
 
 namespace fs = std::filesystem;
-using base::Code;
-using base::Diagnostics;
+using text::Code;
+using text::Diagnostics;
 
 struct ImportOptions {
   std::string file;                 // of another program
@@ -55,14 +55,14 @@ bool writeAll(const ImportOptions& options, const importing::Converted& made, Di
                              [&](const std::string& path) { return makeFolderOf(path, diagnostics); }) &&
          std::ranges::all_of(
              made.texts,
-             [&](const auto& text) { return base::writeFile(pathOf(text), text.text, diagnostics); }) &&
+             [&](const auto& text) { return text::writeFile(pathOf(text), text.text, diagnostics); }) &&
          std::ranges::all_of(made.images, writeImage);
 }
 
 int runImport(ImportOptions& options) {
   Diagnostics diagnostics;
   if (!options.name.empty() && (!graph::isIdent(options.name) || options.name.size() > 60)) {
-    auto& d = diagnostics.error(Code::notAName, base::placeOfOption("--name"),
+    auto& d = diagnostics.error(Code::notAName, text::placeOfOption("--name"),
                                 fmt::format("\"{}\" cannot name a graph", options.name));
     d.expected = "at most 60 letters, digits and '_', not beginning with a digit";
     return report(diagnostics);
@@ -70,7 +70,7 @@ int runImport(ImportOptions& options) {
   // The .vs beside the file is part of what the command line names, unless it is a link to elsewhere or no file at all.
   const std::string vertex = importing::vertexFileOf(options.file);
   std::error_code ignored;
-  if (fs::is_regular_file(fs::symlink_status(vertex, ignored))) base::chooseFile(vertex);
+  if (fs::is_regular_file(fs::symlink_status(vertex, ignored))) text::chooseFile(vertex);
   importing::ConvertOptions wanted{.name = options.name};
   const std::string parent = fs::path(options.file).parent_path().string();
   wanted.sourceFolder = seenFrom(options.folder, parent.empty() ? "." : parent);
@@ -80,7 +80,7 @@ int runImport(ImportOptions& options) {
   }
   const auto made = importing::convertFile(options.file, wanted, diagnostics);
   if (made && writeAll(options, *made, diagnostics))
-    print(base::printable((fs::path(options.folder) / made->graph).string()) + "\n");
+    print(text::printable((fs::path(options.folder) / made->graph).string()) + "\n");
   return report(diagnostics);
 }
 

@@ -12,12 +12,12 @@
 #include "app/commands/commands.h"
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
-#include "engine/base/files/text_file.h"
-#include "engine/base/json/dom.h"
 #include "engine/graph/language/keys.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/read/read.h"
 #include "engine/runtime/imports/registry.h"
+#include "engine/text/files/text_file.h"
+#include "engine/text/json/dom.h"
 
 namespace weft::app {
 
@@ -66,7 +66,7 @@ Json toJson(const graph::ParameterSpec& parameter) {
 
 // The presets of all folders, as JSON objects of name, title and description, the last two "name" and "description" of the
 // file; of two with one name, the one that --preset finds.
-std::vector<Json> knownPresets(const std::string& own, base::Diagnostics& diagnostics) {
+std::vector<Json> knownPresets(const std::string& own, text::Diagnostics& diagnostics) {
   std::vector<Json> presets;
   std::set<std::string> seen;  // also of files that cannot be read: --preset takes those, too
   for (const std::string& folder : presetFolders(own)) {
@@ -74,8 +74,8 @@ std::vector<Json> knownPresets(const std::string& own, base::Diagnostics& diagno
     for (const auto& entry : std::filesystem::directory_iterator(folder, ec)) {
       const std::string path = entry.path().string(), name = entry.path().stem().string();
       if (entry.path().extension() != ".json" || !seen.insert(name).second) continue;
-      const auto text = base::readTextFile(path, diagnostics);
-      const auto root = text ? base::parseJson(*text, std::make_shared<const std::string>(path), diagnostics)
+      const auto text = text::readTextFile(path, diagnostics);
+      const auto root = text ? text::parseJson(*text, std::make_shared<const std::string>(path), diagnostics)
                              : std::nullopt;
       const auto textOf = [&](const char* key) { return root->find(key) ? root->find(key)->text : ""; };
       if (root)
@@ -92,7 +92,7 @@ struct ListOptions : Options {
 };
 
 int runParams(ListOptions& options) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto plan = planOf(options, diagnostics);
   if (plan && options.json) {
     Json all = Json::array();
@@ -109,7 +109,7 @@ int runParams(ListOptions& options) {
 }
 
 int runPresets(ListOptions& options) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const std::vector<Json> presets = knownPresets(options.presetFolder, diagnostics);
   if (options.json) {
     print(dumpJson(presets) + "\n");

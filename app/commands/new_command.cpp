@@ -8,11 +8,11 @@
 #include "app/output/output_files.h"
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
-#include "engine/base/files/file.h"
-#include "engine/base/json/edit.h"
-#include "engine/base/printable.h"
 #include "engine/graph/language/names.h"
 #include "engine/graph/read/read.h"
+#include "engine/text/files/file.h"
+#include "engine/text/json/edit.h"
+#include "engine/text/printable.h"
 
 namespace weft::app {
 
@@ -26,14 +26,14 @@ struct Anchor {
 };
 
 std::optional<Anchor> findAnchor(const std::string& graphFile, const std::string& name,
-                                 base::Diagnostics& diagnostics) {
+                                 text::Diagnostics& diagnostics) {
   const auto desc = graph::readGraph(graphFile, diagnostics);
   if (!desc || diagnostics.hasErrors()) return std::nullopt;
-  const base::Place place = {std::make_shared<const std::string>(graphFile), 1, 1};
+  const text::Place place = {std::make_shared<const std::string>(graphFile), 1, 1};
   for (const graph::PassDesc& pass : desc->passes)
     if (pass.name == name) {
       diagnostics
-          .error(base::Code::duplicateName, pass.namePlace, fmt::format("the graph has a pass '{}'", name))
+          .error(text::Code::duplicateName, pass.namePlace, fmt::format("the graph has a pass '{}'", name))
           .hint = fmt::format("give the new pass another name, such as 'my_{}'", name);
       return std::nullopt;
     }
@@ -41,8 +41,8 @@ std::optional<Anchor> findAnchor(const std::string& graphFile, const std::string
   const bool whole =
       present && !present->mip && !present->layer && !present->face && !present->element && !present->import;
   if (whole && !desc->passes.empty()) return Anchor{desc->passes.back().name, present->name};
-  base::Diagnostic& d =
-      diagnostics.error(base::Code::presentsNothing, present ? present->place : place,
+  text::Diagnostic& d =
+      diagnostics.error(text::Code::presentsNothing, present ? present->place : place,
                         "the graph presents no whole texture of its own that a pass could change");
   d.expected = "\"present\": \"<texture>\" and a pass";
   if (present) d.found = present->text;
@@ -97,12 +97,12 @@ struct NewOptions {
 
 int runNew(NewOptions& options) {
   namespace fs = std::filesystem;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   if (options.graph.empty()) options.graph = dataFolder() + "/graphs/glow.json";
   const std::string& name = options.name;
   if (!graph::isIdent(name) || name[0] == '_' || name.size() > kLongestName || graph::isReservedWord(name)) {
     diagnostics
-        .error(base::Code::notAName, base::placeOfOption("new pass " + name),
+        .error(text::Code::notAName, text::placeOfOption("new pass " + name),
                fmt::format("\"{}\" cannot name a pass", name))
         .expected =
         fmt::format("a letter, then letters, digits and '_', {} at most, and none of the words {}",
@@ -121,10 +121,10 @@ int runNew(NewOptions& options) {
       failed || beside.empty() ? fs::absolute(options.graph).string() : beside.string();
   const std::string files[] = {graphFile, shaderFile};
   if (checkFree(files, diagnostics) && makeFolderOf(shaderFile, diagnostics) &&
-      base::writeFile(graphFile, stanzaText(name, base::quoteJson(extended), *anchor), diagnostics) &&
-      base::writeFile(shaderFile, shaderText(name), diagnostics)) {
-    const std::string graph = base::printable(graphFile);
-    print(fmt::format("{}\n{}\nweft render {} -o {}.png\n", graph, base::printable(shaderFile), graph, name));
+      text::writeFile(graphFile, stanzaText(name, text::quoteJson(extended), *anchor), diagnostics) &&
+      text::writeFile(shaderFile, shaderText(name), diagnostics)) {
+    const std::string graph = text::printable(graphFile);
+    print(fmt::format("{}\n{}\nweft render {} -o {}.png\n", graph, text::printable(shaderFile), graph, name));
   }
   return report(diagnostics);
 }

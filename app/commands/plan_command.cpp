@@ -2,8 +2,8 @@
 #include "app/commands/commands.h"
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
-#include "engine/base/json/layout.h"
 #include "engine/graph/print/print.h"
+#include "engine/text/json/layout.h"
 
 namespace weft::app {
 
@@ -18,13 +18,13 @@ std::string viewOf(const graph::Plan& plan, const PlanOptions& options) {
   if (options.format == "dot") return graph::dumpDot(plan);
   if (options.format == "json") return graph::dumpJson(plan, options.explain);
   if (options.format == "expanded")
-    return base::layoutJson(graph::graphFileOf(plan),
+    return text::layoutJson(graph::graphFileOf(plan),
                             {.packed = {"set"}, .starts = {"read", "write", "modify"}});
   return graph::dumpText(plan, options.explain);
 }
 
 int runPlan(PlanOptions& options) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   if (const auto plan = planOf(options, diagnostics)) print(viewOf(*plan, options));
   return report(diagnostics);
 }

@@ -13,8 +13,8 @@
 #include "app/output/standard_streams.h"
 #include "app/session/device_session.h"
 #include "app/session/session.h"
-#include "engine/base/printable.h"
 #include "engine/runtime/inspection/capture.h"
+#include "engine/text/printable.h"
 
 namespace weft::app {
 
@@ -81,7 +81,7 @@ std::string takeOutputs(RenderOptions& options) {
 // The items of the plan that are picked. Nothing after an error.
 std::optional<std::vector<runtime::CaptureItem>> itemsOf(const RenderOptions& options,
                                                          const graph::Plan& plan,
-                                                         base::Diagnostics& diagnostics) {
+                                                         text::Diagnostics& diagnostics) {
   std::vector<runtime::CaptureItem> items;
   const graph::FlatGraph& graph = *plan.graph;
   for (const PickedOutput& each : options.picked) {
@@ -91,7 +91,7 @@ std::optional<std::vector<runtime::CaptureItem>> itemsOf(const RenderOptions& op
         std::ranges::find(graph.resourceNames, item->target.resource) - graph.resourceNames.begin();
     if (graph.resources[static_cast<std::size_t>(at)].kind == graph::ResourceKind::buffer)
       diagnostics
-          .error(base::Code::outputNotWritten, {std::make_shared<const std::string>(each.file)},
+          .error(text::Code::outputNotWritten, {std::make_shared<const std::string>(each.file)},
                  fmt::format("'{}' is a buffer and no picture", each.pick.name))
           .hint = "weft dump writes the bytes of buffers";
     items.push_back(*item);
@@ -102,10 +102,10 @@ std::optional<std::vector<runtime::CaptureItem>> itemsOf(const RenderOptions& op
 int runRender(RenderOptions& options) {
   const double start = now();
   if (const std::string wrong = takeOutputs(options); !wrong.empty()) {
-    printError("weft render: " + base::shortened(base::printable(wrong)) + "\n");
+    printError("weft render: " + text::shortened(text::printable(wrong)) + "\n");
     return 2;
   }
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const bool whole = !options.output.empty();
   std::vector<OutputFile> outputs;
   if (whole) outputs.push_back({"-o", options.output, options.firstFrame, options.lastFrame});
@@ -138,7 +138,7 @@ int runRender(RenderOptions& options) {
     runtime::Capture capture(renderer.device());  // destroyed before the device
     std::optional<std::uint32_t> written;         // the frame, where it is to be written
     std::vector<std::uint8_t> saved(items->size());
-    base::Diagnostics said;
+    text::Diagnostics said;
     if (!items->empty())
       capture.start(*renderer.execution(), *items, [&](std::size_t item, runtime::Inspector& inspector) {
         if (written)
@@ -163,7 +163,7 @@ int runRender(RenderOptions& options) {
       for (std::size_t i = 0; i < saved.size() && !diagnostics.hasErrors(); ++i)
         if (!std::exchange(saved[i], 0))
           diagnostics
-              .error(base::Code::outputNotWritten,
+              .error(text::Code::outputNotWritten,
                      {std::make_shared<const std::string>(options.picked[i].file)},
                      fmt::format("nothing was in '{}' to write", options.picked[i].pick.text))
               .hint = "an import that is not there has no picture, nor has a pass that did not run";

@@ -10,9 +10,9 @@
 #include "app/session/session.h"
 #include "app/trials/case_run.h"
 #include "app/trials/report_page.h"
-#include "engine/base/counted.h"
-#include "engine/base/files/file.h"
-#include "engine/base/printable.h"
+#include "engine/text/counted.h"
+#include "engine/text/files/file.h"
+#include "engine/text/printable.h"
 
 namespace weft::app {
 
@@ -27,10 +27,10 @@ const char* wordOf(State state) {
 
 void printResult(const TestCase& test, const CaseResult& result) {
   print(fmt::format("{:8}{}\n", wordOf(result.state), test.name));
-  for (const std::string& line : result.lines) print(fmt::format("        {}\n", base::printable(line)));
+  for (const std::string& line : result.lines) print(fmt::format("        {}\n", text::printable(line)));
   if (result.first)
     print(fmt::format("        first that differs: {}\n",
-                      base::shortened(base::printable(result.first->text()))));
+                      text::shortened(text::printable(result.first->text()))));
   flushPrinted();
 }
 
@@ -53,7 +53,7 @@ struct Cases {
 };
 
 // The cases to run; what is wrong with any of them ends the run.
-Cases chooseCases(const TestOptions& options, base::Diagnostics& diagnostics) {
+Cases chooseCases(const TestOptions& options, text::Diagnostics& diagnostics) {
   Cases cases;
   std::vector<TestCase>&all = cases.all, &wanted = cases.wanted;
   for (const std::string& file : findCaseFiles(options.folder, diagnostics))
@@ -65,7 +65,7 @@ Cases chooseCases(const TestOptions& options, base::Diagnostics& diagnostics) {
       if (fresh) continue;
       const TestCase& other = *known->second;
       diagnostics
-          .error(base::Code::duplicateName, test.place,
+          .error(text::Code::duplicateName, test.place,
                  fmt::format("the cases '{}' and '{}' of '{}' have one golden, '{}'", test.name, other.name,
                              other.place.file ? *other.place.file : "", file))
           .hint = "give one of them another name";
@@ -74,7 +74,7 @@ Cases chooseCases(const TestOptions& options, base::Diagnostics& diagnostics) {
     if (isWanted(test, options.only)) wanted.push_back(test);
   }
   if (wanted.empty() && !diagnostics.hasErrors()) {
-    diagnostics.error(base::Code::unknownWord, base::placeOfOption(all.empty() ? options.folder : "--only"),
+    diagnostics.error(text::Code::unknownWord, text::placeOfOption(all.empty() ? options.folder : "--only"),
                       all.empty() ? "there are no cases" : "no case has such a name");
   }
   return cases;
@@ -89,7 +89,7 @@ std::string leftName(const std::string& folder, const TestCase& test, std::uint3
 // Checks that --report, -o and --accept write none of the files that the cases are made of, also of cases that do not run,
 // and that each picture is another file. The files that a graph names are known only when it is loaded: CaseRunner checks
 // those.
-bool checkOutputs(const TestOptions& options, const Cases& cases, base::Diagnostics& diagnostics) {
+bool checkOutputs(const TestOptions& options, const Cases& cases, text::Diagnostics& diagnostics) {
   std::vector<OutputFile> outputs;
   std::vector<std::string> inputs, made;
   if (!options.report.empty()) outputs.push_back({"--report", options.report});
@@ -120,7 +120,7 @@ bool checkOutputs(const TestOptions& options, const Cases& cases, base::Diagnost
 
 // Writes the picture and the difference of what failed. `read`: files of all cases.
 void leaveFiles(const std::string& folder, const TestCase& test, const CaseResult& result,
-                const std::vector<std::string>& read, base::Diagnostics& diagnostics) {
+                const std::vector<std::string>& read, text::Diagnostics& diagnostics) {
   for (const CaseResult::Pair& pair : result.pairs) {
     if (!pair.failed) continue;
     const std::string stem = leftName(folder, test, pair.frame);
@@ -134,15 +134,15 @@ void leaveFiles(const std::string& folder, const TestCase& test, const CaseResul
 
 // Writes the page over nothing that a case reads.
 void writeReport(const std::string& path, const std::string& page, const std::vector<std::string>& read,
-                 base::Diagnostics& diagnostics) {
+                 text::Diagnostics& diagnostics) {
   const OutputFile output{"--report", path};
   if (checkDistinct({&output, 1}, read, diagnostics) && checkMadeFiles({&path, 1}, diagnostics) &&
       makeFolderOf(path, diagnostics))
-    base::writeFile(path, page, diagnostics);
+    text::writeFile(path, page, diagnostics);
 }
 
 int runTest(TestOptions& options) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const Cases chosen = chooseCases(options, diagnostics);
   const std::vector<TestCase>& cases = chosen.wanted;
   if (diagnostics.hasErrors() || !checkOutputs(options, chosen, diagnostics)) {
@@ -170,7 +170,7 @@ int runTest(TestOptions& options) {
   for (const State state : {State::same, State::kept, State::written, State::different, State::broken})
     if (const std::size_t count = counts[static_cast<std::size_t>(state)])
       sum += fmt::format("{}{} {}", sum.empty() ? "" : ", ", count, wordOf(state));
-  print(fmt::format("{}: {}\n", base::counted(cases.size(), "case"), sum));
+  print(fmt::format("{}: {}\n", text::counted(cases.size(), "case"), sum));
   if (!options.output.empty())
     for (const auto& [test, result] : results) leaveFiles(options.output, test, result, read, diagnostics);
   if (!options.report.empty()) writeReport(options.report, reportPage(results), read, diagnostics);

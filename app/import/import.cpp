@@ -4,7 +4,7 @@
 
 #include "app/import/isf.h"
 #include "app/import/text.h"
-#include "engine/base/files/text_file.h"
+#include "engine/text/files/text_file.h"
 
 namespace weft::importing {
 
@@ -13,8 +13,8 @@ std::string vertexFileOf(const std::string& path) {
 }
 
 std::optional<Converted> convertFile(const std::string& path, ConvertOptions options,
-                                     base::Diagnostics& diagnostics) {
-  const auto text = base::readTextFile(path, diagnostics);
+                                     text::Diagnostics& diagnostics) {
+  const auto text = text::readTextFile(path, diagnostics);
   if (!text) return std::nullopt;
   if (options.name.empty())
     options.name = identifierOf(std::filesystem::path(path).stem().string()).substr(0, 60);
@@ -24,12 +24,12 @@ std::optional<Converted> convertFile(const std::string& path, ConvertOptions opt
     IsfSource source{.fragment = *text, .fragmentFile = path, .vertexFile = vertexFileOf(path)};
     std::error_code ec;
     const bool has = std::filesystem::exists(source.vertexFile, ec);
-    const auto vertex = has ? base::readTextFile(source.vertexFile, diagnostics) : std::nullopt;
+    const auto vertex = has ? text::readTextFile(source.vertexFile, diagnostics) : std::nullopt;
     if (has && !vertex) return std::nullopt;
     if (vertex) source.vertex = *vertex;
     return convertIsf(source, options, diagnostics);
   }
-  refuse(diagnostics, base::Code::unknownPipeline, {std::make_shared<const std::string>(path), 1, 1},
+  refuse(diagnostics, text::Code::unknownPipeline, {std::make_shared<const std::string>(path), 1, 1},
          "the file is of no kind that can be imported",
          "an ISF file ends in .fs, a user shader of mpv has lines //!HOOK: see docs/importing.md");
   return std::nullopt;

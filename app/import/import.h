@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::importing {
 
@@ -43,7 +43,7 @@ struct ConvertOptions {
 
 // Reads `path` and, for an ISF file, the .vs beside it. The kind comes from what the file says.
 std::optional<Converted> convertFile(const std::string& path, ConvertOptions options,
-                                     base::Diagnostics& diagnostics);
+                                     text::Diagnostics& diagnostics);
 
 // Where the vertex shader of an ISF file would be.
 std::string vertexFileOf(const std::string& path);
@@ -56,12 +56,12 @@ struct IsfSource {
   std::string fragmentFile, vertexFile;
 };
 std::optional<Converted> convertIsf(const IsfSource& source, const ConvertOptions& options,
-                                    base::Diagnostics& diagnostics);
+                                    text::Diagnostics& diagnostics);
 
 // A user shader of mpv: its passes run on a picture instead of a video. The stages RGB, NATIVE, MAINPRESUB, MAIN, SCALED,
 // PREOUTPUT and OUTPUT are that picture, one after the other. mpv counts rows from the top: the graph turns the picture over at
 // the start and back at the end.
 std::optional<Converted> convertMpv(std::string_view text, const std::string& file,
-                                    const ConvertOptions& options, base::Diagnostics& diagnostics);
+                                    const ConvertOptions& options, text::Diagnostics& diagnostics);
 
 }  // namespace weft::importing

@@ -51,7 +51,7 @@ constexpr std::array<std::string_view, 19> kNewWords{
 
 // Mistakes of form are W002 to W013 and W220; what Weft has no counterpart for is W221.
 std::optional<IsfHeader> readIsfHeader(std::string_view text, const std::shared_ptr<const std::string>& file,
-                                       base::Diagnostics& diagnostics);
+                                       text::Diagnostics& diagnostics);
 
 // What the things of an ISF file are called in the graph and in the shader. Names that Weft or GLSL 4.5 keep for themselves get
 // a '_' behind them.
@@ -78,7 +78,7 @@ struct IsfShader {
 };
 std::optional<IsfShader> translateIsfShader(const IsfSource& source, const ConvertOptions& options,
                                             const IsfHeader& header, const IsfNames& names,
-                                            base::Diagnostics& diagnostics);
+                                            text::Diagnostics& diagnostics);
 
 // The slot of what the shader draws.
 constexpr const char* kIsfOutput = "isf_FragColor";

@@ -5,9 +5,9 @@
 
 #include "app/import/import.h"
 #include "app/import/isf.h"
-#include "engine/base/chars.h"
 #include "engine/graph/language/expr.h"
 #include "engine/graph/language/names.h"
+#include "engine/text/chars.h"
 #include "import_glsl.h"
 
 namespace weft::importing {
@@ -22,7 +22,7 @@ const Json kClear = {0, 0, 0, 0};
 class IsfGraphWriter {
  public:
   IsfGraphWriter(const IsfHeader& header, IsfNames& names, const IsfShader& shader,
-                 const ConvertOptions& options, base::Diagnostics& diagnostics)
+                 const ConvertOptions& options, text::Diagnostics& diagnostics)
       : header_(header),
         names_(names),
         shader_(shader),
@@ -203,9 +203,9 @@ class IsfGraphWriter {
   // The size of a pass as an expression of Weft: "floor($WIDTH/4.0)" becomes "floor(screen.x/4.0)". `otherwise` after W222.
   std::string sizeOf(const PlacedText& size, const char* otherwise) {
     const auto wrong = [&](const std::string& message, std::uint32_t column = 1) {
-      base::Place place = size.place;
+      text::Place place = size.place;
       place.column += column - 1;
-      refuse(diagnostics_, base::Code::sizeNotMapped, place, message,
+      refuse(diagnostics_, text::Code::sizeNotMapped, place, message,
              "write numbers, $WIDTH, $HEIGHT, $input, + - * / % ( ), floor, ceil, min, max, abs");
       return otherwise;
     };
@@ -213,7 +213,7 @@ class IsfGraphWriter {
     const std::vector<glsl::Token> tokens = glsl::splitTokens(size.text);
     for (std::size_t i = 0; i < tokens.size(); ++i) {
       const glsl::Token& token = tokens[i];
-      const std::string name = base::lowered(token.text);
+      const std::string name = text::lowered(token.text);
       if (token.kind == glsl::TokenKind::number) {  // Weft has digits on both sides of a point
         out += (name.front() == '.' ? "0" : "") + name + (name.back() == '.' ? "0" : "");
       } else if (contains(kSizeFunctions, name)) {
@@ -228,7 +228,7 @@ class IsfGraphWriter {
         return wrong(fmt::format("unexpected '{}' in a size", token.text), token.column);
       }
     }
-    base::Diagnostics said;
+    text::Diagnostics said;
     if (out.empty() && size.text.empty()) return otherwise;
     if (graph::Expr::parse(out, size.place, said)) return out;
     return wrong(said.empty() ? "the size is no expression" : said.items()[0].message);
@@ -296,7 +296,7 @@ class IsfGraphWriter {
   IsfNames& names_;
   const IsfShader& shader_;
   const ConvertOptions& options_;
-  base::Diagnostics& diagnostics_;
+  text::Diagnostics& diagnostics_;
   std::string picture_, nothing_;
   Json passes_ = Json::array();
   Json parameters_ = Json::object(), lets_ = Json::object(), resources_ = Json::object(),
@@ -309,7 +309,7 @@ class IsfGraphWriter {
 }  // namespace
 
 std::optional<Converted> convertIsf(const IsfSource& source, const ConvertOptions& options,
-                                    base::Diagnostics& diagnostics) {
+                                    text::Diagnostics& diagnostics) {
   const std::size_t errors = diagnostics.errorCount();
   const auto header =
       readIsfHeader(source.fragment, std::make_shared<const std::string>(source.fragmentFile), diagnostics);

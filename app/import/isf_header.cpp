@@ -4,20 +4,20 @@
 #include <cmath>
 
 #include "app/import/isf.h"
-#include "engine/base/chars.h"
-#include "engine/base/json/fields.h"
-#include "engine/base/nearest.h"
-#include "engine/base/words/glsl_words.h"
 #include "engine/graph/language/names.h"
+#include "engine/text/chars.h"
+#include "engine/text/json/fields.h"
+#include "engine/text/nearest.h"
+#include "engine/text/words/glsl_words.h"
 
 namespace weft::importing {
 
 namespace {
 
-using base::Code;
-using base::Diagnostics;
-using base::JsonValue;
-using base::Place;
+using text::Code;
+using text::Diagnostics;
+using text::JsonValue;
+using text::Place;
 using InputType = IsfInput::Type;
 using JsonType = JsonValue::Type;
 
@@ -34,9 +34,9 @@ constexpr std::array<std::string_view, 16> kDeclared{
 // Where the text between the marks of the first comment of /* */ begins and ends, where nothing but spaces and comments of // is
 // before it.
 std::optional<std::pair<std::size_t, std::size_t>> firstComment(std::string_view text) {
-  std::size_t at = text.starts_with(base::kByteOrderMark) ? 3 : 0;
-  while (at < text.size() && (base::isSpace(text[at]) || text.substr(at, 2) == "//"))
-    at = base::isSpace(text[at]) ? at + 1 : std::min(text.find('\n', at), text.size());
+  std::size_t at = text.starts_with(text::kByteOrderMark) ? 3 : 0;
+  while (at < text.size() && (text::isSpace(text[at]) || text.substr(at, 2) == "//"))
+    at = text::isSpace(text[at]) ? at + 1 : std::min(text.find('\n', at), text.size());
   const std::size_t end = text.substr(at, 2) == "/*" ? text.find("*/", at + 2) : text.npos;
   return end == text.npos ? std::nullopt : std::optional(std::pair(at + 2, end));
 }
@@ -54,7 +54,7 @@ class HeaderReader {
       for (IsfPass& pass : out_.passes)
         if (pass.target.text == name.text) pass.persistent = true;
     if (const JsonValue* imported = root.find("IMPORTED"); imported && imported->is(JsonType::object))
-      for (const base::JsonMember& member : imported->members) readImported(member.key, member.value);
+      for (const text::JsonMember& member : imported->members) readImported(member.key, member.value);
     else
       for (const JsonValue& each : listOf(root, "IMPORTED")) readImported(textOf(each, "NAME"), each);
     if (out_.passes.empty()) out_.passes.emplace_back().target.place = root.place;
@@ -67,7 +67,7 @@ class HeaderReader {
   }
 
   bool expect(const JsonValue& value, std::string_view name, JsonType type) {
-    return base::expectType(value, name, type, diagnostics_);
+    return text::expectType(value, name, type, diagnostics_);
   }
 
   // The member, unless it is null.
@@ -97,7 +97,7 @@ class HeaderReader {
   }
 
   bool checkName(const Place& place, std::string_view name, std::string_view what) {
-    const bool word = base::isGlslWord(name) && !contains(kNewWords, name);
+    const bool word = text::isGlslWord(name) && !contains(kNewWords, name);
     if (!graph::isIdent(name) || word || name.size() > 64 || name.find("__") != name.npos) {
       fail(Code::notAName, place, fmt::format("\"{}\" cannot name {}", name, what),
            "use letters, digits and '_', not beginning with a digit, and no word of GLSL");
@@ -136,7 +136,7 @@ class HeaderReader {
 
   void readInput(const JsonValue& value) {
     if (!expect(value, "an input", JsonType::object)) return;
-    base::JsonFields fields(value, "an input", Code::outOfRange, diagnostics_);
+    text::JsonFields fields(value, "an input", Code::outOfRange, diagnostics_);
     fields.require({"NAME", "TYPE"});
     const auto name = fields.text("NAME"), type = fields.text("TYPE");
     if (!name || !type) return;
@@ -148,7 +148,7 @@ class HeaderReader {
                   "make it an image, or remove it from the file and from the shader");
     if (found == kTypes.end())
       return fail(Code::unknownWord, place, fmt::format("unknown type of input \"{}\"", *type),
-                  base::nearestHint(*type, kTypes));
+                  text::nearestHint(*type, kTypes));
     if (!checkName(fields.find("NAME")->place, *name, "an input")) return;
     IsfInput input{.name = *name,
                    .type = static_cast<InputType>(found - kTypes.begin()),
@@ -230,8 +230,8 @@ std::optional<IsfHeader> readIsfHeader(std::string_view text, const std::shared_
       json.begin(), json.begin() + static_cast<std::ptrdiff_t>(comment->first),
       [](char c) { return c != '\n'; }, ' ');
   const std::size_t errors = diagnostics.errorCount();
-  const base::PointerScope pointers(*file, json, diagnostics);
-  const auto root = base::parseJson(json, file, diagnostics);
+  const text::PointerScope pointers(*file, json, diagnostics);
+  const auto root = text::parseJson(json, file, diagnostics);
   if (!root) return std::nullopt;
   if (!root->is(JsonType::object)) {
     refuse(diagnostics, Code::notIsf, root->place, "the first comment is no ISF header",
@@ -244,7 +244,7 @@ std::optional<IsfHeader> readIsfHeader(std::string_view text, const std::shared_
 
 IsfNames::IsfNames(const IsfHeader& header) {
   const auto add = [&](const std::string& name) {
-    const bool kept = graph::isReservedWord(name) || contains(kDeclared, name) || base::isGlslWord(name);
+    const bool kept = graph::isReservedWord(name) || contains(kDeclared, name) || text::isGlslWord(name);
     if (!name.empty() && !names_.contains(name)) names_[name] = fresh(kept ? name + "_" : name);
   };
   for (const IsfInput& input : header.inputs) add(input.name);

@@ -8,7 +8,7 @@ namespace weft::importing {
 
 namespace {
 
-using base::Code;
+using text::Code;
 
 constexpr std::array<std::string_view, 8> kGone{"attribute", "texture2DRect", "sampler2DRect", "ftransform",
                                                 "gl_Vertex", "gl_Normal",     "gl_TexCoord",   "gl_Color"};
@@ -50,7 +50,7 @@ constexpr const char* kGlslTypes[] = {"bool", "bool", "int", "float", "vec2", "v
 
 class ShaderTranslator {
  public:
-  ShaderTranslator(const IsfHeader& header, const IsfNames& names, base::Diagnostics& diagnostics)
+  ShaderTranslator(const IsfHeader& header, const IsfNames& names, text::Diagnostics& diagnostics)
       : header_(header), names_(names), diagnostics_(diagnostics) {
     for (const IsfInput& input : header.inputs)
       if (input.type == IsfInput::Type::image) images_.push_back(input.name);
@@ -223,7 +223,7 @@ class ShaderTranslator {
 
   const IsfHeader& header_;
   const IsfNames& names_;
-  base::Diagnostics& diagnostics_;
+  text::Diagnostics& diagnostics_;
   std::shared_ptr<const std::string> file_;  // that is being translated
   std::vector<std::string> images_;
   IsfShader out_;
@@ -233,7 +233,7 @@ class ShaderTranslator {
 
 std::optional<IsfShader> translateIsfShader(const IsfSource& source, const ConvertOptions& options,
                                             const IsfHeader& header, const IsfNames& names,
-                                            base::Diagnostics& diagnostics) {
+                                            text::Diagnostics& diagnostics) {
   return ShaderTranslator(header, names, diagnostics).run(source, options.name);
 }
 

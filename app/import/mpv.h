@@ -12,7 +12,7 @@
 namespace weft::importing {
 
 struct MpvHook {
-  base::Place place;
+  text::Place place;
   std::vector<PlacedText> hooks, binds;
   std::optional<PlacedText> save, width, height, when;
   double offset[2] = {0, 0};
@@ -22,7 +22,7 @@ struct MpvHook {
 };
 
 struct MpvTexture {
-  base::Place place;
+  text::Place place;
   std::string name, format;
   std::vector<double> size = {1};
   bool linear = true, repeat = false;
@@ -31,7 +31,7 @@ struct MpvTexture {
 };
 
 struct MpvParameter {
-  base::Place place;
+  text::Place place;
   std::string name, description, type;
   std::optional<double> min, max;
   double initial = 0;
@@ -47,6 +47,6 @@ struct MpvFile {
 
 // Empty after errors (W225). `text` must outlive the result.
 std::optional<MpvFile> readMpvFile(std::string_view text, const std::shared_ptr<const std::string>& file,
-                                   base::Diagnostics& diagnostics);
+                                   text::Diagnostics& diagnostics);
 
 }  // namespace weft::importing

@@ -9,19 +9,19 @@
 
 #include "app/import/mpv.h"
 #include "engine/assets/images/half.h"
-#include "engine/base/chars.h"
-#include "engine/base/nearest.h"
 #include "engine/graph/language/names.h"
+#include "engine/text/chars.h"
+#include "engine/text/nearest.h"
 
 namespace weft::importing {
 
 namespace {
 
-using base::Place;
+using text::Place;
 
 std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && base::isSpace(text.front())) text.remove_prefix(1);
-  while (!text.empty() && base::isSpace(text.back())) text.remove_suffix(1);
+  while (!text.empty() && text::isSpace(text.front())) text.remove_prefix(1);
+  while (!text.empty() && text::isSpace(text.back())) text.remove_suffix(1);
   return text;
 }
 
@@ -100,7 +100,7 @@ std::string readTexels(MpvTexture& texture, std::string_view hex) {
 
 class FileReader {
  public:
-  FileReader(std::string_view text, std::shared_ptr<const std::string> file, base::Diagnostics& diagnostics)
+  FileReader(std::string_view text, std::shared_ptr<const std::string> file, text::Diagnostics& diagnostics)
       : file_(std::move(file)), diagnostics_(diagnostics) {
     while (!text.empty()) {
       const std::size_t end = std::min(text.find('\n'), text.size());
@@ -144,13 +144,13 @@ class FileReader {
   bool isHeader(std::size_t line) const { return trimmed(out_.lines[line]).starts_with("//!"); }
   std::string_view wordAt(std::size_t line) const {
     const std::string_view text = trimmed(out_.lines[line]).substr(3);
-    return {text.begin(), std::ranges::find_if_not(text, base::isIdentChar)};
+    return {text.begin(), std::ranges::find_if_not(text, text::isIdentChar)};
   }
   Place placeOf(std::size_t line, std::size_t column = 1) const {
     return {file_, static_cast<std::uint32_t>(line + 1), static_cast<std::uint32_t>(column)};
   }
   void fail(const Place& place, std::string message, std::string hint) {
-    refuse(diagnostics_, base::Code::badMpvHeader, place, std::move(message), std::move(hint));
+    refuse(diagnostics_, text::Code::badMpvHeader, place, std::move(message), std::move(hint));
   }
 
   // The headers of a block, all of which are among `known`; the lines behind them are skipped.
@@ -165,7 +165,7 @@ class FileReader {
       const std::size_t column = rest.empty() ? behind : static_cast<std::size_t>(rest.data() - line.data());
       block.headers.push_back({word, {std::string(rest), placeOf(at_, column + 1)}, placeOf(at_)});
       if (!contains(known, word))
-        fail(placeOf(at_), fmt::format("unknown header //!{}", word), base::nearestHint(word, known));
+        fail(placeOf(at_), fmt::format("unknown header //!{}", word), text::nearestHint(word, known));
       else if (contains(kNamed, word) && (!graph::isIdent(rest) || rest.size() > 64))
         fail(placeOf(at_, column + 1), "a header lacks a name", "write letters, digits and '_'");
     }
@@ -287,7 +287,7 @@ class FileReader {
   }
 
   std::shared_ptr<const std::string> file_;
-  base::Diagnostics& diagnostics_;
+  text::Diagnostics& diagnostics_;
   MpvFile out_;
   std::size_t at_ = 0;
 };
@@ -295,7 +295,7 @@ class FileReader {
 }  // namespace
 
 std::optional<MpvFile> readMpvFile(std::string_view text, const std::shared_ptr<const std::string>& file,
-                                   base::Diagnostics& diagnostics) {
+                                   text::Diagnostics& diagnostics) {
   return FileReader(text, file, diagnostics).run();
 }
 

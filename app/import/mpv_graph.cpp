@@ -6,16 +6,16 @@
 
 #include "app/import/import.h"
 #include "app/import/mpv.h"
-#include "engine/base/chars.h"
-#include "engine/base/printable.h"
-#include "engine/base/words/glsl_words.h"
+#include "engine/text/chars.h"
+#include "engine/text/printable.h"
+#include "engine/text/words/glsl_words.h"
 #include "import_glsl.h"
 
 namespace weft::importing {
 
 namespace {
 
-using base::Code;
+using text::Code;
 
 // Those that a picture in place of a video has, in mpv's order.
 const std::array<std::string, 7> kStages{"RGB",    "NATIVE",    "MAINPRESUB", "MAIN",
@@ -64,7 +64,7 @@ std::set<std::string, std::less<>> namesMentioned(const std::string& text) {
 
 class MpvWriter {
  public:
-  MpvWriter(const MpvFile& file, const ConvertOptions& options, base::Diagnostics& diagnostics)
+  MpvWriter(const MpvFile& file, const ConvertOptions& options, text::Diagnostics& diagnostics)
       : file_(file),
         options_(options),
         name_(options.name),
@@ -115,12 +115,12 @@ class MpvWriter {
             .conditions = std::move(conditions)};
   }
 
-  void fail(Code code, const base::Place& place, std::string message, std::string hint) {
+  void fail(Code code, const text::Place& place, std::string message, std::string hint) {
     refuse(diagnostics_, code, place, std::move(message), std::move(hint));
   }
 
   std::string fresh(const std::string& wanted) {
-    return freshName(taken_, base::isGlslWord(wanted) ? wanted + "_" : wanted);
+    return freshName(taken_, text::isGlslWord(wanted) ? wanted + "_" : wanted);
   }
 
   void addSource() {
@@ -140,7 +140,7 @@ class MpvWriter {
 
   void addParameter(const MpvParameter& parameter) {
     const bool real = parameter.type == "float";
-    if (!taken_.insert(parameter.name).second || base::isGlslWord(parameter.name))
+    if (!taken_.insert(parameter.name).second || text::isGlslWord(parameter.name))
       return fail(Code::notAName, parameter.place,
                   fmt::format("\"{}\" cannot name a parameter", parameter.name), "give it a name of its own");
     Json& made = parameters_[parameter.name];
@@ -149,7 +149,7 @@ class MpvWriter {
     const double high = std::max(parameter.max.value_or(parameter.initial), parameter.initial);
     if (parameter.min && low < high) made["min"] = numberOf(low, real);
     if (parameter.max && low < high) made["max"] = numberOf(high, real);
-    if (!parameter.description.empty()) made["label"] = base::printable(parameter.description);
+    if (!parameter.description.empty()) made["label"] = text::printable(parameter.description);
   }
 
   void addTexture(const MpvTexture& texture) {
@@ -187,7 +187,7 @@ class MpvWriter {
 
   // What a word of an expression is in Weft: a side of a texture, a number or a parameter. Empty: none of them.
   std::string valueOf(std::string_view word) const {
-    if (base::isDigit(word[0])) {
+    if (text::isDigit(word[0])) {
       const bool number = std::ranges::count(word, '.') <= 1 && word.size() <= 20 && word.back() != '.' &&
                           word.find_first_not_of("0123456789.") == word.npos;
       return number ? std::string(word) : std::string();
@@ -208,7 +208,7 @@ class MpvWriter {
   // An expression in reverse Polish as one of Weft: "MAIN.w 2 *" becomes "(size(main).x * 2)".
   std::optional<std::string> expressionOf(const PlacedText& expression) {
     const auto wrong = [&](std::size_t at, std::string message) {
-      base::Place place = expression.place;
+      text::Place place = expression.place;
       place.column += static_cast<std::uint32_t>(at);
       fail(Code::badMpvHeader, place, std::move(message),
            "write reverse Polish of numbers, NAME.w, NAME.h, + - * / % > < = !: HOOKED.w 2 * is twice the "
@@ -218,7 +218,7 @@ class MpvWriter {
     const std::string_view text = expression.text;
     std::vector<std::string> stack;
     for (std::size_t at = 0; at < text.size(); ++at) {
-      if (base::isSpace(text[at])) continue;
+      if (text::isSpace(text[at])) continue;
       const std::string_view word =
           text.substr(at, std::min(text.find_first_of(" \t", at), text.size()) - at);
       const bool binary = word.size() == 1 && std::string_view("+-*/%><=").find(word[0]) != std::string::npos;
@@ -376,7 +376,7 @@ class MpvWriter {
   const MpvFile& file_;
   const ConvertOptions& options_;
   const std::string& name_;
-  base::Diagnostics& diagnostics_;
+  text::Diagnostics& diagnostics_;
   const std::string text_;                         // the shader, translated
   const std::set<std::string, std::less<>> used_;  // names that it mentions
   std::set<std::string> bound_, texturesBound_;    // pictures that passes bind, textures of the file
@@ -391,7 +391,7 @@ class MpvWriter {
 }  // namespace
 
 std::optional<Converted> convertMpv(std::string_view text, const std::string& file,
-                                    const ConvertOptions& options, base::Diagnostics& diagnostics) {
+                                    const ConvertOptions& options, text::Diagnostics& diagnostics) {
   const auto parsed = readMpvFile(text, std::make_shared<const std::string>(file), diagnostics);
   static const std::string kPicture[] = {"picture"};
   if (!parsed || !checkImageNames(options, kPicture, diagnostics)) return std::nullopt;

@@ -4,26 +4,26 @@
 
 #include <cmath>
 
-#include "engine/base/chars.h"
-#include "engine/base/json/layout.h"
-#include "engine/base/nearest.h"
+#include "engine/text/chars.h"
+#include "engine/text/json/layout.h"
+#include "engine/text/nearest.h"
 
 namespace weft::importing {
 
-void refuse(base::Diagnostics& diagnostics, base::Code code, const base::Place& place, std::string message,
+void refuse(text::Diagnostics& diagnostics, text::Code code, const text::Place& place, std::string message,
             std::string hint) {
   diagnostics.error(code, place, std::move(message)).hint = std::move(hint);
 }
 
 bool checkImageNames(const ConvertOptions& options, std::span<const std::string> known,
-                     base::Diagnostics& diagnostics) {
+                     text::Diagnostics& diagnostics) {
   const std::size_t errors = diagnostics.errorCount();
   for (const auto& [name, file] : options.images)
     if (!contains(known, name))
       diagnostics
-          .error(base::Code::unknownParameter, base::placeOfOption(fmt::format("--image {}=…", name)),
+          .error(text::Code::unknownParameter, text::placeOfOption(fmt::format("--image {}=…", name)),
                  fmt::format("the file has no image '{}'", name))
-          .hint = known.empty() ? "leave --image out" : base::nearestHint(name, known);
+          .hint = known.empty() ? "leave --image out" : text::nearestHint(name, known);
   return diagnostics.errorCount() == errors;
 }
 
@@ -89,12 +89,12 @@ std::string GlslText::changed() const {
 std::string identifierOf(std::string_view text) {
   std::string out;
   for (const char c : text)
-    if (base::isIdentChar(c))
+    if (text::isIdentChar(c))
       out += c;
     else if (!out.empty() && out.back() != '_')
       out += '_';
   while (!out.empty() && out.back() == '_') out.pop_back();
-  return out.empty() || base::isDigit(out[0]) ? 'n' + out : out;
+  return out.empty() || text::isDigit(out[0]) ? 'n' + out : out;
 }
 
 std::string freshName(std::set<std::string, std::less<>>& used, const std::string& wanted) {
@@ -129,7 +129,7 @@ Json numberOf(double number, bool real) {
 }
 
 std::string graphText(const Json& graph) {
-  return base::layoutJson(graph.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n",
+  return text::layoutJson(graph.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n",
                           {.packed = {"set"}, .starts = {"read", "write", "modify"}});
 }
 

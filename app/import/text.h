@@ -21,11 +21,11 @@ using Json = nlohmann::ordered_json;
 // A text of the foreign file, and where it is there.
 struct PlacedText {
   std::string text;
-  base::Place place;
+  text::Place place;
 };
 
 // Reports an error in a foreign file.
-void refuse(base::Diagnostics& diagnostics, base::Code code, const base::Place& place, std::string message,
+void refuse(text::Diagnostics& diagnostics, text::Code code, const text::Place& place, std::string message,
             std::string hint);
 
 bool contains(const auto& words, std::string_view word) {
@@ -34,7 +34,7 @@ bool contains(const auto& words, std::string_view word) {
 
 // Reports (W044) what `options.images` names and the file does not have; false then.
 bool checkImageNames(const ConvertOptions& options, std::span<const std::string> known,
-                     base::Diagnostics& diagnostics);
+                     text::Diagnostics& diagnostics);
 
 // GLSL in which tokens are replaced. Every other byte, comments and line ends included, stays where it is, so that lines keep
 // their numbers. #version, #extension and #line become blank.

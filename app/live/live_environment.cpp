@@ -26,13 +26,13 @@ std::vector<std::string> listEnvironments(const std::filesystem::path& folder) {
 
 }  // namespace
 
-std::optional<std::string> firstEnvironment(const std::string& fileOrFolder, base::Diagnostics& diagnostics) {
+std::optional<std::string> firstEnvironment(const std::string& fileOrFolder, text::Diagnostics& diagnostics) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(fileOrFolder, ignored)) return fileOrFolder;
   const std::vector<std::string> files = listEnvironments(fileOrFolder);
   if (!files.empty()) return files.front();
-  base::Diagnostic& d =
-      diagnostics.error(base::Code::unreadableImage, {std::make_shared<const std::string>(fileOrFolder)},
+  text::Diagnostic& d =
+      diagnostics.error(text::Code::unreadableImage, {std::make_shared<const std::string>(fileOrFolder)},
                         fmt::format("there is no environment in the folder '{}'", fileOrFolder));
   d.expected = "a .hdr or .exr file in it";
   return std::nullopt;
@@ -60,7 +60,7 @@ bool LiveEnvironment::step(int by) {
 }
 
 std::optional<LiveEnvironment::Event> LiveEnvironment::poll(imports::EnvironmentTextures& textures,
-                                                            base::Diagnostics& diagnostics) {
+                                                            text::Diagnostics& diagnostics) {
   if (auto result = loader_.poll()) {
     ticket_ = 0;
     incoming_ = result->as<assets::EnvironmentMap>();

@@ -15,7 +15,7 @@ namespace weft::app {
 
 // The file that `--environment` means: itself, or of a folder the first that can be read, in the order of
 // names. Empty after an error (W150): there is none. A path that does not exist is left to whoever loads it.
-std::optional<std::string> firstEnvironment(const std::string& fileOrFolder, base::Diagnostics& diagnostics);
+std::optional<std::string> firstEnvironment(const std::string& fileOrFolder, text::Diagnostics& diagnostics);
 
 class LiveEnvironment {
  public:
@@ -34,7 +34,7 @@ class LiveEnvironment {
   struct Event {
     Map map;
   };
-  std::optional<Event> poll(imports::EnvironmentTextures& textures, base::Diagnostics& diagnostics);
+  std::optional<Event> poll(imports::EnvironmentTextures& textures, text::Diagnostics& diagnostics);
 
   // What is on its way.
   std::optional<LoadStatus> status() const;
@@ -47,7 +47,7 @@ class LiveEnvironment {
   std::string shown_, wanted_;
   std::uint64_t ticket_ = 0;  // of the request that is loading, or 0
   Map incoming_;              // decoded, being sent
-  base::Diagnostics said_;    // while it was decoded
+  text::Diagnostics said_;    // while it was decoded
   float sent_ = 0;
   assets::Loader loader_;
 };

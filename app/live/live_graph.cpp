@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "app/session/session.h"
-#include "engine/base/files/file_access.h"
 #include "engine/graph/edit/write_back.h"
 #include "engine/graph/language/suffix.h"
 #include "engine/imports/environment/environment.h"
 #include "engine/scene/files/scene_file.h"
+#include "engine/text/files/file_access.h"
 
 namespace weft::app {
 
@@ -49,16 +49,16 @@ void LiveGraph::expectScene() {
   scene_.request();
 }
 
-bool LiveGraph::load(base::Diagnostics& diagnostics) {
+bool LiveGraph::load(text::Diagnostics& diagnostics) {
   graphStale_ = expectsScene_ && !scene_.ready();
   untried_ = untried_ || graphStale_;
   good_ = tryLoad(Attempt::final, diagnostics);
   return good_;
 }
 
-bool LiveGraph::tryLoad(Attempt attempt, base::Diagnostics& diagnostics) {
+bool LiveGraph::tryLoad(Attempt attempt, text::Diagnostics& diagnostics) {
   runtime::World world = world_;
-  base::Diagnostics said;
+  text::Diagnostics said;
   const bool good = tryScene(world, said) && tryGraph(attempt, world, said);
   if (good || attempt == Attempt::final) diagnostics.append(said);
   if (good) {
@@ -73,17 +73,17 @@ bool LiveGraph::tryLoad(Attempt attempt, base::Diagnostics& diagnostics) {
   return good;
 }
 
-bool LiveGraph::tryGraph(Attempt attempt, const runtime::World& world, base::Diagnostics& diagnostics) {
+bool LiveGraph::tryGraph(Attempt attempt, const runtime::World& world, text::Diagnostics& diagnostics) {
   graph::Settings wanted = settings_, lost;
   wanted.sets.insert(wanted.sets.end(), lost_.sets.begin(), lost_.sets.end());
   wanted.disables.insert(wanted.disables.end(), lost_.disables.begin(), lost_.disables.end());
-  base::Diagnostics said;
+  text::Diagnostics said;
   bool good = renderer_.load(wanted, world, said);
   if (!good && attempt == Attempt::final && running() && !renderer_.refused().empty()) {
     said = {};
     for (const graph::Refusal& refusal : std::views::reverse(renderer_.refused())) {
-      base::Diagnostic warning = refusal.why;
-      warning.severity = base::Severity::warning;
+      text::Diagnostic warning = refusal.why;
+      warning.severity = text::Severity::warning;
       warning.message += "; left out until the files take it";
       said.add(std::move(warning));
       const auto at = static_cast<std::ptrdiff_t>(refusal.index);
@@ -104,7 +104,7 @@ bool LiveGraph::tryGraph(Attempt attempt, const runtime::World& world, base::Dia
   return true;
 }
 
-bool LiveGraph::tryScene(runtime::World& world, base::Diagnostics& diagnostics) {
+bool LiveGraph::tryScene(runtime::World& world, text::Diagnostics& diagnostics) {
   if (!scene_.outdated() || (expectsScene_ && !scene_.ready())) return true;
   if (!scene_.ready()) scene_.readNow();
   const scene::Scene* scene = scene_.scene(diagnostics);
@@ -123,9 +123,9 @@ std::vector<std::string> LiveGraph::files() const {
 }
 
 // What there is to say of how files are watched goes to `diagnostics`, or waits for the next call that has one.
-void LiveGraph::watch(base::Diagnostics* diagnostics) {
+void LiveGraph::watch(text::Diagnostics* diagnostics) {
   std::vector<std::string> watched = files();
-  std::erase_if(watched, [](const std::string& file) { return !base::mayRead(file); });
+  std::erase_if(watched, [](const std::string& file) { return !text::mayRead(file); });
   watcher_.watch(std::move(watched));
   if (diagnostics) diagnostics->append(watcher_.takeNotices());
 }
@@ -155,7 +155,7 @@ bool LiveGraph::wantsLoad(double now) {
   return !running() || !scene_.outdated() || !scene_.slow() || scene_.arrived();
 }
 
-bool LiveGraph::poll(double now, base::Diagnostics& diagnostics) {
+bool LiveGraph::poll(double now, text::Diagnostics& diagnostics) {
   const bool wants = wantsLoad(now);
   const bool quiet = now - changedAt_ >= quiet_;
   if (quiet && !changedEnvironment_.empty()) environment_.request(std::exchange(changedEnvironment_, {}));
@@ -171,7 +171,7 @@ bool LiveGraph::poll(double now, base::Diagnostics& diagnostics) {
   return true;
 }
 
-bool LiveGraph::pollEnvironment(base::Diagnostics& diagnostics) {
+bool LiveGraph::pollEnvironment(text::Diagnostics& diagnostics) {
   auto* provider = renderer_.device().imports.find<imports::EnvironmentProvider>();
   assert(provider && "the viewer runs with all built-in imports");
   const auto event = environment_.poll(provider->textures(), diagnostics);
@@ -189,7 +189,7 @@ bool LiveGraph::pollEnvironment(base::Diagnostics& diagnostics) {
 }
 
 // Takes up another world; the graph is expanded again when it would be another one.
-bool LiveGraph::tryWorld(runtime::World world, base::Diagnostics& diagnostics) {
+bool LiveGraph::tryWorld(runtime::World world, text::Diagnostics& diagnostics) {
   if (!running()) {  // for when the files are good
     world_ = std::move(world);
     return true;
@@ -205,7 +205,7 @@ void LiveGraph::stepEnvironment(int by) {
   if (environment_.step(by)) watch();
 }
 
-bool LiveGraph::resize(std::uint32_t width, std::uint32_t height, base::Diagnostics& diagnostics) {
+bool LiveGraph::resize(std::uint32_t width, std::uint32_t height, text::Diagnostics& diagnostics) {
   if (width == settings_.screenWidth && height == settings_.screenHeight) return false;
   settings_.screenWidth = width;
   settings_.screenHeight = height;
@@ -215,9 +215,9 @@ bool LiveGraph::resize(std::uint32_t width, std::uint32_t height, base::Diagnost
   return true;
 }
 
-bool LiveGraph::trySettings(graph::Settings settings, base::Diagnostics& diagnostics) {
+bool LiveGraph::trySettings(graph::Settings settings, text::Diagnostics& diagnostics) {
   ++changes_;
-  base::Diagnostics said;
+  text::Diagnostics said;
   const bool taken = renderer_.apply(settings, world_, said);
   diagnostics.append(said);
   if (!taken) return false;
@@ -228,7 +228,7 @@ bool LiveGraph::trySettings(graph::Settings settings, base::Diagnostics& diagnos
 }
 
 bool LiveGraph::setParameter(const std::string& name, const graph::Value& value,
-                             base::Diagnostics& diagnostics) {
+                             text::Diagnostics& diagnostics) {
   if (trySetLive(name, value)) return true;
   graph::Settings settings = settings_;
   forget(settings, name);
@@ -254,7 +254,7 @@ bool LiveGraph::trySetLive(const std::string& name, const graph::Value& value) {
   return true;
 }
 
-bool LiveGraph::resetParameter(const std::string& name, base::Diagnostics& diagnostics) {
+bool LiveGraph::resetParameter(const std::string& name, text::Diagnostics& diagnostics) {
   graph::Settings settings = settings_;
   std::erase_if(settings.sets, [&](const auto& set) { return graph::hasSuffix(name, set.name); });
   return trySettings(std::move(settings), diagnostics);
@@ -265,7 +265,7 @@ bool LiveGraph::isChanged(const std::string& parameter) const {
                              [&](const auto& set) { return graph::hasSuffix(parameter, set.name); });
 }
 
-bool LiveGraph::writeBack(std::vector<std::string>& files, base::Diagnostics& diagnostics) {
+bool LiveGraph::writeBack(std::vector<std::string>& files, text::Diagnostics& diagnostics) {
   ++changes_;
   if (!renderer_.desc()) return false;
   const graph::Registry registry = runtime::makeRegistry(renderer_.device().plugIns, world_.facts());
@@ -277,7 +277,7 @@ bool LiveGraph::writeBack(std::vector<std::string>& files, base::Diagnostics& di
   return load(diagnostics);
 }
 
-bool LiveGraph::setEnabled(const std::string& pass, bool enabled, base::Diagnostics& diagnostics) {
+bool LiveGraph::setEnabled(const std::string& pass, bool enabled, text::Diagnostics& diagnostics) {
   graph::Settings settings = settings_;
   std::erase_if(settings.disables, [&](const graph::Disable& each) { return each.name == pass; });
   if (!enabled) settings.disables.emplace_back(pass, graph::Origin::panel);

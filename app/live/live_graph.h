@@ -10,10 +10,10 @@
 #include "app/live/live_environment.h"
 #include "app/live/live_scene.h"
 #include "app/session/options.h"
-#include "engine/base/files/file_watcher.h"
 #include "engine/graph/expand/expand.h"
 #include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/renderer.h"
+#include "engine/text/files/file_watcher.h"
 
 namespace weft::app {
 
@@ -29,11 +29,11 @@ class LiveGraph {
   // Reads everything but the environment again and switches to it. False after errors, and what ran goes on.
   // A set or disable that the graph does not take any more is left out with a warning; only the first time,
   // when there is nothing to keep running, is it an error.
-  bool load(base::Diagnostics& diagnostics);
+  bool load(text::Diagnostics& diagnostics);
   // Loads when watched files changed: at once when they are good as they are, else when they have been quiet
   // for a moment, as more may come. A scene with models is read beside the frames, and loaded when it has
   // arrived. `now` in seconds. True when something came of it that is to be reported.
-  bool poll(double now, base::Diagnostics& diagnostics);
+  bool poll(double now, text::Diagnostics& diagnostics);
   // Whether files changed that poll() has not loaded yet. False while a scene
   // is on its way: then there is nothing to wait for.
   bool pending() const { return (graphStale_ && !scene_.loading()) || !changedEnvironment_.empty(); }
@@ -41,24 +41,24 @@ class LiveGraph {
   bool wantsLoad(double now);
   // Once per frame: takes up an environment that has arrived. True when something came of the last request;
   // on failure the environment before stays, or, when it was to be the first, the stand-in comes.
-  bool pollEnvironment(base::Diagnostics& diagnostics);
+  bool pollEnvironment(text::Diagnostics& diagnostics);
   // After a frame: frees what the GPU has.
   void dropUploaded() { renderer_.dropUploaded(world_); }
   // Asks for the next (1) or previous (-1) environment of the folder.
   void stepEnvironment(int by);
   // The size of the screen. False when it is what it was.
-  bool resize(std::uint32_t width, std::uint32_t height, base::Diagnostics& diagnostics);
+  bool resize(std::uint32_t width, std::uint32_t height, text::Diagnostics& diagnostics);
   // These take the full name of a parameter, of a pass. A live parameter is set at once; everything else takes another
   // plan. False after errors, and nothing has changed.
-  bool setParameter(const std::string& name, const graph::Value& value, base::Diagnostics& diagnostics);
-  bool setEnabled(const std::string& pass, bool enabled, base::Diagnostics& diagnostics);
+  bool setParameter(const std::string& name, const graph::Value& value, text::Diagnostics& diagnostics);
+  bool setEnabled(const std::string& pass, bool enabled, text::Diagnostics& diagnostics);
 
   // Goes back to what the files say, instead of what setParameter() said. False after errors.
-  bool resetParameter(const std::string& name, base::Diagnostics& diagnostics);
+  bool resetParameter(const std::string& name, text::Diagnostics& diagnostics);
   bool isChanged(const std::string& parameter) const;
   // Writes changed parameters and disabled passes into the files they come from (engine/graph/edit/write_back.h);
   // `files` are those that were written. False after errors: nothing was.
-  bool writeBack(std::vector<std::string>& files, base::Diagnostics& diagnostics);
+  bool writeBack(std::vector<std::string>& files, text::Diagnostics& diagnostics);
 
   // Everything that was read, or missed.
   std::vector<std::string> files() const;
@@ -79,13 +79,13 @@ class LiveGraph {
  private:
   // What a load that is not `final` finds wrong may come right by the next file that is saved: settings stay.
   enum class Attempt { early, final };
-  bool tryLoad(Attempt attempt, base::Diagnostics& diagnostics);
-  bool tryScene(runtime::World& world, base::Diagnostics& diagnostics);
-  bool tryGraph(Attempt attempt, const runtime::World& world, base::Diagnostics& diagnostics);
-  bool tryWorld(runtime::World world, base::Diagnostics& diagnostics);
+  bool tryLoad(Attempt attempt, text::Diagnostics& diagnostics);
+  bool tryScene(runtime::World& world, text::Diagnostics& diagnostics);
+  bool tryGraph(Attempt attempt, const runtime::World& world, text::Diagnostics& diagnostics);
+  bool tryWorld(runtime::World world, text::Diagnostics& diagnostics);
   bool trySetLive(const std::string& name, const graph::Value& value);
-  bool trySettings(graph::Settings settings, base::Diagnostics& diagnostics);
-  void watch(base::Diagnostics* diagnostics = nullptr);
+  bool trySettings(graph::Settings settings, text::Diagnostics& diagnostics);
+  void watch(text::Diagnostics* diagnostics = nullptr);
 
   runtime::Renderer& renderer_;
   runtime::World world_;
@@ -93,7 +93,7 @@ class LiveGraph {
   graph::Settings lost_;  // that the files, as they are, do not take: tried again at each load
   LiveScene scene_;
   LiveEnvironment environment_;
-  base::FileWatcher watcher_;
+  text::FileWatcher watcher_;
   bool expectsScene_ = false;  // the world's stands in for it
   bool graphStale_ = false, good_ = false, environmentGood_ = true;
   bool untried_ = false;              // as the files are since the last change

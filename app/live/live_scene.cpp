@@ -15,7 +15,7 @@ LiveScene::LiveScene(std::string path, scene::SceneChoice choice, std::vector<st
     : path_(std::move(path)),
       choice_(std::move(choice)),
       files_(std::move(files)),
-      loader_([chosen = choice_](const std::string& file, base::Diagnostics& diagnostics,
+      loader_([chosen = choice_](const std::string& file, text::Diagnostics& diagnostics,
                                  const assets::LoadObserver& observer) -> std::shared_ptr<const void> {
         auto loaded = std::make_shared<Loaded>();
         loaded->scene = scene::loadScene(file, diagnostics, &loaded->files, chosen, observer);
@@ -43,7 +43,7 @@ void LiveScene::settle() {
   arrived_ = nullptr;
 }
 
-void LiveScene::take(std::shared_ptr<const Loaded> loaded, base::Diagnostics diagnostics) {
+void LiveScene::take(std::shared_ptr<const Loaded> loaded, text::Diagnostics diagnostics) {
   arrived_ = std::move(loaded);
   said_ = std::move(diagnostics);
   files_ = arrived_->files;
@@ -52,7 +52,7 @@ void LiveScene::take(std::shared_ptr<const Loaded> loaded, base::Diagnostics dia
 void LiveScene::readNow() {
   if (ticket_ != 0) loader_.cancel(std::exchange(ticket_, 0));
   auto loaded = std::make_shared<Loaded>();
-  base::Diagnostics said;
+  text::Diagnostics said;
   loaded->scene = scene::loadScene(path_, said, &loaded->files, choice_);
   take(std::move(loaded), std::move(said));
 }
@@ -75,7 +75,7 @@ bool LiveScene::arrived() {
   return false;
 }
 
-const scene::Scene* LiveScene::scene(base::Diagnostics& diagnostics) const {
+const scene::Scene* LiveScene::scene(text::Diagnostics& diagnostics) const {
   if (!arrived_) return nullptr;
   diagnostics.append(said_);
   return arrived_->scene ? &*arrived_->scene : nullptr;

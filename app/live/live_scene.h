@@ -50,7 +50,7 @@ class LiveScene {
   // How many times that was begun beside the frames.
   std::uint64_t reads() const { return reads_; }
   // What arrived, with what is to be said of it; null after errors.
-  const scene::Scene* scene(base::Diagnostics& diagnostics) const;
+  const scene::Scene* scene(text::Diagnostics& diagnostics) const;
 
   std::optional<LoadStatus> status() const;
 
@@ -60,7 +60,7 @@ class LiveScene {
     std::optional<scene::Scene> scene;
     std::vector<std::string> files;
   };
-  void take(std::shared_ptr<const Loaded> loaded, base::Diagnostics diagnostics);
+  void take(std::shared_ptr<const Loaded> loaded, text::Diagnostics diagnostics);
 
   std::string path_;
   scene::SceneChoice choice_;
@@ -70,7 +70,7 @@ class LiveScene {
   std::uint64_t ticket_ = 0;  // of the request that is loading, or 0
   std::uint64_t reads_ = 0;
   std::shared_ptr<const Loaded> arrived_;  // null: not yet
-  base::Diagnostics said_;                 // while it was read
+  text::Diagnostics said_;                 // while it was read
   assets::LoadQueue loader_;
 };
 

@@ -11,14 +11,14 @@
 
 #include "app/lsp/server.h"
 #include "app/output/standard_streams.h"
-#include "engine/base/chars.h"
-#include "engine/base/printable.h"
+#include "engine/text/chars.h"
+#include "engine/text/printable.h"
 
 namespace weft::app {
 
 namespace {
 
-constexpr std::size_t kMostHeader = 65536, kMostMessage = std::size_t{64} << 20;  // bytes
+constexpr std::size_t kMaxHeader = 65536, kMaxMessage = std::size_t{64} << 20;  // bytes
 
 // Reads messages of the Language Server Protocol 3.17, "Base Protocol": header lines, an empty line, and as many bytes of JSON as
 // Content-Length says. Any input gives a message or an error, and after an error the next message is found.
@@ -30,16 +30,16 @@ class MessageReader {
     std::size_t end = 0;
     while ((end = buffer_.find("\r\n\r\n")) == std::string::npos) {
       // Of what is no header the end may be one.
-      const bool tooLong = buffer_.size() > kMostHeader;
+      const bool tooLong = buffer_.size() > kMaxHeader;
       if (tooLong) buffer_.erase(0, buffer_.size() - 4096);
       if (fill()) continue;
       if (!buffer_.empty())
         problem_ = tooLong ? "the input ended within the header of a message"
                            : fmt::format("the input ended within the header of a message, which begins '{}'",
-                                         base::printable(base::shortened(buffer_)));
+                                         text::printable(text::shortened(buffer_)));
       return std::nullopt;
     }
-    const std::string header = base::lowered(std::string_view(buffer_).substr(0, end));
+    const std::string header = text::lowered(std::string_view(buffer_).substr(0, end));
     buffer_.erase(0, end + 4);
     // What stands before it is the end of a message whose length was not known.
     constexpr std::string_view kLength = "content-length:";
@@ -53,7 +53,7 @@ class MessageReader {
     if (error != std::errc{} || !whole)
       return problem("Content-Length: expected a number of bytes, found '{}'", header.substr(from));
     const std::size_t wanted = bytes;
-    const bool tooLarge = wanted > kMostMessage;
+    const bool tooLarge = wanted > kMaxMessage;
     while (buffer_.size() < bytes) {
       if (tooLarge) bytes -= std::exchange(buffer_, {}).size();
       if (fill()) continue;
@@ -64,7 +64,7 @@ class MessageReader {
     }
     std::string message = buffer_.substr(0, bytes);
     buffer_.erase(0, bytes);
-    if (tooLarge) problem_ = fmt::format("a message of {} bytes; the most are {}", wanted, kMostMessage);
+    if (tooLarge) problem_ = fmt::format("a message of {} bytes; the most are {}", wanted, kMaxMessage);
     return message;
   }
 
@@ -78,7 +78,7 @@ class MessageReader {
 
  private:
   std::string problem(const char* format, const std::string& found) {
-    problem_ = fmt::format(fmt::runtime(format), base::printable(base::shortened(found)));
+    problem_ = fmt::format(fmt::runtime(format), text::printable(text::shortened(found)));
     return {};
   }
 

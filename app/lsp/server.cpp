@@ -7,8 +7,8 @@
 
 #include "app/lsp/answers/features.h"
 #include "app/session/options.h"
-#include "engine/base/chars.h"
-#include "engine/base/printable.h"
+#include "engine/text/chars.h"
+#include "engine/text/printable.h"
 
 namespace weft::app::lsp {
 
@@ -57,11 +57,11 @@ std::string pathOf(const Json& parameters) {
   const std::string& uri = textOf(member(parameters, "textDocument"), "uri");
   const std::string path = pathOfUri(uri);
   if (path.empty())
-    failBy(fmt::format("expected a file: URI, found '{}'", base::printable(base::shortened(uri))));
+    failBy(fmt::format("expected a file: URI, found '{}'", text::printable(text::shortened(uri))));
   return path;
 }
 
-constexpr int kMostDepth = 500;  // of brackets in a message; the code that reads and copies JSON recurses
+constexpr int kMaxDepth = 500;  // of brackets in a message; the code that reads and copies JSON recurses
 
 }  // namespace
 
@@ -76,11 +76,11 @@ void Server::refuse(const std::string& problem) {
 void Server::take(std::string_view text) {
   bool deep = false;
   const auto look = [&](int depth, Json::parse_event_t, Json&) {
-    deep = deep || depth > kMostDepth;
+    deep = deep || depth > kMaxDepth;
     return !deep;
   };
   const Json message = Json::parse(text, look, false);
-  if (deep) return refuse(fmt::format("a message with more than {} brackets around one another", kMostDepth));
+  if (deep) return refuse(fmt::format("a message with more than {} brackets around one another", kMaxDepth));
   if (message.is_discarded()) return refuse("the message is no JSON");
   if (!message.is_object()) return fail(nullptr, kInvalidRequest, "a message is an object");
   const auto id = message.find("id");
@@ -127,7 +127,7 @@ Json Server::answer(const std::string& method, const Json& parameters) {
   const std::string_view what = std::string_view(method).substr(std::min(kDocument.size(), method.size()));
   if (!method.starts_with(kDocument) || std::ranges::find(kMethods, what) == std::end(kMethods))
     throw Failure{kUnknownMethod,
-                  fmt::format("there is no method '{}'", base::printable(base::shortened(method)))};
+                  fmt::format("there is no method '{}'", text::printable(text::shortened(method)))};
   const bool here = what != "documentSymbol";
   settle();  // answers are about the text as it is
   const std::shared_ptr<const Text> text = texts_.of(pathOf(parameters));
@@ -242,13 +242,13 @@ void Server::settle() {
 }
 
 void Server::publish(const std::string& path) {
-  const std::vector<base::Diagnostic> said = workspace_.diagnosticsOf(path);
+  const std::vector<text::Diagnostic> said = workspace_.diagnosticsOf(path);
   const bool shown = published_.contains(path);
   if (said.empty() && !shown && !texts_.isOpen(path)) return;
   const std::shared_ptr<const Text> text = texts_.of(path);
   Json list = Json::array();
   const Text nothing(path, "");
-  for (const base::Diagnostic& each : said) list.push_back(toJson(each, text ? *text : nothing));
+  for (const text::Diagnostic& each : said) list.push_back(toJson(each, text ? *text : nothing));
   if (said.empty())
     published_.erase(path);
   else
@@ -261,28 +261,28 @@ void Server::publish(const std::string& path) {
       {{"jsonrpc", "2.0"}, {"method", "textDocument/publishDiagnostics"}, {"params", std::move(parameters)}});
 }
 
-Json Server::toJson(const base::Diagnostic& d, const Text& text) const {
+Json Server::toJson(const text::Diagnostic& d, const Text& text) const {
   const std::string_view all = text.bytes();
   Range range;
-  range.begin = range.end = d.place.line > 0 ? base::offsetOf(all, d.place.inFile()) : 0;
+  range.begin = range.end = d.place.line > 0 ? text::offsetOf(all, d.place.inFile()) : 0;
   // The range grows to the end of the word or the string there.
   if (range.end < all.size() && all[range.end] == '"') {
     do range.end += all[range.end] == '\\' ? 2 : 1;
     while (range.end < all.size() && all[range.end] != '"' && all[range.end] != '\n');
     range.end = std::min(range.end + (range.end < all.size() && all[range.end] == '"' ? 1 : 0), all.size());
   } else {
-    while (range.end < all.size() && (base::isIdentChar(all[range.end]) || all[range.end] == '.'))
+    while (range.end < all.size() && (text::isIdentChar(all[range.end]) || all[range.end] == '.'))
       ++range.end;
     if (range.end == range.begin && range.end < all.size() && all[range.end] != '\n') ++range.end;
   }
   std::string message = d.message;
   using Line = std::pair<const char*, const std::string&>;
   for (const auto& [label, said] : {Line{"expected", d.expected}, {"found", d.found}, {"fix", d.hint}})
-    if (!said.empty()) message += fmt::format("\n{}: {}", label, base::shortened(said));
+    if (!said.empty()) message += fmt::format("\n{}: {}", label, text::shortened(said));
   const int severity = 3 - static_cast<int>(d.severity);
   return {{"range", lsp::toJson(text.map(), range)},
           {"severity", severity},
-          {"code", base::nameOf(d.code)},
+          {"code", text::nameOf(d.code)},
           {"source", "weft"},
           {"message", std::move(message)}};
 }

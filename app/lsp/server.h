@@ -34,7 +34,7 @@ class Server {
   Json initialize(const Json& parameters);
   void change(const Json& parameters);
   void publish(const std::string& path);
-  Json toJson(const base::Diagnostic& diagnostic, const Text& text) const;
+  Json toJson(const text::Diagnostic& diagnostic, const Text& text) const;
 
   Send send_;
   Texts texts_;

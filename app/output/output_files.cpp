@@ -17,8 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 void refuse(const std::string& path, const std::string& message, const std::string& hint,
-            base::Diagnostics& diagnostics) {
-  diagnostics.error(base::Code::outputNotWritten, {std::make_shared<const std::string>(path), 0, 0}, message)
+            text::Diagnostics& diagnostics) {
+  diagnostics.error(text::Code::outputNotWritten, {std::make_shared<const std::string>(path), 0, 0}, message)
       .hint = hint;
 }
 
@@ -85,7 +85,7 @@ std::string pictureKindOf(const std::string& path) {
 }
 
 bool checkOutput(const std::string& pattern, std::uint32_t firstFrame, bool several,
-                 base::Diagnostics& diagnostics) {
+                 text::Diagnostics& diagnostics) {
   const auto fail = [&](const std::string& message, const std::string& hint) {
     refuse(pattern, message, hint, diagnostics);
     return false;
@@ -104,7 +104,7 @@ bool checkOutput(const std::string& pattern, std::uint32_t firstFrame, bool seve
   return makeFolderOf(*first, diagnostics);
 }
 
-bool makeFolderOf(const std::string& path, base::Diagnostics& diagnostics) {
+bool makeFolderOf(const std::string& path, text::Diagnostics& diagnostics) {
   const fs::path folder = fs::path(path).parent_path();
   std::error_code ec;
   if (folder.empty() || fs::is_directory(folder, ec)) return true;
@@ -117,7 +117,7 @@ bool makeFolderOf(const std::string& path, base::Diagnostics& diagnostics) {
 }
 
 bool checkDistinct(std::span<const OutputFile> outputs, std::span<const std::string> inputs,
-                   base::Diagnostics& diagnostics) {
+                   text::Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
   std::vector<OutputFile> seen;  // by their plain names; those that are read have no option
   for (const std::string& input : inputs) seen.push_back(plainOf({"", input}));
@@ -140,7 +140,7 @@ bool checkDistinct(std::span<const OutputFile> outputs, std::span<const std::str
   return diagnostics.errorCount() == before;
 }
 
-bool checkMadeFiles(std::span<const std::string> paths, base::Diagnostics& diagnostics) {
+bool checkMadeFiles(std::span<const std::string> paths, text::Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
   for (const std::string& path : paths) {
     std::error_code ec;
@@ -156,7 +156,7 @@ bool checkMadeFiles(std::span<const std::string> paths, base::Diagnostics& diagn
   return diagnostics.errorCount() == before;
 }
 
-bool checkFree(std::span<const std::string> paths, base::Diagnostics& diagnostics) {
+bool checkFree(std::span<const std::string> paths, text::Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
   std::error_code ec;
   for (const std::string& path : paths)

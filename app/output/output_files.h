@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "engine/base/diagnostic.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::app {
 
@@ -20,10 +20,10 @@ std::string pictureKindOf(const std::string& path);
 // Whether pictures can be written under `pattern`, from number `first` on; makes the first one's folder. W180
 // if not.
 bool checkOutput(const std::string& pattern, std::uint32_t first, bool several,
-                 base::Diagnostics& diagnostics);
+                 text::Diagnostics& diagnostics);
 
 // Makes the folder of a file. False after W180.
-bool makeFolderOf(const std::string& path, base::Diagnostics& diagnostics);
+bool makeFolderOf(const std::string& path, text::Diagnostics& diagnostics);
 
 // What one option has a run write: a file, or the frames of a pattern.
 struct OutputFile {
@@ -34,12 +34,12 @@ struct OutputFile {
 // That no output is one of the files that the run reads, or another output, however it is spelled and whatever links lead to
 // it. Devices and pipes may be anything. False after W180.
 bool checkDistinct(std::span<const OutputFile> outputs, std::span<const std::string> inputs,
-                   base::Diagnostics& diagnostics);
+                   text::Diagnostics& diagnostics);
 
 // Files whose names a command makes itself: each is nothing yet or a plain file, so that no pipe is waited for and no device
 // written to. False after W180.
-bool checkMadeFiles(std::span<const std::string> paths, base::Diagnostics& diagnostics);
+bool checkMadeFiles(std::span<const std::string> paths, text::Diagnostics& diagnostics);
 // That there is no file of these names yet. False after W180.
-bool checkFree(std::span<const std::string> paths, base::Diagnostics& diagnostics);
+bool checkFree(std::span<const std::string> paths, text::Diagnostics& diagnostics);
 
 }  // namespace weft::app

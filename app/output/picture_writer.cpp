@@ -9,17 +9,17 @@
 
 #include "app/output/output_files.h"
 #include "app/output/standard_streams.h"
-#include "engine/base/counted.h"
-#include "engine/base/printable.h"
+#include "engine/text/counted.h"
+#include "engine/text/printable.h"
 
 namespace weft::app {
 
-bool savePng(const std::string& path, const assets::Image8& image, base::Diagnostics& diagnostics) {
+bool savePng(const std::string& path, const assets::Image8& image, text::Diagnostics& diagnostics) {
   return makeFolderOf(path, diagnostics) &&
          assets::savePng8(path, image.width, image.height, image.channels, image.texels, diagnostics);
 }
 
-bool saveInspected(runtime::Inspector& inspector, const std::string& path, base::Diagnostics& diagnostics) {
+bool saveInspected(runtime::Inspector& inspector, const std::string& path, text::Diagnostics& diagnostics) {
   if (pictureKindOf(path) != ".exr") {
     const auto image = inspector.drawWhole(inspector.fittedView(), diagnostics);
     return image && savePng(path, *image, diagnostics);
@@ -64,7 +64,7 @@ void PictureWriter::look(const assets::ImageF& picture, runtime::Renderer& rende
 }
 
 bool PictureWriter::save(runtime::Renderer& renderer, const std::string& path,
-                         base::Diagnostics& diagnostics) {
+                         text::Diagnostics& diagnostics) {
   const bool values = pictureKindOf(path) == ".exr";
   bool good = false;
   if (!values && renderer.presentsBytes()) {  // they hold no such values, and are read faster
@@ -79,12 +79,12 @@ bool PictureWriter::save(runtime::Renderer& renderer, const std::string& path,
   return good;
 }
 
-void PictureWriter::tell(base::Diagnostics& diagnostics) {
+void PictureWriter::tell(text::Diagnostics& diagnostics) {
   if (first_.pixels == 0) return;
   auto& d = diagnostics.warning(
-      base::Code::pictureNotFinite, {std::make_shared<const std::string>(first_.file), 0, 0},
+      text::Code::pictureNotFinite, {std::make_shared<const std::string>(first_.file), 0, 0},
       fmt::format("{} of the picture {} NaN or infinite, the first at x {}, y {} from the upper left",
-                  base::counted(first_.pixels, "pixel"), first_.pixels == 1 ? "is" : "are", first_.x,
+                  text::counted(first_.pixels, "pixel"), first_.pixels == 1 ? "is" : "are", first_.x,
                   first_.y));
   d.resource = first_.resource;
   d.expected = "finite numbers";
@@ -99,7 +99,7 @@ void PictureWriter::tell(base::Diagnostics& diagnostics) {
   brokenBefore_ = counts_.broken;
 }
 
-bool Recorder::start(const std::string& pattern, base::Diagnostics& diagnostics) {
+bool Recorder::start(const std::string& pattern, text::Diagnostics& diagnostics) {
   pattern_ = pattern;
   std::error_code ignored;
   for (int i = 1; pattern_.empty(); ++i)
@@ -110,15 +110,15 @@ bool Recorder::start(const std::string& pattern, base::Diagnostics& diagnostics)
   return active_;
 }
 
-void Recorder::stop(base::Diagnostics& diagnostics) {
+void Recorder::stop(text::Diagnostics& diagnostics) {
   if (!active_) return;
   active_ = false;
-  print(fmt::format("wrote {} to {}\n", base::counted(frames_, "frame"), base::printable(pattern_)));
+  print(fmt::format("wrote {} to {}\n", text::counted(frames_, "frame"), text::printable(pattern_)));
   flushPrinted();
   writer_.tell(diagnostics);
 }
 
-void Recorder::add(runtime::Renderer& renderer, base::Diagnostics& diagnostics) {
+void Recorder::add(runtime::Renderer& renderer, text::Diagnostics& diagnostics) {
   if (!active_) return;
   const std::string path = *outputNameOf(pattern_, frames_);
   if (writer_.save(renderer, path, diagnostics))

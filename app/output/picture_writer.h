@@ -5,17 +5,17 @@
 #include <cstdint>
 #include <string>
 
-#include "engine/base/diagnostic.h"
 #include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/renderer.h"
 #include "engine/runtime/inspection/inspector.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::app {
 
 // Makes the folder of the file. False after W180, as all of these.
-bool savePng(const std::string& path, const assets::Image8& image, base::Diagnostics& diagnostics);
+bool savePng(const std::string& path, const assets::Image8& image, text::Diagnostics& diagnostics);
 // What a copy of the inspector's is saved as under `path`, by the kind of its name.
-bool saveInspected(runtime::Inspector& inspector, const std::string& path, base::Diagnostics& diagnostics);
+bool saveInspected(runtime::Inspector& inspector, const std::string& path, text::Diagnostics& diagnostics);
 
 class PictureWriter {
  public:
@@ -25,11 +25,11 @@ class PictureWriter {
     std::uint64_t pixels = 0;    // that have such values, of all
   };
 
-  bool save(runtime::Renderer& renderer, const std::string& path, base::Diagnostics& diagnostics);
+  bool save(runtime::Renderer& renderer, const std::string& path, text::Diagnostics& diagnostics);
   // Notes what values in the presented picture are no colors. `file`: which is said to have them.
   void look(const assets::ImageF& picture, runtime::Renderer& renderer, const std::string& file);
   // One warning (W207) for all pictures since the last call, or none.
-  void tell(base::Diagnostics& diagnostics);
+  void tell(text::Diagnostics& diagnostics);
   const Counts& counts() const { return counts_; }
 
  private:
@@ -49,15 +49,15 @@ class Recorder {
  public:
   // Frames go to `pattern` ("out/f_%04d.png", or .exr), numbered from 0. An empty pattern makes a new folder,
   // record_N, here. False with W180 when the folder cannot be made or the pattern is none.
-  bool start(const std::string& pattern, base::Diagnostics& diagnostics);
+  bool start(const std::string& pattern, text::Diagnostics& diagnostics);
   // Says how many frames there are, on standard output, and what is wrong with them (W207).
-  void stop(base::Diagnostics& diagnostics);
+  void stop(text::Diagnostics& diagnostics);
   bool active() const { return active_; }
   std::uint32_t frames() const { return frames_; }
   const std::string& pattern() const { return pattern_; }
 
   // The presented picture is the next frame. Stops after an error.
-  void add(runtime::Renderer& renderer, base::Diagnostics& diagnostics);
+  void add(runtime::Renderer& renderer, text::Diagnostics& diagnostics);
 
  private:
   PictureWriter writer_;

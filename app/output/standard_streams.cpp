@@ -10,8 +10,8 @@
 #include <cstdio>
 #include <cstring>
 
-#include "engine/base/diagnostic.h"
-#include "engine/base/printable.h"
+#include "engine/text/diagnostic.h"
+#include "engine/text/printable.h"
 
 namespace weft::app {
 
@@ -48,12 +48,12 @@ void printTable(const std::vector<std::vector<std::string>>& rows) {
   for (const auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()));
     for (std::size_t i = 0; i + 1 < row.size(); ++i)
-      widths[i] = std::max(widths[i], base::printable(row[i]).size());
+      widths[i] = std::max(widths[i], text::printable(row[i]).size());
   }
   for (const auto& row : rows) {
     std::string line;
     for (std::size_t i = 0; i < row.size(); ++i)
-      line += fmt::format("{:<{}}  ", base::printable(row[i]), widths[i]);
+      line += fmt::format("{:<{}}  ", text::printable(row[i]), widths[i]);
     line.erase(line.find_last_not_of(' ') + 1);
     print(line + "\n");
   }
@@ -69,7 +69,7 @@ void printError(std::string_view text) {
 }
 
 std::string dumpJson(const nlohmann::ordered_json& json) {
-  return base::printableJson(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  return text::printableJson(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 int finishStreams(int exitCode) {
@@ -77,9 +77,9 @@ int finishStreams(int exitCode) {
   if (outputFailure == 0 && std::ferror(stdout)) outputFailure = EIO;
   if (outputFailure == EPIPE) return exitCode == 0 ? kReaderLeft : exitCode;
   if (outputFailure != 0) {
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     diagnostics
-        .error(base::Code::outputNotWritten, {},
+        .error(text::Code::outputNotWritten, {},
                fmt::format("not everything could be written to standard output: {}",
                            std::strerror(outputFailure)))
         .hint = outputFailure == ENOSPC || outputFailure == EFBIG

@@ -8,10 +8,10 @@
 
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
-#include "engine/base/files/file_access.h"
-#include "engine/base/limits.h"
-#include "engine/base/nearest.h"
-#include "engine/base/printable.h"
+#include "engine/text/files/file_access.h"
+#include "engine/text/limits.h"
+#include "engine/text/nearest.h"
+#include "engine/text/printable.h"
 
 namespace weft::app {
 
@@ -19,7 +19,7 @@ namespace {
 
 // Text as messages print it.
 std::string shown(const std::string& text) {
-  return base::shortened(base::printable(text));
+  return text::shortened(text::printable(text));
 }
 
 // Names of commands before 0.2, and what they are now.
@@ -29,12 +29,12 @@ const std::map<std::string, std::vector<std::string>> kOldNames{{"dot", {"plan",
 
 // What every command takes.
 void addCommon(CLI::App& command) {
-  const auto confine = [](const std::string& folder) { return base::confineTo(folder).value_or(""); };
+  const auto confine = [](const std::string& folder) { return text::confineTo(folder).value_or(""); };
   const auto limit = [](const std::string& text) -> std::string {
     std::uint32_t times = 0;
-    if (!parseNumber(text, times) || times < 1 || times > base::kMostRaise)
-      return fmt::format("expected a whole number from 1 to {}, found '{}'", base::kMostRaise, text);
-    base::raiseLimits(times);
+    if (!parseNumber(text, times) || times < 1 || times > text::kMaxRaise)
+      return fmt::format("expected a whole number from 1 to {}, found '{}'", text::kMaxRaise, text);
+    text::raiseLimits(times);
     return "";
   };
   const auto ignore = [](const std::vector<std::string>&) {};  // the checks take them
@@ -65,7 +65,7 @@ std::string unknownWord(const CLI::App& app) {
   if (chosen.empty())
     for (const CLI::App* each : app.get_subcommands([](const CLI::App*) { return true; }))
       known.push_back(each->get_name());
-  const std::string nearest = base::nearestName(word, known);
+  const std::string nearest = text::nearestName(word, known);
   return fmt::format("{}: unknown {} '{}'{}\n", chosen.empty() ? "weft" : "weft " + command.get_name(),
                      word.starts_with('-') ? "option"
                      : chosen.empty()      ? "command"
@@ -101,7 +101,7 @@ std::string chooseFiles(const CLI::App& command) {
     for (const std::string& value : option->results()) {
       if (value.empty() && !option->get_positional())
         return fmt::format("{}: expected the name of a {}, found ''", name, folder ? "folder" : "file");
-      if (reads) base::chooseFile(value);
+      if (reads) text::chooseFile(value);
     }
   }
   return {};
@@ -133,7 +133,7 @@ int CommandLine::run(int argc, char** argv) {
     return 2;
   }
   for (const char* folder : {"graphs", "shaders", "scenes", "materials"})
-    base::allowFolder(dataFolder() + "/" + folder);
+    text::allowFolder(dataFolder() + "/" + folder);
   return run_();
 }
 

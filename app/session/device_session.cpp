@@ -5,8 +5,8 @@
 
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
-#include "engine/base/files/file_access.h"
 #include "engine/gl/objects/objects.h"
+#include "engine/text/files/file_access.h"
 
 namespace weft::app {
 
@@ -24,11 +24,11 @@ std::string cacheFolderOf(const Options& options) {
 
 }  // namespace
 
-std::unique_ptr<gl::Context> openContext(const Options& options, base::Diagnostics& diagnostics) {
+std::unique_ptr<gl::Context> openContext(const Options& options, text::Diagnostics& diagnostics) {
   gl::ContextOptions wanted;
   wanted.backend = gl::findBackend(options.backend).value_or(gl::Backend::automatic);
   if (options.window && wanted.backend == gl::Backend::automatic) wanted.backend = gl::Backend::glfw;
-  base::allowFolder(cacheFolderOf(options));
+  text::allowFolder(cacheFolderOf(options));
   wanted.title = "weft: " + options.graph;
   wanted.width = options.width;
   wanted.height = options.height;
@@ -44,7 +44,7 @@ runtime::Renderer::Options rendererOptionsOf(const Options& options) {
           .presets = options.presets};
 }
 
-std::unique_ptr<DeviceSession> openDevice(const Options& options, base::Diagnostics& diagnostics) {
+std::unique_ptr<DeviceSession> openDevice(const Options& options, text::Diagnostics& diagnostics) {
   auto context = openContext(options, diagnostics);
   if (!context) return nullptr;
   gl::Context& current = *context;
@@ -55,7 +55,7 @@ std::unique_ptr<DeviceSession> openDevice(const Options& options, base::Diagnost
 namespace {
 
 // A world and a device, unless a graph of `all` is wrong. What is missing is reported.
-std::optional<Opened> openStage(std::span<const Options> all, int wrong, base::Diagnostics& diagnostics,
+std::optional<Opened> openStage(std::span<const Options> all, int wrong, text::Diagnostics& diagnostics,
                                 int& exitCode) {
   const Options& options = all.front();
   auto world = loadWorld(options, diagnostics);
@@ -75,7 +75,7 @@ std::optional<Opened> openStage(std::span<const Options> all, int wrong, base::D
 
 }  // namespace
 
-std::optional<Opened> openGraph(const Options& options, base::Diagnostics& diagnostics, int& exitCode) {
+std::optional<Opened> openGraph(const Options& options, text::Diagnostics& diagnostics, int& exitCode) {
   auto stage = openStage({&options, 1}, 1, diagnostics, exitCode);
   if (!stage) return std::nullopt;
   const bool software = stage->session->context->device().software;
@@ -85,8 +85,8 @@ std::optional<Opened> openGraph(const Options& options, base::Diagnostics& diagn
 }
 
 int runOnDevice(std::span<const Options> all, int wrong,
-                const std::function<int(gl::Context&, const runtime::World&, base::Diagnostics&)>& run) {
-  base::Diagnostics diagnostics;
+                const std::function<int(gl::Context&, const runtime::World&, text::Diagnostics&)>& run) {
+  text::Diagnostics diagnostics;
   int exitCode = 0;
   const auto stage = openStage(all, wrong, diagnostics, exitCode);
   if (!stage) return exitCode;
@@ -103,10 +103,10 @@ std::vector<std::string> filesReadBy(const Options& options, const runtime::Rend
   return files;
 }
 
-bool checkPresents(const Options& options, runtime::Renderer& renderer, base::Diagnostics& diagnostics) {
+bool checkPresents(const Options& options, runtime::Renderer& renderer, text::Diagnostics& diagnostics) {
   if (renderer.execution()->presented().id != 0) return true;
   diagnostics
-      .error(base::Code::presentsNothing, {std::make_shared<const std::string>(options.graph), 1, 1},
+      .error(text::Code::presentsNothing, {std::make_shared<const std::string>(options.graph), 1, 1},
              "the graph presents nothing to write")
       .hint = "add \"present\": \"<texture>\", and enable a pass that writes it";
   return false;

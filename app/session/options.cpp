@@ -6,7 +6,7 @@
 #include <charconv>
 
 #include "app/session/session.h"
-#include "engine/base/files/file_access.h"
+#include "engine/text/files/file_access.h"
 
 namespace weft::app {
 
@@ -89,8 +89,8 @@ void Options::addBackend(CLI::App& command) {
 }
 
 void Options::finish() {
-  for (std::string& preset : presets) base::chooseFile(preset = presetFile(preset, presetFolder));
-  for (const graph::Setting& set : sets) base::chooseFile(set.text);  // where the parameter is a file
+  for (std::string& preset : presets) text::chooseFile(preset = presetFile(preset, presetFolder));
+  for (const graph::Setting& set : sets) text::chooseFile(set.text);  // where the parameter is a file
 }
 
 CLI::Option* addPath(CLI::App& command, const std::string& name, std::string& path, const std::string& doc,

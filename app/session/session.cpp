@@ -5,11 +5,11 @@
 
 #include "app/output/standard_streams.h"
 #include "engine/assets/environments/environment_map.h"
-#include "engine/base/message_choice.h"
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/read/read.h"
 #include "engine/runtime/imports/registry.h"
 #include "engine/scene/files/scene_file.h"
+#include "engine/text/message_choice.h"
 
 namespace weft::app {
 
@@ -69,7 +69,7 @@ scene::SceneChoice sceneChoiceOf(const Options& options) {
   return {.camera = options.camera, .materials = options.materials};
 }
 
-std::optional<runtime::World> loadWorld(const Options& options, base::Diagnostics& diagnostics) {
+std::optional<runtime::World> loadWorld(const Options& options, text::Diagnostics& diagnostics) {
   std::optional<scene::Scene> scene;
   std::shared_ptr<const assets::EnvironmentMap> environment;
   if (!options.environment.empty()) {
@@ -90,7 +90,7 @@ std::optional<runtime::World> loadWorld(const Options& options, base::Diagnostic
 }
 
 std::shared_ptr<const graph::Plan> makePlan(const Options& options, const runtime::WorldFacts& facts,
-                                            bool software, base::Diagnostics& diagnostics) {
+                                            bool software, text::Diagnostics& diagnostics) {
   const auto desc = graph::readGraph(options.graph, options.presets, diagnostics);
   if (!desc) return nullptr;
   const auto registry = runtime::makeRegistry({}, facts);
@@ -100,27 +100,27 @@ std::shared_ptr<const graph::Plan> makePlan(const Options& options, const runtim
   return graph::checkMemory(*plan, diagnostics) ? plan : nullptr;
 }
 
-std::shared_ptr<const graph::Plan> planOf(const Options& options, base::Diagnostics& diagnostics) {
+std::shared_ptr<const graph::Plan> planOf(const Options& options, text::Diagnostics& diagnostics) {
   const auto world = loadWorld(options, diagnostics);
   return makePlan(options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
 }
 
-bool isWrong(const Options& options, const runtime::WorldFacts& facts, base::Diagnostics& diagnostics) {
+bool isWrong(const Options& options, const runtime::WorldFacts& facts, text::Diagnostics& diagnostics) {
   std::vector<std::string> named{options.graph};
   named.insert(named.end(), options.presets.begin(), options.presets.end());
   for (const graph::Setting& set : options.sets) named.push_back(set.text);  // where the parameter is a file
   std::error_code ignored;
   for (const std::string& path : named)
     if (std::filesystem::is_fifo(path, ignored)) return false;
-  base::Diagnostics said, onHardware;
+  text::Diagnostics said, onHardware;
   if (makePlan(options, facts, true, said) || makePlan(options, facts, false, onHardware)) return false;
   diagnostics.append(said);
   return true;
 }
 
-int report(base::Diagnostics& diagnostics, bool notes) {
+int report(text::Diagnostics& diagnostics, bool notes) {
   diagnostics.sortByPlace();
-  printError(base::chooseMessages(diagnostics, notes).text());
+  printError(text::chooseMessages(diagnostics, notes).text());
   return diagnostics.hasErrors() ? 1 : 0;
 }
 

@@ -8,17 +8,17 @@
 #include <vector>
 
 #include "app/session/options.h"
-#include "engine/base/diagnostic.h"
-#include "engine/base/files/data_folder.h"
 #include "engine/graph/desc.h"
 #include "engine/graph/expand/expand.h"
 #include "engine/graph/plan.h"
 #include "engine/runtime/imports/imports.h"
 #include "engine/scene/files/scene_file.h"
+#include "engine/text/diagnostic.h"
+#include "engine/text/files/data_folder.h"
 
 namespace weft::app {
 
-using base::dataFolder;
+using text::dataFolder;
 
 // The folder of the bundled presets, in it.
 std::string presetsFolder();
@@ -37,24 +37,24 @@ std::string scenePathOf(const Options& options);
 scene::SceneChoice sceneChoiceOf(const Options& options);
 
 // The scene and the environment that the options name. Returns when both are read.
-std::optional<runtime::World> loadWorld(const Options& options, base::Diagnostics& diagnostics);
+std::optional<runtime::World> loadWorld(const Options& options, text::Diagnostics& diagnostics);
 
 // Facts for checks that go on although the scene could not be read: every draw list exists and is empty.
 runtime::WorldFacts factsWithoutWorld();
 
 // Reads, expands and compiles. Null after errors.
 std::shared_ptr<const graph::Plan> makePlan(const Options& options, const runtime::WorldFacts& facts,
-                                            bool software, base::Diagnostics& diagnostics);
+                                            bool software, text::Diagnostics& diagnostics);
 
 // The same with the world of the options; without one, when the scene cannot be read.
-std::shared_ptr<const graph::Plan> planOf(const Options& options, base::Diagnostics& diagnostics);
+std::shared_ptr<const graph::Plan> planOf(const Options& options, text::Diagnostics& diagnostics);
 
 // Whether the graph is wrong on every device; what is wrong is in `diagnostics` then. Commands that draw ask before they open OpenGL,
 // which takes longer than all of this. Of what a pipe holds nobody knows before it is read, which it can be once: false.
-bool isWrong(const Options& options, const runtime::WorldFacts& facts, base::Diagnostics& diagnostics);
+bool isWrong(const Options& options, const runtime::WorldFacts& facts, text::Diagnostics& diagnostics);
 
 // Prints the diagnostics to standard error, with or without notes. Of very many it prints only some
-// (engine/base/message_choice.h). Returns 1 when there is an error among them, else 0.
-int report(base::Diagnostics& diagnostics, bool notes = true);
+// (engine/text/message_choice.h). Returns 1 when there is an error among them, else 0.
+int report(text::Diagnostics& diagnostics, bool notes = true);
 
 }  // namespace weft::app

@@ -7,24 +7,24 @@
 #include <set>
 
 #include "app/session/session.h"
-#include "engine/base/files/file.h"
-#include "engine/base/files/text_file.h"
-#include "engine/base/json/fields.h"
+#include "engine/text/files/file.h"
+#include "engine/text/files/text_file.h"
+#include "engine/text/json/fields.h"
 
 namespace weft::app {
 
 namespace {
 
-using base::Code;
-using base::JsonFields;
-using base::JsonMember;
-using base::JsonValue;
+using text::Code;
+using text::JsonFields;
+using text::JsonMember;
+using text::JsonValue;
 
 constexpr std::string_view kSuffix = ".cases.json";
-constexpr base::NumberRange kShare{.min = 0, .max = 1};
-constexpr base::NumberRange kStep{.min = 0, .max = 255};
-constexpr base::NumberRange kFrame{.min = 0, .max = 4294967295.0, .whole = true};
-constexpr base::NumberRange kRate{.min = 1, .max = 1000};
+constexpr text::NumberRange kShare{.min = 0, .max = 1};
+constexpr text::NumberRange kStep{.min = 0, .max = 255};
+constexpr text::NumberRange kFrame{.min = 0, .max = 4294967295.0, .whole = true};
+constexpr text::NumberRange kRate{.min = 1, .max = 1000};
 
 bool isCaseName(std::string_view text) {
   return !text.empty() && text.size() <= 100 &&
@@ -33,18 +33,18 @@ bool isCaseName(std::string_view text) {
 
 class CaseReader {
  public:
-  CaseReader(const std::string& path, const Options& base, base::Diagnostics& diagnostics)
+  CaseReader(const std::string& path, const Options& base, text::Diagnostics& diagnostics)
       : base_(base), diagnostics_(diagnostics), file_(std::make_shared<const std::string>(path)) {
     const std::filesystem::path parent = std::filesystem::path(path).parent_path();
     folder_ = parent.empty() ? "" : parent.string() + "/";
   }
 
   void read(std::vector<TestCase>& cases) {
-    const auto read = base::readTextFile(*file_, diagnostics_);
+    const auto read = text::readTextFile(*file_, diagnostics_);
     if (!read) return;
     text_ = *read;
-    const base::PointerScope pointers(*file_, text_, diagnostics_);
-    const auto document = base::parseJson(text_, file_, diagnostics_);
+    const text::PointerScope pointers(*file_, text_, diagnostics_);
+    const auto document = text::parseJson(text_, file_, diagnostics_);
     if (!document) return;
     JsonFields fields(*document, "the file of cases", Code::outOfRange, diagnostics_);
     fields.require({"cases"});
@@ -86,10 +86,10 @@ class CaseReader {
     cases.push_back(std::move(test));
   }
 
-  void readName(const std::string& name, const base::Place& place, TestCase& test) {
+  void readName(const std::string& name, const text::Place& place, TestCase& test) {
     test.name = name;
     if (!isCaseName(name)) {
-      base::Diagnostic& d =
+      text::Diagnostic& d =
           diagnostics_.error(Code::notAName, place, fmt::format("'{}' is no name for a case", name));
       d.expected = "letters, digits, _ and -, because its golden is a file of that name";
     } else if (!names_.insert(name).second) {
@@ -137,7 +137,7 @@ class CaseReader {
       diagnostics_
           .error(Code::wrongType, value.place,
                  fmt::format("the value of the parameter '{}' cannot be {}", member.key,
-                             base::nameOf(value.type)))
+                             text::nameOf(value.type)))
           .expected = "a number, a boolean, a string or a list of numbers";
       return;
     }
@@ -178,7 +178,7 @@ class CaseReader {
           .hint = "name a frame, such as [0]";
     std::set<std::uint32_t> numbers;
     for (const JsonValue& item : frames->items)
-      if (const auto number = base::readNumber(item, "a frame", kFrame, Code::outOfRange, diagnostics_))
+      if (const auto number = text::readNumber(item, "a frame", kFrame, Code::outOfRange, diagnostics_))
         numbers.insert(static_cast<std::uint32_t>(*number));
     test.frames.assign(numbers.begin(), numbers.end());
     if (test.frames.empty()) test.frames = {0};
@@ -188,12 +188,12 @@ class CaseReader {
   void readNames(JsonFields& fields, const char* key, Take&& take) {
     const JsonValue* list = fields.array(key);
     for (std::size_t i = 0; list && i < list->items.size(); ++i)
-      if (base::readText(list->items[i], fmt::format("an entry of \"{}\"", key), diagnostics_))
+      if (text::readText(list->items[i], fmt::format("an entry of \"{}\"", key), diagnostics_))
         take(list->items[i]);
   }
 
   const Options& base_;
-  base::Diagnostics& diagnostics_;
+  text::Diagnostics& diagnostics_;
   std::shared_ptr<const std::string> file_;
   std::string folder_, text_;
   std::set<std::string> names_;
@@ -212,7 +212,7 @@ std::vector<std::string> TestCase::acceptedFiles() const {
   return files;
 }
 
-std::vector<std::string> findCaseFiles(const std::string& path, base::Diagnostics& diagnostics) {
+std::vector<std::string> findCaseFiles(const std::string& path, text::Diagnostics& diagnostics) {
   namespace fs = std::filesystem;
   std::error_code ignored;
   if (!fs::is_directory(path, ignored)) return {path};
@@ -235,17 +235,17 @@ std::vector<std::string> findCaseFiles(const std::string& path, base::Diagnostic
 }
 
 void readCases(const std::string& path, const Options& base, std::vector<TestCase>& cases,
-               base::Diagnostics& diagnostics) {
+               text::Diagnostics& diagnostics) {
   CaseReader(path, base, diagnostics).read(cases);
 }
 
-void appendWithPlaces(const TestCase& test, const base::Diagnostics& said, base::Diagnostics& diagnostics) {
-  for (base::Diagnostic each : said.items()) {
+void appendWithPlaces(const TestCase& test, const text::Diagnostics& said, text::Diagnostics& diagnostics) {
+  for (text::Diagnostic each : said.items()) {
     if (!each.place.file) {
       const auto known = test.settingPlaces.find(each.place.option.value_or(""));
       each.place = known == test.settingPlaces.end() ? test.place : known->second;
     }
-    if (each.severity != base::Severity::note)
+    if (each.severity != text::Severity::note)
       each.message = fmt::format("{} (case '{}')", each.message, test.name);
     diagnostics.add(std::move(each));
   }

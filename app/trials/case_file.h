@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/session/options.h"
-#include "engine/base/diagnostic.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::app {
 
@@ -23,13 +23,13 @@ struct Tolerance {
 struct TestCase {
   std::string name;
   std::string folder;  // of the case file, with a slash behind it, or ""
-  base::Place place;
+  text::Place place;
   Options options;    // graph, scene, settings, size; paths as seen from here
   bool plan = false;  // compares the plan as text, not pictures
   std::vector<std::uint32_t> frames = {0};
   Tolerance tolerance;
   std::string mask;  // a picture: what is black in it does not count
-  std::map<std::string, base::Place>
+  std::map<std::string, text::Place>
       settingPlaces;  // by the option that stands for the setting: "--set bloom=false"
 
   // Beside the case file.
@@ -41,13 +41,13 @@ struct TestCase {
 };
 
 // The *.cases.json of a folder and those below it, by name; or the one file that `path` is. Empty after an error.
-std::vector<std::string> findCaseFiles(const std::string& path, base::Diagnostics& diagnostics);
+std::vector<std::string> findCaseFiles(const std::string& path, text::Diagnostics& diagnostics);
 
 // Appends the cases of a file. `base` has what holds for all of them (backend, caches).
 void readCases(const std::string& path, const Options& base, std::vector<TestCase>& cases,
-               base::Diagnostics& diagnostics);
+               text::Diagnostics& diagnostics);
 
 // Diagnostics of a run of the case, with places in the case file where they are about its settings.
-void appendWithPlaces(const TestCase& test, const base::Diagnostics& said, base::Diagnostics& diagnostics);
+void appendWithPlaces(const TestCase& test, const text::Diagnostics& said, text::Diagnostics& diagnostics);
 
 }  // namespace weft::app

@@ -8,9 +8,9 @@
 #include "app/output/output_files.h"
 #include "app/output/picture_writer.h"
 #include "app/session/session.h"
-#include "engine/base/files/file.h"
-#include "engine/base/printable.h"
 #include "engine/graph/print/print.h"
+#include "engine/text/files/file.h"
+#include "engine/text/printable.h"
 
 namespace weft::app {
 
@@ -35,13 +35,13 @@ std::string text(const Tolerance& t) {
 
 // 0 where pixels do not count; empty: all count. Empty as a whole after an error.
 std::optional<std::vector<std::uint8_t>> readMask(const TestCase& test, const assets::Image8& picture,
-                                                  base::Diagnostics& diagnostics) {
+                                                  text::Diagnostics& diagnostics) {
   if (test.mask.empty()) return std::vector<std::uint8_t>{};
   auto mask = assets::loadImage8(test.mask, 1, diagnostics);
   if (!mask) return std::nullopt;
   if (mask->width != picture.width || mask->height != picture.height) {
-    base::Diagnostic& d =
-        diagnostics.error(base::Code::badImageSize, test.place,
+    text::Diagnostic& d =
+        diagnostics.error(text::Code::badImageSize, test.place,
                           fmt::format("the mask '{}' has another size than the picture", test.mask));
     d.expected = sizeText(picture);
     d.found = sizeText(*mask);
@@ -66,7 +66,7 @@ std::string firstLineOfDifference(const std::string& before, const std::string& 
   const std::string same(before.begin(), end);
   const std::size_t begin = same.rfind('\n') + 1;
   const auto lineOf = [&](const std::string& text) {
-    return base::shortened(text.substr(begin, text.find('\n', begin) - begin));
+    return text::shortened(text.substr(begin, text.find('\n', begin) - begin));
   };
   return fmt::format("line {} is '{}', not '{}'", 1 + std::ranges::count(same, '\n'), lineOf(after),
                      lineOf(before));
@@ -74,12 +74,12 @@ std::string firstLineOfDifference(const std::string& before, const std::string& 
 
 }  // namespace
 
-CaseResult CaseRunner::run(const TestCase& test, bool accept, base::Diagnostics& diagnostics) {
-  base::Diagnostics said;
+CaseResult CaseRunner::run(const TestCase& test, bool accept, text::Diagnostics& diagnostics) {
+  text::Diagnostics said;
   CaseResult result = test.plan ? runPlan(test, accept, said) : runPictures(test, accept, said);
   bool warned = false;
-  for (const base::Diagnostic& each : said.items())
-    warned = warned || each.severity == base::Severity::warning;
+  for (const text::Diagnostic& each : said.items())
+    warned = warned || each.severity == text::Severity::warning;
   appendWithPlaces(test, said, diagnostics);
   if (said.hasErrors()) {
     result.state = State::broken;
@@ -90,15 +90,15 @@ CaseResult CaseRunner::run(const TestCase& test, bool accept, base::Diagnostics&
   return result;
 }
 
-CaseResult CaseRunner::runPlan(const TestCase& test, bool accept, base::Diagnostics& diagnostics) {
+CaseResult CaseRunner::runPlan(const TestCase& test, bool accept, text::Diagnostics& diagnostics) {
   CaseResult result;
   const auto plan = planOf(test.options, diagnostics);
   if (!plan || diagnostics.hasErrors()) return result;
   result.files = plan->graph->files;
   const std::string text = graph::dumpText(*plan), file = test.planGolden();
   const bool known = isThere(file);
-  base::Diagnostics unreadable;  // which ends with being written anew
-  const auto golden = known ? base::readFile(file, accept ? unreadable : diagnostics) : std::nullopt;
+  text::Diagnostics unreadable;  // which ends with being written anew
+  const auto golden = known ? text::readFile(file, accept ? unreadable : diagnostics) : std::nullopt;
   if (known && !golden && accept)
     result.lines.push_back(fmt::format("'{}' could not be read, and is written anew", file));
   const bool same = golden && *golden == text;
@@ -108,7 +108,7 @@ CaseResult CaseRunner::runPlan(const TestCase& test, bool accept, base::Diagnost
     const OutputFile written{"--accept", file};
     if (!checkDistinct({&written, 1}, plan->graph->files, diagnostics)) return result;
     result.state = same ? State::kept : State::written;
-    if (!same) base::writeFile(file, text, diagnostics);
+    if (!same) text::writeFile(file, text, diagnostics);
   } else {
     result.state = same ? State::same : State::different;
     if (!known) result.lines.back() += "; --accept writes it";
@@ -116,7 +116,7 @@ CaseResult CaseRunner::runPlan(const TestCase& test, bool accept, base::Diagnost
   return result;
 }
 
-std::optional<Shot> CaseRunner::shoot(const TestCase& test, base::Diagnostics& diagnostics) {
+std::optional<Shot> CaseRunner::shoot(const TestCase& test, text::Diagnostics& diagnostics) {
   const auto world = loadWorld(test.options, diagnostics);
   if (!world) makePlan(test.options, factsWithoutWorld(), true, diagnostics);
   if (!world || (!context_ && isWrong(test.options, world->facts(), diagnostics))) return std::nullopt;
@@ -134,10 +134,10 @@ std::optional<Shot> CaseRunner::shoot(const TestCase& test, base::Diagnostics& d
 // Compares a picture with its golden, or with `accept` writes it as that where they differ. False when it is not good enough, or
 // was written.
 bool CaseRunner::judgePicture(const TestCase& test, std::uint32_t frame, const assets::Image8& picture,
-                              bool accept, CaseResult& result, base::Diagnostics& diagnostics) {
+                              bool accept, CaseResult& result, text::Diagnostics& diagnostics) {
   const std::string file = test.goldenOf(frame);
   const bool known = isThere(file);
-  base::Diagnostics unreadable;  // which ends with being written anew
+  text::Diagnostics unreadable;  // which ends with being written anew
   const auto golden = known ? assets::loadImage8(file, 4, accept ? unreadable : diagnostics) : std::nullopt;
   const auto weights = readMask(test, picture, diagnostics);
   if (!weights || (known && !golden && !accept)) return false;
@@ -166,7 +166,7 @@ bool CaseRunner::judgePicture(const TestCase& test, std::uint32_t frame, const a
   return good;
 }
 
-CaseResult CaseRunner::runPictures(const TestCase& test, bool accept, base::Diagnostics& diagnostics) {
+CaseResult CaseRunner::runPictures(const TestCase& test, bool accept, text::Diagnostics& diagnostics) {
   CaseResult result;
   const auto shot = shoot(test, diagnostics);
   if (!shot) return result;
@@ -186,10 +186,10 @@ CaseResult CaseRunner::runPictures(const TestCase& test, bool accept, base::Diag
   }
   if (accept) {
     if (diagnostics.hasErrors()) return result;  // a picture is not written: the record would be of another
-    base::Diagnostics ignored;
+    text::Diagnostics ignored;
     const std::string text = toText(records);
-    const auto before = isThere(record) ? base::readFile(record, ignored) : std::nullopt;
-    if (before != text) base::writeFile(record, text, diagnostics);
+    const auto before = isThere(record) ? text::readFile(record, ignored) : std::nullopt;
+    if (before != text) text::writeFile(record, text, diagnostics);
     result.state = !same ? State::written : State::kept;
     if (same && before != text) {
       result.lines.push_back(fmt::format("'{}' is written anew, the pictures are the same", record));

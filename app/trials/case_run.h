@@ -35,16 +35,16 @@ class CaseRunner {
   explicit CaseRunner(const Options& options) : options_(options) {}
 
   // `accept`: writes the goldens instead of judging.
-  CaseResult run(const TestCase& test, bool accept, base::Diagnostics& diagnostics);
+  CaseResult run(const TestCase& test, bool accept, text::Diagnostics& diagnostics);
   // Whether there is an OpenGL context, once a case has asked for one.
   bool lacksContext() const { return lacksContext_; }
 
  private:
-  CaseResult runPlan(const TestCase& test, bool accept, base::Diagnostics& diagnostics);
-  CaseResult runPictures(const TestCase& test, bool accept, base::Diagnostics& diagnostics);
-  std::optional<Shot> shoot(const TestCase& test, base::Diagnostics& diagnostics);
+  CaseResult runPlan(const TestCase& test, bool accept, text::Diagnostics& diagnostics);
+  CaseResult runPictures(const TestCase& test, bool accept, text::Diagnostics& diagnostics);
+  std::optional<Shot> shoot(const TestCase& test, text::Diagnostics& diagnostics);
   static bool judgePicture(const TestCase& test, std::uint32_t frame, const assets::Image8& picture,
-                           bool accept, CaseResult& result, base::Diagnostics& diagnostics);
+                           bool accept, CaseResult& result, text::Diagnostics& diagnostics);
 
   const Options& options_;
   std::unique_ptr<gl::Context> context_;

@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "engine/assets/images/half.h"
-#include "engine/base/files/file.h"
-#include "engine/base/printable.h"
+#include "engine/text/files/file.h"
+#include "engine/text/printable.h"
 
 namespace weft::app {
 
@@ -144,8 +144,8 @@ std::string toText(const PassRecords& records) {
   return text;
 }
 
-std::optional<PassRecords> readRecords(const std::string& path, base::Diagnostics& diagnostics) {
-  const auto text = base::readFile(path, diagnostics);
+std::optional<PassRecords> readRecords(const std::string& path, text::Diagnostics& diagnostics) {
+  const auto text = text::readFile(path, diagnostics);
   if (!text) return std::nullopt;
   PassRecords records;
   std::istringstream in(*text);
@@ -157,10 +157,10 @@ std::optional<PassRecords> readRecords(const std::string& path, base::Diagnostic
                       : number == 2 ? line.starts_with("driver ")
                                     : readLine(line, records);
     if (good) continue;
-    base::Diagnostic& d =
-        diagnostics.error(base::Code::wrongType, {std::make_shared<const std::string>(path), number, 1},
+    text::Diagnostic& d =
+        diagnostics.error(text::Code::wrongType, {std::make_shared<const std::string>(path), number, 1},
                           "this is no line of a record of passes");
-    d.found = base::shortened(base::printable(line));
+    d.found = text::shortened(text::printable(line));
     d.hint = "write the file anew: weft test --accept";
     return std::nullopt;
   }

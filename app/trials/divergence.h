@@ -20,7 +20,7 @@ PassRecords recordsOf(const Shot& shot, std::string driver);
 // One line per pass and resource: hash, signature, pass, resource, with tabs between.
 std::string toText(const PassRecords& records);
 // Empty after an error (W001, or W003 with its line).
-std::optional<PassRecords> readRecords(const std::string& path, base::Diagnostics& diagnostics);
+std::optional<PassRecords> readRecords(const std::string& path, text::Diagnostics& diagnostics);
 
 struct Divergence {
   enum class Kind { differs, missing, added };

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "engine/assets/images/image.h"
-#include "engine/base/counted.h"
+#include "engine/text/counted.h"
 
 namespace weft::app {
 
@@ -101,7 +101,7 @@ std::string reportPage(const std::vector<std::pair<TestCase, CaseResult>>& resul
            entry.second.state == CaseResult::State::broken;
   });
   std::string page = pageHead("weft test") + fmt::format("<h1>weft test: {} of {} failed</h1>\n", failed,
-                                                         base::counted(results.size(), "case"));
+                                                         text::counted(results.size(), "case"));
   for (const auto& [test, result] : results)
     if (result.state == CaseResult::State::different) page += section(test, result);
   for (const auto& [test, result] : results)

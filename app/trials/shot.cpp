@@ -6,14 +6,14 @@
 
 #include "app/output/picture_writer.h"
 #include "app/session/session.h"
-#include "engine/base/counted.h"
+#include "engine/text/counted.h"
 
 namespace weft::app {
 
 namespace {
 
 void measure(runtime::Renderer& renderer, const runtime::World& world, const Options& options,
-             std::uint32_t frame, std::uint32_t repeats, Shot& shot, base::Diagnostics& diagnostics) {
+             std::uint32_t frame, std::uint32_t repeats, Shot& shot, text::Diagnostics& diagnostics) {
   gl::PassTimers& timers = renderer.device().timers;
   const graph::FlatGraph& graph = *shot.plan->graph;
   timers.setEnabled(true);
@@ -38,7 +38,7 @@ void measure(runtime::Renderer& renderer, const runtime::World& world, const Opt
 }  // namespace
 
 std::optional<Shot> takeShot(gl::Context& context, const Options& options, const runtime::World& world,
-                             const ShotWish& wish, base::Diagnostics& diagnostics) {
+                             const ShotWish& wish, text::Diagnostics& diagnostics) {
   runtime::Renderer::Options wanted = rendererOptionsOf(options);
   wanted.compile = wish.compile;
   runtime::Renderer renderer(context, options.graph, std::move(wanted));
@@ -100,7 +100,7 @@ std::optional<PictureDifference> comparePictures(const assets::Image8& picture,
 std::string PictureDifference::text() const {
   return fmt::format(
       "FLIP {:.4f}, at most {:.3f} (at {},{}); {} {} ({:.3g} %), by up to {:.0f} of 255 (at {},{})",
-      flip.mean, flip.peak, flip.x, flip.y, base::counted(bytes.differingPixels, "pixel"),
+      flip.mean, flip.peak, flip.x, flip.y, text::counted(bytes.differingPixels, "pixel"),
       bytes.differingPixels == 1 ? "differs" : "differ", 100 * share, bytes.maxDifference, bytes.worstX,
       bytes.worstY);
 }

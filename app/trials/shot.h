@@ -42,7 +42,7 @@ struct Shot {
 
 // The graph, scene, settings and size of `options`. Empty after errors.
 std::optional<Shot> takeShot(gl::Context& context, const Options& options, const runtime::World& world,
-                             const ShotWish& wish, base::Diagnostics& diagnostics);
+                             const ShotWish& wish, text::Diagnostics& diagnostics);
 
 struct PictureDifference {
   assets::FlipMap map;

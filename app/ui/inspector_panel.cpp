@@ -78,7 +78,7 @@ void InspectorPanel::release() {
   if (renderer_.execution()) inspector_.release(*renderer_.execution());
 }
 
-void InspectorPanel::draw(base::Diagnostics& diagnostics) {
+void InspectorPanel::draw(text::Diagnostics& diagnostics) {
   const graph::Plan& plan = renderer_.execution()->plan();
   const runtime::InspectTarget before = target_;
   const std::uint64_t copies = inspector_.copies();
@@ -183,7 +183,7 @@ void InspectorPanel::chooseView(const FlatResource& resource) {
   flow(em * 10);
   ImGui::SetNextItemWidth(em * 6);
   ImGui::SliderFloat("EV", &view_.ev, -10, 10, "%.1f");
-  ImGui::Checkbox("false colour", &view_.falseColor);
+  ImGui::Checkbox("false color", &view_.falseColor);
   flow(em * 5);
   ImGui::Checkbox("sRGB", &view_.encode);
   flow(em * 5);
@@ -209,7 +209,7 @@ void InspectorPanel::chooseView(const FlatResource& resource) {
                                   .c_str());
 }
 
-void InspectorPanel::drawPicture(base::Diagnostics& diagnostics) {
+void InspectorPanel::drawPicture(text::Diagnostics& diagnostics) {
   const gl::TextureRef picture = inspector_.picture();
   const float line = ImGui::GetTextLineHeightWithSpacing();
   ImVec2 area = ImGui::GetContentRegionAvail();

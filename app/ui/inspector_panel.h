@@ -31,7 +31,7 @@ class InspectorPanel {
   // To be called before each frame. `wanted`: the window is open.
   void beforeFrame(bool wanted);
   // Draws the contents of the window.
-  void draw(base::Diagnostics& diagnostics);
+  void draw(text::Diagnostics& diagnostics);
   void release();
   bool wantsFrame() const { return wantsFrame_; }  // something else is to be copied
 
@@ -39,7 +39,7 @@ class InspectorPanel {
   void chooseTarget(const graph::Plan& plan);
   void choosePart(const graph::FlatResource& resource);
   void chooseView(const graph::FlatResource& resource);
-  void drawPicture(base::Diagnostics& diagnostics);
+  void drawPicture(text::Diagnostics& diagnostics);
   void drawNumbers();
 
   runtime::Renderer& renderer_;

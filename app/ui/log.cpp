@@ -5,14 +5,14 @@
 
 namespace weft::app::ui {
 
-void Log::set(Topic topic, std::vector<base::Diagnostic> items) {
+void Log::set(Topic topic, std::vector<text::Diagnostic> items) {
   topics_[topic] = {std::move(items), ++calls_, false};
 }
 
-void Log::addPast(const base::Diagnostics& diagnostics) {
+void Log::addPast(const text::Diagnostics& diagnostics) {
   List& past = topics_[kPast];
-  for (const base::Diagnostic& each : diagnostics.items()) {
-    const auto same = [&](const base::Diagnostic& old) {
+  for (const text::Diagnostic& each : diagnostics.items()) {
+    const auto same = [&](const text::Diagnostic& old) {
       return old.code == each.code && old.message == each.message;
     };
     if (std::ranges::any_of(past.items, same)) continue;
@@ -30,11 +30,11 @@ void Log::dismiss() {
   dismissedPast_ = topics_[kPast].items.size();
 }
 
-std::vector<const base::Diagnostic*> Log::shown(bool all) const {
+std::vector<const text::Diagnostic*> Log::shown(bool all) const {
   std::array<std::size_t, kTopicCount> order = {kFiles, kEnvironment, kChange, kPast};
   std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return topics_[a].said > topics_[b].said; });
-  const auto isError = [](const base::Diagnostic& each) { return each.severity == base::Severity::error; };
-  std::vector<const base::Diagnostic*> out;
+  const auto isError = [](const text::Diagnostic& each) { return each.severity == text::Severity::error; };
+  std::vector<const text::Diagnostic*> out;
   for (const std::size_t topic : order) {
     const List& list = topics_[topic];
     if (topic == kPast) {
@@ -43,7 +43,7 @@ std::vector<const base::Diagnostic*> Log::shown(bool all) const {
     }
     const bool urgent = topic != kEnvironment || std::ranges::any_of(list.items, isError);
     if (list.dismissed || (!all && !urgent)) continue;
-    for (const base::Diagnostic& each : list.items) out.push_back(&each);
+    for (const text::Diagnostic& each : list.items) out.push_back(&each);
   }
   std::ranges::stable_sort(out, [](const auto* a, const auto* b) { return a->severity > b->severity; });
   return out;

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::app::ui {
 
@@ -15,17 +15,17 @@ class Log {
  public:
   enum Topic : std::size_t { kFiles, kEnvironment, kChange, kPast, kTopicCount };
 
-  void set(Topic topic, std::vector<base::Diagnostic> items);
-  void addPast(const base::Diagnostics& diagnostics);  // keeps the last hundred
+  void set(Topic topic, std::vector<text::Diagnostic> items);
+  void addPast(const text::Diagnostics& diagnostics);  // keeps the last hundred
   void dismiss();                                      // all there is now
-  const std::vector<base::Diagnostic>& files() const { return topics_[kFiles].items; }
+  const std::vector<text::Diagnostic>& files() const { return topics_[kFiles].items; }
   // What is not dismissed: errors, warnings, notes; within each the newest topic first, a topic's in their
   // order, the past backwards. Without `all`, only what stands on screen while the panels are hidden.
-  std::vector<const base::Diagnostic*> shown(bool all) const;
+  std::vector<const text::Diagnostic*> shown(bool all) const;
 
  private:
   struct List {
-    std::vector<base::Diagnostic> items;
+    std::vector<text::Diagnostic> items;
     std::uint64_t said = 0;  // when, in calls
     bool dismissed = false;
   };

@@ -13,7 +13,7 @@ float Panels::logHeight() const {
 }
 
 void Panels::drawLog() {
-  const std::vector<const base::Diagnostic*> shown = log_.shown(visible);
+  const std::vector<const text::Diagnostic*> shown = log_.shown(visible);
   if (shown.empty()) return;
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   const ImGuiStyle& style = ImGui::GetStyle();
@@ -21,11 +21,11 @@ void Panels::drawLog() {
       live_.good() ? nullptr : "This is the last good picture; the files on disk have errors:";
   // The first error is to be read whole, message and fix.
   float height = logHeight();
-  if (shown.front()->severity == base::Severity::error) {
+  if (shown.front()->severity == text::Severity::error) {
     const float wrap = std::max(1.0f, screen.x - 16 - 2 * style.WindowPadding.x - style.ScrollbarSize);
     float wanted = ImGui::GetFrameHeight() + 2 * style.WindowPadding.y + style.ItemSpacing.y;
     if (lastGood) wanted += ImGui::CalcTextSize(lastGood, nullptr, false, wrap).y + style.ItemSpacing.y;
-    wanted += ImGui::CalcTextSize(base::format(*shown.front()).c_str(), nullptr, false, wrap).y;
+    wanted += ImGui::CalcTextSize(text::format(*shown.front()).c_str(), nullptr, false, wrap).y;
     height = std::max(height, std::min(wanted, screen.y * 0.6f));
   }
   ImGui::SetNextWindowPos({8, screen.y - height - 8}, ImGuiCond_Always);
@@ -35,12 +35,12 @@ void Panels::drawLog() {
                ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse);
   ImGui::PushTextWrapPos(0);
   if (lastGood) ImGui::TextColored({1, 0.7f, 0.3f, 1}, "%s", lastGood);
-  for (const base::Diagnostic* each : shown) {
-    const ImVec4 color = each->severity == base::Severity::error     ? ImVec4(1, 0.45f, 0.4f, 1)
-                         : each->severity == base::Severity::warning ? ImVec4(1, 0.85f, 0.4f, 1)
+  for (const text::Diagnostic* each : shown) {
+    const ImVec4 color = each->severity == text::Severity::error     ? ImVec4(1, 0.45f, 0.4f, 1)
+                         : each->severity == text::Severity::warning ? ImVec4(1, 0.85f, 0.4f, 1)
                                                                      : ImVec4(0.7f, 0.7f, 0.7f, 1);
     ImGui::PushStyleColor(ImGuiCol_Text, color);
-    ImGui::TextUnformatted(base::format(*each).c_str());
+    ImGui::TextUnformatted(text::format(*each).c_str());
     ImGui::PopStyleColor();
   }
   ImGui::PopTextWrapPos();

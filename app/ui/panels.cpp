@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "app/output/standard_streams.h"
-#include "engine/base/printable.h"
+#include "engine/text/printable.h"
 
 namespace weft::app::ui {
 
@@ -70,7 +70,7 @@ void Panels::afterFrame(const runtime::FrameReport& report) {
     histogram_.update(renderer_.execution()->presented());
 }
 
-void Panels::draw(const runtime::FrameReport& report, base::Diagnostics& diagnostics) {
+void Panels::draw(const runtime::FrameReport& report, text::Diagnostics& diagnostics) {
   if (explained_ != live_.switches() || !explainer_) {
     explainer_ = std::make_unique<graph::Explainer>(renderer_.execution()->plan());
     explained_ = live_.switches();
@@ -97,7 +97,7 @@ void Panels::draw(const runtime::FrameReport& report, base::Diagnostics& diagnos
   drawLoading();
 }
 
-void Panels::drawMenu(base::Diagnostics& diagnostics) {
+void Panels::drawMenu(text::Diagnostics& diagnostics) {
   if (!ImGui::BeginMainMenuBar()) return;
   if (ImGui::BeginMenu("Panels")) {
     for (std::size_t i = 0; i < kTitles.size(); ++i)
@@ -190,12 +190,12 @@ bool Panels::begin(Panel panel) {
   return shown;
 }
 
-void Panels::writeBack(base::Diagnostics& diagnostics) {
+void Panels::writeBack(text::Diagnostics& diagnostics) {
   std::vector<std::string> files;
   if (live_.writeBack(files, diagnostics)) {
     said_ = files.empty() ? "the files say so already" : "wrote";
     for (const std::string& file : files) said_ += " " + file;
-    print(base::printable(said_) + "\n");
+    print(text::printable(said_) + "\n");
     flushPrinted();
   } else {
     said_ = "nothing was written: see the log";

@@ -39,23 +39,23 @@ class Panels {
   void beforeFrame(std::uint64_t frame);
   void afterFrame(const runtime::FrameReport& report);
   // Between Overlay::begin() and end(). `diagnostics` gets what a change that was made here led to.
-  void draw(const runtime::FrameReport& report, base::Diagnostics& diagnostics);
+  void draw(const runtime::FrameReport& report, text::Diagnostics& diagnostics);
 
   // In idle mode: what was chosen shows only in another frame of the graph.
   bool wantsFrame() const { return visible && open_[kInspector] && inspector_.wantsFrame(); }
 
   // Writes what was changed here into the files; says what it wrote in the log.
-  void writeBack(base::Diagnostics& diagnostics);
+  void writeBack(text::Diagnostics& diagnostics);
 
  private:
   enum Panel : std::size_t { kParameters, kPasses, kInspector, kProfiler, kStorage, kHistogram, kPanelCount };
 
-  void drawMenu(base::Diagnostics& diagnostics);
+  void drawMenu(text::Diagnostics& diagnostics);
   void arrange();
   bool begin(Panel panel);
   void drawSummary(const runtime::FrameReport& report);
-  void drawPasses(base::Diagnostics& diagnostics);
-  void drawParameters(base::Diagnostics& diagnostics);
+  void drawPasses(text::Diagnostics& diagnostics);
+  void drawParameters(text::Diagnostics& diagnostics);
   void drawProfiler();
   void drawStorage();
   void drawHistogram();

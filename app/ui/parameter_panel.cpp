@@ -38,7 +38,7 @@ std::optional<Value> editNumber(const char* label, const ParameterDesc& desc, co
   return edited ? std::optional(Value::number(whole ? std::round(x) : x)) : std::nullopt;
 }
 
-// A list of three or four that its name calls a colour, from 0 to 1.
+// A list of three or four that its name calls a color, from 0 to 1.
 bool isColor(const ParameterDesc& desc) {
   if ((desc.type != Type::vec3 && desc.type != Type::vec4) || desc.min != 0 || desc.max != 1) return false;
   const std::string names = desc.name + desc.label;
@@ -119,7 +119,7 @@ bool matches(const std::string& wanted, const std::string& text) {
 
 }  // namespace
 
-void Panels::drawParameters(base::Diagnostics& diagnostics) {
+void Panels::drawParameters(text::Diagnostics& diagnostics) {
   const graph::FlatGraph& graph = *renderer_.execution()->plan().graph;
   const std::span<const Value> values = renderer_.execution()->uniforms().parameters();
   char search[128] = {};

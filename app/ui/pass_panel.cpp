@@ -19,7 +19,7 @@ std::string sliceText(const runtime::SliceRange& range) {
 
 }  // namespace
 
-void Panels::drawPasses(base::Diagnostics& diagnostics) {
+void Panels::drawPasses(text::Diagnostics& diagnostics) {
   if (explained_ != live_.switches()) return;  // a parameter has just replaced the plan: in the next frame
   runtime::Execution& execution = *renderer_.execution();
   const graph::Plan& plan = execution.plan();

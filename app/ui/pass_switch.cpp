@@ -8,7 +8,7 @@ std::string switchNameOf(const graph::FlatGraph& graph, std::uint32_t pass) {
   const graph::PassSpec& spec = graph.specs[pass];
   std::string name = spec.declared;
   for (const graph::PassSpec& other : graph.specs)
-    if (base::isSamePlace(other.place, spec.place)) name = graph::commonSuffix(name, other.declared);
+    if (text::isSamePlace(other.place, spec.place)) name = graph::commonSuffix(name, other.declared);
   return name;
 }
 

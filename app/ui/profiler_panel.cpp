@@ -1,4 +1,4 @@
-// The last frames as stacked bars, one colour per pass; the passes by their mean time below.
+// The last frames as stacked bars, one color per pass; the passes by their mean time below.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/ui/panels.h"
-#include "engine/base/hash.h"
+#include "engine/text/hash.h"
 
 namespace weft::app::ui {
 
@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kAveraged = 30;  // frames
 
 ImU32 colorOf(const std::string& name) {
-  const std::uint64_t hash = base::hashBytes(name, base::kHashSeed);
+  const std::uint64_t hash = text::hashBytes(name, text::kHashSeed);
   return ImColor::HSV(static_cast<float>(hash % 997) / 997.0f, 0.55f,
                       0.65f + static_cast<float>(hash / 997 % 3) * 0.12f);
 }

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "app/ui/panels.h"
-#include "engine/base/hash.h"
+#include "engine/text/hash.h"
 
 namespace weft::app::ui {
 
@@ -89,7 +89,7 @@ void Panels::drawStorage() {
       const bool kept = plan.persistent[r] != 0;
       const ImVec2 from(corner.x + width * static_cast<float>(plan.firstStep[r]) / steps, corner.y + 1);
       const ImVec2 to(corner.x + width * static_cast<float>(last + 1) / steps - 1, corner.y + line - 1);
-      const float hue = static_cast<float>(base::hashBytes(name, base::kHashSeed) % 997) / 997.0f;
+      const float hue = static_cast<float>(text::hashBytes(name, text::kHashSeed) % 997) / 997.0f;
       if (kept)
         draw.AddRectFilled({corner.x, corner.y + 1}, {corner.x + width, corner.y + line - 1},
                            ImColor::HSV(hue, 0.4f, 0.35f));

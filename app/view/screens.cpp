@@ -66,7 +66,7 @@ void drawModes(const std::string& modes) {
   ImGui::End();
 }
 
-void drawWaiting(std::span<const base::Diagnostic> problems) {
+void drawWaiting(std::span<const text::Diagnostic> problems) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({kMargin, kMargin}, ImGuiCond_Always);
   ImGui::SetNextWindowSize({screen.x - 2 * kMargin, screen.y - 2 * kMargin}, ImGuiCond_Always);
@@ -76,7 +76,7 @@ void drawWaiting(std::span<const base::Diagnostic> problems) {
       {1, 0.7f, 0.3f, 1},
       "Nothing to show yet: the files have errors. The picture comes as soon as they are saved without.");
   ImGui::Spacing();
-  for (const base::Diagnostic& each : problems) ImGui::TextUnformatted(base::format(each).c_str());
+  for (const text::Diagnostic& each : problems) ImGui::TextUnformatted(text::format(each).c_str());
   ImGui::PopTextWrapPos();
   ImGui::End();
 }

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "engine/base/diagnostic.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::app {
 
@@ -13,6 +13,6 @@ namespace weft::app {
 void drawHelp();
 // One line in the upper left corner; nothing for an empty text.
 void drawModes(const std::string& modes);
-void drawWaiting(std::span<const base::Diagnostic> problems);
+void drawWaiting(std::span<const text::Diagnostic> problems);
 
 }  // namespace weft::app

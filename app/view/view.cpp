@@ -24,24 +24,24 @@ std::uint32_t lastFrameOf(const ViewOptions& options) {
 
 // Whether saving a file may make it good: nobody is to wait for a file that is
 // not there, or for a wrong command line.
-bool canBeFixed(const ViewOptions& options, const base::Diagnostics& diagnostics) {
+bool canBeFixed(const ViewOptions& options, const text::Diagnostics& diagnostics) {
   std::error_code ignored;
   for (const std::string& file : {options.graph, scenePathOf(options)})
     if (!std::filesystem::is_regular_file(file, ignored)) return false;
-  return std::ranges::none_of(diagnostics.items(), [](const base::Diagnostic& each) {
-    return each.severity == base::Severity::error && !each.place.file;
+  return std::ranges::none_of(diagnostics.items(), [](const text::Diagnostic& each) {
+    return each.severity == text::Severity::error && !each.place.file;
   });
 }
 
 // Runs before the window opens. The frames of a recording have no end unless --max-frames gives one.
-bool checkOutputs(const ViewOptions& options, base::Diagnostics& diagnostics) {
+bool checkOutputs(const ViewOptions& options, text::Diagnostics& diagnostics) {
   if (!options.screenshot.empty()) checkOutput(options.screenshot, lastFrameOf(options), false, diagnostics);
   if (!options.record.empty()) checkOutput(options.record, 0, true, diagnostics);
   return !diagnostics.hasErrors();
 }
 
 // Runs when all files that are read are known.
-bool checkInputs(const ViewOptions& options, const LiveGraph& live, base::Diagnostics& diagnostics) {
+bool checkInputs(const ViewOptions& options, const LiveGraph& live, text::Diagnostics& diagnostics) {
   const std::uint32_t last = lastFrameOf(options);
   const OutputFile outputs[] = {{"--screenshot", outputNameOf(options.screenshot, last).value_or("")},
                                 {"--record", options.record, 0, options.maxFrames ? last : ~0u}};
@@ -51,7 +51,7 @@ bool checkInputs(const ViewOptions& options, const LiveGraph& live, base::Diagno
 }
 
 int runView(ViewOptions& options) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   options.window = true;
   if (!checkOutputs(options, diagnostics)) return report(diagnostics);
   Options files = options;

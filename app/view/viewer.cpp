@@ -14,7 +14,7 @@
 
 namespace weft::app {
 
-Viewer::Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& live, base::Diagnostics said)
+Viewer::Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& live, text::Diagnostics said)
     : options_(options),
       session_(session),
       window_(static_cast<GLFWwindow*>(session.context->window())),

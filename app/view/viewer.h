@@ -37,7 +37,7 @@ struct ViewOptions : Options {
 class Viewer {
  public:
   // `session` has a window, and outlives this. `live` was loaded, well or not, and said `said`.
-  Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& live, base::Diagnostics said);
+  Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& live, text::Diagnostics said);
   Viewer(const Viewer&) = delete;
   Viewer& operator=(const Viewer&) = delete;
 
@@ -106,7 +106,7 @@ class Viewer {
   PictureWriter writer_;  // of screenshots
   PictureRest rest_;
   runtime::FrameReport report_;    // of the last frame
-  base::Diagnostics diagnostics_;  // of what the loop is doing
+  text::Diagnostics diagnostics_;  // of what the loop is doing
   std::string screenshot_;         // extension of one that is wanted
   std::string title_;
   std::uint32_t frame_ = 0, redraws_ = 0;
@@ -117,7 +117,7 @@ class Viewer {
   gl::Size size_;  // of the window, as it was said last
   double renderScale_ = 1;
   bool dropped_ = false;  // the last frame was not shown
-  bool vsync_ = true, idle_ = false, help_ = false, minimised_ = false;
+  bool vsync_ = true, idle_ = false, help_ = false, minimized_ = false;
   bool resting_ = false, shown_ = false;  // as it was said last; a picture was
   bool lastSaved_ = false;
   bool acted_ = false;   // an action ran since panels were drawn

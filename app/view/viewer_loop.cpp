@@ -14,10 +14,10 @@
 #include "app/session/session.h"
 #include "app/view/screens.h"
 #include "app/view/viewer.h"
-#include "engine/base/counted.h"
-#include "engine/base/hash.h"
-#include "engine/base/message_choice.h"
-#include "engine/base/printable.h"
+#include "engine/text/counted.h"
+#include "engine/text/hash.h"
+#include "engine/text/message_choice.h"
+#include "engine/text/printable.h"
 
 namespace weft::app {
 
@@ -30,9 +30,9 @@ constexpr int kWaitsForWrites = 10;     // who writes for longer than this gets 
 constexpr int kRestlessAfterEvent = 4;  // panels answer an event within so many redraws
 
 // What is wrong with the files or with a change made here is reported, and does not count against the program.
-void tell(base::Diagnostics& diagnostics, ui::Log& log, ui::Log::Topic topic) {
+void tell(text::Diagnostics& diagnostics, ui::Log& log, ui::Log::Topic topic) {
   report(diagnostics);
-  log.set(topic, base::chooseMessages(diagnostics).items());
+  log.set(topic, text::chooseMessages(diagnostics).items());
   diagnostics.clear();
 }
 
@@ -51,8 +51,8 @@ int Viewer::run() {
     input_.giveButton(readsMouse());  // before the first events, too: some came while files were loaded
     waitForEvents();
     const gl::Size size = session_.context->framebufferSize();
-    minimised_ = size.width == 0 || size.height == 0;
-    if (minimised_) {
+    minimized_ = size.width == 0 || size.height == 0;
+    if (minimized_) {
       clock_.skip(glfwGetTime());
       continue;
     }
@@ -74,7 +74,7 @@ int Viewer::run() {
 
 void Viewer::waitForEvents() {
   const bool nothingToDo = restless_ == 0 && idle_ && live_.running() && rest_.resting() && !busy();
-  if (minimised_ || nothingToDo || !live_.running())
+  if (minimized_ || nothingToDo || !live_.running())
     glfwWaitEventsTimeout(live_.pending() ? kLookAtFiles : kLookAround);
   else
     glfwPollEvents();
@@ -147,7 +147,7 @@ std::string Viewer::modes() const {
   std::string text;
   const auto add = [&](const std::string& mode) { text += (text.empty() ? "" : "  |  ") + mode; };
   if (rig_.mode() == CameraRig::Mode::fly) add("flying (Esc lets go)");
-  if (recorder_.active()) add("recording, " + base::counted(recorder_.frames(), "frame"));
+  if (recorder_.active()) add("recording, " + text::counted(recorder_.frames(), "frame"));
   if (idle_) add("idle");
   if (renderScale_ != 1) add(fmt::format("render scale {}", renderScale_));
   return text;
@@ -254,7 +254,7 @@ void Viewer::judgeRest() {
   const double now = glfwGetTime();
   if (!rest_.wantsLook(now)) return;
   const auto image = renderer_.readPresented8();
-  rest_.look(now, image ? base::hashBytes(
+  rest_.look(now, image ? text::hashBytes(
                               {reinterpret_cast<const char*>(image->texels.data()), image->texels.size()})
                         : 0);
 }
@@ -305,7 +305,7 @@ void Viewer::saveScreenshots() {
   const std::string name = screenshotName(frame_, screenshot_.c_str());
   screenshot_.clear();
   if (live_.running() && writer_.save(renderer_, name, diagnostics_)) {
-    print(fmt::format("wrote {}\n", base::printable(name)));
+    print(fmt::format("wrote {}\n", text::printable(name)));
     flushPrinted();
   }
   writer_.tell(diagnostics_);

@@ -31,8 +31,8 @@ def scene_of(lamps, everywhere, spheres):
     models = TOP / "scenes/models"
     meshes = {"models": {"floor": {"file": str(models / "floor.obj"), "scale": 4},
                          "rocks": {"file": str(models / "rock.obj"), "count": [6, 1, 6], "spacing": 0.5, "scale": 0.4}}}
-    balls = {"materials": {"grey": {"albedo": [0.5, 0.5, 0.5]}},
-             "grid": {"count": [36, 1, 24], "spacing": 0.16, "radius": 0.1, "materials": ["grey"]}}
+    balls = {"materials": {"gray": {"albedo": [0.5, 0.5, 0.5]}},
+             "grid": {"count": [36, 1, 24], "spacing": 0.16, "radius": 0.1, "materials": ["gray"]}}
     return {
         "cameras": {"above": {"position": [0, 2.2, 1.6], "target": [0, 0, 0], "fov": 50}},
         **(balls if spheres else meshes),
@@ -47,7 +47,7 @@ def linear(byte):
 
 
 def touched_in(path):
-    """The mean number of lamps and the share of pixels at the end of the scale, from the colours of show_lamps: log2 of the number by 3, from
+    """The mean number of lamps and the share of pixels at the end of the scale, from the colors of show_lamps: log2 of the number by 3, from
     blue (0) by green (1) to red (2). None of these has both red and blue, as the sky has: such pixels are left out."""
     channels, texels = read_png(path)
     total, pixels, at_end = 0.0, 0, 0

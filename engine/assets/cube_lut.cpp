@@ -6,12 +6,12 @@
 #include <cmath>
 #include <memory>
 
-#include "engine/base/files/text_file.h"
+#include "engine/text/files/text_file.h"
 
 namespace weft::assets {
 
-using base::Code;
-using base::Diagnostics;
+using text::Code;
+using text::Diagnostics;
 
 namespace {
 
@@ -165,7 +165,7 @@ std::optional<CubeLut> readCubeLut(std::string_view text, const std::string& nam
 }
 
 std::optional<CubeLut> loadCubeLut(const std::string& path, Diagnostics& diagnostics) {
-  const std::optional<std::string> text = base::readTextFile(path, diagnostics);
+  const std::optional<std::string> text = text::readTextFile(path, diagnostics);
   if (!text) return {};
   return readCubeLut(*text, path, diagnostics);
 }

@@ -1,4 +1,4 @@
-// .cube colour tables (Adobe "Cube LUT Specification" 1.0): 1D or 3D of any legal size, DOMAIN_MIN/MAX,
+// .cube color tables (Adobe "Cube LUT Specification" 1.0): 1D or 3D of any legal size, DOMAIN_MIN/MAX,
 // comments. Errors are W154 with line and column; an unreadable file is W001.
 #pragma once
 
@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::assets {
 
@@ -20,8 +20,8 @@ struct CubeLut {
   std::vector<float> texels;                // RGB triples, red fastest, size or size^3 of them; finite
 };
 
-std::optional<CubeLut> loadCubeLut(const std::string& path, base::Diagnostics& diagnostics);
+std::optional<CubeLut> loadCubeLut(const std::string& path, text::Diagnostics& diagnostics);
 std::optional<CubeLut> readCubeLut(std::string_view text, const std::string& name,
-                                   base::Diagnostics& diagnostics);
+                                   text::Diagnostics& diagnostics);
 
 }  // namespace weft::assets

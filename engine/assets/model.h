@@ -49,11 +49,11 @@ inline Box transformBox(const glm::mat4& transform, const Box& box) {
 
 constexpr std::uint32_t kNoRow = 0xffffffffu;
 
-// A texture has one use: equal texels that are used as colour and as numbers are two textures.
+// A texture has one use: equal texels that are used as color and as numbers are two textures.
 struct Texture {
   std::string name;                     // the file's, or what the model calls it
   std::shared_ptr<const Image8> image;  // 4 channels, row 0 on top
-  bool srgb = false;                    // colour (albedo, emissive): to be decoded
+  bool srgb = false;                    // color (albedo, emissive): to be decoded
   std::uint64_t content = 0;            // hash of size, texels and srgb; equal contents are one row
 };
 

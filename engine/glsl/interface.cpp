@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "engine/base/limits.h"
+#include "engine/text/limits.h"
 
 namespace weft::glsl {
 
@@ -424,10 +424,10 @@ void measure(Words tokens, ShaderSize& size) {
 }
 
 Interface readExpanded(std::string_view text, std::span<const Define> defines, Branches branches) {
-  const std::uint64_t most = base::raised(kMostShaderTokens);
+  const std::uint64_t most = text::raised(kMaxShaderTokens);
   const auto deepest =
-      static_cast<std::uint32_t>(std::min<std::uint64_t>(base::raised(kMostShaderDepth), 5000));
-  if (text.size() > base::raised(kMostShaderBytes)) {
+      static_cast<std::uint32_t>(std::min<std::uint64_t>(text::raised(kMaxShaderDepth), 5000));
+  if (text.size() > text::raised(kMaxShaderBytes)) {
     Interface none;
     none.unsure = true;
     none.size.bytes = text.size();
@@ -451,30 +451,30 @@ Interface readExpanded(std::string_view text, std::span<const Define> defines, B
 
 }  // namespace
 
-bool checkShaderSize(const ShaderSize& size, const ShaderSource& source, base::Diagnostics& diagnostics) {
+bool checkShaderSize(const ShaderSize& size, const ShaderSource& source, text::Diagnostics& diagnostics) {
   const auto check = [&](std::uint64_t bound, const char* counts, const ShaderCount& count,
                          const std::string& message, const char* fix) {
-    const std::uint64_t most = base::raised(bound);
+    const std::uint64_t most = text::raised(bound);
     if (count.count <= most) return true;
-    const base::Place place =
-        count.line == 0 ? base::Place{source.file, 0, 0} : source.placeOf(count.line, count.column);
-    base::Diagnostic& error = diagnostics.error(base::Code::shaderTooLarge, place, message);
+    const text::Place place =
+        count.line == 0 ? text::Place{source.file, 0, 0} : source.placeOf(count.line, count.column);
+    text::Diagnostic& error = diagnostics.error(text::Code::shaderTooLarge, place, message);
     error.expected = fmt::format("at most {} {}", most, counts);
-    error.found = bound == kMostShaderTokens ? fmt::format("more than {}", most)  // counting ended there
-                                             : fmt::format("{}", count.count);
+    error.found = bound == kMaxShaderTokens ? fmt::format("more than {}", most)  // counting ended there
+                                            : fmt::format("{}", count.count);
     error.hint = fix;
-    if (const std::string raise = base::hintToRaise(bound); !raise.empty()) error.hint += "; or " + raise;
+    if (const std::string raise = text::hintToRaise(bound); !raise.empty()) error.hint += "; or " + raise;
     return false;
   };
   bool good =
-      check(kMostShaderBytes, "bytes of one shader with what it includes", {.count = size.bytes, .name = {}},
+      check(kMaxShaderBytes, "bytes of one shader with what it includes", {.count = size.bytes, .name = {}},
             "the shader is too large", "include less, or move tables into buffers");
   good &=
-      check(kMostShaderTokens, "tokens of one shader after its macros", size.tokens,
+      check(kMaxShaderTokens, "tokens of one shader after its macros", size.tokens,
             size.tokens.name.empty() ? "the shader is too long"
                                      : fmt::format("the macro '{}' expands to too much", size.tokens.name),
             "use functions and loops instead of macros that repeat");
-  good &= check(kMostShaderDepth, "brackets, operators or blocks around one another", size.depth,
+  good &= check(kMaxShaderDepth, "brackets, operators or blocks around one another", size.depth,
                 "brackets, operators or blocks are nested too deeply", "split it into several statements");
   return good;
 }

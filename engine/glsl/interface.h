@@ -12,15 +12,15 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/glsl/source.h"
 #include "engine/glsl/tokens.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::glsl {
 
 // Of one shader with what it includes; `--limit` raises them. Tokens: after its macros. Depth: of brackets, operators or blocks
 // around one another.
-constexpr std::uint64_t kMostShaderBytes = 1ull << 20, kMostShaderTokens = 200'000, kMostShaderDepth = 500;
+constexpr std::uint64_t kMaxShaderBytes = 1ull << 20, kMaxShaderTokens = 200'000, kMaxShaderDepth = 500;
 
 enum class Role : std::uint8_t {
   sampler,
@@ -86,7 +86,7 @@ struct Interface {
 };
 
 // Reports each count that is above its limit (W203). True when there is none.
-bool checkShaderSize(const ShaderSize& size, const ShaderSource& source, base::Diagnostics& diagnostics);
+bool checkShaderSize(const ShaderSize& size, const ShaderSource& source, text::Diagnostics& diagnostics);
 
 // Whether the driver may not survive the shader, or must work long: then a process of its own tries it first.
 bool isUnusual(const Interface& interface);

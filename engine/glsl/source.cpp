@@ -6,29 +6,29 @@
 
 #include <algorithm>
 
-#include "engine/base/files/file.h"
-#include "engine/base/files/file_access.h"
-#include "engine/base/files/file_overlay.h"
-#include "engine/base/hash.h"
-#include "engine/base/limits.h"
-#include "engine/base/nearest.h"
 #include "engine/glsl/interface.h"
+#include "engine/text/files/file.h"
+#include "engine/text/files/file_access.h"
+#include "engine/text/files/file_overlay.h"
+#include "engine/text/hash.h"
+#include "engine/text/limits.h"
+#include "engine/text/nearest.h"
 
 namespace weft::glsl {
 
 namespace fs = std::filesystem;
-using base::Code;
-using base::Diagnostics;
-using base::Place;
+using text::Code;
+using text::Diagnostics;
+using text::Place;
 
 namespace {
 
 // Of one stage; a guarded include may repeat its text.
-constexpr std::size_t kMostText = std::size_t{16} << 20;
+constexpr std::size_t kMaxText = std::size_t{16} << 20;
 
 // Each unsaved text has a number of its own, which is no time of a file.
 FileStamp stampOf(const std::string& path) {
-  if (const auto unsaved = base::overlayOf(path))
+  if (const auto unsaved = text::overlayOf(path))
     return {path, -1 - static_cast<std::int64_t>(unsaved->generation), unsaved->text->size()};
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) return {path};
@@ -41,10 +41,10 @@ std::string folderOf(const std::string& path) {
   return folder.empty() ? "." : folder;
 }
 
-// base::readFile() of a file of at most `most` bytes. Of a larger one `bytes` says how many it has, and nothing is reported.
+// text::readFile() of a file of at most `most` bytes. Of a larger one `bytes` says how many it has, and nothing is reported.
 std::optional<std::string> readWithin(const std::string& path, std::uint64_t most, std::uint64_t& bytes,
                                       Diagnostics& diagnostics, Code code, const Place& place) {
-  return base::readFile(path, diagnostics, code, place, [&](std::uint64_t done, std::uint64_t total) {
+  return text::readFile(path, diagnostics, code, place, [&](std::uint64_t done, std::uint64_t total) {
     bytes = std::max(done, total);
     return bytes <= most;
   });
@@ -53,7 +53,7 @@ std::optional<std::string> readWithin(const std::string& path, std::uint64_t mos
 // The first that may not be read, where nothing is said of whether it is there.
 std::optional<std::string> outsideOf(std::span<const std::string> candidates) {
   const auto outside =
-      std::ranges::find_if(candidates, [](const std::string& path) { return !base::mayRead(path); });
+      std::ranges::find_if(candidates, [](const std::string& path) { return !text::mayRead(path); });
   return outside == candidates.end() ? std::nullopt : std::optional(*outside);
 }
 
@@ -69,7 +69,7 @@ std::vector<std::string> below(std::span<const std::string> folders, const std::
 std::string hintForInclude(const std::string& name, const std::vector<std::string>& names) {
   const auto same =
       std::ranges::find_if(names, [&](const std::string& each) { return each.ends_with("/" + name); });
-  return same == names.end() ? base::nearestHint(name, names) : "did you mean '" + *same + "'?";
+  return same == names.end() ? text::nearestHint(name, names) : "did you mean '" + *same + "'?";
 }
 
 // Those that differ in stage and ending only, else those of nearly that name.
@@ -82,7 +82,7 @@ std::string hintForShader(const std::string& path, const std::vector<std::string
   const std::string stem = path.substr(0, path.find('.', path.rfind('/') + 1)) + ".";
   const auto same =
       std::ranges::find_if(known, [&](const std::string& each) { return each.starts_with(stem); });
-  return same == known.end() ? base::nearestHint(path, known) : fmt::format("did you mean '{}'?", *same);
+  return same == known.end() ? text::nearestHint(path, known) : fmt::format("did you mean '{}'?", *same);
 }
 
 // The file name of `#include "name"`, from what follows the word, or nullopt.
@@ -100,13 +100,13 @@ std::optional<std::string> quotedFile(std::string_view rest) {
 }  // namespace
 
 std::vector<std::string> shadersBelow(std::span<const std::string> folders) {
-  constexpr int kMostOfFolder = 10'000;
+  constexpr int kMaxOfFolder = 10'000;
   std::set<std::string> names;
   for (const std::string& folder : folders) {
-    if (!base::mayRead(folder)) continue;
+    if (!text::mayRead(folder)) continue;
     std::error_code ec;
     fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, ec);
-    for (int seen = 0; !ec && it != fs::recursive_directory_iterator() && seen < kMostOfFolder;
+    for (int seen = 0; !ec && it != fs::recursive_directory_iterator() && seen < kMaxOfFolder;
          it.increment(ec), ++seen)
       if (it->path().extension() == ".glsl")
         names.insert(it->path().lexically_relative(folder).generic_string());
@@ -125,7 +125,7 @@ class IncludeExpander {
     addFile(own);
     source_->file = source_->files[0];
     expandFile(0, folder, text, 0);
-    source_->hash = base::hashBytes(source_->text);
+    source_->hash = text::hashBytes(source_->text);
     return source_;
   }
 
@@ -197,7 +197,7 @@ class IncludeExpander {
   void include(std::string_view rest, const Place& place, const std::string& folder, int depth) {
     const std::optional<std::string> name = quotedFile(rest);
     if (!name) {
-      base::Diagnostic& error =
+      text::Diagnostic& error =
           diagnostics_.error(Code::malformedInclude, place, "#include needs a file name in double quotes");
       error.expected = "#include \"common/view.glsl\"";
       error.found = fmt::format("#include{}", rest);
@@ -213,15 +213,15 @@ class IncludeExpander {
         return reportCycle(at, place);
       if (unconditional_[number]) return;
     }
-    const std::uint64_t room = kMostText - std::min(source_->text.size(), kMostText);
+    const std::uint64_t room = kMaxText - std::min(source_->text.size(), kMaxText);
     const FileStamp stamp = stampOf(*path);
     std::uint64_t bytes = 0;
     const std::optional<std::string> text =
         readWithin(*path, room, bytes, diagnostics_, Code::missingShaderInclude, place);
     if (!text) missing_.push_back(*path);
     if (bytes > room) {
-      base::Diagnostic& error = diagnostics_.error(
-          Code::malformedInclude, place, fmt::format("includes expand to more than {} MiB", kMostText >> 20));
+      text::Diagnostic& error = diagnostics_.error(
+          Code::malformedInclude, place, fmt::format("includes expand to more than {} MiB", kMaxText >> 20));
       error.found = fmt::format("'{}' of {} bytes", *path, bytes);
       error.hint = "include the file once, outside #if";
       return;
@@ -245,18 +245,18 @@ class IncludeExpander {
     const std::vector<std::string> candidates = below(folders, name);
     std::error_code ec;
     for (const std::string& path : candidates)
-      if (base::mayRead(path) && (base::overlayOf(path) || fs::is_regular_file(path, ec))) return path;
+      if (text::mayRead(path) && (text::overlayOf(path) || fs::is_regular_file(path, ec))) return path;
     missing_.insert(missing_.end(), candidates.begin(), candidates.end());
     if (const auto outside = outsideOf(candidates)) {
-      base::reportOutside(*outside, diagnostics_, place);
+      text::reportOutside(*outside, diagnostics_, place);
       return std::nullopt;
     }
     for (const std::string& path : candidates)
       if (fs::exists(path, ec)) {  // and is no regular file: readFile() says what it is
-        base::readFile(path, diagnostics_, Code::missingShaderInclude, place);
+        text::readFile(path, diagnostics_, Code::missingShaderInclude, place);
         return std::nullopt;
       }
-    base::Diagnostic& error = diagnostics_.error(Code::missingShaderInclude, place,
+    text::Diagnostic& error = diagnostics_.error(Code::missingShaderInclude, place,
                                                  fmt::format("included file '{}' not found", name));
     error.expected =
         fmt::format("a file beside the including one or below {}", fmt::join(loader_.roots_, ", "));
@@ -321,11 +321,11 @@ std::shared_ptr<const ShaderSource> SourceLoader::expand(const std::string& key,
 }
 
 const std::vector<std::string>& SourceLoader::namesFrom(const std::string& folder) {
-  constexpr std::size_t kMostListings = 32;  // a hint may do without the rest
+  constexpr std::size_t kMaxListings = 32;  // a hint may do without the rest
   static const std::vector<std::string> kNone;
   const auto known = names_.find(folder);
   if (known != names_.end()) return known->second;
-  if (names_.size() >= kMostListings) return kNone;
+  if (names_.size() >= kMaxListings) return kNone;
   std::vector<std::string> folders = roots_;
   if (!folder.empty()) folders.push_back(folder);
   return names_[folder] = shadersBelow(folders);
@@ -337,7 +337,7 @@ std::optional<std::string> SourceLoader::locate(const std::string& path) const {
   candidates.push_back(fs::path(path).lexically_normal().string());
   for (const std::string& each : candidates) {
     std::error_code ec;
-    if (base::mayRead(each) && (base::overlayOf(each) || fs::exists(each, ec))) return each;
+    if (text::mayRead(each) && (text::overlayOf(each) || fs::exists(each, ec))) return each;
   }
   return std::nullopt;
 }
@@ -347,8 +347,8 @@ void SourceLoader::reportMissing(const std::string& path, Diagnostics& diagnosti
   const bool asItIs = fs::path(path).is_absolute() || roots_.empty();
   const std::vector<std::string> candidates = asItIs ? std::vector<std::string>{path} : below(roots_, path);
   touched_.insert(candidates.begin(), candidates.end());
-  if (const auto outside = outsideOf(candidates)) return base::reportOutside(*outside, diagnostics, place);
-  base::Diagnostic& error =
+  if (const auto outside = outsideOf(candidates)) return text::reportOutside(*outside, diagnostics, place);
+  text::Diagnostic& error =
       diagnostics.error(Code::unreadableShader, place, fmt::format("shader '{}' not found", path));
   error.expected =
       roots_.empty() ? "an existing file" : fmt::format("a file below {}", fmt::join(roots_, ", "));
@@ -364,7 +364,7 @@ std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, 
   }
   if (auto source = answer(*where)) return source;
   const FileStamp own = stampOf(*where);
-  const std::uint64_t most = std::max<std::uint64_t>(kMostText, base::raised(kMostShaderBytes));
+  const std::uint64_t most = std::max<std::uint64_t>(kMaxText, text::raised(kMaxShaderBytes));
   std::uint64_t bytes = 0;
   const std::optional<std::string> text =
       readWithin(*where, most, bytes, diagnostics, Code::unreadableShader, place);
@@ -387,12 +387,12 @@ std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, 
 
 std::shared_ptr<const ShaderSource> SourceLoader::loadText(std::string_view text, const std::string& name,
                                                            Diagnostics& diagnostics) {
-  const std::string key = fmt::format("<text>{}:{:016x}", name, base::hashBytes(text));
+  const std::string key = fmt::format("<text>{}:{:016x}", name, text::hashBytes(text));
   if (auto source = answer(key)) return source;
   return expand(key, {name}, text, diagnostics);
 }
 
-base::Place ShaderSource::placeOf(std::uint32_t textLine, std::uint32_t column) const {
+text::Place ShaderSource::placeOf(std::uint32_t textLine, std::uint32_t column) const {
   const auto after = std::ranges::upper_bound(runs, textLine, {}, &Run::textLine);
   if (after == runs.begin()) return {file, 0, 0};
   const Run& run = *std::prev(after);
@@ -400,10 +400,10 @@ base::Place ShaderSource::placeOf(std::uint32_t textLine, std::uint32_t column) 
 }
 
 const Interface& ShaderSource::interfaceWith(std::span<const Define> defines) const {
-  constexpr std::size_t kMostKnown = 256;  // in a long session that changes a define again and again
+  constexpr std::size_t kMaxKnown = 256;  // in a long session that changes a define again and again
   std::string key;
   for (const Define& define : defines) key += fmt::format("{}={}|", define.name, define.value);
-  if (known_.size() >= kMostKnown && !known_.contains(key)) known_.clear();
+  if (known_.size() >= kMaxKnown && !known_.contains(key)) known_.clear();
   std::shared_ptr<const Interface>& known = known_[key];
   if (!known) known = std::make_shared<const Interface>(readInterface(text, defines));
   return *known;

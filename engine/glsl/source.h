@@ -17,7 +17,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::glsl {
 
@@ -43,7 +43,7 @@ struct ShaderSource {
   const Interface& interfaceWith(std::span<const Define> defines) const;
   const Interface& ofAllBranches() const;
   // Where a line of the text (from 1) was written.
-  base::Place placeOf(std::uint32_t textLine, std::uint32_t column = 0) const;
+  text::Place placeOf(std::uint32_t textLine, std::uint32_t column = 0) const;
 
  private:
   mutable std::map<std::string, std::shared_ptr<const Interface>> known_;  // by defines
@@ -69,15 +69,15 @@ class SourceLoader {
   explicit SourceLoader(std::vector<std::string> roots) : roots_(std::move(roots)) {}
 
   // The stage file `path`, below the first root that has it, else as the path says. "../" and absolute paths may lead
-  // out of the roots (W200 where reading is confined: engine/base/files/file_access.h). `place` is that of the path in
+  // out of the roots (W200 where reading is confined: engine/text/files/file_access.h). `place` is that of the path in
   // the graph file, for the message when the file cannot be read (W100). Problems inside (W101 include not found,
   // W102 include cycle, W103 malformed include, W106 #version) are reported all at once and give null. A file is
   // expanded again only when the size or the time of a file that took part has changed.
-  std::shared_ptr<const ShaderSource> load(const std::string& path, base::Diagnostics& diagnostics,
-                                           const base::Place& place = {});
+  std::shared_ptr<const ShaderSource> load(const std::string& path, text::Diagnostics& diagnostics,
+                                           const text::Place& place = {});
   // The same for text in memory, named `name` in messages; its includes are searched in the roots only.
   std::shared_ptr<const ShaderSource> loadText(std::string_view text, const std::string& name,
-                                               base::Diagnostics& diagnostics);
+                                               text::Diagnostics& diagnostics);
   // Where load() would find `path`, or nullopt.
   std::optional<std::string> locate(const std::string& path) const;
   // Forgets everything (files will be read again).
@@ -109,8 +109,8 @@ class SourceLoader {
   };
   std::shared_ptr<const ShaderSource> answer(const std::string& key);
   std::shared_ptr<const ShaderSource> expand(const std::string& key, const FileStamp& own,
-                                             std::string_view text, base::Diagnostics& diagnostics);
-  void reportMissing(const std::string& path, base::Diagnostics& diagnostics, const base::Place& place);
+                                             std::string_view text, text::Diagnostics& diagnostics);
+  void reportMissing(const std::string& path, text::Diagnostics& diagnostics, const text::Place& place);
   const std::vector<std::string>& namesFrom(const std::string& folder);
 
   std::vector<std::string> roots_;

@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "engine/base/chars.h"
+#include "engine/text/chars.h"
 
 namespace weft::glsl {
 
@@ -62,18 +62,18 @@ std::vector<Token> splitTokens(std::string_view text) {
       Token token{.text = {}, .line = line, .column = static_cast<std::uint32_t>(i - lineStart + 1)};
       token.first = std::exchange(first, false);
       const bool number =
-          base::isDigit(text[i]) || (text[i] == '.' && i + 1 < text.size() && base::isDigit(text[i + 1]));
+          text::isDigit(text[i]) || (text[i] == '.' && i + 1 < text.size() && text::isDigit(text[i + 1]));
       std::size_t end = i + 1;
       if (number) {
         token.kind = TokenKind::number;
         while (end < text.size() &&
-               (base::isIdentChar(text[end]) || text[end] == '.' ||
+               (text::isIdentChar(text[end]) || text[end] == '.' ||
                 ((text[end] == '+' || text[end] == '-') && (text[end - 1] == 'e' || text[end - 1] == 'E') &&
                  !text.substr(i).starts_with("0x"))))
           ++end;
-      } else if (base::isIdentStart(text[i])) {
+      } else if (text::isIdentStart(text[i])) {
         token.kind = TokenKind::word;
-        while (end < text.size() && base::isIdentChar(text[end])) ++end;
+        while (end < text.size() && text::isIdentChar(text[end])) ++end;
       } else {
         for (const std::string_view sign : kSigns)
           if (text.substr(i).starts_with(sign)) {

@@ -11,15 +11,15 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/graph/language/expr.h"
 #include "engine/graph/language/keys.h"
 #include "engine/graph/language/value.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::graph {
 
-using base::Place;
-using base::Where;
+using text::Place;
+using text::Where;
 
 // How a pass touches a resource.
 enum class Access : std::uint8_t { read, write, modify };

@@ -51,7 +51,7 @@ struct FlatResource {
 struct FlatUse {
   std::uint32_t resource = 0;
   std::uint16_t mip = 0, mips = 1, layer = 0, layers = 1;
-  std::uint8_t planes = 1;   // bit 0: colour or depth, bit 1: stencil (whole depth-stencil: 3)
+  std::uint8_t planes = 1;   // bit 0: color or depth, bit 1: stencil (whole depth-stencil: 3)
   std::uint8_t history = 0;  // n of @-n: reads an earlier publication, orders nothing
   Kind kind = Kind::sampled;
   Access access = Access::read;
@@ -156,7 +156,7 @@ enum class Blend : std::uint8_t { none, add, alpha, premultiplied, multiply, min
 enum class Cull : std::uint8_t { none, front, back };
 
 struct StateSpec {
-  std::vector<std::pair<std::string, Blend>> blend;  // per colour slot; absent slots do not blend
+  std::vector<std::pair<std::string, Blend>> blend;  // per color slot; absent slots do not blend
   bool depthTest = false;
   Compare depthCompare = Compare::always;
   bool depthWrite = true;  // only with a depth test and a writable depth attachment

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "engine/base/hash.h"
+#include "engine/text/hash.h"
 
 namespace weft::graph {
 
@@ -15,9 +15,9 @@ const Value& ImportRequest::at(std::string_view argument) const {
 }
 
 std::uint64_t keyOf(const ImportRequest& request) {
-  std::uint64_t key = base::hashBytes(request.type);
+  std::uint64_t key = text::hashBytes(request.type);
   for (const auto& [name, value] : request.arguments)
-    key = base::hashCombine(base::hashBytes(toText(value), base::hashBytes(name, key)),
+    key = text::hashCombine(text::hashBytes(toText(value), text::hashBytes(name, key)),
                             static_cast<std::uint64_t>(value.type));
   return key;
 }

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/graph/desc.h"
 #include "engine/graph/language/barrier_bit.h"
 #include "engine/graph/language/format.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::graph {
 
@@ -35,7 +35,7 @@ struct PassType {
   // `fromSource`: the view of the written texture begins at the level that is read.
   bool framebuffers = false, fromSource = false;
   // The type uses glCopyImageSubData where source and destination are one level and layer each of 2D textures or arrays of
-  // the graph, with one size, one sample and one colour format that is not sRGB (FlatUse::exact). Only with `framebuffers`.
+  // the graph, with one size, one sample and one color format that is not sRGB (FlatUse::exact). Only with `framebuffers`.
   bool exactCopies = false;
   // Barrier bits (BarrierBit) that the GL command needs besides those of its slots' kinds, on the ranges that the slots
   // name, because it touches them in a way that no slot says.
@@ -95,7 +95,7 @@ struct ImportFacts {
   std::uint64_t bytes = 0;                   // buffers; 0 when not yet known
   double count = 0;                          // count(x): rows of a list or buffer
   bool changing = false;                     // something else in the course of a run, whatever the scene is
-  std::vector<base::Diagnostic> problems{};  // reported with the import; an error makes it unusable
+  std::vector<text::Diagnostic> problems{};  // reported with the import; an error makes it unusable
 };
 
 // A whole number between the parentheses of a geometry: "icosphere(3)".

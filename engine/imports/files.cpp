@@ -4,8 +4,8 @@ namespace weft::imports {
 
 std::shared_ptr<const void> Files::getAny(
     const std::string& path, std::type_index type,
-    const std::function<std::shared_ptr<const void>(base::Diagnostics&)>& read,
-    base::Diagnostics& diagnostics) {
+    const std::function<std::shared_ptr<const void>(text::Diagnostics&)>& read,
+    text::Diagnostics& diagnostics) {
   touched_.insert(path);
   std::error_code ec;
   Stamp stamp{std::filesystem::last_write_time(path, ec), 0};

@@ -13,7 +13,7 @@
 #include <typeindex>
 #include <utility>
 
-#include "engine/base/diagnostic.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::imports {
 
@@ -22,8 +22,8 @@ class Files {
   // What `read(path, diagnostics)` makes of the file, an optional<T>. Null after errors; the errors of a file that has not
   // changed are reported again.
   template <class T, class Read>
-  std::shared_ptr<const T> get(const std::string& path, const Read& read, base::Diagnostics& diagnostics) {
-    const auto readAny = [&](base::Diagnostics& said) -> std::shared_ptr<const void> {
+  std::shared_ptr<const T> get(const std::string& path, const Read& read, text::Diagnostics& diagnostics) {
+    const auto readAny = [&](text::Diagnostics& said) -> std::shared_ptr<const void> {
       std::optional<T> made = read(path, said);
       return made ? std::make_shared<const T>(std::move(*made)) : nullptr;
     };
@@ -40,12 +40,12 @@ class Files {
   struct Entry {
     Stamp stamp;
     std::shared_ptr<const void> made;
-    base::Diagnostics said;
+    text::Diagnostics said;
   };
   std::shared_ptr<const void> getAny(
       const std::string& path, std::type_index type,
-      const std::function<std::shared_ptr<const void>(base::Diagnostics&)>& read,
-      base::Diagnostics& diagnostics);
+      const std::function<std::shared_ptr<const void>(text::Diagnostics&)>& read,
+      text::Diagnostics& diagnostics);
   std::map<std::pair<std::string, std::type_index>, Entry> entries_;
   std::set<std::string> touched_;
 };

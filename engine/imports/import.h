@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/gl/objects/objects.h"
 #include "engine/graph/registry.h"
 #include "engine/imports/camera_views.h"
@@ -19,6 +18,7 @@
 #include "engine/imports/world.h"
 #include "engine/scene/camera.h"
 #include "engine/scene/scene.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::imports {
 
@@ -38,9 +38,9 @@ class Provider {
   virtual ~Provider() = default;
 
   // The newest texture. Id 0: there is none.
-  virtual gl::TextureRef texture(const Frame&, base::Diagnostics&) { return {}; }
+  virtual gl::TextureRef texture(const Frame&, text::Diagnostics&) { return {}; }
   // `layout` is for types that reflect `columns`: how the reading shader lays a row out.
-  virtual BufferRef buffer(const Frame&, const RowLayout&, base::Diagnostics&) { return {}; }
+  virtual BufferRef buffer(const Frame&, const RowLayout&, text::Diagnostics&) { return {}; }
   // Valid until the next call.
   virtual const scene::ViewData& view(const Frame& frame, const ViewPart& part) {
     return frame.camera.view(frame, part.width, part.height);
@@ -102,7 +102,7 @@ class ImportOf : public Import {
 template <class Table>
 class TableProvider : public Provider {
  public:
-  BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
+  BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
     const auto rows = [&] { return Table::rows(frame); };
     return table_.get(layout, generation(frame), rows, diagnostics);
   }

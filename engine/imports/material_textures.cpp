@@ -14,7 +14,7 @@ namespace weft::imports {
 
 namespace {
 
-constexpr std::size_t kMostLayers = 2048;  // that every OpenGL 4.5 takes
+constexpr std::size_t kMaxLayers = 2048;  // that every OpenGL 4.5 takes
 
 std::uint64_t texelsOf(const MaterialArray& array) {
   return std::uint64_t{array.width} * array.height * array.textures.size();
@@ -38,7 +38,7 @@ std::vector<MaterialArray> batchTextures(const scene::Scene& scene) {
     const auto height = static_cast<std::uint32_t>(texture.image->height);
     auto found = std::ranges::find_if(arrays, [&](const MaterialArray& each) {
       return each.width == width && each.height == height && each.srgb == texture.srgb &&
-             each.textures.size() < kMostLayers;
+             each.textures.size() < kMaxLayers;
     });
     if (found == arrays.end())
       found = arrays.insert(arrays.end(),
@@ -78,7 +78,7 @@ std::vector<std::uint32_t> mapsOf(const std::vector<MaterialArray>& arrays, std:
   return maps;
 }
 
-bool MaterialTextures::renew(const scene::Scene& scene, base::Diagnostics& diagnostics) {
+bool MaterialTextures::renew(const scene::Scene& scene, text::Diagnostics& diagnostics) {
   std::vector<std::uint64_t> contents;
   for (const scene::Texture& texture : scene.textures.rows()) contents.push_back(texture.content);
   if (contents == contents_) return true;
@@ -115,7 +115,7 @@ bool MaterialTextures::renew(const scene::Scene& scene, base::Diagnostics& diagn
 }
 
 gl::TextureRef MaterialTextures::array(const scene::Scene& scene, std::uint64_t generation,
-                                       std::uint32_t element, base::Diagnostics& diagnostics) {
+                                       std::uint32_t element, text::Diagnostics& diagnostics) {
   if (generation_ != generation) {
     if (!renew(scene, diagnostics)) return {};
     generation_ = generation;

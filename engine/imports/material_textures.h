@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/gl/objects/objects.h"
 #include "engine/scene/scene.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::imports {
 
@@ -30,10 +30,10 @@ class MaterialTextures {
  public:
   // The array for sampler `element`; of one that there is not, a white texel. Id 0 after an error.
   gl::TextureRef array(const scene::Scene& scene, std::uint64_t generation, std::uint32_t element,
-                       base::Diagnostics& diagnostics);
+                       text::Diagnostics& diagnostics);
 
  private:
-  bool renew(const scene::Scene& scene, base::Diagnostics& diagnostics);
+  bool renew(const scene::Scene& scene, text::Diagnostics& diagnostics);
 
   std::uint64_t generation_ = 0;
   std::vector<std::uint64_t> contents_;  // Texture::content of what is uploaded, in the order of the rows

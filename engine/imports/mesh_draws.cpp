@@ -42,7 +42,7 @@ std::vector<gl::VertexAttribute> wantedOf(const gl::Reflection& reflection,
 
 template <class T>
 bool create(gl::Buffer& buffer, const std::vector<T>& rows, const char* label,
-            base::Diagnostics& diagnostics) {
+            text::Diagnostics& diagnostics) {
   buffer = {};
   if (rows.empty()) return true;
   auto made = gl::Buffer::create(rows.size() * sizeof(T), 0, label, diagnostics, rows.data());
@@ -53,7 +53,7 @@ bool create(gl::Buffer& buffer, const std::vector<T>& rows, const char* label,
 
 }  // namespace
 
-bool MeshBuffers::renew(const scene::Scene& scene, std::uint64_t generation, base::Diagnostics& diagnostics) {
+bool MeshBuffers::renew(const scene::Scene& scene, std::uint64_t generation, text::Diagnostics& diagnostics) {
   if (generation_ == generation || data_ == scene.meshData) {
     generation_ = generation;
     return true;
@@ -89,7 +89,7 @@ void MeshPass::attach(const MeshBuffers& buffers) {
   vertexArray_.setVertices(2, attachedRows_, 0, sizeof(std::uint32_t), instance_, 1);
 }
 
-MeshDraw MeshPass::draw(const MeshBuffers& buffers, base::Diagnostics& diagnostics) {
+MeshDraw MeshPass::draw(const MeshBuffers& buffers, text::Diagnostics& diagnostics) {
   const std::span<const scene::DrawCommand> commands = view_.commands();
   if (commands.empty()) return {};
   if (sent_ != view_.generation()) {

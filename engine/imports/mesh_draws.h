@@ -9,19 +9,19 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/gl/objects/objects.h"
 #include "engine/gl/programs/program.h"
 #include "engine/imports/row_table.h"
 #include "engine/scene/frame/mesh_views.h"
 #include "engine/scene/scene.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::imports {
 
 class MeshBuffers {
  public:
   // Sends the vertices when the scene's are others. False after an error.
-  bool renew(const scene::Scene& scene, std::uint64_t generation, base::Diagnostics& diagnostics);
+  bool renew(const scene::Scene& scene, std::uint64_t generation, text::Diagnostics& diagnostics);
   GLuint vertices() const { return vertices_.id(); }
   GLuint skin() const { return skin_.id(); }  // 0: no mesh has one
   GLuint indices() const { return indices_.id(); }
@@ -48,7 +48,7 @@ class MeshPass {
 
   scene::MeshView& view() { return view_; }
   // Draws what its view sees now.
-  MeshDraw draw(const MeshBuffers& buffers, base::Diagnostics& diagnostics);
+  MeshDraw draw(const MeshBuffers& buffers, text::Diagnostics& diagnostics);
 
  private:
   void attach(const MeshBuffers& buffers);

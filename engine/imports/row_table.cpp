@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/base/nearest.h"
+#include "engine/text/nearest.h"
 
 namespace weft::imports {
 
@@ -26,7 +26,7 @@ bool rowLayoutOf(const gl::Block& block, std::span<const graph::TableColumn> col
     if (column == columns.end()) {
       std::vector<std::string> names;
       for (const graph::TableColumn& each : columns) names.push_back(each.name);
-      const std::string near = base::nearestHint(field, names);
+      const std::string near = text::nearestHint(field, names);
       problem = fmt::format("its rows have no field '{}'{}{}", field, near.empty() ? "" : "; ", near);
       continue;
     }
@@ -47,7 +47,7 @@ RowBuffers::Copy& RowBuffers::copyOf(const RowLayout& layout) {
 }
 
 bool sendTo(gl::Buffer& buffer, std::span<const std::byte> bytes, const std::string& label, bool grows,
-            base::Diagnostics& diagnostics) {
+            text::Diagnostics& diagnostics) {
   if (!buffer || (grows ? buffer.bytes() < bytes.size() : buffer.bytes() != bytes.size())) {
     auto made = gl::Buffer::create(bytes.size() + (grows ? bytes.size() / 2 : 0), GL_DYNAMIC_STORAGE_BIT,
                                    label, diagnostics);

@@ -18,11 +18,11 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/gl/objects/objects.h"
 #include "engine/gl/programs/program.h"
 #include "engine/graph/registry.h"
 #include "engine/imports/world.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::imports {
 
@@ -102,7 +102,7 @@ void writeRows(const RowLayout& layout, const Columns<Row>& columns, std::span<c
 // Sends bytes to a buffer, which is made anew where it has another size; or, if it `grows`, where it is too small, with half as much
 // again. False after an error, and the buffer is none.
 bool sendTo(gl::Buffer& buffer, std::span<const std::byte> bytes, const std::string& label, bool grows,
-            base::Diagnostics& diagnostics);
+            text::Diagnostics& diagnostics);
 
 // The buffers of a table, one for each layout.
 class RowBuffers {
@@ -114,7 +114,7 @@ class RowBuffers {
     std::uint64_t generation = 0;
   };
   Copy& copyOf(const RowLayout& layout);
-  bool send(Copy& copy, std::vector<std::byte>& bytes, base::Diagnostics& diagnostics) {
+  bool send(Copy& copy, std::vector<std::byte>& bytes, text::Diagnostics& diagnostics) {
     bytes.resize(std::max<std::size_t>(bytes.size(), 16));
     return sendTo(copy.buffer, bytes, label_, false, diagnostics);
   }
@@ -133,7 +133,7 @@ class RowTable {
   // `rows()` gives all rows; it is called when a layout is of another generation. Id 0 after an error.
   template <class Rows>
   BufferRef get(const RowLayout& layout, std::uint64_t generation, const Rows& rows,
-                base::Diagnostics& diagnostics) {
+                text::Diagnostics& diagnostics) {
     RowBuffers::Copy& copy = buffers_.copyOf(layout);
     if (copy.generation != generation) {
       const auto& all = rows();

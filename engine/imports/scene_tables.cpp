@@ -67,7 +67,7 @@ const std::vector<scene::Instance>& SceneTables::rows(scene::DrawList list) {
 }
 
 BufferRef SceneTables::spheres(scene::DrawList list, const RowLayout& layout,
-                               base::Diagnostics& diagnostics) {
+                               text::Diagnostics& diagnostics) {
   const auto all = [&] { return std::span(rows(list)); };
   return sphereTables_[static_cast<std::size_t>(list)].get(layout, generation(list), all, diagnostics);
 }
@@ -81,7 +81,7 @@ const scene::MeshFrame& SceneTables::meshFrame() {
   return meshFrame_;
 }
 
-BufferRef SceneTables::meshes(scene::DrawList list, const RowLayout& layout, base::Diagnostics& diagnostics) {
+BufferRef SceneTables::meshes(scene::DrawList list, const RowLayout& layout, text::Diagnostics& diagnostics) {
   const auto all = [&] { return meshFrame().rows(list); };
   return meshTables_[static_cast<std::size_t>(list)].get(layout, meshFrame().generation(list), all,
                                                          diagnostics);
@@ -91,7 +91,7 @@ void SceneTables::see(std::span<scene::MeshView* const> views) {
   meshViews_.update(world_->scene(), meshFrame(), views);
 }
 
-MeshDraw SceneTables::draw(MeshPass& pass, base::Diagnostics& diagnostics) {
+MeshDraw SceneTables::draw(MeshPass& pass, text::Diagnostics& diagnostics) {
   if (!meshBuffers_.renew(world_->scene(), world_->sceneGeneration(), diagnostics)) return {};
   return pass.draw(meshBuffers_, diagnostics);
 }

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/graph/registry.h"
 #include "engine/imports/material_textures.h"
 #include "engine/imports/mesh_draws.h"
@@ -16,6 +15,7 @@
 #include "engine/scene/frame/mesh_frame.h"
 #include "engine/scene/frame/mesh_views.h"
 #include "engine/scene/scene.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::imports {
 
@@ -30,7 +30,7 @@ class SceneTables {
   void beginFrame(const World& world, const FrameInput& input, std::uint64_t number);
 
   // The spheres of a draw list.
-  BufferRef spheres(scene::DrawList list, const RowLayout& layout, base::Diagnostics& diagnostics);
+  BufferRef spheres(scene::DrawList list, const RowLayout& layout, text::Diagnostics& diagnostics);
   const std::vector<scene::Instance>& rows(scene::DrawList list);
   std::uint32_t countOf(scene::DrawList list);
   // Moves when a row may be another.
@@ -39,11 +39,11 @@ class SceneTables {
   bool isMoving(scene::DrawList list) { return world_ && factsOf(list).moving; }
 
   // Its meshes.
-  BufferRef meshes(scene::DrawList list, const RowLayout& layout, base::Diagnostics& diagnostics);
+  BufferRef meshes(scene::DrawList list, const RowLayout& layout, text::Diagnostics& diagnostics);
   // Finds out what the views of these passes see of meshes, of all at once. Before draw() of any of them.
   void see(std::span<scene::MeshView* const> views);
   // What the view of `pass` saw in the last see().
-  MeshDraw draw(MeshPass& pass, base::Diagnostics& diagnostics);
+  MeshDraw draw(MeshPass& pass, text::Diagnostics& diagnostics);
   // How many threads may place and see meshes; 0, the default: as many as the machine has.
   void setThreads(int threads);
   const scene::MeshFrame& meshFrame();

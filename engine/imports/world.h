@@ -13,8 +13,8 @@
 
 #include "engine/assets/environments/environment_map.h"
 #include "engine/assets/images/image.h"
-#include "engine/base/diagnostic.h"
 #include "engine/scene/scene.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::imports {
 
@@ -37,7 +37,7 @@ struct WorldFacts {
     friend bool operator==(const Maps&, const Maps&) = default;
   } maps;
   std::uint64_t skins = 0;
-  std::uint64_t coloredVertices = 0;     // vertices of the scene, where any has a colour of its own
+  std::uint64_t coloredVertices = 0;     // vertices of the scene, where any has a color of its own
   bool sun = false, castingSun = false;  // any; one with a shadow
   bool ground = false;
   std::uint32_t lamps = 0, castingLamps = 0;  // all; those with a shadow

@@ -37,16 +37,16 @@ SunView sunView(const Sun& sun, const Box& bounds, std::uint32_t texels) {
 
   const CameraPose towards{.position = glm::dvec3(glm::normalize(sun.direction)), .target = {0, 0, 0}};
   const glm::dmat4 turn(glm::dmat3(viewMatrix(towards)));  // without the translation
-  glm::dvec3 centre = glm::dvec3(turn * glm::dvec4((low + high) / 2.0, 1));
-  for (int axis = 0; axis < 2; ++axis) centre[axis] = std::floor(centre[axis] / texel + 0.5) * texel;
-  const glm::dmat4 view = glm::translate(glm::dmat4(1), -centre) * turn;
+  glm::dvec3 center = glm::dvec3(turn * glm::dvec4((low + high) / 2.0, 1));
+  for (int axis = 0; axis < 2; ++axis) center[axis] = std::floor(center[axis] / texel + 0.5) * texel;
+  const glm::dmat4 view = glm::translate(glm::dmat4(1), -center) * turn;
   glm::dmat4 projection(1);
   projection[0][0] = projection[1][1] = 1 / radius;
   projection[2][2] = 0.5 / radius;  // nearest to the sun is 1
   projection[3][2] = 0.5;
 
   SunView result;
-  const glm::dvec3 eye = glm::transpose(glm::dmat3(turn)) * (centre + glm::dvec3(0, 0, radius));
+  const glm::dvec3 eye = glm::transpose(glm::dmat3(turn)) * (center + glm::dvec3(0, 0, radius));
   result.view = viewOf(view, projection, eye, texels);
   const glm::dmat4 toTexture = glm::translate(glm::dmat4(1), glm::dvec3(0.5, 0.5, 0)) *
                                glm::scale(glm::dmat4(1), glm::dvec3(0.5, 0.5, 1));

@@ -15,7 +15,7 @@ struct SunView {
   float texel = 1;            // world units across a texel of that picture
 };
 // Fits `bounds` (a unit cube when it is empty) in a square picture of `texels` a side. What moves inside the bounds does not
-// move texels over the scene: the extent grows in steps and the centre in whole texels.
+// move texels over the scene: the extent grows in steps and the center in whole texels.
 SunView sunView(const Sun& sun, const Box& bounds, std::uint32_t texels);
 
 // The nearest thing that casts a shadow of a lamp: a thousandth of its range.

@@ -25,7 +25,7 @@ glm::mat4 matrixOf(const Transform& transform) {
 }
 
 float rangeOf(glm::vec3 intensity) {
-  return std::sqrt(std::max({intensity.x, intensity.y, intensity.z}) / kLeastIrradiance);
+  return std::sqrt(std::max({intensity.x, intensity.y, intensity.z}) / kMinIrradiance);
 }
 
 glm::vec3 turnDirection(const glm::mat4& node, glm::vec3 direction) {

@@ -86,7 +86,7 @@ struct Animation {
 };
 
 // Quantities of light are in scene units: Scene::nits cd/m² are one unit of radiance, so that an irradiance is lux / nits and an
-// intensity candela / nits, per colour channel.
+// intensity candela / nits, per color channel.
 struct Sun {
   glm::vec3 direction{0, 1, 0};  // unit, from the scene towards the sun
   glm::vec3 irradiance{1};       // linear RGB, on a surface that faces it
@@ -100,7 +100,7 @@ struct Lamp {
   glm::vec3 position{0};
   glm::vec3 intensity{1};  // linear RGB radiant intensity: irradiance at distance d is intensity / d²
   float range =
-      0;  // over 0: no light beyond. A scene file without it: where irradiance falls below kLeastIrradiance
+      0;  // over 0: no light beyond. A scene file without it: where irradiance falls below kMinIrradiance
   glm::vec3 direction{0, -1, 0};  // unit, from the lamp; of a spot
   float cosInner = -1,
         cosOuter = -1;  // full light within the inner, none outside the outer half angle; -1: all round
@@ -110,8 +110,8 @@ struct Lamp {
   NodeId node{};
 };
 
-constexpr float kLeastIrradiance = 1e-3f;  // scene units
-float rangeOf(glm::vec3 intensity);        // where its brightest channel falls to kLeastIrradiance
+constexpr float kMinIrradiance = 1e-3f;  // scene units
+float rangeOf(glm::vec3 intensity);      // where its brightest channel falls to kMinIrradiance
 
 // A direction of a light in the world, by the matrix of its node; where a scale is 0 as it is in the node.
 glm::vec3 turnDirection(const glm::mat4& node, glm::vec3 direction);

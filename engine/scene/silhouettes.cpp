@@ -32,7 +32,7 @@ int widestAxis(const Items& items) {
 void Silhouettes::find(std::span<const Instance> instances, glm::vec3 eye, float near) {
   seen_.clear();
   pairs_.clear();
-  if (instances.size() <= kMostSpheres) {
+  if (instances.size() <= kMaxSpheres) {
     for (std::size_t i = 0; i < instances.size(); ++i) {
       const Instance& instance = instances[i];
       const glm::vec3 to = instance.center - eye;
@@ -55,7 +55,7 @@ void Silhouettes::find(std::span<const Instance> instances, glm::vec3 eye, float
   rows_.assign(std::max<std::size_t>(instances.size(), 1), glm::uvec4(0));
   for (std::size_t begin = 0, end = 0; begin < pairs_.size(); begin = end) {
     while (end < pairs_.size() && pairs_[end].first == pairs_[begin].first) ++end;
-    const std::size_t count = std::min(end - begin, kMostEach);
+    const std::size_t count = std::min(end - begin, kMaxEach);
     rows_[seen_[pairs_[begin].first].index] = {rows_.size(), count, 0, 0};
     for (std::size_t pair = end - count; pair < end; ++pair) {
       const Instance& before = instances[seen_[pairs_[pair].second].index];
@@ -86,7 +86,7 @@ void Silhouettes::findPairs(float near) {
       if (apart > reach || apart < std::abs(a.angle - b.angle) - near) continue;
       const bool first = isBehind(a.power, a.index, b.power, b.index);
       pairs_.emplace_back(first ? i : k, first ? k : i);
-      if (pairs_.size() > kMostPairs) return pairs_.clear();
+      if (pairs_.size() > kMaxPairs) return pairs_.clear();
     }
 }
 

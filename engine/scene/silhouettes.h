@@ -15,15 +15,15 @@ namespace weft::scene {
 class Silhouettes {
  public:
   // Of more spheres none are found, and a sphere knows at most so many before it, those that are drawn last.
-  static constexpr std::size_t kMostSpheres = 4096, kMostEach = 32;
-  static constexpr std::size_t kMostPairs = 131072;  // that meet; of more none are found either
+  static constexpr std::size_t kMaxSpheres = 4096, kMaxEach = 32;
+  static constexpr std::size_t kMaxPairs = 131072;  // that meet; of more none are found either
 
   // `near`: radians; silhouettes that come so near to each other, seen from `eye`, meet. Costs n log n in the spheres and in the pairs
   // that meet, and looks at each pair whose spans along one axis overlap. Allocates nothing when called again with as many.
   void find(std::span<const Instance> instances, glm::vec3 eye, float near);
 
   // Elements 0 to instances - 1: first element and number of the spheres before it, and two zeros. Then, for each such sphere, the bits of four
-  // floats: its centre from the eye, world axes, and its radius. At least one element.
+  // floats: its center from the eye, world axes, and its radius. At least one element.
   const std::vector<glm::uvec4>& rows() const { return rows_; }
 
  private:

@@ -1,10 +1,10 @@
 // Back-to-front draw order on the CPU, and the contract it shares with shaders/spheres/sort/order.glsl.
 //
 // What is compared, d, in float, in exactly this order without fused operations (`precise` in GLSL):
-//   power: d = ((x * x + y * y) + z * z) - r * r, with (x, y, z) = centre - eye: the squared length of a tangent from the eye.
+//   power: d = ((x * x + y * y) + z * z) - r * r, with (x, y, z) = center - eye: the squared length of a tangent from the eye.
 //     Of two spheres that do not meet, the one with the greater power is never before the other: the plane in which both powers
 //     are equal lies between them, and the eye is on the nearer one's side of it (Aurenhammer, "Power diagrams", SIAM J. Comput. 1987).
-//   depth: d = -(((V[0].z * x + V[1].z * y) + V[2].z * z) + V[3].z), -z of its centre in view space
+//   depth: d = -(((V[0].z * x + V[1].z * y) + V[2].z * z) + V[3].z), -z of its center in view space
 // Key, a uint, of *descending* d (farthest first when sorted ascending):
 //   d is NaN  -> 0xffffffff (last);     d == 0 -> d = +0 (so that -0 equals +0)
 //   b = floatBitsToUint(d);   u = (b & 0x80000000) != 0 ? ~b : b | 0x80000000;   key = ~u

@@ -5,9 +5,9 @@
 #include "surface.glsl"
 
 // Weight of a neighbor by its distance from the tangent plane, 0 at `thickness`; `pixel` is the neighbor's in the depth.
-float onPlane(vec3 place, vec3 n, float thickness, ivec2 pixel, float neighbour_distance) {
-  if (neighbour_distance <= 0.0) return 0.0;
-  vec3 other = axisRay(vec2(pixel) + 0.5) * neighbour_distance;
+float onPlane(vec3 place, vec3 n, float thickness, ivec2 pixel, float neighbor_distance) {
+  if (neighbor_distance <= 0.0) return 0.0;
+  vec3 other = axisRay(vec2(pixel) + 0.5) * neighbor_distance;
   float off = abs(dot(other - place, n)) / thickness;
   return max(1.0 - off * off, 0.0);
 }

@@ -1,7 +1,7 @@
 // weft_compare: how two PNG files differ, for the golden and window tests.
 //   weft_compare ACTUAL EXPECTED STEP FRACTION [DIFFERENCE.png]   exit 0 when at most FRACTION of the pixels have a channel
 //                                                                 that differs, and none by more than STEP (of 255)
-//   weft_compare --describe FILE                                  width, height, mean and standard deviation of the colours
+//   weft_compare --describe FILE                                  width, height, mean and standard deviation of the colors
 //   weft_compare --flip REFERENCE TEST PIXELS_PER_DEGREE          the FLIP error of each pixel, a line each
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using namespace weft;
 namespace {
 
 int printFlip(const std::string& reference, const std::string& test, double density) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto a = assets::loadImage8(reference, 3, diagnostics), b = assets::loadImage8(test, 3, diagnostics);
   if (!a || !b) {
     std::fputs(diagnostics.text().c_str(), stderr);
@@ -31,7 +31,7 @@ int printFlip(const std::string& reference, const std::string& test, double dens
 }
 
 int describe(const std::string& path) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto image = assets::loadImage8(path, 3, diagnostics);
   if (!image) {
     std::fputs(diagnostics.text().c_str(), stderr);
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
   if (arguments.size() == 4 && arguments[0] == "--flip")
     return printFlip(arguments[1], arguments[2], std::atof(arguments[3].c_str()));
   if (arguments.size() < 4) return 2;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto actual = assets::loadImage8(arguments[0], 4, diagnostics);
   const auto expected = assets::loadImage8(arguments[1], 4, diagnostics);
   if (!actual || !expected) {

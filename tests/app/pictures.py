@@ -46,8 +46,8 @@ def exr(rows, half=False):
 
 
 def jpeg(levels):
-    """A grey baseline JPEG of one row of 8x8 blocks, each of one level: only the first coefficient of a block is not 0. `levels` are
-    the differences from 128; the quantiser is 8, so that the coefficient is the level itself."""
+    """A gray baseline JPEG of one row of 8x8 blocks, each of one level: only the first coefficient of a block is not 0. `levels` are
+    the differences from 128; the quantizer is 8, so that the coefficient is the level itself."""
     def segment(marker, data):
         return bytes([0xFF, marker]) + struct.pack(">H", len(data) + 2) + data
 

@@ -8,21 +8,21 @@
 using namespace weft;
 using assets::CubeLut;
 
-static std::optional<CubeLut> read(std::string_view text, base::Diagnostics& diagnostics) {
+static std::optional<CubeLut> read(std::string_view text, text::Diagnostics& diagnostics) {
   return assets::readCubeLut(text, "test.cube", diagnostics);
 }
 
 // The one diagnostic of a text that must fail.
-static base::Diagnostic failureOf(std::string_view text) {
-  base::Diagnostics diagnostics;
+static text::Diagnostic failureOf(std::string_view text) {
+  text::Diagnostics diagnostics;
   CHECK_FALSE(read(text, diagnostics));
   REQUIRE(diagnostics.size() == 1);
-  CHECK(diagnostics.items()[0].code == base::Code::notACubeTable);
+  CHECK(diagnostics.items()[0].code == text::Code::notACubeTable);
   return diagnostics.items()[0];
 }
 
 TEST_CASE("a 3D table with comments, a title, a domain and carriage returns") {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   std::string text =
       "# by hand\r\nTITLE \"warm look\"\r\nLUT_3D_SIZE 2\r\nDOMAIN_MIN 0 -1 0\r\nDOMAIN_MAX 1 +2.5 "
       "4e0\r\n\r\n";
@@ -41,7 +41,7 @@ TEST_CASE("a 3D table with comments, a title, a domain and carriage returns") {
 
 TEST_CASE("a 1D table, without a final newline, from a file") {
   const TemporaryFolder folder;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto lut = assets::loadCubeLut(
       folder.write("a.cube", "LUT_1D_SIZE 3\nLUT_1D_INPUT_RANGE 0 2\n0 0 0\n.5 .5 .5\n1 1 1"), diagnostics);
   REQUIRE(lut);
@@ -49,7 +49,7 @@ TEST_CASE("a 1D table, without a final newline, from a file") {
   CHECK(lut->domainMax[2] == 2);
   CHECK(lut->texels.size() == 9);
   CHECK_FALSE(assets::loadCubeLut(folder.at("missing.cube"), diagnostics));
-  CHECK(diagnostics.contains(base::Code::unreadableFile));
+  CHECK(diagnostics.contains(text::Code::unreadableFile));
 }
 
 TEST_CASE("every mistake names its line") {
@@ -71,7 +71,7 @@ TEST_CASE("every mistake names its line") {
 }
 
 TEST_CASE("a file of another kind is reported once, a table full of rubbish with a bounded list") {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   std::string text;
   for (int i = 0; i < 1000; ++i) text += "rubbish\n";
   CHECK_FALSE(read(text, diagnostics));

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <set>
 
-#include "engine/base/codes.h"
-#include "engine/base/json/dom.h"
+#include "engine/text/codes.h"
+#include "engine/text/json/dom.h"
 #include "tests/convert/converted.h"
 
 using namespace weft;
@@ -16,7 +16,7 @@ TEST_CASE("every file of tests/convert becomes a graph that Weft reads") {
   for (const auto& file : filesIn("mpv", ".glsl")) files.push_back(file);
   for (const auto& file : files) {
     CAPTURE(file.string());
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     const auto converted = convertFile(file.string(), {}, diagnostics);
     REQUIRE_MESSAGE(converted, diagnostics.text());
     CHECK_FALSE(diagnostics.hasErrors());
@@ -53,19 +53,19 @@ TEST_CASE("every file of tests/convert becomes a graph that Weft reads") {
 }
 
 TEST_CASE("every broken file gives the diagnostic of its name, at its place, and says what would fix it") {
-  base::Diagnostics said;
-  const auto manifest = base::parseJson(textOf(kFolder / "bad/manifest.json"), nullptr, said);
+  text::Diagnostics said;
+  const auto manifest = text::parseJson(textOf(kFolder / "bad/manifest.json"), nullptr, said);
   REQUIRE(manifest);
   std::set<std::string> listed;
-  for (const base::JsonValue& entry : manifest->find("files")->items) {
+  for (const text::JsonValue& entry : manifest->find("files")->items) {
     const std::string& name = entry.find("file")->text;
     CAPTURE(name);
     listed.insert(name);
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     CHECK_FALSE(convertFile((kFolder / "bad" / name).string(), {}, diagnostics));
     REQUIRE(diagnostics.size() == 1);
-    const base::Diagnostic& d = diagnostics.items()[0];
-    CHECK(base::nameOf(d.code) == entry.find("code")->text);
+    const text::Diagnostic& d = diagnostics.items()[0];
+    CHECK(text::nameOf(d.code) == entry.find("code")->text);
     CHECK(d.place.line == static_cast<std::uint32_t>(entry.find("line")->number));
     CHECK(d.place.column == static_cast<std::uint32_t>(entry.find("column")->number));
     CHECK_FALSE(d.hint.empty());
@@ -78,7 +78,7 @@ TEST_CASE("codes of imports have a broken file and a section in docs/errors.md")
   const std::string errors = textOf(WEFT_SOURCE_DIR "/docs/errors.md");
   const std::string manifest = textOf(kFolder / "bad/manifest.json");
 #define WEFT_TEST_CODE(number, name, title)                                 \
-  if (base::numberOf(#number) >= 220 && base::numberOf(#number) <= 226) {   \
+  if (text::numberOf(#number) >= 220 && text::numberOf(#number) <= 226) {   \
     CHECK(errors.find("## " #number ": " title "\n") != std::string::npos); \
     CHECK(manifest.find("\"" #number "\"") != std::string::npos);           \
   }

@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "app/import/import.h"
-#include "engine/base/diagnostic.h"
 #include "engine/graph/desc.h"
 #include "engine/graph/expand/expand.h"
 #include "engine/graph/read/read.h"
+#include "engine/text/diagnostic.h"
 #include "tests/graph/test_registry.h"
 
 namespace weft::importing::test {
@@ -39,20 +39,20 @@ inline std::vector<std::filesystem::path> filesIn(const char* folder, const char
   return found;
 }
 
-inline std::optional<Converted> convertIsfText(std::string_view fragment, base::Diagnostics& diagnostics,
+inline std::optional<Converted> convertIsfText(std::string_view fragment, text::Diagnostics& diagnostics,
                                                std::string_view vertex = {}) {
   IsfSource source{.fragment = fragment, .fragmentFile = "x.fs", .vertexFile = "x.vs"};
   if (!vertex.empty()) source.vertex = vertex;
   return convertIsf(source, {.name = "x"}, diagnostics);
 }
 
-inline std::optional<Converted> convertMpvText(std::string_view text, base::Diagnostics& diagnostics) {
+inline std::optional<Converted> convertMpvText(std::string_view text, text::Diagnostics& diagnostics) {
   return convertMpv(text, "x.glsl", {.name = "x"}, diagnostics);
 }
 
-inline std::string codesOf(const base::Diagnostics& diagnostics) {
+inline std::string codesOf(const text::Diagnostics& diagnostics) {
   std::string codes;
-  for (const base::Diagnostic& d : diagnostics.items()) codes += base::nameOf(d.code) + " ";
+  for (const text::Diagnostic& d : diagnostics.items()) codes += text::nameOf(d.code) + " ";
   return codes;
 }
 
@@ -67,7 +67,7 @@ inline std::string partOf(const Converted& converted, std::string_view ending) {
 // Whether Weft reads the graph and expands it, with a picture and without. What the values of a foreign file make wrong, a
 // size of 0 or a division by it, is no fault of the import: `values` allows it.
 inline bool isSound(const Converted& converted, std::string& why, bool values = false) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto desc = graph::readGraphText(partOf(converted, converted.graph), converted.graph, diagnostics);
   if (!desc || !diagnostics.empty()) {
     why = diagnostics.text();
@@ -84,12 +84,12 @@ inline bool isSound(const Converted& converted, std::string& why, bool values = 
       facts.height = 64;
       return facts;
     };
-    base::Diagnostics said;
+    text::Diagnostics said;
     const auto flat = graph::expandGraph(*desc, registry, {.screenWidth = 96, .screenHeight = 64}, said);
-    for (const base::Diagnostic& d : said.items()) {
-      const bool ofValues = d.code == base::Code::numberOutOfRange || d.code == base::Code::noFiniteResult ||
-                            d.code == base::Code::texturesTooLarge || d.code == base::Code::limitExceeded;
-      if (d.severity == base::Severity::error && !(values && ofValues)) {
+    for (const text::Diagnostic& d : said.items()) {
+      const bool ofValues = d.code == text::Code::numberOutOfRange || d.code == text::Code::noFiniteResult ||
+                            d.code == text::Code::texturesTooLarge || d.code == text::Code::limitExceeded;
+      if (d.severity == text::Severity::error && !(values && ofValues)) {
         why = said.text();
         return false;
       }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-#include "engine/base/limits.h"
+#include "engine/text/limits.h"
 #include "tests/convert/converted.h"
 
 using namespace weft;
@@ -15,7 +15,7 @@ using namespace weft::importing::test;
 namespace {
 
 void expectSane(const std::string& text, bool isf) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto converted = isf ? convertIsfText(text, diagnostics) : convertMpvText(text, diagnostics);
   if (converted) {
     std::string why;
@@ -23,7 +23,7 @@ void expectSane(const std::string& text, bool isf) {
     return;
   }
   CHECK(diagnostics.hasErrors());
-  for (const base::Diagnostic& d : diagnostics.items()) {
+  for (const text::Diagnostic& d : diagnostics.items()) {
     CHECK(d.place.file);
     CHECK(d.place.line > 0);
     CHECK_FALSE(d.message.empty());
@@ -80,7 +80,7 @@ TEST_CASE("files with bytes changed, taken out and doubled") {
 
 TEST_CASE("headers that want too much are refused, each for its reason") {
   const auto said = [](const std::string& header) {
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     CHECK_FALSE(convertIsfText("/*" + header + "*/\nvoid main() {}\n", diagnostics));
     return codesOf(diagnostics);
   };
@@ -97,7 +97,7 @@ TEST_CASE("headers that want too much are refused, each for its reason") {
 
 TEST_CASE("user shaders that want too much are refused, each for its reason") {
   const auto said = [](const std::string& text) {
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     CHECK_FALSE(convertMpvText(text, diagnostics));
     return codesOf(diagnostics);
   };
@@ -123,7 +123,7 @@ TEST_CASE("conditions that each pass takes over from two before it are each writ
           "//!HOOK MAIN\n//!BIND HOOKED\n//!BIND X{0}\n//!BIND Y{0}\n//!SAVE {1}{2}\n{3}"
           "vec4 hook() {{ return HOOKED_texOff(0) + X{0}_texOff(0) + Y{0}_texOff(0); }}\n",
           i - 1, save, i, i % 2 ? "//!WHEN p 3 <\n" : "");
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto converted = convertMpvText(text, diagnostics);
   REQUIRE_MESSAGE(converted, diagnostics.text());
   std::string why;

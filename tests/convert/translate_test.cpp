@@ -8,14 +8,14 @@ using namespace weft::importing::test;
 namespace {
 
 std::string fragmentOf(const std::string& body, const std::string& header = "{}") {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto converted = convertIsfText("/*" + header + "*/\n" + body, diagnostics);
   REQUIRE_MESSAGE(converted, diagnostics.text());
   return partOf(*converted, ".fs.glsl").substr(header.size() + 5);
 }
 
 std::string graphOf(const std::string& header, const std::string& body) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto converted = convertIsfText("/*" + header + "*/\n" + body, diagnostics);
   REQUIRE_MESSAGE(converted, diagnostics.text());
   std::string why;
@@ -28,7 +28,7 @@ bool has(const std::string& text, std::string_view part) {
 }
 
 std::string mpvGraphOf(const std::string& text) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto converted = convertMpvText(text, diagnostics);
   REQUIRE_MESSAGE(converted, diagnostics.text());
   std::string why;
@@ -85,7 +85,7 @@ TEST_CASE("what players declare beside an image is there, for inputs and targets
             R"("read": { "a": "a as linear ?" })"));
   const std::string_view fragment =
       R"(/*{"INPUTS": [{"NAME": "a", "TYPE": "image"}]}*/ void main() { gl_FragColor = IMG_THIS_PIXEL(a); })";
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   CHECK(convertIsfText(fragment, diagnostics,
                        "void main() { isf_vertShaderInit(); gl_Position.xy /= _a_imgSize; }"));
   CHECK(diagnostics.size() == 0);
@@ -170,7 +170,7 @@ TEST_CASE("stages run in mpv's order, whatever the order of the file") {
 }
 
 TEST_CASE("texels in the file become pictures, lowest row first") {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto converted = convertMpvText(
       "//!TEXTURE T\n//!SIZE 1 2\n//!FORMAT rgb8\n010203\nfffefd\n"
       "//!TEXTURE F\n//!SIZE 2 1\n//!FORMAT r16hf\n003c00b8\n"
@@ -184,19 +184,19 @@ TEST_CASE("texels in the file become pictures, lowest row first") {
 }
 
 TEST_CASE("comments of // may stand before an ISF header, and keep its places") {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const std::string body = "void main() { gl_FragColor = vec4(isf_FragNormCoord, 0.0, 1.0); }";
   const auto converted =
       convertIsfText("// Week 1\n\n// by nobody\r\n/*{ \"INPUTS\": [] }*/\n" + body, diagnostics);
   REQUIRE_MESSAGE(converted, diagnostics.text());
   CHECK(has(partOf(*converted, ".fs.glsl"), "// by nobody"));
-  base::Diagnostics wrong;
+  text::Diagnostics wrong;
   CHECK_FALSE(convertIsfText("// Week 1\n/*{ \"INPUTS\": [ { \"TYPE\": \"float\" } ] }*/\n" + body, wrong));
   REQUIRE(wrong.size() == 1);
   CHECK(wrong.items()[0].place.line == 2);
   for (const char* none : {"// only this", "//", "// a\nvoid main() {}", "/ /*{}*/"}) {
-    base::Diagnostics said;
+    text::Diagnostics said;
     CHECK_FALSE(convertIsfText(none, said));
-    CHECK(said.contains(base::Code::notIsf));
+    CHECK(said.contains(text::Code::notIsf));
   }
 }

@@ -17,7 +17,7 @@ namespace weft::gl::test {
 // required.
 inline Context& context() {
   static const std::unique_ptr<Context> opened = [] {
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     auto made = createContext({.backend = Backend::osmesa}, diagnostics);
     if (!made) {
       std::fprintf(stderr, "%s", diagnostics.text().c_str());
@@ -35,7 +35,7 @@ class CleanScope {
   CleanScope() : log_(context().debugLog()), before_(liveObjects()) {}
   ~CleanScope() {
     CHECK(takeErrors() == "");
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     log_.drain(diagnostics);
     CHECK_MESSAGE(!log_.hasAboveNotification(), diagnostics.text());
     CHECK_MESSAGE(liveObjects() == before_, "alive: " << toText(liveObjects()));

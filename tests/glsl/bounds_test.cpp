@@ -4,13 +4,13 @@
 #include <functional>
 #include <set>
 
-#include "engine/base/limits.h"
 #include "engine/glsl/interface.h"
+#include "engine/text/limits.h"
 #include "tests/gl/documented.h"
 
 using namespace weft::glsl;
-using weft::base::Code;
-using weft::base::Diagnostics;
+using weft::text::Code;
+using weft::text::Diagnostics;
 namespace fs = std::filesystem;
 
 namespace {
@@ -54,8 +54,8 @@ std::string inMain(const std::string& body) {
 // Which limit a message is about.
 std::uint64_t boundOf(const std::string& message) {
   const auto has = [&](const char* words) { return message.find(words) != std::string::npos; };
-  if (has("nested too deeply")) return kMostShaderDepth;
-  return has("the shader is too large") ? kMostShaderBytes : kMostShaderTokens;
+  if (has("nested too deeply")) return kMaxShaderDepth;
+  return has("the shader is too large") ? kMaxShaderBytes : kMaxShaderTokens;
 }
 
 void refuses(const std::string& text, const std::string& message, std::uint32_t line) {
@@ -66,7 +66,7 @@ void refuses(const std::string& text, const std::string& message, std::uint32_t 
   for (const auto& d : m.diagnostics.items())
     if (d.code == Code::shaderTooLarge && d.message.find(message) != std::string::npos) {
       found = true;
-      CHECK_MESSAGE(d.place.line == line, weft::base::format(d));
+      CHECK_MESSAGE(d.place.line == line, weft::text::format(d));
       CHECK(*d.place.file == "bomb.frag.glsl");
       CHECK(d.expected.starts_with("at most " + std::to_string(boundOf(message)) + " "));
       CHECK_FALSE(d.found.empty());

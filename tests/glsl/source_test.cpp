@@ -5,14 +5,14 @@
 
 #include <algorithm>
 
-#include "engine/base/files/file_access.h"
+#include "engine/text/files/file_access.h"
 #include "tests/temporary_folder.h"
 
 using namespace weft::glsl;
-using weft::base::Code;
-using weft::base::Diagnostic;
-using weft::base::Diagnostics;
-using weft::base::Severity;
+using weft::text::Code;
+using weft::text::Diagnostic;
+using weft::text::Diagnostics;
+using weft::text::Severity;
 
 namespace {
 
@@ -147,7 +147,7 @@ TEST_CASE("a missing shader is reported at the one who named it, a directory as 
   folder.write("sky/sky.frag.glsl", "void main() {}\n");
   SourceLoader loader({folder.path().string()});
   Diagnostics diagnostics;
-  const weft::base::Place graph{std::make_shared<const std::string>("studio.json"), 12, 40};
+  const weft::text::Place graph{std::make_shared<const std::string>("studio.json"), 12, 40};
   CHECK_FALSE(loader.load("sky/skye.frag.glsl", diagnostics, graph));
   CHECK_FALSE(loader.load("sky", diagnostics, graph));
   CHECK_FALSE(loader.load("project/sky/sky.frag.glsl", diagnostics, graph));
@@ -193,7 +193,7 @@ TEST_CASE("a shader's path leads where it says, until reading is confined") {
   diagnostics.clear();
 
   loader.clear();
-  REQUIRE_FALSE(weft::base::confineTo(folder.at("x")));
+  REQUIRE_FALSE(weft::text::confineTo(folder.at("x")));
   CHECK(loader.load("a.frag.glsl", diagnostics));
   const std::pair<std::string, std::string> outside[] = {
       {"../../secret.glsl", "secret.glsl"},      {"../../gone.glsl", "gone.glsl"},
@@ -209,7 +209,7 @@ TEST_CASE("a shader's path leads where it says, until reading is confined") {
   CHECK_FALSE(loader.load("b.frag.glsl", diagnostics));
   CHECK(diagnostics.items()[0].code == Code::unreadableShader);
   CHECK(diagnostics.items()[0].hint == "did you mean 'a.frag.glsl'?");
-  weft::base::resetFileAccess();
+  weft::text::resetFileAccess();
 }
 
 TEST_CASE("a shader that is a pipe is refused") {

@@ -162,8 +162,8 @@ inline ImportFacts testFacts(const World& world, const ImportRequest& request) {
     facts.exists = world.shadowedLights > 0;
     facts.count = world.shadowedLights;
   } else if (request.type == "probes" && request.arguments[1].second.v[0] < 1) {
-    base::Diagnostic problem;  // as the import says it: without a place
-    problem.code = base::Code::badImportArgument;
+    text::Diagnostic problem;  // as the import says it: without a place
+    problem.code = text::Code::badImportArgument;
     problem.message = "import 'probes': argument 'grid' does not fit";
     problem.expected = "three whole numbers from 1 to 256 whose product is at most 262144";
     problem.found = toText(request.arguments[1].second);

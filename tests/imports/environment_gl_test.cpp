@@ -32,7 +32,7 @@ std::vector<std::vector<float>> levelsOf(const gl::TextureRef& texture) {
 
 // Calls until it is there.
 int sendAll(EnvironmentTextures& textures, const EnvironmentTextures::Map& map,
-            base::Diagnostics& diagnostics) {
+            text::Diagnostics& diagnostics) {
   int calls = 0;
   float before = 0;
   for (std::optional<float> sent; !sent || *sent < 1; before = *sent) {
@@ -49,7 +49,7 @@ int sendAll(EnvironmentTextures& textures, const EnvironmentTextures::Map& map,
 TEST_CASE("an environment that was sent in portions is the one uploaded at once, with every level") {
   context();
   const CleanScope scope;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   EnvironmentTextures sent, direct;
   for (const auto& map : {makeMap(2048, 1024, 1), makeMap(37, 19, 2), makeMap(1, 1, 3), makeMap(1500, 750, 4),
                           makeMap(1501, 751, 5)}) {  // no powers of two
@@ -70,7 +70,7 @@ TEST_CASE("an environment that was sent in portions is the one uploaded at once,
 TEST_CASE("the environment in use stays as it is while another is sent, dropped, or replaced on the way") {
   context();
   const CleanScope scope;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   EnvironmentTextures textures;
   const auto a = makeMap(64, 32, 1), b = makeMap(2048, 1024, 2), c = makeMap(32, 16, 3);
   REQUIRE(textures.use(a, diagnostics));
@@ -130,7 +130,7 @@ TEST_CASE("an environment that the GPU has is not kept on the CPU, and stays thr
 TEST_CASE("a map that the GPU cannot hold is refused, and the one in use stays") {
   context();
   const CleanScope scope;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   EnvironmentTextures textures;
   const auto good = makeMap(8, 4, 1);
   auto wide = std::make_shared<assets::EnvironmentMap>(assets::EnvironmentMap{1u << 20, 1, {}});
@@ -138,7 +138,7 @@ TEST_CASE("a map that the GPU cannot hold is refused, and the one in use stays")
   REQUIRE(textures.use(good, diagnostics));
   CHECK(!textures.send(wide, diagnostics));
   CHECK(!textures.use(wide, diagnostics));
-  CHECK(diagnostics.contains(base::Code::textureNotCreated));
+  CHECK(diagnostics.contains(text::Code::textureNotCreated));
   CHECK(textures.current()->ref().desc.width == 8);
 }
 
@@ -157,7 +157,7 @@ TEST_CASE(
       const auto pixels = late.pixels();
       for (std::size_t i = 0; i < pixels.size(); ++i) REQUIRE(pixels[i] == (i % 4 == 3 ? 255 : 0));
     }
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     sendAll(late.renderer().device().imports.find<EnvironmentProvider>()->textures(), map, diagnostics);
     late.world.setEnvironment(map);
     CHECK(!late.world.environmentPending());
@@ -179,7 +179,7 @@ TEST_CASE(
       wanted("graphs/glow.json", 32, 18);
   stage.world.expectEnvironment();
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   CHECK(stage.renderer().frame(stage.world, headlessFrame(stage.world, 0, 60), diagnostics).passesRun > 0);
   sky.world.expectEnvironment();
   REQUIRE(sky.load());

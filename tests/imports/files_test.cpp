@@ -19,13 +19,13 @@ TEST_CASE("a table is parsed once, again when its file changed, and its mistakes
   const std::string path = folder.at("a.cube");
   const auto write = [&](const std::string& text) { std::ofstream(path) << text; };
   Files files;
-  const auto table = [&](base::Diagnostics& said) {
+  const auto table = [&](text::Diagnostics& said) {
     return files.get<assets::CubeLut>(path, assets::loadCubeLut, said);
   };
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   for (int i = 0; i < 2; ++i) {
     CHECK(!table(diagnostics));
-    CHECK(diagnostics.contains(base::Code::unreadableFile));
+    CHECK(diagnostics.contains(text::Code::unreadableFile));
     diagnostics.clear();
   }
   write("LUT_1D_SIZE 2\n0 0 0\n1 1 1\n");

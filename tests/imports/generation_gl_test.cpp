@@ -27,9 +27,9 @@ std::string cubeOf(const std::string& last) {
 }
 
 // A TGA of one texel.
-std::string pixelOf(char grey) {
+std::string pixelOf(char gray) {
   std::string bytes("\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\x18\0", 18);
-  return bytes + grey + grey + grey;
+  return bytes + gray + gray + gray;
 }
 
 std::shared_ptr<const assets::EnvironmentMap> blackMap() {
@@ -63,7 +63,7 @@ TEST_CASE("an import has one generation as long as nothing of it changes, and an
     Moment moment;
     moment.world.setEnvironment(blackMap());
     const auto generation = [&] {
-      base::Diagnostics said;
+      text::Diagnostics said;
       ++moment.input.frame;  // a frame later, of the same moment
       imports.beginFrame(moment.world, moment.input);
       if (type.kind == graph::ImportKind::texture) imports.texture(spec, said);

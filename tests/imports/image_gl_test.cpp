@@ -17,7 +17,7 @@ using namespace weft::runtime::test;
 namespace {
 
 void save(const std::string& path, int width, int height, std::uint8_t level) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const std::vector<std::uint8_t> texels(static_cast<std::size_t>(width * height), level);
   REQUIRE(assets::savePng8(path, width, height, 1, texels, diagnostics));
 }
@@ -53,7 +53,7 @@ TEST_CASE("a save of the file shows, with another size too; a broken one leaves 
   folder.write("a.png", "no picture");
   CHECK_FALSE(stage.load());
   REQUIRE(stage.diagnostics.items().size() == 1);
-  CHECK(stage.diagnostics.items()[0].code == base::Code::unreadableImage);
+  CHECK(stage.diagnostics.items()[0].code == text::Code::unreadableImage);
   stage.run(3);
   CHECK(stage.pixels() == std::vector<std::uint8_t>{90, 90, 90, 255, 90, 90, 90, 255});
 }
@@ -106,7 +106,7 @@ namespace {
 
 // Four columns: two of `left`, two of `right`.
 void saveHalves(const std::string& path, std::uint8_t left, std::uint8_t right) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   std::vector<std::uint8_t> texels;
   for (int y = 0; y < 4; ++y) texels.insert(texels.end(), {left, left, right, right});
   REQUIRE(assets::savePng8(path, 4, 4, 1, texels, diagnostics));

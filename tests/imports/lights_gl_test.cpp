@@ -51,7 +51,7 @@ std::optional<float> hitAt(glm::vec3 from, glm::vec3 direction, float grown, flo
   return nearest;
 }
 
-// World direction of the centre of a texel of a face: OpenGL 4.5 core, table 8.19, turned round.
+// World direction of the center of a texel of a face: OpenGL 4.5 core, table 8.19, turned round.
 glm::vec3 directionOf(int face, float s, float t) {
   switch (face) {
     case 0:

@@ -43,16 +43,16 @@ TEST_CASE("more sizes than there are samplers: the rest goes to the nearest size
   const auto arrays = batchTextures(scene);
   REQUIRE(arrays.size() == kMaterialArrays);
   std::set<std::uint32_t> seen;
-  int colours = 0;
+  int colors = 0;
   for (const MaterialArray& array : arrays) {
     for (const std::uint32_t texture : array.textures) {
       CHECK(seen.insert(texture).second);
       CHECK(scene.textures.rows()[texture].srgb == array.srgb);
     }
-    colours += array.srgb;
+    colors += array.srgb;
   }
   CHECK(seen.size() == 13);
-  CHECK(colours == 1);
+  CHECK(colors == 1);
   for (const MaterialArray& array : arrays)
     if (!array.srgb && array.width == 32)
       CHECK(std::set(array.textures.begin(), array.textures.end()) ==

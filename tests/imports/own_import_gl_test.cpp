@@ -26,7 +26,7 @@ struct Told {
 class PulseProvider : public imports::Provider {
  public:
   explicit PulseProvider(const Told& told) : told_(told) {}
-  gl::TextureRef texture(const imports::Frame&, base::Diagnostics& diagnostics) override {
+  gl::TextureRef texture(const imports::Frame&, text::Diagnostics& diagnostics) override {
     if (!texture_) {
       auto made = gl::Texture::create({.width = 2, .height = 2}, "pulse", diagnostics);
       REQUIRE(made);
@@ -66,7 +66,7 @@ class Pulse : public imports::Import {
 struct Bench {
   Told told;
   World world = worldOf();
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   Renderer renderer{context(),
                     sourcePath("tests/imports/graphs/pulse.json"),
                     {.dataFolder = WEFT_SOURCE_DIR, .plugIns = plugIns(told)}};
@@ -144,7 +144,7 @@ TEST_CASE(
   CHECK(bench.told.providers == 1);
   Stage without("tests/imports/graphs/pulse.json");
   CHECK_FALSE(without.load());
-  CHECK(without.diagnostics.contains(base::Code::unknownImport));
+  CHECK(without.diagnostics.contains(text::Code::unknownImport));
 }
 
 namespace {
@@ -153,7 +153,7 @@ namespace {
 class SheetsProvider : public imports::Provider {
  public:
   explicit SheetsProvider(const Told& told) : told_(told) {}
-  gl::TextureRef texture(const imports::Frame&, base::Diagnostics& diagnostics) override {
+  gl::TextureRef texture(const imports::Frame&, text::Diagnostics& diagnostics) override {
     if (texture_ && made_ == told_.generation) return texture_.ref();
     texture_ = {};
     auto made =
@@ -216,7 +216,7 @@ TEST_CASE(
   auto registry = std::make_shared<imports::ImportRegistry>(imports::ImportRegistry::builtin());
   registry->add(std::make_unique<Sheets>(told));
   World world = worldOf();
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   Renderer renderer(context(), folder.at("graph.json"),
                     {.dataFolder = WEFT_SOURCE_DIR, .plugIns = {.imports = std::move(registry)}});
   REQUIRE_MESSAGE(renderer.load({.screenWidth = 2, .screenHeight = 2}, world, diagnostics),
@@ -237,7 +237,7 @@ TEST_CASE(
     "there is") {
   context();
   const CleanScope scope;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto texture = gl::Texture::create({.width = 4, .height = 2, .mips = 2}, "whole", diagnostics);
   const auto texel = gl::Texture::create({}, "texel", diagnostics);
   REQUIRE((texture && texel));

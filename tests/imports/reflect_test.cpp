@@ -163,7 +163,7 @@ TEST_CASE("a table is not there without a file; a file that cannot be read is sa
   const graph::ImportFacts missing = importOf("cube_lut").facts(request, {}, files);
   CHECK_FALSE(missing.exists);
   REQUIRE(missing.problems.size() == 1);
-  CHECK(missing.problems[0].code == base::Code::unreadableFile);
+  CHECK(missing.problems[0].code == text::Code::unreadableFile);
   CHECK(files.touched() == std::set<std::string>{"no/such/table.cube"});
 }
 
@@ -171,7 +171,7 @@ TEST_CASE("an image is not there without a file; a sequence is watched with the 
   CHECK(importOf("image").reflect().kind == ImportKind::texture);
   CHECK_FALSE(factsOf(requestOf("image"), {}).exists);
   const TemporaryFolder folder;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const std::vector<std::uint8_t> texels(12, 7);
   REQUIRE(assets::savePng8(folder.at("a.1.png"), 2, 2, 3, texels, diagnostics));
   REQUIRE(assets::savePng8(folder.at("a.12.png"), 2, 2, 3, texels, diagnostics));
@@ -189,13 +189,13 @@ TEST_CASE("an image is not there without a file; a sequence is watched with the 
   const graph::ImportFacts missing = factsOf(requestOf("image", "file", folder.at("b.##.png")), {});
   CHECK_FALSE(missing.exists);
   REQUIRE(missing.problems.size() == 1);
-  CHECK(missing.problems[0].code == base::Code::unreadableImage);
+  CHECK(missing.problems[0].code == text::Code::unreadableImage);
 }
 
 TEST_CASE(
     "a sequence that plays and the mouse change while a graph runs; pictures per second are not below 0") {
   const TemporaryFolder folder;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const std::vector<std::uint8_t> texels(12, 7);
   REQUIRE(assets::savePng8(folder.at("a.1.png"), 2, 2, 3, texels, diagnostics));
   graph::ImportRequest request = requestOf("image", "file", folder.at("a.%d.png"));
@@ -208,7 +208,7 @@ TEST_CASE(
   request.arguments[2].second = graph::Value::number(-1);  // fps
   const graph::ImportFacts facts = factsOf(request, {});
   REQUIRE(facts.problems.size() == 1);
-  CHECK(facts.problems[0].code == base::Code::badImportArgument);
+  CHECK(facts.problems[0].code == text::Code::badImportArgument);
   CHECK(facts.problems[0].found == "-1");
 }
 
@@ -238,7 +238,7 @@ TEST_CASE(
     CAPTURE(graph::toText(value));
     const auto problems = with(1, value);
     REQUIRE(problems.size() == 1);
-    CHECK(problems[0].code == base::Code::badImportArgument);
+    CHECK(problems[0].code == text::Code::badImportArgument);
     CHECK(problems[0].found == graph::toText(value));
     CHECK_FALSE(problems[0].hint.empty());
   }

@@ -13,7 +13,7 @@
 namespace weft::runtime::test {
 
 std::shared_ptr<const graph::Plan> compiledPlan(const std::string& graphFile) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto desc = graph::readGraph(sourcePath(graphFile), diagnostics);
   const auto flat = desc ? graph::expandGraph(*desc, makeRegistry({}, {}), {}, diagnostics) : nullptr;
   REQUIRE_MESSAGE(flat, diagnostics.text());
@@ -23,7 +23,7 @@ std::shared_ptr<const graph::Plan> compiledPlan(const std::string& graphFile) {
 
 PlanOnDevice::PlanOnDevice(const std::string& graphFile)
     : device(context(), shaderRootsOf({{sourcePath(graphFile)}}, WEFT_SOURCE_DIR), "") {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   auto made = preparePlan(device, compiledPlan(graphFile), nullptr, ShaderFiles::read, diagnostics);
   REQUIRE_MESSAGE(diagnostics.empty(), diagnostics.text());
   REQUIRE(made);
@@ -40,7 +40,7 @@ std::size_t PlanOnDevice::step(std::string_view pass) const {
 float PlanOnDevice::texel(std::string_view resource) {
   const std::uint32_t index = lastVersionOf(*plan, resource);
   REQUIRE_MESSAGE(index != graph::kNone, std::string(resource));
-  base::Diagnostics ignored;
+  text::Diagnostics ignored;
   const gl::TextureRef texture =
       pool->view(*plan, {.resource = index}, (*pool)[index].copyOf(0), GL_TEXTURE_2D, ignored);
   return gl::readFloats(texture).at(0);

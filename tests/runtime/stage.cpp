@@ -7,7 +7,7 @@ namespace weft::runtime::test {
 
 gl::Context& context() {
   static const std::unique_ptr<gl::Context> opened = [] {
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     auto made = gl::createContext({.backend = gl::Backend::osmesa}, diagnostics);
     if (!made) weft::test::skipAll("no OSMesa context\n" + diagnostics.text());
     return made;
@@ -21,14 +21,14 @@ std::string sourcePath(const std::string& relative) {
 
 std::shared_ptr<const assets::ImageF> realEnvironment() {
   const std::string path = sourcePath("scenes/environments/spiaggia_di_mondello_1k.hdr");
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   auto image = assets::loadEnvironment(path, diagnostics);
   REQUIRE_MESSAGE(image.has_value(), diagnostics.text());
   return std::make_shared<const assets::ImageF>(std::move(*image));
 }
 
 World worldOf(const std::string& scene) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   auto loaded = scene::loadScene(sourcePath(scene), diagnostics);
   REQUIRE_MESSAGE(loaded.has_value(), diagnostics.text());
   return World(std::move(*loaded));
@@ -36,7 +36,7 @@ World worldOf(const std::string& scene) {
 
 CleanScope::~CleanScope() {
   CHECK(gl::takeErrors() == "");
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   context().debugLog().drain(diagnostics);
   CHECK_MESSAGE(!context().debugLog().hasAboveNotification(), diagnostics.text());
   CHECK_MESSAGE(gl::liveObjects() == before_, "alive: " << gl::toText(gl::liveObjects()));

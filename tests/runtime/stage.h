@@ -45,7 +45,7 @@ class Stage {
 
   graph::Settings settings;
   World world;
-  base::Diagnostics diagnostics;  // of the last load() or frame()
+  text::Diagnostics diagnostics;  // of the last load() or frame()
 
   bool load();                        // reads the file again
   bool apply();                       // does not: the settings alone changed

@@ -29,7 +29,7 @@ TEST_CASE("the near plane has depth 1, infinity 0, and depth falls in between as
   CHECK(infinity.w > 0);
 }
 
-TEST_CASE("known points: the target is the centre, +X right, +Y up, the edge of the field at clip 1") {
+TEST_CASE("known points: the target is the center, +X right, +Y up, the edge of the field at clip 1") {
   const ViewData v = makeView(standard());
   const glm::dvec3 center = project(v.view_projection, {0, 0, 0});
   CHECK(center.x == doctest::Approx(0));

@@ -112,10 +112,10 @@ TEST_CASE("silhouettes: of a crowd those that are drawn last, and none of too ma
   Silhouettes found;
   found.find(instances, glm::vec3(0), 0.01f);
   const glm::uvec4 head = found.rows()[0];
-  REQUIRE(head.y == Silhouettes::kMostEach);
+  REQUIRE(head.y == Silhouettes::kMaxEach);
   CHECK(std::bit_cast<float>(found.rows()[head.x + head.y - 1].z) == -51.0f);  // the nearest of all
-  found.find(anyInstances(Silhouettes::kMostSpheres + 1, 1), glm::vec3(0), 0.01f);
-  CHECK(found.rows().size() == Silhouettes::kMostSpheres + 1);
+  found.find(anyInstances(Silhouettes::kMaxSpheres + 1, 1), glm::vec3(0), 0.01f);
+  CHECK(found.rows().size() == Silhouettes::kMaxSpheres + 1);
   CHECK(std::ranges::all_of(found.rows(), [](glm::uvec4 row) { return row.y == 0; }));
 }
 

@@ -1,4 +1,4 @@
-// The BRDF table of graphs/ibl.json at texel centres, against independent integration.
+// The BRDF table of graphs/ibl.json at texel centers, against independent integration.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 using namespace weft::theory;
 
-TEST_CASE("BRDF table: both channels within 0.005 of the integral at texel centres") {
+TEST_CASE("BRDF table: both channels within 0.005 of the integral at texel centers") {
   Lab lab({.graph = "tests/theory/furnace.json", .balls = {{}}});
   lab.frame();
   const Picture table = lab.read("ibl.brdf");

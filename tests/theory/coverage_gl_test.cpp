@@ -46,7 +46,7 @@ TEST_CASE("coverage: alpha sums to the projected area within 0.2 %") {
   struct Case {
     double x, y, z, radius, fov;
   };
-  // Centred, towards the corners (strongly stretched), close, and down to a few pixels.
+  // Centered, towards the corners (strongly stretched), close, and down to a few pixels.
   const Case cases[] = {{0, 0, 20, 1, 60},        {0.013, 0.02, 20, 1, 60}, {9, 6, 20, 1, 60},
                         {6, -5, 14, 1, 60},       {0.1, 0.2, 1.8, 1, 90},   {2.5, 1.2, 3.5, 1, 100},
                         {5, -3.9, 5.2, 0.7, 120}, {0.31, 0.7, 60, 1, 60},   {-11.3, 7.1, 100, 1, 60},

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t kWidth = 320, kHeight = 240;
 
-// Bright above, a gradient around, darker below: every direction has its own colour.
+// Bright above, a gradient around, darker below: every direction has its own color.
 std::shared_ptr<const weft::assets::ImageF> gradientEnvironment() {
   return makeEnvironment([](int x, int y) {
     const Vec3 d = equirectDirection(x, y, 256, 128);

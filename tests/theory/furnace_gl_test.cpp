@@ -31,7 +31,7 @@ Setup row(std::initializer_list<float> roughnesses, float metallic, bool compens
   return setup;
 }
 
-// What the ray through a pixel's centre meets: the ball and the cosine between its normal and the ray; ball -1: nothing.
+// What the ray through a pixel's center meets: the ball and the cosine between its normal and the ray; ball -1: nothing.
 struct Hit {
   int ball = -1;
   double cosine = 0;
@@ -152,7 +152,7 @@ TEST_CASE("white furnace: without compensation metals show the directional albed
 
 TEST_CASE("white furnace: roughness 1 seen from above is 1 - ln 2") {
   Setup setup = row({1.0f}, 1, false);
-  setup.width = setup.height = 97;  // a pixel at the centre
+  setup.width = setup.height = 97;  // a pixel at the center
   Lab lab(setup);
   lab.frame();
   CHECK(lab.read("hdr").at(48, 48)[0] == doctest::Approx(1 - std::numbers::ln2).epsilon(0.005));

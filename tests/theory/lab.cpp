@@ -12,7 +12,7 @@ namespace {
 
 gl::Context& sharedContext() {
   static std::unique_ptr<gl::Context> context = [] {
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     auto made = gl::createContext({.backend = gl::Backend::osmesa}, diagnostics);
     if (!made) weft::test::skipAll("no OSMesa context\n" + diagnostics.text());
     return made;
@@ -94,9 +94,9 @@ std::string Lab::passNames() const {
 std::string Lab::reports() {
   sharedContext().debugLog().drain(diagnostics_);
   // A test looks at a part of a graph, and so culls the rest.
-  base::Diagnostics told;
-  for (const base::Diagnostic& d : diagnostics_.items())
-    if (d.code != base::Code::culledUnread) told.add(d);
+  text::Diagnostics told;
+  for (const text::Diagnostic& d : diagnostics_.items())
+    if (d.code != text::Code::culledUnread) told.add(d);
   return told.text();
 }
 

@@ -67,7 +67,7 @@ class Lab {
   Setup setup_;
   runtime::World world_;
   std::unique_ptr<runtime::Renderer> renderer_;
-  base::Diagnostics diagnostics_;
+  text::Diagnostics diagnostics_;
 };
 
 }  // namespace weft::theory

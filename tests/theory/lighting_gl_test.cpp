@@ -18,7 +18,7 @@ namespace {
 constexpr double kPower = 12;
 const Vec3 kLobe{-0.8, 0.36, 0.48};  // across the seam's side of the map
 
-// max(0, l . lobe)^power, at texel centres.
+// max(0, l . lobe)^power, at texel centers.
 std::shared_ptr<const weft::assets::ImageF> lobeEnvironment() {
   auto image = std::make_shared<weft::assets::ImageF>();
   image->width = 512;
@@ -83,7 +83,7 @@ TEST_CASE("no seam: the first and the last column of every map continue each oth
   for (const char* name : {"ibl.irradiance", "ibl.specular"}) {
     const Picture map = lab.read(name);
     for (std::uint32_t y = 0; y < map.height; y += 5) {
-      // The step across the seam is no larger than its neighbours' steps, give or take rounding.
+      // The step across the seam is no larger than its neighbors' steps, give or take rounding.
       const auto value = [&](std::uint32_t x) { return map.at(x % map.width, y)[0]; };
       const float across = std::abs(value(map.width) - value(map.width - 1));
       const float beside =
@@ -114,7 +114,7 @@ TEST_CASE("mean luminance: a constant is kept, and rows count by their share of 
   auto cap = std::make_shared<weft::assets::ImageF>(weft::assets::ImageF{96, 48, 4, {}});
   for (int y = 0; y < 48; ++y) cap->texels.insert(cap->texels.end(), 96 * 4, y < 16 ? 1.0f : 0.0f);
   CHECK(meanLuminance(cap) == doctest::Approx(0.25).epsilon(1e-5));
-  // The lobe's mean over the sphere is 1 / (2 (power + 1)); halves and texel centres cost what is left.
+  // The lobe's mean over the sphere is 1 / (2 (power + 1)); halves and texel centers cost what is left.
   CHECK(meanLuminance(lobeEnvironment()) == doctest::Approx(0.5 / (kPower + 1)).epsilon(2e-3));
 }
 

@@ -75,7 +75,7 @@ Color constantThrough(Color value, Sets more) {
   return meanOf(render(plain(value, value, std::move(more))));
 }
 
-// ---- the curves as published, in double precision, on a grey
+// ---- the curves as published, in double precision, on a gray
 
 double reinhard(double x, double white) {
   return x * (1 + x / (white * white)) / (1 + x);
@@ -86,7 +86,7 @@ double aces(double x, double white) {
   return v * (2.51 * v + 0.03) / (v * (2.43 * v + 0.59) + 0.14);
 }
 
-// A grey passes both matrices of AgX unchanged, up to the rounding of their published digits.
+// A gray passes both matrices of AgX unchanged, up to the rounding of their published digits.
 double agx(double x) {
   const double v = std::clamp((std::log2(std::max(x, 1e-10)) + 12.47393) / (12.47393 + 4.026069), 0.0, 1.0);
   const double curve = 15.5 * std::pow(v, 6) - 40.14 * std::pow(v, 5) + 31.96 * std::pow(v, 4) -
@@ -170,7 +170,7 @@ TEST_CASE("every effect at its neutral values is the identity") {
 }
 
 TEST_CASE(
-    "white balance: the light it is set to turns grey; a higher setting warms the picture, positive tint is "
+    "white balance: the light it is set to turns gray; a higher setting warms the picture, positive tint is "
     "magenta") {
   for (const double kelvin : {2500.0, 4000.0, 6504.0, 9000.0, 15000.0}) {
     Color light = lightOf(kelvin);
@@ -182,15 +182,15 @@ TEST_CASE(
     CHECK(std::abs(found[2] - found[1]) < 0.001);
     CHECK(std::abs(found[1] - 255 * encode(0.2)) < 0.025);
   }
-  const auto grey = [](const char* name, const char* value) {
+  const auto gray = [](const char* name, const char* value) {
     return constantThrough({0.2, 0.2, 0.2}, {{"white_balance", "true"}, {name, value}});
   };
-  const Color warm = grey("temperature", "9000"), cold = grey("temperature", "4500");
+  const Color warm = gray("temperature", "9000"), cold = gray("temperature", "4500");
   CHECK(warm[0] > warm[1] + 2);
   CHECK(warm[1] > warm[2] + 2);
   CHECK(cold[0] < cold[1] - 2);
   CHECK(cold[1] < cold[2] - 2);
-  const Color magenta = grey("tint", "40"), green = grey("tint", "-40");
+  const Color magenta = gray("tint", "40"), green = gray("tint", "-40");
   CHECK(magenta[1] < std::min(magenta[0], magenta[2]) - 2);
   CHECK(green[1] > std::max(green[0], green[2]) + 2);
 }
@@ -199,9 +199,9 @@ TEST_CASE("grading: what each control does to known values") {
   const auto graded = [](Color value, const char* name, const char* setting) {
     return constantThrough(value, {{"grading", "true"}, {name, setting}});
   };
-  const Color grey = graded({0.8, 0.2, 0.1}, "composite.saturation", "0");
+  const Color gray = graded({0.8, 0.2, 0.1}, "composite.saturation", "0");
   const double luminance = 0.2126 * 0.8 + 0.7152 * 0.2 + 0.0722 * 0.1;
-  for (const double c : grey) CHECK(std::abs(c - 255 * encode(luminance)) < 0.035);
+  for (const double c : gray) CHECK(std::abs(c - 255 * encode(luminance)) < 0.035);
   CHECK(std::abs(graded({0.18, 0.18, 0.18}, "composite.contrast", "1.6")[0] - 255 * encode(0.18)) < 0.017);
   CHECK(std::abs(graded({0.36, 0.09, 0.18}, "composite.contrast", "2")[0] - 255 * encode(0.72)) < 0.035);
   CHECK(std::abs(graded({0.36, 0.09, 0.18}, "composite.contrast", "2")[1] - 255 * encode(0.045)) < 0.032);
@@ -211,13 +211,13 @@ TEST_CASE("grading: what each control does to known values") {
   CHECK(std::abs(graded({0.25, 0.25, 0.25}, "composite.gain", "[1, 2, 1]")[1] - 255 * encode(0.5)) < 0.001);
 }
 
-TEST_CASE("vignette: nothing at the centre, the stops asked for at the corners") {
+TEST_CASE("vignette: nothing at the center, the stops asked for at the corners") {
   const Picture picture =
       render(plain({0.5, 0.5, 0.5}, {0.5, 0.5, 0.5},
                    {{"vignette", "true"}, {"vignette_stops", "2"}, {"composite.dither", "false"}}));
   CHECK(std::abs(step(picture, kWidth / 2, kHeight / 2, 1) - 255 * encode(0.5)) < 0.6);
   const double radius =
-      std::hypot(kWidth - 1, kHeight - 1) / std::hypot(kWidth, kHeight);  // of a corner texel's centre
+      std::hypot(kWidth - 1, kHeight - 1) / std::hypot(kWidth, kHeight);  // of a corner texel's center
   for (const std::uint32_t x : {0u, kWidth - 1})
     for (const std::uint32_t y : {0u, kHeight - 1})
       CHECK(std::abs(step(picture, x, y, 1) - 255 * encode(0.5 * std::exp2(-2 * radius * radius))) < 0.6);

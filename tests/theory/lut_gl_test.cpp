@@ -1,4 +1,4 @@
-// Colour tables: a neutral one is the identity within one step at any size and domain; axes, places between
+// Color tables: a neutral one is the identity within one step at any size and domain; axes, places between
 // entries and strength are right; no file is no table, and a wrong one is said.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -129,7 +129,7 @@ TEST_CASE("a 1D table is a curve per channel, linear between entries, at every s
 TEST_CASE("a table that cannot be used is an error of the graph, before anything runs") {
   const TemporaryFolder folder;
   const auto codesOf = [](const std::string& file) {
-    weft::base::Diagnostics diagnostics;
+    weft::text::Diagnostics diagnostics;
     const auto desc = graph::readGraph(std::string(WEFT_SOURCE_DIR) + "/tests/theory/look.json", diagnostics);
     REQUIRE(desc);
     graph::Settings settings;
@@ -138,7 +138,7 @@ TEST_CASE("a table that cannot be used is an error of the graph, before anything
     graph::expandGraph(*desc, registry, settings, diagnostics);
     std::string codes;
     for (const auto& d : diagnostics.items())
-      if (d.severity == weft::base::Severity::error) codes += weft::base::nameOf(d.code) + " ";
+      if (d.severity == weft::text::Severity::error) codes += weft::text::nameOf(d.code) + " ";
     return codes;
   };
   CHECK(codesOf("") == "");

@@ -22,7 +22,7 @@ struct Vec3 {
 };
 double dot(Vec3 a, Vec3 b);
 
-// Direction of the centre of texel (x, y) of an equirectangular map, top row first.
+// Direction of the center of texel (x, y) of an equirectangular map, top row first.
 Vec3 equirectDirection(int x, int y, int width, int height);
 
 // Mean radiance around `normal`, weighted by the clamped cosine, of the radiance max(0, dot(l, lobe))^power, by a product rule.

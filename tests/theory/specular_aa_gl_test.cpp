@@ -111,7 +111,7 @@ TEST_CASE("specular anti-aliasing: less error on a photographed environment") {
   compare(
       [](std::uint32_t scale, bool aa, const char* mode) {
         Setup setup = mirrors(scale, aa, mode);
-        weft::base::Diagnostics said;
+        weft::text::Diagnostics said;
         auto image = weft::assets::loadEnvironment(
             WEFT_SOURCE_DIR "/scenes/environments/spiaggia_di_mondello_1k.hdr", said);
         REQUIRE(image);

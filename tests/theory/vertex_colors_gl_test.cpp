@@ -1,4 +1,4 @@
-// Colours of vertices, in the studio and in the deferred frame: squares of one colour against materials of that colour, a gradient
+// Colors of vertices, in the studio and in the deferred frame: squares of one color against materials of that color, a gradient
 // against its formula, and holes by alpha, which let the sun through.
 #include <array>
 #include <cmath>
@@ -17,7 +17,7 @@ const std::array<glm::vec4, 4> kColors = {
 const glm::vec3 kBase(0.8f, 0.6f, 0.9f);
 constexpr float kAlpha = 0.8f;
 
-// A dark wall, and four squares before it whose colours are those of their vertices, or of their materials.
+// A dark wall, and four squares before it whose colors are those of their vertices, or of their materials.
 scene::Scene squares(bool ofVertices, bool blend) {
   MeshScene made({0, 0, 9}, 45);
   std::vector<glm::vec4> colors(4, glm::vec4(1));
@@ -43,8 +43,7 @@ double worstOf(const std::vector<float>& a, const std::vector<float>& b) {
 
 }  // namespace
 
-TEST_CASE(
-    "squares with coloured vertices are squares of materials of these colours, opaque and transparent") {
+TEST_CASE("squares with colored vertices are squares of materials of these colors, opaque and transparent") {
   const CleanScope clean;
   for (const char* graph : {"graphs/studio.json", "graphs/deferred.json"})
     for (const bool blend : {false, true}) {
@@ -54,7 +53,7 @@ TEST_CASE(
       const std::vector<float> vertices = take(squares(true, blend), shot).radiance,
                                materials = take(squares(false, blend), shot).radiance;
       CHECK(worstOf(vertices, materials) < 2e-3);  // halves, about 1
-      // Another picture than without the colours.
+      // Another picture than without the colors.
       scene::Scene plain = squares(true, blend);
       auto data = std::make_shared<scene::MeshData>(*plain.meshData);
       data->colors.clear();
@@ -63,7 +62,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("colours between vertices are linear light") {
+TEST_CASE("colors between vertices are linear light") {
   const CleanScope clean;
   const auto squareOf = [](std::vector<glm::vec4> colors) {
     MeshScene made({0, 0, 9}, 45);
@@ -89,7 +88,7 @@ TEST_CASE("colours between vertices are linear light") {
                    v = ((y + 0.5 - shot.height / 2.0) * scale + 2) / 4;
       const std::array<double, 3> wanted = {u, v, 1 - u};
       for (std::size_t c = 0; c < 3; ++c) {
-        // Of a dielectric, only the diffuse share depends on the colour, and is proportional to it.
+        // Of a dielectric, only the diffuse share depends on the color, and is proportional to it.
         const double none = black[4 * pixel + c], all = white.radiance[4 * pixel + c];
         worst =
             std::max(worst, std::abs(double(gradient[4 * pixel + c]) - (none + (all - none) * wanted[c])));

@@ -102,7 +102,7 @@ class Completer {
   }
   void eachFile(const std::string& path, const std::string& prefix, std::set<std::string>& seen,
                 const SeeFile& f) const {
-    const auto text = seen.size() < graph::kMostInRow * 4 && seen.insert(path).second
+    const auto text = seen.size() < graph::kMaxInRow * 4 && seen.insert(path).second
                           ? workspace_.texts().of(path)
                           : nullptr;
     if (!text || !text->isJson()) return;

@@ -53,7 +53,7 @@ std::string ofNamed(const Workspace& workspace, const Named& named) {
     }
     return text + ofKey(*named.program, named.key->name);
   }
-  base::Diagnostics ignored;
+  text::Diagnostics ignored;
   const std::string& full = named.use->full;
   const auto& plan = named.graph->plan;
   if (const auto text = plan ? graph::describe(*plan, full, ignored) : std::nullopt)
@@ -100,13 +100,13 @@ Json inJson(const Workspace& workspace, const Text& text, std::size_t offset) {
 }
 
 Json inGlsl(const Workspace& workspace, const Text& text, std::size_t offset) {
-  constexpr int kMostShown = 5;
+  constexpr int kMaxShown = 5;
   const GlslWord* const word = text.glsl().wordAt(offset);
   if (!word || word->member) return nullptr;
   std::string shown;
   int count = 0;
   for (const Program& program : workspace.programs())
-    if (count < kMostShown && program.has(text.path()))
+    if (count < kMaxShown && program.has(text.path()))
       if (const std::string about = ofKey(program, std::string(word->text)); !about.empty()) {
         shown += about;
         ++count;

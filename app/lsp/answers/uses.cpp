@@ -16,7 +16,7 @@ namespace {
 
 using Kind = graph::NameUse::Kind;
 
-bool isAt(const base::Place& place, const base::Place& begin, const std::string& name) {
+bool isAt(const text::Place& place, const text::Place& begin, const std::string& name) {
   return place.line == begin.line && place.column >= begin.column &&
          place.column <= begin.column + name.size() && *place.file == *begin.file;
 }
@@ -114,7 +114,7 @@ std::string problemOfInputs(const Workspace& workspace, const Uses& uses, const 
     return found == file.resources.end() ? nullptr : &*found;
   };
   const auto isRenamed = [&](const graph::ResourceDesc& resource) {
-    base::Place place = resource.place;
+    text::Place place = resource.place;
     ++place.column;
     const auto location = workspace.locate(graph, place, uses.name);
     return location && uses.locations.contains(*location);
@@ -144,7 +144,7 @@ std::string problemOfPlace(const Workspace& workspace, const Uses& uses, const s
   if (!uses.ofShader) {
     for (const Graph* graph : workspace.graphs()) {
       for (const graph::NameUse& use : graph->uses)
-        if (use.name == name && use.kind == uses.kind && base::isSamePlace(use.place, use.declared) &&
+        if (use.name == name && use.kind == uses.kind && text::isSamePlace(use.place, use.declared) &&
             std::ranges::any_of(uses.locations,
                                 [&](const Location& each) { return each.path == *use.place.file; }))
           return fmt::format("'{}' is declared already in {}", name, *use.place.file);
@@ -171,14 +171,14 @@ std::string problemOfPlace(const Workspace& workspace, const Uses& uses, const s
 
 Named namedAt(const Workspace& workspace, const Text& text, std::size_t offset) {
   Named named;
-  const auto take = [&](const Graph& graph, const base::Place& begin, const std::string& name) {
+  const auto take = [&](const Graph& graph, const text::Place& begin, const std::string& name) {
     const auto here = workspace.locate(graph, begin, name);
     if (here) named.here = here->range;
     if (here) named.graph = &graph;
     return here.has_value();
   };
   for (const Graph* graph : workspace.graphs()) {
-    const base::Place place = workspace.placeIn(*graph, text, offset);
+    const text::Place place = workspace.placeIn(*graph, text, offset);
     if (!place.file) continue;
     for (Program& program : workspace.passesOf(*graph))
       for (const ShaderKey& key : program.keys)

@@ -5,8 +5,6 @@
 #include <functional>
 
 #include "app/session/session.h"
-#include "engine/base/files/file_access.h"
-#include "engine/base/nearest.h"
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/expand/expand.h"
 #include "engine/graph/read/read.h"
@@ -14,6 +12,8 @@
 #include "engine/runtime/imports/registry.h"
 #include "engine/runtime/prepare/program_check.h"
 #include "engine/runtime/prepare/program_request.h"
+#include "engine/text/files/file_access.h"
+#include "engine/text/nearest.h"
 
 namespace weft::app::lsp {
 
@@ -21,11 +21,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kMostFiles = 20000;  // looked at in a folder
+constexpr int kMaxFiles = 20000;  // looked at in a folder
 
 // Graphs are checked even when the scene cannot be read, so its messages are left out.
 runtime::WorldFacts factsOf(const Options& options) {
-  base::Diagnostics ignored;
+  text::Diagnostics ignored;
   const auto world = loadWorld(options, ignored);
   return world ? world->facts() : factsWithoutWorld();
 }
@@ -35,7 +35,7 @@ void listFiles(const std::string& folder, std::set<std::string>& out) {
   int looked = 0;
   for (auto entry =
            fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied, ec);
-       !ec && entry != fs::recursive_directory_iterator() && ++looked < kMostFiles; entry.increment(ec)) {
+       !ec && entry != fs::recursive_directory_iterator() && ++looked < kMaxFiles; entry.increment(ec)) {
     const std::string name = entry->path().filename().string();
     if (entry->is_directory(ec) &&
         (name.starts_with('.') || name == "build" || name == "out" || name == "node_modules"))
@@ -56,7 +56,7 @@ void eachPass(const graph::GraphDesc& desc, const std::string& prefix,
 
 std::vector<ShaderKey> keysOf(const graph::PassDesc& pass) {
   std::vector<ShaderKey> keys;
-  const auto add = [&](ShaderKey::Kind kind, std::string name, base::Place place) {
+  const auto add = [&](ShaderKey::Kind kind, std::string name, text::Place place) {
     ++place.column;  // behind the quote
     keys.push_back({kind, std::move(name), std::move(place)});
   };
@@ -102,7 +102,7 @@ bool Workspace::isInFolders(const std::string& path) const {
 // A file with a key that only graphs, overlays and presets have, or one that was a graph and has a mistake that hides that now,
 // such as an open comment or quote before the first key.
 bool Workspace::isGraph(const std::string& path) const {
-  const auto text = path.ends_with(".json") && base::mayRead(path) ? texts_.of(path) : nullptr;
+  const auto text = path.ends_with(".json") && text::mayRead(path) ? texts_.of(path) : nullptr;
   if (!text) return false;
   for (const JsonMember& member : text->json().root.members) {
     for (const char* key : {"passes", "resources", "parameters", "let", "extends", "present", "outputs"})
@@ -111,8 +111,8 @@ bool Workspace::isGraph(const std::string& path) const {
         (member.key == "$schema" && member.value.text.ends_with("graph.schema.json")))
       return true;
   }
-  base::Diagnostics said;
-  return graphs_.contains(path) && !base::parseJson(text->bytes(), nullptr, said);
+  text::Diagnostics said;
+  return graphs_.contains(path) && !text::parseJson(text->bytes(), nullptr, said);
 }
 
 // Whether the file sets values and shows no picture, and so does what it extends: the graph below it is missing.
@@ -135,7 +135,7 @@ bool Workspace::isPreset(const std::string& path) const {
 void Workspace::read(const std::string& path, Graph& graph) {
   const auto isSame = [&](const auto& known) { return texts_.of(known.first) == known.second; };
   if (!graph.readTexts.empty() && std::ranges::all_of(graph.readTexts, isSame)) return;
-  base::takeUncompared();  // a new budget for nearest names
+  text::takeUncompared();  // a new budget for nearest names
   graph.readSaid.clear();
   graph.read = graph::readGraph(path, graph.readSaid);
   graph.readTexts = {{path, texts_.of(path)}};
@@ -144,7 +144,7 @@ void Workspace::read(const std::string& path, Graph& graph) {
       graph.readTexts[pathKey(file)] = texts_.of(pathKey(file));
   else if (graph.desc)
     for (const auto& [file, text] : graph.texts) graph.readTexts[file] = texts_.of(file);
-  if (!graph.read || (graph.desc && graph.readSaid.contains(base::Code::notJson))) return;
+  if (!graph.read || (graph.desc && graph.readSaid.contains(text::Code::notJson))) return;
   graph.desc = graph.read;
   graph.texts = graph.readTexts;
   graph.uses = graph::findNameUses(*graph.desc, registry_);
@@ -171,27 +171,27 @@ void Workspace::readAll() {
         roots_.push_back(&graph);
 }
 
-std::optional<Location> Workspace::locate(const Graph& graph, const base::Place& place,
+std::optional<Location> Workspace::locate(const Graph& graph, const text::Place& place,
                                           std::string_view name) const {
   if (!place.file || place.line == 0) return std::nullopt;
   const std::string path = pathKey(*place.file);
   const auto then = graph.texts.find(path);
   const auto now = texts_.of(path);
   if (then == graph.texts.end() || !then->second || !now) return std::nullopt;
-  const std::size_t offset = base::offsetOf(then->second->bytes(), place);
+  const std::size_t offset = text::offsetOf(then->second->bytes(), place);
   const auto at = then->second == now ? offset : moved(then->second->bytes(), now->bytes(), offset);
   if (!at || now->bytes().compare(*at, name.size(), name) != 0) return std::nullopt;
   return Location{path, {*at, *at + name.size()}};
 }
 
-base::Place Workspace::placeIn(const Graph& graph, const Text& text, std::size_t offset) const {
+text::Place Workspace::placeIn(const Graph& graph, const Text& text, std::size_t offset) const {
   const auto then = graph.texts.find(text.path());
   if (then == graph.texts.end() || !then->second) return {};
   const std::string& bytes = then->second->bytes();
   const auto at = then->second.get() == &text ? offset : moved(text.bytes(), bytes, offset);
   if (!at) return {};
   std::string_view before = std::string_view(bytes).substr(0, *at);
-  if (before.starts_with(base::kByteOrderMark)) before.remove_prefix(base::kByteOrderMark.size());
+  if (before.starts_with(text::kByteOrderMark)) before.remove_prefix(text::kByteOrderMark.size());
   return {std::make_shared<const std::string>(text.path()),
           static_cast<std::uint32_t>(std::ranges::count(before, '\n') + 1),
           static_cast<std::uint32_t>(before.size() - (before.rfind('\n') + 1) + 1)};
@@ -235,13 +235,13 @@ std::set<std::string> Workspace::refresh(const std::set<std::string>& changed) {
 }
 
 void Workspace::check(const std::string& path, Graph& graph) {
-  base::takeUncompared();
+  text::takeUncompared();
   graph.said.clear();
   graph.current = false;
   graph.files.clear();
   for (const auto& [file, text] : graph.readTexts) graph.files.insert(file);
   if (isPreset(path)) {
-    base::parseJson(texts_.of(path)->bytes(), std::make_shared<const std::string>(path), graph.said);
+    text::parseJson(texts_.of(path)->bytes(), std::make_shared<const std::string>(path), graph.said);
     return;
   }
   graph.said.append(graph.readSaid);
@@ -301,12 +301,12 @@ void Workspace::checkFiles(Graph& graph, const graph::GraphDesc& desc) {
   });
 }
 
-std::vector<base::Diagnostic> Workspace::diagnosticsOf(const std::string& path) const {
-  std::vector<base::Diagnostic> found;
+std::vector<text::Diagnostic> Workspace::diagnosticsOf(const std::string& path) const {
+  std::vector<text::Diagnostic> found;
   for (const auto& [root, graph] : graphs_)
-    for (const base::Diagnostic& each : graph.said.items()) {
+    for (const text::Diagnostic& each : graph.said.items()) {
       if ((each.place.file && each.place.line > 0 ? pathKey(*each.place.file) : root) != path) continue;
-      const bool known = std::ranges::any_of(found, [&](const base::Diagnostic& other) {
+      const bool known = std::ranges::any_of(found, [&](const text::Diagnostic& other) {
         return other.code == each.code && other.message == each.message &&
                other.place.line == each.place.line && other.place.column == each.place.column;
       });
@@ -339,7 +339,7 @@ glsl::SourceLoader& Workspace::sources(const std::vector<std::string>& folders) 
 
 std::vector<std::string> Workspace::shaderFiles(const std::string& shader,
                                                 const std::vector<std::string>& folders) const {
-  base::Diagnostics ignored;
+  text::Diagnostics ignored;
   std::vector<std::string> files;
   if (!shader.empty())
     if (const auto source = sources(folders).load(shader, ignored))

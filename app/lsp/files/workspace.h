@@ -45,11 +45,11 @@ struct Graph {
   bool checked = false;
   std::shared_ptr<const graph::Plan> plan;  // the last one that was made; it may be older than the texts
   bool current = false;                     // whether the plan is of the present texts
-  base::Diagnostics said;
+  text::Diagnostics said;
   std::set<std::string> files;  // a change of one of these changes what is said
   // Private to Workspace:
   std::shared_ptr<const graph::GraphDesc> read;  // of the present texts; null where they cannot be read
-  base::Diagnostics readSaid;
+  text::Diagnostics readSaid;
   TextsByPath readTexts;
 };
 
@@ -58,7 +58,7 @@ struct ShaderKey {
   enum class Kind : std::uint8_t { slot, parameter, define };
   Kind kind = Kind::slot;
   std::string name;
-  base::Place place;  // of its first character
+  text::Place place;  // of its first character
 };
 
 // A pass and the GLSL files of its program.
@@ -84,16 +84,16 @@ class Workspace {
   // Checks the graphs again that have one of these files. Returns the files whose messages may have changed.
   std::set<std::string> refresh(const std::set<std::string>& changed);
   // The messages of a file, each once.
-  std::vector<base::Diagnostic> diagnosticsOf(const std::string& path) const;
+  std::vector<text::Diagnostic> diagnosticsOf(const std::string& path) const;
 
   // Reads what has changed of the graphs that are open or in the folders. To be called before each request.
   void readAll();
   // Those that no other includes, the open ones first.
   const std::vector<const Graph*>& graphs() const { return roots_; }
   // Where `name`, which stood at the place when the graph was read, stands now. Nothing when it stands there no more.
-  std::optional<Location> locate(const Graph& graph, const base::Place& place, std::string_view name) const;
+  std::optional<Location> locate(const Graph& graph, const text::Place& place, std::string_view name) const;
   // Where an offset of a text of the graph was when the graph was read; without a file when it was nowhere.
-  base::Place placeIn(const Graph& graph, const Text& text, std::size_t offset) const;
+  text::Place placeIn(const Graph& graph, const Text& text, std::size_t offset) const;
 
   // The programs of all graphs; the passes of one graph, without their files.
   std::vector<Program> programs() const;

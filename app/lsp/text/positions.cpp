@@ -4,7 +4,7 @@
 #include <charconv>
 #include <filesystem>
 
-#include "engine/base/report.h"
+#include "engine/text/report.h"
 
 namespace weft::app::lsp {
 
@@ -93,7 +93,7 @@ std::string pathOfUri(std::string_view uri) {
 }
 
 std::string uriOfPath(std::string_view path) {
-  return base::uriOf(pathKey(std::string(path)));
+  return text::uriOf(pathKey(std::string(path)));
 }
 
 }  // namespace weft::app::lsp

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/base/json/dom.h"
+#include "engine/text/json/dom.h"
 
 namespace weft::app::lsp {
 
@@ -19,7 +19,7 @@ struct Position {
   std::uint32_t line = 0, character = 0;
 };
 
-using Range = base::ByteRange;
+using Range = text::ByteRange;
 
 // A text with the offsets of its lines, which end with \n, \r\n or \r. An offset or position outside is taken for the nearest
 // one inside. The text must outlive it.

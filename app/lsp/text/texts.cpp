@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "engine/base/files/file_overlay.h"
-#include "engine/base/files/text_file.h"
 #include "engine/glsl/tokens.h"
+#include "engine/text/files/file_overlay.h"
+#include "engine/text/files/text_file.h"
 
 namespace weft::app::lsp {
 
@@ -45,7 +45,7 @@ std::vector<std::string_view> keysOn(const Way& way) {
   return keys;
 }
 
-Spot spotAt(const base::JsonTree& tree, std::size_t offset) {
+Spot spotAt(const text::JsonTree& tree, std::size_t offset) {
   Spot spot;
   spot.inComment = std::ranges::any_of(
       tree.comments, [&](const Range& comment) { return comment.begin < offset && offset <= comment.end; });
@@ -120,8 +120,8 @@ const GlslWord* GlslOutline::wordAt(std::size_t offset) const {
   return found == words.end() ? nullptr : &*found;
 }
 
-const base::JsonTree& Text::json() const {
-  if (!json_) json_ = base::parseJsonTree(bytes_);
+const text::JsonTree& Text::json() const {
+  if (!json_) json_ = text::parseJsonTree(bytes_);
   return *json_;
 }
 
@@ -136,7 +136,7 @@ std::string_view Text::written(const JsonValue& string) const {
 }
 
 Texts::~Texts() {
-  for (const auto& [path, version] : opened_) base::dropOverlay(path);
+  for (const auto& [path, version] : opened_) text::dropOverlay(path);
 }
 
 void Texts::open(const std::string& path, std::string text, std::int64_t version) {
@@ -146,7 +146,7 @@ void Texts::open(const std::string& path, std::string text, std::int64_t version
 
 void Texts::replace(const std::string& path, std::string text) {
   if (!isOpen(path)) return;
-  base::overlayFile(path, text);
+  text::overlayFile(path, text);
   texts_[path] = std::make_shared<const Text>(path, std::move(text));
 }
 
@@ -166,7 +166,7 @@ void Texts::setVersion(const std::string& path, std::int64_t version) {
 }
 
 void Texts::close(const std::string& path) {
-  base::dropOverlay(path);
+  text::dropOverlay(path);
   opened_.erase(path);
   texts_.erase(path);
 }
@@ -180,8 +180,8 @@ std::shared_ptr<const Text> Texts::of(const std::string& path) const {
   Known& known = onDisk_[path];
   const auto stamp = static_cast<std::int64_t>(time.time_since_epoch().count());
   if (known.text && known.time == stamp && known.bytes == bytes) return known.text;
-  base::Diagnostics ignored;
-  auto text = base::readTextFile(path, ignored);
+  text::Diagnostics ignored;
+  auto text = text::readTextFile(path, ignored);
   if (!text) return nullptr;
   known = {std::make_shared<const Text>(path, *std::move(text)), stamp, bytes};
   return known.text;

@@ -1,5 +1,5 @@
 // The texts that the server works on: those that the editor has open, as the editor has them, and files on disk. Open texts are
-// overlays (engine/base/files/file_overlay.h), so that all of Weft reads them. Outlines are made when they are first asked for.
+// overlays (engine/text/files/file_overlay.h), so that all of Weft reads them. Outlines are made when they are first asked for.
 // Paths are absolute.
 #pragma once
 
@@ -12,15 +12,15 @@
 #include <vector>
 
 #include "app/lsp/text/positions.h"
-#include "engine/base/json/dom.h"
 #include "engine/glsl/interface.h"
+#include "engine/text/json/dom.h"
 
 namespace weft::app::lsp {
 
 // ---- a place in the tree of a JSON text, also of one that is being typed ----
 
-using base::JsonMember;
-using base::JsonValue;
+using text::JsonMember;
+using text::JsonValue;
 
 // The bytes of a value; of a string or a key without its quotes.
 Range rangeOf(const JsonValue& value);
@@ -45,7 +45,7 @@ struct Spot {
   bool inComment = false;
   const JsonValue& value() const { return *way.back().value; }
 };
-Spot spotAt(const base::JsonTree& tree, std::size_t offset);
+Spot spotAt(const text::JsonTree& tree, std::size_t offset);
 
 // ---- GLSL as it stands, without macros, and with all branches of every #if ----
 
@@ -90,7 +90,7 @@ class Text {
   const std::string& path() const { return path_; }
   const std::string& bytes() const { return bytes_; }
   const LineMap& map() const { return map_; }
-  const base::JsonTree& json() const;
+  const text::JsonTree& json() const;
   const GlslOutline& glsl() const;
   // A string as it is written, without its quotes.
   std::string_view written(const JsonValue& string) const;
@@ -99,7 +99,7 @@ class Text {
  private:
   const std::string path_, bytes_;
   const LineMap map_;
-  mutable std::optional<base::JsonTree> json_;
+  mutable std::optional<text::JsonTree> json_;
   mutable std::optional<GlslOutline> glsl_;
 };
 

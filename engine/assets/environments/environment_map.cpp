@@ -10,7 +10,7 @@
 
 #include "engine/assets/images/half.h"
 #include "engine/assets/images/image_codecs.h"
-#include "engine/base/files/file.h"
+#include "engine/text/files/file.h"
 
 namespace weft::assets {
 
@@ -19,14 +19,14 @@ std::uint64_t newEnvironmentId() {
   return ++last;
 }
 
-std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, base::Diagnostics& diagnostics,
+std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, text::Diagnostics& diagnostics,
                                                  const LoadObserver& observer) try {
   const auto goOn = [&](LoadStage stage, double done) { return !observer || observer(stage, done); };
   if (!goOn(LoadStage::reading, 0)) return {};
   std::optional<ImageF> image;
   {
-    const auto bytes = base::readFile(
-        path, diagnostics, base::Code::unreadableImage, {}, [&](std::uint64_t done, std::uint64_t total) {
+    const auto bytes = text::readFile(
+        path, diagnostics, text::Code::unreadableImage, {}, [&](std::uint64_t done, std::uint64_t total) {
           // What comes without a size (a pipe) fills half of its part of the bar with a MiB, and never all of it.
           const auto size = static_cast<double>(total > 0 ? total : done + (1u << 20));
           return goOn(LoadStage::reading, std::min(1.0, static_cast<double>(done) / size));
@@ -43,7 +43,7 @@ std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, base::
 
 Loader::Loader(StageHook hook)
     : LoadQueue(
-          [](const std::string& path, base::Diagnostics& diagnostics,
+          [](const std::string& path, text::Diagnostics& diagnostics,
              const LoadObserver& observer) -> std::shared_ptr<const void> {
             auto map = loadEnvironmentMap(path, diagnostics, observer);
             return map ? std::make_shared<const EnvironmentMap>(std::move(*map)) : nullptr;

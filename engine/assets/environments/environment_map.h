@@ -25,7 +25,7 @@ struct EnvironmentMap {
 };
 
 // Empty after errors, and without any when `observer` gave up.
-std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, base::Diagnostics& diagnostics,
+std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, text::Diagnostics& diagnostics,
                                                  const LoadObserver& observer = {});
 
 // Loads them on a thread of its own: what it makes is an EnvironmentMap.

@@ -115,7 +115,7 @@ class Side {
     }
   }
 
-  // What is seen of the colours from that distance, in Hunt-adjusted L*a*b*.
+  // What is seen of the colors from that distance, in Hunt-adjusted L*a*b*.
   std::vector<Color> seen() {
     const Plane y = blur(opponent_[0], {kAchromatic}), x = blur(opponent_[1], {kRedGreen}),
                 z = blur(opponent_[2], {kBlueYellow, kBlueYellow2});

@@ -40,7 +40,7 @@ FlipMap computeFlip(const Image8& reference, const Image8& test,
 // Over the pixels whose weight is not 0; an empty `weights` means all of them.
 FlipSummary summarizeFlip(const FlipMap& map, const std::vector<std::uint8_t>& weights = {});
 
-// The errors as colours whose lightness rises evenly: black for 0, purple, orange, pale yellow for 1 (the colour map "magma" of
+// The errors as colors whose lightness rises evenly: black for 0, purple, orange, pale yellow for 1 (the color map "magma" of
 // matplotlib, by a polynomial). 3 channels.
 Image8 colorFlip(const FlipMap& map);
 

@@ -15,13 +15,13 @@
 
 #include "engine/assets/images/half.h"
 #include "engine/assets/images/image_codecs.h"
-#include "engine/base/files/file.h"
+#include "engine/text/files/file.h"
 
 namespace weft::assets {
 
-using base::Code;
-using base::Diagnostics;
-using base::Place;
+using text::Code;
+using text::Diagnostics;
+using text::Place;
 
 namespace {
 
@@ -39,7 +39,7 @@ std::string extensionOf(const std::string& name) {
 }
 
 void reportUnknownKind(Diagnostics& diagnostics, const std::string& name, std::string expected) {
-  base::Diagnostic& d = diagnostics.error(Code::unknownImageKind, placeOf(name),
+  text::Diagnostic& d = diagnostics.error(Code::unknownImageKind, placeOf(name),
                                           fmt::format("'{}' is no kind of image that is known", name));
   d.expected = std::move(expected);
   d.found = extensionOf(name).empty() ? "no extension" : extensionOf(name);
@@ -51,7 +51,7 @@ double shareOfRow(const ImageF& image, int y) {
 }
 
 // Moves what a texel has above kHalfMax to the texels around it, ring by ring, each filled up to kHalfMax in the texel's own
-// colour. The light (radiance times solid angle) stays but for what it returns, in the channel that has most.
+// color. The light (radiance times solid angle) stays but for what it returns, in the channel that has most.
 double spreadLight(ImageF& image, int x, int y) {
   constexpr int kRings = 8;
   const auto at = [&](int column, int row) {
@@ -127,7 +127,7 @@ bool checkSize(Diagnostics& diagnostics, const std::string& name, long long widt
   const bool tooLarge = width > kMaxImageSide || height > kMaxImageSide ||
                         width * height > static_cast<long long>(kMaxImageTexels);
   if (width >= 1 && height >= 1 && !tooLarge) return true;
-  base::Diagnostic& d =
+  text::Diagnostic& d =
       diagnostics.error(Code::badImageSize, placeOf(name),
                         fmt::format("image '{}' is {}", name, tooLarge ? "too large" : "empty"));
   d.expected = fmt::format("1 to {} texels a side, at most {} in all", kMaxImageSide, kMaxImageTexels);
@@ -147,7 +147,7 @@ std::vector<std::byte> turnedOver(std::span<const T> texels, int height) {
   return out;
 }
 
-// Colour is decoded from sRGB, alpha is not.
+// Color is decoded from sRGB, alpha is not.
 template <class T>
 ImageF linearize(const ImageOf<T>& encoded) {
   static const std::vector<float> kTable = [] {  // of every value that there is
@@ -187,12 +187,12 @@ std::optional<ImageF> decodeImage(std::string_view bytes, const std::string& nam
 }
 
 std::optional<ImageF> loadImage(const std::string& path, Diagnostics& diagnostics) {
-  const std::optional<std::string> bytes = base::readFile(path, diagnostics, Code::unreadableImage);
+  const std::optional<std::string> bytes = text::readFile(path, diagnostics, Code::unreadableImage);
   return bytes ? decodeImage(*bytes, path, diagnostics) : std::nullopt;
 }
 
 std::optional<Image8> loadImage8(const std::string& path, int channels, Diagnostics& diagnostics) {
-  const std::optional<std::string> bytes = base::readFile(path, diagnostics, Code::unreadableImage);
+  const std::optional<std::string> bytes = text::readFile(path, diagnostics, Code::unreadableImage);
   if (!bytes) return {};
   if (kindOfName(path) != ImageKind::eight_bit) {
     reportUnknownKind(diagnostics, path, ".png, .jpg, .jpeg or .tga");
@@ -202,7 +202,7 @@ std::optional<Image8> loadImage8(const std::string& path, int channels, Diagnost
 }
 
 std::optional<ImageF> loadEnvironment(const std::string& path, Diagnostics& diagnostics) {
-  const std::optional<std::string> bytes = base::readFile(path, diagnostics, Code::unreadableImage);
+  const std::optional<std::string> bytes = text::readFile(path, diagnostics, Code::unreadableImage);
   return bytes ? decodeEnvironment(*bytes, path, diagnostics) : std::nullopt;
 }
 
@@ -212,10 +212,10 @@ std::optional<ImageF> decodeEnvironment(std::string_view bytes, const std::strin
   if (!image) return {};
   if (kindOfName(name) == ImageKind::eight_bit)
     diagnostics.add(
-        {.severity = base::Severity::warning,
+        {.severity = text::Severity::warning,
          .code = Code::displayReferred,
          .message = fmt::format(
-             "the environment '{}' holds colours of a screen: no light in it is brighter than 1", name),
+             "the environment '{}' holds colors of a screen: no light in it is brighter than 1", name),
          .place = placeOf(name),
          .expected = "radiance, as .hdr and .exr hold it",
          .found = "sRGB, which was decoded to linear light",
@@ -269,12 +269,12 @@ void sanitizeRadiance(ImageF& image, const std::string& name, Diagnostics& diagn
   // Light that was only spread is nothing to tell of.
   constexpr double kNoLoss = 5e-4;
   if (undefined + negative + infinite == 0 && lost < kNoLoss * whole) return;
-  const std::size_t colours = image.texels.size() / channels * 3;
-  base::Diagnostic& d =
-      diagnostics.add({.severity = undefined + negative > 0 ? base::Severity::warning : base::Severity::note,
+  const std::size_t colors = image.texels.size() / channels * 3;
+  text::Diagnostic& d =
+      diagnostics.add({.severity = undefined + negative > 0 ? text::Severity::warning : text::Severity::note,
                        .code = Code::texelsReplaced,
-                       .message = fmt::format("{} of {} colour values are no radiance and were replaced",
-                                              undefined + negative + infinite + tooBright, colours),
+                       .message = fmt::format("{} of {} color values are no radiance and were replaced",
+                                              undefined + negative + infinite + tooBright, colors),
                        .place = placeOf(name)});
   d.expected = fmt::format("numbers from 0 to {}", kHalfMax);
   d.found = fmt::format("{} not a number, {} negative (both now 0), {} infinite (now {})", undefined,
@@ -309,12 +309,12 @@ std::optional<StoredHeader> readStoredHeader(std::string_view bytes, const std::
 }  // namespace
 
 std::optional<StoredHeader> loadStoredHeader(const std::string& path, Diagnostics& diagnostics) {
-  const auto bytes = base::readFile(path, diagnostics, Code::unreadableImage);
+  const auto bytes = text::readFile(path, diagnostics, Code::unreadableImage);
   return bytes ? readStoredHeader(*bytes, path, diagnostics) : std::nullopt;
 }
 
 std::optional<StoredImage> loadStored(const std::string& path, Diagnostics& diagnostics) {
-  const auto bytes = base::readFile(path, diagnostics, Code::unreadableImage);
+  const auto bytes = text::readFile(path, diagnostics, Code::unreadableImage);
   const auto header = bytes ? readStoredHeader(*bytes, path, diagnostics) : std::nullopt;
   if (!header) return {};
   const auto stored = [&](const auto& picture) -> std::optional<StoredImage> {

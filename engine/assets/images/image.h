@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::assets {
 
@@ -27,26 +27,26 @@ using Image8 = ImageOf<std::uint8_t>;  // as stored: sRGB encoded for pictures
 constexpr int kMaxImageSide = 32768;
 constexpr std::size_t kMaxImageTexels = std::size_t{1} << 27;  // 16384 x 8192
 
-// .hdr (RGB), .exr (RGBA; RGB and grey are widened), .png .jpg .jpeg .tga (channels as stored, 8 or 16 bit;
-// colour is decoded from sRGB, alpha is not). The kind comes from the extension, case-insensitive.
-std::optional<ImageF> loadImage(const std::string& path, base::Diagnostics& diagnostics);
+// .hdr (RGB), .exr (RGBA; RGB and gray are widened), .png .jpg .jpeg .tga (channels as stored, 8 or 16 bit;
+// color is decoded from sRGB, alpha is not). The kind comes from the extension, case-insensitive.
+std::optional<ImageF> loadImage(const std::string& path, text::Diagnostics& diagnostics);
 // The same for bytes in memory; `name` gives the extension and stands in messages.
 std::optional<ImageF> decodeImage(std::string_view bytes, const std::string& name,
-                                  base::Diagnostics& diagnostics);
+                                  text::Diagnostics& diagnostics);
 
 // .png .jpg .jpeg .tga; `channels` 1 to 4, or 0 for what the file has. 16-bit files are reduced.
-std::optional<Image8> loadImage8(const std::string& path, int channels, base::Diagnostics& diagnostics);
+std::optional<Image8> loadImage8(const std::string& path, int channels, text::Diagnostics& diagnostics);
 
 // loadImage, made RGBA (alpha 1) and fit for rgba16f: NaN and negative become 0, infinite becomes 65504, and light beyond
 // 65504 moves to the texels around. Adds one W153 with the counts, and with the share of the light that found no room.
-std::optional<ImageF> loadEnvironment(const std::string& path, base::Diagnostics& diagnostics);
+std::optional<ImageF> loadEnvironment(const std::string& path, text::Diagnostics& diagnostics);
 // The same for bytes in memory, as decodeImage.
 std::optional<ImageF> decodeEnvironment(std::string_view bytes, const std::string& name,
-                                        base::Diagnostics& diagnostics);
-// The cleaning step alone: the colour channels of `image`, RGB or RGBA and equirectangular, in place.
-void sanitizeRadiance(ImageF& image, const std::string& name, base::Diagnostics& diagnostics);
+                                        text::Diagnostics& diagnostics);
+// The cleaning step alone: the color channels of `image`, RGB or RGBA and equirectangular, in place.
+void sanitizeRadiance(ImageF& image, const std::string& name, text::Diagnostics& diagnostics);
 
-// A picture file as a texture can hold it: the numbers of the file, four channels, bottom row first as OpenGL counts rows. Grey
+// A picture file as a texture can hold it: the numbers of the file, four channels, bottom row first as OpenGL counts rows. Gray
 // becomes equal red, green and blue; a missing alpha is 1.
 // What a channel is in the file: .png .jpg .tga of 8 bits, .png of 16 bits, .hdr and .exr.
 enum class StoredType : std::uint8_t { byte, word, real };
@@ -63,8 +63,8 @@ struct StoredImage {
 };
 
 // Walks the file but decodes no texels.
-std::optional<StoredHeader> loadStoredHeader(const std::string& path, base::Diagnostics& diagnostics);
-std::optional<StoredImage> loadStored(const std::string& path, base::Diagnostics& diagnostics);
+std::optional<StoredHeader> loadStoredHeader(const std::string& path, text::Diagnostics& diagnostics);
+std::optional<StoredImage> loadStored(const std::string& path, text::Diagnostics& diagnostics);
 
 // Red, green and blue of 16 bits decoded from sRGB, as real numbers; alpha stays linear.
 StoredImage decodeSrgbWords(const StoredImage& image);
@@ -72,11 +72,11 @@ StoredImage decodeSrgbWords(const StoredImage& image);
 // A picture as the bytes of a PNG file. Empty when it cannot be encoded.
 std::string encodePng8(int width, int height, int channels, std::span<const std::uint8_t> texels);
 bool savePng8(const std::string& path, int width, int height, int channels,
-              std::span<const std::uint8_t> texels, base::Diagnostics& diagnostics);
+              std::span<const std::uint8_t> texels, text::Diagnostics& diagnostics);
 // 32-bit float, ZIP scanlines; 1, 3 or 4 channels.
-bool saveExr(const std::string& path, const ImageF& image, base::Diagnostics& diagnostics);
+bool saveExr(const std::string& path, const ImageF& image, text::Diagnostics& diagnostics);
 
-// `image` with 4 channels, `width` x `height` texels over 0; repeated at its edges. `srgb`: colour is averaged as light, alpha
+// `image` with 4 channels, `width` x `height` texels over 0; repeated at its edges. `srgb`: color is averaged as light, alpha
 // never is encoded.
 Image8 resize(const Image8& image, int width, int height, bool srgb);
 

@@ -13,12 +13,12 @@ namespace weft::assets {
 enum class ImageKind : std::uint8_t { unknown, hdr, exr, eight_bit };
 ImageKind kindOfName(const std::string& name);
 // The kind of a file that holds something; unknown after W150 or W151.
-ImageKind checkKind(std::string_view bytes, const std::string& name, base::Diagnostics& diagnostics);
+ImageKind checkKind(std::string_view bytes, const std::string& name, text::Diagnostics& diagnostics);
 
 // Adds "cannot read NAME: WHY" as W150.
-void reportUnreadable(base::Diagnostics& diagnostics, const std::string& name, const std::string& why);
+void reportUnreadable(text::Diagnostics& diagnostics, const std::string& name, const std::string& why);
 // True when the size is sound; else adds W152.
-bool checkSize(base::Diagnostics& diagnostics, const std::string& name, long long width, long long height);
+bool checkSize(text::Diagnostics& diagnostics, const std::string& name, long long width, long long height);
 
 struct ImageHeader {
   int width = 0, height = 0, channels = 0;
@@ -27,21 +27,21 @@ struct ImageHeader {
 
 // What the decoders take, without decoding texels: .png, .jpg and .tga; .hdr; .exr.
 std::optional<ImageHeader> readPictureHeader(std::string_view bytes, const std::string& name,
-                                             base::Diagnostics& diagnostics);
+                                             text::Diagnostics& diagnostics);
 std::optional<ImageHeader> readHdrHeader(std::string_view bytes, const std::string& name,
-                                         base::Diagnostics& diagnostics);
+                                         text::Diagnostics& diagnostics);
 std::optional<ImageHeader> readExrHeader(std::string_view bytes, const std::string& name,
-                                         base::Diagnostics& diagnostics);
+                                         text::Diagnostics& diagnostics);
 // `channels` 1 to 4, or 0 for what the file has; T is std::uint8_t or std::uint16_t, whatever the file has.
 template <class T>
 std::optional<ImageOf<T>> decodePicture(std::string_view bytes, int channels, const std::string& name,
-                                        base::Diagnostics& diagnostics);
+                                        text::Diagnostics& diagnostics);
 std::optional<ImageF> decodeHdr(std::string_view bytes, const std::string& name,
-                                base::Diagnostics& diagnostics);
+                                text::Diagnostics& diagnostics);
 std::optional<ImageF> decodeExr(std::string_view bytes, const std::string& name,
-                                base::Diagnostics& diagnostics);
+                                text::Diagnostics& diagnostics);
 
-// Grey, grey-alpha and RGB become RGBA; a missing alpha is 1.
+// Gray, gray-alpha and RGB become RGBA; a missing alpha is 1.
 ImageF widenToRgba(ImageF image);
 
 }  // namespace weft::assets

@@ -17,11 +17,11 @@
 #include <vector>
 
 #include "engine/assets/images/image_codecs.h"
-#include "engine/base/files/file.h"
+#include "engine/text/files/file.h"
 
 namespace weft::assets {
 
-using base::Diagnostics;
+using text::Diagnostics;
 
 namespace {
 
@@ -159,18 +159,18 @@ struct Layer {
 };
 
 // Those with channels R, G and B, in the order of the file. A file with one channel, or with Y where that
-// is no part of a colour, is grey.
+// is no part of a color, is gray.
 std::vector<Layer> findLayers(const EXRHeader& header) {
   std::vector<Layer> layers;
   std::unordered_map<std::string_view, std::size_t> places;  // of layers in `layers`
-  int grey = header.num_channels == 1 ? 0 : -1;
+  int gray = header.num_channels == 1 ? 0 : -1;
   bool hasColors = false;  // as X, Y, Z or as Y, RY, BY
   for (int c = 0; c < header.num_channels; ++c) {
     const std::string_view name = header.channels[c].name;
     const std::size_t dot = name.rfind('.');
     const std::string_view of = dot == name.npos ? "" : name.substr(0, dot);
     const std::string_view last = dot == name.npos ? name : name.substr(dot + 1);
-    if (name == "Y") grey = c;
+    if (name == "Y") gray = c;
     hasColors |= name == "X" || name == "RY" || name == "BY";
     const std::size_t index = last.size() == 1 ? std::string_view("RGBA").find(last[0]) : last.npos;
     if (index == last.npos) continue;
@@ -183,8 +183,8 @@ std::vector<Layer> findLayers(const EXRHeader& header) {
   const bool hasPicture = own != layers.end() && own->isWhole();
   if (hasPicture) return {*own};
   std::erase_if(layers, [](const Layer& layer) { return !layer.isWhole(); });
-  if (layers.empty() && grey >= 0 && grey != alpha && (!hasColors || header.num_channels == 1))
-    layers = {{"", {grey, grey, grey, alpha}}};
+  if (layers.empty() && gray >= 0 && gray != alpha && (!hasColors || header.num_channels == 1))
+    layers = {{"", {gray, gray, gray, alpha}}};
   return layers;
 }
 
@@ -242,7 +242,7 @@ std::unique_ptr<Opening> openExr(std::string_view bytes, const std::string& name
     int& type = header.requested_pixel_types[channel];
     if (type == TINYEXR_PIXELTYPE_HALF) type = TINYEXR_PIXELTYPE_FLOAT;
     if (type == TINYEXR_PIXELTYPE_FLOAT) continue;
-    reportUnreadable(diagnostics, name, "a colour channel holds whole numbers");
+    reportUnreadable(diagnostics, name, "a color channel holds whole numbers");
     return {};
   }
   return opening;
@@ -332,8 +332,8 @@ bool saveExr(const std::string& path, const ImageF& image, Diagnostics& diagnost
   const char* message = nullptr;
   const std::size_t size = SaveEXRImageToMemory(&picture, &header, &bytes, &message);
   const std::unique_ptr<unsigned char, decltype(&std::free)> memory(bytes, &std::free);
-  if (size > 0) return base::writeFile(path, {reinterpret_cast<const char*>(bytes), size}, diagnostics);
-  diagnostics.error(base::Code::outputNotWritten, {std::make_shared<const std::string>(path)},
+  if (size > 0) return text::writeFile(path, {reinterpret_cast<const char*>(bytes), size}, diagnostics);
+  diagnostics.error(text::Code::outputNotWritten, {std::make_shared<const std::string>(path)},
                     fmt::format("cannot encode '{}' as OpenEXR: {}", path, takeMessage(message)));
   return false;
 }

@@ -11,16 +11,16 @@
 #include <memory>
 
 #include "engine/assets/images/image_codecs.h"
-#include "engine/base/files/file.h"
+#include "engine/text/files/file.h"
 
 namespace weft::assets {
 
-using base::Diagnostics;
+using text::Diagnostics;
 
 namespace {
 
 // What stb_image does not survive or lets pass. Files that end early: it fills what is missing with zeros (.hdr at a line's
-// start, .jpg) or leaves it uninitialised (.tga). Huffman tables of more than 256 codes in a .jpg: it writes beyond its arrays
+// start, .jpg) or leaves it uninitialized (.tga). Huffman tables of more than 256 codes in a .jpg: it writes beyond its arrays
 // (the packaged version of 2022-09 does; found by the fuzz test). So the structure of a file is walked before it is decoded.
 // Each check returns "" for a complete file, else what is wrong, to stand after "path: ".
 
@@ -113,7 +113,7 @@ std::string checkJpeg(std::string_view bytes) {
   }
 }
 
-// Truevision TGA 2.0: 18 bytes of header, id, colour map, then texels or run-length packets.
+// Truevision TGA 2.0: 18 bytes of header, id, color map, then texels or run-length packets.
 std::string checkTga(std::string_view bytes) {
   if (bytes.size() < 18) return "the file ends in its header";
   const auto word = [&](std::size_t i) {
@@ -248,8 +248,8 @@ std::string encodePng8(int width, int height, int channels, std::span<const std:
 bool savePng8(const std::string& path, int width, int height, int channels,
               std::span<const std::uint8_t> texels, Diagnostics& diagnostics) {
   const std::string bytes = encodePng8(width, height, channels, texels);
-  if (!bytes.empty()) return base::writeFile(path, bytes, diagnostics);
-  diagnostics.error(base::Code::outputNotWritten, {std::make_shared<const std::string>(path)},
+  if (!bytes.empty()) return text::writeFile(path, bytes, diagnostics);
+  diagnostics.error(text::Code::outputNotWritten, {std::make_shared<const std::string>(path)},
                     fmt::format("cannot encode '{}' as PNG", path));
   return false;
 }
@@ -258,7 +258,7 @@ Image8 resize(const Image8& image, int width, int height, bool srgb) {
   assert(image.channels == 4);
   Image8 out{width, height, 4, {}};
   out.texels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
-  // Alpha is a mask or nothing: colour is not weighted by it.
+  // Alpha is a mask or nothing: color is not weighted by it.
   [[maybe_unused]] const int good = stbir_resize_uint8_generic(
       image.texels.data(), image.width, image.height, 0, out.texels.data(), width, height, 0, 4, 3,
       STBIR_FLAG_ALPHA_PREMULTIPLIED, STBIR_EDGE_WRAP, STBIR_FILTER_DEFAULT,

@@ -49,10 +49,10 @@ std::uint64_t LoadQueue::request(std::string path, std::uint32_t channel) {
     std::erase_if(requests_, [&](const Request& each) {
       if (each.channel != channel) return false;
       if (each.result) --ready_;
-      *each.cancelled = true;
+      *each.canceled = true;
       return true;
     });
-  if (requests_.size() >= kMostRequests) return 0;
+  if (requests_.size() >= kMaxRequests) return 0;
   const std::uint64_t ticket = ++lastTicket_;
   requests_.push_back(
       {ticket, channel, std::move(path), std::make_shared<std::atomic<bool>>(false), std::nullopt});
@@ -68,7 +68,7 @@ void LoadQueue::cancel(std::uint64_t ticket) {
   std::erase_if(requests_, [&](const Request& each) {
     if (each.ticket != ticket) return false;
     if (each.result) --ready_;
-    *each.cancelled = true;
+    *each.canceled = true;
     return true;
   });
   finished_.notify_all();
@@ -126,14 +126,14 @@ void LoadQueue::run(std::stop_token stop) {
     });
     if (!more || stop.stop_requested()) return;
     Result result{next->ticket, next->path, nullptr, {}};
-    const std::shared_ptr<std::atomic<bool>> cancelled = next->cancelled;
+    const std::shared_ptr<std::atomic<bool>> canceled = next->canceled;
     lock.unlock();
 
     LoadStage last = LoadStage::idle;
     result.product = job_(result.path, result.diagnostics, [&](LoadStage stage, double done) {
       show(result.ticket, stage, done);
       if (std::exchange(last, stage) != stage && hook_) hook_(result.ticket, stage);
-      return !*cancelled && !stop.stop_requested();
+      return !*canceled && !stop.stop_requested();
     });
     show(result.ticket, LoadStage::idle, 0);
 

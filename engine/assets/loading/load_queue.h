@@ -18,7 +18,7 @@
 #include <thread>
 
 #include "engine/assets/loading/load_observer.h"
-#include "engine/base/diagnostic.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::assets {
 
@@ -31,11 +31,11 @@ const char* nameOf(LoadStage stage);  // "reading", for a person
 
 // Makes what is asked for by `path`, or null. Asks `observer` often, and gives up when it says so.
 using LoadJob = std::function<std::shared_ptr<const void>(
-    const std::string& path, base::Diagnostics& diagnostics, const LoadObserver& observer)>;
+    const std::string& path, text::Diagnostics& diagnostics, const LoadObserver& observer)>;
 
 class LoadQueue {
  public:
-  static constexpr std::size_t kMostRequests = 16;  // waiting, running, or finished and not fetched
+  static constexpr std::size_t kMaxRequests = 16;  // waiting, running, or finished and not fetched
   // For tests: called on the loader thread when a stage of a request begins.
   using StageHook = std::function<void(std::uint64_t ticket, LoadStage stage)>;
 
@@ -47,7 +47,7 @@ class LoadQueue {
     std::shared_ptr<const T> as() const {
       return std::static_pointer_cast<const T>(product);
     }
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
   };
 
   explicit LoadQueue(LoadJob job, StageHook hook = {});
@@ -58,12 +58,12 @@ class LoadQueue {
   // Returns a ticket above all earlier ones, or 0 when too many requests are under way. Channel 0 replaces
   // nothing.
   std::uint64_t request(std::string path, std::uint32_t channel = 0);
-  // A cancelled request has no result. An unknown or fetched ticket is ignored.
+  // A canceled request has no result. An unknown or fetched ticket is ignored.
   void cancel(std::uint64_t ticket);
 
   // The oldest finished result, if there is one. Never waits for a load.
   std::optional<Result> poll();
-  // Waits for one request. Empty when it was fetched, replaced or cancelled.
+  // Waits for one request. Empty when it was fetched, replaced or canceled.
   std::optional<Result> wait(std::uint64_t ticket);
 
   // How far the request is that runs now; `waiting` when it has not begun, `idle` for every other.
@@ -74,7 +74,7 @@ class LoadQueue {
     std::uint64_t ticket = 0;
     std::uint32_t channel = 0;
     std::string path;
-    std::shared_ptr<std::atomic<bool>> cancelled;
+    std::shared_ptr<std::atomic<bool>> canceled;
     std::optional<Result> result;  // once it is finished
   };
   void run(std::stop_token stop);

@@ -29,7 +29,7 @@ bool isModelName(const std::string& name) {
   return extension == ".gltf" || extension == ".glb" || extension == ".obj" || extension == ".fbx";
 }
 
-std::optional<Model> loadModel(const std::string& path, base::Diagnostics& diagnostics,
+std::optional<Model> loadModel(const std::string& path, text::Diagnostics& diagnostics,
                                const LoadObserver& observer, std::vector<std::string>* files,
                                const DecodeRunner& decode) {
   ModelFiles mine(path, diagnostics, observer);
@@ -38,7 +38,7 @@ std::optional<Model> loadModel(const std::string& path, base::Diagnostics& diagn
   bool good = false;
   const std::string kind = lowerExtension(path);
   if (!isModelName(path)) {
-    base::Diagnostic& d = diagnostics.error(base::Code::unreadableModel, mine.place(),
+    text::Diagnostic& d = diagnostics.error(text::Code::unreadableModel, mine.place(),
                                             fmt::format("'{}' is no kind of model that is known", path));
     d.expected = ".gltf, .glb, .obj or .fbx";
     d.found = kind.empty() ? "no extension" : kind;
@@ -52,7 +52,7 @@ std::optional<Model> loadModel(const std::string& path, base::Diagnostics& diagn
   if (files) *files = model.files;
   if (!good || mine.gaveUp()) return {};
   if (model.instances.empty()) {
-    base::Diagnostic& d = diagnostics.error(base::Code::unreadableModel, mine.place(),
+    text::Diagnostic& d = diagnostics.error(text::Code::unreadableModel, mine.place(),
                                             fmt::format("the model '{}' has nothing to draw", path));
     d.expected = "at least one mesh of triangles in its scene";
     return {};

@@ -10,7 +10,7 @@
 
 #include "engine/assets/loading/load_observer.h"
 #include "engine/assets/model.h"
-#include "engine/base/diagnostic.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::assets {
 
@@ -20,7 +20,7 @@ bool isModelName(const std::string& name);
 // Empty after errors, and without any when `observer` gave up. `files`, when given, is set to everything that was read or
 // should have been, also after errors: what to watch.
 // `decode` decodes the images: empty, in turn on this thread.
-std::optional<Model> loadModel(const std::string& path, base::Diagnostics& diagnostics,
+std::optional<Model> loadModel(const std::string& path, text::Diagnostics& diagnostics,
                                const LoadObserver& observer = {}, std::vector<std::string>* files = nullptr,
                                const DecodeRunner& decode = {});
 

@@ -8,8 +8,8 @@
 #include <array>
 #include <cctype>
 
-#include "engine/base/hash.h"
 #include "engine/gl/context/context_backends.h"
+#include "engine/text/hash.h"
 
 namespace weft::gl {
 
@@ -59,7 +59,7 @@ DeviceInfo describeDevice(Backend backend, const std::string& platform) {
   // The backend is in the key because of binaries-per-backend (workarounds.h).
   const std::string all = fmt::format("{}\n{}\n{}\n{}\n{}", d.vendor, d.renderer, d.version,
                                       textOf(GL_SHADING_LANGUAGE_VERSION), nameOf(backend));
-  d.driverKey = fmt::format("{:016x}", base::hashBytes(all));
+  d.driverKey = fmt::format("{:016x}", text::hashBytes(all));
   return d;
 }
 
@@ -103,7 +103,7 @@ std::optional<Backend> findBackend(std::string_view name) {
   return std::nullopt;
 }
 
-std::unique_ptr<Context> createContext(const ContextOptions& options, base::Diagnostics& diagnostics) {
+std::unique_ptr<Context> createContext(const ContextOptions& options, text::Diagnostics& diagnostics) {
   std::vector<std::string> failures;
   for (const Attempt& attempt : attemptsFor(options.backend)) {
     OpenedContext opened = open(attempt, options, failures);
@@ -123,8 +123,8 @@ std::unique_ptr<Context> createContext(const ContextOptions& options, base::Diag
     setConventions();
     return std::move(opened.context);
   }
-  base::Diagnostic& error = diagnostics.error(
-      base::Code::noContext, {},
+  text::Diagnostic& error = diagnostics.error(
+      text::Code::noContext, {},
       fmt::format("no OpenGL 4.5 core context could be opened (backend '{}')", nameOf(options.backend)));
   error.found = fmt::format("{}", fmt::join(failures, "; "));
   error.hint = options.backend == Backend::glfw

@@ -12,8 +12,8 @@
 #include <string>
 #include <string_view>
 
-#include "engine/base/diagnostic.h"
 #include "engine/gl/context/debug.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::gl {
 
@@ -84,11 +84,11 @@ class Context {
   DeviceInfo device_;
   DebugLog debugLog_;
   friend std::unique_ptr<Context> createContext(const ContextOptions& options,
-                                                base::Diagnostics& diagnostics);
+                                                text::Diagnostics& diagnostics);
 };
 
 // A current context, or null with a W110 diagnostic that lists every platform that was tried and why it
 // failed. Destroy GL objects before the context.
-std::unique_ptr<Context> createContext(const ContextOptions& options, base::Diagnostics& diagnostics);
+std::unique_ptr<Context> createContext(const ContextOptions& options, text::Diagnostics& diagnostics);
 
 }  // namespace weft::gl

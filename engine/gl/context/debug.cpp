@@ -83,21 +83,21 @@ std::vector<DebugMessage> DebugLog::messages() const {
   return messages_;
 }
 
-void DebugLog::drain(base::Diagnostics& diagnostics, bool notifications) {
+void DebugLog::drain(text::Diagnostics& diagnostics, bool notifications) {
   const std::lock_guard lock(mutex_);
   for (; drained_ < messages_.size(); ++drained_) {
     const DebugMessage& m = messages_[drained_];
-    base::Severity severity = base::Severity::warning;
+    text::Severity severity = text::Severity::warning;
     if (m.severity == GL_DEBUG_SEVERITY_NOTIFICATION) {
       if (!notifications) continue;
-      severity = base::Severity::note;
+      severity = text::Severity::note;
     } else if (m.severity == GL_DEBUG_SEVERITY_HIGH || m.type == GL_DEBUG_TYPE_ERROR) {
-      severity = base::Severity::error;
+      severity = text::Severity::error;
     }
     std::string text = fmt::format("OpenGL: {}", m.text);
     if (m.count > 1) text += fmt::format(" (seen {} times)", m.count);
     diagnostics.add({.severity = severity,
-                     .code = base::Code::driverMessage,
+                     .code = text::Code::driverMessage,
                      .message = std::move(text),
                      .place = {},
                      .pass = m.group});

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::gl {
 
@@ -42,7 +42,7 @@ class DebugLog {
   // Adds a W120 for each message that is new since the last drain: an error for high severity or type error, a
   // warning for medium and low severity, a note for notifications when `notifications` is set. The text says how
   // often the message was seen ("seen 12 times").
-  void drain(base::Diagnostics& diagnostics, bool notifications = false);
+  void drain(text::Diagnostics& diagnostics, bool notifications = false);
   void clear();
 
  private:

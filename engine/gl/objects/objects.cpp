@@ -77,7 +77,7 @@ template class Owner<ObjectKind::query>;
 template class Owner<ObjectKind::program>;
 
 std::optional<Buffer> Buffer::create(std::uint64_t bytes, GLbitfield flags, std::string_view label,
-                                     base::Diagnostics& diagnostics, const void* data) {
+                                     text::Diagnostics& diagnostics, const void* data) {
   assert(bytes > 0);
   GLuint id = 0;
   glCreateBuffers(1, &id);
@@ -88,7 +88,7 @@ std::optional<Buffer> Buffer::create(std::uint64_t bytes, GLbitfield flags, std:
   glNamedBufferStorage(id, static_cast<GLsizeiptr>(bytes), data, flags);
   if (const std::string errors = takeErrors(); !errors.empty()) {
     diagnostics
-        .error(base::Code::bufferNotCreated, {},
+        .error(text::Code::bufferNotCreated, {},
                fmt::format("buffer '{}' of {} bytes cannot be created: {}", label, bytes, errors))
         .resource = label;
     return std::nullopt;
@@ -271,10 +271,10 @@ void setDefaults(GLuint id, GLenum target, std::uint32_t mips) {
 }  // namespace
 
 std::optional<Texture> Texture::create(const TextureDesc& desc, std::string_view label,
-                                       base::Diagnostics& diagnostics) {
+                                       text::Diagnostics& diagnostics) {
   const auto fail = [&](const std::string& reason) {
     diagnostics
-        .error(base::Code::textureNotCreated, {},
+        .error(text::Code::textureNotCreated, {},
                fmt::format("texture '{}' ({}) cannot be created: {}", label, sizeText(desc), reason))
         .resource = label;
     return std::nullopt;
@@ -315,7 +315,7 @@ std::optional<Texture> Texture::create(const TextureDesc& desc, std::string_view
 }
 
 std::optional<TextureView> TextureView::create(const TextureRef& of, const ViewDesc& view,
-                                               std::string_view label, base::Diagnostics& diagnostics) {
+                                               std::string_view label, text::Diagnostics& diagnostics) {
   GLuint id = 0;
   glGenTextures(1, &id);  // workarounds.h: view-names-from-gen
   TextureView texture(id);
@@ -323,7 +323,7 @@ std::optional<TextureView> TextureView::create(const TextureRef& of, const ViewD
   glTextureView(id, view.target, of.id, format, view.mip, view.mips, view.layer, view.layers);
   if (!glIsTexture(id)) {
     diagnostics
-        .error(base::Code::viewNotCreated, {},
+        .error(text::Code::viewNotCreated, {},
                fmt::format("view '{}' of a texture ({}) cannot be created: {}", label, sizeText(of.desc),
                            takeErrors()))
         .found =
@@ -347,7 +347,7 @@ std::optional<TextureView> TextureView::create(const TextureRef& of, const ViewD
 }
 
 std::optional<Framebuffer> Framebuffer::create(std::span<const Attachment> attachments,
-                                               std::string_view label, base::Diagnostics& diagnostics,
+                                               std::string_view label, text::Diagnostics& diagnostics,
                                                std::uint32_t width, std::uint32_t height) {
   GLuint id = 0;
   glCreateFramebuffers(1, &id);
@@ -385,7 +385,7 @@ std::optional<Framebuffer> Framebuffer::create(std::span<const Attachment> attac
   }
   const std::string errors = takeErrors();
   diagnostics
-      .error(base::Code::incompleteFramebuffer, {},
+      .error(text::Code::incompleteFramebuffer, {},
              fmt::format("framebuffer '{}' is incomplete: {} ({}{}{})", label, statusReason(status),
                          enumName(status), errors.empty() ? "" : ", ", errors))
       .found = parts.empty() ? "no attachments" : parts;

@@ -1,4 +1,4 @@
-// Move-only owners of GL objects, labelled for debug tools and counted per kind (leak tests). Creation that
+// Move-only owners of GL objects, labeled for debug tools and counted per kind (leak tests). Creation that
 // depends on the machine or on an author's numbers returns an optional and a diagnostic; everything else
 // asserts. All functions act on the current context; an object must be destroyed in the context that made it. An
 // object that is default-made or moved from owns nothing.
@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::gl {
 
@@ -86,7 +86,7 @@ class Texture : public Owner<ObjectKind::texture> {
   // Reports W116 when the driver's limits or memory do not allow it. Filters are set to nearest, wrapping to clamp
   // to edge, GL_TEXTURE_MAX_LEVEL to mips - 1. Contents are undefined.
   static std::optional<Texture> create(const TextureDesc& desc, std::string_view label,
-                                       base::Diagnostics& diagnostics);
+                                       text::Diagnostics& diagnostics);
   const TextureDesc& desc() const { return desc_; }
   TextureRef ref() const { return {id_, desc_}; }
 
@@ -108,7 +108,7 @@ class TextureView : public Owner<ObjectKind::view> {
  public:
   // Reports W118 when the driver rejects it (range, target, class).
   static std::optional<TextureView> create(const TextureRef& of, const ViewDesc& view, std::string_view label,
-                                           base::Diagnostics& diagnostics);
+                                           text::Diagnostics& diagnostics);
   const TextureDesc& desc() const { return desc_; }  // sizes of the view's level 0
   TextureRef ref() const { return {id_, desc_}; }
 
@@ -122,7 +122,7 @@ class Buffer : public Owner<ObjectKind::buffer> {
   // Immutable storage of `bytes` (> 0); flags as for glNamedBufferStorage. Without `data` the contents are undefined.
   // Reports W117 when there is no memory.
   static std::optional<Buffer> create(std::uint64_t bytes, GLbitfield flags, std::string_view label,
-                                      base::Diagnostics& diagnostics, const void* data = nullptr);
+                                      text::Diagnostics& diagnostics, const void* data = nullptr);
   std::uint64_t bytes() const { return bytes_; }
 
  private:
@@ -144,7 +144,7 @@ class Framebuffer : public Owner<ObjectKind::framebuffer> {
   // Draw buffer i writes GL_COLOR_ATTACHMENTi when that is attached, else nothing. Without attachments, width and
   // height give the area that is rasterised. When the framebuffer is incomplete, reports W115 with the reason.
   static std::optional<Framebuffer> create(std::span<const Attachment> attachments, std::string_view label,
-                                           base::Diagnostics& diagnostics, std::uint32_t width = 0,
+                                           text::Diagnostics& diagnostics, std::uint32_t width = 0,
                                            std::uint32_t height = 0);
 
  private:

@@ -10,7 +10,7 @@ namespace weft::gl {
 
 std::optional<PixelStream> PixelStream::create(const TextureRef& texture, std::uint32_t mip, GLenum format,
                                                GLenum type, std::uint32_t rowsPerPortion,
-                                               std::string_view label, base::Diagnostics& diagnostics) {
+                                               std::string_view label, text::Diagnostics& diagnostics) {
   assert(texture.desc.target == GL_TEXTURE_2D && mip < texture.desc.mips);
   PixelStream stream;
   stream.texture_ = texture;
@@ -29,7 +29,7 @@ std::optional<PixelStream> PixelStream::create(const TextureRef& texture, std::u
     if (!buffer) return std::nullopt;
     void* mapped = glMapNamedBufferRange(buffer->id(), 0, static_cast<GLsizeiptr>(bytes), kFlags);
     if (!mapped) {
-      diagnostics.error(base::Code::bufferNotCreated, {}, "a pixel buffer cannot be mapped").resource = label;
+      diagnostics.error(text::Code::bufferNotCreated, {}, "a pixel buffer cannot be mapped").resource = label;
       return std::nullopt;
     }
     stream.ring_[i].buffer = std::move(*buffer);
@@ -54,7 +54,7 @@ void PixelStream::advance(std::span<const std::byte> texels) {
   next_ = (next_ + 1) % kBuffers;
 }
 
-bool LevelStream::advance(base::Diagnostics& diagnostics) {
+bool LevelStream::advance(text::Diagnostics& diagnostics) {
   assert(texture_.desc.target == GL_TEXTURE_2D && texelsPerPortion_ > 0);
   if (madeAll()) return true;
   const Extent above = extentOf(texture_.desc, level_ - 1), mine = extentOf(texture_.desc, level_);

@@ -15,7 +15,7 @@ class PixelStream {
   // `rowsPerPortion` rows of (format, type) fit a buffer; at least one. W117 when memory is out.
   static std::optional<PixelStream> create(const TextureRef& texture, std::uint32_t mip, GLenum format,
                                            GLenum type, std::uint32_t rowsPerPortion, std::string_view label,
-                                           base::Diagnostics& diagnostics);
+                                           text::Diagnostics& diagnostics);
 
   // Sends the next portion of `texels`, which are those of the whole level and the same in every call, or
   // nothing when the GPU still reads the next buffer.
@@ -49,7 +49,7 @@ class LevelStream {
       : texture_(texture), texelsPerPortion_(texelsPerPortion) {}
 
   // Makes the next portion. False after W115.
-  bool advance(base::Diagnostics& diagnostics);
+  bool advance(text::Diagnostics& diagnostics);
   bool madeAll() const { return level_ >= texture_.desc.mips; }
   // The share of the texels below level 0 that are made, 0 to 1.
   float done() const;

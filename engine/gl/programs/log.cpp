@@ -7,12 +7,12 @@
 #include <optional>
 #include <regex>
 
-#include "engine/base/chars.h"
-#include "engine/base/nearest.h"
-#include "engine/base/words/foreign_words.h"
-#include "engine/base/words/glsl_words.h"
 #include "engine/glsl/interface.h"
 #include "engine/glsl/tokens.h"
+#include "engine/text/chars.h"
+#include "engine/text/nearest.h"
+#include "engine/text/words/foreign_words.h"
+#include "engine/text/words/glsl_words.h"
 
 namespace weft::gl {
 
@@ -20,9 +20,9 @@ namespace {
 
 // A message of a log, with its line in ShaderSource::text, from 1; 0: it is nowhere in it.
 struct LogMessage {
-  base::Diagnostic diagnostic;
+  text::Diagnostic diagnostic;
   std::uint32_t textLine = 0;
-  bool isError() const { return diagnostic.severity == base::Severity::error; }
+  bool isError() const { return diagnostic.severity == text::Severity::error; }
 };
 
 std::string_view trim(std::string_view text) {
@@ -35,7 +35,7 @@ std::string_view trim(std::string_view text) {
 struct LogPrefix {
   std::size_t length = 0;
   std::uint32_t line = 0, column = 0;
-  base::Severity severity = base::Severity::error;
+  text::Severity severity = text::Severity::error;
 };
 
 std::optional<LogPrefix> prefixOf(std::string_view raw) {
@@ -48,16 +48,16 @@ std::optional<LogPrefix> prefixOf(std::string_view raw) {
   std::smatch match;
   for (const std::regex& form : kForms) {
     if (!std::regex_search(head, match, form, std::regex_constants::match_continuous)) continue;
-    const std::string text = base::lowered(match.str());
+    const std::string text = text::lowered(match.str());
     const auto number = [&](std::size_t group) {
       return group < match.size()
                  ? static_cast<std::uint32_t>(std::strtoul(match.str(group).c_str(), nullptr, 10))
                  : 0;
     };
     return LogPrefix{text.size(), number(1), number(2),
-                     text.find("warning") != std::string::npos ? base::Severity::warning
-                     : text.find("note") != std::string::npos  ? base::Severity::note
-                                                               : base::Severity::error};
+                     text.find("warning") != std::string::npos ? text::Severity::warning
+                     : text.find("note") != std::string::npos  ? text::Severity::note
+                                                               : text::Severity::error};
   }
   return std::nullopt;
 }
@@ -89,7 +89,7 @@ std::string_view lineOf(std::string_view text, std::uint32_t number) {
 }
 
 bool isName(std::string_view text) {
-  return !text.empty() && base::isIdentStart(text[0]) && std::ranges::all_of(text, base::isIdentChar);
+  return !text.empty() && text::isIdentStart(text[0]) && std::ranges::all_of(text, text::isIdentChar);
 }
 
 // The name that a message quotes, as in "`name' undeclared" or "undefined variable "name"", or "".
@@ -119,10 +119,10 @@ std::string nearestTo(std::string_view name, const glsl::Interface& interface) {
   std::vector<std::string> names;
   for (const glsl::Declaration& each : interface.declarations)
     if (each.name != name) names.emplace_back(each.name);
-  if (std::string near = base::nearestName(name, names); !near.empty()) return near;
-  names.assign(base::glslFunctions().begin(), base::glslFunctions().end());
+  if (std::string near = text::nearestName(name, names); !near.empty()) return near;
+  names.assign(text::glslFunctions().begin(), text::glslFunctions().end());
   std::erase(names, name);
-  return base::nearestName(name, names);
+  return text::nearestName(name, names);
 }
 
 // What to write for a name that is not declared: the word of GLSL for one of another language, how a member of a block is
@@ -133,12 +133,12 @@ std::string hintForName(std::string_view name, const glsl::ShaderSource& source,
   if (here && here->role == glsl::Role::member && !here->instance.empty())
     return fmt::format("write '{}.{}': its block has an instance name", here->instance, name);
   if (here && here->role != glsl::Role::variable) return {};
-  if (std::string theirs = base::hintForForeign(base::Foreign::shader_name, name); !theirs.empty())
+  if (std::string theirs = text::hintForForeign(text::Foreign::shader_name, name); !theirs.empty())
     return theirs;
-  if (base::isGlslWord(name) || base::isGlslFunction(name)) return {};
+  if (text::isGlslWord(name) || text::isGlslFunction(name)) return {};
   const glsl::Interface& everywhere = source.ofAllBranches();
   if (const glsl::Declaration* other = everywhere.find(name); other && other->role != glsl::Role::variable) {
-    const base::Place at = source.placeOf(other->at.line);
+    const text::Place at = source.placeOf(other->at.line);
     return fmt::format("it is declared in {}:{}, in a branch of an #if that is not taken here", *at.file,
                        at.line);
   }
@@ -147,7 +147,7 @@ std::string hintForName(std::string_view name, const glsl::ShaderSource& source,
 }
 
 void advise(LogMessage& message, const glsl::ShaderSource& source, std::span<const glsl::Define> defines) {
-  base::Diagnostic& d = message.diagnostic;
+  text::Diagnostic& d = message.diagnostic;
   if (const std::string_view name = quotedName(d.message); !name.empty()) {
     d.hint = hintForName(name, source, defines);
   } else if (message.textLine) {
@@ -155,7 +155,7 @@ void advise(LogMessage& message, const glsl::ShaderSource& source, std::span<con
     if (const auto define = std::ranges::find(defines, word, &glsl::Define::name); define != defines.end())
       d.hint = fmt::format("the graph defines '{}' as {}: rename the define", define->name, define->value);
     for (const std::string_view each : {before, word})
-      if (d.hint.empty() && isName(each)) d.hint = base::hintForForeign(base::Foreign::shader_name, each);
+      if (d.hint.empty() && isName(each)) d.hint = text::hintForForeign(text::Foreign::shader_name, each);
   }
   std::ranges::replace(d.message, '`', '\'');
   // "…; candidates are:", which stand on lines of their own.
@@ -163,7 +163,7 @@ void advise(LogMessage& message, const glsl::ShaderSource& source, std::span<con
 }
 
 // The place of the first function that a message without a place quotes, as that of recursion does.
-base::Place placeOfFunctionIn(const std::string& message, const glsl::ShaderSource& source,
+text::Place placeOfFunctionIn(const std::string& message, const glsl::ShaderSource& source,
                               std::span<const glsl::Define> defines) {
   const std::string_view quoted =
       std::string_view(message).substr(std::min(message.find_first_of("`'"), message.size()));
@@ -176,8 +176,8 @@ base::Place placeOfFunctionIn(const std::string& message, const glsl::ShaderSour
 
 }  // namespace
 
-std::size_t mapLog(std::string_view log, const glsl::ShaderSource& source, base::Code code,
-                   base::Diagnostics& diagnostics, std::span<const glsl::Define> defines) {
+std::size_t mapLog(std::string_view log, const glsl::ShaderSource& source, text::Code code,
+                   text::Diagnostics& diagnostics, std::span<const glsl::Define> defines) {
   static const auto kDefines = std::make_shared<const std::string>("<defines>");
   std::vector<LogMessage> messages;
   while (!log.empty()) {
@@ -191,7 +191,7 @@ std::size_t mapLog(std::string_view log, const glsl::ShaderSource& source, base:
     }
     const LogPrefix at = prefix.value_or(LogPrefix{});
     LogMessage& message = messages.emplace_back();
-    base::Diagnostic& d = message.diagnostic;
+    text::Diagnostic& d = message.diagnostic;
     d.code = code;
     d.severity = at.severity;
     d.message = std::string(trim(raw.substr(at.length)));

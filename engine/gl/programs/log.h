@@ -5,8 +5,8 @@
 #include <span>
 #include <string_view>
 
-#include "engine/base/diagnostic.h"
 #include "engine/glsl/source.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::gl {
 
@@ -15,7 +15,7 @@ namespace weft::gl {
 // part of the message before them, or a message at the file itself. The driver's words stay. A name that is not declared gets a
 // hint, such as the nearest one that is; of the errors of one line one is kept. `code` is W104 (compile) or W105 (link).
 // `defines`: those the text was assembled with. Returns how many diagnostics were added.
-std::size_t mapLog(std::string_view log, const glsl::ShaderSource& source, base::Code code,
-                   base::Diagnostics& diagnostics, std::span<const glsl::Define> defines = {});
+std::size_t mapLog(std::string_view log, const glsl::ShaderSource& source, text::Code code,
+                   text::Diagnostics& diagnostics, std::span<const glsl::Define> defines = {});
 
 }  // namespace weft::gl

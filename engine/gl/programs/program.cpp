@@ -15,8 +15,8 @@ namespace weft::gl {
 
 namespace {
 
-using base::Code;
-using base::Diagnostics;
+using text::Code;
+using text::Diagnostics;
 
 // Deleted when it goes out of scope; a linked program does not need it.
 class Shader {

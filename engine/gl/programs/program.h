@@ -13,9 +13,9 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/gl/objects/objects.h"
 #include "engine/glsl/source.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::gl {
 
@@ -97,7 +97,7 @@ class Program : public Owner<ObjectKind::program> {
   static std::optional<Program> compile(std::span<const StageSource> stages,
                                         std::span<const glsl::Define> defines,
                                         std::span<const std::string> outputs, std::string_view label,
-                                        base::Diagnostics& diagnostics);
+                                        text::Diagnostics& diagnostics);
   // Nullopt when the driver rejects the binary, without an error or a message of the driver. `compute` says whether
   // the binary is a compute program, because OpenGL does not tell.
   static std::optional<Program> load(const ProgramBinary& binary, bool compute, std::string_view label);

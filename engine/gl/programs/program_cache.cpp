@@ -9,18 +9,18 @@
 #include <cstring>
 #include <filesystem>
 
-#include "engine/base/files/file.h"
-#include "engine/base/hash.h"
 #include "engine/glsl/interface.h"
+#include "engine/text/files/file.h"
+#include "engine/text/hash.h"
 
 namespace weft::gl {
 
 namespace {
 
-using base::Diagnostics;
+using text::Diagnostics;
 
-constexpr std::size_t kMostFailures = 256;
-constexpr std::size_t kMostKnown = 512;  // above it, those that nobody holds are forgotten
+constexpr std::size_t kMaxFailures = 256;
+constexpr std::size_t kMaxKnown = 512;  // above it, those that nobody holds are forgotten
 constexpr std::string_view kMagic = "WEFTBIN1";
 
 constexpr std::size_t kBinaryKeyLength = 32;
@@ -58,12 +58,12 @@ std::string makeKey(const std::vector<StageSource>& stages, const ProgramRequest
   }
   text += "\noutputs";
   for (const std::string& output : request.outputs) add(output);
-  const std::uint64_t first = base::hashBytes(text);
-  return fmt::format("{:016x}{:016x}", first, base::hashBytes(text, base::hashCombine(first, text.size())));
+  const std::uint64_t first = text::hashBytes(text);
+  return fmt::format("{:016x}{:016x}", first, text::hashBytes(text, text::hashCombine(first, text.size())));
 }
 
 void appendFor(const ProgramRequest& request, const Diagnostics& from, Diagnostics& to) {
-  for (base::Diagnostic diagnostic : from.items()) {
+  for (text::Diagnostic diagnostic : from.items()) {
     if (diagnostic.pass.empty()) diagnostic.pass = request.pass;
     to.add(std::move(diagnostic));
   }
@@ -144,7 +144,7 @@ void ProgramCache::touch(const std::shared_ptr<const Variant>& variant) {
 std::shared_ptr<const Variant> ProgramCache::refuse(const std::string& key, const ProgramRequest& request,
                                                     Diagnostics said, Diagnostics& diagnostics) {
   appendFor(request, said, diagnostics);
-  if (failures_.size() >= kMostFailures) failures_.clear();
+  if (failures_.size() >= kMaxFailures) failures_.clear();
   failures_.emplace(key, std::move(said));
   return nullptr;
 }
@@ -155,7 +155,7 @@ std::shared_ptr<const Variant> ProgramCache::keep(std::shared_ptr<const Variant>
     recent_.splice(recent_.begin(), recent_, at);
     return variant;
   }
-  if (known_.size() >= kMostKnown)
+  if (known_.size() >= kMaxKnown)
     std::erase_if(known_, [](const auto& each) { return each.second.expired(); });
   known_.insert_or_assign(variant->key, variant);
   recent_.push_front(variant);
@@ -169,7 +169,7 @@ std::optional<Program> ProgramCache::loadBinary(const std::string& key, bool com
   std::error_code ec;
   if (!std::filesystem::is_regular_file(pathOf(key), ec)) return std::nullopt;
   Diagnostics unread;  // a binary that cannot be read is a miss
-  const std::optional<std::string> bytes = base::readFile(pathOf(key), unread);
+  const std::optional<std::string> bytes = text::readFile(pathOf(key), unread);
   const auto reject = [&]() -> std::optional<Program> {
     ++stats_.binaryRejects;
     return std::nullopt;
@@ -180,7 +180,7 @@ std::optional<Program> ProgramCache::loadBinary(const std::string& key, bool com
   const std::string_view body = std::string_view(*bytes).substr(sizeof header);
   if (std::string_view(header.magic, sizeof header.magic) != kMagic ||
       std::string_view(header.key, kBinaryKeyLength) != key || header.bytes != body.size() ||
-      header.checksum != base::hashBytes(body) || (header.compute != 0) != compute)
+      header.checksum != text::hashBytes(body) || (header.compute != 0) != compute)
     return reject();
   ProgramBinary binary;
   binary.format = header.format;
@@ -204,7 +204,7 @@ void ProgramCache::storeBinary(const std::string& key, bool compute, const Progr
   header.compute = compute;
   header.bytes = binary->bytes.size();
   const std::string_view body(reinterpret_cast<const char*>(binary->bytes.data()), binary->bytes.size());
-  header.checksum = base::hashBytes(body);
+  header.checksum = text::hashBytes(body);
   std::string file(sizeof header, '\0');
   std::memcpy(file.data(), &header, sizeof header);
   file.append(body);
@@ -213,7 +213,7 @@ void ProgramCache::storeBinary(const std::string& key, bool compute, const Progr
   if (const auto there = std::filesystem::status(pathOf(key), ec); exists(there) && !is_regular_file(there))
     return;
   Diagnostics unwritten;  // a cache that cannot be written is slow, not wrong
-  if (!base::writeFile(pathOf(key), file, unwritten)) return;
+  if (!text::writeFile(pathOf(key), file, unwritten)) return;
   ++stats_.binaryWrites;
   // Looks at the folder with the first binary of this process, then when what it knows of and wrote itself is too much.
   if (folderBytes_) *folderBytes_ += file.size();

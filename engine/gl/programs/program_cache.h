@@ -15,12 +15,12 @@
 #include <unordered_map>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
-#include "engine/base/limits.h"
 #include "engine/gl/context/context.h"
 #include "engine/gl/programs/program.h"
 #include "engine/gl/programs/shader_trial.h"
 #include "engine/glsl/source.h"
+#include "engine/text/diagnostic.h"
+#include "engine/text/limits.h"
 
 namespace weft::gl {
 
@@ -34,7 +34,7 @@ struct ProgramRequest {
   std::vector<glsl::Define> defines;
   std::vector<std::string> outputs;  // see Program::compile
   std::string label;                 // debug label; not part of the key
-  base::Place place;                 // of the graph's "shader" value
+  text::Place place;                 // of the graph's "shader" value
   std::string pass;                  // written into diagnostics
 };
 
@@ -63,14 +63,14 @@ class ProgramCache {
     std::size_t capacity = 32;         // variants that are kept though nobody holds them; at least 1
     std::string folder;                // of binaries, made when absent; "": no disk cache
     std::vector<std::string> trial{};  // as Trials::command
-    double trialSeconds = static_cast<double>(base::raised(5));  // for all trials of a graph
+    double trialSeconds = static_cast<double>(text::raised(5));  // for all trials of a graph
     std::uint64_t folderBytes = 256ull << 20;                    // the least recently used binaries go
   };
   // `device` and `loader` must outlive the cache.
   ProgramCache(const DeviceInfo& device, glsl::SourceLoader& loader, Options options);
 
   // The variant, or null after errors. It stays valid when evicted or when its sources change.
-  std::shared_ptr<const Variant> get(const ProgramRequest& request, base::Diagnostics& diagnostics);
+  std::shared_ptr<const Variant> get(const ProgramRequest& request, text::Diagnostics& diagnostics);
 
   // A graph begins to load: trials have all of their time again.
   void startTrials() { trials_.spent = 0; }
@@ -83,7 +83,7 @@ class ProgramCache {
 
  private:
   std::shared_ptr<const Variant> refuse(const std::string& key, const ProgramRequest& request,
-                                        base::Diagnostics said, base::Diagnostics& diagnostics);
+                                        text::Diagnostics said, text::Diagnostics& diagnostics);
   std::shared_ptr<const Variant> keep(std::shared_ptr<const Variant> variant);
   std::optional<Program> loadBinary(const std::string& key, bool compute, std::string_view label);
   void storeBinary(const std::string& key, bool compute, const Program& program);
@@ -97,7 +97,7 @@ class ProgramCache {
   std::optional<std::uint64_t> folderBytes_;          // of binaries, as far as is known here
   std::list<std::shared_ptr<const Variant>> recent_;  // most recently used first
   std::unordered_map<std::string, std::weak_ptr<const Variant>> known_;
-  std::unordered_map<std::string, base::Diagnostics> failures_;
+  std::unordered_map<std::string, text::Diagnostics> failures_;
 };
 
 struct BinaryFolderUse {

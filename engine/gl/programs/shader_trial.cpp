@@ -140,7 +140,7 @@ TrialResult tryProgram(std::vector<std::string> command, Backend backend, const 
   int ends[2];
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return result;
   for (const std::string& word : {std::string(kTrialWord), std::string(nameOf(backend)),
-                                  std::to_string(seconds), std::to_string(kMostTrialBytes)})
+                                  std::to_string(seconds), std::to_string(kMaxTrialBytes)})
     command.push_back(word);
   const pid_t pid = start(std::move(command), ends[1]);
   ::close(ends[1]);
@@ -267,7 +267,7 @@ void drawNothing(const TrialProgram& program, GLuint linked) {
 
 bool survivesTrial(Trials& trials, const DeviceInfo& device, std::span<const StageSource> stages,
                    std::span<const glsl::Define> defines, std::span<const std::string> outputs,
-                   base::Diagnostics& diagnostics) {
+                   text::Diagnostics& diagnostics) {
   // A window's driver without its window.
   const Backend backend = device.backend != Backend::glfw ? device.backend
                           : device.software               ? Backend::osmesa
@@ -283,12 +283,12 @@ bool survivesTrial(Trials& trials, const DeviceInfo& device, std::span<const Sta
     return stage.source->interfaceWith(defines).size.inlined;
   });
   const bool tried = !result.during.empty();
-  base::Diagnostic& error =
-      diagnostics.error(base::Code::driverDied, {largest.source->file, 0, 0},
+  text::Diagnostic& error =
+      diagnostics.error(text::Code::driverDied, {largest.source->file, 0, 0},
                         tried ? fmt::format("the driver did not survive {} this shader", result.during)
                               : "there is no time left to try this shader");
   error.expected = fmt::format("at most {} s of processor time for all unusual shaders and {} MiB",
-                               trials.all, kMostTrialBytes >> 20);
+                               trials.all, kMaxTrialBytes >> 20);
   error.found = tried ? fmt::format("{}, after {:.1f} s of processor time and with {} MiB", result.what,
                                     result.seconds, result.mebibytes)
                       : result.what;
@@ -300,7 +300,7 @@ void runTrial(int argc, char** argv) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // not longer than who asked for it
   const auto backend = argc > 3 ? findBackend(argv[1]) : std::nullopt;
   const TrialProgram program = backend ? readTrial(readAll(STDIN_FILENO)) : TrialProgram();
-  base::Diagnostics ignored;
+  text::Diagnostics ignored;
   const auto context =
       program.stages.empty() ? nullptr : createContext({.backend = *backend, .debug = false}, ignored);
   if (!context) ::_exit(0);

@@ -16,7 +16,7 @@ namespace weft::gl {
 // First argument of the process that is started; its main() hands over to runTrial().
 constexpr const char* kTrialWord = "try-program";
 
-constexpr std::uint64_t kMostTrialBytes = 768ull << 20;  // that a program may take to compile
+constexpr std::uint64_t kMaxTrialBytes = 768ull << 20;  // that a program may take to compile
 
 // What trials may cost together, in seconds of processor time.
 struct Trials {
@@ -30,7 +30,7 @@ struct Trials {
 // is spent, or after six times that by the clock.
 bool survivesTrial(Trials& trials, const DeviceInfo& device, std::span<const StageSource> stages,
                    std::span<const glsl::Define> defines, std::span<const std::string> outputs,
-                   base::Diagnostics& diagnostics);
+                   text::Diagnostics& diagnostics);
 
 // The other end: `argv` from kTrialWord on, the program on standard input. Does not return.
 [[noreturn]] void runTrial(int argc, char** argv);

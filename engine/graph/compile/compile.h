@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/graph/plan.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::graph {
 
@@ -36,9 +36,9 @@ struct BarrierReason {
 // The reason of every bit of a plan, in order of bits and steps. Compiles the plan's graph again.
 std::vector<BarrierReason> explainBarriers(const Plan& plan);
 
-constexpr std::uint64_t kMostTextureBytes = 4ull << 30;  // of all textures and buffers of one plan
+constexpr std::uint64_t kMaxTextureBytes = 4ull << 30;  // of all textures and buffers of one plan
 
 // Holds what a plan would allocate against that limit, before anything is. What a device has is not known here. False after Code::texturesTooLarge, at the declaration of the largest texture or buffer.
-bool checkMemory(const Plan& plan, base::Diagnostics& diagnostics);
+bool checkMemory(const Plan& plan, text::Diagnostics& diagnostics);
 
 }  // namespace weft::graph

@@ -2,9 +2,9 @@
 // dependency edges: any pass whose predecessors have run may come next.
 #include <algorithm>
 
-#include "engine/base/hash.h"
 #include "engine/graph/compile/dependencies.h"
 #include "engine/graph/compile/steps.h"
+#include "engine/text/hash.h"
 
 namespace weft::graph {
 
@@ -24,7 +24,7 @@ void shuffle(const FlatGraph& graph, std::uint64_t seed, const Plan& plan, const
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
     if (scratch.livePass[p] != 0 && waiting[p] == 0) ready.push_back(p);
   for (std::uint64_t draw = 0; !ready.empty(); ++draw) {
-    const std::size_t pick = base::hashCombine(seed, draw) % ready.size();
+    const std::size_t pick = text::hashCombine(seed, draw) % ready.size();
     const std::uint32_t p = ready[pick];
     ready[pick] = ready.back();
     ready.pop_back();

@@ -1,13 +1,13 @@
 // Physical textures by class, transient buffers by offset. Births come in order of first step; a resource
 // that dies in step t frees its storage for step t + 1. Within a class a freed texture is taken before a new
 // one is made, so their number is the greatest number alive at once (interval graphs are perfect; greedy
-// colouring by start is optimal). Declared in steps.h.
+// coloring by start is optimal). Declared in steps.h.
 #include <algorithm>
 #include <map>
 #include <unordered_map>
 
-#include "engine/base/hash.h"
 #include "engine/graph/compile/steps.h"
+#include "engine/text/hash.h"
 
 namespace weft::graph::steps {
 
@@ -37,7 +37,7 @@ ClassKey keyOf(const FlatResource& r) {
 
 struct ClassHash {
   std::size_t operator()(const ClassKey& key) const {
-    return base::hashCombine(base::hashCombine(key.size, key.shape), key.kind);
+    return text::hashCombine(text::hashCombine(key.size, key.shape), key.kind);
   }
 };
 

@@ -7,17 +7,17 @@
 #include <set>
 #include <utility>
 
-#include "engine/base/files/file.h"
-#include "engine/base/json/edit.h"
 #include "engine/graph/language/suffix.h"
 #include "engine/graph/read/read.h"
+#include "engine/text/files/file.h"
+#include "engine/text/json/edit.h"
 
 namespace weft::graph {
 
 namespace {
 
-using base::Code;
-using base::Diagnostics;
+using text::Code;
+using text::Diagnostics;
 
 std::filesystem::path wholePath(const std::filesystem::path& path) {
   std::error_code ignored;
@@ -58,8 +58,8 @@ bool sameGraph(const FlatGraph& a, const FlatGraph& b) {
          a.resourceNames == b.resourceNames && a.resources == b.resources && a.uses.size() == b.uses.size();
 }
 
-using base::JsonEdit;
-using base::JsonValue;
+using text::JsonEdit;
+using text::JsonValue;
 
 struct TextEdit {
   std::string path, text;
@@ -128,7 +128,7 @@ std::string numberText(double x, std::string_view before) {
 }
 
 std::string valueText(const Value& value) {
-  return value.type == Value::Type::symbol ? base::quoteJson(value.symbol) : toText(value);
+  return value.type == Value::Type::symbol ? text::quoteJson(value.symbol) : toText(value);
 }
 
 // `value` in the place of what stands there; of a list only the items that differ.
@@ -153,7 +153,7 @@ std::optional<std::string> putInSet(const std::string& text, const std::string& 
   if (const JsonValue* set = root.find("set"))
     return set->find(name) ? std::nullopt : std::optional(edit.withMember(*set, name, valueText(value)));
   const char* after = root.find("extends") ? "extends" : root.find("name") ? "name" : "";
-  return edit.withMember(root, "set", fmt::format("{{ {}: {} }}", base::quoteJson(name), valueText(value)),
+  return edit.withMember(root, "set", fmt::format("{{ {}: {} }}", text::quoteJson(name), valueText(value)),
                          after);
 }
 
@@ -234,7 +234,7 @@ std::vector<TextEdit> editsOfPass(const GraphDesc& desc, std::span<const std::st
     addEdit(edits, texts, *overlay, [&](const std::string& text) -> std::optional<std::string> {
       const JsonEdit edit(text);
       if (!edit) return std::nullopt;
-      const std::string stanza = fmt::format("{{ \"name\": {}, \"enabled\": false }}", base::quoteJson(name));
+      const std::string stanza = fmt::format("{{ \"name\": {}, \"enabled\": false }}", text::quoteJson(name));
       if (const JsonValue* passes = edit.root().find("passes")) return edit.withItem(*passes, stanza);
       return edit.withMember(edit.root(), "passes", "[" + stanza + "]");
     });
@@ -253,7 +253,7 @@ std::vector<TextEdit> editsOfPass(const GraphDesc& desc, std::span<const std::st
       // The condition stays readable, and comes back when "&& false" is removed.
       const bool loose = enabled->text.find_first_of("?|") != std::string::npos;
       const std::string kept = loose ? "(" + enabled->text + ")" : enabled->text;
-      return edit.withValue(*enabled, base::quoteJson(kept + " && false"));
+      return edit.withValue(*enabled, text::quoteJson(kept + " && false"));
     });
   return edits;
 }
@@ -287,7 +287,7 @@ class Planner {
   }
 
  private:
-  void fail(const std::string& what, const std::string& found, const base::Place& place = {}) {
+  void fail(const std::string& what, const std::string& found, const text::Place& place = {}) {
     auto& d = diagnostics_.error(Code::cannotWriteBack, place,
                                  fmt::format("{} cannot be written into the files", what));
     d.found = found;
@@ -366,14 +366,14 @@ class Planner {
 
 std::optional<WriteBack> planWriteBack(const GraphDesc& desc, std::span<const std::string> presets,
                                        const Registry& registry, const Settings& settings,
-                                       base::Diagnostics& diagnostics) {
+                                       text::Diagnostics& diagnostics) {
   return Planner(desc, presets, registry, settings, diagnostics).run();
 }
 
-bool saveWriteBack(const WriteBack& plan, base::Diagnostics& diagnostics) {
+bool saveWriteBack(const WriteBack& plan, text::Diagnostics& diagnostics) {
   bool same = true;
   for (const WriteBack::File& file : plan.files) {
-    const auto now = base::readFile(file.path, diagnostics);
+    const auto now = text::readFile(file.path, diagnostics);
     if (now && *now == file.before) continue;
     same = false;
     if (!now) continue;
@@ -383,9 +383,9 @@ bool saveWriteBack(const WriteBack& plan, base::Diagnostics& diagnostics) {
   }
   if (!same) return false;
   for (std::size_t i = 0; i < plan.files.size(); ++i) {
-    if (base::writeFile(plan.files[i].path, plan.files[i].after, diagnostics)) continue;
+    if (text::writeFile(plan.files[i].path, plan.files[i].after, diagnostics)) continue;
     for (std::size_t done = 0; done < i; ++done)
-      base::writeFile(plan.files[done].path, plan.files[done].before, diagnostics);
+      text::writeFile(plan.files[done].path, plan.files[done].before, diagnostics);
     return false;
   }
   return true;

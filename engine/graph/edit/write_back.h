@@ -1,5 +1,5 @@
 // Writes what a person changed while a graph ran (values of parameters, disabled passes) into the files it came from. The
-// edits are the smallest ones (engine/base/json/edit.h), planned on the texts as they were read. Before anything is saved
+// edits are the smallest ones (engine/text/json/edit.h), planned on the texts as they were read. Before anything is saved
 // they are proved: the edited texts, read and expanded without the changes, must give the graph that runs with them.
 #pragma once
 
@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/graph/desc.h"
 #include "engine/graph/expand/expand.h"
 #include "engine/graph/registry.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::graph {
 
@@ -32,10 +32,10 @@ struct WriteBack {
 // Empty after W196: something cannot be written.
 std::optional<WriteBack> planWriteBack(const GraphDesc& desc, std::span<const std::string> presets,
                                        const Registry& registry, const Settings& settings,
-                                       base::Diagnostics& diagnostics);
+                                       text::Diagnostics& diagnostics);
 
 // Replaces the files, each whole (W180). False, and no file is changed, after W195: one is not what it was
 // when it was read.
-bool saveWriteBack(const WriteBack& plan, base::Diagnostics& diagnostics);
+bool saveWriteBack(const WriteBack& plan, text::Diagnostics& diagnostics);
 
 }  // namespace weft::graph

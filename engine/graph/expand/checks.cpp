@@ -189,7 +189,7 @@ bool checkAttachments(const SlotContext& context, const std::vector<SlotWork>& s
   }
   return colors <= 8 ||
          context.report(Code::attachmentsDiffer, slots[0].slot->place,
-                        fmt::format("has {} colour attachments", colors), {.expected = "at most 8"});
+                        fmt::format("has {} color attachments", colors), {.expected = "at most 8"});
 }
 
 // `a` writes or modifies. False after a report.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <span>
 
-#include "engine/base/json/dom.h"
 #include "engine/graph/expand/checks.h"
 #include "engine/graph/expand/judge/judge.h"
 #include "engine/graph/expand/names/apply_settings.h"
@@ -16,6 +15,7 @@
 #include "engine/graph/language/enough.h"
 #include "engine/graph/pick/pick.h"
 #include "engine/graph/subresource.h"
+#include "engine/text/json/dom.h"
 
 namespace weft::graph {
 
@@ -62,8 +62,8 @@ void resolvePresent(Model& model) {
   const bool depth = !isBuffer(resource) && isDepth(resource.format);
   if (model.diagnostics.errorCount() == before && (isBuffer(resource) || depth || use->history > 0))
     report(model, Code::badKind, ref.place,
-           fmt::format("present shows '{}', which is no colour texture", ref.text),
-           {.expected = "a colour texture of this frame",
+           fmt::format("present shows '{}', which is no color texture", ref.text),
+           {.expected = "a color texture of this frame",
             .hint = depth ? fmt::format("to look at it: weft render --present {}", ref.text) : ""});
 }
 
@@ -243,7 +243,7 @@ void foldLive(Model& model, const std::vector<DeferredUniform>& deferred) {
     Names names(model, *each.scope);
     names.indices = each.indices;
     names.live = true;
-    base::Diagnostics ignored;
+    text::Diagnostics ignored;
     const Expr folded = expr.fold(names, ignored);
     // The same as it is without leaves, which was checked.
     const Value before = uniform.dynamic.present() ? uniform.dynamic.evaluateFolded(trialAge) : uniform.value;
@@ -318,7 +318,7 @@ void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred) {
   nameAliases(model);
   if (!model.diagnostics.hasErrors()) {
     // What cannot be folded is no mistake.
-    const base::Diagnostics said = model.diagnostics;
+    const text::Diagnostics said = model.diagnostics;
     const bool incomplete = model.incomplete;
     foldLive(model, deferred);
     model.diagnostics = said;
@@ -340,11 +340,11 @@ void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred) {
 }  // namespace expansion
 
 std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Registry& registry,
-                                             const Settings& settings, base::Diagnostics& diagnostics) {
+                                             const Settings& settings, text::Diagnostics& diagnostics) {
   using namespace expansion;
   // Of a file beyond a limit not all was read.
-  if (enoughErrors(diagnostics) || diagnostics.contains(base::Code::limitExceeded)) return nullptr;
-  base::Diagnostics own;
+  if (enoughErrors(diagnostics) || diagnostics.contains(text::Code::limitExceeded)) return nullptr;
+  text::Diagnostics own;
   Model model{desc, registry, settings, own};
   model.incomplete = diagnostics.hasErrors();  // of the reader
   buildScopes(model);
@@ -369,7 +369,7 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
     warnUnused(model);
     warnCadence(model);
   }
-  for (const auto& [path, text] : desc.texts) base::PointerScope(path, *text, own);
+  for (const auto& [path, text] : desc.texts) text::PointerScope(path, *text, own);
   own.sortByPlace();
   diagnostics.append(own);
   if (diagnostics.hasErrors()) return nullptr;
@@ -377,13 +377,13 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
 }
 
 std::vector<Refusal> findRefused(const GraphDesc& desc, const Registry& registry, const Settings& settings) {
-  base::Diagnostics said;
+  text::Diagnostics said;
   expansion::Model model{desc, registry, settings, said};
   std::vector<Refusal> refused;
   expansion::buildScopes(model);
   if (model.stopped) return refused;
   const auto note = [&](bool disable, std::size_t index) {
-    const auto error = std::ranges::find(said.items(), base::Severity::error, &base::Diagnostic::severity);
+    const auto error = std::ranges::find(said.items(), text::Severity::error, &text::Diagnostic::severity);
     if (error != said.items().end()) refused.push_back({disable, index, *error});
     said.clear();
   };

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <iterator>
 
-#include "engine/base/limits.h"
-#include "engine/base/nearest.h"
 #include "engine/graph/expand/checks.h"
 #include "engine/graph/expand/names/versions.h"
+#include "engine/text/limits.h"
+#include "engine/text/nearest.h"
 
 namespace weft::graph::expansion {
 
@@ -112,10 +112,10 @@ class PassWalk {
   void walkStanza(Scope& scope, const PassDesc& desc, const std::string& why) {
     StanzaWalk stanza{scope, desc,         findPassType(model_.registry, desc.type), scope.prefix + desc.name,
                       why,   slotsOf(desc)};
-    if (stanza.slots > base::raised(kMostSlotsOfPass))
+    if (stanza.slots > text::raised(kMaxSlotsOfPass))
       return stopAt(model_, desc.place,
                     fmt::format("pass '{}' has too many slots, parameters and defines", stanza.declared),
-                    kMostSlotsOfPass, "slots, parameters and defines of one pass");
+                    kMaxSlotsOfPass, "slots, parameters and defines of one pass");
     stanza.sound = checkStanza(model_, scope, desc, stanza.type, stanza.declared);
     if (!stanza.type) stanza.type = typeMeantBy(desc.type);  // so that nothing else is reported because of it
     Names names(model_, scope);
@@ -128,18 +128,18 @@ class PassWalk {
   const PassType* typeMeantBy(const std::string& name) const {
     std::vector<std::string> types;
     for (const PassType& known : model_.registry.passTypes) types.push_back(known.name);
-    return findPassType(model_.registry, base::nearestName(name, types));
+    return findPassType(model_.registry, text::nearestName(name, types));
   }
 
   // Whether `more` passes may follow; reports otherwise.
   bool mayMake(const StanzaWalk& stanza, std::uint64_t more, const Place& place) {
-    const std::uint64_t most = base::raised(kMostPasses);
+    const std::uint64_t most = text::raised(kMaxPasses);
     if (made_ + more <= most) return true;
     model_.stopped = model_.incomplete = true;
     return report(model_, Code::tooManyPasses, place,
                   fmt::format("with pass '{}' the graph has more than {} passes", stanza.declared, most),
                   {.expected = "one compute pass with more threads",
-                   .hint = base::hintToRaise(kMostPasses, made_ + more),
+                   .hint = text::hintToRaise(kMaxPasses, made_ + more),
                    .pass = stanza.declared});
   }
 
@@ -187,11 +187,11 @@ class PassWalk {
 
   // Whether there are not too many slots, and versions that they read.
   bool maySee(const StanzaWalk& stanza) {
-    if (slotsMade_ + graph_.uses.size() + graph_.links.runs.size() <= base::raised(kMostSlots)) return true;
+    if (slotsMade_ + graph_.uses.size() + graph_.links.runs.size() <= text::raised(kMaxSlots)) return true;
     stopAt(
         model_, stanza.desc.place,
         fmt::format("with pass '{}' the graph has too many slots, parameters and defines", stanza.declared),
-        kMostSlots, "slots, parameters, defines and versions that are read, of all passes");
+        kMaxSlots, "slots, parameters, defines and versions that are read, of all passes");
     return false;
   }
 
@@ -319,7 +319,7 @@ class PassWalk {
     slot.array = work.array;
     slot.optional = work.slot->ref.optional;
     slot.place = work.slot->place;
-    slot.inherited = base::isSamePlace(slot.place, stanza.desc.likePlace);
+    slot.inherited = text::isSamePlace(slot.place, stanza.desc.likePlace);
     slot.firstUse = static_cast<std::uint32_t>(graph_.uses.size());
     const bool used =
         work.state == State::connected ||

@@ -7,10 +7,9 @@
 namespace weft::graph::expansion {
 
 // Of a graph, each instance of a repeat counted; `--limit` raises them.
-constexpr std::uint64_t kMostPasses = 4096;
-constexpr std::uint64_t kMostSlotsOfPass = 1024;  // slots, parameters and defines
-constexpr std::uint64_t kMostSlots = std::uint64_t{1}
-                                     << 18;  // of all passes, and the versions that they read
+constexpr std::uint64_t kMaxPasses = 4096;
+constexpr std::uint64_t kMaxSlotsOfPass = 1024;              // slots, parameters and defines
+constexpr std::uint64_t kMaxSlots = std::uint64_t{1} << 18;  // of all passes, and the versions that they read
 
 // ---- the steps of it for one stanza and one instance ----
 

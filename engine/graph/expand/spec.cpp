@@ -8,12 +8,12 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/base/chars.h"
-#include "engine/base/nearest.h"
-#include "engine/base/words/foreign_words.h"
 #include "engine/graph/expand/checks.h"
 #include "engine/graph/expand/passes.h"
 #include "engine/graph/language/expr_node.h"
+#include "engine/text/chars.h"
+#include "engine/text/nearest.h"
+#include "engine/text/words/foreign_words.h"
 
 namespace weft::graph::expansion {
 
@@ -277,11 +277,11 @@ struct StateFiller {
     if (value.type == Value::Type::symbol && found != words.end())
       return static_cast<int>(found - words.begin());
     const std::string text = toText(value);
-    std::string theirs = base::hintForForeign(base::Foreign::state_word, text);
+    std::string theirs = text::hintForForeign(text::Foreign::state_word, text);
     error(said.expr.place(), fmt::format("has an unknown value for the state '{}'", said.name),
           {.expected = fmt::format("{}", fmt::join(words, ", ")),
            .found = text,
-           .hint = theirs.empty() ? base::nearestHint(base::lowered(text), words) : theirs});
+           .hint = theirs.empty() ? text::nearestHint(text::lowered(text), words) : theirs});
     return -1;
   }
 
@@ -293,16 +293,16 @@ struct StateFiller {
     const std::string slot = said.name == "blend" ? "" : said.name.substr(6);
     if (!slot.empty() && std::ranges::find(colors, slot) == colors.end()) {
       if (std::exchange(blendTold, true)) return;
-      std::string theirs = base::hintForForeign(base::Foreign::state_key, slot);
-      return error(said.place, fmt::format("blends '{}', which is no colour slot of it", slot),
-                   {.expected = "one word, \"blend\": \"alpha\", or one for each colour slot",
-                    .hint = theirs.empty() ? base::nearestHint(slot, colors) : theirs});
+      std::string theirs = text::hintForForeign(text::Foreign::state_key, slot);
+      return error(said.place, fmt::format("blends '{}', which is no color slot of it", slot),
+                   {.expected = "one word, \"blend\": \"alpha\", or one for each color slot",
+                    .hint = theirs.empty() ? text::nearestHint(slot, colors) : theirs});
     }
     const int found = word(said);
     if (found < 0) return;
     if (slot.empty() && colors.empty() && found != static_cast<int>(Blend::none))
-      error(said.place, "blends, and has no colour slot",
-            {.hint = "leave \"blend\" out, or say \"modify\": { \"result\": … } with a colour texture"});
+      error(said.place, "blends, and has no color slot",
+            {.hint = "leave \"blend\" out, or say \"modify\": { \"result\": … } with a color texture"});
     if (!slot.empty()) colors = {slot};
     for (const std::string& color : colors) {
       std::erase_if(state.blend, [&](const auto& old) { return old.first == color; });

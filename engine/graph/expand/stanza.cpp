@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "engine/base/nearest.h"
-#include "engine/base/words/foreign_words.h"
 #include "engine/graph/desc_walk.h"
 #include "engine/graph/expand/checks.h"
 #include "engine/graph/expand/passes.h"
+#include "engine/text/nearest.h"
+#include "engine/text/words/foreign_words.h"
 
 namespace weft::graph::expansion {
 
@@ -123,13 +123,13 @@ void checkLists(const Stanza& stanza) {
   const auto& geometries = stanza.model.registry.geometries;
   if (!desc.list.empty() && std::ranges::find(drawLists, desc.list) == drawLists.end())
     stanza.error(Code::unknownDrawList, desc.listPlace, fmt::format("draws the unknown list '{}'", desc.list),
-                 {.hint = base::nearestHint(desc.list, drawLists)});
+                 {.hint = text::nearestHint(desc.list, drawLists)});
   if (desc.geometry.empty()) return;
   const auto geometry = std::ranges::find(geometries, desc.geometry, &GeometryType::name);
   if (geometry == geometries.end())
     stanza.error(Code::unknownGeometry, desc.geometryPlace,
                  fmt::format("draws the unknown geometry '{}'", desc.geometry),
-                 {.hint = base::nearestHint(desc.geometry, namesOf(geometries))});
+                 {.hint = text::nearestHint(desc.geometry, namesOf(geometries))});
   else if (geometry->meshes && desc.list.empty())
     stanza.error(Code::keyNeeded, desc.geometryPlace, fmt::format("draws '{}' of no list", desc.geometry),
                  {.expected = "\"list\": the draw list whose meshes are drawn"});
@@ -163,7 +163,7 @@ void checkFixedSlots(const Stanza& stanza) {
   stanza.error(
       Code::badSlots, wrong->place,
       fmt::format("has the slot '{}', which a {} pass does not have there", wrong->name, stanza.type->name),
-      {.expected = expected, .hint = base::nearestHint(wrong->name, namesOf(fixed))});
+      {.expected = expected, .hint = text::nearestHint(wrong->name, namesOf(fixed))});
 }
 
 void checkExpressions(const Stanza& stanza) {
@@ -213,10 +213,10 @@ bool checkStanza(Model& model, Scope& scope, const PassDesc& desc, const PassTyp
     checkLists(stanza);
     checkFixedSlots(stanza);
   } else {
-    std::string theirs = base::hintForForeign(base::Foreign::pass_type, desc.type);
+    std::string theirs = text::hintForForeign(text::Foreign::pass_type, desc.type);
     stanza.error(
         Code::unknownPassType, desc.typePlace, fmt::format("is of the unknown type '{}'", desc.type),
-        {.hint = theirs.empty() ? base::nearestHint(desc.type, namesOf(model.registry.passTypes)) : theirs});
+        {.hint = theirs.empty() ? text::nearestHint(desc.type, namesOf(model.registry.passTypes)) : theirs});
   }
   checkExpressions(stanza);
   checkCadence(stanza);

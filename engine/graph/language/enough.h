@@ -2,13 +2,13 @@
 // memory and the search for a fix.
 #pragma once
 
-#include "engine/base/diagnostic.h"
-#include "engine/base/message_choice.h"
+#include "engine/text/diagnostic.h"
+#include "engine/text/message_choice.h"
 
 namespace weft::graph {
 
-inline bool enoughErrors(const base::Diagnostics& diagnostics) {
-  return diagnostics.errorCount() >= base::mostErrors();
+inline bool enoughErrors(const text::Diagnostics& diagnostics) {
+  return diagnostics.errorCount() >= text::mostErrors();
 }
 
 }  // namespace weft::graph

@@ -7,10 +7,10 @@
 #include <iterator>
 #include <set>
 
-#include "engine/base/chars.h"
-#include "engine/base/nearest.h"
-#include "engine/base/words/foreign_words.h"
 #include "engine/graph/language/expr_node.h"
+#include "engine/text/chars.h"
+#include "engine/text/nearest.h"
+#include "engine/text/words/foreign_words.h"
 
 namespace weft::graph {
 
@@ -74,7 +74,7 @@ std::uint32_t termsOver(const std::vector<ExprPtr>& children) {
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(terms, ~std::uint32_t{0}));
 }
 
-ExprPtr makeNode(ExprOp op, base::Place place, std::vector<ExprPtr> children) {
+ExprPtr makeNode(ExprOp op, text::Place place, std::vector<ExprPtr> children) {
   auto node = std::make_shared<ExprNode>();
   node->op = op;
   node->place = std::move(place);
@@ -95,7 +95,7 @@ void setChildren(ExprNode& node, std::vector<ExprPtr> children) {
   node.children = std::move(children);
 }
 
-ExprPtr makeConstant(Value value, base::Place place) {
+ExprPtr makeConstant(Value value, text::Place place) {
   auto node = std::make_shared<ExprNode>();
   node->value = std::move(value);
   node->place = std::move(place);
@@ -180,7 +180,7 @@ void print(const ExprNode& node, int outer, std::string& out) {
 
 }  // namespace
 
-Expr::Expr(ExprPtr root, base::Place start) : root_(std::move(root)), start_(std::move(start)) {
+Expr::Expr(ExprPtr root, text::Place start) : root_(std::move(root)), start_(std::move(start)) {
   std::vector<std::string> names;
   std::set<std::string_view> seen;
   visitNodes(*root_, [&](const ExprNode& node) {
@@ -189,11 +189,11 @@ Expr::Expr(ExprPtr root, base::Place start) : root_(std::move(root)), start_(std
   if (!names.empty()) variables_ = std::make_shared<const std::vector<std::string>>(std::move(names));
 }
 
-Expr Expr::constant(Value value, base::Place place) {
+Expr Expr::constant(Value value, text::Place place) {
   return {makeConstant(std::move(value), place), place};
 }
 
-Expr Expr::parameter(std::uint32_t key, base::Place place) {
+Expr Expr::parameter(std::uint32_t key, text::Place place) {
   auto node = std::make_shared<ExprNode>();
   node->op = ExprOp::parameter_key;
   node->key = key;
@@ -202,7 +202,7 @@ Expr Expr::parameter(std::uint32_t key, base::Place place) {
   return {std::move(node), std::move(place)};
 }
 
-Expr Expr::listOf(std::vector<Expr> items, base::Place place) {
+Expr Expr::listOf(std::vector<Expr> items, text::Place place) {
   assert(!items.empty() && items.size() <= 4);
   std::vector<ExprPtr> children;
   Value value;
@@ -217,8 +217,8 @@ Expr Expr::listOf(std::vector<Expr> items, base::Place place) {
   return {makeNode(ExprOp::list, place, std::move(children)), place};
 }
 
-std::optional<Expr> Expr::parse(std::string_view text, const base::Place& place,
-                                base::Diagnostics& diagnostics) {
+std::optional<Expr> Expr::parse(std::string_view text, const text::Place& place,
+                                text::Diagnostics& diagnostics) {
   ExprPtr root = parseExprTree(text, place, diagnostics);
   if (!root) return std::nullopt;
   return Expr(std::move(root), place);
@@ -284,13 +284,13 @@ std::string hintForWord(EvalScope& scope, const Value& value) {
   if (std::ranges::find(variables, value.symbol) != variables.end())
     return fmt::format("write '${}' for the parameter", value.symbol);
   const std::vector<std::string> builtins = scope.candidates(EvalScope::NameKind::builtin);
-  if (const std::string near = base::nearestName(value.symbol, builtins); !near.empty())
+  if (const std::string near = text::nearestName(value.symbol, builtins); !near.empty())
     return fmt::format("did you mean '{}'?", near);
-  if (std::string foreign = base::hintForForeign(base::Foreign::value, value.symbol); !foreign.empty())
+  if (std::string foreign = text::hintForForeign(text::Foreign::value, value.symbol); !foreign.empty())
     return foreign;
-  const std::string near = base::nearestName(value.symbol, variables);
+  const std::string near = text::nearestName(value.symbol, variables);
   if (!near.empty()) return fmt::format("did you mean '${}'?", near);
-  return std::ranges::all_of(value.symbol, base::isIdentChar)
+  return std::ranges::all_of(value.symbol, text::isIdentChar)
              ? "a bare word is an index of \"repeat\" or 'screen'; a parameter begins with '$'"
              : "";
 }
@@ -314,7 +314,7 @@ bool changesLater(const ExprNode& root, EvalScope& scope) {
 }
 
 // Null after an error.
-ExprPtr foldNode(const ExprPtr& node, EvalScope& scope, base::Diagnostics& diagnostics) {
+ExprPtr foldNode(const ExprPtr& node, EvalScope& scope, text::Diagnostics& diagnostics) {
   if (node->folded) return node;
   if (node->op == ExprOp::variable) {
     if (const Expr* folded = scope.folded(node->name))
@@ -331,9 +331,9 @@ ExprPtr foldNode(const ExprPtr& node, EvalScope& scope, base::Diagnostics& diagn
     const std::optional<std::uint32_t> key = scope.ageKey(node->name);
     if (!key) {
       if (scope.fact(Fact::age, node->name, node->place)) return nullptr;  // reported
-      auto& d = diagnostics.error(base::Code::unknownVariable, node->place,
+      auto& d = diagnostics.error(text::Code::unknownVariable, node->place,
                                   fmt::format("age() of unknown resource '{}'", node->name));
-      d.hint = base::nearestHint(node->name, scope.candidates(EvalScope::NameKind::fact_argument));
+      d.hint = text::nearestHint(node->name, scope.candidates(EvalScope::NameKind::fact_argument));
       return nullptr;
     }
     auto folded = std::make_shared<ExprNode>(*node);
@@ -358,7 +358,7 @@ ExprPtr foldNode(const ExprPtr& node, EvalScope& scope, base::Diagnostics& diagn
   if (heightOver(children) > kMaxExprHeight || termsOver(children) > kMaxFoldedTerms) {
     diagnostics
         .error(
-            base::Code::badExpression, node->place,
+            text::Code::badExpression, node->place,
             fmt::format("the expression and the \"let\" it uses have more than {} operators and operands, or "
                         "too many in a row",
                         kMaxFoldedTerms))
@@ -375,7 +375,7 @@ ExprPtr foldNode(const ExprPtr& node, EvalScope& scope, base::Diagnostics& diagn
 
 }  // namespace
 
-Expr Expr::fold(EvalScope& scope, base::Diagnostics& diagnostics) const {
+Expr Expr::fold(EvalScope& scope, text::Diagnostics& diagnostics) const {
   const ExprPtr folded = root_ ? foldNode(root_, scope, diagnostics) : nullptr;
   if (!folded) return {};
   if (folded->dynamic && !folded->live) {  // else the caller knows the values of the parameters

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/graph/language/value.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::graph {
 
@@ -36,7 +36,7 @@ class EvalScope {
       std::string_view name) = 0;  // $name or $pass.parameter, also `let` names
   virtual std::optional<Value> index(std::string_view name) = 0;    // a bare repeat index
   virtual std::optional<Value> builtin(std::string_view name) = 0;  // "screen", "device.software"
-  virtual std::optional<Value> fact(Fact fact, std::string_view resource, const base::Place& place) = 0;
+  virtual std::optional<Value> fact(Fact fact, std::string_view resource, const text::Place& place) = 0;
   // The choices of a choice parameter, or empty: `$draw == bilboard` is then an error with the nearest
   // choice.
   virtual std::vector<std::string> choicesOf(std::string_view variable) = 0;
@@ -61,13 +61,13 @@ constexpr double kTrialAge = 0.61803398874989485;
 class Expr {
  public:
   Expr() = default;
-  static Expr constant(Value value, base::Place place);
+  static Expr constant(Value value, text::Place place);
   // A folded expression that is the value of one live parameter.
-  static Expr parameter(std::uint32_t key, base::Place place);
-  static Expr listOf(std::vector<Expr> items, base::Place place);
+  static Expr parameter(std::uint32_t key, text::Place place);
+  static Expr listOf(std::vector<Expr> items, text::Place place);
   // Parses `text`, which stands at `place` (the place of the string's first character after the quote).
-  static std::optional<Expr> parse(std::string_view text, const base::Place& place,
-                                   base::Diagnostics& diagnostics);
+  static std::optional<Expr> parse(std::string_view text, const text::Place& place,
+                                   text::Diagnostics& diagnostics);
 
   bool present() const { return root_ != nullptr; }
   // True when it contains age(): its value changes from frame to frame.
@@ -78,7 +78,7 @@ class Expr {
   std::vector<std::uint32_t> parameterKeys() const;
   // Canonical text, fit to be parsed again.
   std::string text() const;
-  const base::Place& place() const { return start_; }
+  const text::Place& place() const { return start_; }
   // Every $variable it names, each once (for culling conditions, hot reload and `explain`).
   const std::vector<std::string>& variables() const;
   // True when the bare `word` stands in it: a repeat index or a choice.
@@ -92,13 +92,13 @@ class Expr {
 
   // The value, or type none after an error was reported; a misspelt variable is reported and read as the nearest. age() is an error here unless `scope.fact` answers
   // it. Branches that are not taken (of ?: && ||) are not evaluated.
-  Value evaluate(EvalScope& scope, base::Diagnostics& diagnostics) const;
+  Value evaluate(EvalScope& scope, text::Diagnostics& diagnostics) const;
   // Reports names and choices that do not exist, also in branches that evaluate() would not take. Asks the
   // scope for variables and choices only, never for facts. True when it found nothing wrong.
-  bool check(EvalScope& scope, base::Diagnostics& diagnostics) const;
+  bool check(EvalScope& scope, text::Diagnostics& diagnostics) const;
   // Everything but age() and live parameters replaced by its value; these carry scope.ageKey(name) and
   // scope.parameterKey(name). Absent after an error was reported.
-  Expr fold(EvalScope& scope, base::Diagnostics& diagnostics) const;
+  Expr fold(EvalScope& scope, text::Diagnostics& diagnostics) const;
   // Evaluates a folded expression; no heap allocation for numbers and lists. `age` gives seconds since
   // publication, which may be infinite; `parameters` the values by their keys. Type none (all components 0)
   // when the result has none, such as a division by zero.
@@ -107,10 +107,10 @@ class Expr {
   const ExprNode* root() const { return root_.get(); }
 
  private:
-  Expr(std::shared_ptr<const ExprNode> root, base::Place start);
+  Expr(std::shared_ptr<const ExprNode> root, text::Place start);
 
   std::shared_ptr<const ExprNode> root_;
-  base::Place start_;
+  text::Place start_;
   std::shared_ptr<const std::vector<std::string>> variables_;  // null: there are none
 };
 

@@ -6,15 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/nearest.h"
-#include "engine/base/words/foreign_words.h"
 #include "engine/graph/language/expr_node.h"
+#include "engine/text/nearest.h"
+#include "engine/text/words/foreign_words.h"
 
 namespace weft::graph {
 
 namespace {
 
-using base::Code;
+using text::Code;
 
 // ---- numbers ----
 
@@ -91,9 +91,9 @@ struct Said {
 
 class Evaluator {
  public:
-  Evaluator(EvalScope& scope, base::Diagnostics& diagnostics) : scope_(&scope), diagnostics_(&diagnostics) {}
+  Evaluator(EvalScope& scope, text::Diagnostics& diagnostics) : scope_(&scope), diagnostics_(&diagnostics) {}
   // A folded tree: no scope, but ages and parameters, and perhaps no diagnostics.
-  Evaluator(const AgeFunction& age, std::span<const Value> parameters, base::Diagnostics* diagnostics)
+  Evaluator(const AgeFunction& age, std::span<const Value> parameters, text::Diagnostics* diagnostics)
       : age_(&age), parameters_(parameters), diagnostics_(diagnostics) {}
 
   Value run(const ExprNode& node) {
@@ -166,7 +166,7 @@ class Evaluator {
  private:
   Value fail(Code code, const ExprNode& node, std::string message, Said said = {}) {
     if (!diagnostics_) return {};
-    base::Diagnostic& d = diagnostics_->error(code, node.place, std::move(message));
+    text::Diagnostic& d = diagnostics_->error(code, node.place, std::move(message));
     d.expected = std::move(said.expected);
     d.found = std::move(said.found);
     d.hint = std::move(said.hint);
@@ -176,15 +176,15 @@ class Evaluator {
   Value unknown(const ExprNode& node, std::string message, EvalScope::NameKind kind, const char* sigil) {
     std::vector<std::string> names = scope_->candidates(kind);
     std::ranges::sort(names);
-    const std::string &name = node.name, nearest = base::nearestName(name, names);
+    const std::string &name = node.name, nearest = text::nearestName(name, names);
     const bool variable = kind == EvalScope::NameKind::variable;
     const bool bare = variable && (scope_->index(name) || scope_->builtin(name));
-    const std::string foreign = base::hintForForeign(base::Foreign::value, name);
+    const std::string foreign = text::hintForForeign(text::Foreign::value, name);
     const bool misspelt = !bare && foreign.empty() && !nearest.empty();
     std::string hint = bare       ? fmt::format("write '{}', without the '$'", name)
                        : misspelt ? fmt::format("did you mean '{}{}'?", sigil, nearest)
                                   : foreign;
-    if (hint.empty()) hint = base::nearestHint(name, names);
+    if (hint.empty()) hint = text::nearestHint(name, names);
     fail(Code::unknownVariable, node, std::move(message), {.hint = std::move(hint)});
     // It is read as the one that is meant, so that nothing else is reported because of it.
     return misspelt && variable ? scope_->variable(nearest).value_or(Value{}) : Value{};
@@ -260,7 +260,7 @@ class Evaluator {
     const std::vector<std::string> choices = scope_->choicesOf(parameter.name);
     const std::string& found = word.op == ExprOp::identifier ? word.name : word.value.symbol;
     if (choices.empty() || std::find(choices.begin(), choices.end(), found) != choices.end()) return true;
-    const std::string nearest = base::nearestName(found, choices);
+    const std::string nearest = text::nearestName(found, choices);
     fail(Code::notAChoice, word,
          fmt::format("'{}' is not one of the choices of '${}'", found, parameter.name),
          {fmt::format("{}", fmt::join(choices, ", ")), found,
@@ -366,10 +366,10 @@ class Evaluator {
   EvalScope* scope_ = nullptr;
   const AgeFunction* age_ = nullptr;
   std::span<const Value> parameters_;
-  base::Diagnostics* diagnostics_ = nullptr;
+  text::Diagnostics* diagnostics_ = nullptr;
 };
 
-bool checkNode(const ExprNode& node, EvalScope& scope, base::Diagnostics& diagnostics) {
+bool checkNode(const ExprNode& node, EvalScope& scope, text::Diagnostics& diagnostics) {
   Evaluator evaluator(scope, diagnostics);
   const std::size_t before = diagnostics.errorCount();
   if (node.op == ExprOp::variable) evaluator.variable(node);
@@ -381,20 +381,20 @@ bool checkNode(const ExprNode& node, EvalScope& scope, base::Diagnostics& diagno
 
 }  // namespace
 
-Value evaluateNode(const ExprNode& node, EvalScope& scope, base::Diagnostics& diagnostics) {
+Value evaluateNode(const ExprNode& node, EvalScope& scope, text::Diagnostics& diagnostics) {
   return Evaluator(scope, diagnostics).run(node);
 }
 
 Value evaluateNode(const ExprNode& node, const AgeFunction& age, std::span<const Value> parameters,
-                   base::Diagnostics* diagnostics) {
+                   text::Diagnostics* diagnostics) {
   return Evaluator(age, parameters, diagnostics).run(node);
 }
 
-Value Expr::evaluate(EvalScope& scope, base::Diagnostics& diagnostics) const {
+Value Expr::evaluate(EvalScope& scope, text::Diagnostics& diagnostics) const {
   return root_ ? Evaluator(scope, diagnostics).run(*root_) : Value{};
 }
 
-bool Expr::check(EvalScope& scope, base::Diagnostics& diagnostics) const {
+bool Expr::check(EvalScope& scope, text::Diagnostics& diagnostics) const {
   return !root_ || checkNode(*root_, scope, diagnostics);
 }
 

@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/graph/language/expr.h"
 #include "engine/graph/language/value.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::graph {
 
@@ -61,7 +61,7 @@ struct ExprNode : std::enable_shared_from_this<ExprNode> {
   std::uint32_t key = 0;    // of a parsed fact: bytes from `place` to the resource, without its @
   std::uint32_t terms =
       1;              // number of nodes from here down; a node that stands in several places counts in each
-  base::Place place;  // of the token to blame: the operator, the name, the function
+  text::Place place;  // of the token to blame: the operator, the name, the function
   Value value{};
   std::string name{};
   std::vector<std::shared_ptr<const ExprNode>> children{};
@@ -92,8 +92,8 @@ std::string hintForWord(EvalScope& scope, const Value& value);
 const char* nameOf(Fact fact);
 
 // A node over `children`, with height and dynamic filled in. The caller has checked the height.
-ExprPtr makeNode(ExprOp op, base::Place place, std::vector<ExprPtr> children);
-ExprPtr makeConstant(Value value, base::Place place);
+ExprPtr makeNode(ExprOp op, text::Place place, std::vector<ExprPtr> children);
+ExprPtr makeConstant(Value value, text::Place place);
 // 1 + the greatest height among `children`, and 1 + all their terms.
 int heightOver(const std::vector<ExprPtr>& children);
 std::uint32_t termsOver(const std::vector<ExprPtr>& children);
@@ -103,12 +103,12 @@ void setChildren(ExprNode& node, std::vector<ExprPtr> children);
 const std::string* onlyVariableOf(const Expr& expr);
 
 // The trees of Expr::parse; null after an error.
-ExprPtr parseExprTree(std::string_view text, const base::Place& place, base::Diagnostics& diagnostics);
+ExprPtr parseExprTree(std::string_view text, const text::Place& place, text::Diagnostics& diagnostics);
 
 // The value of a tree, or type none after an error. The first form is for expansion; the second is for folded trees, while
 // frames run.
-Value evaluateNode(const ExprNode& node, EvalScope& scope, base::Diagnostics& diagnostics);
+Value evaluateNode(const ExprNode& node, EvalScope& scope, text::Diagnostics& diagnostics);
 Value evaluateNode(const ExprNode& node, const AgeFunction& age, std::span<const Value> parameters,
-                   base::Diagnostics* diagnostics);
+                   text::Diagnostics* diagnostics);
 
 }  // namespace weft::graph

@@ -10,11 +10,11 @@
 #include <regex>
 #include <utility>
 
-#include "engine/base/nearest.h"
-#include "engine/base/words/foreign_words.h"
 #include "engine/graph/language/expr.h"
 #include "engine/graph/language/expr_node.h"
 #include "engine/graph/language/names.h"
+#include "engine/text/nearest.h"
+#include "engine/text/words/foreign_words.h"
 
 namespace weft::graph {
 
@@ -47,7 +47,7 @@ std::string hintForMember(std::string_view name, std::string_view member) {
   if (isReservedWord(member))
     return fmt::format("values know the whole of it: size({0}) is that of level 0, mips({0}) says how many",
                        name);
-  return base::hintForForeign(base::Foreign::value, fmt::format("{}.{}", name, member));
+  return text::hintForForeign(text::Foreign::value, fmt::format("{}.{}", name, member));
 }
 
 }  // namespace
@@ -104,7 +104,7 @@ Token scanToken(std::string_view text, std::size_t from) {
 // ---- the grammar ----
 
 constexpr int kMaxNesting = 64;
-constexpr std::size_t kMostItems = 4, kMostArguments = 8;
+constexpr std::size_t kMaxItems = 4, kMaxArguments = 8;
 constexpr int kMaxParsedHeight =
     kMaxExprHeight - 1;  // leaves one level for the list that Expr::listOf puts around it
 constexpr std::uint32_t kMaxParsedTerms = 1000;
@@ -115,7 +115,7 @@ constexpr int kComparison = 4;
 
 class Parser {
  public:
-  Parser(std::string_view text, const base::Place& place, base::Diagnostics& diagnostics)
+  Parser(std::string_view text, const text::Place& place, text::Diagnostics& diagnostics)
       : text_(text), place_(place), diagnostics_(diagnostics) {
     advance();
   }
@@ -129,14 +129,14 @@ class Parser {
   }
 
  private:
-  base::Place placeOf(const Token& token) const {
-    base::Place place = place_;
+  text::Place placeOf(const Token& token) const {
+    text::Place place = place_;
     if (place.column > 0) place.column += static_cast<std::uint32_t>(token.begin);
     return place;
   }
 
   ExprPtr fail(const Token& token, std::string message, std::string hint = {}, std::string expected = {}) {
-    auto& diagnostic = diagnostics_.error(base::Code::badExpression, placeOf(token), std::move(message));
+    auto& diagnostic = diagnostics_.error(text::Code::badExpression, placeOf(token), std::move(message));
     diagnostic.found = fmt::format("\"{}\"", text_);
     diagnostic.hint = std::move(hint);
     diagnostic.expected = std::move(expected);
@@ -145,7 +145,7 @@ class Parser {
 
   ExprPtr failUnexpected(const char* expected) {
     if (std::string hint = hintForSize(text_); !hint.empty()) {
-      auto& d = diagnostics_.error(base::Code::badExpression, place_, fmt::format("'{}' is no value", text_));
+      auto& d = diagnostics_.error(text::Code::badExpression, place_, fmt::format("'{}' is no value", text_));
       d.expected = "a number, a list or an expression";
       d.hint = std::move(hint);
       return nullptr;
@@ -153,7 +153,7 @@ class Parser {
     if (token_.kind == Token::Kind::end)
       return fail(token_, fmt::format("the expression ends where {} is expected", expected), "", expected);
     return fail(token_, fmt::format("unexpected '{}' where {} is expected", token_.text, expected),
-                base::hintForForeign(base::Foreign::expression, token_.text), expected);
+                text::hintForForeign(text::Foreign::expression, token_.text), expected);
   }
 
   // ---- tokens ----
@@ -294,9 +294,9 @@ class Parser {
       ExprPtr item = parseConditional();
       if (!item) return nullptr;
       if (item->op == ExprOp::list) return fail(itemStart, "a list holds numbers, not lists");
-      if (items.size() == kMostItems)
-        return fail(bracket, fmt::format("a list of more than {} items", kMostItems), "",
-                    fmt::format("at most {} items", kMostItems));
+      if (items.size() == kMaxItems)
+        return fail(bracket, fmt::format("a list of more than {} items", kMaxItems), "",
+                    fmt::format("at most {} items", kMaxItems));
       items.push_back(std::move(item));
     } while (accept(","));
     if (!accept("]")) return failUnexpected("',' or ']'");
@@ -372,10 +372,10 @@ class Parser {
       std::vector<std::string> known = {"size", "mips", "count", "has", "age"};
       for (auto op = ExprOp::minimum; op <= ExprOp::abs; op = static_cast<ExprOp>(static_cast<int>(op) + 1))
         known.emplace_back(infoOf(op).spelling);
-      auto& d = diagnostics_.error(base::Code::badFunctionCall, placeOf(word),
+      auto& d = diagnostics_.error(text::Code::badFunctionCall, placeOf(word),
                                    fmt::format("unknown function '{}'", word.text));
-      d.hint = base::hintForForeign(base::Foreign::expression, word.text);
-      if (d.hint.empty()) d.hint = base::nearestHint(word.text, known);
+      d.hint = text::hintForForeign(text::Foreign::expression, word.text);
+      if (d.hint.empty()) d.hint = text::nearestHint(word.text, known);
       return nullptr;
     }
     std::vector<ExprPtr> arguments;
@@ -383,14 +383,14 @@ class Parser {
       do {
         ExprPtr argument = parseConditional();
         if (!argument) return nullptr;
-        if (arguments.size() == kMostArguments)
-          return fail(word, fmt::format("{}() with more than {} arguments", word.text, kMostArguments));
+        if (arguments.size() == kMaxArguments)
+          return fail(word, fmt::format("{}() with more than {} arguments", word.text, kMaxArguments));
         arguments.push_back(std::move(argument));
       } while (accept(","));
     }
     if (!accept(")")) return failUnexpected("',' or ')'");
     if (arguments.size() < info.least || arguments.size() > info.most) {
-      auto& d = diagnostics_.error(base::Code::badFunctionCall, placeOf(word),
+      auto& d = diagnostics_.error(text::Code::badFunctionCall, placeOf(word),
                                    fmt::format("{}() with the wrong number of arguments", word.text));
       d.expected = info.least == info.most ? fmt::format("{}", info.least)
                                            : fmt::format("{} to {}", info.least, info.most);
@@ -429,15 +429,15 @@ class Parser {
   }
 
   std::string_view text_;
-  base::Place place_;
-  base::Diagnostics& diagnostics_;
+  text::Place place_;
+  text::Diagnostics& diagnostics_;
   Token token_;
   int depth_ = 0;
 };
 
 }  // namespace
 
-ExprPtr parseExprTree(std::string_view text, const base::Place& place, base::Diagnostics& diagnostics) {
+ExprPtr parseExprTree(std::string_view text, const text::Place& place, text::Diagnostics& diagnostics) {
   return Parser(text, place, diagnostics).parseWhole();
 }
 

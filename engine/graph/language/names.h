@@ -5,14 +5,14 @@
 #include <array>
 #include <string_view>
 
-#include "engine/base/chars.h"
+#include "engine/text/chars.h"
 
 namespace weft::graph {
 
-using base::isDigit;
-using base::isIdentChar;
-using base::isIdentStart;
-using base::isSpace;
+using text::isDigit;
+using text::isIdentChar;
+using text::isIdentStart;
+using text::isSpace;
 
 constexpr bool isIdent(std::string_view text) {
   return !text.empty() && isIdentStart(text[0]) && std::all_of(text.begin(), text.end(), isIdentChar);

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/base/nearest.h"
+#include "engine/text/nearest.h"
 
 namespace weft::graph {
 
@@ -33,7 +33,7 @@ std::string commonSuffix(std::string_view a, std::string_view b) {
 
 std::string suffixHint(std::string_view wanted, std::span<const std::string> names) {
   const std::vector<std::size_t> ending = suffixMatches(names, wanted);
-  if (const std::string near = ending.empty() ? base::nearestName(wanted, names) : names[ending[0]];
+  if (const std::string near = ending.empty() ? text::nearestName(wanted, names) : names[ending[0]];
       !near.empty())
     return fmt::format("did you mean '{}'?", near);
   // A suffix is whole parts between dots; part of a part may be what was meant.
@@ -47,7 +47,7 @@ std::string suffixHint(std::string_view wanted, std::span<const std::string> nam
   if (many > 0) return fmt::format("names that hold it: {}", holding);
   std::vector<std::string> leaves;
   for (const std::string& name : names) leaves.push_back(name.substr(name.rfind('.') + 1));
-  return base::nearestHint(wanted, leaves);
+  return text::nearestHint(wanted, leaves);
 }
 
 }  // namespace weft::graph

@@ -7,14 +7,14 @@
 #include <regex>
 #include <unordered_set>
 
-#include "engine/base/nearest.h"
 #include "engine/graph/language/suffix.h"
+#include "engine/text/nearest.h"
 
 namespace weft::graph {
 
 namespace {
 
-using base::Code;
+using text::Code;
 
 // A whole number; nothing when it is too large.
 std::optional<std::uint32_t> wholeOf(std::string_view digits) {
@@ -23,10 +23,10 @@ std::optional<std::uint32_t> wholeOf(std::string_view digits) {
   return error == std::errc() ? std::optional(number) : std::nullopt;
 }
 
-base::Diagnostic& reportPick(base::Diagnostics& diagnostics, Code code, const Pick& pick,
+text::Diagnostic& reportPick(text::Diagnostics& diagnostics, Code code, const Pick& pick,
                              std::string message) {
   const std::string option = pick.option + (pick.option.empty() ? "" : " ") + pick.text;
-  base::Diagnostic& d = diagnostics.error(code, base::placeOfOption(option), std::move(message));
+  text::Diagnostic& d = diagnostics.error(code, text::placeOfOption(option), std::move(message));
   d.resource = pick.name;
   return d;
 }
@@ -39,7 +39,7 @@ std::uint32_t versionOf(std::string_view resourceName) {
              : static_cast<std::uint32_t>(std::stoul(std::string(resourceName.substr(at + 1))));
 }
 
-std::uint32_t findVersion(const FlatGraph& graph, const Pick& pick, base::Diagnostics& diagnostics) {
+std::uint32_t findVersion(const FlatGraph& graph, const Pick& pick, text::Diagnostics& diagnostics) {
   std::vector<std::string> names;  // each once
   std::unordered_set<std::string_view> known;
   for (const std::string& name : graph.resourceNames)
@@ -81,7 +81,7 @@ std::uint32_t findVersion(const FlatGraph& graph, const Pick& pick, base::Diagno
   return found;
 }
 
-bool checkParts(const FlatResource& resource, const Pick& pick, base::Diagnostics& diagnostics) {
+bool checkParts(const FlatResource& resource, const Pick& pick, text::Diagnostics& diagnostics) {
   const auto within = [&](const char* what, std::uint32_t value, std::uint32_t count, Code code) {
     if (value < count) return true;
     auto& d = reportPick(diagnostics, code, pick, fmt::format("'{}' has no {} {}", pick.name, what, value));
@@ -165,7 +165,7 @@ std::string_view sharedName(std::string_view resourceName) {
   return resourceName.substr(0, resourceName.find('#'));
 }
 
-std::optional<FoundPick> findPick(const FlatGraph& graph, const Pick& pick, base::Diagnostics& diagnostics) {
+std::optional<FoundPick> findPick(const FlatGraph& graph, const Pick& pick, text::Diagnostics& diagnostics) {
   const std::uint32_t resource = findVersion(graph, pick, diagnostics);
   if (resource == kNone || !checkParts(graph.resources[resource], pick, diagnostics)) return std::nullopt;
   if (pick.pass.empty()) return FoundPick{resource, kNone};
@@ -203,7 +203,7 @@ std::optional<FoundPick> findPick(const FlatGraph& graph, const Pick& pick, base
   return std::nullopt;
 }
 
-void keepPicks(FlatGraph& graph, std::span<const Pick> picks, base::Diagnostics& diagnostics) {
+void keepPicks(FlatGraph& graph, std::span<const Pick> picks, text::Diagnostics& diagnostics) {
   for (const Pick& pick : picks) {
     const std::optional<FoundPick> found = findPick(graph, pick, diagnostics);
     if (!found) continue;

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "engine/base/diagnostic.h"
 #include "engine/graph/flat_graph.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::graph {
 
@@ -43,9 +43,9 @@ struct FoundPick {
 };
 
 // Nothing after an error: unknownResource, ambiguousName, missingSubresource, noHistory, badSelector, unknownPass.
-std::optional<FoundPick> findPick(const FlatGraph& graph, const Pick& pick, base::Diagnostics& diagnostics);
+std::optional<FoundPick> findPick(const FlatGraph& graph, const Pick& pick, text::Diagnostics& diagnostics);
 
 // Makes live what writes each pick that is there, as if it had a side effect.
-void keepPicks(FlatGraph& graph, std::span<const Pick> picks, base::Diagnostics& diagnostics);
+void keepPicks(FlatGraph& graph, std::span<const Pick> picks, text::Diagnostics& diagnostics);
 
 }  // namespace weft::graph

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/printable.h"
 #include "engine/graph/language/suffix.h"
 #include "engine/graph/print/explain.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/subresource.h"
+#include "engine/text/printable.h"
 
 namespace weft::graph {
 
@@ -89,7 +89,7 @@ class Describer {
  private:
   template <class... Args>
   void line(std::size_t depth, fmt::format_string<Args...> format, Args&&... args) {
-    text_ += std::string(2 * depth, ' ') + base::printable(fmt::format(format, std::forward<Args>(args)...)) +
+    text_ += std::string(2 * depth, ' ') + text::printable(fmt::format(format, std::forward<Args>(args)...)) +
              "\n";
   }
 
@@ -240,7 +240,7 @@ class Describer {
 
 }  // namespace
 
-std::optional<std::string> describe(const Plan& plan, std::string_view name, base::Diagnostics& diagnostics) {
+std::optional<std::string> describe(const Plan& plan, std::string_view name, text::Diagnostics& diagnostics) {
   Describer describer(plan);
   const std::vector<std::string> names = describer.names();
   const std::vector<std::size_t> matches = suffixMatches(names, name);
@@ -252,16 +252,16 @@ std::optional<std::string> describe(const Plan& plan, std::string_view name, bas
     describer.add(matches.empty() ? declared->name : names[matches[0]]);
     return describer.text();
   }
-  const base::Where place = base::placeOfOption("");
+  const text::Where place = text::placeOfOption("");
   if (matches.empty()) {
-    base::Diagnostic& d = diagnostics.error(
-        base::Code::unknownPass, place, fmt::format("no pass, resource or parameter is called '{}'", name));
+    text::Diagnostic& d = diagnostics.error(
+        text::Code::unknownPass, place, fmt::format("no pass, resource or parameter is called '{}'", name));
     d.expected = "a name of the expanded graph, or the end of one behind a dot";
     d.hint = suffixHint(name, names);
     return std::nullopt;
   }
-  base::Diagnostic& d =
-      diagnostics.error(base::Code::ambiguousName, place, fmt::format("'{}' may mean several", name));
+  text::Diagnostic& d =
+      diagnostics.error(text::Code::ambiguousName, place, fmt::format("'{}' may mean several", name));
   for (std::size_t i = 0; i < std::min<std::size_t>(matches.size(), 8); ++i)
     d.found += (i ? ", " : "") + names[matches[i]];
   d.hint = fmt::format("write more of the name, such as '{}'", names[matches[0]]);

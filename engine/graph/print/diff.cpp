@@ -7,9 +7,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "engine/base/printable.h"
 #include "engine/graph/print/explain.h"
 #include "engine/graph/print/print.h"
+#include "engine/text/printable.h"
 
 namespace weft::graph {
 
@@ -27,7 +27,7 @@ void compareFacts(const Facts& before, const Facts& after, std::string& text) {
   const Fact none{"", "none", false};
   const auto line = [&](const std::string& name, const Fact& was, const Fact& now) {
     if ((!was.there && !now.there) || (was.there == now.there && was.text == now.text)) return;
-    text += base::printable(fmt::format("{} {}: {} before, now {}",
+    text += text::printable(fmt::format("{} {}: {} before, now {}",
                                         !was.there   ? '+'
                                         : !now.there ? '-'
                                                      : '~',

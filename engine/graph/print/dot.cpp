@@ -4,10 +4,10 @@
 #include <iterator>
 #include <set>
 
-#include "engine/base/printable.h"
 #include "engine/graph/print/explain.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/subresource.h"
+#include "engine/text/printable.h"
 
 namespace weft::graph {
 
@@ -18,7 +18,7 @@ constexpr const char* kGray =
 
 std::string escaped(const std::string& text) {
   std::string out;
-  for (const char c : base::printable(text)) {
+  for (const char c : text::printable(text)) {
     if (c == '"' || c == '\\') out.push_back('\\');
     out.push_back(c);
   }

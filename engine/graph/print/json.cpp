@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "engine/base/printable.h"
 #include "engine/graph/print/explain.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/subresource.h"
+#include "engine/text/printable.h"
 
 namespace weft::graph {
 
@@ -125,7 +125,7 @@ std::string dumpJson(const Plan& plan, bool explain) {
     if (explain) j["why"] = explainer->whyStorage(r);
     json["resources"].push_back(std::move(j));
   }
-  return base::printableJson(json.dump(2, ' ', false, ordered_json::error_handler_t::replace)) + "\n";
+  return text::printableJson(json.dump(2, ' ', false, ordered_json::error_handler_t::replace)) + "\n";
 }
 
 }  // namespace weft::graph

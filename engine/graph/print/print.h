@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "engine/base/diagnostic.h"
 #include "engine/graph/plan.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::graph {
 
@@ -34,7 +34,7 @@ std::string graphFileOf(const Plan& plan);
 
 // Everything that `name` means: the pass or its repeats, the resource and its versions, the parameter. `name` is any unique
 // suffix. Nothing after a report: unknown (W045, with the nearest) or ambiguous (W046).
-std::optional<std::string> describe(const Plan& plan, std::string_view name, base::Diagnostics& diagnostics);
+std::optional<std::string> describe(const Plan& plan, std::string_view name, text::Diagnostics& diagnostics);
 // What a pass, called by its whole name without an index, does with a slot, parameter or define; "" when it has none.
 std::string describeInPass(const Plan& plan, std::string_view pass, std::string_view name);
 

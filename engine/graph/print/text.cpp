@@ -6,10 +6,10 @@
 #include <optional>
 #include <tuple>
 
-#include "engine/base/printable.h"
 #include "engine/graph/print/explain.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/subresource.h"
+#include "engine/text/printable.h"
 
 namespace weft::graph {
 
@@ -38,7 +38,7 @@ class TextWriter {
  private:
   template <class... Args>
   void line(std::size_t depth, fmt::format_string<Args...> format, Args&&... args) {
-    text_ += std::string(2 * depth, ' ') + base::printable(fmt::format(format, std::forward<Args>(args)...)) +
+    text_ += std::string(2 * depth, ' ') + text::printable(fmt::format(format, std::forward<Args>(args)...)) +
              '\n';
   }
   void because(std::size_t depth, const std::string& why) {

@@ -6,14 +6,14 @@
 #include <filesystem>
 #include <unordered_map>
 
-#include "engine/base/limits.h"
-#include "engine/base/nearest.h"
 #include "engine/graph/language/suffix.h"
 #include "engine/graph/read/read_context.h"
+#include "engine/text/limits.h"
+#include "engine/text/nearest.h"
 
 namespace weft::graph {
 
-using base::Code;
+using text::Code;
 using Type = JsonValue::Type;
 
 JsonMember* memberOf(JsonValue& object, std::string_view key) {
@@ -95,7 +95,7 @@ void reportLikeNothing(const std::vector<JsonValue>& stanzas, std::size_t index,
   std::vector<std::string> names;
   for (std::size_t i = 0; i < index; ++i)
     if (const std::string_view name = passName(stanzas[i]); !name.empty()) names.emplace_back(name);
-  d.hint = base::nearestHint(like.text, names);
+  d.hint = text::nearestHint(like.text, names);
 }
 
 // `other` with `stanza` over it.
@@ -129,7 +129,7 @@ JsonValue mergeLike(const JsonValue& other, const JsonValue& stanza, const JsonV
 }  // namespace
 
 std::vector<const JsonValue*> writeOut(const std::vector<JsonValue>& stanzas, std::deque<JsonValue>& made,
-                                       base::Diagnostics& diagnostics) {
+                                       text::Diagnostics& diagnostics) {
   ReadContext said(diagnostics);
   std::vector<const JsonValue*> whole;
   std::unordered_map<std::string_view, const JsonValue*> above;  // written out, by name
@@ -147,9 +147,9 @@ std::vector<const JsonValue*> writeOut(const std::vector<JsonValue>& stanzas, st
       if (named && found == above.end()) reportLikeNothing(stanzas, i, *like, said);
       if (named && found != above.end() && found->second) {
         values += valuesOf(*found->second);
-        if (values > base::raised(base::kMostValues)) {
-          base::reportLimit(diagnostics, like->place, "passes that are like others hold too many values",
-                            base::kMostValues, "values");
+        if (values > text::raised(text::kMaxValues)) {
+          text::reportLimit(diagnostics, like->place, "passes that are like others hold too many values",
+                            text::kMaxValues, "values");
           whole.resize(stanzas.size(), nullptr);
           return whole;
         }

@@ -13,17 +13,17 @@
 #include <type_traits>
 #include <vector>
 
-#include "engine/base/nearest.h"
 #include "engine/graph/desc_walk.h"
 #include "engine/graph/read/merge.h"
 #include "engine/graph/read/read_context.h"
+#include "engine/text/nearest.h"
 
 namespace weft::graph {
 
 namespace {
 
-using base::Code;
-using base::Foreign;
+using text::Code;
+using text::Foreign;
 using Type = JsonValue::Type;
 using KeyLists = std::initializer_list<std::span<const KeySpec>>;
 
@@ -33,7 +33,7 @@ constexpr std::array<KeySpec, 4> kKinds{{{"texture", ""}, {"buffer", ""}, {"impo
 template <class Value>
 class KeyCheck {
  public:
-  KeyCheck(bool overlay, base::Diagnostics& diagnostics) : overlay_(overlay), said_(diagnostics) {}
+  KeyCheck(bool overlay, text::Diagnostics& diagnostics) : overlay_(overlay), said_(diagnostics) {}
 
   void run(Value& root) {
     check(root, {kGraphKeys}, "a graph", Foreign::graph_key);
@@ -101,12 +101,12 @@ class KeyCheck {
       const bool ofState = foreign == Foreign::pass_key &&
                            std::ranges::find(kStateKeys, member.key, &KeySpec::key) != kStateKeys.end();
       // A word of another program first: "groups" is no slip of "group".
-      const base::ForeignWord theirs =
-          foreign && !ofState ? base::findForeignWord(*foreign, member.key) : base::ForeignWord();
-      const std::string nearest = theirs.hint.empty() ? base::nearestName(member.key, known) : theirs.key;
+      const text::ForeignWord theirs =
+          foreign && !ofState ? text::findForeignWord(*foreign, member.key) : text::ForeignWord();
+      const std::string nearest = theirs.hint.empty() ? text::nearestName(member.key, known) : theirs.key;
       const bool sure =
           !ofState && !nearest.empty() && !object.find(nearest) &&
-          (theirs.hint.empty() ? base::editDistance(member.key, nearest, 2) <= 1 : theirs.isOnlyKey);
+          (theirs.hint.empty() ? text::editDistance(member.key, nearest, 2) <= 1 : theirs.isOnlyKey);
       if (kMends && !sure) continue;
       said_.error(Code::unknownKey, member.place, fmt::format("unknown key \"{}\" in {}", member.key, what))
           .hint = ofState ? fmt::format("it is a key of \"state\": {{ \"{}\": … }}", member.key)
@@ -131,17 +131,17 @@ class KeyCheck {
 
 }  // namespace
 
-void mendKeys(JsonValue& root, bool preset, base::Diagnostics& diagnostics) {
+void mendKeys(JsonValue& root, bool preset, text::Diagnostics& diagnostics) {
   KeyCheck<JsonValue>(preset, diagnostics).run(root);
 }
 
-void checkKeys(const JsonValue& root, base::Diagnostics& diagnostics) {
+void checkKeys(const JsonValue& root, text::Diagnostics& diagnostics) {
   KeyCheck<const JsonValue>(false, diagnostics).run(root);
 }
 
-void mendNames(GraphDesc& desc, base::Diagnostics& diagnostics) {
-  constexpr std::size_t kShortest = 3;      // shorter names are near to each other by chance
-  constexpr std::size_t kMostUnknown = 64;  // with more, the mistake is another one
+void mendNames(GraphDesc& desc, text::Diagnostics& diagnostics) {
+  constexpr std::size_t kShortest = 3;     // shorter names are near to each other by chance
+  constexpr std::size_t kMaxUnknown = 64;  // with more, the mistake is another one
   struct Mentions {
     std::uint32_t count = 0;
     Place first;
@@ -178,11 +178,11 @@ void mendNames(GraphDesc& desc, base::Diagnostics& diagnostics) {
   for (const auto& [name, mentions] : mentioned)
     if (mentions.count > 1 && name.size() >= kShortest && std::ranges::find(there, name) == there.end())
       unknown.push_back(name);
-  if (unknown.size() > kMostUnknown) return;
+  if (unknown.size() > kMaxUnknown) return;
   for (ResourceDesc& resource : desc.resources) {
     if (resource.name.size() < kShortest || mentioned.contains(resource.name)) continue;
     const auto meant = std::ranges::find_if(
-        unknown, [&](const std::string& name) { return base::editDistance(name, resource.name, 1) <= 1; });
+        unknown, [&](const std::string& name) { return text::editDistance(name, resource.name, 1) <= 1; });
     if (meant == unknown.end()) continue;
     const Mentions& mentions = mentioned.at(*meant);
     auto& d =

@@ -2,19 +2,19 @@
 // a name is reported and then read as that, so that nothing else is said of what is missing because of it.
 #pragma once
 
-#include "engine/base/diagnostic.h"
-#include "engine/base/json/dom.h"
 #include "engine/graph/desc.h"
+#include "engine/text/diagnostic.h"
+#include "engine/text/json/dom.h"
 
 namespace weft::graph {
 
 // Of one file, before it is laid over others: reports keys that are one slip away from another, or another program's word for
 // it, and renames them. `preset`: the file is laid over a graph although it extends none.
-void mendKeys(base::JsonValue& root, bool preset, base::Diagnostics& diagnostics);
+void mendKeys(text::JsonValue& root, bool preset, text::Diagnostics& diagnostics);
 // Of a whole graph: unknown keys that are left, and missing ones. Code::unknownKey, Code::missingKey.
-void checkKeys(const base::JsonValue& root, base::Diagnostics& diagnostics);
+void checkKeys(const text::JsonValue& root, text::Diagnostics& diagnostics);
 
 // A resource that nothing names, while what is named more than once is not there and one slip away, gets that name.
-void mendNames(GraphDesc& desc, base::Diagnostics& diagnostics);
+void mendNames(GraphDesc& desc, text::Diagnostics& diagnostics);
 
 }  // namespace weft::graph

@@ -6,22 +6,22 @@
 #include <filesystem>
 #include <utility>
 
-#include "engine/base/files/file_access.h"
-#include "engine/base/files/text_file.h"
-#include "engine/base/limits.h"
 #include "engine/graph/read/merge.h"
 #include "engine/graph/read/misspelt.h"
 #include "engine/graph/read/read_context.h"
+#include "engine/text/files/file_access.h"
+#include "engine/text/files/text_file.h"
+#include "engine/text/limits.h"
 
 namespace weft::graph {
 
-using base::Code;
+using text::Code;
 using Type = JsonValue::Type;
 
 namespace {
 
 // Takes the keys of stanzas in overlays away, which mean nothing where there is nothing to lay them over.
-void dropOverlayKeys(JsonValue& root, base::Diagnostics& diagnostics) {
+void dropOverlayKeys(JsonValue& root, text::Diagnostics& diagnostics) {
   JsonMember* passes = memberOf(root, "passes");
   if (!passes) return;
   for (JsonValue& stanza : passes->value.items)
@@ -37,7 +37,7 @@ void dropOverlayKeys(JsonValue& root, base::Diagnostics& diagnostics) {
 }
 
 // What "extends" names: a path, or a list of paths. Empty after a report.
-std::vector<const JsonValue*> namesIn(const JsonValue& extends, base::Diagnostics& diagnostics) {
+std::vector<const JsonValue*> namesIn(const JsonValue& extends, text::Diagnostics& diagnostics) {
   std::vector<const JsonValue*> names;
   if (extends.is(Type::string)) names.push_back(&extends);
   for (const JsonValue& item : extends.items) names.push_back(&item);
@@ -69,40 +69,40 @@ std::string pathBeside(const JsonValue& written) {
 
 std::string identityOf(const std::string& path) {
   // What may not be read is not followed either: it is what it is called.
-  if (!base::mayRead(path)) return std::filesystem::path(path).lexically_normal().string();
+  if (!text::mayRead(path)) return std::filesystem::path(path).lexically_normal().string();
   std::error_code ec;
   const auto canonical = std::filesystem::weakly_canonical(path, ec);
   return ec ? path : canonical.string();
 }
 
-std::shared_ptr<const Source> SourceLoader::file(const std::string& path, const base::Place& from) {
+std::shared_ptr<const Source> SourceLoader::file(const std::string& path, const text::Place& from) {
   const std::string identity = identityOf(path);
   if (const auto known = known_.find(identity); known != known_.end()) return known->second;
   std::optional<JsonValue> root = parse(path, from, false);
   return known_[identity] = root ? complete(*std::move(root), path) : nullptr;
 }
 
-std::optional<JsonValue> SourceLoader::parse(const std::string& path, const base::Place& from, bool preset) {
+std::optional<JsonValue> SourceLoader::parse(const std::string& path, const text::Place& from, bool preset) {
   if (const auto found = given_.find(path); found != given_.end()) {
     texts_[path] = found->second;
   } else {
-    std::optional<std::string> bytes = base::readTextFile(path, diagnostics_, Code::unreadableFile, from);
+    std::optional<std::string> bytes = text::readTextFile(path, diagnostics_, Code::unreadableFile, from);
     if (!bytes) return std::nullopt;
     texts_[path] = std::make_shared<const std::string>(*std::move(bytes));
   }
   std::optional<JsonValue> root =
-      base::parseJson(*texts_[path], std::make_shared<const std::string>(path), diagnostics_);
+      text::parseJson(*texts_[path], std::make_shared<const std::string>(path), diagnostics_);
   if (root) mendKeys(*root, preset, diagnostics_);
   return root;
 }
 
-bool SourceLoader::mayCopy(const Source& source, const base::Place& place) {
+bool SourceLoader::mayCopy(const Source& source, const text::Place& place) {
   values_ += source.values;
-  if (values_ <= base::raised(base::kMostValues)) return true;
+  if (values_ <= text::raised(text::kMaxValues)) return true;
   if (!std::exchange(tooMany_, true))
-    base::reportLimit(diagnostics_, place,
+    text::reportLimit(diagnostics_, place,
                       "the files of the graph and the copies that overlays change hold too many values",
-                      base::kMostValues, "values")
+                      text::kMaxValues, "values")
         .found = fmt::format("{} with '{}'", values_, source.path);
   return false;
 }
@@ -159,10 +159,10 @@ std::shared_ptr<const Source> SourceLoader::complete(JsonValue root, const std::
 
 bool SourceLoader::mayExtend(const JsonValue& written) {
   const std::string below = pathBeside(written), identity = identityOf(below);
-  if (open_.size() > kMostInRow) {
+  if (open_.size() > kMaxInRow) {
     auto& limit = diagnostics_.error(Code::limitExceeded, written.place,
                                      "overlays extend each other in too long a row");
-    limit.expected = fmt::format("at most {}", kMostInRow);
+    limit.expected = fmt::format("at most {}", kMaxInRow);
     limit.found = fmt::format("'{}', one more", below);
     return false;
   }
@@ -195,7 +195,7 @@ bool SourceLoader::layOver(Source& made, const std::string& path, const JsonValu
     broken_.insert(own);
     return false;
   }
-  const std::optional<JsonValue> root = parse(path, written ? written->place : base::Place{}, true);
+  const std::optional<JsonValue> root = parse(path, written ? written->place : text::Place{}, true);
   const JsonValue* extends = root ? root->find("extends") : nullptr;
   bool good = root && ReadContext(diagnostics_).expect(*root, Type::object, "a preset");
   if (good && written && !extends && isWholeGraph(*root)) {

@@ -9,23 +9,23 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/json/dom.h"
 #include "engine/graph/desc.h"
+#include "engine/text/json/dom.h"
 
 namespace weft::graph {
 
-constexpr std::uint64_t kMostIncludes = 1000;  // files of one graph, each use counted
-constexpr std::size_t kMostInRow = 64;  // files that include each other, and overlays that extend each other
+constexpr std::uint64_t kMaxIncludes = 1000;  // files of one graph, each use counted
+constexpr std::size_t kMaxInRow = 64;  // files that include each other, and overlays that extend each other
 
 // A file, extended and overlaid.
 struct Source {
   std::string path;                // as opened
   std::string identity;            // canonical path, so that two spellings of one file are recognized
   std::vector<std::string> files;  // itself, the files it extends, the presets
-  base::JsonValue root;            // whatever stands in the file; no "extends" and "set", no stanza of an
+  text::JsonValue root;            // whatever stands in the file; no "extends" and "set", no stanza of an
                                    // overlay
   struct Set {
-    base::JsonMember member;
+    text::JsonMember member;
     Origin origin = Origin::file;
   };
   std::vector<Set> sets;             // of "set", in the order they apply: the last wins
@@ -37,17 +37,17 @@ struct Source {
 };
 
 // The path behind "include" or "extends": relative to the folder of the file it is written in.
-std::string pathBeside(const base::JsonValue& written);
+std::string pathBeside(const text::JsonValue& written);
 std::string identityOf(const std::string& path);
 
 // Opens files, each once. Those in `given` are not looked for on disk.
 class SourceLoader {
  public:
-  SourceLoader(base::Diagnostics& diagnostics, const FileTexts& given)
+  SourceLoader(text::Diagnostics& diagnostics, const FileTexts& given)
       : diagnostics_(diagnostics), given_(given) {}
 
   // Null after a report (the same file again: null without another).
-  std::shared_ptr<const Source> file(const std::string& path, const base::Place& from);
+  std::shared_ptr<const Source> file(const std::string& path, const text::Place& from);
   // `source` with the overlay in `path` on top. Null after an error that leaves nothing to lay over it.
   std::shared_ptr<const Source> withPreset(const Source& source, const std::string& path);
   // True while the overlay of this identity is being laid over its base: it includes or extends itself.
@@ -55,17 +55,17 @@ class SourceLoader {
   // The texts of all files that were opened so far.
   const FileTexts& texts() const { return texts_; }
   // False after Code::limitExceeded: overlays make copies of what they are laid over, so values are counted again for each.
-  bool mayCopy(const Source& source, const base::Place& place);
+  bool mayCopy(const Source& source, const text::Place& place);
 
  private:
-  std::optional<base::JsonValue> parse(const std::string& path, const base::Place& from, bool preset);
-  std::shared_ptr<const Source> complete(base::JsonValue root, const std::string& path);
+  std::optional<text::JsonValue> parse(const std::string& path, const text::Place& from, bool preset);
+  std::shared_ptr<const Source> complete(text::JsonValue root, const std::string& path);
   // False after a report. `written`: an entry of "extends".
-  bool mayExtend(const base::JsonValue& written);
+  bool mayExtend(const text::JsonValue& written);
   // Lays the overlay in `path`, and first those that it extends, over `made`. `written`: what names it; null: the command line.
-  bool layOver(Source& made, const std::string& path, const base::JsonValue* written, bool preset);
+  bool layOver(Source& made, const std::string& path, const text::JsonValue* written, bool preset);
 
-  base::Diagnostics& diagnostics_;
+  text::Diagnostics& diagnostics_;
   const FileTexts& given_;
   FileTexts texts_;
   std::set<std::string> broken_;  // identities of overlays that failed: what is wrong with them is said once
@@ -76,7 +76,7 @@ class SourceLoader {
 };
 
 // Changes `target` as `overlay` says, and reports what does not fit (overlay_apply.cpp). A preset keeps the name of the graph.
-void applyOverlay(SourceLoader& loader, const base::JsonValue& overlay, bool preset, Source& target,
-                  base::Diagnostics& diagnostics);
+void applyOverlay(SourceLoader& loader, const text::JsonValue& overlay, bool preset, Source& target,
+                  text::Diagnostics& diagnostics);
 
 }  // namespace weft::graph

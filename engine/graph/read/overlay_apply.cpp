@@ -5,22 +5,22 @@
 #include <optional>
 #include <span>
 
-#include "engine/base/limits.h"
-#include "engine/base/nearest.h"
 #include "engine/graph/language/suffix.h"
 #include "engine/graph/read/merge.h"
 #include "engine/graph/read/overlay.h"
 #include "engine/graph/read/read_context.h"
+#include "engine/text/limits.h"
+#include "engine/text/nearest.h"
 
 namespace weft::graph {
 
 namespace {
 
-using base::Code;
-using base::Diagnostic;
+using text::Code;
+using text::Diagnostic;
 using Type = JsonValue::Type;
 
-constexpr std::uint64_t kMostChanges = 16'384;  // values of one overlay: each is looked for in what is below
+constexpr std::uint64_t kMaxChanges = 16'384;  // values of one overlay: each is looked for in what is below
 
 const JsonValue* sectionOf(const Source& source, std::string_view section) {
   const JsonValue* found = source.root.find(section);
@@ -37,7 +37,7 @@ struct Spot {
   std::vector<std::string> below;    // the prefixes of the includes that it begins with, from the source down
   std::string own;                   // what is left of the name, in the file at their end
   std::optional<std::size_t> index;  // there, among the members of the section or the stanzas of "passes"
-  base::Place declared;              // of its name there
+  text::Place declared;              // of its name there
 };
 
 // The stanza without "before", "after" and "remove", called `name` in its own file; without a name when that is "".
@@ -99,13 +99,13 @@ std::string wholeHint(std::string_view wanted, const std::vector<std::string>& n
 
 class Applier {
  public:
-  Applier(SourceLoader& loader, Source& target, base::Diagnostics& diagnostics)
+  Applier(SourceLoader& loader, Source& target, text::Diagnostics& diagnostics)
       : loader_(loader), target_(target), diagnostics_(diagnostics), said_(diagnostics) {}
 
   // Passes first: other sections may reach into what the overlay includes.
   void run(const JsonValue& overlay, bool preset) {
-    if (const std::uint64_t values = valuesOf(overlay); values > base::raised(kMostChanges)) {
-      base::reportLimit(diagnostics_, overlay.place, "the overlay changes too much", kMostChanges, "values",
+    if (const std::uint64_t values = valuesOf(overlay); values > text::raised(kMaxChanges)) {
+      text::reportLimit(diagnostics_, overlay.place, "the overlay changes too much", kMaxChanges, "values",
                         values);
       return;
     }
@@ -194,7 +194,7 @@ class Applier {
   }
 
   // As locate(); what is there is also noted as named by the overlay at `place`.
-  Spot find(std::string_view section, std::string_view name, const base::Place& place) {
+  Spot find(std::string_view section, std::string_view name, const text::Place& place) {
     Spot spot = locate(section, name);
     if (spot.index) target_.named.push_back({std::string(name), place, spot.declared});
     return spot;
@@ -224,7 +224,7 @@ class Applier {
       for (std::size_t i = 0; passes && i < passes->items.size(); ++i) {
         // Too many of them, and too many in a row, are the reader's to report; so is a circle.
         const std::shared_ptr<const Source> child =
-            open.size() < kMostInRow && looked < kMostIncludes ? fileOf(source, passes->items[i]) : nullptr;
+            open.size() < kMaxInRow && looked < kMaxIncludes ? fileOf(source, passes->items[i]) : nullptr;
         if (!child || std::ranges::find(open, child->identity) != open.end()) continue;
         ++looked;
         self(self, *child, prefix + includePrefix(passes->items[i]) + ".");
@@ -237,7 +237,7 @@ class Applier {
 
   // Calls `change` with the source at the end of the prefixes: a copy, kept beside its include.
   template <class Change>
-  void edit(Source& source, std::span<const std::string> below, const base::Place& place,
+  void edit(Source& source, std::span<const std::string> below, const text::Place& place,
             const Change& change) {
     if (below.empty()) return change(source);
     std::shared_ptr<const Source> child = includedBy(source, below[0]);
@@ -345,7 +345,7 @@ class Applier {
       d.hint = wholeHint(anchor.text, names);
       // Where it was probably meant, else at the end, so that what stands beside it is no second mistake.
       const std::vector<std::string> whole = wholeOf(anchor.text, names);
-      beside = locate("passes", whole.empty() ? base::nearestName(anchor.text, names) : whole[0]);
+      beside = locate("passes", whole.empty() ? text::nearestName(anchor.text, names) : whole[0]);
     }
     const JsonValue* named = calledBy(stanza);
     const Spot moved = find("passes", said_.pass, named ? named->place : stanza.place);
@@ -404,7 +404,7 @@ class Applier {
 
   void change(const JsonValue& stanza, bool remove) {
     const JsonValue* named = calledBy(stanza);
-    const base::Place place = named ? named->place : stanza.place;
+    const text::Place place = named ? named->place : stanza.place;
     const Spot spot = find("passes", said_.pass, place);
     if (!spot.index) {
       const std::vector<std::string> names = allNames("passes");
@@ -459,7 +459,7 @@ class Applier {
 
   SourceLoader& loader_;
   Source& target_;
-  base::Diagnostics& diagnostics_;
+  text::Diagnostics& diagnostics_;
   ReadContext said_;      // with the pass or resource that is being applied
   bool tooMuch_ = false;  // reported; nothing more is applied
 };
@@ -467,7 +467,7 @@ class Applier {
 }  // namespace
 
 void applyOverlay(SourceLoader& loader, const JsonValue& overlay, bool preset, Source& target,
-                  base::Diagnostics& diagnostics) {
+                  text::Diagnostics& diagnostics) {
   Applier(loader, target, diagnostics).run(overlay, preset);
 }
 

@@ -17,8 +17,8 @@ namespace weft::graph {
 
 namespace {
 
-using base::Code;
-using base::Diagnostics;
+using text::Code;
+using text::Diagnostics;
 using Type = JsonValue::Type;
 
 class GraphReader {
@@ -180,8 +180,8 @@ class GraphReader {
     if (tooMuch_) return;
     // A file that was read before may stand deeper here.
     if (isTooDeep(open_.size() + below.depth, stanza) ||
-        exceeds(kMostIncludes, "files", weight_.files + below.files, stanza) ||
-        exceeds(base::kMostValues, "values", weight_.values + below.values, stanza))
+        exceeds(kMaxIncludes, "files", weight_.files + below.files, stanza) ||
+        exceeds(text::kMaxValues, "values", weight_.values + below.values, stanza))
       return;
     weight_.files += below.files;
     weight_.values += below.values;
@@ -192,18 +192,18 @@ class GraphReader {
 
   // True after a report; then no further include is followed, and the graph is not expanded.
   bool isTooDeep(std::size_t count, const JsonValue& stanza) {
-    if (count <= kMostInRow) return false;
+    if (count <= kMaxInRow) return false;
     tooMuch_ = true;
     auto& d =
         diagnostics_.error(Code::limitExceeded, stanza.place, "files include each other in too long a row");
-    d.expected = fmt::format("at most {}", kMostInRow);
+    d.expected = fmt::format("at most {}", kMaxInRow);
     d.found = fmt::format("{} with '{}'", count, stanza.text);
     return true;
   }
   bool exceeds(std::uint64_t bound, const char* counts, std::uint64_t count, const JsonValue& stanza) {
-    if (count <= base::raised(bound)) return false;
+    if (count <= text::raised(bound)) return false;
     tooMuch_ = true;
-    base::reportLimit(diagnostics_, stanza.place, fmt::format("the graph includes too many {}", counts),
+    text::reportLimit(diagnostics_, stanza.place, fmt::format("the graph includes too many {}", counts),
                       bound, counts, count)
         .found = fmt::format("{} with '{}'", count, stanza.text);
     return true;
@@ -231,7 +231,7 @@ std::shared_ptr<const GraphDesc> readGraph(const std::string& path, std::span<co
   Diagnostics said;
   GraphReader reader(said, given);
   std::shared_ptr<const GraphDesc> graph = reader.readWith(path, presets);
-  for (const auto& [file, text] : reader.texts()) base::PointerScope(file, *text, said);
+  for (const auto& [file, text] : reader.texts()) text::PointerScope(file, *text, said);
   said.sortByPlace();  // in the order of the text, whatever order the reader looked at things
   diagnostics.append(said);
   return graph;

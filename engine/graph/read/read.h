@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "engine/base/diagnostic.h"
 #include "engine/graph/desc.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::graph {
 
@@ -18,19 +18,19 @@ namespace weft::graph {
 // expand; otherwise a description, perhaps partial, with the errors in `diagnostics`. A preset that cannot be read is an error
 // and is left out.
 std::shared_ptr<const GraphDesc> readGraph(const std::string& path, std::span<const std::string> presets,
-                                           const FileTexts& given, base::Diagnostics& diagnostics);
+                                           const FileTexts& given, text::Diagnostics& diagnostics);
 inline std::shared_ptr<const GraphDesc> readGraph(const std::string& path,
                                                   std::span<const std::string> presets,
-                                                  base::Diagnostics& diagnostics) {
+                                                  text::Diagnostics& diagnostics) {
   return readGraph(path, presets, {}, diagnostics);
 }
-inline std::shared_ptr<const GraphDesc> readGraph(const std::string& path, base::Diagnostics& diagnostics) {
+inline std::shared_ptr<const GraphDesc> readGraph(const std::string& path, text::Diagnostics& diagnostics) {
   return readGraph(path, {}, {}, diagnostics);
 }
 
 // The same for text that stands in memory; `name` is used in places, includes are relative to the folder of
 // `name`.
 std::shared_ptr<const GraphDesc> readGraphText(std::string_view text, const std::string& name,
-                                               base::Diagnostics& diagnostics);
+                                               text::Diagnostics& diagnostics);
 
 }  // namespace weft::graph

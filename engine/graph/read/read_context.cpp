@@ -5,14 +5,14 @@
 
 #include <algorithm>
 
-#include "engine/base/nearest.h"
-#include "engine/base/words/glsl_words.h"
 #include "engine/graph/language/names.h"
 #include "engine/graph/read/ref_parse.h"
+#include "engine/text/nearest.h"
+#include "engine/text/words/glsl_words.h"
 
 namespace weft::graph {
 
-using base::Code;
+using text::Code;
 using Type = JsonValue::Type;
 
 namespace {
@@ -24,8 +24,8 @@ std::string quoted(std::string_view key) {
 // Why a shader cannot have the name; "" when it can.
 const char* whyNoShaderName(std::string_view name, const Named& named) {
   if (!named.inShader) return "";
-  if (base::isGlslWord(name)) return "it is a word of GLSL";
-  if (named.isDefine && base::isGlslFunction(name)) return "it would hide a function of GLSL";
+  if (text::isGlslWord(name)) return "it is a word of GLSL";
+  if (named.isDefine && text::isGlslFunction(name)) return "it would hide a function of GLSL";
   if (named.isDefine && name.starts_with("HAS_")) return "HAS_… says which slots and parameters a pass has";
   return (!named.underscores && name.find("__") != std::string_view::npos) ||
                  (named.isDefine && name.starts_with("GL_"))
@@ -39,23 +39,23 @@ std::string foundText(const JsonValue& value) {
   return value.is(Type::array) ? fmt::format("an array of {}", value.items.size()) : describe(value);
 }
 
-base::Diagnostic& ReadContext::error(Code code, const Place& place, std::string message) {
+text::Diagnostic& ReadContext::error(Code code, const Place& place, std::string message) {
   auto& d = goesOn() ? diagnostics_.error(code, place, std::move(message)) : unkept_;
   d.pass = pass;
   d.resource = resource;
   return d;
 }
 
-void ReadContext::adopt(const base::Diagnostics& said) {
+void ReadContext::adopt(const text::Diagnostics& said) {
   if (!goesOn()) return;
-  for (base::Diagnostic d : said.items()) {
+  for (text::Diagnostic d : said.items()) {
     d.pass = pass;
     d.resource = resource;
     diagnostics_.add(std::move(d));
   }
 }
 
-base::Diagnostic& ReadContext::wrongType(const JsonValue& value, std::string_view what,
+text::Diagnostic& ReadContext::wrongType(const JsonValue& value, std::string_view what,
                                          std::string expected) {
   auto& d = error(Code::wrongType, value, fmt::format("{} has the wrong type", what));
   d.expected = std::move(expected);
@@ -70,9 +70,9 @@ bool ReadContext::expect(const JsonValue& value, Type type, std::string_view wha
 }
 
 bool ReadContext::checkName(std::string_view name, const Place& place, const Named& named) {
-  if (name.size() > base::kMostNameBytes) {
+  if (name.size() > text::kMaxNameBytes) {
     auto& d = error(Code::limitExceeded, place, fmt::format("the name of {} is too long", named.noun));
-    d.expected = fmt::format("at most {} bytes", base::kMostNameBytes);
+    d.expected = fmt::format("at most {} bytes", text::kMaxNameBytes);
     d.found = fmt::format("{} bytes", name.size());
     return false;
   }
@@ -129,9 +129,9 @@ std::optional<std::string> ReadContext::word(const JsonValue& object, std::strin
   auto& d = error(Code::unknownWord, *value, fmt::format("unknown word \"{}\" for \"{}\"", value->text, key));
   d.expected = fmt::format("{}", fmt::join(words, ", "));
   if (key == "type")  // of a parameter
-    d.hint = base::hintForForeign(base::Foreign::value_type, value->text);
+    d.hint = text::hintForForeign(text::Foreign::value_type, value->text);
   const std::string nearest =
-      base::nearestName(value->text, std::vector<std::string>(words.begin(), words.end()));
+      text::nearestName(value->text, std::vector<std::string>(words.begin(), words.end()));
   if (!d.hint.empty() || nearest.empty()) return std::nullopt;
   d.hint = fmt::format("did you mean \"{}\"?", nearest);
   return nearest;  // read as what is meant, so that nothing else is reported because of it
@@ -157,7 +157,7 @@ Expr ReadContext::exprOf(const JsonValue& value, std::string_view what) {
   if (value.is(Type::number)) return Expr::constant(Value::number(value.number), value.place);
   if (value.is(Type::boolean)) return Expr::constant(Value::boolean(value.flag), value.place);
   if (value.is(Type::string)) {
-    base::Diagnostics said;
+    text::Diagnostics said;
     std::optional<Expr> parsed = Expr::parse(value.text, value.textPlace(), said);
     adopt(said);
     return parsed.value_or(Expr());
@@ -181,7 +181,7 @@ std::optional<RefDesc> ReadContext::refOf(const JsonValue& value, std::string_vi
   if (!expect(value, Type::string, what,
               one ? fmt::format("write \"{}\", without brackets", value.items[0].text) : ""))
     return std::nullopt;
-  base::Diagnostics said;
+  text::Diagnostics said;
   std::optional<RefDesc> parsed = parseRef(value.text, value.textPlace(), said);
   adopt(said);
   return parsed;

@@ -8,17 +8,17 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "engine/base/json/dom.h"
-#include "engine/base/limits.h"
-#include "engine/base/words/foreign_words.h"
 #include "engine/graph/desc.h"
 #include "engine/graph/language/enough.h"
 #include "engine/graph/language/keys.h"
+#include "engine/text/json/dom.h"
+#include "engine/text/limits.h"
+#include "engine/text/words/foreign_words.h"
 
 namespace weft::graph {
 
-using base::JsonMember;
-using base::JsonValue;
+using text::JsonMember;
+using text::JsonValue;
 
 // What a name names: "a slot".
 struct Named {
@@ -30,16 +30,16 @@ struct Named {
 
 class ReadContext {
  public:
-  explicit ReadContext(base::Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  explicit ReadContext(text::Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
   std::string pass, resource;  // set while one is read
 
-  base::Diagnostic& error(base::Code code, const Place& place, std::string message);
-  base::Diagnostic& error(base::Code code, const JsonValue& value, std::string message) {
+  text::Diagnostic& error(text::Code code, const Place& place, std::string message);
+  text::Diagnostic& error(text::Code code, const JsonValue& value, std::string message) {
     return error(code, value.place, std::move(message));
   }
   // Code::wrongType. `what` has the wrong type.
-  base::Diagnostic& wrongType(const JsonValue& value, std::string_view what, std::string expected);
+  text::Diagnostic& wrongType(const JsonValue& value, std::string_view what, std::string expected);
   // False, with Code::wrongType, when `value` is something else. `what` names it: "\"passes\"".
   bool expect(const JsonValue& value, JsonValue::Type type, std::string_view what, std::string hint = {});
 
@@ -67,14 +67,14 @@ class ReadContext {
   std::vector<const JsonValue*> strings(const JsonValue* value, std::string_view what);
 
   // For the parsers of strings, which know no pass: adopt() what they said into a fresh Diagnostics.
-  void adopt(const base::Diagnostics& said);
+  void adopt(const text::Diagnostics& said);
 
   // False once there are enough errors (enough.h): further ones are not kept.
   bool goesOn() const { return !enoughErrors(diagnostics_); }
 
  private:
-  base::Diagnostics& diagnostics_;
-  base::Diagnostic unkept_;
+  text::Diagnostics& diagnostics_;
+  text::Diagnostic unkept_;
 };
 
 // "an array of 3", "the number 7".

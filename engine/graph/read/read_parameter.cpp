@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/files/file.h"
-#include "engine/base/nearest.h"
 #include "engine/graph/read/read_context.h"
+#include "engine/text/files/file.h"
+#include "engine/text/nearest.h"
 
 namespace weft::graph {
 
 namespace {
 
-using base::Code;
+using text::Code;
 using Type = JsonValue::Type;
 using ValueKind = ParameterDesc::Type;
 
@@ -146,7 +146,7 @@ class ParameterReader {
     }
     out_.initial = *value;
     if (kind_->kind == ValueKind::file)
-      out_.initial = Value::text(base::besideFile(initial.textPlace(), initial.text));
+      out_.initial = Value::text(text::besideFile(initial.textPlace(), initial.text));
     if (kind_->kind != ValueKind::choice) return true;
     if (!object_.find("choices")) {
       context_.error(Code::missingKey, object_, fmt::format("{} is a choice without \"choices\"", what_))
@@ -159,7 +159,7 @@ class ParameterReader {
                              fmt::format("the default of {} is not one of its choices", what_));
     d.expected = fmt::format("{}", fmt::join(out_.choices, ", "));
     d.found = initial.text;
-    if (const std::string nearest = base::nearestName(initial.text, out_.choices); !nearest.empty())
+    if (const std::string nearest = text::nearestName(initial.text, out_.choices); !nearest.empty())
       d.hint = fmt::format("did you mean \"{}\"?", nearest);
     out_.initial =
         Value::text(out_.choices[0]);  // expressions that it stands in have no mistake of their own

@@ -13,13 +13,13 @@ namespace weft::graph {
 
 namespace {
 
-using base::Code;
+using text::Code;
 using Type = JsonValue::Type;
 
 // Slots, parameters and defines of a pass are spelled alike in its shader.
 constexpr const char* kSharedName = "the slot, parameter or define";
 
-constexpr std::uint64_t kMostIndices = 8;  // of one repeat
+constexpr std::uint64_t kMaxIndices = 8;  // of one repeat
 
 class PassReader {
  public:
@@ -30,7 +30,7 @@ class PassReader {
   std::optional<PassDesc> run() {
     if (!context_.expect(value_, Type::object, "a pass")) return std::nullopt;
     if (const JsonValue* name = value_.find("name"); name && name->is(Type::string))
-      context_.pass = name->text.substr(0, base::kMostNameBytes);
+      context_.pass = name->text.substr(0, text::kMaxNameBytes);
     return value_.find("include") ? readInclude() : readPass();
   }
 
@@ -103,7 +103,7 @@ class PassReader {
     readShader();
     out_.list = textAt("list", out_.listPlace);
     if (const std::string geometry = textAt("geometry", out_.geometryPlace); value_.find("geometry")) {
-      base::Diagnostics said;
+      text::Diagnostics said;
       if (std::optional<CallText> call =
               parseCallText(geometry, value_.find("geometry")->textPlace(), said)) {
         out_.geometry = std::move(call->name);
@@ -167,14 +167,14 @@ class PassReader {
           "write { \"i\": [0, 3] }";
     for (const JsonMember& member : ranges.members) {
       const JsonValue& value = member.value;
-      if (seen.size() >= base::raised(kMostIndices) && !seen.contains(member.key)) {
+      if (seen.size() >= text::raised(kMaxIndices) && !seen.contains(member.key)) {
         if (std::exchange(tooManyIndices_, true)) return;
         auto& d = context_.error(
             Code::limitExceeded, value,
             fmt::format("\"repeat\" has more indices than a pass can have, '{}' is one too many",
                         member.key));
-        d.expected = fmt::format("at most {} indices of one repeat", base::raised(kMostIndices));
-        d.hint = base::hintToRaise(kMostIndices);
+        d.expected = fmt::format("at most {} indices of one repeat", text::raised(kMaxIndices));
+        d.hint = text::hintToRaise(kMaxIndices);
         return;
       }
       bool good = context_.checkName(member.key, member.place, {"an index"});
@@ -274,7 +274,7 @@ class PassReader {
     const JsonValue& value = member.value;
     // A word of another API is often no expression: ">=", "greater-equal".
     std::string hint = value.is(Type::string) && !isIdent(value.text)
-                           ? base::hintForForeign(base::Foreign::state_word, value.text)
+                           ? text::hintForForeign(text::Foreign::state_word, value.text)
                            : "";
     const bool words = value.is(Type::array) && !value.items.empty() && value.items[0].is(Type::string) &&
                        (member.key == "blend" || member.key == "depth_test" || member.key == "cull");
@@ -282,7 +282,7 @@ class PassReader {
       auto& d = context_.error(Code::badState, value, fmt::format("unknown value for the state '{}'", name));
       d.expected = "one word";
       d.found = foundText(value);
-      d.hint = words && member.key == "blend" ? base::hintForForeign(base::Foreign::state_key, "factors")
+      d.hint = words && member.key == "blend" ? text::hintForForeign(text::Foreign::state_key, "factors")
                                               : std::move(hint);
       return;
     }

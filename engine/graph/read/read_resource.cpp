@@ -3,16 +3,16 @@
 
 #include <algorithm>
 
-#include "engine/base/files/file.h"
 #include "engine/graph/language/names.h"
 #include "engine/graph/read/read_context.h"
 #include "engine/graph/read/ref_parse.h"
+#include "engine/text/files/file.h"
 
 namespace weft::graph {
 
 namespace {
 
-using base::Code;
+using text::Code;
 using Type = JsonValue::Type;
 
 // A string that is a path, and no expression: of an argument that holds a path, unless it begins with '$', and "photo.png" under
@@ -74,7 +74,7 @@ class ResourceReader {
       const bool named = context_.checkName(member.key, member.place, {"an argument"});
       const JsonValue& value = member.value;
       Expr expr = value.is(Type::string) && isPath(member.key, value.text)
-                      ? Expr::constant(Value::text(base::besideFile(value.textPlace(), value.text)),
+                      ? Expr::constant(Value::text(text::besideFile(value.textPlace(), value.text)),
                                        value.textPlace())
                       : context_.expr(value_, member.key);
       if (named && expr.present())

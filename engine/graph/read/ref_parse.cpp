@@ -6,17 +6,17 @@
 #include <algorithm>
 #include <charconv>
 
-#include "engine/base/nearest.h"
-#include "engine/base/words/foreign_words.h"
 #include "engine/graph/language/names.h"
 #include "engine/graph/subresource.h"
+#include "engine/text/nearest.h"
+#include "engine/text/words/foreign_words.h"
 
 namespace weft::graph {
 
 namespace {
 
-using base::Code;
 using std::string_view;
+using text::Code;
 
 Place shifted(Place place, std::size_t columns) {
   if (place.column > 0) place.column += static_cast<std::uint32_t>(columns);
@@ -64,7 +64,7 @@ std::optional<BorderColor> parseColor(string_view list) {
 
 class RefParser {
  public:
-  RefParser(string_view text, const Place& place, base::Diagnostics& diagnostics)
+  RefParser(string_view text, const Place& place, text::Diagnostics& diagnostics)
       : whole_(text), text_(text), place_(place), diagnostics_(diagnostics) {
     ref_.text = text;
   }
@@ -201,7 +201,7 @@ class RefParser {
                                                         : nullptr;
       if (!span) {
         static const std::vector<std::string> kSelectors = {"mip", "layer", "face", "stencil"};
-        return fail(start, fmt::format("'.{}' selects nothing", word), base::nearestHint(word, kSelectors));
+        return fail(start, fmt::format("'.{}' selects nothing", word), text::nearestHint(word, kSelectors));
       }
       if (!parseSpan(*span, word, start)) return false;
     }
@@ -274,8 +274,8 @@ class RefParser {
     }
     std::vector<std::string> known(kKindNames.begin(), kKindNames.end());
     known.insert(known.end(), kSamplerWords.begin(), kSamplerWords.end());
-    std::string hint = base::hintForForeign(base::Foreign::sampling, word);
-    if (hint.empty()) hint = base::nearestHint(word, known);
+    std::string hint = text::hintForForeign(text::Foreign::sampling, word);
+    if (hint.empty()) hint = text::nearestHint(word, known);
     if (hint.empty())
       hint = fmt::format("kinds are {}, filters are {}", fmt::join(kKindNames, " "),
                          fmt::join(kSamplerWords, " "));
@@ -324,9 +324,9 @@ class RefParser {
     const string_view word = trimmed(*argument);
     const auto found = std::ranges::find(kCompareNames, word);
     if (found == kCompareNames.end()) {
-      std::string hint = base::hintForForeign(base::Foreign::state_word, word);
+      std::string hint = text::hintForForeign(text::Foreign::state_word, word);
       if (hint.empty())
-        hint = base::nearestHint(word, std::vector<std::string>(kCompareNames.begin(), kCompareNames.end()));
+        hint = text::nearestHint(word, std::vector<std::string>(kCompareNames.begin(), kCompareNames.end()));
       return fail(wordAt_, fmt::format("'{}' is no comparison", text_.substr(wordAt_, at_ - wordAt_)),
                   std::move(hint));
     }
@@ -357,7 +357,7 @@ class RefParser {
 
   string_view whole_, text_;  // as written; without the trailing '?' and spaces
   Place place_;
-  base::Diagnostics& diagnostics_;
+  text::Diagnostics& diagnostics_;
   std::size_t at_ = 0, wordAt_ = 0;          // at hand; where its word after `as` begins
   string_view filter_, wrapping_, compare_;  // the words that said so
   RefDesc ref_;
@@ -365,7 +365,7 @@ class RefParser {
 
 }  // namespace
 
-std::optional<RefDesc> parseRef(string_view text, const Place& place, base::Diagnostics& diagnostics) {
+std::optional<RefDesc> parseRef(string_view text, const Place& place, text::Diagnostics& diagnostics) {
   return RefParser(text, place, diagnostics).run();
 }
 
@@ -381,7 +381,7 @@ bool looksLikeRef(string_view text) {
   return !trimmed(text.substr(at)).starts_with('(');
 }
 
-std::optional<CallText> parseCallText(string_view text, const Place& place, base::Diagnostics& diagnostics) {
+std::optional<CallText> parseCallText(string_view text, const Place& place, text::Diagnostics& diagnostics) {
   CallText call;
   std::size_t at = 0;
   while (at < text.size() && isIdentChar(text[at])) ++at;

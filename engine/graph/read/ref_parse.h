@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/graph/desc.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::graph {
 
@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, 7> kSamplerWords = {"linear", "nearest", 
 
 // `text` stands at `place`. Empty after Code::badReference, or Code::badExpression inside an index or a condition; stops at the
 // first.
-std::optional<RefDesc> parseRef(std::string_view text, const Place& place, base::Diagnostics& diagnostics);
+std::optional<RefDesc> parseRef(std::string_view text, const Place& place, text::Diagnostics& diagnostics);
 
 // Tells "@cut" and "camera if $progressive" from "size(hdr)" and "$taa ? 1 : 0" where both may stand
 // ("reset").
@@ -31,6 +31,6 @@ struct CallText {
   std::vector<Expr> arguments;
 };
 std::optional<CallText> parseCallText(std::string_view text, const Place& place,
-                                      base::Diagnostics& diagnostics);
+                                      text::Diagnostics& diagnostics);
 
 }  // namespace weft::graph

@@ -13,17 +13,17 @@ namespace weft::graph {
 
 namespace {
 
-using base::Code;
+using text::Code;
 
 // Codes by which a read says that what it needs was switched off, with its name and the ways out.
-bool namesDisabled(const base::Diagnostic& d) {
+bool namesDisabled(const text::Diagnostic& d) {
   return d.code == Code::disabledWriter || d.code == Code::conditionLeavesSlotEmpty ||
          d.code == Code::nothingPresented;
 }
 
 // Codes by which an enabled pass does not do what it is there for.
-bool namesLost(const base::Diagnostic& d) {
-  return d.severity == base::Severity::warning &&
+bool namesLost(const text::Diagnostic& d) {
+  return d.severity == text::Severity::warning &&
          (d.code == Code::readBeforeWrite || d.code == Code::culledOverwritten ||
           d.code == Code::culledUnread);
 }
@@ -81,12 +81,12 @@ class Trial {
     Settings settings = settings_;
     for (const std::string& pass : variation.disables) settings.disables.emplace_back(pass);
     if (!variation.parameter.empty()) settings.sets.emplace_back(variation.parameter, variation.value);
-    base::Diagnostics said;
+    text::Diagnostics said;
     auto graph = expandGraph(desc_, registry_, settings, said);
     said_.clear();
-    base::Diagnostics lost;
-    for (const base::Diagnostic& d : said.items())
-      if (d.severity == base::Severity::error)
+    text::Diagnostics lost;
+    for (const text::Diagnostic& d : said.items())
+      if (d.severity == text::Severity::error)
         said_.add(d);
       else if (namesLost(d) && told_.insert(fmt::format("{} {}", d.pass, d.resource)).second)
         lost.add(d);
@@ -110,7 +110,7 @@ class Trial {
   const Settings& settings_;
   const MatrixOptions& options_;
   Matrix matrix_;
-  base::Diagnostics said_;
+  text::Diagnostics said_;
   std::set<std::string> told_;  // passes and resources that were warned of
 };
 

@@ -23,7 +23,7 @@ struct Variation {
 
 struct RefusedVariation {
   Variation variation;
-  base::Diagnostics said;  // errors only; of `lost` what it warns of and no variation before it does
+  text::Diagnostics said;  // errors only; of `lost` what it warns of and no variation before it does
 };
 
 struct Matrix {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "engine/base/nearest.h"
 #include "engine/imports/builtin.h"
+#include "engine/text/nearest.h"
 
 namespace weft::imports {
 
@@ -96,10 +96,10 @@ class Camera : public ImportOf<CameraProvider> {
     if (name.empty() || world.cameras.empty() ||
         std::ranges::find(world.cameras, name) != world.cameras.end())
       return facts;
-    base::Diagnostics said;
-    base::Diagnostic& d =
-        said.error(base::Code::badImportArgument, {}, fmt::format("the scene has no camera '{}'", name));
-    d.hint = base::nearestHint(name, world.cameras);
+    text::Diagnostics said;
+    text::Diagnostic& d =
+        said.error(text::Code::badImportArgument, {}, fmt::format("the scene has no camera '{}'", name));
+    d.hint = text::nearestHint(name, world.cameras);
     facts.problems = said.items();
     return facts;
   }

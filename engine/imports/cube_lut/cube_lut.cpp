@@ -29,7 +29,7 @@ gl::Extent lutExtent(const assets::CubeLut& lut) {
 // minimum and maximum in the first six texels, then how often 1024 goes into the number of entries, then the
 // rest.
 std::optional<gl::Texture> makeLutTexture(const assets::CubeLut& lut, const std::string& label,
-                                          base::Diagnostics& diagnostics) {
+                                          text::Diagnostics& diagnostics) {
   const gl::Extent extent = lutExtent(lut);
   const gl::TextureDesc desc{.target = GL_TEXTURE_3D,
                              .format = GL_RGBA16F,
@@ -73,7 +73,7 @@ class CubeLutProvider : public Provider {
  public:
   explicit CubeLutProvider(const graph::ImportRequest& request) : file_(request.at("file").symbol) {}
 
-  gl::TextureRef texture(const Frame& frame, base::Diagnostics& diagnostics) override {
+  gl::TextureRef texture(const Frame& frame, text::Diagnostics& diagnostics) override {
     if (file_.empty()) return {};
     if (stale_) {
       stale_ = false;
@@ -118,7 +118,7 @@ class CubeLut : public ImportOf<CubeLutProvider> {
     graph::ImportFacts result;
     const std::string& file = request.at("file").symbol;
     if (file.empty()) return result;
-    base::Diagnostics said;
+    text::Diagnostics said;
     if (const auto lut = files.get<assets::CubeLut>(file, assets::loadCubeLut, said)) {
       const gl::Extent extent = lutExtent(*lut);
       result.exists = true;

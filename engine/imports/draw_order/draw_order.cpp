@@ -21,7 +21,7 @@ class DrawOrderProvider : public Provider {
                                                          : scene::SortMethod::cpu_radix),
         sorts_(request.at("method").symbol != "gpu_bitonic") {}
 
-  BufferRef buffer(const Frame& frame, const RowLayout&, base::Diagnostics& diagnostics) override {
+  BufferRef buffer(const Frame& frame, const RowLayout&, text::Diagnostics& diagnostics) override {
     if (!sorts_) return {};
     if (const std::uint64_t now = generation(frame); sorted_ != now) {
       const scene::ViewData& view = frame.camera.view(frame, 1, 1);
@@ -62,7 +62,7 @@ class DrawOrder : public ImportOf<DrawOrderProvider> {
             drawListArgument(),
             argument("by", Value::text("power"),
                      "what is compared: power, the squared distance from the eye less the squared radius, "
-                     "right for all spheres that do not meet; depth, of the centres along the view axis",
+                     "right for all spheres that do not meet; depth, of the centers along the view axis",
                      {"power", "depth"}),
             argument("method", Value::text("cpu_radix"),
                      "how; gpu_bitonic leaves the buffer to a graph's own passes",

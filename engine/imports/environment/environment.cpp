@@ -25,7 +25,7 @@ std::uint32_t fullMips(std::uint32_t width, std::uint32_t height) {
   return static_cast<std::uint32_t>(std::bit_width(std::max({width, height, 1u})));
 }
 
-std::optional<gl::Texture> makeTexture(const assets::EnvironmentMap& map, base::Diagnostics& diagnostics) {
+std::optional<gl::Texture> makeTexture(const assets::EnvironmentMap& map, text::Diagnostics& diagnostics) {
   const gl::TextureDesc desc{.format = GL_RGBA16F,
                              .width = map.width,
                              .height = map.height,
@@ -56,7 +56,7 @@ class Environment : public ImportOf<EnvironmentProvider> {
 
 }  // namespace
 
-std::optional<float> EnvironmentTextures::send(const Map& map, base::Diagnostics& diagnostics) {
+std::optional<float> EnvironmentTextures::send(const Map& map, text::Diagnostics& diagnostics) {
   if (incoming_.map != map) {
     incoming_ = {};
     auto texture = makeTexture(*map, diagnostics);
@@ -88,7 +88,7 @@ std::optional<float> EnvironmentTextures::send(const Map& map, base::Diagnostics
   return incoming_.last.isSignalled() ? 1.0f : kShareOfTransfer;
 }
 
-bool EnvironmentTextures::use(const Map& map, base::Diagnostics& diagnostics) {
+bool EnvironmentTextures::use(const Map& map, text::Diagnostics& diagnostics) {
   if (isNewest(*map)) return true;
   assert(!map->texels.empty() && "dropped before they were used here");
   gl::Texture next;
@@ -111,7 +111,7 @@ std::unique_ptr<Import> makeEnvironment() {
   return std::make_unique<Environment>();
 }
 
-gl::TextureRef EnvironmentProvider::texture(const Frame& frame, base::Diagnostics& diagnostics) {
+gl::TextureRef EnvironmentProvider::texture(const Frame& frame, text::Diagnostics& diagnostics) {
   if (!frame.world.environment()) return {};
   textures_.use(frame.world.environment(), diagnostics);
   return textures_.current() ? textures_.current()->ref() : gl::TextureRef{};

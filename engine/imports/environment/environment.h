@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "engine/assets/environments/environment_map.h"
-#include "engine/base/diagnostic.h"
 #include "engine/gl/objects/objects.h"
 #include "engine/gl/objects/streams.h"
 #include "engine/imports/import.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::imports {
 
@@ -27,13 +27,13 @@ class EnvironmentTextures {
   // Call once per frame with the same map: sends the next portion beside the texture in use. 1 when use()
   // will take it without another upload. Another map drops what was sent of the one before. Empty when the
   // GPU has no room: W116, W117.
-  std::optional<float> send(const Map& map, base::Diagnostics& diagnostics);
+  std::optional<float> send(const Map& map, text::Diagnostics& diagnostics);
   void stopSending() { incoming_ = {}; }
 
   // Makes `map` the newest: the texture that was sent, or one uploaded here and now. False after errors, and
   // the newest stays. Cheap when it is the newest already; then `map` needs no texels any more.
   bool isNewest(const assets::EnvironmentMap& map) const { return current_ && currentId_ == map.id; }
-  bool use(const Map& map, base::Diagnostics& diagnostics);
+  bool use(const Map& map, text::Diagnostics& diagnostics);
   const std::shared_ptr<const gl::Texture>& current() const { return current_; }  // null: none was used yet
 
  private:
@@ -54,7 +54,7 @@ class EnvironmentProvider : public Provider {
   // For sending the next environment beside the one in use.
   EnvironmentTextures& textures() { return textures_; }
 
-  gl::TextureRef texture(const Frame& frame, base::Diagnostics& diagnostics) override;
+  gl::TextureRef texture(const Frame& frame, text::Diagnostics& diagnostics) override;
   std::uint64_t generation(const Frame& frame) override { return frame.world.environmentGeneration(); }
   bool isStill(const World&) const override { return true; }
   std::shared_ptr<const gl::Texture> hold() const override { return textures_.current(); }

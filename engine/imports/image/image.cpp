@@ -84,7 +84,7 @@ class ImageProvider : public Provider {
   explicit ImageProvider(const graph::ImportRequest& request)
       : request_(imageRequestOf(request)), pattern_(sequencePatternOf(request_.file)) {}
 
-  gl::TextureRef texture(const Frame& frame, base::Diagnostics& diagnostics) override {
+  gl::TextureRef texture(const Frame& frame, text::Diagnostics& diagnostics) override {
     if (request_.file.empty()) return {};
     if (stale_ && pattern_) numbers_ = numbersOf(*pattern_, diagnostics);
     std::string path = request_.file;
@@ -107,10 +107,10 @@ class ImageProvider : public Provider {
   }
 
   // After an error the texture stays as it is, and the file is not tried again before it changes.
-  void show(const Frame& frame, const std::string& path, base::Diagnostics& diagnostics) {
+  void show(const Frame& frame, const std::string& path, text::Diagnostics& diagnostics) {
     const bool another = path != path_;
     path_ = path;
-    base::Diagnostics said;
+    text::Diagnostics said;
     const auto header = frame.files.get<StoredHeader>(path, assets::loadStoredHeader, said);
     if (header && header == header_ && !another) return;  // as it was
     header_ = header;
@@ -132,10 +132,10 @@ class ImageProvider : public Provider {
   }
 
   // A sequence has one size: the graph's sizes depend on it.
-  bool fits(const StoredHeader& header, const std::string& path, base::Diagnostics& diagnostics) const {
+  bool fits(const StoredHeader& header, const std::string& path, text::Diagnostics& diagnostics) const {
     if (textureDescOf(header, request_) == texture_.desc()) return true;
-    base::Diagnostic& d =
-        diagnostics.error(base::Code::badImageSize, {std::make_shared<const std::string>(path)},
+    text::Diagnostic& d =
+        diagnostics.error(text::Code::badImageSize, {std::make_shared<const std::string>(path)},
                           fmt::format("a picture of the sequence '{}' has another size", pattern_->text));
     d.expected =
         fmt::format("{} x {}, as the pictures before", texture_.desc().width, texture_.desc().height);
@@ -155,12 +155,12 @@ class ImageProvider : public Provider {
 };
 
 // The file whose header tells the size. Empty after errors.
-std::string firstFileOf(const ImageRequest& request, Files& files, base::Diagnostics& diagnostics) {
+std::string firstFileOf(const ImageRequest& request, Files& files, text::Diagnostics& diagnostics) {
   const auto pattern = sequencePatternOf(request.file);
   if (!pattern) {
     if (request.frame >= 0) {
-      base::Diagnostic& d =
-          diagnostics.error(base::Code::badImportArgument, {}, "\"frame\" chooses from a sequence");
+      text::Diagnostic& d =
+          diagnostics.error(text::Code::badImportArgument, {}, "\"frame\" chooses from a sequence");
       d.expected = "a \"file\" with #### or %04d in its name";
       d.found = request.file;
       d.hint = "leave \"frame\" out, or name a sequence: \"clouds.####.png\"";
@@ -175,8 +175,8 @@ std::string firstFileOf(const ImageRequest& request, Files& files, base::Diagnos
   if (request.frame < 0) return pattern->nameOf(numbers.front());
   const std::uint32_t nearest = numberAt(numbers, request.frame);
   if (nearest != std::floor(request.frame)) {
-    base::Diagnostic& d =
-        diagnostics.error(base::Code::badImportArgument, {},
+    text::Diagnostic& d =
+        diagnostics.error(text::Code::badImportArgument, {},
                           fmt::format("the sequence '{}' has no such picture", request.file));
     d.expected = fmt::format("\"frame\" from {} to {}", numbers.front(), numbers.back());
     d.found = fmt::format("{}", request.frame);
@@ -216,9 +216,9 @@ class Image : public ImportOf<ImageProvider> {
     graph::ImportFacts result;
     const ImageRequest image = imageRequestOf(request);
     if (image.file.empty()) return result;
-    base::Diagnostics said;
+    text::Diagnostics said;
     if (image.fps < 0) {
-      base::Diagnostic& d = said.error(base::Code::badImportArgument, {}, "\"fps\" is below 0");
+      text::Diagnostic& d = said.error(text::Code::badImportArgument, {}, "\"fps\" is below 0");
       d.expected = "pictures per second, or 0 for one per frame";
       d.found = fmt::format("{}", image.fps);
     }

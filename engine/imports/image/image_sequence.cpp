@@ -8,13 +8,13 @@
 #include <memory>
 #include <string_view>
 
-#include "engine/base/files/file_access.h"
+#include "engine/text/files/file_access.h"
 
 namespace weft::imports {
 
 namespace {
 
-constexpr std::size_t kMostDigits = 9;  // of a number
+constexpr std::size_t kMaxDigits = 9;  // of a number
 
 bool isDigit(char c) {
   return c >= '0' && c <= '9';
@@ -27,7 +27,7 @@ std::optional<std::uint32_t> numberIn(std::string_view name, std::string_view be
     return std::nullopt;
   const std::string_view text = name.substr(before.size(), name.size() - before.size() - after.size());
   // 00012 is no name of number 12 in four digits, and neither is 12.
-  if (text.size() < digits || text.size() > kMostDigits || (text.size() > digits && text[0] == '0') ||
+  if (text.size() < digits || text.size() > kMaxDigits || (text.size() > digits && text[0] == '0') ||
       !std::ranges::all_of(text, isDigit))
     return std::nullopt;
   std::uint32_t number = 0;
@@ -45,7 +45,7 @@ std::optional<SequencePattern> sequencePatternOf(const std::string& file) {
   const std::size_t slash = file.rfind('/'), name = slash == std::string::npos ? 0 : slash + 1;
   const auto made = [&](std::size_t first, std::size_t end, std::size_t digits) {
     return SequencePattern{file, file.substr(0, first), file.substr(end),
-                           std::clamp<std::size_t>(digits, 1, kMostDigits)};
+                           std::clamp<std::size_t>(digits, 1, kMaxDigits)};
   };
   if (const std::size_t first = file.find("##", name); first != std::string::npos) {
     const std::size_t end = std::min(file.find_first_not_of('#', first), file.size());
@@ -61,14 +61,14 @@ std::optional<SequencePattern> sequencePatternOf(const std::string& file) {
   return std::nullopt;
 }
 
-std::vector<std::uint32_t> numbersOf(const SequencePattern& pattern, base::Diagnostics& diagnostics) {
+std::vector<std::uint32_t> numbersOf(const SequencePattern& pattern, text::Diagnostics& diagnostics) {
   namespace fs = std::filesystem;
-  const base::Place place{std::make_shared<const std::string>(pattern.text)};
+  const text::Place place{std::make_shared<const std::string>(pattern.text)};
   const std::size_t slash = pattern.before.rfind('/');
   const std::string folder = slash == std::string::npos ? "." : pattern.before.substr(0, slash + 1);
   const std::string before = slash == std::string::npos ? pattern.before : pattern.before.substr(slash + 1);
-  if (!base::mayRead(folder)) {
-    base::reportOutside(folder, diagnostics, place);
+  if (!text::mayRead(folder)) {
+    text::reportOutside(folder, diagnostics, place);
     return {};
   }
   std::vector<std::uint32_t> numbers;
@@ -79,7 +79,7 @@ std::vector<std::uint32_t> numbersOf(const SequencePattern& pattern, base::Diagn
       numbers.push_back(*number);
   std::ranges::sort(numbers);
   if (numbers.empty()) {
-    base::Diagnostic& d = diagnostics.error(base::Code::unreadableImage, place,
+    text::Diagnostic& d = diagnostics.error(text::Code::unreadableImage, place,
                                             fmt::format("the sequence '{}' has no pictures", pattern.text));
     d.expected = fmt::format("files such as {}", pattern.nameOf(1));
     d.found = ec ? fmt::format("a folder that cannot be listed: {}", ec.message()) : "none";

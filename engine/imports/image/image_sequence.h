@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::imports {
 
@@ -23,6 +23,6 @@ std::optional<SequencePattern> sequencePatternOf(const std::string& file);
 
 // The numbers of the files that are there, ascending. Empty after an error: there is none (unreadableImage), or the folder lies
 // outside those that may be read (outsideConfinement).
-std::vector<std::uint32_t> numbersOf(const SequencePattern& pattern, base::Diagnostics& diagnostics);
+std::vector<std::uint32_t> numbersOf(const SequencePattern& pattern, text::Diagnostics& diagnostics);
 
 }  // namespace weft::imports

@@ -34,7 +34,7 @@ class LampsProvider : public Provider {
  public:
   explicit LampsProvider(const graph::ImportRequest& request) : casting_(request.at("casting").truth()) {}
 
-  BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
+  BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
     follow(frame);
     return table_.get(
         layout, generation_, [this] { return tableRows(); }, diagnostics);

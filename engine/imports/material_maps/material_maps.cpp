@@ -9,7 +9,7 @@ namespace {
 class MaterialMapsProvider : public Provider {
  public:
   explicit MaterialMapsProvider(const graph::ImportRequest& request) : element_(graph::elementOf(request)) {}
-  gl::TextureRef texture(const Frame& frame, base::Diagnostics& diagnostics) override {
+  gl::TextureRef texture(const Frame& frame, text::Diagnostics& diagnostics) override {
     return frame.tables.textures().array(frame.world.scene(), frame.world.sceneGeneration(), element_,
                                          diagnostics);
   }

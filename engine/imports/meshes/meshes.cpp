@@ -10,7 +10,7 @@ class MeshesProvider : public Provider {
  public:
   explicit MeshesProvider(const graph::ImportRequest& request) : list_(drawListOf(request)) {}
 
-  BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
+  BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
     return frame.tables.meshes(list_, layout, diagnostics);
   }
   std::uint64_t generation(const Frame& frame) override { return frame.tables.meshFrame().generation(list_); }

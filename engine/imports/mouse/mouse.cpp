@@ -17,7 +17,7 @@ Columns<Pointer> mouseColumns() {
 
 class MouseProvider : public Provider {
  public:
-  BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
+  BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
     const auto row = [this] { return std::array{shown_}; };
     return table_.get(layout, generation(frame), row, diagnostics);
   }

@@ -20,7 +20,7 @@ namespace {
 
 using graph::Value;
 
-constexpr double kMostAlong = 256, kMostProbes = 1 << 18;
+constexpr double kMaxAlong = 256, kMaxProbes = 1 << 18;
 
 // What the block `probes` of shaders/gi/probes.glsl begins with; nine vec4 a probe follow.
 struct Header {
@@ -33,7 +33,7 @@ glm::uvec3 countOf(const graph::ImportRequest& request) {
   glm::uvec3 count;
   for (int axis = 0; axis < 3; ++axis)
     count[axis] =
-        static_cast<std::uint32_t>(std::clamp(grid.v[static_cast<std::size_t>(axis)], 1.0, kMostAlong));
+        static_cast<std::uint32_t>(std::clamp(grid.v[static_cast<std::size_t>(axis)], 1.0, kMaxAlong));
   return count;
 }
 
@@ -59,7 +59,7 @@ class ProbesProvider : public Provider {
       : list_(drawListOf(request)), rules_(rulesOf(request)), count_(countOf(request)) {}
   ~ProbesProvider() override { stop_ = true; }
 
-  BufferRef buffer(const Frame& frame, const RowLayout&, base::Diagnostics& diagnostics) override {
+  BufferRef buffer(const Frame& frame, const RowLayout&, text::Diagnostics& diagnostics) override {
     refresh(frame);
     if (!buffer_) {
       auto made = gl::Buffer::create(bytesOf(count_), GL_DYNAMIC_STORAGE_BIT, "probes", diagnostics);
@@ -147,7 +147,7 @@ class Probes : public ImportOf<ProbesProvider> {
             argument("grid", {Value::Type::list, 3, {21, 21, 3, 0}, {}},
                      "probes along x, y and z: 1 to 256, together at most 262144"),
             argument("near", Value::number(1.05),
-                     "a sphere lights no probe nearer than that to its centre, in radii; 1 at least"),
+                     "a sphere lights no probe nearer than that to its center, in radii; 1 at least"),
             argument("far", Value::number(10), "nor one that is as far as that, in radii; more than `near`"),
             argument("shape", Value::text("cap"),
                      "how a sphere is seen: as the cap of the sky that it covers, or as a point as strong",
@@ -159,7 +159,7 @@ class Probes : public ImportOf<ProbesProvider> {
     graph::ImportFacts facts{.exists = true};
     const auto refuse = [&](const char* argument, const char* expected, std::string found) {
       facts.problems.push_back(
-          {.code = base::Code::badImportArgument,
+          {.code = text::Code::badImportArgument,
            .message = fmt::format("import 'probes': argument '{}' does not fit", argument),
            .expected = expected,
            .found = std::move(found),
@@ -168,9 +168,9 @@ class Probes : public ImportOf<ProbesProvider> {
     const Value& grid = request.at("grid");
     const double near = request.at("near").v[0], far = request.at("far").v[0];
     const bool whole = std::ranges::all_of(std::span(grid.v).first(3), [](double along) {
-      return along >= 1 && along <= kMostAlong && along == std::floor(along);
+      return along >= 1 && along <= kMaxAlong && along == std::floor(along);
     });
-    if (!whole || grid.v[0] * grid.v[1] * grid.v[2] > kMostProbes)
+    if (!whole || grid.v[0] * grid.v[1] * grid.v[2] > kMaxProbes)
       refuse("grid", "three whole numbers from 1 to 256 whose product is at most 262144",
              graph::toText(grid));
     if (!(near >= 1)) refuse("near", "1 or more", fmt::format("{}", near));

@@ -21,7 +21,7 @@ class SilhouettesProvider : public Provider {
       : list_(drawListOf(request)),
         height_(static_cast<float>(std::clamp(request.at("height").v[0], 1.0, kHighest))) {}
 
-  BufferRef buffer(const Frame& frame, const RowLayout&, base::Diagnostics& diagnostics) override {
+  BufferRef buffer(const Frame& frame, const RowLayout&, text::Diagnostics& diagnostics) override {
     const std::uint64_t now = generation(frame);
     if (buffer_ && sent_ == now) return {buffer_.id(), buffer_.bytes()};
     found_.find(frame.tables.rows(list_), eye_, kPixels * pixel_);
@@ -60,7 +60,7 @@ class Silhouettes : public ImportOf<SilhouettesProvider> {
             .kind = graph::ImportKind::buffer,
             .doc =
                 "Of each sphere of `list`, those before it whose silhouettes meet its own in the picture. "
-                "uvec4(first, number, 0, 0) per instance, then per such sphere the bits of vec4(centre from "
+                "uvec4(first, number, 0, 0) per instance, then per such sphere the bits of vec4(center from "
                 "the eye, radius); empty with more than 4096, or 131072 pairs that meet.",
             .arguments = {drawListArgument(),
                           argument("height", graph::Value::number(720), "of the picture, pixels")}};
@@ -71,9 +71,9 @@ class Silhouettes : public ImportOf<SilhouettesProvider> {
     graph::ImportFacts facts{.exists = true, .count = world.countOf(request.at("list").symbol)};
     const double height = request.at("height").v[0];
     if (height >= 1 && height <= kHighest) return facts;
-    base::Diagnostics said;
-    base::Diagnostic& d =
-        said.error(base::Code::badImportArgument, {}, "import 'silhouettes': argument 'height' does not fit");
+    text::Diagnostics said;
+    text::Diagnostic& d =
+        said.error(text::Code::badImportArgument, {}, "import 'silhouettes': argument 'height' does not fit");
     d.expected = "the height of the picture, 1 to 65536 pixels";
     d.found = graph::toText(request.at("height"));
     d.hint = "write \"height\": \"size(hdr).y\", with the picture's name in place of hdr";

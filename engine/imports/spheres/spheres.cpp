@@ -9,7 +9,7 @@ constexpr scene::DrawList kList = scene::DrawList::spheres;
 
 class SpheresProvider : public Provider {
  public:
-  BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
+  BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
     return frame.tables.spheres(kList, layout, diagnostics);
   }
   std::uint64_t generation(const Frame& frame) override { return frame.tables.generation(kList); }

@@ -14,7 +14,7 @@ namespace weft::imports {
 
 namespace {
 
-constexpr double kMostTexels = 16384;
+constexpr double kMaxTexels = 16384;
 
 // Where a graph's own sun stands; empty: where the scene's does.
 std::optional<glm::vec3> directionOf(const graph::ImportRequest& request) {
@@ -44,10 +44,10 @@ class SunProvider : public Provider {
  public:
   explicit SunProvider(const graph::ImportRequest& request)
       : texels_(
-            static_cast<std::uint32_t>(std::clamp(std::floor(request.at("texels").v[0]), 1.0, kMostTexels))),
+            static_cast<std::uint32_t>(std::clamp(std::floor(request.at("texels").v[0]), 1.0, kMaxTexels))),
         direction_(directionOf(request)) {}
 
-  BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
+  BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
     follow(frame);
     const auto row = [&] {
       const auto cosAngle = static_cast<float>(std::cos(sun_.angle / 2 * std::numbers::pi / 180));

@@ -1,4 +1,4 @@
-// The import `vertex_colors`: a colour for each vertex of the scene's meshes, where one of them has any.
+// The import `vertex_colors`: a color for each vertex of the scene's meshes, where one of them has any.
 #include "engine/imports/builtin.h"
 
 namespace weft::imports {
@@ -6,7 +6,7 @@ namespace weft::imports {
 namespace {
 
 struct ColorTable : SceneTable<glm::vec4> {
-  static constexpr const char* kLabel = "vertex colours";
+  static constexpr const char* kLabel = "vertex colors";
   static Columns<Row> columns() {
     return {column<Row, std::identity{}>("color", "linear; a factor of the material's albedo and alpha")};
   }
@@ -23,7 +23,7 @@ class VertexColors : public ImportOf<TableProvider<ColorTable>> {
             .kind = graph::ImportKind::buffer,
             .doc =
                 "A row for each vertex of the scene's meshes, which a vertex shader of geometry `mesh` finds "
-                "by gl_VertexID. It exists where a mesh has vertex colours; those of the others are white.",
+                "by gl_VertexID. It exists where a mesh has vertex colors; those of the others are white.",
             .columns = tell(ColorTable::columns())};
   }
   graph::ImportFacts facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const override {

@@ -67,7 +67,7 @@ Geometry Geometries::empty() {
 }
 
 Geometry Geometries::get(const std::string& name, const std::vector<double>& arguments,
-                         const gl::Reflection& reflection, base::Diagnostics& diagnostics) {
+                         const gl::Reflection& reflection, text::Diagnostics& diagnostics) {
   Geometry geometry = empty();
   if (name == "quad" || name == "octagon") {
     geometry.mode = GL_TRIANGLE_STRIP;

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/gl/programs/program.h"
 #include "engine/passes/pass_type.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::passes {
 
@@ -28,7 +28,7 @@ class Geometries {
  public:
   // `name` is one of reflectGeometries(), with all its arguments, in their ranges. Count 0 after an error.
   Geometry get(const std::string& name, const std::vector<double>& arguments,
-               const gl::Reflection& reflection, base::Diagnostics& diagnostics);
+               const gl::Reflection& reflection, text::Diagnostics& diagnostics);
   Geometry empty();  // for fullscreen triangles
 
  private:

@@ -12,7 +12,7 @@ class Fullscreen final : public PassType {
         .name = "fullscreen",
         .doc =
             "Runs a fragment shader once per pixel of what it writes. `in vec2 uv` is 0..1 from the lower "
-            "left. Written slots are colour attachments; `state` sets blending and the depth test.",
+            "left. Written slots are color attachments; `state` sets blending and the depth test.",
         .shader = graph::ShaderShape::fragment,
         .keys = {"state", "view", "feedback"}};
   }

@@ -46,7 +46,7 @@ bool readsPointer(const graph::Plan& plan, Imports& imports) {
 
 std::unique_ptr<Execution> Execution::create(Device& device, std::shared_ptr<const graph::Plan> plan,
                                              Execution* before, ShaderFiles files,
-                                             base::Diagnostics& diagnostics) {
+                                             text::Diagnostics& diagnostics) {
   auto prepared =
       preparePlan(device, std::move(plan), before ? &before->prepared_ : nullptr, files, diagnostics);
   if (!prepared || diagnostics.hasErrors()) return nullptr;
@@ -69,7 +69,7 @@ Execution::Execution(Device& device, PreparedPlan prepared, const Execution* bef
       runner_(plan(), device, *prepared_.pool, uniforms_),
       followsPointer_(readsPointer(plan(), device.imports)) {}
 
-FrameReport Execution::frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics) {
+FrameReport Execution::frame(const World& world, const FrameInput& input, text::Diagnostics& diagnostics) {
   FrameReport report;
   beginFrame(world, input);
   publishFinished(diagnostics);
@@ -93,7 +93,7 @@ void Execution::beginFrame(const World& world, const FrameInput& input) {
 }
 
 // What the frame before finished, and what the world changed, becomes what this frame sees.
-void Execution::publishFinished(base::Diagnostics& diagnostics) {
+void Execution::publishFinished(text::Diagnostics& diagnostics) {
   publications_.publishFinished();
   publications_.refreshImports(diagnostics);
   publications_.resetHistories(diagnostics);
@@ -101,7 +101,7 @@ void Execution::publishFinished(base::Diagnostics& diagnostics) {
 
 // Before a headless frame, every time-sliced group that has work does all of it. A group may wait for what another
 // publishes, so there are at most as many rounds as groups.
-void Execution::runAhead(FrameReport& report, base::Diagnostics& diagnostics) {
+void Execution::runAhead(FrameReport& report, text::Diagnostics& diagnostics) {
   bool any = false;
   for (std::size_t round = 0; round < plan().groups.sliced.size(); ++round) {
     if (!steps_.chooseAhead(publications_.generations())) break;
@@ -122,7 +122,7 @@ void Execution::chooseSteps() {
 }
 
 // Skipped steps issue their barriers too, see plan.h.
-void Execution::runSteps(const StepWatch& watch, FrameReport& report, base::Diagnostics& diagnostics) {
+void Execution::runSteps(const StepWatch& watch, FrameReport& report, text::Diagnostics& diagnostics) {
   std::vector<PreparedPass>& passes = prepared_.passes;
   publications_.beginRound();
   for (std::size_t step = 0; step < passes.size(); ++step)
@@ -157,7 +157,7 @@ void Execution::runSteps(const StepWatch& watch, FrameReport& report, base::Diag
   steps_.endRound(publications_.generationsBefore(), publications_.generations());
 }
 
-void Execution::endFrame(FrameReport& report, base::Diagnostics& diagnostics) {
+void Execution::endFrame(FrameReport& report, text::Diagnostics& diagnostics) {
   device_.timers.endFrame();
   if (plan().finalBarriers) {
     glMemoryBarrier(glBarriersOf(plan().finalBarriers));
@@ -210,7 +210,7 @@ gl::TextureRef Execution::texture(std::string_view name) {
 }
 
 gl::TextureRef Execution::texture(std::uint32_t r, std::uint32_t history) {
-  base::Diagnostics ignored;
+  text::Diagnostics ignored;
   const graph::FlatResource& desc = plan().graph->resources[r];
   const FlatUse all{.resource = r, .mips = desc.mips, .layers = desc.layers};
   return prepared_.pool->view(plan(), all, (*prepared_.pool)[r].copyOf(history), 0, ignored);
@@ -231,7 +231,7 @@ BufferRef Execution::buffer(std::uint32_t r, std::uint64_t& offset, std::uint32_
 gl::TextureRef Execution::presented() {
   const FlatUse& use = plan().graph->present;
   if (use.resource == kNone) return {};
-  base::Diagnostics ignored;
+  text::Diagnostics ignored;
   return prepared_.pool->view(plan(), use, (*prepared_.pool)[use.resource].copyOf(0), GL_TEXTURE_2D, ignored);
 }
 

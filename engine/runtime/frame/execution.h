@@ -38,9 +38,9 @@ class Execution {
   // Otherwise `before` must not run again: its storage is shared.
   static std::unique_ptr<Execution> create(Device& device, std::shared_ptr<const graph::Plan> plan,
                                            Execution* before, ShaderFiles files,
-                                           base::Diagnostics& diagnostics);
+                                           text::Diagnostics& diagnostics);
 
-  FrameReport frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics);
+  FrameReport frame(const World& world, const FrameInput& input, text::Diagnostics& diagnostics);
 
   const graph::Plan& plan() const { return *prepared_.plan; }
   // How many passes were prepared for this plan; the others were kept.
@@ -85,11 +85,11 @@ class Execution {
 
   // The parts of a frame.
   void beginFrame(const World& world, const FrameInput& input);
-  void publishFinished(base::Diagnostics& diagnostics);
-  void runAhead(FrameReport& report, base::Diagnostics& diagnostics);
+  void publishFinished(text::Diagnostics& diagnostics);
+  void runAhead(FrameReport& report, text::Diagnostics& diagnostics);
   void chooseSteps();
-  void runSteps(const StepWatch& watch, FrameReport& report, base::Diagnostics& diagnostics);
-  void endFrame(FrameReport& report, base::Diagnostics& diagnostics);
+  void runSteps(const StepWatch& watch, FrameReport& report, text::Diagnostics& diagnostics);
+  void endFrame(FrameReport& report, text::Diagnostics& diagnostics);
 
   void refreshUniforms(bool alwaysOnly);
   void lookAtMeshes();

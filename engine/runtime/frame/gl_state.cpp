@@ -27,7 +27,7 @@ GLenum attachmentPointOf(GLenum format) {
 }
 
 bool resolveSamples(const gl::TextureRef& from, GLuint to) {
-  base::Diagnostics ignored;
+  text::Diagnostics ignored;
   const GLenum point = attachmentPointOf(from.desc.format);
   const gl::Attachment ends[] = {{.point = point, .texture = from.id}, {.point = point, .texture = to}};
   const auto source = gl::Framebuffer::create({&ends[0], 1}, "samples", ignored),

@@ -7,11 +7,11 @@
 #include <optional>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/graph/plan.h"
 #include "engine/runtime/frame/device.h"
 #include "engine/runtime/prepare/prepared_pass.h"
 #include "engine/runtime/storage/resource_pool.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::runtime {
 
@@ -28,6 +28,6 @@ struct PreparedPlan {
 // A pass that differs from those of `before` (which may be null), or has other storage, is prepared. Empty after errors.
 std::optional<PreparedPlan> preparePlan(Device& device, std::shared_ptr<const graph::Plan> plan,
                                         const PreparedPlan* before, ShaderFiles files,
-                                        base::Diagnostics& diagnostics);
+                                        text::Diagnostics& diagnostics);
 
 }  // namespace weft::runtime

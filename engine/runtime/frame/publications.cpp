@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "engine/base/hash.h"
+#include "engine/text/hash.h"
 
 namespace weft::runtime {
 
@@ -19,12 +19,12 @@ constexpr double kForever = std::numeric_limits<double>::infinity();
 
 // Where the author wrote the name of `file`, or of the sequence that has it: the value of a parameter that is an argument of the
 // import, such as that of --set; else the import itself.
-base::Where placeOfFile(const graph::FlatGraph& graph, const graph::ImportSpec& import,
+text::Where placeOfFile(const graph::FlatGraph& graph, const graph::ImportSpec& import,
                         const std::string& file) {
-  base::Where place = import.place;
+  text::Where place = import.place;
   for (const auto& [name, value] : import.request.arguments)
     for (const graph::ParameterSpec& parameter : graph.parameters) {
-      if (value.symbol.empty() || parameter.value != value || !base::isKnown(parameter.valuePlace)) continue;
+      if (value.symbol.empty() || parameter.value != value || !text::isKnown(parameter.valuePlace)) continue;
       if (value.symbol == file) return parameter.valuePlace;
       if (parameter.desc.type == graph::ParameterDesc::Type::file) place = parameter.valuePlace;
     }
@@ -124,15 +124,15 @@ void Publications::show(std::size_t r) {
   resource.shown = resource.imported;
 }
 
-void Publications::refreshImports(base::Diagnostics& diagnostics) {
+void Publications::refreshImports(text::Diagnostics& diagnostics) {
   for (std::size_t r = 0; r < generations_.size(); ++r) {
     const graph::FlatResource& desc = plan_.graph->resources[r];
     if (desc.import == kNone) continue;
     const graph::ImportSpec& import = importOf(r);
     if (desc.kind == ResourceKind::imported_texture) {
-      base::Diagnostics said;
+      text::Diagnostics said;
       pool_[r].imported = imports_.texture(import, said);
-      for (base::Diagnostic each : said.items()) {
+      for (text::Diagnostic each : said.items()) {
         if (each.place.line == 0 && import.place.file) {
           if (each.place.file && each.message.find(*each.place.file) == std::string::npos)
             each.message += " (" + *each.place.file + ")";
@@ -147,17 +147,17 @@ void Publications::refreshImports(base::Diagnostics& diagnostics) {
   }
 }
 
-void Publications::resetHistories(base::Diagnostics& diagnostics) {
+void Publications::resetHistories(text::Diagnostics& diagnostics) {
   const graph::FlatGraph& graph = *plan_.graph;
   for (std::size_t h = 0; h < graph.histories.size(); ++h) {
     const graph::HistorySpec& history = graph.histories[h];
-    std::uint64_t state = base::kHashSeed;
+    std::uint64_t state = text::kHashSeed;
     for (const std::uint32_t import : history.resetImports)
-      state = base::hashCombine(state, imports_.generation(graph.imports[import]));
+      state = text::hashCombine(state, imports_.generation(graph.imports[import]));
     for (const std::uint32_t resource : history.resetResources)
-      state = base::hashCombine(state, generations_[resource]);
+      state = text::hashCombine(state, generations_[resource]);
     for (const graph::Value& value : history.resetValues)
-      for (const double x : value.v) state = base::hashCombine(state, std::bit_cast<std::uint64_t>(x));
+      for (const double x : value.v) state = text::hashCombine(state, std::bit_cast<std::uint64_t>(x));
     const bool changed = framesRun_ > 0 && state != resetState_[h];
     resetState_[h] = state;
     if (!changed) continue;

@@ -11,12 +11,12 @@
 #include <unordered_map>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/graph/plan.h"
 #include "engine/runtime/cadence/cadence.h"
 #include "engine/runtime/imports/imports.h"
 #include "engine/runtime/prepare/prepared_pass.h"
 #include "engine/runtime/storage/resource_pool.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::runtime {
 
@@ -38,9 +38,9 @@ class Publications {
   // Publishes what time-sliced groups finished in the frame before.
   void publishFinished();
   // Asks each import for its newest texture or buffer and its generation.
-  void refreshImports(base::Diagnostics& diagnostics);
+  void refreshImports(text::Diagnostics& diagnostics);
   // Sets histories back to their first value when what resets them has changed.
-  void resetHistories(base::Diagnostics& diagnostics);
+  void resetHistories(text::Diagnostics& diagnostics);
   // Sets the age of what the passes of this frame will publish to 0. True when there is something. To be called when the
   // cadence has decided.
   bool announce();

@@ -86,7 +86,7 @@ double Output::number(std::size_t index) const {
 }
 
 bool ReadBack::prepare(const graph::Plan& plan, std::span<const PreparedPass> passes, ReadBack* before,
-                       base::Diagnostics& diagnostics) {
+                       text::Diagnostics& diagnostics) {
   std::uint64_t total = 0;
   const graph::FlatGraph& graph = *plan.graph;
   for (std::uint32_t i = 0; i < graph.outputs.size(); ++i) {
@@ -124,7 +124,7 @@ bool ReadBack::prepare(const graph::Plan& plan, std::span<const PreparedPass> pa
   return total == 0 || createRing(total, diagnostics);
 }
 
-bool ReadBack::createRing(std::uint64_t bytes, base::Diagnostics& diagnostics) {
+bool ReadBack::createRing(std::uint64_t bytes, text::Diagnostics& diagnostics) {
   // The mapping is coherent: what a copy wrote is visible once its fence has signalled, without another barrier.
   constexpr GLbitfield kAccess = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
   ring_ = std::make_shared<Ring>();
@@ -135,7 +135,7 @@ bool ReadBack::createRing(std::uint64_t bytes, base::Diagnostics& diagnostics) {
     slot.mapped = static_cast<const std::byte*>(
         glMapNamedBufferRange(slot.buffer.id(), 0, static_cast<GLsizeiptr>(bytes), kAccess));
     if (slot.mapped) continue;
-    diagnostics.error(base::Code::bufferNotCreated, {}, "the read-back buffer cannot be mapped").hint =
+    diagnostics.error(text::Code::bufferNotCreated, {}, "the read-back buffer cannot be mapped").hint =
         "take entries out of \"outputs\"";
     return false;
   }
@@ -143,7 +143,7 @@ bool ReadBack::createRing(std::uint64_t bytes, base::Diagnostics& diagnostics) {
 }
 
 void ReadBack::copy(const graph::Plan& plan, ResourcePool& pool, FramebufferCache& framebuffers,
-                    std::uint32_t frame, base::Diagnostics& diagnostics) {
+                    std::uint32_t frame, text::Diagnostics& diagnostics) {
   if (!ring_ || ring_->at(0).fence) return;
   Slot& slot = ring_->at(0);
   for (const Source& source : sources_) {
@@ -164,7 +164,7 @@ void ReadBack::copy(const graph::Plan& plan, ResourcePool& pool, FramebufferCach
 // The copy goes through a framebuffer, as the plan's barriers expect (barrier_rules.h).
 void ReadBack::copyTexture(const graph::Plan& plan, const FlatUse& use, ResourcePool& pool,
                            FramebufferCache& framebuffers, const Slot& slot, std::uint64_t offset,
-                           base::Diagnostics& diagnostics) {
+                           text::Diagnostics& diagnostics) {
   const FlatResource& resource = plan.graph->resources[use.resource];
   const FlatUse all{.resource = use.resource, .mips = resource.mips, .layers = resource.layers};
   const gl::TextureRef texture = pool.view(plan, all, pool[use.resource].copyOf(use.history), 0, diagnostics);

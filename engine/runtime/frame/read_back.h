@@ -13,12 +13,12 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/gl/objects/objects.h"
 #include "engine/graph/plan.h"
 #include "engine/runtime/prepare/prepared_pass.h"
 #include "engine/runtime/storage/framebuffer_cache.h"
 #include "engine/runtime/storage/resource_pool.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::runtime {
 
@@ -48,10 +48,10 @@ class ReadBack {
   // buffers with the copies that are on their way; else has the values that have arrived of outputs of the same name and
   // shape. False after W117.
   bool prepare(const graph::Plan& plan, std::span<const PreparedPass> passes, ReadBack* before,
-               base::Diagnostics& diagnostics);
+               text::Diagnostics& diagnostics);
   // Starts the copies of a frame. To be called at its end, after the plan's last barriers.
   void copy(const graph::Plan& plan, ResourcePool& pool, FramebufferCache& framebuffers, std::uint32_t frame,
-            base::Diagnostics& diagnostics);
+            text::Diagnostics& diagnostics);
   // Takes what has arrived; never waits.
   void collect();
   // The same, after waiting for all copies that are on their way.
@@ -78,10 +78,10 @@ class ReadBack {
     std::size_t next = 0;  // the oldest
     Slot& at(std::size_t i) { return slots[(next + i) % kRing]; }
   };
-  bool createRing(std::uint64_t bytes, base::Diagnostics& diagnostics);
+  bool createRing(std::uint64_t bytes, text::Diagnostics& diagnostics);
   void copyTexture(const graph::Plan& plan, const graph::FlatUse& use, ResourcePool& pool,
                    FramebufferCache& framebuffers, const Slot& slot, std::uint64_t offset,
-                   base::Diagnostics& diagnostics);
+                   text::Diagnostics& diagnostics);
   void take(const Slot& slot);
 
   std::vector<Output> outputs_;

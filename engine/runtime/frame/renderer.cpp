@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <set>
 
-#include "engine/base/files/file_access.h"
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/read/read.h"
 #include "engine/runtime/frame/device.h"
 #include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/gl_state.h"
 #include "engine/runtime/storage/formats.h"
+#include "engine/text/files/file_access.h"
 
 namespace weft::runtime {
 
@@ -29,7 +29,7 @@ std::vector<std::string> shaderRootsOf(std::span<const std::string> files, const
   for (const std::filesystem::path& candidate : candidates) {
     std::error_code ignored;
     const std::string text = candidate.lexically_normal().string();
-    if (base::mayRead(text) && std::filesystem::is_directory(candidate, ignored) &&
+    if (text::mayRead(text) && std::filesystem::is_directory(candidate, ignored) &&
         std::ranges::find(roots, text) == roots.end())
       roots.push_back(text);
   }
@@ -61,8 +61,8 @@ bool Renderer::setParameter(std::string_view path, const graph::Value& value) {
   return execution_ && execution_->uniforms().set(path, value);
 }
 
-bool Renderer::load(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics) {
-  base::Diagnostics said;
+bool Renderer::load(const graph::Settings& settings, const World& world, text::Diagnostics& diagnostics) {
+  text::Diagnostics said;
   const auto desc = graph::readGraph(graphPath_, options_.presets, said);
   diagnostics.append(said);
   triedFiles_ = desc ? desc->files : std::vector<std::string>{graphPath_};
@@ -78,7 +78,7 @@ bool Renderer::load(const graph::Settings& settings, const World& world, base::D
   return false;
 }
 
-bool Renderer::apply(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics) {
+bool Renderer::apply(const graph::Settings& settings, const World& world, text::Diagnostics& diagnostics) {
   if (!desc_) return load(settings, world, diagnostics);
   triedFiles_ = runningFiles_;
   return switchTo(desc_, ShaderFiles::keep, settings, world, diagnostics);
@@ -103,8 +103,8 @@ std::vector<std::string> Renderer::files() const {
 }
 
 bool Renderer::switchTo(std::shared_ptr<const graph::GraphDesc> desc, ShaderFiles files,
-                        const graph::Settings& settings, const World& world, base::Diagnostics& all) {
-  base::Diagnostics diagnostics;  // of this attempt alone
+                        const graph::Settings& settings, const World& world, text::Diagnostics& all) {
+  text::Diagnostics diagnostics;  // of this attempt alone
   device_->sources.forgetTouched();
   device_->programs.startTrials();
   imports::Files& imported = device_->imports.files();
@@ -126,7 +126,7 @@ bool Renderer::switchTo(std::shared_ptr<const graph::GraphDesc> desc, ShaderFile
 
 std::unique_ptr<Execution> Renderer::makeExecution(const graph::GraphDesc& desc, ShaderFiles files,
                                                    const graph::Settings& settings, const World& world,
-                                                   base::Diagnostics& diagnostics) {
+                                                   text::Diagnostics& diagnostics) {
   const graph::Registry& registry = registryOf(world);
   const auto flat = graph::expandGraph(desc, registry, settings, diagnostics);
   if (!flat || diagnostics.hasErrors()) return nullptr;
@@ -139,7 +139,7 @@ std::unique_ptr<Execution> Renderer::makeExecution(const graph::GraphDesc& desc,
 }
 
 bool Renderer::prepareStandIns(const graph::FlatGraph& graph, const World& world,
-                               base::Diagnostics& diagnostics) {
+                               text::Diagnostics& diagnostics) {
   for (std::uint32_t i = 0; i < graph.imports.size(); ++i) {
     const graph::ImportSpec& import = graph.imports[i];
     // No resource has this import when a list of alternatives has something else in its place.
@@ -170,7 +170,7 @@ bool Renderer::prepareStandIns(const graph::FlatGraph& graph, const World& world
   return true;
 }
 
-FrameReport Renderer::frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics) {
+FrameReport Renderer::frame(const World& world, const FrameInput& input, text::Diagnostics& diagnostics) {
   if (!execution_) return {};
   if (device_->imports.isPending(*execution_->plan().graph, world)) {
     blackOut();
@@ -254,7 +254,7 @@ void Renderer::present(std::uint32_t width, std::uint32_t height) {
     return;
   }
   if (presentTexture_ != texture.id) {
-    base::Diagnostics ignored;
+    text::Diagnostics ignored;
     const gl::Attachment attachment{.texture = texture.id};
     if (auto made = gl::Framebuffer::create({&attachment, 1}, "present", ignored))
       presentSource_ = std::move(*made);

@@ -52,10 +52,10 @@ class Renderer {
   ~Renderer();
 
   // Reads the graph file again and switches to it. False after errors.
-  bool load(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics);
+  bool load(const graph::Settings& settings, const World& world, text::Diagnostics& diagnostics);
   // Reads no file: runs the last description under other settings or in another world. Passes that do not change keep their
   // programs, whatever is on disk.
-  bool apply(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics);
+  bool apply(const graph::Settings& settings, const World& world, text::Diagnostics& diagnostics);
   // Sets a live parameter at once, as FrameUniforms::set() does.
   bool setParameter(std::string_view path, const graph::Value& value);
   // The settings that the graph of the last load() does not take; empty when there was no error.
@@ -67,7 +67,7 @@ class Renderer {
   // when there is none of that name.
   std::vector<double> output(std::string_view name) const;
   // Runs nothing and presents black while an import of the graph is still being loaded (World::expectEnvironment).
-  FrameReport frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics);
+  FrameReport frame(const World& world, const FrameInput& input, text::Diagnostics& diagnostics);
 
   // To be called after frame(): frees what the world holds and the GPU has too. Not to be called when others render that
   // world.
@@ -93,11 +93,11 @@ class Renderer {
 
  private:
   bool switchTo(std::shared_ptr<const graph::GraphDesc> desc, ShaderFiles files,
-                const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics);
+                const graph::Settings& settings, const World& world, text::Diagnostics& diagnostics);
   std::unique_ptr<Execution> makeExecution(const graph::GraphDesc& desc, ShaderFiles files,
                                            const graph::Settings& settings, const World& world,
-                                           base::Diagnostics& diagnostics);
-  bool prepareStandIns(const graph::FlatGraph& graph, const World& world, base::Diagnostics& diagnostics);
+                                           text::Diagnostics& diagnostics);
+  bool prepareStandIns(const graph::FlatGraph& graph, const World& world, text::Diagnostics& diagnostics);
   const graph::Registry& registryOf(const World& world);
   void blackOut();
 

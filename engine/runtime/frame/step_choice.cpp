@@ -3,7 +3,7 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "engine/base/hash.h"
+#include "engine/text/hash.h"
 
 namespace weft::runtime {
 
@@ -38,15 +38,15 @@ std::uint64_t StepChoice::hashOf(const PreparedPass& pass, const FrameUniforms& 
   hash = uniforms.hash(pass.parametersOffset, pass.parametersBlock, hash);
   hash = uniforms.hash(pass.viewOffset, pass.viewBlock, hash);
   for (const std::uint32_t resource : pass.written)
-    hash = base::hashCombine(hash, pool_[resource].serial + (pool_[resource].resets << 40));
+    hash = text::hashCombine(hash, pool_[resource].serial + (pool_[resource].resets << 40));
   // Adds the imports that this pass sees later than they change.
   for (const std::uint32_t resource : pass.read)
     if (const std::uint32_t publisher = pool_[resource].publisher;
         publisher != kNone && publisher != pass.group)
-      hash = base::hashCombine(hash, pool_[resource].shows);
-  for (const std::uint32_t axis : pass.context.spec->threads) hash = base::hashCombine(hash, axis);
+      hash = text::hashCombine(hash, pool_[resource].shows);
+  for (const std::uint32_t axis : pass.context.spec->threads) hash = text::hashCombine(hash, axis);
   if (pass.list >= 0)
-    hash = base::hashCombine(
+    hash = text::hashCombine(
         hash, imports_.generation(static_cast<scene::DrawList>(pass.list), pass.meshes != nullptr));
   return hash;
 }

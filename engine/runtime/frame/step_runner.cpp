@@ -70,7 +70,7 @@ void scissorTo(const PreparedPass& pass, gl::StateCache& states) {
 
 }  // namespace
 
-void StepRunner::run(std::size_t step, PreparedPass& pass, bool clears, base::Diagnostics& diagnostics) {
+void StepRunner::run(std::size_t step, PreparedPass& pass, bool clears, text::Diagnostics& diagnostics) {
   const gl::DebugGroup group(device_.context.debugLog(), pass.context.spec->name);
   device_.timers.begin(static_cast<std::uint32_t>(step));
   const GLuint framebuffer = pass.attachments.empty() ? 0 : framebufferOf(pass, diagnostics);
@@ -89,7 +89,7 @@ void StepRunner::run(std::size_t step, PreparedPass& pass, bool clears, base::Di
   device_.timers.end(static_cast<std::uint32_t>(step));
 }
 
-void StepRunner::clear(const PreparedPass& pass, GLuint framebuffer, base::Diagnostics& diagnostics) {
+void StepRunner::clear(const PreparedPass& pass, GLuint framebuffer, text::Diagnostics& diagnostics) {
   openMasks(states_);
   for (const ClearCommand& clear : pass.clears) {
     const GpuResource& resource = pool_[clear.use.resource];
@@ -135,7 +135,7 @@ void StepRunner::clearAttachment(GLuint framebuffer, GLenum point, const ClearCo
   }
 }
 
-GLuint StepRunner::framebufferOf(const PreparedPass& pass, base::Diagnostics& diagnostics) {
+GLuint StepRunner::framebufferOf(const PreparedPass& pass, text::Diagnostics& diagnostics) {
   scratch_.clear();
   for (const AttachmentBinding& attachment : pass.attachments) {
     const GpuResource& resource = pool_[attachment.resource];
@@ -158,7 +158,7 @@ GLuint viewOf(const GpuResource& resource, const std::vector<GLuint>& views, std
 
 template <class Binding>
 GLuint StepRunner::textureOf(const Binding& binding, const PreparedPass& pass,
-                             base::Diagnostics& diagnostics) {
+                             text::Diagnostics& diagnostics) {
   const GpuResource& resource = pool_[binding.resource];
   if (!binding.part) return viewOf(resource, binding.views, binding.history, pass.group);
   const graph::ImportSpec& import = plan_.graph->imports[plan_.graph->resources[binding.resource].import];
@@ -166,7 +166,7 @@ GLuint StepRunner::textureOf(const Binding& binding, const PreparedPass& pass,
                               diagnostics);
 }
 
-bool StepRunner::bind(PreparedPass& pass, base::Diagnostics& diagnostics) {
+bool StepRunner::bind(PreparedPass& pass, text::Diagnostics& diagnostics) {
   if (pass.meshes) gatherMeshes(pass, diagnostics);
   if (pass.variant) states_.useProgram(pass.variant->program.id());
   if (pass.context.geometry.vertexArray) states_.bindVertexArray(pass.context.geometry.vertexArray);
@@ -197,7 +197,7 @@ bool StepRunner::bind(PreparedPass& pass, base::Diagnostics& diagnostics) {
 }
 
 // Takes the draw commands of what the pass's view sees of the meshes in its list.
-void StepRunner::gatherMeshes(PreparedPass& pass, base::Diagnostics& diagnostics) {
+void StepRunner::gatherMeshes(PreparedPass& pass, text::Diagnostics& diagnostics) {
   const imports::MeshDraw draw = device_.imports.tables().draw(*pass.meshes, diagnostics);
   pass.context.geometry = {.vertexArray = draw.vertexArray,
                            .mode = GL_TRIANGLES,
@@ -207,7 +207,7 @@ void StepRunner::gatherMeshes(PreparedPass& pass, base::Diagnostics& diagnostics
 }
 
 void StepRunner::bindBuffer(const BufferBinding& binding, std::uint32_t group,
-                            base::Diagnostics& diagnostics) {
+                            text::Diagnostics& diagnostics) {
   if (binding.list >= 0) {
     const auto list = static_cast<scene::DrawList>(binding.list);
     imports::SceneTables& tables = device_.imports.tables();
@@ -231,7 +231,7 @@ void StepRunner::bindBlock(const gl::Block* block, std::uint32_t offset) {
 }
 
 // Binds what a pass type without a shader works on: GL names of textures, and framebuffers around them if it wants some.
-bool StepRunner::bindFixed(const FixedBinding& binding, PreparedPass& pass, base::Diagnostics& diagnostics) {
+bool StepRunner::bindFixed(const FixedBinding& binding, PreparedPass& pass, text::Diagnostics& diagnostics) {
   if (const GpuResource& resource = pool_[binding.resource]; !resource.texture && !resource.buffers.empty()) {
     (binding.source ? pass.context.sourceBuffer : pass.context.destinationBuffer) = {
         .name = resource.buffers[resource.copyOf(binding.history, pass.group)],

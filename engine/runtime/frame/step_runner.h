@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/gl/context/state_cache.h"
 #include "engine/graph/plan.h"
 #include "engine/runtime/frame/device.h"
@@ -12,6 +11,7 @@
 #include "engine/runtime/storage/framebuffer_cache.h"
 #include "engine/runtime/storage/resource_pool.h"
 #include "engine/runtime/uniforms/frame_uniforms.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::runtime {
 
@@ -22,24 +22,24 @@ class StepRunner {
       : plan_(plan), device_(device), pool_(pool), uniforms_(uniforms) {}
 
   // `clears`: whether the clears of the step run too; of a pass in slices they run with the first slice.
-  void run(std::size_t step, PreparedPass& pass, bool clears, base::Diagnostics& diagnostics);
+  void run(std::size_t step, PreparedPass& pass, bool clears, text::Diagnostics& diagnostics);
   // To be called when other code may have changed the GL state.
   void forgetState() { states_.forget(); }
   FramebufferCache& framebuffers() { return framebuffers_; }
 
  private:
-  void clear(const PreparedPass& pass, GLuint framebuffer, base::Diagnostics& diagnostics);
+  void clear(const PreparedPass& pass, GLuint framebuffer, text::Diagnostics& diagnostics);
   static void clearAttachment(GLuint framebuffer, GLenum point, const ClearCommand& clear);
   // False: a pass type without a shader lacks the texture of an import, which was reported.
-  bool bind(PreparedPass& pass, base::Diagnostics& diagnostics);
-  void gatherMeshes(PreparedPass& pass, base::Diagnostics& diagnostics);
-  void bindBuffer(const BufferBinding& binding, std::uint32_t group, base::Diagnostics& diagnostics);
+  bool bind(PreparedPass& pass, text::Diagnostics& diagnostics);
+  void gatherMeshes(PreparedPass& pass, text::Diagnostics& diagnostics);
+  void bindBuffer(const BufferBinding& binding, std::uint32_t group, text::Diagnostics& diagnostics);
   void bindBlock(const gl::Block* block, std::uint32_t offset);
-  bool bindFixed(const FixedBinding& binding, PreparedPass& pass, base::Diagnostics& diagnostics);
+  bool bindFixed(const FixedBinding& binding, PreparedPass& pass, text::Diagnostics& diagnostics);
   // The GL name of the texture that a binding of `pass` means now; of an import, of the part that the binding has.
   template <class Binding>
-  GLuint textureOf(const Binding& binding, const PreparedPass& pass, base::Diagnostics& diagnostics);
-  GLuint framebufferOf(const PreparedPass& pass, base::Diagnostics& diagnostics);
+  GLuint textureOf(const Binding& binding, const PreparedPass& pass, text::Diagnostics& diagnostics);
+  GLuint framebufferOf(const PreparedPass& pass, text::Diagnostics& diagnostics);
 
   const graph::Plan& plan_;
   Device& device_;

@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "engine/base/diagnostic.h"
 #include "engine/gl/objects/objects.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::runtime {
 
@@ -22,7 +22,7 @@ class ImportPart {
   // `generation` is another number when `texture` is another one under the name of one that was destroyed. Levels and layers
   // that it lacks are its last ones: what stands in while an import is loaded may be one texel. 0: there is none, or W118 was
   // reported.
-  GLuint viewOf(const gl::TextureRef& texture, std::uint64_t generation, base::Diagnostics& diagnostics) {
+  GLuint viewOf(const gl::TextureRef& texture, std::uint64_t generation, text::Diagnostics& diagnostics) {
     if (texture.id == texture_ && generation == generation_) return view_.id();
     texture_ = texture.id;
     generation_ = generation;

@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/gl/objects/objects.h"
 #include "engine/graph/flat_graph.h"
 #include "engine/imports/camera_views.h"
 #include "engine/imports/files.h"
 #include "engine/imports/import_registry.h"
 #include "engine/imports/scene_tables.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::runtime {
 
@@ -42,12 +42,12 @@ class Imports {
   void beginFrame(const World& world, const FrameInput& input);
 
   // The functions of imports::Provider, which says what they mean.
-  gl::TextureRef texture(const graph::ImportSpec& import, base::Diagnostics& diagnostics) {
+  gl::TextureRef texture(const graph::ImportSpec& import, text::Diagnostics& diagnostics) {
     const gl::TextureRef texture = of(import).texture(frame(), diagnostics);
     return texture.id != 0 ? texture : heldOf(import).standIn;
   }
   std::shared_ptr<const gl::Texture> hold(const graph::ImportSpec& import) { return of(import).hold(); }
-  BufferRef buffer(const graph::ImportSpec& import, const RowLayout& layout, base::Diagnostics& diagnostics) {
+  BufferRef buffer(const graph::ImportSpec& import, const RowLayout& layout, text::Diagnostics& diagnostics) {
     return of(import).buffer(frame(), layout, diagnostics);
   }
   // What a pass whose attachments have this size is seen from: its view, else the scene's camera as it is. A camera's is of

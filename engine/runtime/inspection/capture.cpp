@@ -84,7 +84,7 @@ std::vector<CaptureItem> captureItems(const graph::Plan& plan, std::span<const s
 }
 
 std::optional<CaptureItem> captureItemOf(const graph::Plan& plan, const graph::Pick& pick,
-                                         base::Diagnostics& diagnostics) {
+                                         text::Diagnostics& diagnostics) {
   const graph::FlatGraph& graph = *plan.graph;
   const auto found = graph::findPick(graph, pick, diagnostics);
   if (!found) return std::nullopt;
@@ -98,8 +98,8 @@ std::optional<CaptureItem> captureItemOf(const graph::Plan& plan, const graph::P
     last = std::min(plan.firstStep[found->resource], static_cast<std::uint32_t>(plan.steps.size() - 1));
   const bool table = graph.resources[found->resource].kind == graph::ResourceKind::imported_buffer;
   if (last == graph::kNone || table) {
-    base::Diagnostic& d =
-        diagnostics.error(base::Code::presentsUnwritten, base::placeOfOption(pick.option + " " + pick.text),
+    text::Diagnostic& d =
+        diagnostics.error(text::Code::presentsUnwritten, text::placeOfOption(pick.option + " " + pick.text),
                           table ? fmt::format("'{}' is a table of the scene and no texture", pick.name)
                                 : fmt::format("no pass that runs touches '{}'", pick.name));
     d.resource = graph.resourceNames[found->resource];

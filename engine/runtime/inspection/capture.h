@@ -27,7 +27,7 @@ struct CaptureItem {
 std::vector<CaptureItem> captureItems(const graph::Plan& plan, std::span<const std::string> patterns);
 // What a pick names. Nothing after an error: those of graph::findPick(); or presentsUnwritten, because no live pass touches it.
 std::optional<CaptureItem> captureItemOf(const graph::Plan& plan, const graph::Pick& pick,
-                                         base::Diagnostics& diagnostics);
+                                         text::Diagnostics& diagnostics);
 
 class Capture {
  public:

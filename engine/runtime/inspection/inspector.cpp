@@ -90,7 +90,7 @@ bool Inspector::prepareTexture(const gl::TextureRef& from) {
   const gl::Extent extent = gl::extentOf(from.desc, mip_);
   const gl::TextureDesc wanted{.format = from.desc.format, .width = extent.width, .height = extent.height};
   if (!picture_ || !(picture_.desc() == wanted)) {
-    base::Diagnostics ignored;
+    text::Diagnostics ignored;
     auto made = gl::Texture::create(wanted, "inspector", ignored);
     if (!made) return false;
     picture_ = std::move(*made);
@@ -103,7 +103,7 @@ bool Inspector::prepareTexture(const gl::TextureRef& from) {
 
 bool Inspector::prepareBuffer(std::uint64_t bytes) {
   if (buffer_ && buffer_.bytes() == bytes) return true;
-  base::Diagnostics ignored;
+  text::Diagnostics ignored;
   auto made = gl::Buffer::create(bytes, GL_DYNAMIC_STORAGE_BIT | GL_MAP_READ_BIT, "inspector", ignored);
   if (made) buffer_ = std::move(*made);
   return made.has_value();
@@ -138,7 +138,7 @@ void Inspector::copy() {
 }
 
 GLuint Inspector::draw(const InspectView& view, std::uint32_t width, std::uint32_t height,
-                       base::Diagnostics& diagnostics) {
+                       text::Diagnostics& diagnostics) {
   if (!hasPicture_ || width == 0 || height == 0) return 0;
   const gl::FormatClass kind = gl::classOf(picture_.desc().format);
   const bool depth = kind == gl::FormatClass::depth || kind == gl::FormatClass::depth_stencil;
@@ -325,7 +325,7 @@ InspectView Inspector::fittedView() const {
   return view;
 }
 
-std::optional<assets::Image8> Inspector::drawWhole(const InspectView& view, base::Diagnostics& diagnostics) {
+std::optional<assets::Image8> Inspector::drawWhole(const InspectView& view, text::Diagnostics& diagnostics) {
   if (!hasPicture_) return std::nullopt;
   InspectView whole = view;
   whole.x = whole.y = 0;

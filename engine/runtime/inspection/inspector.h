@@ -72,14 +72,14 @@ class Inspector {
 
   // Draws it into a texture of that size, rgba8, which stays this object's. 0 after an error or without a picture.
   GLuint draw(const InspectView& view, std::uint32_t width, std::uint32_t height,
-              base::Diagnostics& diagnostics);
+              text::Diagnostics& diagnostics);
   // How `target` is shown at first: what holds linear light goes through the sRGB curve.
   static InspectView viewOf(const graph::FlatResource& resource);
   // The same, over the range of what is there where 0 to 1 says little: of depth and of whole numbers. Waits for the GPU.
   InspectView fittedView() const;
   // draw() of every texel, a pixel each, top row first; and the values as they are stored, of 1 to 4 channels (whole numbers
   // above 2^24 are rounded). Both wait for the GPU.
-  std::optional<assets::Image8> drawWhole(const InspectView& view, base::Diagnostics& diagnostics);
+  std::optional<assets::Image8> drawWhole(const InspectView& view, text::Diagnostics& diagnostics);
   std::optional<assets::ImageF> values() const;
   // Waits for the GPU. Row 0 is the bottom one.
   std::optional<InspectTexel> texel(std::uint32_t x, std::uint32_t y) const;

@@ -17,7 +17,7 @@ constexpr std::uint64_t kBytes = std::uint64_t{PictureHistogram::kWidth} * Pictu
 
 bool PictureHistogram::prepare() {
   if (target_ && buffer_) return true;
-  base::Diagnostics ignored;
+  text::Diagnostics ignored;
   auto texture =
       gl::Texture::create({.format = GL_RGBA8, .width = kWidth, .height = kHeight}, "histogram", ignored);
   if (!texture) return false;
@@ -40,7 +40,7 @@ void PictureHistogram::update(const gl::TextureRef& presented) {
   if (presented.id == 0 || gl::classOf(presented.desc.format) != gl::FormatClass::floating ||
       presented.desc.samples > 1 || !prepare())
     return;
-  base::Diagnostics ignored;
+  text::Diagnostics ignored;
   const gl::Attachment from{.texture = presented.id};
   const auto source = gl::Framebuffer::create({&from, 1}, "histogram", ignored);
   if (!source) return;

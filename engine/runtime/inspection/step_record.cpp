@@ -5,10 +5,10 @@
 #include <cstring>
 #include <utility>
 
-#include "engine/base/hash.h"
 #include "engine/runtime/frame/gl_state.h"
 #include "engine/runtime/storage/formats.h"
 #include "engine/runtime/storage/resource_pool.h"
+#include "engine/text/hash.h"
 
 namespace weft::runtime {
 
@@ -19,11 +19,11 @@ std::uint64_t hashOf(const void* data, std::size_t bytes, std::uint64_t hash) {
   for (; bytes >= 8; bytes -= 8, at += 8) {
     std::uint64_t word = 0;
     std::memcpy(&word, at, 8);
-    hash = base::hashCombine(hash, word);
+    hash = text::hashCombine(hash, word);
   }
   std::uint64_t rest = 0;
   std::memcpy(&rest, at, bytes);
-  return base::hashCombine(hash, rest + bytes);
+  return text::hashCombine(hash, rest + bytes);
 }
 
 bool isInteger(GLenum format) {
@@ -58,7 +58,7 @@ double differenceOf(const Signature& a, const Signature& b) {
 // The sums of one resource, over all that the step wrote of it.
 struct StepRecorder::Sum {
   static constexpr std::size_t kParts = Signature::kSide * Signature::kSide;
-  std::uint64_t hash = base::kHashSeed;
+  std::uint64_t hash = text::kHashSeed;
   std::array<double, kParts> parts{};
   std::array<double, kParts> weights{};
   std::array<double, 4> channels{};
@@ -102,7 +102,7 @@ struct StepRecorder::Sum {
 
 // The mean of the samples, through a texture of one sample.
 std::vector<float> StepRecorder::readSamples(const gl::TextureRef& texture) {
-  base::Diagnostics ignored;
+  text::Diagnostics ignored;
   const auto resolved = gl::Texture::create(
       {.format = texture.desc.format, .width = texture.desc.width, .height = texture.desc.height}, "record",
       ignored);

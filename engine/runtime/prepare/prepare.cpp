@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cassert>
 
-#include "engine/base/hash.h"
 #include "engine/runtime/prepare/prepared_pass.h"
 #include "engine/runtime/prepare/program_request.h"
 #include "engine/runtime/storage/formats.h"
+#include "engine/text/hash.h"
 
 namespace weft::runtime {
 
@@ -63,7 +63,7 @@ class Preparer {
   bool takeProgram() {
     out_.variant = c_.variant;
     if (!out_.variant) return false;
-    out_.programHash = base::hashBytes(out_.variant->key);
+    out_.programHash = text::hashBytes(out_.variant->key);
     const gl::Reflection& reflection = out_.variant->program.reflection();
     out_.parametersBlock = reflection.findUniformBlock("Parameters");
     out_.viewBlock = reflection.findUniformBlock("View");

@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/gl/programs/program_cache.h"
 #include "engine/graph/plan.h"
 #include "engine/imports/mesh_draws.h"
@@ -21,6 +20,7 @@
 #include "engine/runtime/prepare/sampler_cache.h"
 #include "engine/runtime/storage/block_writer.h"
 #include "engine/runtime/storage/resource_pool.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::runtime {
 
@@ -130,7 +130,7 @@ struct PrepareContext {
   ResourcePool& pool;
   passes::Geometries& geometries;
   SamplerCache& samplers;
-  base::Diagnostics& diagnostics;
+  text::Diagnostics& diagnostics;
 };
 
 // Fills everything but the uniform offsets. Reports what does not fit; `usable` says whether the pass can run.

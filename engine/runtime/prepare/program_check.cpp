@@ -7,20 +7,19 @@
 #include <cmath>
 #include <set>
 
-#include "engine/base/chars.h"
-#include "engine/base/nearest.h"
-#include "engine/base/words/foreign_words.h"
-#include "engine/base/words/glsl_words.h"
 #include "engine/glsl/interface.h"
 #include "engine/graph/subresource.h"
 #include "engine/imports/row_table.h"
 #include "engine/passes/compute/work_groups.h"
 #include "engine/runtime/prepare/program_request.h"
 #include "engine/runtime/storage/block_writer.h"
+#include "engine/text/chars.h"
+#include "engine/text/nearest.h"
+#include "engine/text/words/foreign_words.h"
+#include "engine/text/words/glsl_words.h"
 
 namespace weft::runtime {
 
-using base::Code;
 using glsl::Declaration;
 using glsl::Role;
 using graph::Access;
@@ -33,6 +32,7 @@ using graph::Plan;
 using graph::SlotSpec;
 using graph::Target;
 using graph::TexelKind;
+using text::Code;
 
 namespace {
 
@@ -168,7 +168,7 @@ std::string memberTypeFor(const graph::Value& value) {
 class Checker {
  public:
   Checker(const Plan& plan, std::uint32_t pass, std::span<const gl::StageSource> stages,
-          std::span<const glsl::Define> defines, const LinkedProgram* linked, base::Diagnostics& diagnostics)
+          std::span<const glsl::Define> defines, const LinkedProgram* linked, text::Diagnostics& diagnostics)
       : plan_(plan),
         graph_(*plan.graph),
         spec_(graph_.specs[pass]),
@@ -195,15 +195,15 @@ class Checker {
 
  private:
   // The caller fills in the other fields.
-  base::Diagnostic& fail(Code code, const base::Place& place, std::string message) {
+  text::Diagnostic& fail(Code code, const text::Place& place, std::string message) {
     failed_ = true;
-    base::Diagnostic& d = diagnostics_.error(code, place, std::move(message));
+    text::Diagnostic& d = diagnostics_.error(code, place, std::move(message));
     d.pass = spec_.name;
     return d;
   }
   // Whether the same was said of another pass, of a shader that both have, say: the mistake is in one place.
   bool isSaid(Code code, const std::string& message) const {
-    return std::ranges::any_of(diagnostics_.items(), [&](const base::Diagnostic& d) {
+    return std::ranges::any_of(diagnostics_.items(), [&](const text::Diagnostic& d) {
       return d.code == code && d.message == message;
     });
   }
@@ -294,7 +294,7 @@ class Checker {
     for (auto stage = stages_.rbegin(); stage != stages_.rend(); ++stage)
       if (const Declaration* found = stage->source->ofAllBranches().find(name))
         return glsl::nameOf(found->role);
-    return base::isGlslFunction(name) ? "a built-in function" : nullptr;
+    return text::isGlslFunction(name) ? "a built-in function" : nullptr;
   }
 
   std::vector<std::string> namesIn(std::span<const gl::StageSource> stages, std::optional<Role> role) const {
@@ -360,7 +360,7 @@ class Checker {
     if (!other && (maybe(slot.name, role) || (isBlock(role) && maybe(role, hasInstance)))) return;
     slotMissing_ = true;
     const char* const what = whatIs(slot.name);
-    base::Diagnostic& d =
+    text::Diagnostic& d =
         fail(Code::slotNotInShader, slot.place,
              what ? fmt::format("slot '{}' is {} in the shader '{}', not {}", slot.name, what, shaders_,
                                 glsl::nameOf(role))
@@ -371,7 +371,7 @@ class Checker {
     std::vector<std::string> fitting = namesIn(stagesFor(role), role);
     std::erase_if(fitting, [&](const std::string& name) { return isSlot(name); });
     const std::string near = what ? (fitting.size() == 1 ? fitting[0] : "")
-                                  : base::nearestName(slot.name, namesIn(stages_, std::nullopt));
+                                  : text::nearestName(slot.name, namesIn(stages_, std::nullopt));
     d.hint = !what && slot.inherited
                  ? fmt::format("remove it: \"{}\": {{ \"{}\": null }}", graph::nameOf(slot.access), slot.name)
              : !near.empty() ? fmt::format("did you mean '{}'?", near)
@@ -379,7 +379,7 @@ class Checker {
   }
 
   void reportType(const SlotSpec& slot, const FlatUse& use, const std::string& type, std::string expected) {
-    base::Diagnostic& d = fail(Code::slotTypeMismatch, slot.place,
+    text::Diagnostic& d = fail(Code::slotTypeMismatch, slot.place,
                                fmt::format("slot '{}' and the shader's {} do not fit", slot.name, type));
     d.resource = nameOf(use);
     d.expected = std::move(expected);
@@ -415,12 +415,12 @@ class Checker {
   }
 
   void checkTable(const gl::Block* block, std::span<const graph::TableColumn> columns,
-                  const base::Place& place) {
+                  const text::Place& place) {
     if (!block || columns.empty()) return;
     imports::RowLayout layout;
     std::string problem;
     if (imports::rowLayoutOf(*block, columns, layout, problem)) return;
-    base::Diagnostic& d = fail(
+    text::Diagnostic& d = fail(
         Code::notAnInstanceTable, place,
         fmt::format("the block '{}' of '{}' does not fit its table: {}", block->name, shaders_, problem));
     d.expected = "an array of a struct with fields among";
@@ -477,7 +477,7 @@ class Checker {
   }
 
   void reportBlockName(const std::string& block) {
-    base::Diagnostic& d =
+    text::Diagnostic& d =
         fail(Code::undeclaredShaderInput, spec_.shaderPlace,
              fmt::format("the shader '{}' has its parameters in a uniform block '{}'", shaders_, block));
     d.expected = "a uniform block 'Parameters'";
@@ -487,11 +487,11 @@ class Checker {
 
   void reportMissing(const graph::UniformSpec& uniform) {
     const char* const what = whatIs(uniform.name);
-    base::Diagnostic& d = fail(
+    text::Diagnostic& d = fail(
         Code::parameterNotInShader, uniform.place,
         fmt::format("parameter '{}' is {} in the shader '{}'", uniform.name,
                     what ? fmt::format("{}, not a member of the block Parameters,", what) : "not", shaders_));
-    const std::string near = what ? "" : base::nearestName(uniform.name, namesIn(stages_, std::nullopt));
+    const std::string near = what ? "" : text::nearestName(uniform.name, namesIn(stages_, std::nullopt));
     d.hint = fmt::format("declare it: `layout(std140) uniform Parameters {{ {} {}; }};`",
                          memberTypeFor(uniform.value), uniform.name);
     if (!near.empty()) d.hint += fmt::format(", or did you mean '{}'?", near);
@@ -505,7 +505,7 @@ class Checker {
       failed_ = true;
       return;
     }
-    base::Diagnostic& d = fail(Code::parameterTypeMismatch, uniform.place, message);
+    text::Diagnostic& d = fail(Code::parameterTypeMismatch, uniform.place, message);
     d.expected = expected;
     d.found = graph::toText(uniform.value);
     d.hint = fmt::format("declare `{} {};` in the block, or give it {}", memberTypeFor(uniform.value),
@@ -544,7 +544,7 @@ class Checker {
   // A member that the pass does not set: it would be 0, which mostly gives a black picture.
   void reportUnset(const Declaration& member) {
     const std::string type = std::string(member.type) + member.array;
-    base::Diagnostic& d =
+    text::Diagnostic& d =
         fail(Code::undeclaredShaderInput, spec_.shaderPlace,
              fmt::format("the shader '{}' reads the parameter '{}', which pass '{}' does not set", shaders_,
                          member.name, spec_.declared));
@@ -574,7 +574,7 @@ class Checker {
           said.push_back(member.name);
           fail(Code::unknownViewMember, spec_.shaderPlace,
                fmt::format("the {} block of '{}' has an unknown member '{}'", name, shaders_, member.name))
-              .hint = view ? base::nearestHint(std::string(member.name), names) : "include common/slice.glsl";
+              .hint = view ? text::nearestHint(std::string(member.name), names) : "include common/slice.glsl";
         }
     }
   }
@@ -585,8 +585,8 @@ class Checker {
     std::vector<std::string> names;
     for (std::uint32_t i = 0; i < spec_.slotCount; ++i)
       names.push_back(graph_.slots[spec_.firstSlot + i].name);
-    const std::string nearest = base::nearestName(name, names);
-    base::Diagnostic& d = fail(Code::undeclaredShaderInput, spec_.shaderPlace,
+    const std::string nearest = text::nearestName(name, names);
+    text::Diagnostic& d = fail(Code::undeclaredShaderInput, spec_.shaderPlace,
                                fmt::format("the shader '{}' uses {} '{}', which pass '{}' does not name",
                                            shaders_, what, name, spec_.declared));
     d.expected = fmt::format("a slot '{}' in \"read\", \"write\" or \"modify\"", name);
@@ -616,7 +616,7 @@ class Checker {
     for (const auto& loose : reflection.looseUniforms) {
       std::string hint = isViewMember(loose.name)
                              ? fmt::format("remove it: #include \"common/view.glsl\" has '{}'", loose.name)
-                             : base::hintForForeign(base::Foreign::shader_name, loose.name);
+                             : text::hintForForeign(text::Foreign::shader_name, loose.name);
       if (hint.empty()) hint = "move it into `layout(std140) uniform Parameters { … };`";
       std::string message =
           fmt::format("the shader '{}' has a uniform '{}' outside a block", shaders_, loose.name);
@@ -648,7 +648,7 @@ class Checker {
     for (int axis = 0; axis < 3; ++axis) {
       const std::uint32_t most = context.maxGroups[axis], size = context.groupSize[axis];
       if (groups.count[axis] <= most) continue;
-      base::Diagnostic& d = fail(Code::tooManyWorkGroups, spec_.threadsPlace,
+      text::Diagnostic& d = fail(Code::tooManyWorkGroups, spec_.threadsPlace,
                                  fmt::format("pass '{}' has more work groups along {} than the device takes",
                                              spec_.name, "xyz"[axis]));
       d.expected =
@@ -698,10 +698,10 @@ class Checker {
   }
 
   // Of repeats of one pass the first is warned of.
-  void warnOnce(Code code, const base::Place& place, const std::string& message, std::string hint,
+  void warnOnce(Code code, const text::Place& place, const std::string& message, std::string hint,
                 const std::string& resource) {
     if (isSaid(code, message)) return;
-    base::Diagnostic& d = diagnostics_.warning(code, place, message);
+    text::Diagnostic& d = diagnostics_.warning(code, place, message);
     d.pass = spec_.name;
     d.resource = resource;
     d.hint = std::move(hint);
@@ -714,7 +714,7 @@ class Checker {
   const std::span<const gl::StageSource> stages_;
   std::vector<const glsl::Interface*> interfaces_;  // of each stage, under the defines of the program
   const LinkedProgram* const linked_;
-  base::Diagnostics& diagnostics_;
+  text::Diagnostics& diagnostics_;
   // For messages, between quotes.
   const std::string shaders_ =
       spec_.vertexShader.empty() ? spec_.shader : spec_.vertexShader + "' and '" + spec_.shader;
@@ -726,23 +726,23 @@ class Checker {
 
 bool checkProgram(const Plan& plan, std::uint32_t pass, std::span<const gl::StageSource> stages,
                   std::span<const glsl::Define> defines, const LinkedProgram* linked,
-                  base::Diagnostics& diagnostics) {
+                  text::Diagnostics& diagnostics) {
   return Checker(plan, pass, stages, defines, linked, diagnostics).run();
 }
 
 void warnOfConditions(const std::string& pass, std::span<const gl::StageSource> stages,
-                      std::span<const glsl::Define> defines, base::Diagnostics& diagnostics) {
+                      std::span<const glsl::Define> defines, text::Diagnostics& diagnostics) {
   std::vector<std::string> names;
   for (const glsl::Define& define : defines) names.push_back(define.name);
   for (const gl::StageSource& stage : stages) {
     const glsl::Conditions conditions = glsl::conditionsOf(stage.source->text);
     const auto warn = [&](const glsl::Token& word, const std::string& message, std::string hint) {
-      const base::Place place = stage.source->placeOf(word.line, word.column);
-      if (std::ranges::any_of(diagnostics.items(), [&](const base::Diagnostic& d) {
-            return d.code == Code::undeclaredShaderInput && base::isSamePlace(d.place.inFile(), place);
+      const text::Place place = stage.source->placeOf(word.line, word.column);
+      if (std::ranges::any_of(diagnostics.items(), [&](const text::Diagnostic& d) {
+            return d.code == Code::undeclaredShaderInput && text::isSamePlace(d.place.inFile(), place);
           }))
         return;
-      base::Diagnostic& d = diagnostics.warning(Code::undeclaredShaderInput, place, message);
+      text::Diagnostic& d = diagnostics.warning(Code::undeclaredShaderInput, place, message);
       d.pass = pass;
       d.hint = std::move(hint);
     };
@@ -762,10 +762,10 @@ void warnOfConditions(const std::string& pass, std::span<const gl::StageSource> 
       if (conditions.made.contains(word.text) || word.text.starts_with("GL_") || word.text.starts_with("__"))
         return;
       const auto other = std::ranges::find_if(
-          names, [&](const std::string& name) { return base::lowered(name) == base::lowered(word.text); });
+          names, [&](const std::string& name) { return text::lowered(name) == text::lowered(word.text); });
       // A word that is only asked for may well be a slot that this pass does not have.
       const std::string meant = other != names.end() ? *other
-                                : valued             ? base::nearestName(word.text, names)
+                                : valued             ? text::nearestName(word.text, names)
                                                      : "";
       if (!meant.empty())
         warn(word, fmt::format("nothing defines '{}'", word.text), fmt::format("did you mean '{}'?", meant));

@@ -6,10 +6,10 @@
 #include <span>
 #include <string>
 
-#include "engine/base/diagnostic.h"
 #include "engine/gl/context/context.h"
 #include "engine/gl/programs/program.h"
 #include "engine/graph/plan.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::runtime {
 
@@ -23,11 +23,11 @@ struct LinkedProgram {
 // null without OpenGL. False after an error.
 bool checkProgram(const graph::Plan& plan, std::uint32_t pass, std::span<const gl::StageSource> stages,
                   std::span<const glsl::Define> defines, const LinkedProgram* linked,
-                  base::Diagnostics& diagnostics);
+                  text::Diagnostics& diagnostics);
 
 // Warns of words that only the conditionals of the shaders have and that nothing defines, when a define or HAS_… of the pass is
 // nearly that word, and of a define that is 0 and only asked for by #ifdef (W187). `pass`: its name.
 void warnOfConditions(const std::string& pass, std::span<const gl::StageSource> stages,
-                      std::span<const glsl::Define> defines, base::Diagnostics& diagnostics);
+                      std::span<const glsl::Define> defines, text::Diagnostics& diagnostics);
 
 }  // namespace weft::runtime

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/gl/programs/program.h"
 #include "engine/graph/language/value.h"
 #include "engine/scene/camera.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::runtime {
 

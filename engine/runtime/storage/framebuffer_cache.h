@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/gl/objects/objects.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::runtime {
 
@@ -16,7 +16,7 @@ class FramebufferCache {
  public:
   // The GL name; 0 after an error.
   GLuint get(std::span<const gl::Attachment> attachments, const std::string& label,
-             base::Diagnostics& diagnostics) {
+             text::Diagnostics& diagnostics) {
     for (const Entry& entry : entries_)
       if (std::ranges::equal(entry.attachments, attachments)) return entry.framebuffer.id();
     auto made = gl::Framebuffer::create(attachments, label, diagnostics);

@@ -47,7 +47,7 @@ bool isTexture(const FlatResource& r) {
 
 std::shared_ptr<PhysicalTexture> PhysicalTexture::create(const Storage& storage, std::string owner,
                                                          const std::string& label,
-                                                         base::Diagnostics& diagnostics) {
+                                                         text::Diagnostics& diagnostics) {
   auto made = std::make_shared<PhysicalTexture>();
   made->desc_ = descOf(storage);
   made->owner_ = std::move(owner);
@@ -66,7 +66,7 @@ bool PhysicalTexture::fits(const Storage& storage, const std::string& owner) con
 }
 
 gl::TextureRef PhysicalTexture::view(std::uint32_t copy, const gl::ViewDesc& desc,
-                                     base::Diagnostics& diagnostics) {
+                                     text::Diagnostics& diagnostics) {
   const gl::Texture& texture = textures_[copy];
   const bool whole = desc.target == desc_.target && (desc.format == 0 || desc.format == desc_.format) &&
                      !desc.stencil && desc.mip == 0 && desc.mips == desc_.mips && desc.layer == 0 &&
@@ -93,7 +93,7 @@ std::uint32_t largestTransientOf(const Plan& plan) {
 }
 
 // Reports buffers of shaders that are larger than the largest block of the device, whose end no shader could reach.
-bool checkBlocks(const Plan& plan, base::Diagnostics& diagnostics) {
+bool checkBlocks(const Plan& plan, text::Diagnostics& diagnostics) {
   GLint64 most = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
   std::vector<std::uint8_t> told(plan.graph->resources.size(), 0);
@@ -105,7 +105,7 @@ bool checkBlocks(const Plan& plan, base::Diagnostics& diagnostics) {
     if (resource.kind != ResourceKind::buffer || resource.bytes <= static_cast<std::uint64_t>(most)) continue;
     good = false;
     if (std::exchange(told[use.resource], std::uint8_t{1}) != 0) continue;
-    auto& d = diagnostics.error(base::Code::bufferNotCreated, {},
+    auto& d = diagnostics.error(text::Code::bufferNotCreated, {},
                                 fmt::format("buffer '{}' of {} bytes is larger than a shader can see",
                                             plan.graph->resourceNames[use.resource], resource.bytes));
     d.resource = plan.graph->resourceNames[use.resource];
@@ -118,7 +118,7 @@ bool checkBlocks(const Plan& plan, base::Diagnostics& diagnostics) {
 }  // namespace
 
 std::unique_ptr<ResourcePool> ResourcePool::create(const Plan& plan, const ResourcePool* before,
-                                                   base::Diagnostics& diagnostics) {
+                                                   text::Diagnostics& diagnostics) {
   if (!checkBlocks(plan, diagnostics)) return nullptr;
   auto pool = std::make_unique<ResourcePool>();
   pool->resources_.resize(plan.graph->resources.size());
@@ -160,7 +160,7 @@ void ResourcePool::continueFrom(const ResourcePool& before) {
 }
 
 void ResourcePool::fill(const Plan& plan, std::uint32_t resource, const graph::Value& value,
-                        base::Diagnostics& diagnostics) {
+                        text::Diagnostics& diagnostics) {
   const GpuResource& mine = resources_[resource];
   const FlatResource& r = plan.graph->resources[resource];
   for (std::uint32_t copy = 0; copy < mine.copies; ++copy) {
@@ -196,7 +196,7 @@ void ResourcePool::shareTextures(const Plan& plan, const std::vector<std::string
 }
 
 bool ResourcePool::createTextures(const Plan& plan, const ResourcePool* before,
-                                  base::Diagnostics& diagnostics) {
+                                  text::Diagnostics& diagnostics) {
   std::vector<std::string> owners(plan.storages.size()), labels(plan.storages.size());
   for (std::size_t r = 0; r < resources_.size(); ++r) {
     const std::uint32_t s = plan.storageOf[r];
@@ -233,7 +233,7 @@ bool fits(const PhysicalBuffer& buffer, std::size_t copies, std::uint64_t bytes)
 }
 
 std::shared_ptr<PhysicalBuffer> createBuffer(std::size_t copies, std::uint64_t bytes,
-                                             const std::string& label, base::Diagnostics& diagnostics) {
+                                             const std::string& label, text::Diagnostics& diagnostics) {
   auto made = std::make_shared<PhysicalBuffer>();
   made->serial = nextSerial();
   while (made->copies.size() < copies) {
@@ -246,7 +246,7 @@ std::shared_ptr<PhysicalBuffer> createBuffer(std::size_t copies, std::uint64_t b
 
 }  // namespace
 
-bool ResourcePool::createArena(const Plan& plan, const ResourcePool* before, base::Diagnostics& diagnostics) {
+bool ResourcePool::createArena(const Plan& plan, const ResourcePool* before, text::Diagnostics& diagnostics) {
   if (plan.arenaBytes == 0) return true;
   if (before && before->arena_ && fits(*before->arena_, 1, plan.arenaBytes)) {
     arena_ = before->arena_;
@@ -260,7 +260,7 @@ bool ResourcePool::createArena(const Plan& plan, const ResourcePool* before, bas
 }
 
 bool ResourcePool::createBuffers(const Plan& plan, const ResourcePool* before,
-                                 base::Diagnostics& diagnostics) {
+                                 text::Diagnostics& diagnostics) {
   std::unordered_map<std::string_view, std::shared_ptr<PhysicalBuffer>> byName;  // persistent ones
   if (before)
     for (std::size_t r = 0; r < before->resources_.size(); ++r)
@@ -289,7 +289,7 @@ bool ResourcePool::createBuffers(const Plan& plan, const ResourcePool* before,
 }
 
 gl::TextureRef ResourcePool::view(const Plan& plan, const FlatUse& use, std::uint32_t copy, GLenum target,
-                                  base::Diagnostics& diagnostics) {
+                                  text::Diagnostics& diagnostics) {
   const FlatResource& desc = plan.graph->resources[use.resource];
   GpuResource& mine = resources_[use.resource];
   if (!mine.texture) return mine.imported;

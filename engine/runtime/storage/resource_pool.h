@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/gl/objects/objects.h"
 #include "engine/graph/plan.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::runtime {
 
@@ -22,9 +22,9 @@ class PhysicalTexture {
  public:
   // `owner`: the resource of persistent storage, "" for transient. Null after errors.
   static std::shared_ptr<PhysicalTexture> create(const graph::Storage& storage, std::string owner,
-                                                 const std::string& label, base::Diagnostics& diagnostics);
+                                                 const std::string& label, text::Diagnostics& diagnostics);
   // The texture itself when the view would be all of it in its own format, else a cached view. Id 0 after an error.
-  gl::TextureRef view(std::uint32_t copy, const gl::ViewDesc& desc, base::Diagnostics& diagnostics);
+  gl::TextureRef view(std::uint32_t copy, const gl::ViewDesc& desc, text::Diagnostics& diagnostics);
   bool fits(const graph::Storage& storage, const std::string& owner) const;
   const gl::Texture& texture(std::uint32_t copy) const { return textures_[copy]; }
   std::uint64_t serial() const { return serial_; }
@@ -87,7 +87,7 @@ class ResourcePool {
  public:
   // Shares storage that fits with `before` (which may be null). Null after errors.
   static std::unique_ptr<ResourcePool> create(const graph::Plan& plan, const ResourcePool* before,
-                                              base::Diagnostics& diagnostics);
+                                              text::Diagnostics& diagnostics);
 
   std::vector<GpuResource>& resources() { return resources_; }
   GpuResource& operator[](std::size_t resource) { return resources_[resource]; }
@@ -95,18 +95,18 @@ class ResourcePool {
 
   // A view of the levels and layers of `use` in the resource's own format. `target` 0: the resource's own target.
   gl::TextureRef view(const graph::Plan& plan, const graph::FlatUse& use, std::uint32_t copy, GLenum target,
-                      base::Diagnostics& diagnostics);
+                      text::Diagnostics& diagnostics);
   // Fills every copy of a resource of the graph's own with `value`.
   void fill(const graph::Plan& plan, std::uint32_t resource, const graph::Value& value,
-            base::Diagnostics& diagnostics);
+            text::Diagnostics& diagnostics);
 
  private:
   using Textures = std::vector<std::shared_ptr<PhysicalTexture>>;  // per storage of the plan
-  bool createTextures(const graph::Plan& plan, const ResourcePool* before, base::Diagnostics& diagnostics);
+  bool createTextures(const graph::Plan& plan, const ResourcePool* before, text::Diagnostics& diagnostics);
   void shareTextures(const graph::Plan& plan, const std::vector<std::string>& owners,
                      const ResourcePool& before, Textures& textures) const;
-  bool createArena(const graph::Plan& plan, const ResourcePool* before, base::Diagnostics& diagnostics);
-  bool createBuffers(const graph::Plan& plan, const ResourcePool* before, base::Diagnostics& diagnostics);
+  bool createArena(const graph::Plan& plan, const ResourcePool* before, text::Diagnostics& diagnostics);
+  bool createBuffers(const graph::Plan& plan, const ResourcePool* before, text::Diagnostics& diagnostics);
   void continueFrom(const ResourcePool& before);
 
   std::vector<GpuResource> resources_;

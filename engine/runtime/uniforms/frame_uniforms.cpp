@@ -6,11 +6,11 @@
 #include <string>
 #include <utility>
 
-#include "engine/base/hash.h"
 #include "engine/graph/expand/names/settings.h"
 #include "engine/passes/compute/work_groups.h"
 #include "engine/runtime/prepare/prepared_pass.h"
 #include "engine/runtime/storage/block_writer.h"
+#include "engine/text/hash.h"
 
 namespace weft::runtime {
 
@@ -32,7 +32,7 @@ FrameUniforms::FrameUniforms(const graph::Plan& plan, Imports& imports, std::uin
   }
 }
 
-bool FrameUniforms::layOut(std::span<PreparedPass> passes, base::Diagnostics& diagnostics) {
+bool FrameUniforms::layOut(std::span<PreparedPass> passes, text::Diagnostics& diagnostics) {
   std::uint32_t end = 0;
   const auto place = [&](const gl::Block* block, std::uint32_t& offset) {
     offset = end;
@@ -141,7 +141,7 @@ void FrameUniforms::write(std::uint32_t block, const gl::BlockMember& member, co
 std::uint64_t FrameUniforms::hash(std::uint32_t block, const gl::Block* layout, std::uint64_t seed) const {
   if (!layout) return seed;
   const auto* bytes = reinterpret_cast<const char*>(bytes_.data() + block);
-  return base::hashBytes({bytes, layout->bytes}, seed);
+  return text::hashBytes({bytes, layout->bytes}, seed);
 }
 
 void FrameUniforms::upload() {

@@ -11,11 +11,11 @@
 #include <unordered_map>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/graph/plan.h"
 #include "engine/runtime/cadence/cadence.h"
 #include "engine/runtime/imports/imports.h"
 #include "engine/runtime/prepare/prepared_pass.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::runtime {
 
@@ -26,7 +26,7 @@ class FrameUniforms {
 
   // Gives the blocks of all prepared passes their offsets, and writes the values that do not change with time. To be called
   // once. False when the buffer cannot be made.
-  bool layOut(std::span<PreparedPass> passes, base::Diagnostics& diagnostics);
+  bool layOut(std::span<PreparedPass> passes, text::Diagnostics& diagnostics);
 
   // Writes what changes from frame to frame, the values of age(), the View block and how often draws draw, of all passes or
   // of `always` ones only. `passes` per step; `ageOf(resource)` in seconds.

@@ -11,11 +11,11 @@ namespace weft::scene {
 
 namespace {
 
-using base::Code;
-using base::Diagnostics;
-using base::JsonMember;
-using base::JsonValue;
-using base::NumberRange;
+using text::Code;
+using text::Diagnostics;
+using text::JsonMember;
+using text::JsonValue;
+using text::NumberRange;
 
 constexpr NumberRange kNits{.min = 1e-3, .max = 1e9};
 constexpr NumberRange kPhotometric{.min = 0, .max = 1e12};
@@ -112,7 +112,7 @@ class LightReader {
 
   void setCone(const JsonValue& value, const std::string& what, double inner, double outer, Lamp& lamp) {
     if (inner > outer) {
-      base::Diagnostic& d = failAt(diagnostics_, Code::badSceneValue, value,
+      text::Diagnostic& d = failAt(diagnostics_, Code::badSceneValue, value,
                                    fmt::format("the inner cone of {} is wider than the outer one", what));
       d.expected = fmt::format("an 'inner' of at most {} degrees", outer);
       d.found = fmt::format("{}", inner);
@@ -132,7 +132,7 @@ class LightReader {
     std::vector<glm::vec3> colors;
     if (const JsonValue* list = fields.array("colors"))
       for (const JsonValue& item : list->items)
-        if (const auto color = base::readTriple(item, fmt::format("a color of {}", what), kUnit,
+        if (const auto color = text::readTriple(item, fmt::format("a color of {}", what), kUnit,
                                                 Code::badSceneValue, diagnostics_))
           colors.emplace_back((*color)[0], (*color)[1], (*color)[2]);
     if (colors.empty()) colors.emplace_back(1);

@@ -8,15 +8,15 @@
 #include <numbers>
 
 #include "engine/assets/models/model_file.h"
-#include "engine/base/nearest.h"
 #include "engine/scene/frame/mesh_frame.h"
+#include "engine/text/nearest.h"
 
 namespace weft::scene {
 
-using base::Code;
-using base::JsonMember;
-using base::JsonValue;
-using base::NumberRange;
+using text::Code;
+using text::JsonMember;
+using text::JsonValue;
+using text::NumberRange;
 
 namespace {
 
@@ -107,7 +107,7 @@ void SceneModels::readAnimation(const JsonValue& value, const std::string& what,
   if (value.is(JsonValue::Type::number)) {
     if (value.whole && value.number >= 0 && value.number < static_cast<double>(row))
       row = static_cast<std::size_t>(value.number);
-  } else if (const auto name = base::readText(value, fmt::format("'animation' of {}", what), diagnostics_)) {
+  } else if (const auto name = text::readText(value, fmt::format("'animation' of {}", what), diagnostics_)) {
     row = static_cast<std::size_t>(std::ranges::find(names, *name) - names.begin());
   } else {
     return;
@@ -116,11 +116,11 @@ void SceneModels::readAnimation(const JsonValue& value, const std::string& what,
     copy.animation = static_cast<std::uint32_t>(row);
     return;
   }
-  base::Diagnostic& d =
+  text::Diagnostic& d =
       failAt(diagnostics_, Code::unknownAnimation, value, fmt::format("{} has no such animation", what));
   d.expected = names.empty() ? "none: its file has no animation" : fmt::format("{}", fmt::join(names, ", "));
   d.found = describe(value);
-  if (value.is(JsonValue::Type::string)) d.hint = base::nearestHint(value.text, names);
+  if (value.is(JsonValue::Type::string)) d.hint = text::nearestHint(value.text, names);
 }
 
 void SceneModels::addCopies(const JsonValue& value, const std::string& name, const Loaded& loaded,
@@ -141,7 +141,7 @@ void SceneModels::addCopies(const JsonValue& value, const std::string& name, con
   if (copy.lights && suns > 0 && !scene_.sun) {
     sunOf_ = name;
   } else if (copy.lights && suns > 0 && !sunOf_.empty()) {  // a sun of the scene file takes the place of all
-    base::Diagnostic& d = diagnostics_.warning(Code::modelPartLeftOut, value.place,
+    text::Diagnostic& d = diagnostics_.warning(Code::modelPartLeftOut, value.place,
                                                fmt::format("the sun of model '{}' was left out", name));
     d.expected = "one model with a directional light, or a 'sun' in the scene file";
     d.found = fmt::format("the sun of model '{}'", sunOf_);
@@ -197,7 +197,7 @@ CameraPose framePose(const Box& box, glm::dvec3 towards) {
 
 }  // namespace
 
-std::optional<Scene> loadModelScene(const std::string& path, base::Diagnostics& diagnostics,
+std::optional<Scene> loadModelScene(const std::string& path, text::Diagnostics& diagnostics,
                                     std::vector<std::string>* files, const assets::LoadObserver& observer) {
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "engine/assets/loading/load_observer.h"
-#include "engine/base/diagnostic.h"
 #include "engine/scene/files/reading.h"
 #include "engine/scene/models/add_model.h"
 #include "engine/scene/scene.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::scene {
 
@@ -23,10 +23,10 @@ constexpr std::size_t kMaxNodes = std::size_t{1} << 21;
 class SceneModels {
  public:
   // A material of the scene by name, or null after an error.
-  using FindMaterial = std::function<MaterialId(const base::JsonValue& value, const std::string& what)>;
+  using FindMaterial = std::function<MaterialId(const text::JsonValue& value, const std::string& what)>;
 
   // `sceneFile`: paths are relative to it. All must outlive this.
-  SceneModels(Scene& scene, const std::string& sceneFile, base::Diagnostics& diagnostics,
+  SceneModels(Scene& scene, const std::string& sceneFile, text::Diagnostics& diagnostics,
               const assets::LoadObserver& observer)
       : scene_(scene), sceneFile_(sceneFile), diagnostics_(diagnostics), observer_(observer) {}
 
@@ -47,15 +47,15 @@ class SceneModels {
     ModelRows rows;
   };
   const Loaded* load(const std::string& path);
-  void readModel(const std::string& name, const base::JsonValue& value, const FindMaterial& findMaterial);
-  void readAnimation(const base::JsonValue& value, const std::string& what, const assets::Model& model,
+  void readModel(const std::string& name, const text::JsonValue& value, const FindMaterial& findMaterial);
+  void readAnimation(const text::JsonValue& value, const std::string& what, const assets::Model& model,
                      ModelCopy& copy);
-  void addCopies(const base::JsonValue& value, const std::string& name, const Loaded& loaded, ModelCopy copy,
+  void addCopies(const text::JsonValue& value, const std::string& name, const Loaded& loaded, ModelCopy copy,
                  const SceneGrid& grid);
 
   Scene& scene_;
   const std::string& sceneFile_;
-  base::Diagnostics& diagnostics_;
+  text::Diagnostics& diagnostics_;
   const assets::LoadObserver& observer_;
   std::map<std::string, std::unique_ptr<Loaded>> loaded_;  // by path; null: it failed
   std::shared_ptr<MeshData> data_ = std::make_shared<MeshData>();
@@ -67,7 +67,7 @@ class SceneModels {
 // A model file as a scene: the model at its own coordinates with its first animation, cameras that frame its box (`front`,
 // `left`, `right`, `back`, `top`), and its lights; a sun where it has none. `files`, when given, is set to everything that was read
 // or should have been, also after errors.
-std::optional<Scene> loadModelScene(const std::string& path, base::Diagnostics& diagnostics,
+std::optional<Scene> loadModelScene(const std::string& path, text::Diagnostics& diagnostics,
                                     std::vector<std::string>* files, const assets::LoadObserver& observer);
 
 }  // namespace weft::scene

@@ -8,22 +8,22 @@
 #include <string>
 #include <utility>
 
-#include "engine/base/json/fields.h"
 #include "engine/scene/scene.h"
+#include "engine/text/json/fields.h"
 
 namespace weft::scene {
 
-inline constexpr base::NumberRange kUnit{.min = 0, .max = 1};
-inline constexpr base::NumberRange kWorld{.min = -1e9, .max = 1e9};  // float keeps 64 units apart there
-inline constexpr base::NumberRange kSize{.min = 0, .max = 1e9, .aboveMin = true};
-inline constexpr base::NumberRange kAmount{.min = 0, .max = 1e9};
+inline constexpr text::NumberRange kUnit{.min = 0, .max = 1};
+inline constexpr text::NumberRange kWorld{.min = -1e9, .max = 1e9};  // float keeps 64 units apart there
+inline constexpr text::NumberRange kSize{.min = 0, .max = 1e9, .aboveMin = true};
+inline constexpr text::NumberRange kAmount{.min = 0, .max = 1e9};
 
 // Reads members in place: one that is absent or wrong stays as it is.
-class SceneFields : public base::JsonFields {
+class SceneFields : public text::JsonFields {
  public:
   using JsonFields::JsonFields;
   template <class T>
-  void read(std::string_view key, const base::NumberRange& range, T& out) {
+  void read(std::string_view key, const text::NumberRange& range, T& out) {
     if constexpr (std::is_arithmetic_v<T>) {
       if (const auto number = JsonFields::number(key, range)) out = static_cast<T>(*number);
     } else if (const auto triple = JsonFields::triple(key, range)) {
@@ -33,16 +33,16 @@ class SceneFields : public base::JsonFields {
   void read(std::string_view key, bool& out) { out = boolean(key).value_or(out); }
 };
 
-base::Diagnostic& failAt(base::Diagnostics& diagnostics, base::Code code, const base::JsonValue& value,
+text::Diagnostic& failAt(text::Diagnostics& diagnostics, text::Code code, const text::JsonValue& value,
                          std::string message, std::string hint = "");
 // What is more than `most`.
-void failTooMany(base::Diagnostics& diagnostics, const base::JsonValue& value, std::string message,
+void failTooMany(text::Diagnostics& diagnostics, const text::JsonValue& value, std::string message,
                  std::size_t most, std::string found, std::string hint = "");
 
 // The key `lists`: which draw lists something is in, as a mask of maskOf(). Empty when it is absent; W162 for a name that is none.
 // `what` names the object in messages.
-std::optional<std::uint8_t> readLists(base::JsonFields& fields, const std::string& what,
-                                      base::Diagnostics& diagnostics);
+std::optional<std::uint8_t> readLists(text::JsonFields& fields, const std::string& what,
+                                      text::Diagnostics& diagnostics);
 
 // The keys `count` and `spacing`, and places around a center row by row, from the upper left one in front.
 struct SceneGrid {
@@ -69,6 +69,6 @@ constexpr std::size_t kMaxLamps = 65536;
 
 // The keys `nits`, `sun`, `lamps` and `lamp_grids` of a scene file, with their units. What is wrong is W160, or what JsonFields
 // reports.
-void readLights(SceneFields& fields, Scene& scene, base::Diagnostics& diagnostics);
+void readLights(SceneFields& fields, Scene& scene, text::Diagnostics& diagnostics);
 
 }  // namespace weft::scene

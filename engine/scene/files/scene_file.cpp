@@ -10,21 +10,21 @@
 #include <set>
 
 #include "engine/assets/models/model_file.h"
-#include "engine/base/files/text_file.h"
-#include "engine/base/nearest.h"
 #include "engine/scene/files/models.h"
 #include "engine/scene/files/reading.h"
+#include "engine/text/files/text_file.h"
+#include "engine/text/nearest.h"
 
 namespace weft::scene {
 
-using base::Code;
-using base::Diagnostics;
-using base::JsonMember;
-using base::JsonValue;
+using text::Code;
+using text::Diagnostics;
+using text::JsonMember;
+using text::JsonValue;
 
 namespace {
 
-constexpr base::NumberRange kFov{.min = 1, .max = 170};
+constexpr text::NumberRange kFov{.min = 1, .max = 170};
 constexpr std::size_t kMaxSpheres = 1 << 24;
 
 void failNoGrid(const SceneChoice& choice, const JsonValue& where, Diagnostics& diagnostics) {
@@ -42,7 +42,7 @@ bool chooseCamera(Scene& scene, const SceneChoice& choice, const JsonValue& wher
     for (const Camera& camera : cameras) names.push_back(camera.name);
     failAt(diagnostics, Code::badSceneValue, where,
            fmt::format("the scene has no camera '{}'", choice.camera),
-           names.empty() ? "name one under \"cameras\"" : base::nearestHint(choice.camera, names));
+           names.empty() ? "name one under \"cameras\"" : text::nearestHint(choice.camera, names));
     return false;
   }
   if (chosen != cameras.begin()) {
@@ -72,8 +72,8 @@ class Reader {
 
   std::optional<Scene> read(std::string_view text) {
     const std::size_t errorsBefore = diagnostics_.errorCount();
-    const base::PointerScope pointers(name_, text, diagnostics_);
-    const auto root = base::parseJson(text, std::make_shared<const std::string>(name_), diagnostics_);
+    const text::PointerScope pointers(name_, text, diagnostics_);
+    const auto root = text::parseJson(text, std::make_shared<const std::string>(name_), diagnostics_);
     if (!root) return {};
     for (const char* key : {"passes", "extends"})
       if (root->find(key)) {
@@ -117,7 +117,7 @@ class Reader {
   }
 
  private:
-  base::Diagnostic& fail(Code code, const JsonValue& value, std::string message, std::string hint = "") {
+  text::Diagnostic& fail(Code code, const JsonValue& value, std::string message, std::string hint = "") {
     return failAt(diagnostics_, code, value, std::move(message), std::move(hint));
   }
 
@@ -128,7 +128,7 @@ class Reader {
     fields.read("radius", kSize, ground.radius);
     if (fields.find("albedo")) fields.read("albedo", kUnit, ground.albedo.emplace());
     if (fields.find("radius") && !fields.find("albedo")) {
-      base::Diagnostic& d =
+      text::Diagnostic& d =
           fail(Code::badSceneValue, *fields.find("radius"), "the ground has a radius but no surface",
                "give it an \"albedo\", or leave \"radius\" out");
       d.expected = "an albedo beside it";
@@ -147,7 +147,7 @@ class Reader {
 
   // The presets of the library file that `value` names, each added to the scene once.
   std::vector<MaterialId> readLibrary(const JsonValue& value, const std::string& what) {
-    const auto given = base::readText(value, what, diagnostics_);
+    const auto given = text::readText(value, what, diagnostics_);
     if (!given) return {};
     return readLibraryFile((std::filesystem::path(name_).parent_path() / *given).lexically_normal().string(),
                            value);
@@ -156,7 +156,7 @@ class Reader {
   std::vector<MaterialId> readLibraryFile(const std::string& path, const JsonValue& value) {
     if (const auto known = libraries_.find(path); known != libraries_.end()) return known->second;
     std::vector<MaterialId>& ids = libraries_[path];
-    const auto text = base::readTextFile(path, diagnostics_, Code::unreadableFile, value.place);
+    const auto text = text::readTextFile(path, diagnostics_, Code::unreadableFile, value.place);
     if (text) scene_.files.push_back(path);
     auto library = text ? readMaterialLibrary(*text, path, diagnostics_) : std::nullopt;
     unread_ = unread_ || !library;
@@ -174,7 +174,7 @@ class Reader {
     return ids;
   }
 
-  MaterialId addMaterial(const std::string& name, const JsonValue& value, const base::Place& place) {
+  MaterialId addMaterial(const std::string& name, const JsonValue& value, const text::Place& place) {
     SceneFields fields(value, name.empty() ? "a material" : fmt::format("material '{}'", name),
                        Code::badMaterialValue, diagnostics_);
     fields.require({"albedo"});
@@ -191,7 +191,7 @@ class Reader {
 
   // A name of a known material.
   MaterialId findMaterial(const JsonValue& value, const std::string& what) {
-    const auto name = base::readText(value, what, diagnostics_);
+    const auto name = text::readText(value, what, diagnostics_);
     if (!name) return {};
     if (const auto found = byName_.find(*name); found != byName_.end()) return found->second;
     if (unread_) return {};  // it may be one of a library that could not be read
@@ -199,7 +199,7 @@ class Reader {
     for (const auto& [known, id] : byName_) names.push_back(known);
     fail(Code::unknownMaterial, value, fmt::format("unknown material '{}'", *name),
          names.empty() ? "name a \"library\", or define it under \"materials\""
-                       : base::nearestHint(*name, names));
+                       : text::nearestHint(*name, names));
     return {};
   }
 
@@ -341,9 +341,9 @@ std::optional<Scene> loadModelFile(const std::string& path, Diagnostics& diagnos
 std::optional<std::vector<Material>> readMaterialLibrary(std::string_view text, const std::string& name,
                                                          Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
-  const base::PointerScope pointers(name, text, diagnostics);
-  const auto root = base::parseJson(text, std::make_shared<const std::string>(name), diagnostics);
-  if (!root || !base::expectType(*root, "a material library", JsonValue::Type::array, diagnostics)) return {};
+  const text::PointerScope pointers(name, text, diagnostics);
+  const auto root = text::parseJson(text, std::make_shared<const std::string>(name), diagnostics);
+  if (!root || !text::expectType(*root, "a material library", JsonValue::Type::array, diagnostics)) return {};
   std::vector<Material> materials;
   std::set<std::string> names;
   for (const JsonValue& item : root->items) {
@@ -374,7 +374,7 @@ std::optional<Scene> loadScene(const std::string& path, Diagnostics& diagnostics
                                const assets::LoadObserver& observer) {
   if (files) *files = {path};
   if (assets::isModelName(path)) return loadModelFile(path, diagnostics, files, choice, observer);
-  const std::optional<std::string> text = base::readTextFile(path, diagnostics);
+  const std::optional<std::string> text = text::readTextFile(path, diagnostics);
   if (!text) return {};
   Reader reader(path, diagnostics, choice, observer);
   std::optional<Scene> scene = reader.read(*text);
@@ -386,8 +386,8 @@ std::optional<Scene> loadScene(const std::string& path, Diagnostics& diagnostics
 bool namesModels(const std::string& path) {
   if (assets::isModelName(path)) return true;
   Diagnostics unsaid;
-  const std::optional<std::string> text = base::readTextFile(path, unsaid);
-  const auto root = text ? base::parseJson(*text, nullptr, unsaid) : std::nullopt;
+  const std::optional<std::string> text = text::readTextFile(path, unsaid);
+  const auto root = text ? text::parseJson(*text, nullptr, unsaid) : std::nullopt;
   return root && root->find("models") != nullptr;
 }
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "engine/assets/environments/environment_map.h"
-#include "engine/base/diagnostic.h"
 #include "engine/scene/scene.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::scene {
 
@@ -24,17 +24,17 @@ struct SceneChoice {
 // A model file (.gltf, .glb, .obj, .fbx) is a scene too: engine/scene/files/models.h. `observer` hears how far the
 // loading of models is, and may end it: empty then, without a message. Paths in the file are relative to it. Empty after any error. `files`, when given, is set to every file that
 // took part or should have, also after errors: what to watch.
-std::optional<Scene> loadScene(const std::string& path, base::Diagnostics& diagnostics,
+std::optional<Scene> loadScene(const std::string& path, text::Diagnostics& diagnostics,
                                std::vector<std::string>* files = nullptr, const SceneChoice& choice = {},
                                const assets::LoadObserver& observer = {});
 // The same for text in memory; paths are relative to the folder of `name`.
-std::optional<Scene> readScene(std::string_view text, const std::string& name, base::Diagnostics& diagnostics,
+std::optional<Scene> readScene(std::string_view text, const std::string& name, text::Diagnostics& diagnostics,
                                const SceneChoice& choice = {});
 
 // The presets of a material library (materials/*.json): an array of {"name", "albedo", "metallic", "roughness"} and, where known,
 // "category" and "source". W155 for a value out of range, W156 for a name that is there twice.
 std::optional<std::vector<Material>> readMaterialLibrary(std::string_view text, const std::string& name,
-                                                         base::Diagnostics& diagnostics);
+                                                         text::Diagnostics& diagnostics);
 
 // Whether a scene has models to load, as far as its file can be read: for whoever wants to show something meanwhile.
 bool namesModels(const std::string& path);

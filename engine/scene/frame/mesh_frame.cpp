@@ -10,8 +10,8 @@ namespace weft::scene {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
-constexpr std::size_t kLeastRows = 1024;   // that are worth a task
-constexpr std::size_t kLeastSkins = 4;     // the same
+constexpr std::size_t kMinRows = 1024;     // that are worth a task
+constexpr std::size_t kMinSkins = 4;       // the same
 constexpr std::size_t kBoxes = 4096;       // that are added up together, on however many threads
 constexpr std::size_t kLittleWork = 4096;  // nodes and rows: below, threads cost more than they bring
 
@@ -74,7 +74,7 @@ void MeshFrame::rebuild(const Scene& scene) {
 void MeshFrame::fillJoints(const Scene& scene, bool all) {
   if (!all && std::ranges::find(skinMoves_, 1) == skinMoves_.end()) return;
   jointsGeneration_ = count_;
-  forRanges(skinMoves_.size(), kLeastSkins, [&](std::size_t from, std::size_t to) {
+  forRanges(skinMoves_.size(), kMinSkins, [&](std::size_t from, std::size_t to) {
     for (std::size_t s = from; s < to; ++s) {
       const std::vector<glm::mat4>& inverseBind = scene.skins.rows()[s].inverseBind;
       for (std::size_t j = 0; (all || skinMoves_[s] != 0) && j < inverseBind.size(); ++j) {
@@ -108,11 +108,10 @@ void MeshFrame::fillRow(const Scene& scene, ListTable& table, std::uint32_t row)
 void MeshFrame::fillRows(const Scene& scene, bool all) {
   for (ListTable& table : tables_) {
     if (!all && table.moving.empty()) continue;
-    forRanges(all ? table.rows.size() : table.moving.size(), kLeastRows,
-              [&](std::size_t from, std::size_t to) {
-                for (std::size_t i = from; i < to; ++i)
-                  fillRow(scene, table, all ? static_cast<std::uint32_t>(i) : table.moving[i]);
-              });
+    forRanges(all ? table.rows.size() : table.moving.size(), kMinRows, [&](std::size_t from, std::size_t to) {
+      for (std::size_t i = from; i < to; ++i)
+        fillRow(scene, table, all ? static_cast<std::uint32_t>(i) : table.moving[i]);
+    });
     table.generation = count_;
   }
 }

@@ -10,7 +10,7 @@ namespace weft::scene {
 namespace {
 
 constexpr std::uint32_t kPart = 2048;          // rows that are culled together
-constexpr std::size_t kLeastKeys = 4096;       // that are worth a task
+constexpr std::size_t kMinKeys = 4096;         // that are worth a task
 constexpr std::size_t kLittleViewWork = 8192;  // rows of all views: below, threads cost more than they bring
 
 }  // namespace
@@ -90,7 +90,7 @@ void MeshViews::join(MeshView& view) {
 void MeshViews::sort(const MeshFrame& frame, MeshView& view) {
   const std::span<const Box> boxes = frame.bounds(view.wish_.list);
   view.keys_.resize(view.visible_.size());
-  forRanges(view.keys_.size(), kLeastKeys, [&](std::size_t from, std::size_t to) {
+  forRanges(view.keys_.size(), kMinKeys, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
       const std::uint32_t row = view.visible_[i];
       view.keys_[i] = {depthKey(viewDepth(view.wish_.view, boxes[row].center())), row};

@@ -26,8 +26,8 @@ glm::vec4 slerp(glm::vec4 a, glm::vec4 b, float f) {
 }
 
 constexpr std::uint32_t kNoNode = 0xffffffffu;
-constexpr std::size_t kLeastPart = 512;      // nodes that are worth a task
-constexpr std::size_t kLeastAnimations = 4;  // the same of animations
+constexpr std::size_t kMinPart = 512;      // nodes that are worth a task
+constexpr std::size_t kMinAnimations = 4;  // the same of animations
 
 Transform moved(const Node& node, Transform local, double time) {
   local.translation += node.velocity * static_cast<float>(time);
@@ -122,7 +122,7 @@ void WorldTransforms::rebuild(const Scene& scene) {
   for (std::size_t i = moving_.size(); i-- > 0;) {
     const std::uint32_t parent = parents_[moving_[i]];
     if (parent != kNoNode && moves_[parent] != 0) leastParent = std::min(leastParent, parent);
-    if (leastParent >= moving_[i] && parts_.back() - i >= kLeastPart) parts_.push_back(i);
+    if (leastParent >= moving_[i] && parts_.back() - i >= kMinPart) parts_.push_back(i);
   }
   if (parts_.back() != 0) parts_.push_back(0);
   std::ranges::reverse(parts_);
@@ -130,7 +130,7 @@ void WorldTransforms::rebuild(const Scene& scene) {
 
 void WorldTransforms::animateAt(const Scene& scene, At& at) const {
   const std::span<const Animation> animations = scene.animations.rows();
-  forRanges(animations.size(), animationsApart_ ? kLeastAnimations : animations.size(),
+  forRanges(animations.size(), animationsApart_ ? kMinAnimations : animations.size(),
             [&](std::size_t from, std::size_t to) {
               for (std::size_t i = from; i < to; ++i)
                 applyAnimation(animations[i], at.time, animatedRows_[i], at.locals);

@@ -12,7 +12,7 @@
 namespace weft::scene {
 
 // Animations sampled at a time, as glTF 2.0 says (specification, appendix C): linear, step, cubic Hermite; rotations by slerp or
-// normalised.
+// normalized.
 // The value of a track, held before its first and after its last key: xyz, or a unit quaternion as x y z w.
 glm::vec4 sampleTrack(const assets::ModelTrack& track, float time);
 

@@ -33,7 +33,7 @@ glm::vec3 pointBands(float sine) {
 
 namespace {
 
-constexpr std::size_t kMostParts = 16;  // of a grid that are computed beside each other
+constexpr std::size_t kMaxParts = 16;  // of a grid that are computed beside each other
 
 constexpr int bandOf(std::size_t i) {
   return i == 0 ? 0 : i < 4 ? 1 : 2;
@@ -114,20 +114,20 @@ glm::vec3 bandsOfSphere(const ProbeRules& rules, glm::vec3 offset, float radius)
 }
 
 bool computeProbes(const ProbeGrid& grid, const ProbeRules& rules, std::span<const Instance> spheres,
-                   std::span<Probe> out, const std::atomic<bool>* cancelled, int threads) {
+                   std::span<Probe> out, const std::atomic<bool>* canceled, int threads) {
   assert(out.size() == grid.size());
   std::ranges::fill(out, Probe{});
   const std::size_t lines = std::size_t{grid.count.y} * grid.count.z;
-  const auto isCancelled = [cancelled] { return cancelled && cancelled->load(std::memory_order_relaxed); };
+  const auto isCanceled = [canceled] { return canceled && canceled->load(std::memory_order_relaxed); };
   onThreads(threads, [&] {
-    forRanges(lines, (lines + kMostParts - 1) / kMostParts, [&](std::size_t from, std::size_t to) {
+    forRanges(lines, (lines + kMaxParts - 1) / kMaxParts, [&](std::size_t from, std::size_t to) {
       for (const Instance& sphere : spheres) {
-        if (isCancelled()) return;
+        if (isCanceled()) return;
         addSphere(grid, rules, sphere, from, to, out);
       }
     });
   });
-  return !isCancelled();
+  return !isCanceled();
 }
 
 }  // namespace weft::scene

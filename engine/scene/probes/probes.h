@@ -1,5 +1,5 @@
 // Light probes: a grid of points, each with the light that spheres throw back to it, as irradiance in spherical harmonics
-// up to band 2. In units of the environment: a sphere's diffuse colour, albedo * (1 - metallic), is its radiance, as it is
+// up to band 2. In units of the environment: a sphere's diffuse color, albedo * (1 - metallic), is its radiance, as it is
 // under an environment of radiance 1; whoever reads a probe multiplies by the environment, so that a black one gives nothing.
 // Spheres hide neither each other nor the sky. Pure functions; shaders/spheres/probes/bake.comp.glsl computes the same on a GPU.
 #pragma once
@@ -33,7 +33,7 @@ glm::vec3 capBands(float sine);
 // The same of a point that lights a surface facing it as much as the cone does: all of its light comes from w.
 glm::vec3 pointBands(float sine);
 
-// The centres of the outermost probes are the corners of the box.
+// The centers of the outermost probes are the corners of the box.
 struct ProbeGrid {
   glm::vec3 low{0}, high{0};  // world
   glm::uvec3 count{1};        // along each axis, over 0
@@ -55,12 +55,12 @@ enum class ProbeWindow : std::uint8_t { smooth, hard };
 
 struct ProbeRules {
   float near = 1.05f,
-        far = 10;  // in radii of the sphere, from its centre: it lights probes in between; near is at least 1
+        far = 10;  // in radii of the sphere, from its center: it lights probes in between; near is at least 1
   ProbeShape shape = ProbeShape::cap;
   ProbeWindow window = ProbeWindow::smooth;
 };
 
-// Bands of the irradiance at `offset` from the probe to the centre of a sphere of radiance 1: coefficient (l, m) is
+// Bands of the irradiance at `offset` from the probe to the center of a sphere of radiance 1: coefficient (l, m) is
 // component l times Y_lm(offset / |offset|). Zero where it does not light the probe.
 glm::vec3 bandsOfSphere(const ProbeRules& rules, glm::vec3 offset, float radius);
 
@@ -71,8 +71,8 @@ struct Probe {
 
 // Replaces `out`, which has grid.size() elements. Adds the spheres up in their order, whatever the grid, on at most `threads`
 // threads (0: as many as the machine has), with the same bytes on any number. Linear in pairs of a sphere and a probe within its
-// reach. False, with anything in `out`, once `cancelled` is set.
+// reach. False, with anything in `out`, once `canceled` is set.
 bool computeProbes(const ProbeGrid& grid, const ProbeRules& rules, std::span<const Instance> spheres,
-                   std::span<Probe> out, const std::atomic<bool>* cancelled = nullptr, int threads = 1);
+                   std::span<Probe> out, const std::atomic<bool>* canceled = nullptr, int threads = 1);
 
 }  // namespace weft::scene

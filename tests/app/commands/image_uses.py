@@ -16,7 +16,7 @@ SIZE = (320, 180)  # of the background, so that its texels are the pixels
 
 
 def ramp_row():
-    """16 colours of an old print: brown black, warm grey, cream."""
+    """16 colors of an old print: brown black, warm gray, cream."""
     stops = ((28, 16, 12), (128, 98, 70), (250, 240, 218))
     row = []
     for i in range(16):

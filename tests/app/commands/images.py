@@ -74,8 +74,8 @@ def check_kinds(bench):
     bench.shows("rgba.png", [[(*map(decode, t[:3]), t[3]) for t in row] for row in scaled], "8 bits decoded from sRGB", ', "srgb": true', within=2e-3)
     bench.write("rgb.png", png([[t[:3] for t in row] for row in texels]))
     bench.shows("rgb.png", [[(*t[:3], 1) for t in row] for row in scaled], "no alpha is 1")
-    bench.write("grey.png", png([[t[:1] for t in row] for row in texels]))
-    bench.shows("grey.png", [[(t[0], t[0], t[0], 1) for t in row] for row in scaled], "grey is red, green and blue")
+    bench.write("gray.png", png([[t[:1] for t in row] for row in texels]))
+    bench.shows("gray.png", [[(t[0], t[0], t[0], 1) for t in row] for row in scaled], "gray is red, green and blue")
     words = [[tuple(257 * c - (c > 3) * 100 for c in t) for t in row] for row in texels]
     bench.write("words.png", png(words, 16))
     wide = [[tuple(c / 65535 for c in t) for t in row] for row in words]
@@ -91,16 +91,16 @@ def check_kinds(bench):
     bench.write("half.exr", exr(halves, half=True))
     bench.shows("half.exr", halves, "OpenEXR of halves")
     levels = [0, 40, -20, -10]
-    bench.write("grey.jpg", jpeg(levels))
-    bench.shows("grey.jpg", [[(*[(128 + levels[x // 8]) / 255] * 3, 1) for x in range(32)]] * 8, "JPEG of blocks of one level")
+    bench.write("gray.jpg", jpeg(levels))
+    bench.shows("gray.jpg", [[(*[(128 + levels[x // 8]) / 255] * 3, 1) for x in range(32)]] * 8, "JPEG of blocks of one level")
     bench.write("checks.png", png([[(100 * ((x + y) % 2) + 50 * (x // 4),) * 3 for x in range(8)] for y in range(4)]))
     bench.shows("checks.png", [[(*[(50 + 50 * (x // 2)) / 255] * 3, 1) for x in range(4)]] * 2, "the second level is the mean of four", ', "mips": true', 1, within=3e-3)
     bench.shows("checks.png", [[(*[75 / 255] * 3, 1)]], "the last level is one texel", ', "mips": true', 3, within=5e-3)
 
 
 def check_sequences(bench):
-    grey = {1: 10, 2: 20, 4: 40, 5: 50}  # 3 is missing
-    for number, level in grey.items():
+    gray = {1: 10, 2: 20, 4: 40, 5: 50}  # 3 is missing
+    for number, level in gray.items():
         bench.write(f"clouds.{number:04}.png", png([[(level,) * 3] * 3] * 2))
         bench.write(f"plain{number}.png", png([[(level,) * 3] * 3] * 2))
 

@@ -19,7 +19,7 @@ import flip_judge  # noqa: E402
 SIZE = "32x18"
 GLOW, VIGNETTE = "graphs/glow.json", "tests/golden/vignette.json"
 NAMES = ["after.png", "before.png", "difference.png"]
-# A texture of half the screen, in one of the colours.
+# A texture of half the screen, in one of the colors.
 HALF = {"resources": {"ldr": {"texture": "rgba8", "size": "screen", "clear": [1, 0, 0, 1]}}, "passes": [], "present": "ldr"}
 
 

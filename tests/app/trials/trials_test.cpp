@@ -33,7 +33,7 @@ TEST_CASE("a record is the same after it was written and read") {
   records.frames.push_back({7, {{.pass = "sort", .resource = "keys", .hash = ~0ull, .signature = {}}}});
   records.frames[0].steps[0].signature->broken = 0.25f;
   const TemporaryFolder folder;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto read = readRecords(folder.write("record", toText(records)), diagnostics);
   REQUIRE_MESSAGE(read.has_value(), diagnostics.text());
   CHECK(toText(*read) == toText(records));
@@ -51,7 +51,7 @@ TEST_CASE("a damaged record is refused at its line") {
     std::string text = good;
     text.replace(text.find(from), std::string(from).size(), to);
     const TemporaryFolder folder;
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     CHECK_FALSE(readRecords(folder.write("record", text), diagnostics).has_value());
     REQUIRE(diagnostics.size() == 1);
     CHECK(diagnostics.items()[0].place.line == line);

@@ -18,7 +18,7 @@ GRAPH = "graphs/glow.json"
 
 
 def radiance(rgb, width=64, height=32):
-    """A .hdr of one colour, in bytes: one shared exponent per texel, no run lengths."""
+    """A .hdr of one color, in bytes: one shared exponent per texel, no run lengths."""
     texel = bytes([*rgb, 128])
     return f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n".encode() + texel * (width * height)
 
@@ -86,8 +86,8 @@ def window(weft, compare, folder, report):
         os.write(writes, end)
         os.close(writes)
         report.check(live.event("environment .*z_late.hdr", before), f"the first environment never comes\n{live.said()}")
-        grey = live.settled()
-        report.check(mean(grey) > 20, "the first environment is black")
+        gray = live.settled()
+        report.check(mean(gray) > 20, "the first environment is black")
 
         def goes(what, key, name, old, wanted=None):
             shown = live.event(f"environment .*{name}", live.key(key))
@@ -96,7 +96,7 @@ def window(weft, compare, folder, report):
             report.check(good, f"{what}: the picture is not what it should be\n{live.said()}")
             return seen or old
 
-        first = goes("Page Down after the last: the first", "Next", "a_red.hdr", grey)
+        first = goes("Page Down after the last: the first", "Next", "a_red.hdr", gray)
         second = goes("Page Down: the second", "Next", "b_green.HDR", first)
         report.check(mean(first) > 20 and mean(second) > 20, "a map is black")
         # A damaged file ends its request too, and the one before stays.
@@ -109,7 +109,7 @@ def window(weft, compare, folder, report):
         (maps / "new.tmp").rename(maps / "a_red.hdr")
         report.check(live.event("environment .*a_red.hdr", before), f"a file that changed on disk is not taken up\n{live.said()}")
         seen = live.settled()
-        report.check(seen and seen.read_bytes() not in [s.read_bytes() for s in (first, second, grey)], "a file that changed on disk does not show")
+        report.check(seen and seen.read_bytes() not in [s.read_bytes() for s in (first, second, gray)], "a file that changed on disk does not show")
         live.leave(report)
         report.check("W120" not in live.said(), live.said())
     finally:

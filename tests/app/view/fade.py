@@ -14,9 +14,9 @@ FPS = 60
 STEPS = 15  # 0.25 s of frames; the last of them is the new environment
 
 
-def radiance(grey, width=64, height=32):
-    """A .hdr of one grey, in bytes: one shared exponent per texel, no run lengths."""
-    texel = bytes([grey, grey, grey, 128])
+def radiance(gray, width=64, height=32):
+    """A .hdr of one gray, in bytes: one shared exponent per texel, no run lengths."""
+    texel = bytes([gray, gray, gray, 128])
     return f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n".encode() + texel * (width * height)
 
 

@@ -159,9 +159,9 @@ def counting(environment):
                                    "read": read, "write": {"result": "counted"}}], "present": "counted"})
 
 
-def radiance(grey, width=8, height=4):
-    """A .hdr of one grey, in bytes."""
-    return f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n".encode() + bytes([grey] * 3 + [128]) * (width * height)
+def radiance(gray, width=8, height=4):
+    """A .hdr of one gray, in bytes."""
+    return f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n".encode() + bytes([gray] * 3 + [128]) * (width * height)
 
 
 class Clicks:

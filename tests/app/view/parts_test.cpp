@@ -115,21 +115,21 @@ TEST_CASE(
     "the log shows errors first, the newest on top, and forgets what was "
     "dismissed until it is said again") {
   using app::ui::Log;
-  const auto said = [](base::Severity severity, const char* message) {
-    base::Diagnostic diagnostic;
+  const auto said = [](text::Severity severity, const char* message) {
+    text::Diagnostic diagnostic;
     diagnostic.severity = severity;
     diagnostic.message = message;
     return diagnostic;
   };
   const auto textOf = [](const Log& log, bool all) {
     std::string text;
-    for (const base::Diagnostic* each : log.shown(all)) text += each->message + ' ';
+    for (const text::Diagnostic* each : log.shown(all)) text += each->message + ' ';
     return text;
   };
-  using enum base::Severity;
+  using enum text::Severity;
   Log log;
   log.set(Log::kEnvironment, {said(warning, "hot")});
-  base::Diagnostics past;
+  text::Diagnostics past;
   past.add(said(error, "full"));
   log.addPast(past);
   log.set(Log::kFiles, {said(warning, "odd"), said(error, "broken")});

@@ -11,7 +11,7 @@
 
 #include "engine/assets/environments/environment_map.h"
 #include "engine/assets/images/half.h"
-#include "engine/base/files/file_access.h"
+#include "engine/text/files/file_access.h"
 #include "tests/assets/images/save_hdr.h"
 #include "tests/temporary_folder.h"
 
@@ -26,7 +26,7 @@ static ImageF makeSky(int width, int height, float scale) {
 
 static std::string writeHdr(const TemporaryFolder& folder, const std::string& name, int width, int height,
                             float scale = 0.25f) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   REQUIRE(saveHdr(folder.at(name), makeSky(width, height, scale), diagnostics));
   return folder.at(name);
 }
@@ -53,7 +53,7 @@ static void checkSame(const EnvironmentMap& map, const ImageF& image) {
 
 TEST_CASE("a loaded environment is what the synchronous path gives, rounded to halves, for .hdr and .exr") {
   const TemporaryFolder folder;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const std::string exr = folder.at("a.exr");
   ImageF odd = makeSky(67, 33, 700.0f);  // beyond 65504 in places; a size that no portion divides
   odd.texels[5] = -1;
@@ -63,7 +63,7 @@ TEST_CASE("a loaded environment is what the synchronous path gives, rounded to h
     const auto result = loader.wait(loader.request(path));
     REQUIRE(result);
     REQUIRE(result->as<EnvironmentMap>());
-    base::Diagnostics said;
+    text::Diagnostics said;
     const auto image = loadEnvironment(path, said);
     REQUIRE(image);
     checkSame(*result->as<EnvironmentMap>(), *image);
@@ -76,7 +76,7 @@ TEST_CASE("a loaded environment is what the synchronous path gives, rounded to h
 
 TEST_CASE("an RGB picture in memory becomes the same map as its file") {
   const TemporaryFolder folder;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto image = loadImage(writeHdr(folder, "a.hdr", 40, 20), diagnostics);
   REQUIRE(image->channels == 3);
   CHECK(toEnvironmentMap(*image).texels == loadEnvironmentMap(folder.at("a.hdr"), diagnostics)->texels);
@@ -87,7 +87,7 @@ TEST_CASE("many requests finish in the order they were made, and no more than th
   Gate gate;
   Loader loader([&](std::uint64_t, LoadStage stage) { gate(stage); });
   std::vector<std::uint64_t> tickets;
-  for (std::size_t i = 0; i < Loader::kMostRequests; ++i)
+  for (std::size_t i = 0; i < Loader::kMaxRequests; ++i)
     tickets.push_back(
         loader.request(writeHdr(folder, std::to_string(i) + ".hdr", 8 + static_cast<int>(i), 8)));
   gate.reached.acquire();
@@ -139,7 +139,7 @@ TEST_CASE("a request replaces those of its channel: waiting, running and finishe
   CHECK(loader.wait(wanted)->as<EnvironmentMap>()->width == 32);
 }
 
-TEST_CASE("a cancelled request has no result, and the next one is served") {
+TEST_CASE("a canceled request has no result, and the next one is served") {
   const TemporaryFolder folder;
   Gate gate;
   Loader loader([&](std::uint64_t, LoadStage at) { gate(at); });
@@ -196,7 +196,7 @@ TEST_CASE(
     const auto result = loader.wait(loader.request(path));
     REQUIRE(result);
     CHECK(!result->as<EnvironmentMap>());
-    base::Diagnostics said;
+    text::Diagnostics said;
     CHECK(!loadEnvironment(path, said));
     CHECK(said.hasErrors());
     CHECK(result->diagnostics.text() == said.text());
@@ -204,7 +204,7 @@ TEST_CASE(
   }
   // Whatever a flipped byte does, it does the same on the thread.
   const auto flipped = loader.wait(loader.request(folder.write("flipped.hdr", damaged)));
-  base::Diagnostics said;
+  text::Diagnostics said;
   CHECK(loadEnvironment(folder.at("flipped.hdr"), said).has_value() ==
         (flipped->as<EnvironmentMap>() != nullptr));
   CHECK(flipped->diagnostics.text() == said.text());
@@ -215,7 +215,7 @@ TEST_CASE("progress grows through the stages of a load and never falls within it
   const TemporaryFolder folder;
   const std::string path = writeHdr(folder, "a.hdr", 1024, 512);
   std::vector<std::pair<LoadStage, double>> seen;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   REQUIRE(loadEnvironmentMap(path, diagnostics, [&](LoadStage stage, double done) {
     seen.emplace_back(stage, done);
     return true;
@@ -245,7 +245,7 @@ TEST_CASE("progress of a pipe, which has no size, begins with what came of it") 
   whole << std::ifstream(writeHdr(folder, "a.hdr", 32, 16), std::ios::binary).rdbuf();
   const std::string bytes = whole.str(), pipe = folder.at("pipe.hdr");
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
-  base::chooseFile(pipe);
+  text::chooseFile(pipe);
   std::binary_semaphore seen{0};
   bool inTime = false;
   std::jthread writer([&] {
@@ -255,7 +255,7 @@ TEST_CASE("progress of a pipe, which has no size, begins with what came of it") 
     out << bytes.substr(bytes.size() / 2);
   });
   double last = 0;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto map = loadEnvironmentMap(pipe, diagnostics, [&](LoadStage stage, double done) {
     if (stage != LoadStage::reading) return true;
     CHECK(done >= last);
@@ -274,7 +274,7 @@ TEST_CASE("an observer that gives up ends a load at every step, without a result
   const TemporaryFolder folder;
   const std::string path = writeHdr(folder, "a.hdr", 600, 300);
   int steps = 0;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   REQUIRE(loadEnvironmentMap(path, diagnostics, [&](LoadStage, double) { return ++steps > 0; }));
   REQUIRE(steps > 5);
   for (int last = 1; last <= steps; ++last) {

@@ -15,7 +15,7 @@ import tempfile
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "docs/gallery"))
 from png import encode  # noqa: E402
 
-# ---- colour ----
+# ---- color ----
 TO_XYZ = ((10135552 / 24577794, 8788810 / 24577794, 4435075 / 24577794),
           (2613072 / 12288897, 8788810 / 12288897, 887015 / 12288897),
           (1425312 / 73733382, 8788810 / 73733382, 70074185 / 73733382))

@@ -69,7 +69,7 @@ TEST_CASE("seen from afar, fine structure matters less") {
   CHECK(summarizeFlip(computeFlip(flat, board, 120)).mean < summarizeFlip(computeFlip(flat, board, 10)).mean);
 }
 
-TEST_CASE("the colours of errors become lighter evenly") {
+TEST_CASE("the colors of errors become lighter evenly") {
   FlipMap map{256, 1, {}};
   for (int i = 0; i < 256; ++i) map.errors.push_back(static_cast<float>(i) / 255);
   const Image8 colors = colorFlip(map);

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "engine/assets/images/image.h"
-#include "engine/base/files/file.h"
+#include "engine/text/files/file.h"
 #include "tests/assets/images/save_hdr.h"
 #include "tests/temporary_folder.h"
 
@@ -18,8 +18,8 @@ using namespace weft::assets;
 namespace {
 
 // The one error of a load that must fail.
-base::Diagnostic failureOf(const std::string& path) {
-  base::Diagnostics diagnostics;
+text::Diagnostic failureOf(const std::string& path) {
+  text::Diagnostics diagnostics;
   CHECK_FALSE(loadImage(path, diagnostics));
   REQUIRE_MESSAGE(diagnostics.errorCount() == 1, path << "\n" << diagnostics.text());
   CHECK(diagnostics.items()[0].message.find(path) != std::string::npos);
@@ -27,8 +27,8 @@ base::Diagnostic failureOf(const std::string& path) {
 }
 
 std::string bytesOf(const std::string& path) {
-  base::Diagnostics diagnostics;
-  return base::readFile(path, diagnostics).value();
+  text::Diagnostics diagnostics;
+  return text::readFile(path, diagnostics).value();
 }
 
 // A valid file of each kind: name and bytes.
@@ -54,7 +54,7 @@ std::string tga(int width, int height, bool runLength) {
 }
 
 std::vector<Sample> makeSamples(const TemporaryFolder& folder) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   std::mt19937 random(3);
   ImageF image{40, 24, 3, {}};
   std::vector<std::uint8_t> bytes;
@@ -86,33 +86,33 @@ std::vector<Sample> makeSamples(const TemporaryFolder& folder) {
 
 TEST_CASE("missing, directory, empty, unknown and foreign files") {
   const TemporaryFolder folder;
-  CHECK(failureOf(folder.at("missing.hdr")).code == base::Code::unreadableImage);
+  CHECK(failureOf(folder.at("missing.hdr")).code == text::Code::unreadableImage);
   std::filesystem::create_directory(folder.at("folder.hdr"));
   CHECK(failureOf(folder.at("folder.hdr")).message.find("directory") != std::string::npos);
   for (const char* name : {"empty.hdr", "empty.exr", "empty.png", "empty.jpg", "empty.tga"})
     CHECK(failureOf(folder.write(name, "")).message.find("empty") != std::string::npos);
-  const base::Diagnostic unknown = failureOf(folder.write("a.webp", "RIFF"));
-  CHECK(unknown.code == base::Code::unknownImageKind);
+  const text::Diagnostic unknown = failureOf(folder.write("a.webp", "RIFF"));
+  CHECK(unknown.code == text::Code::unknownImageKind);
   CHECK(unknown.found == ".webp");
-  CHECK(failureOf(folder.write("noextension", "x")).code == base::Code::unknownImageKind);
+  CHECK(failureOf(folder.write("noextension", "x")).code == text::Code::unknownImageKind);
   for (const char* name : {"text.hdr", "text.exr", "text.png", "text.jpg", "text.tga"})
     CHECK(failureOf(folder.write(name, "this is a text, and not a picture at all")).code ==
-          base::Code::unreadableImage);
+          text::Code::unreadableImage);
   CHECK(failureOf(folder.write("radiance.png", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\nabcd"))
             .message.find("Radiance") != std::string::npos);
 }
 
 TEST_CASE("an 8-bit load of a float file says what it takes") {
   const TemporaryFolder folder;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   CHECK_FALSE(loadImage8(folder.write("a.exr", "x"), 3, diagnostics));
-  CHECK(diagnostics.contains(base::Code::unknownImageKind));
+  CHECK(diagnostics.contains(text::Code::unknownImageKind));
 }
 
 TEST_CASE("the samples are sound, and each cut anywhere is refused") {
   const TemporaryFolder folder;
   for (const Sample& sample : makeSamples(folder)) {
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     CHECK_MESSAGE(decodeImage(sample.bytes, sample.name, diagnostics), diagnostics.text());
     for (std::size_t cut = 1; cut <= 60; ++cut) {
       const std::size_t length = sample.bytes.size() * cut / 61;
@@ -132,12 +132,12 @@ TEST_CASE("absurd sizes in a header are refused before anything is allocated") {
     return std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n") + size + "\nabcd";
   };
   CHECK(failureOf(folder.write("a.hdr", hdr("-Y 1000000000 +X 1000000000"))).code ==
-        base::Code::badImageSize);
-  CHECK(failureOf(folder.write("b.hdr", hdr("-Y 30000 +X 30000"))).code == base::Code::badImageSize);
-  CHECK(failureOf(folder.write("c.hdr", hdr("-Y 0 +X 10"))).code == base::Code::badImageSize);
-  CHECK(failureOf(folder.write("d.hdr", hdr("-Y 16384 +X 8192"))).code == base::Code::unreadableImage);
-  CHECK(failureOf(folder.write("e.hdr", hdr("+X 4 -Y 4"))).code == base::Code::unreadableImage);
-  CHECK(failureOf(folder.write("f.hdr", hdr("-Y -4 +X -4"))).code == base::Code::badImageSize);
+        text::Code::badImageSize);
+  CHECK(failureOf(folder.write("b.hdr", hdr("-Y 30000 +X 30000"))).code == text::Code::badImageSize);
+  CHECK(failureOf(folder.write("c.hdr", hdr("-Y 0 +X 10"))).code == text::Code::badImageSize);
+  CHECK(failureOf(folder.write("d.hdr", hdr("-Y 16384 +X 8192"))).code == text::Code::unreadableImage);
+  CHECK(failureOf(folder.write("e.hdr", hdr("+X 4 -Y 4"))).code == text::Code::unreadableImage);
+  CHECK(failureOf(folder.write("f.hdr", hdr("-Y -4 +X -4"))).code == text::Code::badImageSize);
 }
 
 TEST_CASE(
@@ -151,11 +151,11 @@ TEST_CASE(
     REQUIRE(table != std::string::npos);
     bytes[table + 5 + 10] = '\xff';
     bytes[table + 5 + 11] = '\xff';
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     CHECK_FALSE(decodeImage(bytes, "a.jpg", diagnostics));
     CHECK_FALSE(decodeImage("\xff" + bytes, "a.jpg", diagnostics));
     REQUIRE(diagnostics.errorCount() == 2);
-    for (const base::Diagnostic& d : diagnostics.items())
+    for (const text::Diagnostic& d : diagnostics.items())
       CHECK(d.message.find("Huffman") != std::string::npos);
     diagnostics.clear();
     CHECK(decodeImage("\xff" + sample.bytes, "a.jpg", diagnostics));
@@ -177,7 +177,7 @@ TEST_CASE("ten thousand files with random bytes changed: an image or an error, a
         bytes[random() % range] = static_cast<char>(random());
       }
       if (random() % 4 == 0) bytes.resize(random() % bytes.size());
-      base::Diagnostics diagnostics;
+      text::Diagnostics diagnostics;
       const auto image = decodeImage(bytes, sample.name, diagnostics);
       REQUIRE(image.has_value() == !diagnostics.hasErrors());
       if (image) {

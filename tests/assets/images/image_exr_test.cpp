@@ -117,7 +117,7 @@ TEST_CASE("half floats in every lossless compression") {
   for (int compression = TINYEXR_COMPRESSIONTYPE_NONE; compression <= TINYEXR_COMPRESSIONTYPE_PIZ;
        ++compression) {
     CAPTURE(compression);
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     const auto image = decodeImage(encode("ABGR", compression, false), "a.exr", diagnostics);
     REQUIRE_MESSAGE(image, diagnostics.text());
     REQUIRE(image->width == kWidth);
@@ -127,7 +127,7 @@ TEST_CASE("half floats in every lossless compression") {
 }
 
 TEST_CASE("tiles are refused with what to do") {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   CHECK_FALSE(decodeImage(encode("ABGR", TINYEXR_COMPRESSIONTYPE_ZIP, true), "a.exr", diagnostics));
   REQUIRE(diagnostics.errorCount() == 1);
   CHECK(diagnostics.items()[0].message.find("scan lines") != std::string::npos);
@@ -145,7 +145,7 @@ TEST_CASE("files with random bytes changed, in every compression") {
       for (std::size_t k = 0, changes = 1 + random() % 8; k < changes; ++k)
         bytes[random() % (random() % 2 ? bytes.size() : 400)] =
             static_cast<char>(random() % 4 ? random() : 0xff * (random() % 2));
-      base::Diagnostics diagnostics;
+      text::Diagnostics diagnostics;
       const auto image = decodeImage(bytes, "a.exr", diagnostics);
       REQUIRE(image.has_value() == !diagnostics.hasErrors());
       ++(image ? images : refused);
@@ -156,8 +156,8 @@ TEST_CASE("files with random bytes changed, in every compression") {
   CHECK(refused > 0);
 }
 
-TEST_CASE("RGB gets alpha 1, one channel is grey, and a file without colour is refused") {
-  base::Diagnostics diagnostics;
+TEST_CASE("RGB gets alpha 1, one channel is gray, and a file without color is refused") {
+  text::Diagnostics diagnostics;
   CHECK(countWrong(*decodeImage(encode("BGR", TINYEXR_COMPRESSIONTYPE_ZIP, false), "a.exr", diagnostics),
                    {2, 1, 0, -1}) == 0);
   CHECK(countWrong(*decodeImage(encode("Z", TINYEXR_COMPRESSIONTYPE_ZIP, false), "a.exr", diagnostics),
@@ -170,7 +170,7 @@ TEST_CASE("RGB gets alpha 1, one channel is grey, and a file without colour is r
 
 TEST_CASE(
     "the picture itself is read, whatever layers stand beside it, and no choice is made between layers") {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto wrong = [&](const std::vector<std::string>& names, const std::array<int, 4>& channels) {
     CAPTURE(names.size());
     const auto image = decodeImage(encode(names, TINYEXR_COMPRESSIONTYPE_ZIP, false), "a.exr", diagnostics);

@@ -22,7 +22,7 @@ static ImageF makeRamp(int width, int height, int channels) {
 
 TEST_CASE("PNG bytes come back as they were, for every channel count, top row first") {
   const TemporaryFolder folder;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   for (int channels = 1; channels <= 4; ++channels) {
     std::vector<std::uint8_t> texels;
     for (int i = 0; i < 5 * 3 * channels; ++i) texels.push_back(static_cast<std::uint8_t>(i * 37 + 11));
@@ -40,7 +40,7 @@ TEST_CASE("PNG bytes come back as they were, for every channel count, top row fi
 
 TEST_CASE("a PNG as floats is decoded from sRGB, its alpha is not") {
   const TemporaryFolder folder;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const std::vector<std::uint8_t> texels = {0, 10, 188, 128, 255, 255, 255, 255};
   REQUIRE(savePng8(folder.at("a.PNG"), 2, 1, 4, texels, diagnostics));
   const auto image = loadImage(folder.at("a.PNG"), diagnostics);
@@ -54,7 +54,7 @@ TEST_CASE("a PNG as floats is decoded from sRGB, its alpha is not") {
 
 TEST_CASE("EXR keeps floats exactly, for 1, 3 and 4 channels") {
   const TemporaryFolder folder;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   for (const int channels : {1, 3, 4}) {
     const ImageF image = makeRamp(33, 17, channels);
     REQUIRE(saveExr(folder.at("a.exr"), image, diagnostics));
@@ -77,7 +77,7 @@ TEST_CASE("EXR keeps floats exactly, for 1, 3 and 4 channels") {
 
 TEST_CASE("Radiance keeps values to its 8-bit mantissa, narrow (flat) and wide (run-length) lines") {
   const TemporaryFolder folder;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   for (const int width : {5, 64}) {
     const ImageF image = makeRamp(width, 9, 3);
     REQUIRE(saveHdr(folder.at("a.hdr"), image, diagnostics));
@@ -93,7 +93,7 @@ TEST_CASE("Radiance keeps values to its 8-bit mantissa, narrow (flat) and wide (
 
 TEST_CASE("an environment becomes RGBA, finite and non-negative, and says how much was replaced") {
   const TemporaryFolder folder;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const float nan = std::numeric_limits<float>::quiet_NaN(),
               infinity = std::numeric_limits<float>::infinity();
   ImageF image = makeRamp(4, 2, 3);
@@ -116,28 +116,28 @@ TEST_CASE("an environment becomes RGBA, finite and non-negative, and says how mu
   CHECK(environment->texels[6] == kHalfMax);
   CHECK(environment->texels[9] == kHalfMax);
   REQUIRE(diagnostics.size() == 1);
-  CHECK(diagnostics.items()[0].code == base::Code::texelsReplaced);
+  CHECK(diagnostics.items()[0].code == text::Code::texelsReplaced);
   CHECK(diagnostics.items()[0].message ==
-        "5 of 24 colour values are no radiance and were replaced");  // 4x2 of RGB
+        "5 of 24 color values are no radiance and were replaced");  // 4x2 of RGB
   CHECK_FALSE(diagnostics.hasErrors());
   CHECK(diagnostics.items()[0].found.find("1 not a number, 2 negative") != std::string::npos);
   CHECK(diagnostics.items()[0].found.find("1 infinite (now 65504), 1 above the range") != std::string::npos);
 
   // A sun beyond the halves alone is no more than a note.
-  CHECK(diagnostics.items()[0].severity == base::Severity::warning);
+  CHECK(diagnostics.items()[0].severity == text::Severity::warning);
   diagnostics.clear();
   image = makeRamp(4, 2, 3);
   image.texels[4] = 1e6f;
   REQUIRE(saveExr(folder.at("sun.exr"), image, diagnostics));
   CHECK(loadEnvironment(folder.at("sun.exr"), diagnostics));
   REQUIRE(diagnostics.size() == 1);
-  CHECK(diagnostics.items()[0].code == base::Code::texelsReplaced);
-  CHECK(diagnostics.items()[0].severity == base::Severity::note);
+  CHECK(diagnostics.items()[0].code == text::Code::texelsReplaced);
+  CHECK(diagnostics.items()[0].severity == text::Severity::note);
 
-  // Colours of a screen are decoded, and said to be no radiance.
+  // Colors of a screen are decoded, and said to be no radiance.
   diagnostics.clear();
-  const std::uint8_t grey[] = {0, 128, 255, 188, 188, 188};
-  REQUIRE(savePng8(folder.at("photo.png"), 2, 1, 3, grey, diagnostics));
+  const std::uint8_t gray[] = {0, 128, 255, 188, 188, 188};
+  REQUIRE(savePng8(folder.at("photo.png"), 2, 1, 3, gray, diagnostics));
   const auto photo = loadEnvironment(folder.at("photo.png"), diagnostics);
   REQUIRE(photo);
   CHECK(photo->texels[0] == 0);
@@ -145,8 +145,8 @@ TEST_CASE("an environment becomes RGBA, finite and non-negative, and says how mu
   CHECK(photo->texels[2] == 1);
   CHECK(photo->texels[3] == 1);
   REQUIRE(diagnostics.size() == 1);
-  CHECK(diagnostics.items()[0].code == base::Code::displayReferred);
-  CHECK(diagnostics.items()[0].severity == base::Severity::warning);
+  CHECK(diagnostics.items()[0].code == text::Code::displayReferred);
+  CHECK(diagnostics.items()[0].severity == text::Severity::warning);
 
   diagnostics.clear();
   REQUIRE(saveHdr(folder.at("clean.hdr"), makeRamp(16, 8, 3), diagnostics));
@@ -167,14 +167,14 @@ double lightOf(const ImageF& map, int channel) {
 
 }  // namespace
 
-TEST_CASE("a sun beyond half floats keeps its light and its colour, and what finds no room is told") {
+TEST_CASE("a sun beyond half floats keeps its light and its color, and what finds no room is told") {
   ImageF map{64, 32, 3, std::vector<float>(64 * 32 * 3, 0.5f)};
   float* sun = &map.texels[static_cast<std::size_t>(9 * 64 * 3)];  // at the seam of the map
   sun[0] = 400000;
   sun[1] = 300000;
   sun[2] = 100000;
   const ImageF before = map;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   sanitizeRadiance(map, "sun", diagnostics);
   for (int c = 0; c < 3; ++c) CHECK(lightOf(map, c) == doctest::Approx(lightOf(before, c)).epsilon(1e-4));
   CHECK(*std::max_element(map.texels.begin(), map.texels.end()) <= kHalfMax);
@@ -192,18 +192,18 @@ TEST_CASE("a sun beyond half floats keeps its light and its colour, and what fin
 }
 
 TEST_CASE("an output that cannot be written is W180") {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const std::vector<std::uint8_t> texels(3);
   CHECK_FALSE(savePng8("/no_such_folder/a.png", 1, 1, 3, texels, diagnostics));
   CHECK_FALSE(saveExr("/no_such_folder/a.exr", makeRamp(1, 1, 3), diagnostics));
   CHECK_FALSE(saveHdr("/no_such_folder/a.hdr", makeRamp(1, 1, 3), diagnostics));
   CHECK(diagnostics.errorCount() == 3);
-  for (const base::Diagnostic& d : diagnostics.items()) CHECK(d.code == base::Code::outputNotWritten);
+  for (const text::Diagnostic& d : diagnostics.items()) CHECK(d.code == text::Code::outputNotWritten);
 }
 
 TEST_CASE("the real environment loads clean") {
   const std::string path = WEFT_SOURCE_DIR "/scenes/environments/spiaggia_di_mondello_1k.hdr";
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto environment = loadEnvironment(path, diagnostics);
   INFO(diagnostics.text());
   REQUIRE(environment);

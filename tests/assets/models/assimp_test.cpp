@@ -13,22 +13,22 @@
 
 #include "engine/assets/images/image.h"
 #include "engine/assets/models/model_file.h"
-#include "engine/base/files/file.h"
+#include "engine/text/files/file.h"
 #include "tests/assets/models/fbx_records.h"
 #include "tests/assets/models/loading.h"
 
 using namespace weft;
 using namespace weft::assets;
-using base::Code;
+using text::Code;
 using weft::test::kModels;
 using weft::test::loadGood;
 using weft::test::worldOf;
 
 namespace {
 
-void writeColour(const std::string& path, std::array<std::uint8_t, 3> colour) {
-  base::Diagnostics diagnostics;
-  REQUIRE(savePng8(path, 1, 1, 3, colour, diagnostics));
+void writeColor(const std::string& path, std::array<std::uint8_t, 3> color) {
+  text::Diagnostics diagnostics;
+  REQUIRE(savePng8(path, 1, 1, 3, color, diagnostics));
 }
 
 // Fox.glb as FBX, in the binary or the text form.
@@ -39,19 +39,19 @@ void writeFox(const std::string& path, const char* format) {
   Assimp::Exporter exporter;
   REQUIRE(exporter.Export(scene, format, path) == aiReturn_SUCCESS);
   if (std::string(format) != "fbx") return;
-  base::Diagnostics diagnostics;
-  const std::string bytes = test::repairFbx(base::readFile(path, diagnostics).value());
-  REQUIRE(base::writeFile(path, bytes, diagnostics));
+  text::Diagnostics diagnostics;
+  const std::string bytes = test::repairFbx(text::readFile(path, diagnostics).value());
+  REQUIRE(text::writeFile(path, bytes, diagnostics));
 }
 
 std::string readBytes(const std::string& path) {
-  base::Diagnostics diagnostics;
-  return base::readFile(path, diagnostics).value();
+  text::Diagnostics diagnostics;
+  return text::readFile(path, diagnostics).value();
 }
 
-base::Diagnostics failuresOf(const TemporaryFolder& folder, const std::string& name,
+text::Diagnostics failuresOf(const TemporaryFolder& folder, const std::string& name,
                              const std::string& bytes) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto model = loadModel(folder.write(name, bytes), diagnostics);
   CHECK(model.has_value() != diagnostics.hasErrors());
   CHECK(diagnostics.errorCount() <= 1);
@@ -90,13 +90,13 @@ TEST_CASE("OBJ: Blinn-Phong as it is, and its conversion") {
 
 TEST_CASE("OBJ: polygons, equal vertices, uv from the top, maps of other machines' paths") {
   const TemporaryFolder folder;
-  writeColour(folder.at("red.png"), {200, 10, 20});
-  writeColour(folder.at("normal.png"), {128, 128, 255});
-  writeColour(folder.at("height.png"), {90, 90, 90});
+  writeColor(folder.at("red.png"), {200, 10, 20});
+  writeColor(folder.at("normal.png"), {128, 128, 255});
+  writeColor(folder.at("height.png"), {90, 90, 90});
   folder.write("m.mtl",
                "newmtl a\nmap_Kd C:\\art\\red.png\nmap_Bump /home/x/normal.png\nnewmtl b\nmap_Kd "
                "gone.png\nmap_Bump height.png\n");
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto model = loadModel(
       folder.write(
           "m.obj",
@@ -127,19 +127,19 @@ TEST_CASE("OBJ: polygons, equal vertices, uv from the top, maps of other machine
 
 TEST_CASE("OBJ: a library that is missing is a warning") {
   const TemporaryFolder folder;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   CHECK(loadModel(folder.write("m.obj", "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n"),
                   diagnostics));
   REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
-  CHECK(diagnostics.items()[0].severity == base::Severity::warning);
+  CHECK(diagnostics.items()[0].severity == text::Severity::warning);
 }
 
-TEST_CASE("OBJ: the vertex colours are sRGB, and equal places with other colours stay apart") {
+TEST_CASE("OBJ: the vertex colors are sRGB, and equal places with other colors stay apart") {
   const TemporaryFolder folder;
   // 0.735357 is half of the light: IEC 61966-2-1.
   const Model model = loadGood(
       folder.write("m.obj",
-                   "v 0 0 0 1 0 0\nv 1 0 0 0.735357 0.04045 2\nv 1 1 0 0.5 0.5 0.5 # grey\n"
+                   "v 0 0 0 1 0 0\nv 1 0 0 0.735357 0.04045 2\nv 1 1 0 0.5 0.5 0.5 # gray\n"
                    "v 0 1 0 0 0 -1\nv 0 0 0 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1 4//1\nf 5//1 2//1 3//1\n"));
   REQUIRE(model.vertices.size() == 5);
   REQUIRE(model.colors.size() == 5);
@@ -160,29 +160,29 @@ TEST_CASE("OBJ: the vertex colours are sRGB, and equal places with other colours
     for (std::size_t v = 0; v < 5; ++v) found += isThis(v) ? 1 : 0;
     CHECK(found == 1);
   }
-  // Faces without colours have none.
+  // Faces without colors have none.
   CHECK(loadGood(folder.write("plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")).colors.empty());
 }
 
-TEST_CASE("OBJ: where some vertices have no colour, all are left out, with a warning") {
+TEST_CASE("OBJ: where some vertices have no color, all are left out, with a warning") {
   const TemporaryFolder folder;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto model = loadModel(
       folder.write("m.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\no second\nf 1 2 4\n"),
       diagnostics);
   REQUIRE_MESSAGE(model, diagnostics.text());
   CHECK(model->colors.empty());
   REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
-  const base::Diagnostic& d = diagnostics.items()[0];
+  const text::Diagnostic& d = diagnostics.items()[0];
   CHECK(d.code == Code::modelPartLeftOut);
-  CHECK(d.severity == base::Severity::warning);
+  CHECK(d.severity == text::Severity::warning);
   CHECK(d.place.line == 3);
-  CHECK(d.message.find("vertex colours") != std::string::npos);
+  CHECK(d.message.find("vertex colors") != std::string::npos);
   CHECK(!d.expected.empty());
   CHECK(!d.hint.empty());
 }
 
-TEST_CASE("FBX: the vertex colours are sRGB, with alpha as it is") {
+TEST_CASE("FBX: the vertex colors are sRGB, with alpha as it is") {
   const TemporaryFolder folder;
   test::GltfMaker maker;
   maker.square();
@@ -220,7 +220,7 @@ TEST_CASE("FBX, binary and text: the fox, its nodes, weights and animations") {
     CAPTURE(format);
     const std::string path = folder.at("fox.fbx");
     writeFox(path, format);
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     const auto model = loadModel(path, diagnostics);
     REQUIRE_MESSAGE(model, diagnostics.text());
     REQUIRE(model->instances.size() == 1);
@@ -268,7 +268,7 @@ TEST_CASE("FBX: lights are left out, with a warning") {
               "\tNodeAttribute: 9001, \"NodeAttribute::bulb\", \"Light\" {\n\t\tTypeFlags: \"Light\"\n\t}\n"
               "\tModel: 9002, \"Model::bulb\", \"Light\" {\n\t\tVersion: 232\n\t}\n");
   insertAfter("Connections:  {", "\tC: \"OO\",9001,9002\n\tC: \"OO\",9002,0\n");
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto model = loadModel(folder.write("lit.fbx", text), diagnostics);
   REQUIRE_MESSAGE(model, diagnostics.text());
   CHECK(model->lights.empty());
@@ -306,7 +306,7 @@ TEST_CASE("FBX: nodes that are their own ancestors, arrays that unpack to more t
   const std::size_t end = text.find('\n', connection);
   const std::string line = text.substr(connection + 8, end - connection - 8);
   const std::string child = line.substr(0, line.find(',')), parent = line.substr(line.find(',') + 1);
-  const base::Diagnostics circle = failuresOf(
+  const text::Diagnostics circle = failuresOf(
       folder, "m.fbx",
       text.substr(0, end + 1) + "\tC: \"OO\"," + parent + "," + child + "\n" + text.substr(end + 1));
   // The root, 0, has no parent unless the file says so; then it is a circle too.
@@ -327,7 +327,7 @@ TEST_CASE("FBX: nodes that are their own ancestors, arrays that unpack to more t
   word(1);
   word(packed);
   bytes.append(packed, 0);
-  const base::Diagnostics bomb = failuresOf(folder, "m.fbx", bytes);
+  const text::Diagnostics bomb = failuresOf(folder, "m.fbx", bytes);
   REQUIRE(bomb.errorCount() == 1);
   CHECK(bomb.items()[0].code == Code::limitExceeded);
   CHECK(bomb.items()[0].hint.find("--limit") != std::string::npos);

@@ -10,20 +10,20 @@
 namespace weft::test {
 
 // What is said of a file: exactly one error, with everything that a person needs.
-inline base::Diagnostic failureOf(const std::string& path) {
-  base::Diagnostics diagnostics;
+inline text::Diagnostic failureOf(const std::string& path) {
+  text::Diagnostics diagnostics;
   CHECK_FALSE(assets::loadModel(path, diagnostics));
   REQUIRE_MESSAGE(diagnostics.errorCount() == 1, diagnostics.text());
-  for (const base::Diagnostic& d : diagnostics.items())
-    if (d.severity == base::Severity::error) {
+  for (const text::Diagnostic& d : diagnostics.items())
+    if (d.severity == text::Severity::error) {
       CHECK(d.place.file);
-      CHECK_MESSAGE((!d.expected.empty() || !d.hint.empty()), base::format(d));
+      CHECK_MESSAGE((!d.expected.empty() || !d.hint.empty()), text::format(d));
       return d;
     }
   return {};
 }
 
-inline base::Diagnostic failureOf(const TemporaryFolder& folder, const std::string& name,
+inline text::Diagnostic failureOf(const TemporaryFolder& folder, const std::string& name,
                                   const std::string& bytes) {
   return failureOf(folder.write(name, bytes));
 }

@@ -4,14 +4,14 @@
 #include <sys/stat.h>
 
 #include "engine/assets/models/model_file.h"
-#include "engine/base/files/file_access.h"
+#include "engine/text/files/file_access.h"
 #include "tests/assets/models/failure.h"
 #include "tests/assets/models/gltf_maker.h"
 #include "tests/temporary_folder.h"
 
 using namespace weft;
 using namespace weft::assets;
-using base::Code;
+using text::Code;
 using weft::test::failureOf;
 using weft::test::GltfMaker;
 using weft::test::json;
@@ -64,7 +64,7 @@ TEST_CASE("a model that is named without a folder has one") {
   std::filesystem::current_path(folder.at(""));
   CHECK(failureOf("m.gltf").code == Code::unreadableModel);  // missing, not outside
   folder.write("data.bin", maker.bytes);
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   CHECK_MESSAGE(loadModel("m.gltf", diagnostics), diagnostics.text());
   std::filesystem::current_path(before);
 }
@@ -83,11 +83,11 @@ TEST_CASE("pipes and folders beside a model are refused, and --confine holds") {
   folder.write("data.bin", maker.bytes);
   document["buffers"][0]["uri"] = "data.bin";
   const std::string path = folder.write("m.gltf", document.dump());
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   CHECK_MESSAGE(loadModel(path, diagnostics), diagnostics.text());
   const TemporaryFolder other;
-  REQUIRE_FALSE(base::confineTo(other.at("")));
-  base::chooseFile(path);
+  REQUIRE_FALSE(text::confineTo(other.at("")));
+  text::chooseFile(path);
   CHECK(failureOf(path).code == Code::outsideConfinement);  // the buffer; the model itself was named
-  base::resetFileAccess();
+  text::resetFileAccess();
 }

@@ -11,7 +11,7 @@
 
 using namespace weft;
 using namespace weft::assets;
-using base::Code;
+using text::Code;
 using weft::test::GltfMaker;
 using weft::test::json;
 using weft::test::make;
@@ -35,7 +35,7 @@ json spot(json cone) {
   return {{"type", "spot"}, {"intensity", 3}, {"spot", std::move(cone)}};
 }
 
-base::Diagnostic failureWith(const json& lights, const std::function<void(json&)>& change = {}) {
+text::Diagnostic failureWith(const json& lights, const std::function<void(json&)>& change = {}) {
   GltfMaker maker = withLights(lights);
   if (change) change(maker.document);
   const TemporaryFolder folder;
@@ -159,7 +159,7 @@ TEST_CASE("of several directional lights the brightest is the sun; lights of an 
 TEST_CASE("lights that lie are one error at their place") {
   const json point = {{"type", "point"}};
   for (const json& index : {json(1), json(-1), json(0.5), json("0"), json(1e300)}) {
-    const base::Diagnostic d = failureWith(json::array({point}), [&](json& document) {
+    const text::Diagnostic d = failureWith(json::array({point}), [&](json& document) {
       document["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = index;
     });
     CHECK(d.code == Code::badModelValue);
@@ -180,7 +180,7 @@ TEST_CASE("lights that lie are one error at their place") {
     CAPTURE(key);
     json light = point;
     light[key] = value;
-    const base::Diagnostic d = failureWith(json::array({light}));
+    const text::Diagnostic d = failureWith(json::array({light}));
     CHECK(d.code == Code::badModelValue);
     CHECK(d.pointer == std::string("/extensions/KHR_lights_punctual/lights/0/") + key);
     CHECK_FALSE(d.expected.empty());

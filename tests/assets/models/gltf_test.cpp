@@ -87,7 +87,7 @@ TEST_CASE("FlightHelmet and Fox hold what Assimp reads from them") {
         }
       CHECK(worst == 0);
       CHECK(worstUv < 1e-6);
-      CHECK(worstNormal < 1e-3);  // Weft normalises, Assimp does not
+      CHECK(worstNormal < 1e-3);  // Weft normalizes, Assimp does not
       CHECK(worstTangent < 1e-3);
     }
   }
@@ -204,7 +204,7 @@ TEST_CASE("every value of a material arrives") {
   CHECK(all.emissive == glm::vec3{8, 4, 0});
   CHECK(all.doubleSided);
   CHECK_FALSE(all.blinnPhong);
-  // Two images of equal bytes, used as colours and as numbers: two textures, not five.
+  // Two images of equal bytes, used as colors and as numbers: two textures, not five.
   CHECK(model.textures.size() == 2);
   CHECK(all.albedoMap == all.emissiveMap);
   CHECK(all.normalMap == all.metallicRoughnessMap);
@@ -242,7 +242,7 @@ TEST_CASE("uv are moved as KHR_texture_transform says; maps that want another se
   CHECK(uv[1] == doctest::Approx(0.25 - 2));
 }
 
-TEST_CASE("normalised and whole components, strips, fans, and sparse accessors") {
+TEST_CASE("normalized and whole components, strips, fans, and sparse accessors") {
   GltfMaker maker;
   maker.square();
   json& primitive = maker.document["meshes"][0]["primitives"][0];

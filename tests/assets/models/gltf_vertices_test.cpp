@@ -1,4 +1,4 @@
-// Vertex colours, and morph targets by the weights that a file begins with.
+// Vertex colors, and morph targets by the weights that a file begins with.
 #include <assimp/scene.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 using namespace weft;
 using namespace weft::assets;
-using base::Code;
+using text::Code;
 using weft::test::GltfMaker;
 using weft::test::json;
 using weft::test::make;
@@ -29,7 +29,7 @@ GltfMaker squareModel() {
   return maker;
 }
 
-// The square with its last accessor as its colours.
+// The square with its last accessor as its colors.
 GltfMaker colored(GltfMaker maker, int accessor, bool normalized = false) {
   if (normalized) maker.document["accessors"].back()["normalized"] = true;
   primitive(maker)["attributes"]["COLOR_0"] = accessor;
@@ -46,7 +46,7 @@ GltfMaker morphed() {
   return maker;
 }
 
-base::Diagnostic failureOf(const GltfMaker& maker) {
+text::Diagnostic failureOf(const GltfMaker& maker) {
   const TemporaryFolder folder;
   return test::failureOf(folder, "m.gltf", maker.gltf());
 }
@@ -54,7 +54,7 @@ base::Diagnostic failureOf(const GltfMaker& maker) {
 }  // namespace
 
 TEST_CASE(
-    "vertex colours: floats, bytes and shorts, of three and four channels; white where a mesh has none") {
+    "vertex colors: floats, bytes and shorts, of three and four channels; white where a mesh has none") {
   CHECK(make(squareModel()).colors.empty());
   GltfMaker maker = squareModel();
   // Floats are clamped, as glTF 2.0, 3.7.2.1 says.
@@ -98,7 +98,7 @@ TEST_CASE(
                                   : glm::vec4{1, 1, 1, 1}));
 }
 
-TEST_CASE("vertex colours are those that Assimp reads, also where vertices are taken apart") {
+TEST_CASE("vertex colors are those that Assimp reads, also where vertices are taken apart") {
   GltfMaker maker = squareModel();
   const int colors = maker.floats({1, 0, 0, 1, 0, 1, 0, 0.5, 0, 0, 1, 0.25, 0.5, 0.5, 0.5, 0}, 4);
   maker = colored(maker, colors);
@@ -123,7 +123,7 @@ TEST_CASE("vertex colours are those that Assimp reads, also where vertices are t
   }
 }
 
-TEST_CASE("vertex colours that lie") {
+TEST_CASE("vertex colors that lie") {
   GltfMaker maker = squareModel();
   CHECK(failureOf(colored(maker, maker.floats({1, 0, 0, 0, kNan, 0, 1, 0, 0, 1, 1, 1}, 3))).message ==
         "'COLOR_0' of vertex 1 is no number that can be used");
@@ -133,7 +133,7 @@ TEST_CASE("vertex colours that lie") {
   CHECK(failureOf(colored(maker, maker.floats({1, 0, 0, 0}, 1))).code == Code::badModelValue);
   CHECK(failureOf(colored(squareModel(), 99)).code == Code::badModelValue);
   CHECK(failureOf(colored(squareModel(), -1)).code == Code::badModelValue);
-  // Bytes that are not normalised say nothing: left out, with a warning.
+  // Bytes that are not normalized say nothing: left out, with a warning.
   maker = squareModel();
   const int bytes = maker.accessor(std::vector<std::uint8_t>(16, 200), 4, "VEC4", 5121);
   CHECK(make(colored(maker, bytes), 1).colors.empty());
@@ -178,7 +178,7 @@ TEST_CASE("moving morph targets are left out with one warning; the mesh stays as
        {"channels", {channel, channel}},
        {"samplers", {{{"input", maker.floats({0, 1}, 1)}, {"output", maker.floats({0, 0, 1, 1}, 1)}}}}}};
   const TemporaryFolder folder;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto model = loadModel(folder.write("m.gltf", maker.gltf()), diagnostics);
   REQUIRE_MESSAGE(model, diagnostics.text());
   REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
@@ -216,7 +216,7 @@ TEST_CASE("morph targets that lie") {
     primitive(maker)["attributes"][name] = maker.floats(many, 3);
   primitive(maker)["attributes"].erase("TEXCOORD_0");
   primitive(maker)["targets"] = json(100000, {{"POSITION", primitive(maker)["attributes"]["POSITION"]}});
-  const base::Diagnostic d = failureOf(maker);
+  const text::Diagnostic d = failureOf(maker);
   CHECK(d.code == Code::limitExceeded);
   CHECK(d.hint.find("--limit") != std::string::npos);
 }

@@ -11,7 +11,7 @@
 
 using namespace weft;
 using namespace weft::assets;
-using base::Code;
+using text::Code;
 using weft::test::failureOf;
 using weft::test::GltfMaker;
 using weft::test::json;
@@ -19,7 +19,7 @@ using weft::test::json;
 namespace {
 
 // A square with one thing changed.
-base::Diagnostic failureWith(const std::function<void(GltfMaker&)>& change) {
+text::Diagnostic failureWith(const std::function<void(GltfMaker&)>& change) {
   const TemporaryFolder folder;
   GltfMaker maker;
   maker.square();
@@ -40,7 +40,7 @@ TEST_CASE("a .glb that ends anywhere is one error, and never a crash") {
   const TemporaryFolder folder;
   for (std::size_t length = 0; length < whole.size(); length += length < 64 ? 1 : 17) {
     CAPTURE(length);
-    const base::Diagnostic d = failureOf(folder, "m.glb", whole.substr(0, length));
+    const text::Diagnostic d = failureOf(folder, "m.glb", whole.substr(0, length));
     CHECK((d.code == Code::unreadableModel || d.code == Code::notJson || d.code == Code::badModelValue));
   }
   std::string longer = whole;
@@ -61,7 +61,7 @@ TEST_CASE("every byte of a .glb's header and JSON may be another") {
     for (const char other : {'\0', '\xff', '9', '"', '-'}) {
       std::string bytes = whole;
       bytes[at] = other;
-      base::Diagnostics diagnostics;
+      text::Diagnostics diagnostics;
       const auto model = loadModel(folder.write("m.glb", bytes), diagnostics);
       CHECK(model.has_value() != diagnostics.hasErrors());
     }
@@ -83,7 +83,7 @@ TEST_CASE("indices that name nothing") {
                                                            {"/accessors/0/bufferView", 50},
                                                            {"/bufferViews/0/buffer", 1}}) {
     CAPTURE(pointer);
-    const base::Diagnostic d =
+    const text::Diagnostic d =
         failureWith([&](GltfMaker& m) { m.document[json::json_pointer(pointer)] = value; });
     CHECK(d.code == Code::badModelValue);
     CHECK(d.pointer == pointer);
@@ -129,17 +129,17 @@ TEST_CASE("accessors and views that reach beyond what they stand in") {
 }
 
 TEST_CASE("a thousand million vertices are claimed") {
-  const base::Diagnostic beyond =
+  const text::Diagnostic beyond =
       failureWith([](GltfMaker& m) { m.document["accessors"][0]["count"] = 1000000000; });
   CHECK(beyond.code == Code::limitExceeded);
   // Without a buffer view they would be zeros, which take no file.
-  const base::Diagnostic zeros = failureWith([](GltfMaker& m) {
+  const text::Diagnostic zeros = failureWith([](GltfMaker& m) {
     m.document["accessors"][0] = {{"count", 1000000000}, {"type", "VEC3"}, {"componentType", 5126}};
   });
   CHECK(zeros.code == Code::limitExceeded);
   CHECK(zeros.hint.find("--limit") != std::string::npos);
   // Few vertices, used again and again.
-  const base::Diagnostic many = failureWith([](GltfMaker& m) {
+  const text::Diagnostic many = failureWith([](GltfMaker& m) {
     std::vector<std::uint16_t> indices(30000, 0);
     firstPrimitive(m)["indices"] = m.shorts(indices);
     for (int i = 0; i < 1000; ++i) m.document["meshes"][0]["primitives"].push_back(firstPrimitive(m));
@@ -152,7 +152,7 @@ TEST_CASE("numbers that are none, or too large") {
                   kInf = std::numeric_limits<float>::infinity();
   for (const float bad : {kNan, kInf, -kInf, 1e30f}) {
     CAPTURE(bad);
-    const base::Diagnostic d = failureWith([&](GltfMaker& m) {
+    const text::Diagnostic d = failureWith([&](GltfMaker& m) {
       firstPrimitive(m)["attributes"]["POSITION"] = m.floats({0, 0, 0, 1, bad, 0, 1, 1, 0, 0, 1, 0}, 3);
     });
     CHECK(d.code == Code::badModelValue);
@@ -172,7 +172,7 @@ TEST_CASE("numbers that are none, or too large") {
   GltfMaker maker;
   maker.square();
   firstPrimitive(maker)["attributes"]["NORMAL"] = maker.floats({kNan, 0, 1, 0, 0, 0, kInf, 0, 1, 0, 0, 2}, 3);
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto model = loadModel(folder.write("m.gltf", maker.gltf()), diagnostics);
   REQUIRE_MESSAGE(model, diagnostics.text());
   for (const Vertex& v : model->vertices) CHECK(v.normal == glm::vec3{0, 0, 1});
@@ -182,7 +182,7 @@ TEST_CASE("nodes that are their own ancestors, or have two parents") {
   for (const json& nodes : {json{{{"children", {0}}}}, json{{{"children", {1}}}, {{"children", {0}}}},
                             json{{{"mesh", 0}, {"children", {1}}}, {{"children", {2}}}, {{"children", {1}}}},
                             json{{{"children", {2}}}, {{"children", {2}}}, json::object()}}) {
-    const base::Diagnostic d = failureWith([&](GltfMaker& m) { m.document["nodes"] = nodes; });
+    const text::Diagnostic d = failureWith([&](GltfMaker& m) { m.document["nodes"] = nodes; });
     CHECK(d.code == Code::badModelValue);
   }
   // A row of a hundred thousand is none of these, and needs no stack.
@@ -192,7 +192,7 @@ TEST_CASE("nodes that are their own ancestors, or have two parents") {
   maker.document["nodes"] = json::array();
   for (int i = 0; i < 100000; ++i) maker.document["nodes"].push_back({{"children", {i + 1}}});
   maker.document["nodes"].push_back({{"mesh", 0}});
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   CHECK_MESSAGE(loadModel(folder.write("m.gltf", maker.gltf()), diagnostics), diagnostics.text());
 }
 
@@ -249,14 +249,14 @@ TEST_CASE("a texture that is missing or damaged is a warning, and a checkerboard
   maker.document["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
                                   {"normalTexture", {{"index", 1}}},
                                   {"occlusionTexture", {{"index", 2}}}}};
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   std::vector<std::string> files;
   const auto model = loadModel(folder.write("m.gltf", maker.gltf()), diagnostics, {}, &files);
   REQUIRE_MESSAGE(model, diagnostics.text());
   CHECK(diagnostics.size() == 3);
-  for (const base::Diagnostic& d : diagnostics.items()) {
+  for (const text::Diagnostic& d : diagnostics.items()) {
     CHECK(d.code == Code::missingModelTexture);
-    CHECK(d.severity == base::Severity::warning);
+    CHECK(d.severity == text::Severity::warning);
     CHECK_FALSE(d.hint.empty());
   }
   CHECK(files == std::vector{folder.at("m.gltf"), folder.at("gone.png"), folder.at("bad.png")});
@@ -277,7 +277,7 @@ TEST_CASE("a picture of gigabytes is refused by its header") {
   maker.document["images"] = {{{"uri", "huge.png"}}};
   maker.document["textures"] = {{{"source", 0}}};
   maker.document["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   CHECK_FALSE(loadModel(folder.write("m.gltf", maker.gltf()), diagnostics));
   CHECK_MESSAGE(diagnostics.errorCount() == 1, diagnostics.text());
   CHECK(diagnostics.contains(Code::limitExceeded));
@@ -296,7 +296,7 @@ TEST_CASE("OBJ files that lie") {
   CHECK(codeOf("v 0 0 0\nv inf 0 0\nv 0 1 0\nf 1 2 3\n") == Code::badModelValue);
   CHECK(codeOf("v 0 0 0 0 0 0\nv 1 0 0 0 nan 0\nv 0 1 0 0 0 0\nf 1 2 3\n") == Code::badModelValue);
   CHECK(codeOf("v 0 0 0\nv 1e300 0 0\nv 0 1 0\nf 1 2 3\n") == Code::badModelValue);
-  const base::Diagnostic far = failureOf(folder, "m.obj", "v 0 0 0\nv 1 0 0\n\nv 0 1 0\n\nf 1 2 7\n");
+  const text::Diagnostic far = failureOf(folder, "m.obj", "v 0 0 0\nv 1 0 0\n\nv 0 1 0\n\nf 1 2 7\n");
   CHECK(far.place.line == 6);
   CHECK(far.found == "7");
   std::string corners = "v 0 0 0\nf";
@@ -307,7 +307,7 @@ TEST_CASE("OBJ files that lie") {
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//9 2//9 3//9\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/ 2/ 3/\n",
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nf ///// \\\n 1 2 3\n", "f 1 2 3\n", "v\nv\nv\nf 1 2 3\n",
         "o\ng\nusemtl\nmtllib\ns\nv 0 0 0\nf 1 1 1\n"}) {
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     const auto model = loadModel(folder.write("m.obj", odd), diagnostics);
     CHECK_MESSAGE(model.has_value() != diagnostics.hasErrors(), diagnostics.text());
   }
@@ -319,11 +319,11 @@ TEST_CASE("an OBJ of a hundred megabytes, or of one endless line, is refused bef
   line.reserve(100 << 20);
   while (line.size() < (std::size_t{100} << 20))
     line += " 1/1/1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1";
-  const base::Diagnostic large = failureOf(folder, "m.obj", line);
+  const text::Diagnostic large = failureOf(folder, "m.obj", line);
   CHECK(large.code == Code::limitExceeded);
   CHECK(large.hint.find("--limit") != std::string::npos);
   line.resize(std::size_t{20} << 20);
-  const base::Diagnostic endless = failureOf(folder, "m.obj", line);
+  const text::Diagnostic endless = failureOf(folder, "m.obj", line);
   CHECK(endless.code == Code::badModelValue);
   CHECK(endless.place.line == 2);
 }

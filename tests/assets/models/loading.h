@@ -17,7 +17,7 @@ namespace weft::test {
 inline const std::string kModels = WEFT_SOURCE_DIR "/scenes/models/";
 
 inline assets::Model loadGood(const std::string& path, std::size_t warnings = 0) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   auto model = assets::loadModel(path, diagnostics);
   REQUIRE_MESSAGE(model, diagnostics.text());
   CHECK_MESSAGE(diagnostics.size() == warnings, diagnostics.text());

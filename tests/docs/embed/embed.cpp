@@ -16,7 +16,7 @@ int main() {
   registry.passTypes.push_back({.name = "fullscreen", .doc = "", .shader = graph::ShaderShape::fragment});
   registry.factsOf = [](const graph::ImportRequest&) { return graph::ImportFacts{}; };
 
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto desc = graph::readGraphText(text, "sky.json", diagnostics);
   const auto flat = desc ? graph::expandGraph(*desc, registry, {}, diagnostics) : nullptr;
   std::fputs(diagnostics.text().c_str(), stderr);

@@ -20,7 +20,7 @@ class WavesProvider : public imports::Provider {
  public:
   explicit WavesProvider(std::uint32_t size) : size_(size) {}
 
-  gl::TextureRef texture(const imports::Frame& frame, base::Diagnostics& diagnostics) override {
+  gl::TextureRef texture(const imports::Frame& frame, text::Diagnostics& diagnostics) override {
     if (!texture_) {
       auto made =
           gl::Texture::create({.format = GL_RGBA8, .width = size_, .height = size_}, "waves", diagnostics);
@@ -106,7 +106,7 @@ int main(int count, char** words) {
   auto own = std::make_shared<imports::ImportRegistry>(imports::ImportRegistry::builtin());
   own->add(std::make_unique<Waves>());
 
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto fail = [&] {
     std::fputs(diagnostics.text().c_str(), stderr);
     return 1;

@@ -8,8 +8,8 @@
 #include "engine/gl/objects/objects.h"
 
 using namespace weft::gl;
-using weft::base::Code;
-using weft::base::Diagnostics;
+using weft::text::Code;
+using weft::text::Diagnostics;
 
 namespace {
 

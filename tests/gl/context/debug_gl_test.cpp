@@ -5,11 +5,11 @@
 #include "tests/gl/gl_test.h"
 
 using namespace weft::gl;
-using weft::base::Code;
-using weft::base::Diagnostics;
-using weft::base::Severity;
 using weft::gl::test::CleanScope;
 using weft::gl::test::context;
+using weft::text::Code;
+using weft::text::Diagnostics;
+using weft::text::Severity;
 
 TEST_CASE("a driver's error arrives once with a count and the name of the pass") {
   CleanScope clean;

@@ -8,9 +8,9 @@
 #include "tests/gl/gl_test.h"
 
 using namespace weft::gl;
-using weft::base::Code;
-using weft::base::Diagnostics;
 using weft::gl::test::CleanScope;
+using weft::text::Code;
+using weft::text::Diagnostics;
 
 namespace {
 
@@ -188,7 +188,7 @@ TEST_CASE("a view shows one level, one layer, another format of the class, or th
 
   // Depth is in a class of its own, and there is no level 5.
   const Texture plain = makeTexture({.format = GL_DEPTH_COMPONENT32F, .width = 2, .height = 2});
-  CHECK_FALSE(TextureView::create(plain.ref(), {.format = GL_R32F}, "depth as colour", diagnostics));
+  CHECK_FALSE(TextureView::create(plain.ref(), {.format = GL_R32F}, "depth as color", diagnostics));
   CHECK_FALSE(TextureView::create(plain.ref(), {.mip = 5}, "no such level", diagnostics));
   CHECK(diagnostics.errorCount() == 2);
   CHECK(diagnostics.contains(Code::viewNotCreated));

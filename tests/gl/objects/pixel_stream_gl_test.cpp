@@ -12,7 +12,7 @@ static std::vector<std::byte> makeTexels(std::uint32_t width, std::uint32_t heig
 
 TEST_CASE("a level sent in portions is the level, whatever the portion, and other levels stay") {
   const test::CleanScope scope;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const std::uint32_t width = 33, height = 20;
   const std::vector<std::byte> texels = makeTexels(width, height);
   for (const std::uint32_t rows : {1u, 3u, 7u, 20u, 100u}) {
@@ -39,7 +39,7 @@ TEST_CASE("a level sent in portions is the level, whatever the portion, and othe
 
 TEST_CASE("a stream may go before it is done, and moves") {
   const test::CleanScope scope;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const std::vector<std::byte> texels = makeTexels(16, 16);
   const auto texture = Texture::create({.width = 16, .height = 16}, "stream", diagnostics);
   auto stream = PixelStream::create(texture->ref(), 0, GL_RGBA, GL_UNSIGNED_BYTE, 4, "stream", diagnostics);

@@ -9,10 +9,10 @@
 
 using namespace weft::gl;
 using namespace weft::glsl;
-using weft::base::Code;
-using weft::base::Diagnostic;
-using weft::base::Diagnostics;
-using weft::base::Severity;
+using weft::text::Code;
+using weft::text::Diagnostic;
+using weft::text::Diagnostics;
+using weft::text::Severity;
 
 namespace {
 

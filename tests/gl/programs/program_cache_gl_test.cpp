@@ -15,10 +15,10 @@
 
 using namespace weft::gl;
 using namespace weft::glsl;
-using weft::base::Code;
-using weft::base::Diagnostics;
 using weft::gl::test::CleanScope;
 using weft::gl::test::context;
+using weft::text::Code;
+using weft::text::Diagnostics;
 namespace fs = std::filesystem;
 
 namespace {
@@ -221,7 +221,7 @@ TEST_CASE_FIXTURE(Fixture, "ten thousand random requests compile each combinatio
   std::mt19937 random(7);
   std::set<int> asked;
   for (int i = 0; i < 10000; ++i) {
-    // Mostly a few favourites, now and then one of twelve.
+    // Mostly a few favorites, now and then one of twelve.
     const int n = static_cast<int>(random() % 50 == 0 ? random() % 12 : random() % 6);
     asked.insert(n);
     REQUIRE(cache.get(variantOf(n), diagnostics));
@@ -287,7 +287,7 @@ TEST_CASE_FIXTURE(Fixture, "a process that dies over a program is reported, one 
       {.capacity = 2, .folder = "", .trial = {"/bin/sh", "-c", "printf o; cat >/dev/null; kill -SEGV $$"}});
   CHECK_FALSE(dies.get(request, diagnostics));
   REQUIRE(diagnostics.size() == 1);
-  const weft::base::Diagnostic& told = diagnostics.items()[0];
+  const weft::text::Diagnostic& told = diagnostics.items()[0];
   CHECK(told.code == Code::driverDied);
   CHECK(told.message == "the driver did not survive compiling this shader");
   CHECK(*told.place.file == "paint.frag.glsl");

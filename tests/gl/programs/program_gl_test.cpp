@@ -8,10 +8,10 @@
 
 using namespace weft::gl;
 using namespace weft::glsl;
-using weft::base::Code;
-using weft::base::Diagnostics;
-using weft::base::Severity;
 using weft::gl::test::CleanScope;
+using weft::text::Code;
+using weft::text::Diagnostics;
+using weft::text::Severity;
 
 namespace {
 
@@ -192,7 +192,7 @@ TEST_CASE("every code of shaders and GL has its section") {
         Code::shaderDoesNotCompile, Code::programDoesNotLink, Code::versionInShader, Code::noContext,
         Code::incompleteFramebuffer, Code::textureNotCreated, Code::bufferNotCreated, Code::viewNotCreated,
         Code::driverMessage})
-    CHECK_MESSAGE(!weft::gl::test::sectionOf(code).empty(), weft::base::nameOf(code));
+    CHECK_MESSAGE(!weft::gl::test::sectionOf(code).empty(), weft::text::nameOf(code));
 }
 
 namespace {
@@ -220,8 +220,8 @@ Diagnostics compileBroken() {
 TEST_CASE("broken shaders give their codes, at their lines") {
   CleanScope clean;
   const Diagnostics diagnostics = compileBroken();
-  for (const weft::base::Diagnostic& d : diagnostics.items())
-    if (d.code == Code::shaderDoesNotCompile) CHECK_MESSAGE(d.place.line > 0, weft::base::format(d));
+  for (const weft::text::Diagnostic& d : diagnostics.items())
+    if (d.code == Code::shaderDoesNotCompile) CHECK_MESSAGE(d.place.line > 0, weft::text::format(d));
   CHECK(diagnostics.contains(Code::shaderDoesNotCompile));
   CHECK(diagnostics.contains(Code::programDoesNotLink));
 }

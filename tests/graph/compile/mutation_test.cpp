@@ -99,7 +99,7 @@ TEST_CASE("a step out of its order and a clear left out are caught") {
     }
   }
   CHECK(swapped > 200);
-  CHECK(caught * 5 > swapped);  // neighbours that do not depend on each other may swap
+  CHECK(caught * 5 > swapped);  // neighbors that do not depend on each other may swap
   CHECK(cleared > 50);
   CHECK(missed * 2 < cleared);
 }

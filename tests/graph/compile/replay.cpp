@@ -4,14 +4,14 @@
 #include <map>
 #include <tuple>
 
-#include "engine/base/hash.h"
 #include "engine/graph/subresource.h"
+#include "engine/text/hash.h"
 
 namespace weft::graph::replay {
 
 namespace {
 
-using base::hashCombine;
+using text::hashCombine;
 
 class Machine {
  public:

@@ -8,7 +8,7 @@
 #include <random>
 #include <sstream>
 
-#include "engine/base/json/dom.h"
+#include "engine/text/json/dom.h"
 #include "tests/graph/expand/support.h"
 #include "tests/graph/test_folder.h"
 #include "tests/json_pointer.h"
@@ -16,7 +16,7 @@
 using namespace weft;
 using namespace weft::graph;
 using namespace weft::graph::test;
-using base::Code;
+using text::Code;
 
 namespace {
 
@@ -38,7 +38,7 @@ class OverlayFolder : public TestFolder {
 
 std::shared_ptr<const FlatGraph> load(const std::string& path, const Settings& settings,
                                       std::span<const std::string> presets = {}) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto desc = readGraph(path, presets, diagnostics);
   const auto flat = desc ? expandGraph(*desc, testRegistry(), settings, diagnostics) : nullptr;
   INFO(diagnostics.text());
@@ -54,14 +54,14 @@ const ParameterSpec& parameter(const FlatGraph& graph, const std::string& path) 
 
 struct Written {
   std::optional<WriteBack> plan;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
 };
 
 // Plans and saves.
 Written writeBack(const std::string& path, const Settings& settings,
                   std::span<const std::string> presets = {}) {
   Written out;
-  base::Diagnostics reading;
+  text::Diagnostics reading;
   const auto desc = readGraph(path, presets, reading);
   INFO(reading.text());
   REQUIRE(desc);
@@ -72,8 +72,8 @@ Written writeBack(const std::string& path, const Settings& settings,
 
 // `text` without the bytes of the values at `pointers`.
 std::string around(const std::string& text, const std::vector<std::string>& pointers) {
-  base::Diagnostics diagnostics;
-  const auto root = base::parseJson(text, nullptr, diagnostics);
+  text::Diagnostics diagnostics;
+  const auto root = text::parseJson(text, nullptr, diagnostics);
   REQUIRE(root);
   std::vector<std::pair<std::size_t, std::size_t>> ranges;
   for (const std::string& pointer : pointers)
@@ -294,7 +294,7 @@ TEST_CASE("what decides a value is what changes: a set, a preset, an overlay, a 
 TEST_CASE("a file that changed meanwhile is left as it is: W195") {
   const OverlayFolder folder;
   const std::string path = folder.write("small.json", kSmall);
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto desc = readGraph(path, diagnostics);
   const auto plan = planWriteBack(*desc, {}, testRegistry(), {.sets = {{"gain", "2"}}}, diagnostics);
   REQUIRE(plan);
@@ -363,12 +363,12 @@ TEST_CASE("random tweaks of the bundled graph come back from its files, and only
         CHECK(value == each.value);
     }
     for (const WriteBack::File& file : written.plan->files) {
-      const base::JsonTree before = base::parseJsonTree(file.before);
+      const text::JsonTree before = text::parseJsonTree(file.before);
       std::vector<std::string> pointers;
       for (const ParameterSpec& each : start->parameters)
         if (*each.desc.initialPlace.file == file.path)
           pointers.push_back(
-              base::pointerAt(before.root, base::offsetOf(file.before, each.desc.initialPlace)));
+              text::pointerAt(before.root, text::offsetOf(file.before, each.desc.initialPlace)));
       CHECK(around(file.before, pointers) == around(contents(file.path), pointers));
     }
   }

@@ -25,13 +25,13 @@ int numberOf(const std::string& code) {
   return std::stoi(code.substr(1));
 }
 
-base::Diagnostics diagnose(const nlohmann::json& entry) {
+text::Diagnostics diagnose(const nlohmann::json& entry) {
   Settings settings;
   for (const std::string& set : entry.value("set", std::vector<std::string>{}))
     settings.sets.emplace_back(set.substr(0, set.find('=')), set.substr(set.find('=') + 1));
   for (std::string& name : entry.value("disable", std::vector<std::string>{}))
     settings.disables.emplace_back(std::move(name));
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto desc = readGraph((kFolder / entry.at("file").get<std::string>()).string(), diagnostics);
   REQUIRE_MESSAGE(desc, diagnostics.text());
   REQUIRE_MESSAGE(diagnostics.empty(), diagnostics.text());
@@ -48,10 +48,10 @@ TEST_CASE("every graph that cannot be expanded gives its one diagnostic") {
     if (entry.value("stage", "") != "expand") continue;
     const std::string file = entry.at("file");
     CAPTURE(file);
-    const base::Diagnostics diagnostics = diagnose(entry);
+    const text::Diagnostics diagnostics = diagnose(entry);
     INFO(diagnostics.text());
     REQUIRE(diagnostics.size() == 1);
-    const base::Diagnostic& d = diagnostics.items()[0];
+    const text::Diagnostic& d = diagnostics.items()[0];
     CHECK(nameOf(d.code) == entry.at("code"));
     CHECK(d.place.line == entry.at("line").get<std::uint32_t>());
     CHECK(d.place.column == entry.at("column").get<std::uint32_t>());
@@ -60,9 +60,9 @@ TEST_CASE("every graph that cannot be expanded gives its one diagnostic") {
       CHECK(std::filesystem::path(*d.place.file) == kFolder / entry.value("in", file));
     }
     CHECK(d.message.back() != '.');
-    CHECK_MESSAGE((!d.hint.empty() || !d.expected.empty()), base::format(d));
+    CHECK_MESSAGE((!d.hint.empty() || !d.expected.empty()), text::format(d));
     const int number = numberOf(entry.at("code"));
-    CHECK((d.severity == base::Severity::warning) ==
+    CHECK((d.severity == text::Severity::warning) ==
           (number >= 89 || number == 83 || entry.value("warning", false)));
     ++checked;
   }
@@ -72,7 +72,7 @@ TEST_CASE("every graph that cannot be expanded gives its one diagnostic") {
 TEST_CASE("every code below W100 has a broken input") {
   std::set<int> covered;
   for (const auto& entry : manifest()) covered.insert(numberOf(entry.at("code")));
-#define WEFT_CODE_ROW(number, name, title) static_cast<int>(base::Code::name),
+#define WEFT_CODE_ROW(number, name, title) static_cast<int>(text::Code::name),
   for (const int number : {WEFT_CODES(WEFT_CODE_ROW)})
     if (number < 100) CHECK_MESSAGE(covered.contains(number), number);
 #undef WEFT_CODE_ROW

@@ -12,12 +12,12 @@
 using namespace weft;
 using namespace weft::graph;
 using namespace weft::graph::test;
-using base::Code;
+using text::Code;
 
 namespace {
 
 // The warnings of a graph whose pass `make` writes `made`, and whose pass `take` reads `read` and writes `shown`.
-std::vector<base::Diagnostic> warningsOf(const std::string& make, const std::string& take,
+std::vector<text::Diagnostic> warningsOf(const std::string& make, const std::string& take,
                                          const std::string& read, const std::string& more = "") {
   const Expanded expanded = expandText(
       R"J({ "resources": { "made": { "texture": "rgba8", "size": 8, "history": 1 },
@@ -28,8 +28,8 @@ std::vector<base::Diagnostic> warningsOf(const std::string& make, const std::str
     "repeat": { "i": [0, 2] }, "read": { "source": ")J" +
       read + R"J(" }, "write": { "result": "shown.mip[i]" } )J" + take + R"J( } ], "present": "shown" })J");
   REQUIRE_MESSAGE(expanded.graph, expanded.text());
-  std::vector<base::Diagnostic> found;
-  for (const base::Diagnostic& d : expanded.diagnostics.items())
+  std::vector<text::Diagnostic> found;
+  for (const text::Diagnostic& d : expanded.diagnostics.items())
     if (d.code == Code::cadenceMisfit) found.push_back(d);
   return found;
 }
@@ -43,7 +43,7 @@ TEST_CASE("a pass that runs once and reads what changes is told once, with all i
     const auto found = warningsOf("", kOnce, read);
     CAPTURE(read);
     REQUIRE(found.size() == 1);
-    CHECK(found[0].severity == base::Severity::warning);
+    CHECK(found[0].severity == text::Severity::warning);
     CHECK(found[0].resource == read);
     CHECK(found[0].pass == "take[0]");
   }
@@ -77,7 +77,7 @@ TEST_CASE("a once pass of a group that runs again, and one that is culled, are n
         "write": {{ "result": "both" }} }} ], "present": "{}" }})J",
         besides, present));
     REQUIRE_MESSAGE(expanded.graph, expanded.text());
-    return std::ranges::count(expanded.diagnostics.items(), Code::cadenceMisfit, &base::Diagnostic::code);
+    return std::ranges::count(expanded.diagnostics.items(), Code::cadenceMisfit, &text::Diagnostic::code);
   };
   CHECK(countOf("once", "both") == 1);
   CHECK(countOf("on_change", "both") == 0);

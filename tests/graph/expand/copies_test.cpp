@@ -88,15 +88,15 @@ TEST_CASE("what a blit or a mipmap cannot do is refused") {
     CAPTURE(source);
     CAPTURE(destination);
     const Expanded e = said(source, destination);
-    CHECK_MESSAGE(e.has(base::Code::badSlots), e.text());
+    CHECK_MESSAGE(e.has(text::Code::badSlots), e.text());
   }
-  CHECK(said("shared", "b").has(base::Code::badFormat));
-  CHECK(said("zs as linear", "z2").has(base::Code::badFormat));
-  CHECK(said("one as linear", "two").has(base::Code::badKind));
-  CHECK(said("b", "a.mip[0] as linear").has(base::Code::badKind));
+  CHECK(said("shared", "b").has(text::Code::badFormat));
+  CHECK(said("zs as linear", "z2").has(text::Code::badFormat));
+  CHECK(said("one as linear", "two").has(text::Code::badKind));
+  CHECK(said("b", "a.mip[0] as linear").has(text::Code::badKind));
   CHECK(said("four", "b").graph);
   CHECK(said("zs.stencil", "z2.stencil").graph);
-  CHECK(said("one", "two", "mipmap").has(base::Code::badSlots));
-  CHECK(said("ids.mip[0]", "ids.mip[1..]", "mipmap").has(base::Code::badFormat));
-  CHECK(said("a.mip[0] as linear", "a.mip[1..]", "mipmap").has(base::Code::badKind));
+  CHECK(said("one", "two", "mipmap").has(text::Code::badSlots));
+  CHECK(said("ids.mip[0]", "ids.mip[1..]", "mipmap").has(text::Code::badFormat));
+  CHECK(said("a.mip[0] as linear", "a.mip[1..]", "mipmap").has(text::Code::badKind));
 }

@@ -9,7 +9,7 @@
 using namespace weft;
 using namespace weft::graph;
 using namespace weft::graph::test;
-using base::Code;
+using text::Code;
 
 namespace {
 
@@ -60,7 +60,7 @@ TEST_CASE("a first value that is a texture: its reader depends on it, and it sta
   CHECK(plan.stepOf[e.pass("plant")] < plan.stepOf[e.pass("grow")]);
   CHECK(plan.stepOf[e.pass("plant_small")] == kNone);  // cells have one level
   // As a file it says the same.
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto again = readGraphText(graphFileOf(plan), "again.json", diagnostics);
   REQUIRE_MESSAGE(again, diagnostics.text());
   const auto flat = expandGraph(*again, testRegistry(), {}, diagnostics);
@@ -128,7 +128,7 @@ TEST_CASE("a first value that nobody has written: an error, or with '?' no first
 TEST_CASE("a first value must fit") {
   const auto misfit = [](const std::string& text, const char* expected) {
     const Expanded e = expandText(text);
-    const base::Diagnostic& d = e.of(Code::badFormat);
+    const text::Diagnostic& d = e.of(Code::badFormat);
     CHECK(d.pass == "grow");
     CHECK(d.resource == "cells");
     CHECK_MESSAGE(d.expected.find(expected) != std::string::npos, d.expected);
@@ -157,7 +157,7 @@ TEST_CASE("a first value must fit") {
           R"J({ "name": "grow", "type": "compute", "shader": "a.comp.glsl", "threads": 1, "read": { "before": "cells@-1" }, "write": { "after": "cells" } },)J" +
               paint("last", R"J("read": { "c": "cells" }, "write": { "result": "out" })J")),
       "64 bytes");
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   readGraphText(feedback(R"J("seed as linear")J"), "test.json", diagnostics);
   CHECK(diagnostics.contains(Code::badReference));
   diagnostics.clear();

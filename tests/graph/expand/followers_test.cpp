@@ -12,8 +12,8 @@ using namespace weft::graph::test;
 
 namespace {
 
-base::Diagnostics diagnoseText(const std::string& text) {
-  base::Diagnostics diagnostics;
+text::Diagnostics diagnoseText(const std::string& text) {
+  text::Diagnostics diagnostics;
   const auto desc = readGraphText(text, "followers.json", diagnostics);
   REQUIRE_MESSAGE(desc, diagnostics.text());
   expandGraph(*desc, testRegistry(), {}, diagnostics);
@@ -51,9 +51,9 @@ std::string chainOf(int count) {
 }  // namespace
 
 TEST_CASE("of 1,000 passes with 100 mistakes each mistake is named, and nothing follows from them") {
-  const base::Diagnostics said = diagnoseText(chainOf(1000));
+  const text::Diagnostics said = diagnoseText(chainOf(1000));
   std::map<std::string, int> codes;
-  for (const base::Diagnostic& d : said.items()) ++codes[base::nameOf(d.code)];
+  for (const text::Diagnostic& d : said.items()) ++codes[text::nameOf(d.code)];
   INFO(said.text().substr(0, 4000));
   CHECK(said.errorCount() == 100);
   CHECK(said.size() == 100);
@@ -74,18 +74,18 @@ TEST_CASE("what an overlay removed, and what a range leaves out, is named where 
       { "name": "fill", "type": "fullscreen", "shader": "a.frag.glsl", "repeat": { "i": [3, 1] }, "write": { "result": "a" } },
       { "name": "show", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "source": "a" }, "write": { "result": "ldr" } } ],
     "present": "ldr" })";
-  const base::Diagnostics said = diagnoseText(passes);
+  const text::Diagnostics said = diagnoseText(passes);
   REQUIRE(said.size() == 1);
-  CHECK(said.items()[0].code == base::Code::disabledWriter);
+  CHECK(said.items()[0].code == text::Code::disabledWriter);
   CHECK(said.items()[0].message.find("'fill'") != std::string::npos);
   CHECK(said.items()[0].hint.find("[3, 1, -1]") != std::string::npos);
 }
 
 TEST_CASE("a value of the program's own is told from a parameter") {
-  const base::Diagnostics said =
+  const text::Diagnostics said =
       diagnoseText(R"({ "resources": { "a": { "texture": "rgba8", "size": "$screen/2" } }, "passes": [] })");
   REQUIRE(said.errorCount() == 1);
-  CHECK(said.items()[0].code == base::Code::unknownVariable);
+  CHECK(said.items()[0].code == text::Code::unknownVariable);
   CHECK(said.items()[0].hint == "write 'screen', without the '$'");
 }
 
@@ -101,7 +101,7 @@ TEST_CASE("an index with a $ is told that it is bare, wherever it stands") {
   for (const auto& found : {said("$level", "1", "true"), said("level", "$level / 2", "true"),
                             said("level", "1", "$level >= 0")}) {
     REQUIRE(found.errorCount() == 1);
-    CHECK(found.items()[0].code == base::Code::unknownVariable);
+    CHECK(found.items()[0].code == text::Code::unknownVariable);
     CHECK(found.items()[0].hint == "write 'level', without the '$'");
   }
 }
@@ -122,9 +122,9 @@ TEST_CASE("levels that nobody reads are told of") {
   CHECK(chainRead("glow.mip[3]").empty());
   CHECK(chainRead("glow.mip[1]").items()[0].message ==
         "pass 'down[3]' is culled: nobody reads what it writes");
-  const base::Diagnostics said = chainRead("glow.mip[0]");
+  const text::Diagnostics said = chainRead("glow.mip[0]");
   REQUIRE_MESSAGE(said.size() == 1, said.text());
-  CHECK(said.items()[0].code == base::Code::culledUnread);
+  CHECK(said.items()[0].code == text::Code::culledUnread);
   CHECK(said.items()[0].message == "pass 'down[3]' is culled: nobody reads what it writes");
 }
 
@@ -140,9 +140,9 @@ TEST_CASE("a name that an expression asks of and that nothing has is one mistake
   };
   for (const char* each :
        {"has(shwo)", "count(shwo) > 1", "age(shwo) > 1", "has(shwo) && size(shwo).x > 1"}) {
-    const base::Diagnostics said = enabledBy(each);
+    const text::Diagnostics said = enabledBy(each);
     REQUIRE_MESSAGE(said.size() == 1, said.text());
-    CHECK(said.items()[0].code == base::Code::unknownResource);
+    CHECK(said.items()[0].code == text::Code::unknownResource);
     const bool pass = std::string(each).starts_with("has");
     CHECK_MESSAGE(said.items()[0].hint == (pass ? std::string("did you mean 'show'?") : "known: ldr, a"),
                   said.text());
@@ -151,12 +151,12 @@ TEST_CASE("a name that an expression asks of and that nothing has is one mistake
 
 TEST_CASE("what nothing wrote first is one mistake and no cycle, whoever modifies it after") {
   const auto hint = [](const std::string& passes, const char* code) {
-    const base::Diagnostics said = diagnoseText(fmt::format(
+    const text::Diagnostics said = diagnoseText(fmt::format(
         R"J({{ "resources": {{ "hdr": {{ "texture": "rgba16f", "size": 8 }}, "ldr": {{ "texture": "rgba8", "size": 8 }},
           "jagged": {{ "texture": "rgba8", "size": 8 }} }}, "passes": [ {} ], "present": "ldr" }})J",
         passes));
     REQUIRE_MESSAGE(said.size() == 1, said.text());
-    CHECK(base::nameOf(said.items()[0].code) == code);
+    CHECK(text::nameOf(said.items()[0].code) == code);
     return said.items()[0].hint;
   };
   const auto pass = [](const char* name, const char* slots) {
@@ -179,7 +179,7 @@ TEST_CASE("what nothing wrote first is one mistake and no cycle, whoever modifie
 
 TEST_CASE("no fix asks for what a switch has taken out") {
   for (const char* name : {"composite", "post.display"}) {
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     const auto desc = readGraph(WEFT_SOURCE_DIR "/graphs/studio.json", diagnostics);
     REQUIRE(desc);
     expandGraph(*desc, testRegistry(), with({}, {{name}}), diagnostics);

@@ -74,7 +74,7 @@ TEST_CASE("a table whose elements are views is read and looked from; another is 
   CHECK(e.spec("p").viewFace == 5);
   CHECK(expandPass(pass("@lights[4]")).diagnostics.hasErrors());  // there are four
   const Expanded none = expandPass(pass("@rows"));
-  CHECK(none.of(base::Code::notAView).expected.find("@lights") != std::string::npos);
+  CHECK(none.of(text::Code::notAView).expected.find("@lights") != std::string::npos);
 }
 
 TEST_CASE("meshes are drawn of a list") {
@@ -83,7 +83,7 @@ TEST_CASE("meshes are drawn of a list") {
   const Expanded listed = expandPass(fill(R"J("read": { "d": "depth" })J") + ", " + draw +
                                      R"J("side_effect": true, "list": "opaque" })J");
   INFO(listed.text());
-  CHECK_FALSE(listed.diagnostics.contains(base::Code::keyNeeded));
+  CHECK_FALSE(listed.diagnostics.contains(text::Code::keyNeeded));
   const Expanded bare = expandPass(draw + R"J("instances": 2 })J");
-  CHECK(bare.of(base::Code::keyNeeded).expected.find("\"list\"") != std::string::npos);
+  CHECK(bare.of(text::Code::keyNeeded).expected.find("\"list\"") != std::string::npos);
 }

@@ -103,7 +103,7 @@ TEST_CASE("live: a parameter on which nothing but uniforms depends, also through
       "parameters": { "a": "$plain", "b": "$more", "c": "$fade * $twice", "d": "$mode == b ? $plain : 0", "e": { "default": [1, 2] },
                       "f": { "type": "bool", "default": false, "define": true } })J");
   REQUIRE(e.diagnostics.size() == 1);
-  CHECK(e.of(base::Code::unusedDeclaration).message.find("'idle'") != std::string::npos);
+  CHECK(e.of(text::Code::unusedDeclaration).message.find("'idle'") != std::string::npos);
   CHECK(liveOf(e) == "plain base speed idle mode p.e");
   // What is known stays folded; parameters and ages are leaves.
   CHECK(e.uniform("p", "a").dynamic.text() == "$#0");
@@ -169,14 +169,14 @@ TEST_CASE("lets over age() that double in length end in one message") {
   }
   const Expanded e =
       expandPass(R"J("let": { )J" + lets + " }", R"J("parameters": { "a": "$l30", "b": "$l5" })J");
-  CHECK(e.has(base::Code::badExpression));
+  CHECK(e.has(text::Code::badExpression));
   CHECK(e.diagnostics.errorCount() == 1);
 }
 
 TEST_CASE("live: an expression that cannot be evaluated is reported as it was before") {
   const std::string head = R"J("parameters": { "n": { "default": 0.0 } })J";
-  CHECK(expandPass(head, R"J("parameters": { "a": "1 / $n" })J").has(base::Code::noFiniteResult));
-  CHECK(expandPass(head, R"J("parameters": { "a": "age(in) / $n" })J").has(base::Code::noFiniteResult));
+  CHECK(expandPass(head, R"J("parameters": { "a": "1 / $n" })J").has(text::Code::noFiniteResult));
+  CHECK(expandPass(head, R"J("parameters": { "a": "age(in) / $n" })J").has(text::Code::noFiniteResult));
   CHECK(expandPass(head, R"J("parameters": { "a": "1 / $n" })J", with({{"n", "4"}})).text() == "");
 }
 
@@ -184,7 +184,7 @@ TEST_CASE("live: random values give every uniform of the bundled graphs the bits
   std::mt19937 random(8);
   std::size_t changed = 0, uniforms = 0;
   for (const char* name : {"studio", "glow", "daylight", "ibl", "bench_copy"}) {
-    base::Diagnostics said;
+    text::Diagnostics said;
     const auto desc = readGraph(std::string(WEFT_SOURCE_DIR) + "/graphs/" + name + ".json", said);
     REQUIRE_MESSAGE(desc, said.text());
     for (const bool all : {false, true}) {  // with everything on as well

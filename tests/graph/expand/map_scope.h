@@ -25,7 +25,7 @@ struct MapScope : EvalScope {
   std::optional<Value> variable(std::string_view name) override { return find(variables, name); }
   std::optional<Value> index(std::string_view name) override { return find(indices, name); }
   std::optional<Value> builtin(std::string_view name) override { return find(builtins, name); }
-  std::optional<Value> fact(Fact fact, std::string_view resource, const base::Place&) override {
+  std::optional<Value> fact(Fact fact, std::string_view resource, const text::Place&) override {
     ++factsAsked;
     const auto found = facts.find({fact, std::string(resource)});
     return found == facts.end() ? std::nullopt : std::optional<Value>(found->second);

@@ -38,24 +38,24 @@ constexpr const char* kNightGraph = R"({
   "present": "ldr" })";
 
 // What is said of the graph with `right` written wrong. Nothing may crash on what is left, either.
-base::Diagnostics saidOfNight(const std::string& right, const std::string& wrong) {
+text::Diagnostics saidOfNight(const std::string& right, const std::string& wrong) {
   std::string text = kNightGraph;
   const std::size_t at = text.find(right);
   REQUIRE_MESSAGE(at != std::string::npos, right);
   text.replace(at, right.size(), wrong);
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto desc = readGraphText(text, "midnight.json", diagnostics);
   if (desc) expandGraph(*desc, testRegistry(), {}, diagnostics);
   return diagnostics;
 }
 
-void checkOne(const char* right, const char* wrong, base::Code code, std::string_view message,
+void checkOne(const char* right, const char* wrong, text::Code code, std::string_view message,
               std::string_view hint) {
-  const base::Diagnostics said = saidOfNight(right, wrong);
+  const text::Diagnostics said = saidOfNight(right, wrong);
   INFO(wrong, "\n", said.text());
   REQUIRE(said.size() == 1);
-  const base::Diagnostic& d = said.items()[0];
-  CHECK(d.severity == base::Severity::error);
+  const text::Diagnostic& d = said.items()[0];
+  CHECK(d.severity == text::Severity::error);
   CHECK(d.code == code);
   CHECK(d.message.find(message) != std::string::npos);
   CHECK(d.hint.find(hint) != std::string::npos);
@@ -68,7 +68,7 @@ TEST_CASE("the graph is right before a mistake is made in it") {
 }
 
 TEST_CASE("a mistake at midnight: expressions in the words of other languages") {
-  using enum base::Code;
+  using enum text::Code;
   const char *size = "\"rgba8\", \"size\": \"screen\"", *enabled = "\"enabled\": \"$bloom\"",
              *bytes = "\"4*256\"";
   checkOne(size, "\"rgba8\", \"size\": \"1920,1080\"", badExpression, "is no value", "write [1920, 1080]");
@@ -98,7 +98,7 @@ TEST_CASE("a mistake at midnight: expressions in the words of other languages") 
 }
 
 TEST_CASE("a mistake at midnight: references") {
-  using enum base::Code;
+  using enum text::Code;
   checkOne("\"now\": \"scene\"", "\"now\": \"$scene\"", badReference, "'$' where a name is expected",
            "resources have no '$'");
   checkOne("\"now\": \"scene\"", "\"now\": \"scene linear\"", badReference, "unexpected 'linear'",
@@ -112,7 +112,7 @@ TEST_CASE("a mistake at midnight: references") {
   checkOne("\"glow ?\"", "\"?glow\"", badReference, "'?' where a name is expected", "at the very end");
   checkOne("\"present\": \"ldr\"", "\"present\": \"$bloom ? glow : ldr\"", badReference, "'$'",
            "[\"a if $x\", \"b\"]");
-  checkOne("\"present\": \"ldr\"", "\"present\": \"depth\"", badKind, "no colour texture",
+  checkOne("\"present\": \"ldr\"", "\"present\": \"depth\"", badKind, "no color texture",
            "render --present depth");
   checkOne("\"now\": \"scene\"", "\"now\": \"scene as compare\"", badFormat, "does not fit",
            "leave 'compare' out");
@@ -122,7 +122,7 @@ TEST_CASE("a mistake at midnight: references") {
 
 TEST_CASE(
     "a mistake at midnight: declarations in the form of another engine, and nothing follows from them") {
-  using enum base::Code;
+  using enum text::Code;
   checkOne("\"texture\": \"rgba8\"", "\"texture\": { \"format\": \"rgba8\" }", wrongType,
            "\"texture\" has the wrong type", "write the format here");
   checkOne("\"buffer\": \"4*256\"", "\"buffer\": { \"bytes\": 1024 }", wrongType,
@@ -145,14 +145,14 @@ TEST_CASE(
 }
 
 TEST_CASE("a texture that no pass writes is one mistake, however many passes read it") {
-  using enum base::Code;
+  using enum text::Code;
   checkOne(
       "{ \"name\": \"paint\", \"type\": \"fullscreen\", \"shader\": \"a.frag.glsl\", \"write\": { "
       "\"radiance\": \"scene\" } },",
       "", nobodyWrites, "pass 'bright' and one more read 'scene', which no pass writes",
       "let a pass before it write it");
   // Two textures are two mistakes.
-  const base::Diagnostics said =
+  const text::Diagnostics said =
       saidOfNight("\"write\": { \"result\": \"trail\" }", "\"write\": { \"result\": \"ldr\" }");
   CHECK_MESSAGE(said.contains(nobodyWrites), said.text());
 }
@@ -168,7 +168,7 @@ TEST_CASE(
       { "name": "p", "type": "fullscreen", "shader": "a.frag.glsl", "repeat": { "i": [0, 1] },
         "read": { "source": "src[i]" }, "write": { "result": "dst[i]" } } ],
     "present": "dst[1]" })";
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto desc = readGraphText(kHalfDead, "half_dead.json", diagnostics);
   REQUIRE(desc);
   CHECK_FALSE(expandGraph(*desc, testRegistry(), {}, diagnostics));

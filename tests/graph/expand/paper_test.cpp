@@ -56,7 +56,7 @@ struct Source {
 
 std::vector<Source> sources() {
   std::vector<Source> all;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const std::string folder = paperFolder();
   for (const std::string& name : kGraphs)
     all.push_back({"paper/" + name, readGraph(folder + "/" + name, diagnostics)});
@@ -69,12 +69,12 @@ std::vector<Source> sources() {
 
 // A graph, or errors; every one of them says something a person can act on.
 bool settles(const Source& source, const Settings& settings, const World& world = {}) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto graph = expandGraph(*source.desc, testRegistry(world), settings, diagnostics);
   CHECK((graph != nullptr) == !diagnostics.hasErrors());
-  for (const base::Diagnostic& d : diagnostics.items()) {
+  for (const text::Diagnostic& d : diagnostics.items()) {
     CHECK_MESSAGE(!d.message.empty(), source.name);
-    CHECK_MESSAGE((!d.hint.empty() || d.code == base::Code::noFiniteResult), base::format(d));
+    CHECK_MESSAGE((!d.hint.empty() || d.code == text::Code::noFiniteResult), text::format(d));
   }
   if (!graph) return false;
   for (const FlatUse& use : graph->uses) {
@@ -93,7 +93,7 @@ bool settles(const Source& source, const Settings& settings, const World& world 
 
 TEST_CASE("the pipelines expand in their default settings without a word") {
   for (const Source& source : sources()) {
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     const auto graph = expandGraph(*source.desc, testRegistry(), {}, diagnostics);
     CHECK_MESSAGE(diagnostics.empty(), source.name, "\n", diagnostics.text());
     REQUIRE(graph);
@@ -103,7 +103,7 @@ TEST_CASE("the pipelines expand in their default settings without a word") {
 
 TEST_CASE("every parameter at every choice and end of its range, and every size") {
   for (const Source& source : sources()) {
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     const auto plain = expandGraph(*source.desc, testRegistry(), {}, diagnostics);
     REQUIRE(plain);
     int variants = 0;
@@ -157,7 +157,7 @@ TEST_CASE("worlds with nothing in them") {
 
 TEST_CASE("every single and pairwise disable is a graph or a documented diagnostic") {
   for (const Source& source : sources()) {
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     const auto plain = expandGraph(*source.desc, testRegistry(), {}, diagnostics);
     REQUIRE(plain);
     std::set<std::string> names;

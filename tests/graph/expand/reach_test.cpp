@@ -43,23 +43,23 @@ TEST_CASE("a graph of which every pass reaches the picture says nothing") {
 TEST_CASE("a background over what was drawn: one message at the last thing drawn, with what only feeds it") {
   const Expanded e = tell({pass("ground", R"J("write": { "r": "hdr" })J"), kBalls, kSky, kBloom, kShow});
   REQUIRE_MESSAGE(e.diagnostics.size() == 1, e.text());
-  CHECK(e.of(base::Code::culledOverwritten).message ==
+  CHECK(e.of(text::Code::culledOverwritten).message ==
         "pass 'balls' is culled: 'sky' overwrites 'hdr' before anybody reads it; with it: 'ground'");
-  CHECK(e.of(base::Code::culledOverwritten).hint == "move 'sky' above 'balls', or read 'hdr' in between");
+  CHECK(e.of(text::Code::culledOverwritten).hint == "move 'sky' above 'balls', or read 'hdr' in between");
 }
 
 TEST_CASE("an effect below its reader") {
   const Expanded e = tell({kSky, kShow, kBloom});
   REQUIRE_MESSAGE(e.diagnostics.size() == 1, e.text());
-  CHECK(e.of(base::Code::culledUnread).message ==
+  CHECK(e.of(text::Code::culledUnread).message ==
         "pass 'bloom' is culled: 'show', which reads 'glow', stands above it");
-  CHECK(e.of(base::Code::culledUnread).hint == "move 'bloom' above 'show', or disable 'bloom'");
+  CHECK(e.of(text::Code::culledUnread).hint == "move 'bloom' above 'show', or disable 'bloom'");
 }
 
 TEST_CASE("what a pass that runs draws, and another throws away") {
   const Expanded e = tell({pass("ground", R"J("write": { "r": "hdr", "g": "glow" })J"), kSky, kShow});
   REQUIRE_MESSAGE(e.diagnostics.size() == 1, e.text());
-  CHECK(e.of(base::Code::culledOverwritten).message ==
+  CHECK(e.of(text::Code::culledOverwritten).message ==
         "what pass 'ground' writes to 'hdr' is lost: 'sky' overwrites it before anybody reads it");
 }
 
@@ -81,7 +81,7 @@ TEST_CASE("what feeds only what is switched off is no mistake, by whatever it is
   const Expanded e =
       tell({kSky, kShow, pass("late", R"J("read": { "g": "glow?" }, "modify": { "r": "hdr" })J"), kBloom},
            with({}, {"late"}));
-  CHECK(e.of(base::Code::culledUnread).pass == "bloom");
+  CHECK(e.of(text::Code::culledUnread).pass == "bloom");
 }
 
 TEST_CASE("far more readers and writers than one looks at one by one") {
@@ -91,7 +91,7 @@ TEST_CASE("far more readers and writers than one looks at one by one") {
   passes.push_back(kShow);
   CHECK(tell(passes).text() == "");
   passes.push_back(pass("late", R"J("read": { "s": "hdr" }, "write": { "r": "hdr" })J"));
-  CHECK(tell(passes).of(base::Code::culledUnread).message ==
+  CHECK(tell(passes).of(text::Code::culledUnread).message ==
         "pass 'late' is culled: 'show', which reads 'hdr', stands above it");
 }
 
@@ -99,9 +99,9 @@ TEST_CASE("an optional slot that a pass below would fill, and what is no such sl
   const std::string flare = pass("flare", R"J("read": { "g": "glow" }, "modify": { "r": "ldr" })J");
   const Expanded e = tell({kSky, kShow, kBloom, flare});
   REQUIRE_MESSAGE(e.diagnostics.size() == 1, e.text());
-  CHECK(e.of(base::Code::readBeforeWrite).message ==
+  CHECK(e.of(text::Code::readBeforeWrite).message ==
         "pass 'show' reads 'glow' before pass 'bloom' writes it: its slot 'g' stays empty");
-  CHECK(e.of(base::Code::readBeforeWrite).severity == base::Severity::warning);
+  CHECK(e.of(text::Code::readBeforeWrite).severity == text::Severity::warning);
   // Where a pass above is switched off, its absence is why.
   CHECK(
       tell({kSky, pass("early", R"J("write": { "r": "glow" })J"), kShow, kBloom, flare}, with({}, {"early"}))
@@ -113,7 +113,7 @@ TEST_CASE("what \"clear\" says in place of what is drawn below; a chain that beg
       {pass("fog", R"J("read": { "d": "depth" }, "write": { "r": "hdr" })J"),
        pass("balls", R"J("modify": { "r": "hdr", "depth": "depth" }, "state": { "depth_test": "greater" })J"),
        pass("show", R"J("read": { "s": "hdr", "d": "depth" }, "write": { "r": "ldr" })J")});
-  CHECK(e.of(base::Code::readBeforeWrite).message ==
+  CHECK(e.of(text::Code::readBeforeWrite).message ==
         "pass 'fog' reads 'depth' before pass 'balls' writes it: its slot 'd' has only what \"clear\" says");
   const std::string sums = R"J({ "resources": { "a": { "buffer": 16, "clear": 0 }, "b": { "buffer": 16 },
     "ldr": { "texture": "rgba8", "size": 8 } }, "passes": [
@@ -136,7 +136,7 @@ TEST_CASE(
                       R"J( ], "present": "ldr" })J");
   };
   CHECK(told(R"J(["a if $on", "b"])J").text() == "");
-  CHECK(told(R"J(["a", "b"])J").of(base::Code::culledUnread).pass == "make_b");
+  CHECK(told(R"J(["a", "b"])J").of(text::Code::culledUnread).pass == "make_b");
 }
 
 TEST_CASE("an output is a reader; one that nothing writes is an error, or left out with '?'") {
@@ -150,7 +150,7 @@ TEST_CASE("an output is a reader; one that nothing writes is an error, or left o
   };
   CHECK(told("counts").text() == "");
   CHECK(told("counts?", with({}, {"count"})).graph->outputs.empty());
-  CHECK(told("counts", with({}, {"count"})).of(base::Code::nobodyWrites).message ==
+  CHECK(told("counts", with({}, {"count"})).of(text::Code::nobodyWrites).message ==
         "output 'n' reads 'counts', which no pass writes");
 }
 

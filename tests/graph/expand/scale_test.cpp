@@ -58,7 +58,7 @@ struct Work {
 };
 
 Work workOf(const std::string& json) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto desc = readGraphText(json, "test.json", diagnostics);
   REQUIRE_MESSAGE(desc, diagnostics.text());
   const Registry registry = testRegistry();

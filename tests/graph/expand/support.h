@@ -17,22 +17,22 @@ namespace weft::graph::test {
 
 struct Expanded {
   std::shared_ptr<const FlatGraph> graph;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
 
   // Without W089: tests share resources, which not each of them uses. unused_test.cpp and unnamed_test.cpp look for it.
   std::string text() const {
-    base::Diagnostics others;
-    for (const base::Diagnostic& d : diagnostics.items())
-      if (d.code != base::Code::unusedDeclaration) others.add(d);
+    text::Diagnostics others;
+    for (const text::Diagnostic& d : diagnostics.items())
+      if (d.code != text::Code::unusedDeclaration) others.add(d);
     return others.text();
   }
-  bool has(base::Code code) const { return diagnostics.contains(code); }
+  bool has(text::Code code) const { return diagnostics.contains(code); }
   // The first diagnostic of a code; fails the test when there is none.
-  const base::Diagnostic& of(base::Code code) const {
-    for (const base::Diagnostic& d : diagnostics.items())
+  const text::Diagnostic& of(text::Code code) const {
+    for (const text::Diagnostic& d : diagnostics.items())
       if (d.code == code) return d;
     INFO(text());
-    REQUIRE_MESSAGE(false, "expected ", base::nameOf(code));
+    REQUIRE_MESSAGE(false, "expected ", text::nameOf(code));
     return diagnostics.items().front();
   }
 

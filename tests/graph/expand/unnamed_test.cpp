@@ -9,13 +9,13 @@
 using namespace weft;
 using namespace weft::graph;
 using namespace weft::graph::test;
-using base::Code;
+using text::Code;
 
 namespace {
 
 std::size_t warningsOf(const Expanded& expanded, Code code) {
   std::size_t count = 0;
-  for (const base::Diagnostic& d : expanded.diagnostics.items()) count += d.code == code;
+  for (const text::Diagnostic& d : expanded.diagnostics.items()) count += d.code == code;
   return count;
 }
 
@@ -98,7 +98,7 @@ TEST_CASE("an alternative with a condition is told behind one that is always the
 
 TEST_CASE("things of the scene in a list that no pass draws") {
   const auto said = [](const std::string& list, const std::string& top) {
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     const std::string text =
         R"J({ )J" + top +
         R"J( "name": "lit", "resources": { "out": { "texture": "rgba8", "size": 8, "clear": 0 } }, "passes": [

@@ -8,14 +8,14 @@
 using namespace weft;
 using namespace weft::graph;
 using namespace weft::graph::test;
-using base::Code;
+using text::Code;
 
 namespace {
 
 // Without resources that nobody names: of these is unnamed_test.cpp.
 std::size_t countOf(const Expanded& expanded) {
   std::size_t count = 0;
-  for (const base::Diagnostic& d : expanded.diagnostics.items())
+  for (const text::Diagnostic& d : expanded.diagnostics.items())
     count += d.code == Code::unusedDeclaration && !d.message.starts_with("the resource") &&
              d.message.find("keeps what") == std::string::npos;
   return count;
@@ -104,7 +104,7 @@ TEST_CASE("what lies under an overlay is not judged, what it declares itself is"
                R"J({ "extends": "whole.json", "passes": [ { "name": "down", "remove": true } ] })J");
   folder.write("more.json", R"J({ "extends": "less.json", "parameters": { "mine": { "default": 1.0 } } })J");
   const auto count = [&](const std::string& file) {
-    base::Diagnostics said;
+    text::Diagnostics said;
     const auto desc = readGraph(folder.file(file), said);
     REQUIRE_MESSAGE(desc, said.text());
     Expanded expanded;

@@ -4,7 +4,7 @@
 using namespace weft;
 using namespace weft::graph;
 using namespace weft::graph::test;
-using base::Code;
+using text::Code;
 
 namespace {
 
@@ -217,7 +217,7 @@ TEST_CASE("what is an error in a live pass is a warning in a culled one") {
       fullscreen("idle", R"J("read": { "source": "a" }, "write": { "result": "b" })J") + "," +
           fullscreen("last", R"J("read": { "maybe": "b if false ?" }, "write": { "result": "out" })J")));
   CHECK(e.graph);
-  CHECK(e.of(Code::nobodyWrites).severity == base::Severity::warning);
+  CHECK(e.of(Code::nobodyWrites).severity == text::Severity::warning);
   CHECK(e.diagnostics.size() == 1);
 }
 
@@ -258,7 +258,7 @@ TEST_CASE("passes culled by mistake are warned of, passes culled on purpose are 
   const Expanded nothing =
       expandText(graphOf("", fullscreen("two", R"J("write": { "result": "out" })J"), R"J("name": "x")J"));
   CHECK(nothing.graph);
-  CHECK(nothing.of(Code::nothingPresented).severity == base::Severity::warning);
+  CHECK(nothing.of(Code::nothingPresented).severity == text::Severity::warning);
   const Expanded effect = expandText(graphOf(
       "", fullscreen("two", R"J("write": { "result": "out" }, "side_effect": true)J"), R"J("name": "x")J"));
   CHECK(effect.text() == "");

@@ -9,9 +9,9 @@
 #include "tests/graph/expand/map_scope.h"
 
 using namespace weft::graph;
-using weft::base::Code;
-using weft::base::Diagnostics;
-using weft::base::Place;
+using weft::text::Code;
+using weft::text::Diagnostics;
+using weft::text::Place;
 
 namespace {
 

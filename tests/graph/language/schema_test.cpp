@@ -8,8 +8,8 @@
 #include "engine/graph/read/read.h"
 
 using namespace weft::graph;
-using weft::base::Code;
-using weft::base::Diagnostics;
+using weft::text::Code;
+using weft::text::Diagnostics;
 using Json = nlohmann::json;
 
 namespace {
@@ -59,7 +59,7 @@ Diagnostics diagnose(const Json& graph) {
 }
 
 // The include of a file that is not there is not what these tests are about.
-bool isMissingFile(const weft::base::Diagnostic& d) {
+bool isMissingFile(const weft::text::Diagnostic& d) {
   return d.code == Code::unreadableFile;
 }
 

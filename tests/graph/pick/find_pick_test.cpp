@@ -24,7 +24,7 @@ Expanded chain() {
 
 // "hdr#2 third", or the message and its hint.
 std::string foundBy(const Expanded& expanded, const char* text) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto found = findPick(*expanded.graph, *parsePick(text), diagnostics);
   if (!found) return diagnostics.items()[0].message + "; " + diagnostics.items()[0].hint;
   return expanded.graph->resourceNames[found->resource] +

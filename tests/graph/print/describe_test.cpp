@@ -33,7 +33,7 @@ constexpr const char* kChain = R"({
 })";
 
 std::shared_ptr<const Plan> planOf(const std::string& text, const Settings& settings = {}) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto desc = readGraphText(text, "chain.json", diagnostics);
   REQUIRE_MESSAGE(desc, diagnostics.text());
   const auto flat = expandGraph(*desc, testRegistry(), settings, diagnostics);
@@ -42,7 +42,7 @@ std::shared_ptr<const Plan> planOf(const std::string& text, const Settings& sett
 }
 
 std::string described(const Plan& plan, const char* name) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto text = describe(plan, name, diagnostics);
   REQUIRE_MESSAGE(text, diagnostics.text());
   return *text;
@@ -84,10 +84,10 @@ TEST_CASE("resources, their versions and parameters are explained") {
 TEST_CASE("what is disabled says why, and an unknown name gets the nearest") {
   const auto plan = planOf(kChain, {.disables = {"tint"}});
   CHECK(described(*plan, "tint") == "pass tint: disabled, --disable tint\n");
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   CHECK_FALSE(describe(*plan, "doen", diagnostics));
   REQUIRE(diagnostics.size() == 1);
-  CHECK(diagnostics.items()[0].code == base::Code::unknownPass);
+  CHECK(diagnostics.items()[0].code == text::Code::unknownPass);
   CHECK(has(diagnostics.items()[0].hint, "down"));
 }
 

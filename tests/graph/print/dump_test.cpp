@@ -178,7 +178,7 @@ TEST_CASE("the JSON form is JSON and carries the plan") {
     CHECK(nlohmann::json::accept(dumpJson(randomGraph(seed).compiled(), true)));
 }
 
-TEST_CASE("the DOT form names every pass once, quotes what needs it, greys what is culled") {
+TEST_CASE("the DOT form names every pass once, quotes what needs it, grays what is culled") {
   FlatBuilder b = exampleGraph();
   b.graph.passNames[1] = "draw \"it\"";
   const std::string dot = dumpDot(b.compiled());

@@ -13,8 +13,8 @@
 #include "tests/graph/expand/map_scope.h"
 
 using namespace weft::graph;
-using weft::base::Code;
-using weft::base::Diagnostics;
+using weft::text::Code;
+using weft::text::Diagnostics;
 
 namespace {
 
@@ -46,7 +46,7 @@ Diagnostics diagnose(const std::string& file, const std::string& stage) {
 
 // Number and title of each below W040.
 std::map<int, std::string> codesOfReading() {
-#define WEFT_CODE_ROW(number, name, title) {static_cast<int>(weft::base::Code::name), title},
+#define WEFT_CODE_ROW(number, name, title) {static_cast<int>(weft::text::Code::name), title},
   std::map<int, std::string> all = {WEFT_CODES(WEFT_CODE_ROW)};
 #undef WEFT_CODE_ROW
   std::erase_if(all, [](const auto& row) { return row.first >= 40; });

@@ -10,7 +10,7 @@
 using namespace weft;
 using namespace weft::graph;
 using namespace weft::graph::test;
-using base::Code;
+using text::Code;
 
 namespace {
 
@@ -86,7 +86,7 @@ TEST_CASE("like: what the other declares stays one parameter") {
 
 TEST_CASE("like: mistakes are reported once, where they stand") {
   const auto errors = [](const std::string& passes) {
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     readGraphText(kHead + passes + R"J( ], "present": "hdr" })J", "test.json", diagnostics);
     return diagnostics;
   };
@@ -98,7 +98,7 @@ TEST_CASE("like: mistakes are reported once, where they stand") {
   // An include is no pass.
   CHECK(errors(R"J({ "include": "nowhere.json", "as": "x" }, { "name": "two", "like": "x" })J")
             .contains(Code::likeNothing));
-  const base::Diagnostics twice = errors(
+  const text::Diagnostics twice = errors(
       R"J({ "name": "two", "type": "fullscreen", "shader": "a.frag.glsl", "blond": 1, "read": { "a": "hdr[" } },
     { "name": "three", "like": "two", "statr": {} })J");
   REQUIRE_MESSAGE(twice.size() == 3, twice.text());
@@ -152,7 +152,7 @@ TEST_CASE("like: written back, a disabled pass keeps what it is like") {
   ],
   "present": "hdr"
 })J");
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto desc = readGraph(path, diagnostics);
   REQUIRE(desc);
   const auto plan = planWriteBack(*desc, {}, testRegistry(), with({{"width", "2"}}, {"two"}), diagnostics);

@@ -55,9 +55,9 @@ std::string withKey(std::string text, const std::string& from, const std::string
 void checkOneMistake(Folder& folder, const std::string& text, const std::string& right,
                      const std::string& wrong) {
   const std::string path = folder.write("g.json", withKey(text, "\"" + right + "\":", "\"" + wrong + "\":"));
-  const base::Diagnostics said = expandFile(path).diagnostics;
+  const text::Diagnostics said = expandFile(path).diagnostics;
   REQUIRE_MESSAGE(said.size() == 1, wrong << "\n" << said.text());
-  CHECK(said.items()[0].code == base::Code::unknownKey);
+  CHECK(said.items()[0].code == text::Code::unknownKey);
   CHECK_MESSAGE(said.items()[0].hint.find("\"" + right + "\"") != std::string::npos, said.text());
 }
 
@@ -90,7 +90,7 @@ TEST_CASE("a misspelt key of an overlay or a preset gives one error") {
   for (const auto& [right, wrong] : kWrong) checkOneMistake(folder, kOverlayOfBase, right, wrong);
   const std::string preset =
       folder.write("preset.json", R"({ "passes": [ { "nmae": "show", "enabled": true } ] })");
-  const base::Diagnostics said =
+  const text::Diagnostics said =
       expandFile(folder.write("g.json", R"({ "extends": "base.json" })"), {preset}).diagnostics;
   REQUIRE_MESSAGE(said.size() == 1, said.text());
   CHECK(said.items()[0].hint == "did you mean \"name\"?");
@@ -102,7 +102,7 @@ TEST_CASE("a key that is near one that is there already, or near none, is only r
       withKey(kWholeGraph, "\"history\": 1", "\"history\": 1, \"histroy\": 2, \"flavour\": 3, \"mpss\": 4");
   const Expanded expanded = expandFile(folder.write("g.json", twice));
   CHECK_MESSAGE(expanded.diagnostics.size() == 3, expanded.text());
-  for (const base::Diagnostic& d : expanded.diagnostics.items()) CHECK(d.code == base::Code::unknownKey);
+  for (const text::Diagnostic& d : expanded.diagnostics.items()) CHECK(d.code == text::Code::unknownKey);
 }
 
 TEST_CASE("a repeat of a wrong form gives one error, whatever uses its index") {
@@ -116,7 +116,7 @@ TEST_CASE("a repeat of a wrong form gives one error, whatever uses its index") {
     const std::string text = withKey(kWholeGraph, "{ \"i\": [0, 3] }", form);
     const Expanded expanded = expandFile(folder.write("g.json", text));
     REQUIRE_MESSAGE(expanded.diagnostics.size() == 1, form << "\n" << expanded.text());
-    CHECK(expanded.diagnostics.items()[0].code == base::Code::wrongType);
+    CHECK(expanded.diagnostics.items()[0].code == text::Code::wrongType);
     CHECK(expanded.diagnostics.items()[0].hint == hint);
   }
 }
@@ -124,11 +124,11 @@ TEST_CASE("a repeat of a wrong form gives one error, whatever uses its index") {
 TEST_CASE(
     "a resource of an included file, and a misspelt one in a slot of its name, get the name that is meant") {
   Folder folder;
-  const auto hintFor = [&](const std::string& path, base::Code code) {
+  const auto hintFor = [&](const std::string& path, text::Code code) {
     return expandFile(path).of(code).hint;
   };
   CHECK(hintFor(folder.over(R"("passes": [ { "name": "show", "read": { "picture": "glow" } } ])"),
-                base::Code::unknownResource) == "did you mean 'post.bloom.glow'?");
+                text::Code::unknownResource) == "did you mean 'post.bloom.glow'?");
   CHECK(hintFor(folder.write("g.json", withKey(kWholeGraph, "\"sky\": \"sky.face[1]\"", "\"sky\": \"skyy\"")),
-                base::Code::unknownResource) == "did you mean 'sky'?");
+                text::Code::unknownResource) == "did you mean 'sky'?");
 }

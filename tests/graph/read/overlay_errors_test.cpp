@@ -7,17 +7,17 @@ using namespace weft;
 using namespace weft::graph;
 using namespace weft::graph::test;
 using namespace weft::graph::test::overlays;
-using base::Code;
+using text::Code;
 
 TEST_CASE("values that do not fit are reported where they stand") {
   const Folder folder;
   const auto only = [&](const std::string& text) {
     const Expanded e = expandFile(folder.file("base.json"), {folder.write("p.json", text)});
     REQUIRE_MESSAGE(e.diagnostics.size() == 1, e.text());
-    const base::Diagnostic& d = e.diagnostics.items()[0];
+    const text::Diagnostic& d = e.diagnostics.items()[0];
     REQUIRE(d.place.file);
     CHECK(*d.place.file == folder.file("p.json"));
-    return base::nameOf(d.code) + " " + std::to_string(d.place.line) + ":" + std::to_string(d.place.column);
+    return text::nameOf(d.code) + " " + std::to_string(d.place.line) + ":" + std::to_string(d.place.column);
   };
   CHECK(only(R"({ "set": { "curve": "filmc" } })") == "W047 1:12");
   CHECK(only(R"({ "set": { "gain": 9 } })") == "W048 1:12");
@@ -62,7 +62,7 @@ TEST_CASE("what does not fit its base") {
 TEST_CASE(
     "a pass with a misspelt anchor stands where it was meant, so that its readers are no second mistake") {
   const Folder folder;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto desc = readGraph(
       folder.over(R"("passes": [ { "name": "nw", "type": "compute", "before": "shwo" } ])"), diagnostics);
   REQUIRE(desc);
@@ -75,11 +75,11 @@ TEST_CASE(
 TEST_CASE("a name that is not whole is one error, whose fix is the whole name") {
   const Folder folder;
   const auto hint = [&](const std::string& keys) {
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     const auto desc = readGraph(folder.over(keys), diagnostics);
     if (desc) expandGraph(*desc, testRegistry(), {}, diagnostics);
     REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
-    return base::nameOf(diagnostics.items()[0].code) + " " + diagnostics.items()[0].hint;
+    return text::nameOf(diagnostics.items()[0].code) + " " + diagnostics.items()[0].hint;
   };
   const std::string fresh =
       R"("type": "fullscreen", "shader": "e.frag.glsl", "read": { "source": "out" }, "write": { "result": "out" })";

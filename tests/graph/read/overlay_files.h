@@ -69,14 +69,14 @@ inline Expanded fine(const std::string& path, const std::vector<std::string>& pr
 
 // "W017 over.json 3:5" of every diagnostic of reading.
 inline std::string wrong(const std::string& path, const std::vector<std::string>& presets = {}) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   readGraph(path, presets, diagnostics);
   std::string out;
   for (const auto& d : diagnostics.items()) {
-    out += (out.empty() ? "" : "; ") + base::nameOf(d.code) + " " +
+    out += (out.empty() ? "" : "; ") + text::nameOf(d.code) + " " +
            std::filesystem::path(d.place.file ? *d.place.file : "").filename().string() + " " +
            std::to_string(d.place.line) + ":" + std::to_string(d.place.column);
-    CHECK_MESSAGE((!d.hint.empty() || !d.expected.empty()), base::format(d));
+    CHECK_MESSAGE((!d.hint.empty() || !d.expected.empty()), text::format(d));
   }
   return out;
 }

@@ -8,7 +8,7 @@ using namespace weft;
 using namespace weft::graph;
 using namespace weft::graph::test;
 using namespace weft::graph::test::overlays;
-using base::Code;
+using text::Code;
 
 namespace fs = std::filesystem;
 

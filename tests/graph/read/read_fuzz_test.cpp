@@ -13,7 +13,7 @@
 #include "engine/graph/read/ref_parse.h"
 
 using namespace weft::graph;
-using weft::base::Diagnostics;
+using weft::text::Diagnostics;
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include "tests/graph/test_folder.h"
 
 using namespace weft::graph;
-using weft::base::Code;
-using weft::base::Diagnostics;
+using weft::text::Code;
+using weft::text::Diagnostics;
 
 namespace {
 

@@ -9,8 +9,8 @@
 #include "engine/graph/language/keys.h"
 
 using namespace weft::graph;
-using weft::base::Code;
-using weft::base::Diagnostics;
+using weft::text::Code;
+using weft::text::Diagnostics;
 
 namespace {
 

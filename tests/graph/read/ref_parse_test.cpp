@@ -3,8 +3,8 @@
 #include <doctest/doctest.h>
 
 using namespace weft::graph;
-using weft::base::Code;
-using weft::base::Diagnostics;
+using weft::text::Code;
+using weft::text::Diagnostics;
 
 namespace {
 

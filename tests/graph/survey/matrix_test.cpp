@@ -43,7 +43,7 @@ struct Tried {
 };
 
 Tried tryAll(const std::string& text, bool pairs = true) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto desc = readGraphText(text, "matrix.json", diagnostics);
   REQUIRE_MESSAGE(desc, diagnostics.text());
   Tried tried;
@@ -69,7 +69,7 @@ TEST_CASE("single passes, pairs and values are tried, each once") {
   // A value that the file offers and that divides by zero.
   REQUIRE(matrix.broken.size() == 1);
   CHECK(matrix.broken[0].variation.text() == "--set levels=0");
-  CHECK(matrix.broken[0].said.contains(base::Code::noFiniteResult));
+  CHECK(matrix.broken[0].said.contains(text::Code::noFiniteResult));
   const std::set<std::string> made = {"as it is",
                                       "--disable sun",
                                       "--disable sky",

@@ -10,7 +10,7 @@
 using namespace weft;
 using namespace weft::graph;
 using namespace weft::graph::test;
-using base::Code;
+using text::Code;
 
 namespace {
 
@@ -25,13 +25,13 @@ std::string linkedGraph(const std::string& resources, const std::string& passes)
 }
 
 // What checker and compiler must agree about in one graph.
-void check(const FlatGraph& graph, const base::Diagnostics& said, const std::string& name,
+void check(const FlatGraph& graph, const text::Diagnostics& said, const std::string& name,
            checks::LinkCount& count) {
   INFO(name);
   CHECK(checks::checkLinks(graph, count) == "");
   const Plan plan = compile(std::make_shared<const FlatGraph>(graph));
   CHECK(checks::checkLiveness(plan) == "");
-  for (const base::Diagnostic& d : said.items())
+  for (const text::Diagnostic& d : said.items())
     if (d.code == Code::culledUnread || d.code == Code::culledOverwritten)
       for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
         if (graph.passNames[p] == d.pass) CHECK_MESSAGE(plan.stepOf[p] == kNone, d.message);
@@ -46,7 +46,7 @@ TEST_CASE("expansion's links are the last writers, in all bundled graphs, whole 
        {"/graphs", "/graphs/presets", "/tests/golden", "/tests/runtime/graphs", "/tests/graph/paper"})
     for (const auto& entry : fs::directory_iterator(std::string(WEFT_SOURCE_DIR) + folder)) {
       if (entry.path().extension() != ".json" || entry.path().filename() == "manifest.json") continue;
-      base::Diagnostics said;
+      text::Diagnostics said;
       const auto desc = readGraph(entry.path().string(), said);
       if (!desc) continue;  // a preset or an overlay, or an include that needs a graph around it
       const auto whole = expandGraph(*desc, testRegistry(), {}, said);
@@ -57,7 +57,7 @@ TEST_CASE("expansion's links are the last writers, in all bundled graphs, whole 
       for (const PassSpec& spec : whole->specs) {
         if (spec.declared == before) continue;
         before = spec.declared;
-        base::Diagnostics less;
+        text::Diagnostics less;
         const auto rest = expandGraph(*desc, testRegistry(), with({}, {spec.declared}), less);
         if (!rest) continue;
         ++expanded;
@@ -82,7 +82,7 @@ TEST_CASE(
                                                       "write": { "result": "a.mip[1]" })J") +
                                 R"J( ], "present": "a" })J");
   REQUIRE_MESSAGE(e.graph, e.text());
-  CHECK(e.of(Code::nobodyWrites).severity == base::Severity::warning);
+  CHECK(e.of(Code::nobodyWrites).severity == text::Severity::warning);
   const Plan plan = compile(e.graph);
   CHECK(plan.stepOf[e.pass("near")] != kNone);
   CHECK(plan.stepOf[e.pass("far")] == kNone);

@@ -20,7 +20,7 @@ std::string lasting(const std::string& passes, const std::string& resources, con
   graph::Registry registry;
   registry.passTypes.push_back({.name = "fullscreen", .doc = "", .shader = graph::ShaderShape::fragment});
   registry.factsOf = [](const graph::ImportRequest&) { return graph::ImportFacts{}; };
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto desc = graph::readGraphText(text, "lasting.json", diagnostics);
   REQUIRE_MESSAGE(desc, diagnostics.text());
   const auto flat = graph::expandGraph(*desc, registry, {}, diagnostics);

@@ -146,7 +146,7 @@ TEST_CASE("slices: a frame that goes on with a pass allocates nothing") {
   Live live({{"n", "9"}, {"m", "9"}});
   runtime::FrameInput input = runtime::headlessFrame(live.stage.world, 0, 60);
   input.headless = false;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   std::size_t allocations = 0;
   for (int i = 0; i < 18; ++i) {
     const bool first = i % 9 < 3;  // its program is compiled by the driver, its framebuffer made

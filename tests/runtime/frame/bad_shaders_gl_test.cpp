@@ -12,7 +12,7 @@
 using namespace weft;
 
 TEST_CASE("graphs that do not fit their shaders are told apart, with their place, and nothing else is said") {
-  base::Diagnostics environment;
+  text::Diagnostics environment;
   auto context = gl::createContext({.backend = gl::Backend::osmesa}, environment);
   REQUIRE_MESSAGE(context, environment.text());
   auto scene = scene::loadScene(WEFT_SOURCE_DIR "/scenes/one_sphere.json", environment);
@@ -27,14 +27,14 @@ TEST_CASE("graphs that do not fit their shaders are told apart, with their place
     const std::string file = entry.at("file");
     CAPTURE(file);
     runtime::Renderer renderer(*context, folder + file, {.dataFolder = WEFT_SOURCE_DIR, .cacheFolder = ""});
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     CHECK_FALSE(renderer.load({.screenWidth = 8, .screenHeight = 8, .software = true}, world, diagnostics));
     CAPTURE(diagnostics.text());
     int errors = 0;
-    for (const base::Diagnostic& d : diagnostics.items()) {
-      if (d.severity != base::Severity::error) continue;
+    for (const text::Diagnostic& d : diagnostics.items()) {
+      if (d.severity != text::Severity::error) continue;
       ++errors;
-      CHECK(base::nameOf(d.code) == entry.at("code").get<std::string>());
+      CHECK(text::nameOf(d.code) == entry.at("code").get<std::string>());
       CHECK(d.place.line == entry.at("line").get<unsigned>());
       CHECK(d.place.column == entry.at("column").get<unsigned>());
       CHECK(d.pass == "paint");

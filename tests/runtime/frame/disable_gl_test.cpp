@@ -22,8 +22,8 @@ const std::string& errorsPage() {
   return text;
 }
 
-bool isDocumented(base::Code code) {
-  return errorsPage().find("\n## " + base::nameOf(code)) != std::string::npos;
+bool isDocumented(text::Code code) {
+  return errorsPage().find("\n## " + text::nameOf(code)) != std::string::npos;
 }
 
 // Passes whose outputs are costly to make again come last, so that counting up leaves them alone longest.
@@ -60,13 +60,13 @@ void tryWithout(Stage& stage, std::vector<std::string> disables, Outcome& outcom
   }
   ++outcome.refusals;
   CHECK(stage.diagnostics.hasErrors());
-  for (const base::Diagnostic& each : stage.diagnostics.items()) {
-    ++outcome.codes[base::nameOf(each.code)];
-    CHECK_MESSAGE(isDocumented(each.code), "docs/errors.md lacks " << base::nameOf(each.code));
-    if (each.severity != base::Severity::error) continue;
+  for (const text::Diagnostic& each : stage.diagnostics.items()) {
+    ++outcome.codes[text::nameOf(each.code)];
+    CHECK_MESSAGE(isDocumented(each.code), "docs/errors.md lacks " << text::nameOf(each.code));
+    if (each.severity != text::Severity::error) continue;
     const std::uint32_t line = each.place.line;
-    CHECK_MESSAGE(line > 0, base::format(each));
-    CHECK_MESSAGE(!each.hint.empty(), "no fix: " << base::format(each));
+    CHECK_MESSAGE(line > 0, text::format(each));
+    CHECK_MESSAGE(!each.hint.empty(), "no fix: " << text::format(each));
   }
 }
 

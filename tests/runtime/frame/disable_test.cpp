@@ -32,7 +32,7 @@ std::string errorsPage() {
 class Bench {
  public:
   Bench(const std::string& graph, std::vector<graph::Setting> sets) : page_(errorsPage()) {
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     auto scene = scene::loadScene(kTop + "tests/runtime/scenes/everything.json", diagnostics);
     REQUIRE_MESSAGE(scene.has_value(), diagnostics.text());
     registry_ = runtime::makeRegistry({}, imports::World(std::move(*scene)).facts());
@@ -53,14 +53,14 @@ class Bench {
     for (const std::string& name : disables) label += " " + name;
     INFO(label);
     settings_.disables = {disables.begin(), disables.end()};
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     const auto flat = graph::expandGraph(*desc_, registry_, settings_, diagnostics);
-    for (const base::Diagnostic& each : diagnostics.items()) {
-      ++codes[base::nameOf(each.code)];
-      CHECK_MESSAGE(page_.find("\n## " + base::nameOf(each.code)) != std::string::npos, base::format(each));
-      if (each.severity != base::Severity::error) continue;
-      CHECK_MESSAGE(each.place.line > 0, base::format(each));
-      CHECK_MESSAGE(!each.hint.empty(), "no fix: " << base::format(each));
+    for (const text::Diagnostic& each : diagnostics.items()) {
+      ++codes[text::nameOf(each.code)];
+      CHECK_MESSAGE(page_.find("\n## " + text::nameOf(each.code)) != std::string::npos, text::format(each));
+      if (each.severity != text::Severity::error) continue;
+      CHECK_MESSAGE(each.place.line > 0, text::format(each));
+      CHECK_MESSAGE(!each.hint.empty(), "no fix: " << text::format(each));
     }
     if (!flat || diagnostics.hasErrors()) {
       CHECK(diagnostics.hasErrors());

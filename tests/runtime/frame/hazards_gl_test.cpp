@@ -18,7 +18,7 @@ namespace {
 // Runs frames of a plan of the stage's graph, beside the stage's own execution.
 void runFrames(GlTrace& trace, Stage& stage, const std::shared_ptr<const graph::FlatGraph>& flat,
                const graph::CompileOptions& options, std::uint32_t frames) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto execution = Execution::create(stage.renderer().device(),
                                            std::make_shared<const graph::Plan>(graph::compile(flat, options)),
                                            nullptr, ShaderFiles::keep, diagnostics);

@@ -2,7 +2,7 @@
 // graph that was loaded with them, and wake what runs on change.
 #include <cstring>
 
-#include "engine/base/hash.h"
+#include "engine/text/hash.h"
 #include "tests/runtime/frame_allocations.h"
 #include "tests/runtime/stage.h"
 
@@ -169,7 +169,7 @@ TEST_CASE("live: what is no live value changes nothing") {
   // The way that makes another plan says why.
   stage.settings.sets = {{"gain", "0"}};
   CHECK_FALSE(stage.apply());
-  CHECK_MESSAGE(stage.diagnostics.contains(base::Code::noFiniteResult), stage.diagnostics.text());
+  CHECK_MESSAGE(stage.diagnostics.contains(text::Code::noFiniteResult), stage.diagnostics.text());
 }
 
 TEST_CASE("live: another plan begins with the values it is made with") {

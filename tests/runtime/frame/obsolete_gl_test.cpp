@@ -14,7 +14,7 @@ runtime::FrameReport frame(Stage& stage, std::uint32_t number, int obsoleteAfter
   runtime::FrameInput input = runtime::headlessFrame(stage.world, number, 60);
   int asked = 0;
   if (obsoleteAfter >= 0) input.obsolete = [&] { return asked++ >= obsoleteAfter; };
-  base::Diagnostics said;
+  text::Diagnostics said;
   const runtime::FrameReport report = stage.renderer().frame(stage.world, input, said);
   CHECK_MESSAGE(said.empty(), said.text());
   return report;

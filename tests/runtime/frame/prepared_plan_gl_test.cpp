@@ -16,7 +16,7 @@ TEST_CASE("a plan of equal passes keeps all of them, with their storage") {
   CHECK(running.prepared.passesPrepared == 4);
   const std::uint64_t serial = (*running.pool)[running["kept"].written.at(0)].serial;
   const auto variant = running["kept"].variant;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto next = preparePlan(running.device, compiledPlan("tests/runtime/graphs/live.json"),
                                 &running.prepared, ShaderFiles::keep, diagnostics);
   REQUIRE_MESSAGE(next, diagnostics.text());
@@ -30,7 +30,7 @@ TEST_CASE("a plan of equal passes keeps all of them, with their storage") {
 TEST_CASE("a plan of other passes prepares its own") {
   const CleanScope clean;
   PlanOnDevice running("tests/runtime/graphs/live.json");
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto next = preparePlan(running.device, compiledPlan("tests/runtime/graphs/obsolete.json"),
                                 &running.prepared, ShaderFiles::keep, diagnostics);
   REQUIRE_MESSAGE(next, diagnostics.text());
@@ -56,9 +56,9 @@ TEST_CASE("a shader that does not compile leaves the running plan as it was") {
   write("vec4(1)");
   PlanOnDevice running(folder.at("graph.json"));
   write("vec4(missing)");
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   CHECK_FALSE(preparePlan(running.device, running.plan, &running.prepared, ShaderFiles::read, diagnostics));
-  CHECK(diagnostics.contains(base::Code::shaderDoesNotCompile));
+  CHECK(diagnostics.contains(text::Code::shaderDoesNotCompile));
   REQUIRE(running.passes.size() == 2);
   for (const runtime::PreparedPass& pass : running.passes) {
     CHECK(pass.usable);
@@ -84,13 +84,13 @@ TEST_CASE("storage that cannot be made leaves the running plan as it was") {
     CAPTURE(s);
     auto large = std::make_shared<graph::Plan>(*running.plan);
     large->storages[s].width = 1u << 24;
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     CHECK_FALSE(preparePlan(running.device, large, &running.prepared, ShaderFiles::keep, diagnostics));
-    CHECK(diagnostics.contains(base::Code::textureNotCreated));
+    CHECK(diagnostics.contains(text::Code::textureNotCreated));
     CHECK(serials() == before);
     for (const runtime::PreparedPass& pass : running.passes) CHECK(pass.usable);
   }
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto next =
       preparePlan(running.device, running.plan, &running.prepared, ShaderFiles::keep, diagnostics);
   REQUIRE_MESSAGE(next, diagnostics.text());

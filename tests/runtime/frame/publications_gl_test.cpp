@@ -143,7 +143,7 @@ TEST_CASE("a history is reset when what it depends on changes, and not before th
   const CleanScope clean;
   Bench bench("tests/runtime/graphs/accumulate.json");
   GpuResource& sum = (*bench.pool)[bench.resource("sum")];
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto frame = [&](std::uint64_t cut) {
     FrameInput input;
     input.cutGeneration = cut;

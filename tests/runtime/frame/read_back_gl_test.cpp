@@ -122,7 +122,7 @@ TEST_CASE("outputs: a frame allocates nothing for them") {
   Stage stage(kGraph, 4, 2, kScene);
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   for (std::uint32_t frame = 0; frame < 6; ++frame) stage.run(frame);
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   std::size_t allocations = 0;
   for (std::uint32_t frame = 6; frame < 16; ++frame) {
     const runtime::FrameInput input = runtime::headlessFrame(stage.world, frame, 60);

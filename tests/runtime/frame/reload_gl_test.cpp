@@ -92,7 +92,7 @@ class BufferFailure {
 
 }  // namespace
 
-TEST_CASE("reload: a colour table is watched, and taken up when its file changed") {
+TEST_CASE("reload: a color table is watched, and taken up when its file changed") {
   const CleanScope clean;
   const TemporaryGraph file;
   const std::string path = file.path() + ".cube";
@@ -185,16 +185,16 @@ TEST_CASE("reload: a broken file or shader leaves the running execution as it is
   shaderless.replace(shaderless.find("math/add"), 8, "math/nil");
   uncompilable.replace(uncompilable.find("math/add"), 8, "math/bad");
   unknown.replace(unknown.find("\"source\": \"sum\""), 15, "\"source\": \"som\"");
-  const std::pair<std::string, base::Code> broken[] = {
-      {kHead, base::Code::notJson},
-      {"", base::Code::notJson},
-      {kHead + unknown + kTail, base::Code::unknownResource},
-      {kHead + shaderless + kTail, base::Code::unreadableShader},
-      {kHead + uncompilable + kTail, base::Code::shaderDoesNotCompile},
+  const std::pair<std::string, text::Code> broken[] = {
+      {kHead, text::Code::notJson},
+      {"", text::Code::notJson},
+      {kHead + unknown + kTail, text::Code::unknownResource},
+      {kHead + shaderless + kTail, text::Code::unreadableShader},
+      {kHead + uncompilable + kTail, text::Code::shaderDoesNotCompile},
   };
   std::uint32_t frame = 1;
   for (const auto& [text, code] : broken) {
-    INFO(base::nameOf(code));
+    INFO(text::nameOf(code));
     file.write(text);
     CHECK_FALSE(stage.load());
     CHECK_MESSAGE(stage.diagnostics.contains(code), stage.diagnostics.text());
@@ -205,7 +205,7 @@ TEST_CASE("reload: a broken file or shader leaves the running execution as it is
   }
   std::filesystem::remove(file.path());
   CHECK_FALSE(stage.load());
-  CHECK(stage.diagnostics.contains(base::Code::unreadableFile));
+  CHECK(stage.diagnostics.contains(text::Code::unreadableFile));
   file.write(kHead + kScale + kTail);
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   stage.run(frame);
@@ -244,7 +244,7 @@ TEST_CASE("reload: buffers that cannot be made leave the running execution as it
       REQUIRE(loaded == !failure.hit());
     }
     if (loaded) break;
-    CHECK_MESSAGE(stage.diagnostics.contains(base::Code::bufferNotCreated), stage.diagnostics.text());
+    CHECK_MESSAGE(stage.diagnostics.contains(text::Code::bufferNotCreated), stage.diagnostics.text());
     REQUIRE(&stage.execution() == running);
     // It runs, its read-backs arrive, and it can be gone on from: all its passes are where they were.
     stage.run(frame);
@@ -284,7 +284,7 @@ TEST_CASE("reload: what a shader declares is looked at again when it was edited"
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   shader("");
   CHECK_FALSE(stage.load());
-  CHECK_MESSAGE(stage.diagnostics.contains(base::Code::parameterNotInShader), stage.diagnostics.text());
+  CHECK_MESSAGE(stage.diagnostics.contains(text::Code::parameterNotInShader), stage.diagnostics.text());
   shader(block);
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   shader("// amount\n");

@@ -26,7 +26,7 @@ struct ChosenSteps {
         uniforms(*on.plan, on.device.imports, kAlignment),
         steps(*on.plan, *on.pool, on.device.imports, on.passes),
         generations(on.plan->graph->resources.size(), 1) {
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     uniforms.layOut(on.passes, diagnostics);
     REQUIRE_MESSAGE(diagnostics.empty(), diagnostics.text());
   }

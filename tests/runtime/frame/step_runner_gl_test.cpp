@@ -17,7 +17,7 @@ struct Steps {
   PlanOnDevice prepared;
   runtime::FrameUniforms uniforms;
   runtime::StepRunner runner;
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
 
   explicit Steps(const std::string& graph)
       : prepared(graph),

@@ -23,7 +23,7 @@ using namespace weft::runtime::test;
 namespace {
 
 constexpr std::uint32_t kWidth = 48, kHeight = 27;
-constexpr int kJudged = 3, kMostFrames = 400;
+constexpr int kJudged = 3, kMaxFrames = 400;
 constexpr double kTogglesStep = 0.1;  // seconds
 constexpr std::size_t kSample = 14;   // toggles of each graph
 
@@ -78,7 +78,7 @@ class Subject {
   std::uint32_t frame() { return run(number_ + 1, time_ + kTogglesStep); }
   bool settle() {
     int quiet = 0;
-    for (int n = 0; n < kMostFrames && quiet < 5; ++n) quiet = frame() == 0 ? quiet + 1 : 0;
+    for (int n = 0; n < kMaxFrames && quiet < 5; ++n) quiet = frame() == 0 ? quiet + 1 : 0;
     return quiet == 5;
   }
   Picture judge(std::uint32_t number, double time) {

@@ -20,7 +20,7 @@ struct Seen {
 };
 
 Seen seenIn(Inspector& inspector) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   if (inspector.picture().id == 0)
     return {.picture = {}, .values = {}, .bytes = inspector.bytes(0, inspector.bufferBytes())};
   auto picture = inspector.drawWhole(inspector.fittedView(), diagnostics);
@@ -86,7 +86,7 @@ TEST_CASE(
   const auto valuesOf = [&](const char* text) {
     const auto pick = graph::parsePick(text);
     REQUIRE(pick.has_value());
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     const auto item = captureItemOf(plan, *pick, diagnostics);
     REQUIRE_MESSAGE(item.has_value(), diagnostics.text());
     return captureAll(stage, {*item}).at(0).values;
@@ -118,18 +118,18 @@ TEST_CASE("what cannot be picked is said, with what there is") {
   const auto said = [&](const char* text) {
     const auto pick = graph::parsePick(text);
     REQUIRE(pick.has_value());
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     CHECK_FALSE(captureItemOf(stage.execution().plan(), *pick, diagnostics));
     REQUIRE(diagnostics.items().size() == 1);
     return diagnostics.items()[0];
   };
-  CHECK(said("frist").code == base::Code::unknownResource);
+  CHECK(said("frist").code == text::Code::unknownResource);
   CHECK(said("frist").hint == "did you mean 'first'?");
   CHECK(said("first#2").expected == "#1 to #1");
   CHECK(said("chain.mip[3]").expected == "level 0 to 2");
   CHECK(said("chain.layer[2]").expected == "layer 0 to 1");
-  CHECK(said("first.stencil").code == base::Code::badSelector);
-  CHECK(said("first@-1").code == base::Code::noHistory);
-  CHECK(said("first after two").code == base::Code::unknownPass);
+  CHECK(said("first.stencil").code == text::Code::badSelector);
+  CHECK(said("first@-1").code == text::Code::noHistory);
+  CHECK(said("first after two").code == text::Code::unknownPass);
   CHECK(said("first after two").expected == "one");
 }

@@ -133,7 +133,7 @@ TEST_CASE("what is shown: range, marks, zoom; the same as a pass with the shader
   Stage stage(kGraph, 16, 16);
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   Inspector inspector(stage.renderer().device());
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   look(stage, inspector, {.resource = "shown"});
   const auto shown = gl::readTexture(inspector.picture(), 0, 0, GL_RGBA, GL_UNSIGNED_BYTE);
   look(stage, inspector, {.resource = "first"});
@@ -197,7 +197,7 @@ TEST_CASE("an inspector changes nothing but itself: the picture, and a graph rep
   CHECK_FALSE(stage.execution().watched());
   look(stage, inspector, {.resource = "glow", .mip = 2});
   CHECK(inspector.picture().desc.width == 16);
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   CHECK(inspector.draw({}, 20, 10, diagnostics) != 0);
   stage.run();
   CHECK(inspector.copies() == 3);

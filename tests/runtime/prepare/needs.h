@@ -1,6 +1,6 @@
 // What a program asks of a device: varyings, samplers, and images, storage blocks and outputs together. From the interfaces of its
 // stages, so that it is known without a device, and of a program that does not link. What main() cannot reach counts for nothing;
-// what a driver drops besides does count. The least that OpenGL 4.5 gives is kLeastDevice (core, tables 23.55 to 23.64).
+// what a driver drops besides does count. The least that OpenGL 4.5 gives is kMinDevice (core, tables 23.55 to 23.64).
 // Does not: count uniforms, attributes or uniform blocks.
 #pragma once
 
@@ -27,7 +27,7 @@ struct ProgramNeeds {
 ProgramNeeds needsOf(std::span<const StageSource> stages, std::span<const glsl::Define> defines);
 
 // MAX_VARYING_VECTORS, MAX_VARYING_COMPONENTS, MAX_TEXTURE_IMAGE_UNITS, MAX_COMBINED_SHADER_OUTPUT_RESOURCES.
-inline constexpr ProgramNeeds kLeastDevice{.locations = 15, .components = 60, .samplers = 16, .together = 8};
+inline constexpr ProgramNeeds kMinDevice{.locations = 15, .components = 60, .samplers = 16, .together = 8};
 
 // The first figure of `needs` that is above that of `limits`.
 struct Excess {

@@ -1,4 +1,4 @@
-// What the programs of every bundled graph need of a device, held to the least that OpenGL 4.5 gives (gl::test::kLeastDevice). Without GL:
+// What the programs of every bundled graph need of a device, held to the least that OpenGL 4.5 gives (gl::test::kMinDevice). Without GL:
 // every graph and preset, with each boolean and choice at each of its values and each pass disabled, over two scenes; with
 // WEFT_ALL_VARIANTS=1 in the environment all pairs of those, too. Prints the table of what each graph needs at most. The count, which
 // is made from the source, is judged by a driver: each stage of each graph's defaults is linked as a separable program, and what it
@@ -161,7 +161,7 @@ class Survey {
          bool driver = false)
       : driver_(driver),
         sources_(runtime::shaderRootsOf(std::vector<std::string>{kTop + graph}, WEFT_SOURCE_DIR)) {
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     auto loaded = scene::loadScene(kTop + scene, diagnostics);
     REQUIRE_MESSAGE(loaded.has_value(), diagnostics.text());
     registry_ = runtime::makeRegistry({}, imports::World(std::move(*loaded)).facts());
@@ -171,7 +171,7 @@ class Survey {
 
   // Null where the variation has no plan; the errors are another test's matter.
   std::shared_ptr<const graph::FlatGraph> measure(const Variation& variation, Row& row) {
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     graph::Settings settings;
     settings.sets = variation.sets;
     settings.disables = variation.disables;
@@ -195,7 +195,7 @@ class Survey {
     for (const glsl::Define& define : request.defines) key += define.name + "=" + define.value + " ";
     const bool fresh = row.programs.insert(key).second;
     if (!fresh || request.stages.empty()) return;
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     std::vector<gl::StageSource> stages;
     for (const auto& stage : request.stages)
       stages.push_back({stage.stage, stage.text.empty()
@@ -208,7 +208,7 @@ class Survey {
     row.samplers.raise(needs.samplers, request.pass);
     row.together.raise(needs.together, request.pass);
     if (driver_) askDriver(stages, request);
-    const auto excess = gl::test::excessOf(needs, gl::test::kLeastDevice);
+    const auto excess = gl::test::excessOf(needs, gl::test::kMinDevice);
     row.beyond += excess.has_value();
     CHECK_MESSAGE(!excess,
                   fmt::format("'{}' needs {} {}, of {}: {}", request.pass, excess ? excess->needed : 0,
@@ -224,7 +224,7 @@ class Survey {
       // Of varyings the device's limits alone are asked: linked alone, a stage keeps inputs that it does not read.
       CHECK(active.samplers <= counted.samplers);
       CHECK(active.together <= counted.images + counted.storageBlocks + counted.outputs);
-      CHECK(!gl::test::excessOf(active, gl::test::kLeastDevice));
+      CHECK(!gl::test::excessOf(active, gl::test::kMinDevice));
     }
   }
 
@@ -308,7 +308,7 @@ TEST_CASE("needs: no program of a bundled graph asks for more than OpenGL 4.5 pr
 }
 
 TEST_CASE("needs: a driver finds no more active than is counted") {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto context = gl::createContext({.backend = gl::Backend::osmesa}, diagnostics);
   REQUIRE_MESSAGE(context, diagnostics.text());
   std::size_t programs = 0;
@@ -323,7 +323,7 @@ TEST_CASE("needs: a driver finds no more active than is counted") {
 
 TEST_CASE("needs: what is counted, by hand") {
   glsl::SourceLoader loader({});
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto needsOf = [&](GLenum stage, const std::string& text, std::vector<glsl::Define> defines = {}) {
     return gl::test::needsOf(gl::StageSource{stage, loader.loadText(text, "<text>", diagnostics)}, defines);
   };

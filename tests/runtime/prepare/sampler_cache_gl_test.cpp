@@ -51,7 +51,7 @@ TEST_CASE("a comparison is that of the slot, and filters") {
 }
 
 TEST_CASE(
-    "equal wishes share a sampler, and the colour of a border tells samplers apart only where there is one") {
+    "equal wishes share a sampler, and the color of a border tells samplers apart only where there is one") {
   const CleanScope clean;
   runtime::SamplerCache cache;
   const auto get = [&](const Sampler& sampler, const graph::BorderColor& color = {},

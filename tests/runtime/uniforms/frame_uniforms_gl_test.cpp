@@ -19,7 +19,7 @@ struct Filled {
   runtime::FrameUniforms uniforms;
 
   explicit Filled(const std::string& graph) : on(graph), uniforms(*on.plan, on.device.imports, 256) {
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     uniforms.layOut(on.passes, diagnostics);
     REQUIRE_MESSAGE(diagnostics.empty(), diagnostics.text());
   }

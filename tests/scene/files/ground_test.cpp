@@ -4,12 +4,12 @@
 
 using namespace weft;
 using namespace weft::scene;
-using base::Code;
+using text::Code;
 
 namespace {
 
-base::Diagnostic failureOf(std::string_view text) {
-  base::Diagnostics diagnostics;
+text::Diagnostic failureOf(std::string_view text) {
+  text::Diagnostics diagnostics;
   CHECK_FALSE(readScene(text, "s.json", diagnostics));
   REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
   CHECK(diagnostics.items()[0].place.line > 0);
@@ -17,7 +17,7 @@ base::Diagnostic failureOf(std::string_view text) {
 }
 
 std::optional<Ground> groundOf(std::string_view text) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto scene = readScene(text, "s.json", diagnostics);
   REQUIRE_MESSAGE(scene, diagnostics.text());
   CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
@@ -46,7 +46,7 @@ TEST_CASE("what is wrong with a ground is said with its place") {
   CHECK(failureOf(R"({"ground": {"albedo": [0, 2, 0]}})").code == Code::badSceneValue);
   CHECK(failureOf(R"({"ground": {"albedo": [0, 1, 0], "radius": 0}})").code == Code::badSceneValue);
   CHECK(failureOf(R"({"ground": {"height": 1e12}})").code == Code::badSceneValue);
-  const base::Diagnostic alone = failureOf(R"({"ground": {"radius": 5}})");
+  const text::Diagnostic alone = failureOf(R"({"ground": {"radius": 5}})");
   CHECK(alone.code == Code::badSceneValue);
   CHECK_FALSE(alone.expected.empty());
   CHECK_FALSE(alone.found.empty());

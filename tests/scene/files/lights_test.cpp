@@ -12,15 +12,15 @@ using namespace weft::scene;
 namespace {
 
 Scene readGood(std::string_view text) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   auto scene = readScene(text, "s.json", diagnostics);
   REQUIRE_MESSAGE(scene, diagnostics.text());
   CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
   return std::move(*scene);
 }
 
-base::Diagnostic lightsFailureOf(std::string_view text) {
-  base::Diagnostics diagnostics;
+text::Diagnostic lightsFailureOf(std::string_view text) {
+  text::Diagnostics diagnostics;
   CHECK_FALSE(readScene(text, "s.json", diagnostics));
   REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
   CHECK(diagnostics.items()[0].place.line > 0);
@@ -83,7 +83,7 @@ TEST_CASE("a grid of lamps takes its colors in turn") {
 }
 
 TEST_CASE("lights that cannot be are errors with a place") {
-  using base::Code;
+  using text::Code;
   CHECK(lightsFailureOf(R"({"sun": {"direction": [0, 0, 0], "lux": 1}})").code == Code::badSceneValue);
   CHECK(lightsFailureOf(R"({"sun": {"direction": [0, 1, 0]}})").code == Code::missingKey);
   CHECK(lightsFailureOf(R"({"sun": {"direction": [0, 1, 0], "lux": -1}})").code == Code::badSceneValue);
@@ -101,7 +101,7 @@ TEST_CASE("lights that cannot be are errors with a place") {
           .found == "50");
   CHECK(lightsFailureOf(R"({"lamps": {"a": {"position": [0, 0, 0], "candela": 1, "direction": [0, 0, 0]}}})")
             .code == Code::badSceneValue);
-  const base::Diagnostic many =
+  const text::Diagnostic many =
       lightsFailureOf(R"({"lamp_grids": {"g": {"count": [65536, 65536, 2], "candela": 1}}})");
   CHECK(many.expected == fmt::format("at most {} in all", kMaxLamps));
   CHECK(lightsFailureOf(R"({"point_lights": {}})").code == Code::unknownKey);

@@ -27,15 +27,15 @@ std::string textOf(const std::string& path) {
 }
 
 std::vector<Material> loadOurs() {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   auto library = readMaterialLibrary(textOf(kPath), kPath, diagnostics);
   REQUIRE_MESSAGE(library, diagnostics.text());
   CHECK(diagnostics.empty());
   return *library;
 }
 
-base::Diagnostic libraryFailureOf(std::string_view text) {
-  base::Diagnostics diagnostics;
+text::Diagnostic libraryFailureOf(std::string_view text) {
+  text::Diagnostics diagnostics;
   CHECK_FALSE(readMaterialLibrary(text, "m.json", diagnostics));
   REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
   return diagnostics.items()[0];
@@ -93,7 +93,7 @@ TEST_CASE(
 }
 
 TEST_CASE("category and source may be absent") {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto library = readMaterialLibrary(
       R"([{"name": "a", "albedo": [0, 0.5, 1], "metallic": 0, "roughness": 1}])", "m.json", diagnostics);
   REQUIRE(library);
@@ -104,7 +104,7 @@ TEST_CASE("the hundred materials of the studio's model load" * doctest::test_sui
   const char* folder = std::getenv("WEFT_REFERENCES");
   if (!folder) return weft::test::skipCase("no references: set WEFT_REFERENCES=FOLDER");
   const std::string seed = std::string(folder) + "/seed_materials.json";
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto library = readMaterialLibrary(textOf(seed), seed, diagnostics);
   REQUIRE_MESSAGE(library, diagnostics.text());
   CHECK(library->size() == 100);
@@ -114,29 +114,29 @@ TEST_CASE("every mistake is reported with its place") {
   const auto with = [](const char* rest) {
     return std::string("[\n  {\"name\": \"a\", \"metallic\": 0, \"roughness\": 0, ") + rest + "}\n]";
   };
-  CHECK(libraryFailureOf("[").code == base::Code::notJson);
-  CHECK(libraryFailureOf("{}").code == base::Code::wrongType);
-  CHECK(libraryFailureOf("[3]").code == base::Code::wrongType);
-  const base::Diagnostic range = libraryFailureOf(with("\"albedo\": [0, 1.5, 0]"));
-  CHECK(range.code == base::Code::badMaterialValue);
+  CHECK(libraryFailureOf("[").code == text::Code::notJson);
+  CHECK(libraryFailureOf("{}").code == text::Code::wrongType);
+  CHECK(libraryFailureOf("[3]").code == text::Code::wrongType);
+  const text::Diagnostic range = libraryFailureOf(with("\"albedo\": [0, 1.5, 0]"));
+  CHECK(range.code == text::Code::badMaterialValue);
   CHECK(range.place.line == 2);
   CHECK(range.place.column > 50);
   CHECK(range.pointer == "/0/albedo/1");
-  CHECK(libraryFailureOf(with("\"albedo\": [0, 1]")).code == base::Code::wrongType);
-  CHECK(libraryFailureOf(with("\"albedo\": [0, 1, \"x\"]")).code == base::Code::wrongType);
-  const base::Diagnostic unknown = libraryFailureOf(with("\"albedo\": [0, 0, 0], \"sorce\": \"x\""));
-  CHECK(unknown.code == base::Code::unknownKey);
+  CHECK(libraryFailureOf(with("\"albedo\": [0, 1]")).code == text::Code::wrongType);
+  CHECK(libraryFailureOf(with("\"albedo\": [0, 1, \"x\"]")).code == text::Code::wrongType);
+  const text::Diagnostic unknown = libraryFailureOf(with("\"albedo\": [0, 0, 0], \"sorce\": \"x\""));
+  CHECK(unknown.code == text::Code::unknownKey);
   CHECK(unknown.hint == "did you mean 'source'?");
 }
 
 TEST_CASE("duplicate names are errors, and all problems come at once") {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   CHECK_FALSE(readMaterialLibrary(R"([
     {"name": "a", "albedo": [0, 0, 0], "metallic": 0, "roughness": 0},
     {"name": "a", "albedo": [0, 0, 0], "metallic": 2, "roughness": 0}
   ])",
                                   "m.json", diagnostics));
   CHECK(diagnostics.errorCount() == 2);
-  CHECK(diagnostics.contains(base::Code::badMaterialValue));
-  CHECK(diagnostics.contains(base::Code::duplicateMaterial));
+  CHECK(diagnostics.contains(text::Code::badMaterialValue));
+  CHECK(diagnostics.contains(text::Code::duplicateMaterial));
 }

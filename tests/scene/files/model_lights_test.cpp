@@ -43,12 +43,12 @@ GltfMaker litSquare() {
 }
 
 Scene load(const TemporaryFolder& folder, const std::string& text, std::size_t warnings = 0) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   auto scene =
       loadScene(text.ends_with(".gltf") ? folder.at(text) : folder.write("s.json", text), diagnostics);
   REQUIRE_MESSAGE(scene, diagnostics.text());
   CHECK_MESSAGE(diagnostics.size() == warnings, diagnostics.text());
-  for (const base::Diagnostic& d : diagnostics.items()) CHECK(d.code == base::Code::modelPartLeftOut);
+  for (const text::Diagnostic& d : diagnostics.items()) CHECK(d.code == text::Code::modelPartLeftOut);
   return std::move(*scene);
 }
 
@@ -178,19 +178,19 @@ TEST_CASE("lights go where their nodes go: by spin, velocity and animation") {
 TEST_CASE("a model that brings more lamps than a scene may have is an error") {
   const TemporaryFolder folder;
   folder.write("m.gltf", litSquare().gltf());
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   CHECK_FALSE(
       loadScene(folder.write("s.json", R"({"models": {"m": {"file": "m.gltf", "count": [200, 1, 200]}}})"),
                 diagnostics));
   REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
-  CHECK(diagnostics.items()[0].code == base::Code::badSceneValue);
+  CHECK(diagnostics.items()[0].code == text::Code::badSceneValue);
   CHECK(diagnostics.items()[0].found == "40000 copies of 2 lamps");
   GltfMaker maker = litSquare();
   for (int i = 0; i < 65540; ++i) {
     maker.document["nodes"][0]["children"].push_back(4 + i);
     maker.document["nodes"].push_back(lightNode(2));
   }
-  base::Diagnostics whole;
+  text::Diagnostics whole;
   CHECK_FALSE(loadScene(folder.write("many.gltf", maker.gltf()), whole));
   REQUIRE_MESSAGE(whole.size() == 1, whole.text());
   CHECK(whole.items()[0].found == "65543");

@@ -15,7 +15,7 @@ namespace {
 const std::string kTop = WEFT_SOURCE_DIR "/";
 
 Scene loadGood(const std::string& path) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   auto scene = loadScene(path, diagnostics);
   REQUIRE_MESSAGE(scene, diagnostics.text());
   CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
@@ -27,8 +27,8 @@ void writeTriangle(const TemporaryFolder& folder) {
   folder.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
 }
 
-base::Diagnostics failuresOf(const TemporaryFolder& folder, std::string_view text) {
-  base::Diagnostics diagnostics;
+text::Diagnostics failuresOf(const TemporaryFolder& folder, std::string_view text) {
+  text::Diagnostics diagnostics;
   CHECK_FALSE(loadScene(folder.write("s.json", text), diagnostics));
   return diagnostics;
 }
@@ -84,7 +84,7 @@ TEST_CASE("a model file is a scene: framed, lit, with cameras all round") {
         CHECK(std::abs(clip.y) <= clip.w * 1.0001);
       }
   }
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto top = loadScene(kTop + "scenes/models/rock.obj", diagnostics, nullptr, {.camera = "top"});
   REQUIRE(top);
   CHECK(findCamera(*top, "")->name == "top");
@@ -127,22 +127,22 @@ TEST_CASE("what is wrong with a model of a scene has a place") {
   const TemporaryFolder folder;
   writeTriangle(folder);
   const auto codeOf = [&](const std::string& model) {
-    const base::Diagnostics d = failuresOf(folder, "{\"models\": {\"m\": " + model + "}}");
+    const text::Diagnostics d = failuresOf(folder, "{\"models\": {\"m\": " + model + "}}");
     REQUIRE_MESSAGE(d.size() == 1, d.text());
     CHECK(d.items()[0].place.file);
     return d.items()[0].code;
   };
-  CHECK(codeOf(R"({"file": "missing.obj"})") == base::Code::unreadableModel);
-  CHECK(codeOf(R"({"file": "s.json"})") == base::Code::unreadableModel);
-  CHECK(codeOf(R"({"flie": "t.obj", "file": "t.obj"})") == base::Code::unknownKey);
-  CHECK(codeOf(R"({})") == base::Code::missingKey);
-  CHECK(codeOf(R"({"file": "t.obj", "scale": 0})") == base::Code::badSceneValue);
-  CHECK(codeOf(R"({"file": "t.obj", "lists": ["opaqe"]})") == base::Code::unknownSceneList);
-  CHECK(codeOf(R"({"file": "t.obj", "material": "gold"})") == base::Code::unknownMaterial);
-  CHECK(codeOf(R"({"file": "t.obj", "animation": "Walk"})") == base::Code::unknownAnimation);
-  CHECK(codeOf(R"({"file": "t.obj", "count": [65536, 65536, 1]})") == base::Code::badSceneValue);
+  CHECK(codeOf(R"({"file": "missing.obj"})") == text::Code::unreadableModel);
+  CHECK(codeOf(R"({"file": "s.json"})") == text::Code::unreadableModel);
+  CHECK(codeOf(R"({"flie": "t.obj", "file": "t.obj"})") == text::Code::unknownKey);
+  CHECK(codeOf(R"({})") == text::Code::missingKey);
+  CHECK(codeOf(R"({"file": "t.obj", "scale": 0})") == text::Code::badSceneValue);
+  CHECK(codeOf(R"({"file": "t.obj", "lists": ["opaqe"]})") == text::Code::unknownSceneList);
+  CHECK(codeOf(R"({"file": "t.obj", "material": "gold"})") == text::Code::unknownMaterial);
+  CHECK(codeOf(R"({"file": "t.obj", "animation": "Walk"})") == text::Code::unknownAnimation);
+  CHECK(codeOf(R"({"file": "t.obj", "count": [65536, 65536, 1]})") == text::Code::badSceneValue);
   std::filesystem::copy(kTop + "scenes/models/Fox.glb", folder.at("Fox.glb"));
-  const base::Diagnostics walk = failuresOf(
+  const text::Diagnostics walk = failuresOf(
       folder,
       R"({"models": {"f": {"file": "Fox.glb", "animation": "Wlak"}, "g": {"file": "Fox.glb", "animation": 3}}})");
   REQUIRE_MESSAGE(walk.size() == 2, walk.text());
@@ -153,7 +153,7 @@ TEST_CASE("what is wrong with a model of a scene has a place") {
 TEST_CASE("every file of a scene's models is watched, also after errors") {
   const TemporaryFolder folder;
   folder.write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   std::vector<std::string> files;
   const std::string path =
       folder.write("s.json", R"({"models": {"m": {"file": "m.obj"}, "n": {"file": "gone.glb"}}})");
@@ -162,7 +162,7 @@ TEST_CASE("every file of a scene's models is watched, also after errors") {
 }
 
 TEST_CASE("loading can be watched and given up") {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   int calls = 0;
   const assets::LoadObserver stop = [&](assets::LoadStage, double) { return ++calls < 5; };
   CHECK_FALSE(loadScene(kTop + "scenes/helmet_alone.json", diagnostics, nullptr, {}, stop));

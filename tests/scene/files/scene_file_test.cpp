@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "engine/base/files/file.h"
+#include "engine/text/files/file.h"
 #include "tests/temporary_folder.h"
 
 using namespace weft;
@@ -14,7 +14,7 @@ using namespace weft::scene;
 namespace {
 
 Scene loadedScene(const std::string& path) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   auto scene = loadScene(path, diagnostics);
   REQUIRE_MESSAGE(scene, diagnostics.text());
   CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
@@ -22,14 +22,14 @@ Scene loadedScene(const std::string& path) {
 }
 
 Scene readGoodScene(std::string_view text) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   auto scene = readScene(text, "s.json", diagnostics);
   REQUIRE_MESSAGE(scene, diagnostics.text());
   return std::move(*scene);
 }
 
-base::Diagnostic sceneFailureOf(std::string_view text) {
-  base::Diagnostics diagnostics;
+text::Diagnostic sceneFailureOf(std::string_view text) {
+  text::Diagnostics diagnostics;
   CHECK_FALSE(readScene(text, "s.json", diagnostics));
   REQUIRE_MESSAGE(diagnostics.size() == 1, text << "\n" << diagnostics.text());
   return diagnostics.items()[0];
@@ -81,8 +81,8 @@ TEST_CASE("every scene of the folder loads") {
 }
 
 TEST_CASE("the example of docs/scenes.md loads") {
-  base::Diagnostics diagnostics;
-  const auto page = base::readFile(WEFT_SOURCE_DIR "/docs/scenes.md", diagnostics);
+  text::Diagnostics diagnostics;
+  const auto page = text::readFile(WEFT_SOURCE_DIR "/docs/scenes.md", diagnostics);
   REQUIRE(page);
   const std::size_t begin = page->find("```json") + 7, end = page->find("```", begin);
   const auto scene = readScene(std::string_view(*page).substr(begin, end - begin),
@@ -92,7 +92,7 @@ TEST_CASE("the example of docs/scenes.md loads") {
   CHECK(scene->spheres.size() == 102);
 }
 
-TEST_CASE("a grid of any shape is centred; materials repeat; layers go away from the viewer") {
+TEST_CASE("a grid of any shape is centered; materials repeat; layers go away from the viewer") {
   const Scene scene = readGoodScene(withMaterials(
       R"("grid": {"count": [3, 2, 4], "spacing": 2, "radius": 0.5, "center": [10, 0, 0], "velocity": [0, 1, 0], "materials": ["a", "b"], "lists": ["spheres", "shadow_casters"]})"));
   REQUIRE(scene.spheres.size() == 24);
@@ -169,17 +169,17 @@ TEST_CASE("an empty scene has the default camera and its file's name") {
 }
 
 TEST_CASE("every mistake has its code and place") {
-  using base::Code;
+  using text::Code;
   CHECK(sceneFailureOf("").code == Code::notJson);
   CHECK(sceneFailureOf("[]").code == Code::wrongType);
-  const base::Diagnostic graph = sceneFailureOf(R"({ "resources": {}, "passes": [], "present": "x" })");
+  const text::Diagnostic graph = sceneFailureOf(R"({ "resources": {}, "passes": [], "present": "x" })");
   CHECK(graph.code == Code::wrongType);
   CHECK(graph.message == "this file has \"passes\": it is a graph, not a scene");
   // Which materials a library that is not there holds is not known.
   CHECK(sceneFailureOf(R"({ "library": "none.json", "spheres": [{ "center": [0, 0, 0], "material": "a" }] })")
             .code == Code::unreadableFile);
   CHECK(sceneFailureOf(R"({ "extends": "g.json", "set": { "a": 1 } })").code == Code::wrongType);
-  const base::Diagnostic key = sceneFailureOf("{\n  \"sphere\": []\n}");
+  const text::Diagnostic key = sceneFailureOf("{\n  \"sphere\": []\n}");
   CHECK(key.code == Code::unknownKey);
   CHECK(key.place.line == 2);
   CHECK(key.place.column == 3);
@@ -215,7 +215,7 @@ TEST_CASE("every mistake has its code and place") {
             .code == Code::badSceneValue);
   CHECK(sceneFailureOf(withMaterials(R"("grid": {"count": [1, 1, 1], "materials": []})")).code ==
         Code::unknownMaterial);
-  const base::Diagnostic material =
+  const text::Diagnostic material =
       sceneFailureOf(withMaterials(R"("grid": {"count": [1, 1, 1], "materials": ["c"]})"));
   CHECK(material.code == Code::unknownMaterial);
   CHECK(material.hint.find("a, b") != std::string::npos);
@@ -223,7 +223,7 @@ TEST_CASE("every mistake has its code and place") {
         Code::unknownMaterial);
   CHECK(sceneFailureOf(R"({"spheres": [{"center": [0, 0, 0], "material": 3}]})").code == Code::wrongType);
   CHECK(sceneFailureOf(R"({"spheres": [3]})").code == Code::wrongType);
-  const base::Diagnostic list = sceneFailureOf(
+  const text::Diagnostic list = sceneFailureOf(
       R"({"spheres": [{"center": [0, 0, 0], "material": {"albedo": [1, 1, 1]}, "lists": ["sphere"]}]})");
   CHECK(list.code == Code::unknownSceneList);
   CHECK(list.hint == "did you mean 'spheres'?");
@@ -239,11 +239,11 @@ TEST_CASE("a name in both the library and the scene, a broken library, a missing
   const TemporaryFolder folder;
   folder.write("m.json", R"([{"name": "x", "albedo": [1, 1, 1], "metallic": 0, "roughness": 0}])");
   folder.write("broken.json", R"([{"name": "x", "albedo": [1, 1, 7], "metallic": 0, "roughness": 0}])");
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   CHECK_FALSE(
       loadScene(folder.write("a.json", R"({"library": "m.json", "materials": {"x": {"albedo": [0, 0, 0]}}})"),
                 diagnostics));
-  CHECK(diagnostics.contains(base::Code::duplicateMaterial));
+  CHECK(diagnostics.contains(text::Code::duplicateMaterial));
   diagnostics.clear();
   std::vector<std::string> files;
   CHECK_FALSE(loadScene(folder.write("b.json", R"({"library": "broken.json"})"), diagnostics, &files));
@@ -265,7 +265,7 @@ TEST_CASE("a camera and a material library chosen from outside the file") {
     "materials": {"a": {"albedo": [1, 0, 0]}},
     "cameras": {"front": {"position": [0, 0, 9]}, "top": {"position": [0, 9, 0]}, "side": {"position": [9, 0, 0]}},
     "grid": {"count": [2, 1, 1], "materials": ["a"]}})");
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   std::vector<std::string> files;
   const auto scene = loadScene(path, diagnostics, &files, {.camera = "top", .materials = library});
   REQUIRE_MESSAGE(scene, diagnostics.text());
@@ -277,20 +277,20 @@ TEST_CASE("a camera and a material library chosen from outside the file") {
 
   CHECK_FALSE(loadScene(path, diagnostics, nullptr, {.camera = "tpo"}));
   REQUIRE(diagnostics.size() == 1);
-  CHECK(diagnostics.items()[0].code == base::Code::badSceneValue);
+  CHECK(diagnostics.items()[0].code == text::Code::badSceneValue);
   CHECK(diagnostics.items()[0].hint == "did you mean 'top'?");
   diagnostics.clear();
   CHECK_FALSE(
       loadScene(folder.write("e.json", "{}"), diagnostics, nullptr, {.camera = "c", .materials = library}));
-  CHECK(diagnostics.contains(base::Code::badSceneValue));
-  CHECK(diagnostics.contains(base::Code::unknownMaterial));
+  CHECK(diagnostics.contains(text::Code::badSceneValue));
+  CHECK(diagnostics.contains(text::Code::unknownMaterial));
   diagnostics.clear();
   CHECK_FALSE(loadScene(path, diagnostics, nullptr, {.materials = folder.at("missing.json")}));
-  CHECK(diagnostics.contains(base::Code::unreadableFile));
+  CHECK(diagnostics.contains(text::Code::unreadableFile));
 }
 
 TEST_CASE("everything wrong is reported at once") {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   CHECK_FALSE(readScene(
       R"({"nam": "x", "sun": 3, "spheres": [{"center": [0, 0], "material": "q"}], "grid": {"count": [1, 1, 1], "materials": "no.json"}})",
       "s.json", diagnostics));

@@ -120,7 +120,7 @@ TEST_CASE("an animation plays round and round, at its speed, forwards and back")
 
 TEST_CASE("Fox's tracks are what stands in its bytes") {
   const std::string path = WEFT_SOURCE_DIR "/scenes/models/Fox.glb";
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto model = assets::loadModel(path, diagnostics);
   REQUIRE_MESSAGE(model, diagnostics.text());
   const Glb glb(path);
@@ -145,7 +145,7 @@ TEST_CASE("Fox's tracks are what stands in its bytes") {
           REQUIRE(at[static_cast<int>(i)] == doctest::Approx(values[k * n + i]).epsilon(1e-5).scale(1));
           dot += static_cast<double>(values[k * n + i]) * static_cast<double>(values[(k + 1) * n + i]);
         }
-        // Half way between two quaternions is their normalised sum, on the short way.
+        // Half way between two quaternions is their normalized sum, on the short way.
         glm::dvec4 middle(0);
         for (std::size_t i = 0; i < n; ++i) {
           middle[static_cast<int>(i)] =

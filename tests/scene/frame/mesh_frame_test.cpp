@@ -188,7 +188,7 @@ TEST_CASE("boxes hold their meshes, and the scene's box everything") {
 }
 
 TEST_CASE("the fox walks: joints by their definition, every vertex in its box, the loop closes") {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto scene = loadScene(kSource + "scenes/fox.json", diagnostics);
   REQUIRE_MESSAGE(scene, diagnostics.text());
   const Skin& skin = scene->skins.rows()[0];
@@ -256,7 +256,7 @@ TEST_CASE("the fox walks: joints by their definition, every vertex in its box, t
 }
 
 TEST_CASE("a hundred thousand moving instances") {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   const auto scene = loadScene(kSource + "scenes/crowd.json", diagnostics);
   REQUIRE_MESSAGE(scene, diagnostics.text());
   MeshFrame frame;
@@ -272,7 +272,7 @@ TEST_CASE("a hundred thousand moving instances") {
 }
 
 TEST_CASE("a frame is the same, byte for byte, on one thread and on two") {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   for (const char* file : {"scenes/crowd.json", "scenes/fox.json"}) {
     const auto scene = loadScene(kSource + file, diagnostics);
     REQUIRE_MESSAGE(scene, diagnostics.text());

@@ -52,7 +52,7 @@ bool areSame(std::span<const T> a, std::span<const T> b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
 }
 
-// Farthest centre first, in double; equal depths by row.
+// Farthest center first, in double; equal depths by row.
 std::vector<std::uint32_t> sortedByHand(std::vector<std::uint32_t> rows, std::span<const Box> boxes,
                                         const ViewData& view) {
   const auto depth = [&](std::uint32_t row) {
@@ -100,7 +100,7 @@ TEST_CASE("all views at once see what each would see alone, on one thread and on
       CHECK(wanted.size() > 100);
       CHECK(wanted.size() < frame.rows(list).size());
       if (v >= 3) wanted = sortedByHand(wanted, frame.bounds(list), view);
-      std::size_t misplaced = 0;  // float depths may order neighbours otherwise than double ones
+      std::size_t misplaced = 0;  // float depths may order neighbors otherwise than double ones
       REQUIRE(seen[v].visible().size() == wanted.size());
       for (std::size_t k = 0; k < wanted.size(); ++k) misplaced += seen[v].visible()[k] != wanted[k];
       if (v < 3)

@@ -30,7 +30,7 @@ assets::DecodeRunner runnerOn(int threads) {
 
 // On `threads` threads; 0: in turn, without them.
 Loaded load(const std::string& path, int threads) {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   auto model = assets::loadModel(path, diagnostics, {}, nullptr,
                                  threads == 0 ? assets::DecodeRunner{} : runnerOn(threads));
   REQUIRE_MESSAGE(model, diagnostics.text());
@@ -94,7 +94,7 @@ TEST_CASE("damaged and missing images say the same in the same order on any numb
 
 TEST_CASE("whoever gives up while images are decoded gets nothing, and is asked on his own thread") {
   for (const int threads : {1, 2}) {
-    base::Diagnostics diagnostics;
+    text::Diagnostics diagnostics;
     const std::thread::id mine = std::this_thread::get_id();
     std::atomic<int> elsewhere = 0;
     double last = 0;

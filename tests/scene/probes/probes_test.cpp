@@ -42,14 +42,14 @@ TEST_CASE("probes are the same, byte for byte, on 1, 2 and 4 threads") {
   }
 }
 
-TEST_CASE("probes that are cancelled say so, and can be computed afterwards") {
+TEST_CASE("probes that are canceled say so, and can be computed afterwards") {
   const std::vector<Instance> spheres = scatteredSpheres(50);
   const ProbeGrid grid = placeProbes(spheres, {8, 8, 8});
   std::vector<Probe> wanted(grid.size()), found(grid.size());
-  std::atomic<bool> cancelled = true;
-  CHECK_FALSE(computeProbes(grid, {}, spheres, found, &cancelled, 2));
-  cancelled = false;
-  CHECK(computeProbes(grid, {}, spheres, found, &cancelled, 2));
+  std::atomic<bool> canceled = true;
+  CHECK_FALSE(computeProbes(grid, {}, spheres, found, &canceled, 2));
+  canceled = false;
+  CHECK(computeProbes(grid, {}, spheres, found, &canceled, 2));
   REQUIRE(computeProbes(grid, {}, spheres, wanted));
   CHECK(areSame(found, wanted));
 }

@@ -1,4 +1,4 @@
-// The same spheres forward and by way of a G-buffer, under image-based light: what its quantisation costs. And the sky behind them.
+// The same spheres forward and by way of a G-buffer, under image-based light: what its quantization costs. And the sky behind them.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -56,7 +56,7 @@ TEST_CASE(
   int surfaces = 0, skies = 0, other_sky = 0;
   for (std::uint32_t y = 1; y + 1 < kHeight; ++y)
     for (std::uint32_t x = 1; x + 1 < kWidth; ++x) {
-      bool all = true, none = true;  // of the neighbours on a sphere, by either way
+      bool all = true, none = true;  // of the neighbors on a sphere, by either way
       for (int j = -1; j <= 1; ++j)
         for (int i = -1; i <= 1; ++i) {
           const bool on = panels.at(2 * kWidth + x + static_cast<std::uint32_t>(i),

@@ -1,4 +1,4 @@
-// The G-buffer: what its textures hold comes out again within their quantisation.
+// The G-buffer: what its textures hold comes out again within their quantization.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ TEST_CASE("G-buffer: position from reversed-Z depth is the stored one within 1e-
 }
 
 TEST_CASE(
-    "G-buffer: normals come back within 7e-5 radians, those along the axes exactly, the base colour within "
+    "G-buffer: normals come back within 7e-5 radians, those along the axes exactly, the base color within "
     "its steps") {
   const Setup setup = spheresOnAFloor();
   Lab lab(setup);

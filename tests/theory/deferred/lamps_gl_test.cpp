@@ -58,7 +58,7 @@ Sums compare(const Picture& a, const Picture& b) {
   return sums;
 }
 
-// Lamps that a pixel goes through, from the colours of SHOW_LAMPS; the mean over all surfaces.
+// Lamps that a pixel goes through, from the colors of SHOW_LAMPS; the mean over all surfaces.
 double meanLookedAt(const Picture& heat) {
   double sum = 0;
   int surfaces = 0;

@@ -72,12 +72,12 @@ TEST_CASE(
   CHECK(different_on > 1000);
 }
 
-TEST_CASE("dots: only 0 and 1, and every 4 x 4 of them as bright as the grey within 1/32") {
-  for (const double grey : {0.0, 0.02, 0.1, 0.2159, 0.33, 0.5, 0.77, 0.97, 1.0})
+TEST_CASE("dots: only 0 and 1, and every 4 x 4 of them as bright as the gray within 1/32") {
+  for (const double gray : {0.0, 0.02, 0.1, 0.2159, 0.33, 0.5, 0.77, 0.97, 1.0})
     for (const char* color : {"false", "true"}) {
       Setup setup{.graph = "tests/theory/deferred/bayer.json", .width = 32, .height = 32};
-      setup.sets = {{"light", "[" + std::to_string(grey) + ", " + std::to_string(grey) + ", " +
-                                  std::to_string(grey) + "]"},
+      setup.sets = {{"light", "[" + std::to_string(gray) + ", " + std::to_string(gray) + ", " +
+                                  std::to_string(gray) + "]"},
                     {"bayer_color", color}};
       Lab lab(setup);
       lab.frame();
@@ -90,13 +90,13 @@ TEST_CASE("dots: only 0 and 1, and every 4 x 4 of them as bright as the grey wit
             CHECK((bit == 0 || bit == 1));
             mean += bit / 16.0;
           }
-          CHECK(std::abs(mean - grey) <= 1.0 / 32 + 1e-5);
+          CHECK(std::abs(mean - gray) <= 1.0 / 32 + 1e-5);
         }
       CHECK(lab.reports() == "");
     }
 }
 
-TEST_CASE("dots of several pixels are the small ones, enlarged; by channels there are eight colours") {
+TEST_CASE("dots of several pixels are the small ones, enlarged; by channels there are eight colors") {
   const auto dots = [](const char* pixel, const char* color) {
     Setup setup{.graph = "tests/theory/deferred/bayer.json", .width = 48, .height = 48};
     setup.sets = {{"light", "[0.7, 0.3, 0.1]"}, {"bayer_pixel", pixel}, {"bayer_color", color}};
@@ -104,13 +104,13 @@ TEST_CASE("dots of several pixels are the small ones, enlarged; by channels ther
     lab.frame();
     return lab.read("shown");
   };
-  const Picture small = dots("1", "true"), large = dots("3", "true"), grey = dots("1", "false");
+  const Picture small = dots("1", "true"), large = dots("3", "true"), gray = dots("1", "false");
   double means[3] = {};
   for (std::uint32_t y = 0; y < 48; ++y)
     for (std::uint32_t x = 0; x < 48; ++x)
       for (int c = 0; c < 3; ++c) {
         CHECK(large.at(x, y)[c] == small.at(x / 3, y / 3)[c]);
-        CHECK(grey.at(x, y)[c] == grey.at(x, y)[0]);
+        CHECK(gray.at(x, y)[c] == gray.at(x, y)[0]);
         means[c] += small.at(x, y)[c] / (48.0 * 48);
       }
   CHECK(std::abs(means[0] - 0.7) <= 1.0 / 32);

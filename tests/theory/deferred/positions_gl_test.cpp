@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kWidth = 160, kHeight = 120;
 
-// The distance between neighbouring halves about x: eleven bits of significand, 2^-24 below 2^-14. What lies between two of them becomes
+// The distance between neighboring halves about x: eleven bits of significand, 2^-24 below 2^-14. What lies between two of them becomes
 // either, as the driver likes; this one takes the one nearer to 0.
 double stepAt(double x) {
   int exponent = 0;

@@ -44,7 +44,7 @@ std::vector<float> render(const std::string& graph, std::vector<graph::Setting> 
       .radiance;
 }
 
-// Where the ray of a pixel's centre meets the wall, unless it comes near a sphere.
+// Where the ray of a pixel's center meets the wall, unless it comes near a sphere.
 std::optional<glm::vec3> wallAt(std::uint32_t x, std::uint32_t y) {
   const double scale = kTangent / (kHeight / 2.0);
   const glm::dvec3 eye(0, 0, kEye);

@@ -235,8 +235,8 @@ TEST_CASE("gi: computing stops where it is told to") {
   const std::vector<Instance> spheres = cloud(10, 7);
   const ProbeGrid grid = placeProbes(spheres, {4, 4, 4});
   std::vector<Probe> probes(grid.size());
-  std::atomic<bool> cancelled = true;
-  CHECK_FALSE(computeProbes(grid, {}, spheres, probes, &cancelled));
-  cancelled = false;
-  CHECK(computeProbes(grid, {}, spheres, probes, &cancelled));
+  std::atomic<bool> canceled = true;
+  CHECK_FALSE(computeProbes(grid, {}, spheres, probes, &canceled));
+  canceled = false;
+  CHECK(computeProbes(grid, {}, spheres, probes, &canceled));
 }

@@ -260,7 +260,7 @@ TEST_CASE("gi: switched off, and without spheres, the picture is the studio's by
 
 TEST_CASE(
     "gi: what a pixel of the studio gains is the irradiance of the probes, in every way to draw and sample") {
-  // On the left sphere, which is white, straight at its neighbour's side: a pixel whose normal is (sin 60, 0, cos 60).
+  // On the left sphere, which is white, straight at its neighbor's side: a pixel whose normal is (sin 60, 0, cos 60).
   const std::vector<std::string> noReflection = {"ibl.specular_prefilter"};
   const std::vector<float> diffuse =
       studio("graphs/studio.json", kPair, 1, {}, {noReflection.begin(), noReflection.end()});
@@ -281,7 +281,7 @@ TEST_CASE(
     double worst = 0, greatest = 0;
     for (std::uint32_t y = 8; y < 56; ++y)
       for (std::uint32_t x = 16; x < 80; ++x) {
-        // The ray of the pixel's centre, from the eye at (0, 0, 9).
+        // The ray of the pixel's center, from the eye at (0, 0, 9).
         const double scale = std::tan(22.5 * 3.14159265358979 / 180) / 32;
         const glm::dvec3 ray = glm::normalize(glm::dvec3((x + 0.5 - 48) * scale, (y + 0.5 - 32) * scale, -1));
         const glm::dvec3 from = glm::dvec3(0, 0, 9) - glm::dvec3(kPair[0].center);

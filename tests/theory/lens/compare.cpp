@@ -35,7 +35,7 @@ Difference differenceOf(const Radiance& a, const Radiance& b) {
 namespace {
 
 std::shared_ptr<const assets::ImageF> loadCoarse() {
-  base::Diagnostics diagnostics;
+  text::Diagnostics diagnostics;
   auto sky = assets::loadEnvironment(
       std::string(WEFT_SOURCE_DIR) + "/scenes/environments/spiaggia_di_mondello_1k.hdr", diagnostics);
   REQUIRE_MESSAGE(sky, diagnostics.text());

@@ -1,5 +1,5 @@
 // Depth of field: the disc is the thin lens's; what is in focus stays to the bit; layers do not leak into
-// each other; one colour stays that colour; light is kept, and spread as wide as the disc says.
+// each other; one color stays that color; light is kept, and spread as wide as the disc says.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -108,7 +108,7 @@ Dark spreadByLens(const Panels& panels, const Lens& lens, const Ball& ball) {
   return {mass, (r2 / mass - (x1 * x1 + y1 * y1) / mass / mass) / 2};
 }
 
-const glm::vec3 kGrey{0.2f, 0.2f, 0.2f};
+const glm::vec3 kGray{0.2f, 0.2f, 0.2f};
 
 }  // namespace
 
@@ -141,14 +141,14 @@ TEST_CASE("focus: defocus of what is in focus is the identity, bit for bit") {
   // The sky with the focus so far away that its disc is nothing, and in the middle something in the plane in
   // focus.
   const Lens far{.focalLength = 50, .aperture = 8, .focus = 5000};
-  CHECK(largestChange(panelsOf(scene({{.center = {0, 0, -3000}, .radius = 300, .albedo = kGrey}}, far))) ==
+  CHECK(largestChange(panelsOf(scene({{.center = {0, 0, -3000}, .radius = 300, .albedo = kGray}}, far))) ==
         0);
 }
 
 TEST_CASE("focus: what is in focus does not leak into the blurred sky around it, nor the sky into it") {
   const Lens lens{.focalLength = 300, .focus = 19.5};
   REQUIRE(discRadius(lens, INFINITY) > 3);
-  const Panels panels = panelsOf(scene({{.center = {0, 0, 0}, .radius = 1, .albedo = kGrey},
+  const Panels panels = panelsOf(scene({{.center = {0, 0, 0}, .radius = 1, .albedo = kGray},
                                         {.center = {4, 1, 0}, .radius = 1, .albedo = {0.9f, 0.1f, 0.1f}}},
                                        lens));
   MESSAGE("largest change: ", largestChange(panels));
@@ -159,7 +159,7 @@ TEST_CASE("focus: the near field covers the sharp sky as far as its disc reaches
   const Lens lens{.focalLength = 50, .aperture = 1.4, .focus = 1000, .sensor = 4};
   const double radius = discRadius(lens, 6);
   REQUIRE(radius > 4);
-  const Panels panels = panelsOf(scene({{.center = {0, 0, 14}, .radius = 0.8f, .albedo = kGrey}}, lens));
+  const Panels panels = panelsOf(scene({{.center = {0, 0, 14}, .radius = 0.8f, .albedo = kGray}}, lens));
   std::uint32_t edge = 0;
   const std::uint32_t row = kHeight / 2;
   while (edge < kWidth && panels.before(edge, row)[1] > 0.6) ++edge;
@@ -176,15 +176,15 @@ TEST_CASE("focus: the near field covers the sharp sky as far as its disc reaches
 }
 
 TEST_CASE(
-    "focus: a larger disc elsewhere shows no tiles in the near field: neighbours differ as the "
+    "focus: a larger disc elsewhere shows no tiles in the near field: neighbors differ as the "
     "disc says") {
   // Tiles of 128 pixels; the disc of the left ball has a radius of 91, of the right one 127: not all tiles
   // know it.
   constexpr std::uint32_t kWide = 768, kHigh = 256;
   const Lens lens{.focalLength = 200, .aperture = 0.7, .focus = 40};
   for (const double x : {-2.6, -2.3, -2.0}) {
-    Setup setup = scene({{.center = {x, 0, 16}, .radius = 0.9f, .albedo = kGrey},
-                         {.center = {1, 0, 18}, .radius = 0.3f, .albedo = kGrey}},
+    Setup setup = scene({{.center = {x, 0, 16}, .radius = 0.9f, .albedo = kGray},
+                         {.center = {1, 0, 18}, .radius = 0.3f, .albedo = kGray}},
                         lens);
     setup.width = kWide;
     setup.height = kHigh;
@@ -231,8 +231,8 @@ TEST_CASE(
   constexpr std::uint32_t kWide = 768, kHigh = 256;
   const Lens lens{.focalLength = 200, .aperture = 0.7, .focus = 40};
   // Discs of 40 pixels around x = 120 and of 127 around x = 300, whose tile is the next but one.
-  const Ball small{.center = {-7.66, 0, 13.57}, .radius = 0.35f, .albedo = kGrey},
-      large{.center = {-0.833, 0, 17.8}, .radius = 0.12f, .albedo = kGrey};
+  const Ball small{.center = {-7.66, 0, 13.57}, .radius = 0.35f, .albedo = kGray},
+      large{.center = {-0.833, 0, 17.8}, .radius = 0.12f, .albedo = kGray};
   double radii[2];
   for (const bool beside : {false, true}) {
     Setup setup = scene(beside ? std::vector{small, large} : std::vector{small}, lens);
@@ -271,7 +271,7 @@ TEST_CASE(
     "focus: a surface that runs from the near field into the focus shows nothing of what is behind it") {
   const Lens lens{.focalLength = 135, .aperture = 0.7, .focus = 6.5};
   for (const float radius : {1.0f, 2.0f}) {
-    const Panels panels = panelsOf(scene({{.center = {0, 0, 13}, .radius = radius, .albedo = kGrey}}, lens));
+    const Panels panels = panelsOf(scene({{.center = {0, 0, 13}, .radius = radius, .albedo = kGray}}, lens));
     const double silhouette = radius / std::sqrt(49 - radius * radius) * kHeight / 2 / std::tan(M_PI / 6);
     double worst = 0;
     for (std::uint32_t y = 0; y < kHeight; ++y)
@@ -284,7 +284,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("focus: one colour stays that colour, at half size and at full size") {
+TEST_CASE("focus: one color stays that color, at half size and at full size") {
   const Lens lens{.aperture = 0.7};
   for (const char* fullSize : {"false", "true"}) {
     Setup setup = scene({{.center = {0, 0, 14}, .radius = 1},
@@ -306,9 +306,9 @@ TEST_CASE(
     Ball ball;
   };
   const Case cases[] = {{{.focalLength = 150, .aperture = 1.4, .focus = 40},
-                         {.center = {0, 0, 14}, .radius = 0.8f, .albedo = kGrey}},
+                         {.center = {0, 0, 14}, .radius = 0.8f, .albedo = kGray}},
                         {{.focalLength = 100, .aperture = 0.7, .focus = 5},
-                         {.center = {0, 0, -10}, .radius = 4, .albedo = kGrey}}};
+                         {.center = {0, 0, -10}, .radius = 4, .albedo = kGray}}};
   for (const Case& c : cases) {
     const Panels panels = panelsOf(scene({c.ball}, c.lens, "4"));
     const Dark sharp = darkOf(panels, false), blurred = darkOf(panels, true),
@@ -326,7 +326,7 @@ TEST_CASE(
 }
 
 TEST_CASE("focus: blades make a polygon of the disc, and the light stays") {
-  Setup setup = scene({{.center = {0, 0, 14}, .radius = 0.8f, .albedo = kGrey}},
+  Setup setup = scene({{.center = {0, 0, 14}, .radius = 0.8f, .albedo = kGray}},
                       {.focalLength = 150, .focus = 40}, "4");
   setup.sets.push_back({"blades", "5"});
   const Panels panels = panelsOf(setup);
@@ -334,7 +334,7 @@ TEST_CASE("focus: blades make a polygon of the disc, and the light stays") {
 }
 
 TEST_CASE("focus: without dof.reach there is still a blurred picture, and GL has nothing to say") {
-  Setup setup = scene({{.center = {0, 0, 14}, .radius = 0.8f, .albedo = kGrey}},
+  Setup setup = scene({{.center = {0, 0, 14}, .radius = 0.8f, .albedo = kGray}},
                       {.focalLength = 150, .focus = 40}, "4");
   setup.disables = {"dof.reach"};
   const Panels panels = panelsOf(setup);

@@ -84,7 +84,7 @@ Setup setupOf(const Glide& glide, const ThinLens& lens) {
 
 struct Course {
   double least_overlap = 1;  // intersection over union of the pixels brighter than half of the plateau
-  double most_drop = 0;      // the same of pixels by their shares, how far a frame is below its neighbours
+  double most_drop = 0;      // the same of pixels by their shares, how far a frame is below its neighbors
   double least_light = 1e9, most_light = 0;  // over what the lens lets through
   double largest_change = 0;  // of a frame from the same place before, summed over all pixels, over all light
   double largest_error = 0;   // of a frame from the ideal, likewise

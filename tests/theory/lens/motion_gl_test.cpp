@@ -61,9 +61,9 @@ Dark darkOf(const Panels& panels, std::uint32_t panel) {
   return dark;
 }
 
-const Ball kGrey{.center = {0, 0, 0}, .radius = 2, .albedo = {0.2f, 0.2f, 0.2f}};
+const Ball kGray{.center = {0, 0, 0}, .radius = 2, .albedo = {0.2f, 0.2f, 0.2f}};
 
-// World units per second across the view that move the silhouette of kGrey, at a distance of 19.8, by `pixels` in a frame.
+// World units per second across the view that move the silhouette of kGray, at a distance of 19.8, by `pixels` in a frame.
 float speedOf(double pixels) {
   const double focal = kHeight / 2.0 / std::tan(M_PI / 6);
   return static_cast<float>(pixels * 19.8 / focal * 60);
@@ -72,7 +72,7 @@ float speedOf(double pixels) {
 }  // namespace
 
 TEST_CASE("motion blur of a frame in which nothing moves is the identity, bit for bit") {
-  const Panels panels = panelsOf(scene({kGrey, {.center = {4, 2, -3}, .albedo = {0.9f, 0.5f, 0.1f}}}));
+  const Panels panels = panelsOf(scene({kGray, {.center = {4, 2, -3}, .albedo = {0.9f, 0.5f, 0.1f}}}));
   std::size_t different = 0;
   for (std::uint32_t y = 0; y < kHeight; ++y)
     for (std::uint32_t x = 0; x < kWidth; ++x)
@@ -85,7 +85,7 @@ TEST_CASE(
     "motion blur: a moving sphere smears along its motion, past its silhouette, and keeps the light within 1 "
     "%") {
   for (const bool upwards : {false, true}) {
-    Setup setup = scene({kGrey});
+    Setup setup = scene({kGray});
     const float speed = speedOf(24);
     setup.balls[0].velocity = upwards ? glm::vec3(0, speed, 0) : glm::vec3(speed, 0, 0);
     setup.sets.insert(setup.sets.end(), {{"shutter", "360"}, {"samples", "32"}});
@@ -107,10 +107,10 @@ TEST_CASE(
 
 TEST_CASE(
     "motion blur reaches 15 pixels whatever the tiles, and no pixel is missed beside one that is reached") {
-  // Five positions, so that the silhouette falls differently into the tiles. Along the row through the centre darkness
+  // Five positions, so that the silhouette falls differently into the tiles. Along the row through the center darkness
   // falls off towards both ends; a tile that was missed would cut it off at a multiple of 16.
   for (int step = 0; step < 5; ++step) {
-    Setup setup = scene({kGrey});
+    Setup setup = scene({kGray});
     setup.balls[0].center.x = 0.4f * static_cast<float>(step);
     setup.balls[0].velocity = {speedOf(30), 0, 0};
     setup.sets.insert(setup.sets.end(), {{"shutter", "360"}, {"samples", "64"}});
@@ -128,7 +128,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("motion blur of one colour is that colour, whatever moves") {
+TEST_CASE("motion blur of one color is that color, whatever moves") {
   Setup setup = scene({{.center = {0, 0, 0}, .radius = 3, .velocity = {80, 30, 0}}});
   setup.orbitDegreesPerSecond = 90;
   const Panels panels = panelsOf(setup);

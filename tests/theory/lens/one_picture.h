@@ -1,5 +1,5 @@
 // What can be known of an open shutter from one sharp picture, by a judge that needs no shader: he knows where every sphere is at every moment.
-// At each moment he takes what is at the centre of a pixel, and asks whether that point is visible in the one picture. Where it is not, he
+// At each moment he takes what is at the center of a pixel, and asks whether that point is visible in the one picture. Where it is not, he
 // guesses: the nearest point of the same sphere, or of the same sky, that is visible and one pixel away from everything else.
 #pragma once
 
@@ -20,7 +20,7 @@ class OnePicture {
   // A moment, `seconds` after the picture, that counts by `weight`. `sharp` is the picture of that moment.
   void add(double seconds, const scene::CameraKey& camera, const Picture& sharp, double weight);
 
-  // Sums over the moments, with the same guesses. What is visible has the colour of that moment, ...
+  // Sums over the moments, with the same guesses. What is visible has the color of that moment, ...
   const Radiance& withTrueColors() const { return true_colors_; }
   // ... or that of the picture's nearest texel. That is what a gather can do that knows where everything is.
   const Radiance& withItsColors() const { return its_colors_; }
@@ -52,7 +52,7 @@ class OnePicture {
   int width_, height_;
   View view_;
   std::vector<Target> targets_;  // from the picture's eye, at its moment
-  std::vector<int> balls_seen_;  // of each pixel; kMixed where a neighbour sees another
+  std::vector<int> balls_seen_;  // of each pixel; kMixed where a neighbor sees another
   Radiance picture_, true_colors_, its_colors_;
   double hidden_ = 0;
 };

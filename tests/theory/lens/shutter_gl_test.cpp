@@ -206,7 +206,7 @@ TEST_CASE("shutter: where motions cross, the picture is the mean of 64 moments")
     MESSAGE(std::string(each.name), ", turning by ", each.turn, ", ", each.degrees, " degrees: not blurred ",
             without.percentile99, ", one layer ", difference.percentile99, " (mean ", difference.mean,
             "), two layers ", better.percentile99, " (mean ", better.mean, "); hidden ", 100 * judge.hidden(),
-            " %, judge ", judged.percentile99, ", judge with true colours of what is visible ",
+            " %, judge ", judged.percentile99, ", judge with true colors of what is visible ",
             told.percentile99);
     CAPTURE(each.name);
     CAPTURE(each.turn);

@@ -35,7 +35,7 @@ TEST_CASE("pictures of reflections") {
       add(truth, color);
     }
   std::filesystem::create_directories("out");
-  weft::base::Diagnostics said;
+  weft::text::Diagnostics said;
   const int width = ReflectionWall::kSide * ReflectionWall::kColumns,
             height = ReflectionWall::kSide * ReflectionWall::kRows;
   CHECK(weft::assets::savePng8("out/reflections_drawn.png", width, height, 3, drawn, said));

@@ -33,7 +33,7 @@ ReflectionWall::ReflectionWall(double azimuth) {
                   .nearPlane = 0.1f};
   for (std::size_t i = 0; i < kRoughness.size(); ++i)
     setup.balls.push_back({.center = glm::vec3(center(i)), .roughness = static_cast<float>(kRoughness[i])});
-  weft::base::Diagnostics said;
+  weft::text::Diagnostics said;
   auto image = weft::assets::loadEnvironment(kMap, said);
   REQUIRE(image);
   setup.environment = std::make_shared<const weft::assets::ImageF>(std::move(*image));
@@ -80,7 +80,7 @@ bool ReflectionWall::truth(const ReflectionOracle& oracle, const ReflectionOracl
 }
 
 ReflectionOracle bundledOracle() {
-  weft::base::Diagnostics said;
+  weft::text::Diagnostics said;
   const auto map = weft::assets::loadImage(kMap, said);
   REQUIRE(map);
   return ReflectionOracle(*map);

@@ -94,7 +94,7 @@ struct Seen {
   Kind kind = kGround;
 };
 
-// What a pixel's centre shows; empty at edges, where neighbours show something else, and in the sky.
+// What a pixel's center shows; empty at edges, where neighbors show something else, and in the sky.
 std::optional<Seen> seenAt(const scene::Scene& scene, double x, double y) {
   const auto shown = [&](double px, double py) -> std::optional<Seen> {
     const glm::dvec3 forward = glm::normalize(-kEye), right = glm::normalize(glm::cross(forward, {0, 1, 0}));

@@ -35,7 +35,7 @@ Setup busy() {
           {.center = {x + 0.3f * static_cast<float>(i), -0.9f, 0}, .radius = 0.11f, .roughness = roughness});
     x += 3.3f;
   }
-  weft::base::Diagnostics said;
+  weft::text::Diagnostics said;
   auto image =
       weft::assets::loadEnvironment(WEFT_SOURCE_DIR "/scenes/environments/spiaggia_di_mondello_1k.hdr", said);
   REQUIRE(image);
@@ -172,7 +172,7 @@ TEST_CASE("temporal anti-aliasing: a ball that moves four pixels a frame leaves 
         ++count;
       }
     }
-  // What a ghost would be: the ball's colour beside the sky's.
+  // What a ghost would be: the ball's color beside the sky's.
   const std::size_t on_ball = (std::size_t{kHeight / 2} * kWidth + kWidth / 2 +
                                static_cast<std::size_t>(kPixels * kStep * kFrame / 2)) *
                                   3 +

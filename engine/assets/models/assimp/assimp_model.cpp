@@ -22,12 +22,12 @@
 
 #include "engine/assets/models/assimp/model_check.h"
 #include "engine/assets/models/parts/mesh_builder.h"
-#include "engine/base/limits.h"
+#include "engine/text/limits.h"
 
 namespace weft::assets {
 
-using base::Code;
-using base::Diagnostics;
+using text::Code;
+using text::Diagnostics;
 
 namespace {
 
@@ -76,7 +76,7 @@ class ModelIo final : public Assimp::IOSystem {
     if (const auto known = others_.find(wanted); known != others_.end())
       return known->second ? new MemoryStream(*known->second) : nullptr;
     if (missing_) return nullptr;
-    auto bytes = files_.readOptional(wanted, files_.place(), base::Code::modelPartLeftOut, false);
+    auto bytes = files_.readOptional(wanted, files_.place(), text::Code::modelPartLeftOut, false);
     missing_ = !bytes;
     const auto& kept = others_.emplace(wanted, std::move(bytes)).first->second;
     return kept ? new MemoryStream(*kept) : nullptr;
@@ -290,7 +290,7 @@ class AssimpReader {
   static float brightestOf(const glm::vec3& color) { return std::max({color.x, color.y, color.z}); }
 
   // The exponent of Blinn–Phong as the width of GGX: alpha² = 2 / (n + 2) (Walter et al. 2007), alpha = roughness². What
-  // has no diffuse colour but a bright highlight is taken for metal.
+  // has no diffuse color but a bright highlight is taken for metal.
   static void toMetallicRoughness(Material& material) {
     material.blinnPhong = true;
     material.roughness = std::pow(2 / (material.shininess + 2), 0.25f);
@@ -314,21 +314,21 @@ class AssimpReader {
     return true;
   }
 
-  // Assimp 5.2.5 gives the colours of an OBJ file, in their order, to its first vertices.
+  // Assimp 5.2.5 gives the colors of an OBJ file, in their order, to its first vertices.
   bool hasColors(const aiMesh& mesh) {
     if (!mesh.HasVertexColors(0)) return false;
     if (colorlessLine_ == 0) return true;
     if (std::exchange(saidColorless_, true)) return false;
-    base::Place place = files_.place();
+    text::Place place = files_.place();
     place.line = colorlessLine_;
-    base::Diagnostic& d = diagnostics_.warning(Code::modelPartLeftOut, place,
-                                               "the vertex colours were left out: some vertices have none");
-    d.expected = "three numbers of colour behind the position in every line 'v', or in none";
+    text::Diagnostic& d = diagnostics_.warning(Code::modelPartLeftOut, place,
+                                               "the vertex colors were left out: some vertices have none");
+    d.expected = "three numbers of color behind the position in every line 'v', or in none";
     d.found = "a line without them";
-    d.hint = "export the mesh again, with a colour for every vertex";
+    d.hint = "export the mesh again, with a color for every vertex";
     return false;
   }
-  // Neither format says what its colours are; other programs take them for sRGB (Blender 3.4 and later, three.js).
+  // Neither format says what its colors are; other programs take them for sRGB (Blender 3.4 and later, three.js).
   static glm::vec4 toLinear(const aiColor4D& color) {
     const auto linear = [](float c) { return decodeSrgb(std::clamp(c, 0.0f, 1.0f)); };
     return {linear(color.r), linear(color.g), linear(color.b), std::clamp(color.a, 0.0f, 1.0f)};
@@ -465,17 +465,17 @@ class AssimpReader {
 bool checkBefore(const std::string& bytes, bool obj, ModelCounts& counts, ModelFiles& files,
                  Diagnostics& diagnostics) {
   const bool text = obj || !isBinaryFbx(bytes);
-  if (text && bytes.size() > base::raised(kMostModelTextBytes)) {
-    base::reportLimit(diagnostics, files.place(), "the model's text is too large", kMostModelTextBytes,
+  if (text && bytes.size() > text::raised(kMaxModelTextBytes)) {
+    text::reportLimit(diagnostics, files.place(), "the model's text is too large", kMaxModelTextBytes,
                       "bytes of one OBJ or text FBX file", bytes.size())
         .found = fmt::format("{} bytes", bytes.size());
     return false;
   }
   const ModelProblem problem = obj ? checkObj(bytes, counts) : checkFbx(bytes, counts);
   if (!problem.message.empty()) {
-    base::Place place = files.place();
+    text::Place place = files.place();
     place.line = problem.line;
-    base::Diagnostic& d =
+    text::Diagnostic& d =
         diagnostics.error(problem.line > 0 ? Code::badModelValue : Code::unreadableModel, place,
                           fmt::format("cannot read model '{}': {}", files.path(), problem.message));
     d.expected = problem.expected;

@@ -12,6 +12,6 @@ namespace weft::assets {
 
 // `obj`: else FBX. False after errors, or when `observer` gave up.
 bool readWithAssimp(std::string bytes, bool obj, ModelFiles& files, const LoadObserver& observer,
-                    const DecodeRunner& decode, base::Diagnostics& diagnostics, Model& model);
+                    const DecodeRunner& decode, text::Diagnostics& diagnostics, Model& model);
 
 }  // namespace weft::assets

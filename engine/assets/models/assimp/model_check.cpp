@@ -14,7 +14,7 @@ namespace weft::assets {
 namespace {
 
 constexpr std::size_t kLongestLine = 65536;
-constexpr std::size_t kMostCorners = 4096;  // of one face: Assimp cuts ears, which costs their square
+constexpr std::size_t kMaxCorners = 4096;  // of one face: Assimp cuts ears, which costs their square
 constexpr std::size_t kDeepest = 64;
 
 std::string_view nextWord(std::string_view& line) {
@@ -106,8 +106,8 @@ ModelProblem checkObj(std::string_view bytes, ModelCounts& counts) {
         highestLine = number;
       }
     }
-    if (corners > kMostCorners)
-      return {"a face of it has too many corners", fmt::format("at most {}", kMostCorners),
+    if (corners > kMaxCorners)
+      return {"a face of it has too many corners", fmt::format("at most {}", kMaxCorners),
               fmt::format("{}", corners), number};
     counts.corners += corners > 2 ? (corners - 2) * 3 : 0;
   }

@@ -19,7 +19,7 @@ struct ModelProblem {
 struct ModelCounts {
   std::uint64_t vertices = 0, corners = 0;
   std::uint64_t unpacked = 0;       // bytes that packed arrays hold
-  std::uint32_t colorlessLine = 0;  // of an OBJ file: of the first vertex without a colour
+  std::uint32_t colorlessLine = 0;  // of an OBJ file: of the first vertex without a color
 };
 
 ModelProblem checkObj(std::string_view bytes, ModelCounts& counts);

@@ -16,9 +16,9 @@
 
 namespace weft::assets {
 
-using base::Code;
-using base::Diagnostics;
-using base::JsonValue;
+using text::Code;
+using text::Diagnostics;
+using text::JsonValue;
 
 namespace {
 
@@ -425,7 +425,7 @@ class GltfReader {
     take(uvs, mesh, &RawVertex::uv);
   }
 
-  // glTF 2.0, 3.7.2.1: linear, clamped to 0..1; floats, or unsigned bytes and shorts that are normalised.
+  // glTF 2.0, 3.7.2.1: linear, clamped to 0..1; floats, or unsigned bytes and shorts that are normalized.
   void readColors(const JsonValue& attributes, RawMesh& mesh) {
     const JsonValue* where = attributes.find("COLOR_0");
     if (!where) return;
@@ -434,9 +434,9 @@ class GltfReader {
     const GltfAccessor accessor = vertexAccessor(*where, "COLOR_0", opaque ? "VEC3" : "VEC4", true);
     if (accessor.type != 5126 && !(accessor.normalized && (accessor.type == 5121 || accessor.type == 5123)))
       return document_.leaveOut(
-          *where, fmt::format("the vertex colours of mesh '{}' were left out", mesh.name),
-          "floats, or normalised unsigned numbers of 8 or 16 bits",
-          fmt::format("componentType {}{}", accessor.type, accessor.normalized ? ", normalised" : ""));
+          *where, fmt::format("the vertex colors of mesh '{}' were left out", mesh.name),
+          "floats, or normalized unsigned numbers of 8 or 16 bits",
+          fmt::format("componentType {}{}", accessor.type, accessor.normalized ? ", normalized" : ""));
     std::vector<glm::vec4> colors;
     if (opaque)
       for (const glm::vec3& color : attribute<glm::vec3>(attributes, "COLOR_0", 1e9f))

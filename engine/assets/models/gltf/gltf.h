@@ -10,6 +10,6 @@ namespace weft::assets {
 
 // False after errors, or when `observer` gave up.
 bool readGltf(std::string bytes, ModelFiles& files, const LoadObserver& observer, const DecodeRunner& decode,
-              base::Diagnostics& diagnostics, Model& model);
+              text::Diagnostics& diagnostics, Model& model);
 
 }  // namespace weft::assets

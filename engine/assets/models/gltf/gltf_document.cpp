@@ -9,17 +9,17 @@
 #include <optional>
 #include <type_traits>
 
-#include "engine/base/limits.h"
+#include "engine/text/limits.h"
 
 namespace weft::assets {
 
-using base::Code;
-using base::JsonValue;
+using text::Code;
+using text::JsonValue;
 
 namespace {
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{1}
-                                     << 40;  // no file is so large; sums of these do not overflow
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1}
+                                    << 40;  // no file is so large; sums of these do not overflow
 
 // What an element of a mesh may ask for that Weft does, or that changes no picture when it is left out.
 constexpr std::string_view kKnownExtensions[] = {"KHR_lights_punctual", "KHR_materials_emissive_strength",
@@ -79,14 +79,14 @@ std::string textOf(const JsonValue& object, std::string_view key, std::string ot
   return value && !value->text.empty() ? value->text : otherwise;
 }
 
-base::Diagnostic& GltfDocument::report(base::Severity severity, Code code, const JsonValue& where,
+text::Diagnostic& GltfDocument::report(text::Severity severity, Code code, const JsonValue& where,
                                        std::string message, std::string expected, std::string found,
                                        std::string hint) {
   return diagnostics_.add({.severity = severity,
                            .code = code,
                            .message = std::move(message),
                            .place = where.place,
-                           .pointer = base::pointerAt(root_, where.begin),
+                           .pointer = text::pointerAt(root_, where.begin),
                            .expected = std::move(expected),
                            .found = std::move(found),
                            .hint = std::move(hint)});
@@ -128,12 +128,12 @@ std::string_view GltfDocument::split(std::string_view bytes, std::string_view& b
   return json;
 }
 
-GltfDocument::GltfDocument(std::string bytes, ModelFiles& files, base::Diagnostics& diagnostics)
+GltfDocument::GltfDocument(std::string bytes, ModelFiles& files, text::Diagnostics& diagnostics)
     : files_(files), diagnostics_(diagnostics) {
   std::string_view binary;
   const std::string_view json = split(bytes, binary);
   const std::size_t before = diagnostics_.errorCount();
-  auto root = base::parseJson(json, std::make_shared<const std::string>(files_.path()), diagnostics_);
+  auto root = text::parseJson(json, std::make_shared<const std::string>(files_.path()), diagnostics_);
   refuseUnless(root && diagnostics_.errorCount() == before);
   root_ = std::move(*root);
   const JsonValue* version = valueOf(root_, {"asset", "version"});
@@ -147,7 +147,7 @@ GltfDocument::GltfDocument(std::string bytes, ModelFiles& files, base::Diagnosti
 void GltfDocument::checkExtensions() {
   for (const JsonValue& name : rows("extensionsRequired"))
     if (std::ranges::find(kKnownExtensions, name.text) == std::end(kKnownExtensions)) {
-      report(base::Severity::error, Code::unreadableModel, name,
+      report(text::Severity::error, Code::unreadableModel, name,
              fmt::format("the model needs the extension '{}', which Weft does not know", name.text),
              fmt::format("{}", fmt::join(kKnownExtensions, ", ")), "",
              "export the model without it, for example uncompressed");
@@ -195,8 +195,8 @@ std::uint64_t GltfDocument::whole(const JsonValue& object, std::string_view key)
   const JsonValue* value = object.find(key);
   if (!value) return 0;
   if (!value->is(JsonValue::Type::number) || value->number < 0 ||
-      value->number > static_cast<double>(kMostBytes) || value->number != std::floor(value->number))
-    fail(*value, fmt::format("'{}' is no size", key), fmt::format("a whole number from 0 to {}", kMostBytes),
+      value->number > static_cast<double>(kMaxBytes) || value->number != std::floor(value->number))
+    fail(*value, fmt::format("'{}' is no size", key), fmt::format("a whole number from 0 to {}", kMaxBytes),
          describe(*value));
   return static_cast<std::uint64_t>(value->number);
 }
@@ -245,9 +245,9 @@ GltfAccessor GltfDocument::accessor(const JsonValue& which, std::string_view kin
     fail(which, "an accessor is of another kind than is needed here",
          fmt::format("\"{}\" of {}", kind, floats ? "floats, or of 8 or 16 bits" : "unsigned whole numbers"),
          fmt::format("count {}, type \"{}\", componentType {}", count, textOf(row, "type"), type));
-  if (count > base::raised(kMostVertices) * 3) {
-    base::reportLimit(diagnostics_, row.place, "an accessor has more elements than a model may have corners",
-                      kMostVertices, "vertices of one model, and a third of its corners", count / 3)
+  if (count > text::raised(kMaxVertices) * 3) {
+    text::reportLimit(diagnostics_, row.place, "an accessor has more elements than a model may have corners",
+                      kMaxVertices, "vertices of one model, and a third of its corners", count / 3)
         .found = fmt::format("{} elements", count);
     throw Refused{};
   }

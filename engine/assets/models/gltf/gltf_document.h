@@ -14,7 +14,7 @@
 
 #include "engine/assets/model.h"
 #include "engine/assets/models/parts/model_files.h"
-#include "engine/base/json/dom.h"
+#include "engine/text/json/dom.h"
 
 namespace weft::assets {
 
@@ -22,7 +22,7 @@ struct Refused {};
 
 // Its elements lie in a buffer.
 struct GltfAccessor {
-  const base::JsonValue* row = nullptr;
+  const text::JsonValue* row = nullptr;
   std::uint32_t count = 0, components = 0;
   int type = 0;  // componentType: 5120 to 5126
   bool normalized = false;
@@ -34,36 +34,36 @@ struct GltfAccessor {
 };
 
 // The value at the end of these keys, or null.
-const base::JsonValue* valueOf(const base::JsonValue& object, std::initializer_list<std::string_view> keys);
+const text::JsonValue* valueOf(const text::JsonValue& object, std::initializer_list<std::string_view> keys);
 // The items of an array; empty when there is none.
-const std::vector<base::JsonValue>& itemsOf(const base::JsonValue& object, std::string_view key);
-std::string textOf(const base::JsonValue& object, std::string_view key, std::string otherwise = "");
+const std::vector<text::JsonValue>& itemsOf(const text::JsonValue& object, std::string_view key);
+std::string textOf(const text::JsonValue& object, std::string_view key, std::string otherwise = "");
 
 class GltfDocument {
  public:
-  GltfDocument(std::string bytes, ModelFiles& files, base::Diagnostics& diagnostics);
+  GltfDocument(std::string bytes, ModelFiles& files, text::Diagnostics& diagnostics);
   GltfDocument(const GltfDocument&) = delete;
   GltfDocument& operator=(const GltfDocument&) = delete;
 
-  const base::JsonValue& root() const { return root_; }
+  const text::JsonValue& root() const { return root_; }
   // The rows of a table at the top, "nodes"; empty when there is none.
-  const std::vector<base::JsonValue>& rows(std::string_view table) const { return itemsOf(root_, table); }
+  const std::vector<text::JsonValue>& rows(std::string_view table) const { return itemsOf(root_, table); }
 
   // A member that must be there.
-  const base::JsonValue& need(const base::JsonValue& object, std::string_view key);
+  const text::JsonValue& need(const text::JsonValue& object, std::string_view key);
   // An index into a table of `count` rows, which messages call `table`; or into one at the top.
-  std::uint32_t index(std::string_view table, std::size_t count, const base::JsonValue& value);
-  std::uint32_t index(std::string_view table, const base::JsonValue& value) {
+  std::uint32_t index(std::string_view table, std::size_t count, const text::JsonValue& value);
+  std::uint32_t index(std::string_view table, const text::JsonValue& value) {
     return index(table, rows(table).size(), value);
   }
   // A number of an object, or `otherwise`.
-  float number(const base::JsonValue& object, std::string_view key, double otherwise, double min, double max);
+  float number(const text::JsonValue& object, std::string_view key, double otherwise, double min, double max);
   // Reads as many numbers as `out` has, within ±1e9; false when the key is absent.
-  bool numbers(const base::JsonValue& object, std::string_view key, std::span<float> out);
+  bool numbers(const text::JsonValue& object, std::string_view key, std::span<float> out);
 
   // An accessor of this kind ("VEC3"), of floats or numbers of 8 or 16 bits where `floats`, else of unsigned whole numbers.
-  GltfAccessor accessor(const base::JsonValue& index, std::string_view kind, bool floats);
-  // count * components numbers: T is float, or std::uint32_t for unsigned whole ones. A normalised one is from -1 or 0 to 1.
+  GltfAccessor accessor(const text::JsonValue& index, std::string_view kind, bool floats);
+  // count * components numbers: T is float, or std::uint32_t for unsigned whole ones. A normalized one is from -1 or 0 to 1.
   template <class T>
   std::vector<T> read(const GltfAccessor& accessor);
 
@@ -71,39 +71,39 @@ class GltfDocument {
     std::string_view bytes;
     std::size_t stride = 0;
   };
-  View view(const base::JsonValue& index);
+  View view(const text::JsonValue& index);
 
   // Ends the reading where `good` is not, after an error that was reported already.
   static void refuseUnless(bool good) {
     if (!good) throw Refused{};
   }
-  [[noreturn]] void fail(const base::JsonValue& where, std::string message, std::string expected,
+  [[noreturn]] void fail(const text::JsonValue& where, std::string message, std::string expected,
                          std::string found = "", std::string hint = "") {
-    report(base::Severity::error, base::Code::badModelValue, where, std::move(message), std::move(expected),
+    report(text::Severity::error, text::Code::badModelValue, where, std::move(message), std::move(expected),
            std::move(found), std::move(hint));
     throw Refused{};
   }
   // W168
-  void leaveOut(const base::JsonValue& where, std::string message, std::string expected = "",
+  void leaveOut(const text::JsonValue& where, std::string message, std::string expected = "",
                 std::string found = "", std::string hint = "") {
-    report(base::Severity::warning, base::Code::modelPartLeftOut, where, std::move(message),
+    report(text::Severity::warning, text::Code::modelPartLeftOut, where, std::move(message),
            std::move(expected), std::move(found), std::move(hint));
   }
 
  private:
-  base::Diagnostic& report(base::Severity severity, base::Code code, const base::JsonValue& where,
+  text::Diagnostic& report(text::Severity severity, text::Code code, const text::JsonValue& where,
                            std::string message, std::string expected, std::string found, std::string hint);
   [[noreturn]] void failFile(std::string_view why, std::string expected, std::string found);
   std::string_view split(std::string_view bytes, std::string_view& binary);
   void checkExtensions();
-  std::string readBuffer(const base::JsonValue& row, std::string_view binary);
-  void readSparse(const base::JsonValue& sparse, std::size_t elementBytes, GltfAccessor& out);
+  std::string readBuffer(const text::JsonValue& row, std::string_view binary);
+  void readSparse(const text::JsonValue& sparse, std::size_t elementBytes, GltfAccessor& out);
   // A whole number that a file can hold; 0 where it is absent.
-  std::uint64_t whole(const base::JsonValue& object, std::string_view key);
+  std::uint64_t whole(const text::JsonValue& object, std::string_view key);
 
   ModelFiles& files_;
-  base::Diagnostics& diagnostics_;
-  base::JsonValue root_;
+  text::Diagnostics& diagnostics_;
+  text::JsonValue root_;
   std::vector<std::string> buffers_;
 };
 

@@ -10,8 +10,8 @@
 #include <unordered_map>
 
 #include "engine/assets/models/parts/model_files.h"
-#include "engine/base/hash.h"
-#include "engine/base/limits.h"
+#include "engine/text/hash.h"
+#include "engine/text/limits.h"
 
 namespace weft::assets {
 
@@ -169,15 +169,15 @@ SkinVertex heaviest(const std::array<std::uint32_t, 8>& joints, const std::array
   return out;
 }
 
-bool MeshBuilder::hasRoom(std::uint64_t vertices, std::uint64_t corners, const base::Place& place,
-                          base::Diagnostics& diagnostics) {
+bool MeshBuilder::hasRoom(std::uint64_t vertices, std::uint64_t corners, const text::Place& place,
+                          text::Diagnostics& diagnostics) {
   vertices_ += vertices;
   corners_ += corners;
-  const std::uint64_t most = base::raised(kMostVertices);
+  const std::uint64_t most = text::raised(kMaxVertices);
   const std::uint64_t counted = std::max(vertices_, corners_ / 3);
   if (counted <= most) return true;
   if (!full_)
-    base::reportLimit(diagnostics, place, "the model has too many vertices", kMostVertices,
+    text::reportLimit(diagnostics, place, "the model has too many vertices", kMaxVertices,
                       "vertices of one model, and a third of its corners", counted)
         .found = fmt::format("{} vertices and {} corners of triangles", vertices_, corners_);
   full_ = true;

@@ -1,5 +1,5 @@
 // Collects the meshes of a model into its vertex and index arrays, and makes what a file left out: flat normals, tangents,
-// the winding of mirrored nodes, four normalised weights. Vertices that are used with both handednesses of uv are split.
+// the winding of mirrored nodes, four normalized weights. Vertices that are used with both handednesses of uv are split.
 // Every mesh that goes in is whole: indices in range, numbers finite.
 #pragma once
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/assets/model.h"
-#include "engine/base/diagnostic.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::assets {
 
@@ -50,8 +50,8 @@ class MeshBuilder {
   explicit MeshBuilder(Model& model) : model_(model) {}
 
   // Whether a model may have that many more vertices, and corners; else W201, once.
-  bool hasRoom(std::uint64_t vertices, std::uint64_t corners, const base::Place& place,
-               base::Diagnostics& diagnostics);
+  bool hasRoom(std::uint64_t vertices, std::uint64_t corners, const text::Place& place,
+               text::Diagnostics& diagnostics);
   // The row of Model::meshes.
   std::uint32_t add(RawMesh mesh);
 

@@ -9,14 +9,14 @@
 #include <filesystem>
 #include <memory>
 
-#include "engine/base/files/file.h"
-#include "engine/base/files/file_access.h"
-#include "engine/base/limits.h"
+#include "engine/text/files/file.h"
+#include "engine/text/files/file_access.h"
+#include "engine/text/limits.h"
 
 namespace weft::assets {
 
-using base::Code;
-using base::Place;
+using text::Code;
+using text::Place;
 
 namespace {
 
@@ -49,7 +49,7 @@ bool leadsOut(const std::filesystem::path& relative) {
 
 }  // namespace
 
-ModelFiles::ModelFiles(std::string path, base::Diagnostics& diagnostics, const LoadObserver& observer)
+ModelFiles::ModelFiles(std::string path, text::Diagnostics& diagnostics, const LoadObserver& observer)
     : path_(std::move(path)), diagnostics_(diagnostics), observer_(observer), files_{path_} {}
 
 Place ModelFiles::place() const {
@@ -67,7 +67,7 @@ std::string ModelFiles::resolve(const std::string& name) const {
   const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
   const std::string target = (folder / name).lexically_normal().string();
   // A link in the folder may lead out as well. What reading is confined to is looked at by whoever opens the file, first.
-  if (!base::mayRead(target)) return target;
+  if (!text::mayRead(target)) return target;
   std::error_code ec;
   const auto realOf = [&](const std::filesystem::path& path) {
     const std::filesystem::path absolute = std::filesystem::absolute(path, ec);
@@ -78,11 +78,11 @@ std::string ModelFiles::resolve(const std::string& name) const {
 }
 
 std::optional<std::string> ModelFiles::readBeside(const std::string& uri, const Place& place, Code code,
-                                                  bool escaped, base::Severity severity) {
+                                                  bool escaped, text::Severity severity) {
   const std::string name = escaped ? unescape(uri) : uri;
   const std::string target = resolve(name);
   if (target.empty()) {
-    base::Diagnostic& d =
+    text::Diagnostic& d =
         diagnostics_.error(Code::outsideModelFolder, place,
                            fmt::format("the model names a file outside its folder: '{}'", name));
     d.expected = "a path below the folder of the model";
@@ -91,9 +91,9 @@ std::optional<std::string> ModelFiles::readBeside(const std::string& uri, const 
     return {};
   }
   if (std::ranges::find(files_, target) == files_.end()) files_.push_back(target);
-  base::Diagnostics found;
+  text::Diagnostics found;
   std::optional<std::string> bytes = readCounted(target, place, code, found);
-  for (base::Diagnostic each : found.items()) {
+  for (text::Diagnostic each : found.items()) {
     if (each.code == code) each.severity = severity;
     diagnostics_.add(std::move(each));
   }
@@ -103,21 +103,21 @@ std::optional<std::string> ModelFiles::readBeside(const std::string& uri, const 
 bool ModelFiles::hasBeside(const std::string& name) const {
   const std::string target = resolve(name);
   std::error_code ec;
-  return !target.empty() && base::mayRead(target) && std::filesystem::is_regular_file(target, ec);
+  return !target.empty() && text::mayRead(target) && std::filesystem::is_regular_file(target, ec);
 }
 
 bool ModelFiles::count(std::uint64_t bytes, const Place& place) {
   bytes_ += bytes;
-  if (bytes_ <= base::raised(kMostModelBytes)) return true;
-  base::reportLimit(diagnostics_, place, "the model is too large", kMostModelBytes,
+  if (bytes_ <= text::raised(kMaxModelBytes)) return true;
+  text::reportLimit(diagnostics_, place, "the model is too large", kMaxModelBytes,
                     "bytes of all files of one model, and of what is packed in them", bytes_)
       .found = fmt::format("{} bytes", bytes_);
   return false;
 }
 
 std::optional<std::string> ModelFiles::readCounted(const std::string& path, const Place& place, Code code,
-                                                   base::Diagnostics& diagnostics) {
-  const std::uint64_t left = base::raised(kMostModelBytes) - std::min(bytes_, base::raised(kMostModelBytes));
+                                                   text::Diagnostics& diagnostics) {
+  const std::uint64_t left = text::raised(kMaxModelBytes) - std::min(bytes_, text::raised(kMaxModelBytes));
   std::uint64_t found = 0;
   bool tooLarge = false;
   const auto goOn = [&](std::uint64_t done, std::uint64_t total) {
@@ -129,7 +129,7 @@ std::optional<std::string> ModelFiles::readCounted(const std::string& path, cons
       gaveUp_ = true;
     return !gaveUp_;
   };
-  std::optional<std::string> bytes = base::readFile(path, diagnostics, code, place, goOn);
+  std::optional<std::string> bytes = text::readFile(path, diagnostics, code, place, goOn);
   if (tooLarge) {
     count(found, isKnown(place) ? place : this->place());
     return {};

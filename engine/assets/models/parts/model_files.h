@@ -1,6 +1,6 @@
 // What a model reads: its own file and those beside it. One door for glTF, OBJ, FBX and Assimp, so that a model never
-// reads anything outside its folder, whatever it names, and never more than kMostModelBytes in all. The rest of what
-// holds for files (pipes, --confine) is engine/base/files/file_access.h.
+// reads anything outside its folder, whatever it names, and never more than kMaxModelBytes in all. The rest of what
+// holds for files (pipes, --confine) is engine/text/files/file_access.h.
 #pragma once
 
 #include <cstdint>
@@ -10,22 +10,22 @@
 #include <vector>
 
 #include "engine/assets/loading/load_observer.h"
-#include "engine/base/diagnostic.h"
-#include "engine/base/limits.h"
+#include "engine/text/diagnostic.h"
+#include "engine/text/limits.h"
 
 namespace weft::assets {
 
 // Of one model. Bytes: of all its files, and of what is packed in them.
-constexpr std::uint64_t kMostModelBytes = 512ull << 20, kMostModelTextBytes = 24ull << 20,
-                        kMostVertices = 8ull << 20, kMostTexels = 64ull << 20;
+constexpr std::uint64_t kMaxModelBytes = 512ull << 20, kMaxModelTextBytes = 24ull << 20,
+                        kMaxVertices = 8ull << 20, kMaxTexels = 64ull << 20;
 
 class ModelFiles {
  public:
   // `path` is the model's own file. `observer` may be empty.
-  ModelFiles(std::string path, base::Diagnostics& diagnostics, const LoadObserver& observer);
+  ModelFiles(std::string path, text::Diagnostics& diagnostics, const LoadObserver& observer);
 
   const std::string& path() const { return path_; }
-  base::Place place() const;  // of the model's own file
+  text::Place place() const;  // of the model's own file
   // Everything that was read or should have been, each once, the model's own first.
   const std::vector<std::string>& files() const { return files_; }
   bool gaveUp() const { return gaveUp_; }
@@ -35,27 +35,27 @@ class ModelFiles {
   // A file beside it. `uri` is relative to the model's folder; percent escapes are resolved first when `escaped`. W166 for
   // one that leads out of the folder, in whatever spelling; `code` for one that cannot be read.
   // `severity` is that of `code`.
-  std::optional<std::string> readBeside(const std::string& uri, const base::Place& place, base::Code code,
-                                        bool escaped, base::Severity severity = base::Severity::error);
+  std::optional<std::string> readBeside(const std::string& uri, const text::Place& place, text::Code code,
+                                        bool escaped, text::Severity severity = text::Severity::error);
   // The same for what a model can do without: one that cannot be read is a warning.
-  std::optional<std::string> readOptional(const std::string& uri, const base::Place& place, base::Code code,
+  std::optional<std::string> readOptional(const std::string& uri, const text::Place& place, text::Code code,
                                           bool escaped) {
-    return readBeside(uri, place, code, escaped, base::Severity::warning);
+    return readBeside(uri, place, code, escaped, text::Severity::warning);
   }
   // Whether there is such a file in the folder; nothing is said.
   bool hasBeside(const std::string& name) const;
 
   // Counts bytes that are not files of their own against the limit. False after W201.
-  bool count(std::uint64_t bytes, const base::Place& place);
+  bool count(std::uint64_t bytes, const text::Place& place);
 
  private:
-  std::optional<std::string> readCounted(const std::string& path, const base::Place& place, base::Code code,
-                                         base::Diagnostics& diagnostics);
+  std::optional<std::string> readCounted(const std::string& path, const text::Place& place, text::Code code,
+                                         text::Diagnostics& diagnostics);
   // "" for a way out.
   std::string resolve(const std::string& name) const;
 
   std::string path_;
-  base::Diagnostics& diagnostics_;
+  text::Diagnostics& diagnostics_;
   const LoadObserver& observer_;
   std::vector<std::string> files_;
   std::uint64_t bytes_ = 0;

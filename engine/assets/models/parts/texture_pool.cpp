@@ -7,12 +7,12 @@
 
 #include "engine/assets/images/image_codecs.h"
 #include "engine/assets/models/parts/model_files.h"
-#include "engine/base/hash.h"
-#include "engine/base/limits.h"
+#include "engine/text/hash.h"
+#include "engine/text/limits.h"
 
 namespace weft::assets {
 
-using base::Code;
+using text::Code;
 
 namespace {
 
@@ -29,21 +29,21 @@ std::shared_ptr<const Image8> makeStandIn() {
 
 std::uint64_t hashOf(const Image8& image) {
   const std::string_view texels(reinterpret_cast<const char*>(image.texels.data()), image.texels.size());
-  return base::hashBytes(texels, base::hashCombine(static_cast<std::uint64_t>(image.width),
+  return text::hashBytes(texels, text::hashCombine(static_cast<std::uint64_t>(image.width),
                                                    static_cast<std::uint64_t>(image.height)));
 }
 
 }  // namespace
 
-std::uint32_t TexturePool::put(std::string bytes, const std::string& name, const base::Place& place) {
+std::uint32_t TexturePool::put(std::string bytes, const std::string& name, const text::Place& place) {
   Entry entry{std::move(bytes), name, place, nullptr, 0, {}};
   if (const auto size = readPictureHeader(entry.bytes, name, entry.found)) {
     const std::uint64_t texels =
         texels_ + static_cast<std::uint64_t>(size->width) * static_cast<std::uint64_t>(size->height);
-    if (texels > base::raised(kMostTexels)) {
+    if (texels > text::raised(kMaxTexels)) {
       if (!full_)
-        base::reportLimit(diagnostics_, place,
-                          fmt::format("with '{}' the model's textures are too large", name), kMostTexels,
+        text::reportLimit(diagnostics_, place,
+                          fmt::format("with '{}' the model's textures are too large", name), kMaxTexels,
                           "texels of all textures of one model", texels)
             .found = fmt::format("{} texels", texels);
       full_ = true;
@@ -94,12 +94,12 @@ bool TexturePool::decodeAll(const DecodeRunner& runner, const LoadObserver& obse
   return true;
 }
 
-void TexturePool::reportMissing(const std::string& name, const std::string& why, const base::Place& place) {
-  base::Diagnostic& d =
+void TexturePool::reportMissing(const std::string& name, const std::string& why, const text::Place& place) {
+  text::Diagnostic& d =
       diagnostics_.warning(Code::missingModelTexture, place,
                            fmt::format("the model's texture '{}' cannot be used: {}", name, why));
   d.expected = "a .png, .jpg or .tga image in the folder of the model";
-  d.hint = "a colour is shown as a magenta checkerboard instead; other maps are left out";
+  d.hint = "a color is shown as a magenta checkerboard instead; other maps are left out";
 }
 
 std::uint32_t TexturePool::add(std::uint32_t number, const std::string& name, bool srgb) {
@@ -114,7 +114,7 @@ std::uint32_t TexturePool::add(std::uint32_t number, const std::string& name, bo
     number = standIn_;
   }
   const Entry& entry = images_[number];
-  const std::uint64_t content = base::hashCombine(entry.content, srgb ? 1 : 0);
+  const std::uint64_t content = text::hashCombine(entry.content, srgb ? 1 : 0);
   const auto [row, isNew] = byContent_.try_emplace(content, static_cast<std::uint32_t>(textures_.size()));
   if (isNew) textures_.push_back({name, entry.image, srgb, content});
   return row->second;

@@ -133,7 +133,7 @@ void checkSlices(Model& model) {
       alwaysWriter[use.resource] = p;
       // W076 says the same of what the pass modifies, unless that is version zero.
       const bool isReported =
-          std::ranges::any_of(model.diagnostics.items(), [&](const base::Diagnostic& each) {
+          std::ranges::any_of(model.diagnostics.items(), [&](const text::Diagnostic& each) {
             return use.access == Access::modify && each.code == Code::addsUp &&
                    each.pass == graph.passNames[p];
           });

@@ -150,8 +150,8 @@ class MissingReadReporter {
         fmt::format("{} {} {} {} {}", static_cast<int>(code), place.line, place.column, live,
                     missing.pass == kNone ? missing.slot : graph_.specs[missing.pass].declared);
     if (!reported_.insert(key).second) return;
-    base::Diagnostic d;
-    d.severity = live ? base::Severity::error : base::Severity::warning;
+    text::Diagnostic d;
+    d.severity = live ? text::Severity::error : text::Severity::warning;
     d.code = code;
     d.message = std::move(message);
     d.place = place;

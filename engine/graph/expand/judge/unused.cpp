@@ -7,12 +7,12 @@
 #include <set>
 #include <string_view>
 
-#include "engine/base/nearest.h"
 #include "engine/graph/desc_walk.h"
 #include "engine/graph/expand/judge/judge.h"
 #include "engine/graph/expand/names/resources.h"
 #include "engine/graph/expand/names/scope.h"
 #include "engine/graph/language/expr_node.h"
+#include "engine/text/nearest.h"
 
 namespace weft::graph::expansion {
 
@@ -25,7 +25,7 @@ bool isOnTop(const Scope& scope, const Place& place) {
   return scope.desc->top.empty() || (place.file && *place.file == scope.desc->top);
 }
 
-base::Diagnostic& warnAt(Model& model, const Place& place, std::string message, std::string hint,
+text::Diagnostic& warnAt(Model& model, const Place& place, std::string message, std::string hint,
                          const std::string& resource = "") {
   auto& d = model.diagnostics.warning(Code::unusedDeclaration, place, std::move(message));
   d.hint = std::move(hint);
@@ -285,7 +285,7 @@ void warnOfGroups(Model& model, const Scope& scope) {
   for (const PassDesc& pass : scope.desc->passes) {
     if (pass.include || pass.group.empty() || members[pass.group] > 1 || !isOnTop(scope, pass.place))
       continue;
-    if (const std::string near = base::nearestName(pass.group, shared); !near.empty())
+    if (const std::string near = text::nearestName(pass.group, shared); !near.empty())
       warnAt(model, pass.place, fmt::format("pass '{}' is alone in the group '{}'", pass.name, pass.group),
              fmt::format("did you mean '{}'?", near))
           .pass = pass.name;

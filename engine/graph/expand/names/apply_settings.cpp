@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "engine/base/files/file.h"
-#include "engine/base/nearest.h"
 #include "engine/graph/expand/names/scope.h"
 #include "engine/graph/language/suffix.h"
+#include "engine/text/files/file.h"
+#include "engine/text/nearest.h"
 
 namespace weft::graph::expansion {
 
@@ -37,7 +37,7 @@ struct SaidBy {
 template <class Said>  // Setting or Disable
 SaidBy saidBy(const Said& said) {
   const std::string source = sourceOf(said);
-  if (said.origin == Origin::command_line) return {base::placeOfOption(source)};
+  if (said.origin == Origin::command_line) return {text::placeOfOption(source)};
   return {Where{}, source + ": "};
 }
 
@@ -63,7 +63,7 @@ bool checkParameterValue(Model& model, const Parameter& parameter, const Value& 
   const std::string text = value.type == Value::Type::symbol ? value.symbol : toText(value);
   const std::vector<std::string> words =
       desc.type == Type::boolean ? std::vector<std::string>{"true", "false"} : desc.choices;
-  std::string meant = base::nearestName(text, words);
+  std::string meant = text::nearestName(text, words);
   if (desc.type == Type::boolean)
     for (const char* word : {"0", "no", "off", "1", "yes", "on"})
       if (text == word) meant = text == "1" || text == "yes" || text == "on" ? "true" : "false";
@@ -139,7 +139,7 @@ void applyDisable(Model& model, const Disable& disable) {
   const std::vector<std::size_t> found = suffixMatches(names, declared);
   // When a file is included twice, both stanzas are meant.
   const auto isSame = [&](std::size_t i) {
-    return base::isSamePlace(candidates[i].stanza->place, candidates[found[0]].stanza->place);
+    return text::isSamePlace(candidates[i].stanza->place, candidates[found[0]].stanza->place);
   };
   std::vector<std::string> meant;
   for (const std::size_t i : found) meant.push_back(names[i]);
@@ -166,7 +166,7 @@ void applyDisable(Model& model, const Disable& disable) {
 void applySettings(Model& model) {
   const auto [width, height] = std::pair(model.settings.screenWidth, model.settings.screenHeight);
   if (width < 1 || width > 16384 || height < 1 || height > 16384)
-    report(model, Code::numberOutOfRange, base::placeOfOption("--size"),
+    report(model, Code::numberOutOfRange, text::placeOfOption("--size"),
            "the screen's size is out of its range",
            {.expected = "1 to 16384 pixels a side", .found = fmt::format("{}x{}", width, height)});
   // What files say first, the innermost first, so that an including file has the last word; then the command line.
@@ -174,7 +174,7 @@ void applySettings(Model& model) {
     for (const SetDesc& set : scope->desc->sets) {
       if (isOver(model)) return;
       std::optional<std::string> path;
-      if (set.value.type == Value::Type::symbol) path = base::besideFile(set.place, set.value.symbol);
+      if (set.value.type == Value::Type::symbol) path = text::besideFile(set.place, set.value.symbol);
       Parameter* const parameter = applySet(model, *scope, set.name, set.value, path, {set.place});
       if (!parameter) continue;
       parameter->origin = set.origin;

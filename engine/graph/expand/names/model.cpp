@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/base/limits.h"
 #include "engine/graph/language/enough.h"
+#include "engine/text/limits.h"
 
 namespace weft::graph::expansion {
 
@@ -17,7 +17,7 @@ bool isOver(const Model& model) {
 
 void stopAt(Model& model, const Where& place, std::string message, std::uint64_t bound, const char* counts) {
   if (!std::exchange(model.stopped, true))
-    base::reportLimit(model.diagnostics, place, std::move(message), bound, counts);
+    text::reportLimit(model.diagnostics, place, std::move(message), bound, counts);
   model.incomplete = true;
 }
 

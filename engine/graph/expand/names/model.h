@@ -15,16 +15,16 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/graph/desc.h"
 #include "engine/graph/expand/names/settings.h"
 #include "engine/graph/flat_graph.h"
 #include "engine/graph/registry.h"
 #include "engine/graph/versions/version_walk.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::graph::expansion {
 
-using base::Code;
+using text::Code;
 
 // By names that stand in the GraphDesc, or in another table of the Model, and do not move.
 template <class T>
@@ -182,7 +182,7 @@ struct Model {
   const GraphDesc& desc;
   const Registry& registry;
   const Settings& settings;
-  base::Diagnostics& diagnostics;
+  text::Diagnostics& diagnostics;
   FlatGraph graph{};
   VersionWalk versions{graph};
   // None of these moves: buildScopes() makes room for all that there will be.

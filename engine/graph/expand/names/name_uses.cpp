@@ -62,7 +62,7 @@ class NameFinder {
   }
 
   static Place placeOf(const PassDesc& pass) {
-    const bool path = pass.include && base::isSamePlace(pass.namePlace, pass.include->filePlace);
+    const bool path = pass.include && text::isSamePlace(pass.namePlace, pass.include->filePlace);
     return path ? pass.namePlace : insideOf(pass.namePlace);
   }
 
@@ -196,7 +196,7 @@ class NameFinder {
 
 std::vector<NameUse> findNameUses(const GraphDesc& desc, const Registry& registry) {
   const Settings settings;
-  base::Diagnostics ignored;
+  text::Diagnostics ignored;
   expansion::Model model{desc, registry, settings, ignored};
   expansion::buildScopes(model);
   return model.stopped ? std::vector<NameUse>() : expansion::NameFinder(model).run();

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/nearest.h"
 #include "engine/graph/desc_walk.h"
 #include "engine/graph/expand/names/resources.h"
 #include "engine/graph/expand/names/scope.h"
 #include "engine/graph/expand/names/versions.h"
 #include "engine/graph/language/expr_node.h"
 #include "engine/graph/subresource.h"
+#include "engine/text/nearest.h"
 
 namespace weft::graph::expansion {
 
@@ -33,7 +33,7 @@ std::optional<Value> letValue(Model& model, Let& let) {
 std::pair<Scope*, Variable> nearestVariable(Scope& from, std::string_view name) {
   for (Scope* scope = &from; scope; scope = scope->parent)
     for (const auto& [own, variable] : scope->variables)
-      if (own.find('.') == std::string_view::npos && base::editDistance(own, name, 1) <= 1)
+      if (own.find('.') == std::string_view::npos && text::editDistance(own, name, 1) <= 1)
         return {scope, variable};
   return {};
 }
@@ -263,7 +263,7 @@ const Expr* Names::foldedLive(Let& let) {
     Progress state = Progress::fresh;
     const Evaluation evaluation(model_, state, "$" + let.path, let.desc->place, "'", "'");
     let.liveFolded = Expr();    // met again in a circle, which nobody may have evaluated, it fails
-    base::Diagnostics ignored;  // a branch that is not taken now
+    text::Diagnostics ignored;  // a branch that is not taken now
     Names names(model_, *let.scope);
     names.live = true;
     Expr folded = evaluation.good() ? let.desc->expr.fold(names, ignored) : Expr();

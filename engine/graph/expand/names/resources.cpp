@@ -8,9 +8,9 @@
 #include <cmath>
 #include <set>
 
-#include "engine/base/nearest.h"
-#include "engine/base/words/foreign_words.h"
 #include "engine/graph/language/expr_node.h"
+#include "engine/text/nearest.h"
+#include "engine/text/words/foreign_words.h"
 
 namespace weft::graph::expansion {
 
@@ -22,11 +22,11 @@ const ImportType* findImportType(const Registry& registry, std::string_view name
 }
 
 std::string hintForImport(const Registry& registry, std::string_view name) {
-  for (const base::Foreign kind : {base::Foreign::value, base::Foreign::import_type})
-    if (std::string foreign = base::hintForForeign(kind, name); !foreign.empty()) return foreign;
+  for (const text::Foreign kind : {text::Foreign::value, text::Foreign::import_type})
+    if (std::string foreign = text::hintForForeign(kind, name); !foreign.empty()) return foreign;
   std::vector<std::string> types;
   for (const ImportType& type : registry.imports) types.push_back(type.name);
-  std::string hint = base::nearestHint(name, types);
+  std::string hint = text::nearestHint(name, types);
   return hint.empty() ? fmt::format("imports are {}", fmt::join(types, ", ")) : hint;
 }
 
@@ -53,14 +53,14 @@ bool checkArgument(Model& model, const Entity& entity, const ImportArgument& arg
       std::ranges::find(lists, value.symbol) == lists.end())
     return report(model, Code::unknownDrawList, given.expr.place(),
                   fmt::format("import '{}' names the unknown draw list '{}'", entity.name, value.symbol),
-                  {.hint = base::nearestHint(value.symbol, lists)});
+                  {.hint = text::nearestHint(value.symbol, lists)});
   std::string expected = expectedOf(argument, value);
   return expected.empty() ||
          report(model, Code::badImportArgument, given.expr.place(),
                 fmt::format("import '{}': argument '{}' does not fit", entity.name, argument.name),
                 {.expected = std::move(expected),
                  .found = toText(value),
-                 .hint = base::nearestHint(value.symbol, argument.choices)});
+                 .hint = text::nearestHint(value.symbol, argument.choices)});
 }
 
 // Fills in what is asked for, with the defaults of what is not given. False after a report.
@@ -73,9 +73,9 @@ bool evaluateArguments(Model& model, const Entity& entity, const ImportType& typ
   for (const NamedExpr& argument : given) {
     markStructural(model, *entity.scope, argument.expr);
     if (std::ranges::find(known, argument.name) != known.end()) continue;
-    std::string hint = base::hintForForeign(base::Foreign::import_argument, argument.name);
+    std::string hint = text::hintForForeign(text::Foreign::import_argument, argument.name);
     if (hint.empty() || std::ranges::find(known, "file") == known.end())
-      hint = base::nearestHint(argument.name, known);
+      hint = text::nearestHint(argument.name, known);
     good = report(model, Code::badImportArgument, argument.place,
                   fmt::format("import '{}' has no argument '{}'", type.name, argument.name),
                   {.hint = std::move(hint), .resource = entity.name});
@@ -152,13 +152,13 @@ void takeFacts(Model& model, Entity& entity, const ImportType& type, const Impor
 // Where somebody wrote the name of the file that a problem of an import is about: the "set" of a preset, the command line, the
 // default of a parameter, or the argument itself. The problem's own place when it has a line, or nobody wrote it.
 Where placeAtArgument(Model& model, Scope& scope, const std::vector<NamedExpr>& arguments,
-                      const base::Diagnostic& problem) {
+                      const text::Diagnostic& problem) {
   Where place = problem.place;
   if (!place.file || place.line != 0) return place;
   Where ofSequence;  // of which the file may be a picture
   for (const NamedExpr& argument : arguments) {
     Names names(model, scope);
-    base::Diagnostics said;  // by whoever evaluated it for the import
+    text::Diagnostics said;  // by whoever evaluated it for the import
     const Value value = argument.expr.evaluate(names, said);
     if (value.type != Value::Type::symbol) continue;
     const bool named = value.symbol == *problem.place.file;
@@ -187,14 +187,14 @@ bool evaluateImport(Model& model, Entity& entity) {
   if (!evaluateArguments(model, entity, *type, given, request)) return false;
   bool good = true;
   const ImportFacts facts = model.registry.factsOf ? model.registry.factsOf(request) : ImportFacts{};
-  for (const base::Diagnostic& problem : facts.problems) {
-    base::Diagnostic& d = model.diagnostics.add(problem);
+  for (const text::Diagnostic& problem : facts.problems) {
+    text::Diagnostic& d = model.diagnostics.add(problem);
     d.place = placeAtArgument(model, *entity.scope, given, problem);
     d.resource = entity.name;
     // Of the arguments; or a file that may not be read, where what matters is who names it.
     const bool confined = d.code == Code::outsideConfinement && d.place.line == 0;
     if (entity.desc && (confined || !isKnown(d.place))) d.place = entity.desc->place;
-    good = good && problem.severity != base::Severity::error;
+    good = good && problem.severity != text::Severity::error;
   }
   if (good) takeFacts(model, entity, *type, request, facts);
   return good;
@@ -311,15 +311,15 @@ bool evaluateFormat(Model& model, Entity& entity) {
   const ResourceDesc& desc = *entity.desc;
   auto format = findFormat(desc.format);
   if (!format) {
-    const std::string meant = base::formatMeantBy(desc.format);
+    const std::string meant = text::formatMeantBy(desc.format);
     const bool theirs = findFormat(meant).has_value();
-    const std::string near = base::nearestHint(desc.format, formatNames());
+    const std::string near = text::nearestHint(desc.format, formatNames());
     report(model, Code::unknownFormat, desc.formatPlace,
            fmt::format("texture '{}' has the unknown format '{}'", entity.name, desc.format),
            {.expected = "channels, bits and kind: r8, rg16f, rgba16f, rgba32ui, srgb8_a8, depth32f, …",
             .hint = theirs ? fmt::format("write '{}'", meant) : near,
             .resource = entity.name});
-    format = findFormat(theirs ? meant : base::nearestName(desc.format, formatNames()));
+    format = findFormat(theirs ? meant : text::nearestName(desc.format, formatNames()));
   }
   if (format) entity.shape.format = *format;
   return format.has_value();

@@ -8,13 +8,13 @@
 #include <set>
 #include <utility>
 
-#include "engine/base/limits.h"
-#include "engine/base/nearest.h"
 #include "engine/graph/desc_walk.h"
 #include "engine/graph/expand/names/names.h"
 #include "engine/graph/expand/names/resources.h"
 #include "engine/graph/language/expr_node.h"
 #include "engine/graph/language/suffix.h"
+#include "engine/text/limits.h"
+#include "engine/text/nearest.h"
 
 namespace weft::graph::expansion {
 
@@ -57,7 +57,7 @@ void checkBind(Model& model, const IncludeDesc& include, const std::string& name
   if (std::ranges::find(inputs, name) == inputs.end())
     report(model, Code::badBind, ref.place,
            fmt::format("include '{}' binds '{}', which is no input of '{}'", include.as, name, include.file),
-           {.hint = base::nearestHint(name, inputs)});
+           {.hint = text::nearestHint(name, inputs)});
   const bool part = ref.mip || ref.layer || ref.face || ref.element || ref.stencil || ref.history ||
                     ref.condition.present() || ref.optional;
   if (!part && ref.wordsSize == 0) return;
@@ -152,14 +152,14 @@ std::uint64_t weighList(Model& model, std::uint32_t index, std::vector<std::uint
     model.incomplete = true;
     return 0;
   }
-  const std::uint64_t most = base::raised(kMostAlternatives);
+  const std::uint64_t most = text::raised(kMaxAlternatives);
   std::uint64_t weight = model.evaluating.size() > most ? most + 1 : 0;  // of itself, in too long a row
   for (std::size_t i = 0; i < entity.candidates.size() && weight <= most; ++i)
     if (entity.candidates[i] != kNone) weight += 1 + weighList(model, entity.candidates[i], weights);
   weights[index] = weight;
   if (weight > most)
     stopAt(model, entity.desc->place, fmt::format("'{}' has too many alternatives", entity.name),
-           kMostAlternatives, "alternatives of one list, those of lists in it counted");
+           kMaxAlternatives, "alternatives of one list, those of lists in it counted");
   if (entity.listState == Progress::failed)
     entity.candidates.assign(entity.candidates.size(), kNone);
   else
@@ -216,12 +216,12 @@ void buildScopes(Model& model) {
   Counts counts;
   counts.add(model.desc);
   const std::tuple<std::size_t, std::uint64_t, const char*> bounds[] = {
-      {counts.parameters, kMostNames, "parameters"},
-      {counts.lets, kMostLets, "lets"},
-      {counts.resources, kMostNames, "resources"},
-      {counts.sets, kMostNames, "values in \"set\""}};
+      {counts.parameters, kMaxNames, "parameters"},
+      {counts.lets, kMaxLets, "lets"},
+      {counts.resources, kMaxNames, "resources"},
+      {counts.sets, kMaxNames, "values in \"set\""}};
   for (const auto& [count, bound, what] : bounds)
-    if (count > base::raised(bound))
+    if (count > text::raised(bound))
       return stopAt(model, model.desc.place, fmt::format("the graph has too many {}", what), bound, what);
   model.scopes.reserve(counts.scopes);
   model.parameters.reserve(counts.parameters);

@@ -14,7 +14,7 @@
 namespace weft::graph::expansion {
 
 // Of a graph with all that it includes; `--limit` raises them. Names: parameters, resources, values in "set", each.
-constexpr std::uint64_t kMostNames = 4096, kMostLets = 256, kMostAlternatives = 64;
+constexpr std::uint64_t kMaxNames = 4096, kMaxLets = 256, kMaxAlternatives = 64;
 
 // Fills scopes, parameters with their defaults (the reader has checked those), lets and entities; marks lets that contain
 // age(); finds what alternatives refer to, and reports lists that contain themselves (W050) or lead to too many.

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/diagnostic.h"
 #include "engine/graph/desc.h"
 #include "engine/graph/language/value.h"
 #include "engine/graph/pick/pick.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::graph {
 

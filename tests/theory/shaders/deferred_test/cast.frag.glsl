@@ -1,4 +1,4 @@
-// An analytic G-buffer: the spheres of the scene and a horizontal plane, met by the ray through each pixel's centre.
+// An analytic G-buffer: the spheres of the scene and a horizontal plane, met by the ray through each pixel's center.
 // read    instances   @spheres
 // write   normal, base, metallic_roughness, emissive, position, depth   as deferred/gbuffer.glsl has them; position is world, alpha 1
 //         back        depth where the ray leaves what it has met; 0 for the plane

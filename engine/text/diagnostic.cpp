@@ -1,0 +1,131 @@
+#include "engine/text/diagnostic.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "engine/text/printable.h"
+
+namespace weft::text {
+
+namespace {
+
+const std::string& textOf(const std::string* text) {
+  static const std::string none;
+  return text ? *text : none;
+}
+
+auto keyOf(const Diagnostic& d) {
+  const Where& at = d.place;
+  return std::tie(textOf(at.file.get()), at.option, at.line, at.column);
+}
+
+// A text of any length fits on a screen, and is one line.
+std::string printedText(const std::string& text) {
+  return printable(shortened(text));
+}
+
+// Of one place with one fix: said of each pass that is like another, and of each include of one file.
+bool sameMistake(const Diagnostic& a, const Diagnostic& b) {
+  return a.code == b.code && a.severity == b.severity && keyOf(a) == keyOf(b) &&
+         (a.message == b.message ||
+          (a.place.line > 0 && !a.hint.empty() && a.hint == b.hint && a.found == b.found));
+}
+
+}  // namespace
+
+Where placeOfOption(std::string option) {
+  Where where;
+  where.option = std::move(option);
+  return where;
+}
+
+bool isKnown(const Where& where) {
+  return where.file || where.option;
+}
+
+bool isSamePlace(const Place& a, const Place& b) {
+  return a.line == b.line && a.column == b.column &&
+         (a.file == b.file || (a.file && b.file && *a.file == *b.file));
+}
+
+std::string nameOf(Code code) {
+  return fmt::format("W{:03}", static_cast<unsigned>(code));
+}
+
+std::string format(const Diagnostic& d) {
+  std::string out;
+  if (const auto& option = d.place.option) {
+    out += "command line: ";
+    if (!option->empty()) out += printedText(*option) + ": ";
+  } else if (d.place.file && !d.place.file->empty()) {
+    // A file without a line may be one that was named in an option, of any length.
+    out += d.place.line > 0 ? printable(*d.place.file) : printedText(*d.place.file);
+    if (d.place.line > 0) out += fmt::format(":{}", d.place.line);
+    if (d.place.line > 0 && d.place.column > 0) out += fmt::format(":{}", d.place.column);
+    out += ": ";
+  }
+  const char* severity = d.severity == Severity::error     ? "error"
+                         : d.severity == Severity::warning ? "warning"
+                                                           : "note";
+  out += fmt::format("{}[{}]: {}", severity, nameOf(d.code), printedText(d.message));
+  const auto line = [&](const char* label, const std::string& text) {
+    if (!text.empty()) out += fmt::format("\n    {}: {}", label, printedText(text));
+  };
+  line("pass", d.pass);
+  line("resource", d.resource);
+  line("expected", d.expected);
+  line("found", d.found);
+  line("fix", d.hint);
+  return out;
+}
+
+Diagnostic& Diagnostics::add(Diagnostic diagnostic) {
+  if (diagnostic.severity == Severity::error) ++errors_;
+  items_.push_back(std::move(diagnostic));
+  return items_.back();
+}
+
+Diagnostic& Diagnostics::error(Code code, Where place, std::string message) {
+  return add(
+      {.severity = Severity::error, .code = code, .message = std::move(message), .place = std::move(place)});
+}
+
+Diagnostic& Diagnostics::warning(Code code, Where place, std::string message) {
+  return add({.severity = Severity::warning,
+              .code = code,
+              .message = std::move(message),
+              .place = std::move(place)});
+}
+
+void Diagnostics::append(const Diagnostics& others) {
+  items_.insert(items_.end(), others.items_.begin(), others.items_.end());
+  errors_ += others.errors_;
+}
+
+bool Diagnostics::contains(Code code) const {
+  return std::any_of(items_.begin(), items_.end(), [&](const Diagnostic& d) { return d.code == code; });
+}
+
+void Diagnostics::clear() {
+  items_.clear();
+  errors_ = 0;
+}
+
+void Diagnostics::sortByPlace() {
+  std::stable_sort(items_.begin(), items_.end(),
+                   [](const Diagnostic& a, const Diagnostic& b) { return keyOf(a) < keyOf(b); });
+  items_.erase(std::unique(items_.begin(), items_.end(), sameMistake), items_.end());
+  errors_ = static_cast<std::size_t>(std::count_if(
+      items_.begin(), items_.end(), [](const Diagnostic& d) { return d.severity == Severity::error; }));
+}
+
+std::string Diagnostics::text() const {
+  std::string out;
+  for (const Diagnostic& d : items_) out += format(d) + "\n";
+  return out;
+}
+
+}  // namespace weft::text

@@ -1,0 +1,101 @@
+// Author mistakes as values: what is wrong, where, what was expected, what was found, and what would fix it.
+// Functions that read what a person wrote take a Diagnostics&, report everything they find and return an empty
+// optional (or false) when the result cannot be used. Nothing here throws, aborts or prints.
+// Does not: decide exit codes, color a terminal, or know rooms above text.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/text/codes.h"
+
+namespace weft::text {
+
+// A place in a text file. Lines and columns count from 1, columns in bytes; 0 means unknown. There may be millions.
+struct Place {
+  std::shared_ptr<const std::string> file;  // path as the person would write it; null for no file
+  std::uint32_t line = 0;
+  std::uint32_t column = 0;
+};
+
+// Two places in files of the same path are the same, however often the file was read.
+bool isSamePlace(const Place& a, const Place& b);
+
+// Where a diagnostic or the value of a parameter stands: in a file, in an option of the command line, or nowhere. A Place
+// becomes one by itself, but not the other way round, which would lose the option.
+struct Where : private Place {
+  using Place::column;
+  using Place::file;
+  using Place::line;
+  std::optional<std::string> option;  // as it was written, "--set bloom=yes"; then there is no file
+
+  Where() = default;
+  Where(Place place) : Place(std::move(place)) {}  // NOLINT: a place in a file says where
+  Where(std::shared_ptr<const std::string> path, std::uint32_t atLine = 0, std::uint32_t atColumn = 0)
+      : Place{std::move(path), atLine, atColumn} {}
+
+  const Place& inFile() const { return *this; }
+};
+
+// Whether it says anything: a file or an option.
+bool isKnown(const Where& where);
+
+// Messages print it as "command line: --set bloom=yes", and that of "" as "command line".
+Where placeOfOption(std::string option);
+
+enum class Severity : std::uint8_t { note, warning, error };
+
+struct Diagnostic {
+  Severity severity = Severity::error;
+  Code code{};
+  std::string
+      message;  // one sentence, no full stop, names the thing: "pass 'fxaa' reads unknown resource 'ldrr'"
+  Where place;
+  std::string pointer{};   // JSON pointer of the value, e.g. "/passes/3/read/source"; may be empty
+  std::string pass{};      // full instance name of the pass concerned, or empty
+  std::string resource{};  // the resource concerned, or empty
+  std::string expected{};  // "a number from 0 to 8"
+  std::string found{};     // "\"high\""
+  std::string hint{};      // the fix: "did you mean 'ldr'?"
+};
+
+// "file:line:column: error[W040]: message", followed by indented lines for pass, resource, expected, found and fix. Parts of
+// the place that are unknown are left out.
+std::string format(const Diagnostic& diagnostic);
+
+// "W040"
+std::string nameOf(Code code);
+
+// An ordered collection. Warnings and notes do not make it fail.
+class Diagnostics {
+ public:
+  // Adds and returns the stored diagnostic so that optional fields can be filled in.
+  Diagnostic& add(Diagnostic diagnostic);
+  Diagnostic& error(Code code, Where place, std::string message);
+  Diagnostic& warning(Code code, Where place, std::string message);
+  void append(const Diagnostics& others);
+
+  bool hasErrors() const { return errors_ > 0; }
+  std::size_t errorCount() const { return errors_; }
+  bool empty() const { return items_.empty(); }
+  std::size_t size() const { return items_.size(); }
+  const std::vector<Diagnostic>& items() const { return items_; }
+  bool contains(Code code) const;
+  void clear();
+
+  // Orders by file, line, column; keeps the order of equal places; drops exact repeats.
+  void sortByPlace();
+
+  // All diagnostics formatted, one after another, each ending in a newline.
+  std::string text() const;
+
+ private:
+  std::vector<Diagnostic> items_;
+  std::size_t errors_ = 0;
+};
+
+}  // namespace weft::text

@@ -1,0 +1,156 @@
+#include "engine/text/files/file_watcher.h"
+
+#include <fmt/format.h>
+#include <sys/inotify.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+namespace weft::text {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// IN_CREATE: links and folders; a file that is made and written ends with IN_CLOSE_WRITE.
+constexpr std::uint32_t kEvents = IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE | IN_DELETE | IN_MOVED_FROM |
+                                  IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR;
+
+std::string watchedPath(const std::string& path) {
+  std::error_code ec;
+  const fs::path absolute = fs::absolute(path, ec);
+  return (ec ? fs::path(path) : absolute).lexically_normal().string();
+}
+
+bool holdsSomething(const std::string& path) {
+  std::error_code ec;
+  return fs::is_regular_file(path, ec) && fs::file_size(path, ec) > 0 && !ec;
+}
+
+}  // namespace
+
+FileWatcher::FileWatcher() : descriptor_(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC)) {
+  if (descriptor_ < 0) error_ = errno;
+}
+
+FileWatcher::~FileWatcher() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void FileWatcher::watch(std::vector<std::string> files) {
+  std::ranges::sort(files);
+  const auto twice = std::ranges::unique(files);
+  files.erase(twice.begin(), twice.end());
+  if (files == files_) return;
+  for (std::string& name : poll()) changed_.insert(std::move(name));
+  files_ = std::move(files);
+  std::erase_if(changed_, [&](const std::string& name) { return !std::ranges::binary_search(files_, name); });
+  arm();
+}
+
+void FileWatcher::arm() {
+  const auto before = std::move(folders_);
+  folders_.clear();
+  watched_.clear();
+  awaited_.clear();
+  std::map<int, std::vector<std::string>> failed;
+  for (const std::string& file : files_) {
+    const std::string absolute = watchedPath(file);
+    int error = armFile(absolute, file);
+    std::error_code ec;
+    if (const fs::path real = fs::canonical(absolute, ec); !ec && real.string() != absolute)
+      error = std::max(error, armFile(real.string(), file));
+    if (error != 0) failed[error].push_back(file);
+  }
+  for (const auto& [error, files] : failed) tell(error, files);
+  for (const auto& [watch, names] : before)
+    if (!folders_.contains(watch)) ::inotify_rm_watch(descriptor_, watch);
+}
+
+int FileWatcher::armFile(const std::string& absolute, const std::string& given) {
+  if (descriptor_ < 0) return error_;
+  watched_[absolute].insert(given);
+  fs::path folder = fs::path(absolute).parent_path();
+  for (;;) {
+    const int watch = ::inotify_add_watch(descriptor_, folder.c_str(), kEvents);
+    if (watch >= 0) {
+      folders_[watch].insert(folder.string());
+      return 0;
+    }
+    const bool missing = errno == ENOENT || errno == ENOTDIR;
+    if (!missing || folder == folder.parent_path()) return errno;
+    awaited_.insert(folder.string());
+    folder = folder.parent_path();
+  }
+}
+
+void FileWatcher::tell(int error, const std::vector<std::string>& files) {
+  if (!told_.insert(error).second) return;
+  Diagnostic d{.severity = Severity::note,
+               .code = Code::filesNotWatched,
+               .message = fmt::format("changes of '{}'{} are not seen", files.front(),
+                                      files.size() == 1 ? "" : fmt::format(" and {} more", files.size() - 1)),
+               .place = {std::make_shared<const std::string>(files.front())}};
+  d.found = fmt::format("{}: {}", descriptor_ < 0 ? "no inotify instance" : "no inotify watch for its folder",
+                        std::strerror(error));
+  d.hint = error == EACCES ? "give yourself the right to read the folder"
+                           : fmt::format(
+                                 "end other programs that watch files, or raise fs.inotify.max_user_{} with "
+                                 "sysctl",
+                                 descriptor_ < 0 ? "instances" : "watches");
+  notices_.add(std::move(d));
+}
+
+Diagnostics FileWatcher::takeNotices() {
+  return std::exchange(notices_, {});
+}
+
+void FileWatcher::note(const std::string& path, bool created) {
+  const auto found = watched_.find(path);
+  if (found == watched_.end() || (created && !holdsSomething(path))) return;
+  changed_.insert(found->second.begin(), found->second.end());
+}
+
+std::vector<std::string> FileWatcher::poll() {
+  alignas(inotify_event) char bytes[16384];
+  bool again = false;
+  for (ssize_t got = 0; descriptor_ >= 0 && (got = ::read(descriptor_, bytes, sizeof bytes)) > 0;) {
+    for (const char* at = bytes; at < bytes + got;) {
+      inotify_event event;
+      std::memcpy(&event, at, sizeof event);
+      const char* name = at + sizeof event;
+      at += sizeof event + event.len;
+      if (event.mask & IN_Q_OVERFLOW) {
+        changed_.insert(files_.begin(), files_.end());
+        continue;
+      }
+      const auto folder = folders_.find(event.wd);
+      if (folder == folders_.end()) continue;  // of a watch that was given up
+      if (event.mask & (IN_DELETE_SELF | IN_MOVE_SELF | IN_IGNORED)) again = true;
+      if (event.len == 0) continue;
+      for (const std::string& each : folder->second) {
+        const std::string path = (fs::path(each) / name).string();
+        again |= awaited_.contains(path);
+        note(path, (event.mask & IN_CREATE) != 0);
+      }
+    }
+  }
+  // A folder appeared or went away. What already stands in a new one was made before it could be watched.
+  if (again) {
+    const std::set<std::string> missing = std::move(awaited_);
+    arm();
+    for (const auto& [path, names] : watched_)
+      if (missing.contains(fs::path(path).parent_path().string()) && holdsSomething(path))
+        changed_.insert(names.begin(), names.end());
+  }
+  std::vector<std::string> out(changed_.begin(), changed_.end());
+  changed_.clear();
+  return out;
+}
+
+}  // namespace weft::text

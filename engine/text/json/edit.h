@@ -1,0 +1,52 @@
+// Small changes of a JSON text that leave every other byte as it is: comments, layout, line ends, a byte order mark. New members
+// and items take the style of those around them: a line of their own or the same line, the indentation, tabs.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/text/json/dom.h"
+
+namespace weft::text {
+
+// A text and its tree. Each change gives the whole changed text; what it is given as `json` is JSON text. The text must outlive
+// it.
+class JsonEdit {
+ public:
+  explicit JsonEdit(std::string_view text);
+  // False when the text has mistakes; then nothing is to be changed.
+  explicit operator bool() const { return good_; }
+  const JsonValue& root() const { return tree_.root; }
+  const JsonValue& valueAt(const Place& place) const {
+    return text::valueAt(tree_.root, offsetOf(text_, place));
+  }
+  std::string_view written(const JsonValue& value) const {
+    return text_.substr(value.begin, value.end - value.begin);
+  }
+
+  std::string withValue(const JsonValue& value, std::string_view json) const;
+  // With a new last member, or one behind the member `after` where that is there. The object does not have the key.
+  std::string withMember(const JsonValue& object, std::string_view key, std::string_view json,
+                         std::string_view after = {}) const;
+  // With a new last item.
+  std::string withItem(const JsonValue& array, std::string_view json) const;
+
+ private:
+  // Behind white space and comments.
+  std::size_t skipBlank(std::size_t at) const;
+  // From `at` only blanks and comments until the line ends: that end (before "\r\n" or "\n"), else `at`.
+  std::size_t restOfLine(std::size_t at) const;
+  // `added` behind element `index` of the elements of a container, of which there is one at least.
+  std::string putBehind(const std::vector<ByteRange>& elements, std::size_t index,
+                        const std::string& added) const;
+
+  std::string_view text_;
+  JsonTree tree_;
+  bool good_ = false;
+};
+
+// A string as JSON, with quotes and the escapes that are needed.
+std::string quoteJson(std::string_view text);
+
+}  // namespace weft::text

@@ -1,0 +1,157 @@
+#include "engine/text/json/fields.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/text/nearest.h"
+
+namespace weft::text {
+
+namespace {
+
+std::string describeRange(const NumberRange& range) {
+  const char* noun = range.whole ? "a whole number" : "a number";
+  const bool low = std::isfinite(range.min), high = std::isfinite(range.max);
+  if (low && high)
+    return fmt::format("{} {} {} {} {}", noun, range.aboveMin ? "over" : "from", range.min,
+                       range.aboveMin ? "up to" : "to", range.max);
+  if (low) return fmt::format("{} {} {}", noun, range.aboveMin ? "over" : "of at least", range.min);
+  if (high) return fmt::format("{} of at most {}", noun, range.max);
+  return noun;
+}
+
+Diagnostic& reportType(const JsonValue& value, std::string_view name, Diagnostics& diagnostics,
+                       std::string expected) {
+  Diagnostic& d =
+      diagnostics.error(Code::wrongType, value.place, fmt::format("{} has the wrong type of value", name));
+  d.expected = std::move(expected);
+  d.found = describe(value);
+  return d;
+}
+
+}  // namespace
+
+std::optional<double> readNumber(const JsonValue& value, std::string_view name, const NumberRange& range,
+                                 Code rangeCode, Diagnostics& diagnostics) {
+  if (!value.is(JsonValue::Type::number)) {
+    reportType(value, name, diagnostics, describeRange(range));
+    return {};
+  }
+  const double number = value.number;
+  const bool inside = (range.aboveMin ? number > range.min : number >= range.min) && number <= range.max &&
+                      (!range.whole || number == std::floor(number));
+  if (inside) return number;
+  Diagnostic& d = diagnostics.error(rangeCode, value.place, fmt::format("{} is out of range", name));
+  d.expected = describeRange(range);
+  d.found = describe(value);
+  return {};
+}
+
+std::optional<std::string> readText(const JsonValue& value, std::string_view name, Diagnostics& diagnostics) {
+  if (!expectType(value, name, JsonValue::Type::string, diagnostics)) return {};
+  return value.text;
+}
+
+std::optional<std::array<double, 3>> readTriple(const JsonValue& value, std::string_view name,
+                                                const NumberRange& range, Code rangeCode,
+                                                Diagnostics& diagnostics) {
+  if (!value.is(JsonValue::Type::array) || value.items.size() != 3) {
+    Diagnostic& d = reportType(value, name, diagnostics, "an array of three numbers");
+    if (value.is(JsonValue::Type::array)) d.found = fmt::format("an array of {}", value.items.size());
+    return {};
+  }
+  std::array<double, 3> numbers{};
+  bool good = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto number =
+        readNumber(value.items[i], fmt::format("{}[{}]", name, i), range, rangeCode, diagnostics);
+    good = good && number.has_value();
+    numbers[i] = number.value_or(0);
+  }
+  if (!good) return {};
+  return numbers;
+}
+
+bool expectType(const JsonValue& value, std::string_view name, JsonValue::Type type,
+                Diagnostics& diagnostics) {
+  if (value.is(type)) return true;
+  reportType(value, name, diagnostics, nameOf(type));
+  return false;
+}
+
+JsonFields::JsonFields(const JsonValue& object, std::string what, Code rangeCode, Diagnostics& diagnostics)
+    : object_(object),
+      what_(std::move(what)),
+      rangeCode_(rangeCode),
+      diagnostics_(diagnostics),
+      known_{"$schema"} {
+  expectType(object, what_, JsonValue::Type::object, diagnostics);
+}
+
+std::string JsonFields::nameOfMember(std::string_view key) const {
+  return fmt::format("'{}' of {}", key, what_);
+}
+
+const JsonValue* JsonFields::find(std::string_view key) {
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
+  return object_.find(key);
+}
+
+void JsonFields::require(std::initializer_list<std::string_view> keys) {
+  if (!object_.is(JsonValue::Type::object)) return;
+  for (const std::string_view key : keys) {
+    if (object_.find(key)) continue;
+    Diagnostic& d =
+        diagnostics_.error(Code::missingKey, object_.place, fmt::format("{} has no '{}'", what_, key));
+    d.hint = fmt::format("add \"{}\"", key);
+  }
+}
+
+std::optional<double> JsonFields::number(std::string_view key, const NumberRange& range) {
+  const JsonValue* value = find(key);
+  if (!value) return {};
+  return readNumber(*value, nameOfMember(key), range, rangeCode_, diagnostics_);
+}
+
+std::optional<bool> JsonFields::boolean(std::string_view key) {
+  const JsonValue* value = find(key);
+  if (!value || !expectType(*value, nameOfMember(key), JsonValue::Type::boolean, diagnostics_)) return {};
+  return value->flag;
+}
+
+std::optional<std::string> JsonFields::text(std::string_view key) {
+  const JsonValue* value = find(key);
+  if (!value) return {};
+  return readText(*value, nameOfMember(key), diagnostics_);
+}
+
+std::optional<std::array<double, 3>> JsonFields::triple(std::string_view key, const NumberRange& range) {
+  const JsonValue* value = find(key);
+  if (!value) return {};
+  return readTriple(*value, nameOfMember(key), range, rangeCode_, diagnostics_);
+}
+
+const JsonValue* JsonFields::object(std::string_view key) {
+  const JsonValue* value = find(key);
+  return value && expectType(*value, nameOfMember(key), JsonValue::Type::object, diagnostics_) ? value
+                                                                                               : nullptr;
+}
+
+const JsonValue* JsonFields::array(std::string_view key) {
+  const JsonValue* value = find(key);
+  return value && expectType(*value, nameOfMember(key), JsonValue::Type::array, diagnostics_) ? value
+                                                                                              : nullptr;
+}
+
+void JsonFields::finish() {
+  for (const JsonMember& member : object_.members) {
+    if (std::find(known_.begin(), known_.end(), member.key) != known_.end()) continue;
+    Diagnostic& d = diagnostics_.error(Code::unknownKey, member.place,
+                                       fmt::format("{} has no key '{}'", what_, member.key));
+    d.hint = nearestHint(member.key, known_);
+  }
+}
+
+}  // namespace weft::text

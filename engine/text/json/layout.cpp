@@ -1,0 +1,547 @@
+#include "engine/text/json/layout.h"
+
+#include <algorithm>
+#include <span>
+
+#include "engine/text/chars.h"
+#include "engine/text/json/dom.h"
+
+namespace weft::text {
+
+namespace {
+
+constexpr int kColumns = 120;
+constexpr int kStep = 2;
+// Names of one table are padded to the longest, unless that is so much longer than the shortest.
+constexpr int kMaxPadding = 12;
+
+struct Comment {
+  std::string_view text;  // with its slashes, without a line end
+  bool blankBefore = false;
+  bool toLineEnd() const { return text.starts_with("//"); }
+  // Nothing else stands in its last line.
+  bool endsLine() const { return toLineEnd() || text.find('\n') != std::string_view::npos; }
+};
+
+struct Item;
+
+// A value with its comments.
+struct Node {
+  enum class Kind : unsigned char { scalar, object, array };
+  Kind kind = Kind::scalar;
+  std::string_view text;          // of a scalar
+  std::vector<Item> items;        // of an object or an array
+  std::vector<Comment> dangling;  // in front of the closing bracket
+  int width = 0;                  // on one line; kBroken: it cannot be
+  bool commented = false;         // inside
+  bool isContainer() const { return kind != Kind::scalar; }
+};
+
+// A member of an object or an item of an array.
+struct Item {
+  std::vector<Comment> leading;  // in front of it
+  std::string_view key;          // with its quotes; empty in an array
+  Node value;
+  std::vector<Comment> trailing;  // behind it, on its last line
+  bool blankBefore = false;       // between the leading comments, or what is before, and the key or value
+  int width = 0;                  // as that of a node, with key and comments
+};
+
+constexpr int kBroken = 1'000'000;
+
+struct Document {
+  std::vector<Comment> before, after;
+  bool blankBefore = false;  // in front of the value
+  Node root;
+};
+
+// Characters, not bytes.
+int widthOf(std::string_view text) {
+  return static_cast<int>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }));
+}
+
+// Gives each comment to the value that it is about, and measures.
+class Arranger {
+ public:
+  explicit Arranger(std::string_view text) : text_(text), tree_(parseJsonTree(text)) {}
+
+  Document run() {
+    Document out;
+    out.before = comments(out.blankBefore);
+    out.root = node(tree_.root);
+    bool ignored = false;
+    out.after = comments(ignored);
+    return out;
+  }
+
+ private:
+  char now() const { return at_ < text_.size() ? text_[at_] : '\0'; }
+  bool atComment() const { return tree_.behindComment(at_) != at_; }
+
+  // Line ends that were passed.
+  int skipSpace() {
+    int lines = 0;
+    for (; isSpace(now()); ++at_) lines += now() == '\n';
+    return lines;
+  }
+
+  Comment comment() {
+    const std::size_t begin = at_;
+    at_ = tree_.behindComment(at_);
+    std::string_view found = text_.substr(begin, at_ - begin);
+    while (isSpace(found.back())) found.remove_suffix(1);
+    return {found, false};
+  }
+
+  // All up to the next token. `blank`: a blank line stands behind the last.
+  std::vector<Comment> comments(bool& blank) {
+    std::vector<Comment> found;
+    int lines = skipSpace();
+    while (atComment()) {
+      found.push_back(comment());
+      found.back().blankBefore = lines > 1;
+      lines = skipSpace();
+    }
+    blank = lines > 1;
+    return found;
+  }
+
+  Node node(const JsonValue& value) {
+    Node out;
+    if (value.is(JsonValue::Type::object) || value.is(JsonValue::Type::array)) {
+      out.kind = value.is(JsonValue::Type::object) ? Node::Kind::object : Node::Kind::array;
+      at_ = value.begin + 1;
+      items(value, out);
+    } else {
+      out.text = text_.substr(value.begin, value.end - value.begin);
+    }
+    at_ = value.end;
+    measure(out);
+    return out;
+  }
+
+  void items(const JsonValue& value, Node& out) {
+    bool blank = false;
+    std::vector<Comment> leading = comments(blank);
+    const auto add = [&](const JsonMember* member, const JsonValue& child) {
+      Item& item = out.items.emplace_back();
+      item.leading = std::move(leading);
+      item.blankBefore = blank;
+      if (member) {
+        item.key = text_.substr(member->begin, member->end - member->begin);
+        bool ignored = false;
+        for (at_ = member->end; at_ < child.begin; ++at_)  // around the colon
+          for (const Comment& each : comments(ignored)) item.leading.push_back(each);
+      }
+      item.value = node(child);
+      leading = behind(item, blank);
+    };
+    for (const JsonMember& member : value.members) add(&member, member.value);
+    for (const JsonValue& each : value.items) add(nullptr, each);
+    out.dangling = std::move(leading);
+    if (out.items.empty()) return;
+    Item& first = out.items.front();  // nothing is in front of it
+    if (first.leading.empty())
+      first.blankBefore = false;
+    else
+      first.leading.front().blankBefore = false;
+  }
+
+  // Comments on the item's last line are its own; those behind it are the next one's, which are returned.
+  std::vector<Comment> behind(Item& item, bool& blank) {
+    std::vector<Comment> next;
+    bool comma = false;
+    int lines = skipSpace();
+    while (true) {
+      if (now() == ',' && !comma) {
+        comma = true;
+        ++at_;
+        // What stands in front of the comma on lines of its own comes in front of the next item.
+        if (next.empty())
+          lines = skipSpace();
+        else
+          lines += skipSpace();
+      } else if (atComment()) {
+        const bool ended = !item.trailing.empty() && item.trailing.back().endsLine();
+        Comment found = comment();
+        const bool own = next.empty() && lines == 0 && !ended && (!comma || restIsComments());
+        const int after = skipSpace();
+        found.blankBefore = !own && lines > 1;
+        (own ? item.trailing : next).push_back(found);
+        lines = after;
+      } else {
+        break;
+      }
+    }
+    blank = lines > 1;
+    return next;
+  }
+
+  // Up to the end of the line.
+  bool restIsComments() const {
+    for (std::size_t at = at_; at < text_.size() && text_[at] != '\n';) {
+      const std::size_t end = tree_.behindComment(at);
+      if (end == at && !isSpace(text_[at])) return false;
+      if (text_.substr(at, 2) == "//") return true;
+      at = std::max(end, at + 1);
+    }
+    return true;
+  }
+
+  static int add(int a, int b) { return std::min(a + b, kBroken); }
+
+  static int widthOn(const std::vector<Comment>& comments) {
+    int width = 0;
+    for (const Comment& each : comments)
+      width = add(width, each.endsLine() ? kBroken : widthOf(each.text) + 1);
+    return width;
+  }
+
+  static void measure(Node& node) {
+    if (!node.isContainer()) {
+      node.width = widthOf(node.text);
+      return;
+    }
+    const bool object = node.kind == Node::Kind::object;
+    node.width = node.items.empty() ? 2 : object ? 4 : 2;
+    if (!node.dangling.empty()) node.width = kBroken;
+    node.commented = !node.dangling.empty() || std::ranges::any_of(node.items, [](const Item& item) {
+      return !item.leading.empty() || !item.trailing.empty() || item.value.commented;
+    });
+    for (Item& item : node.items) {
+      const int before = add(widthOn(item.leading), item.key.empty() ? 0 : widthOf(item.key) + 2);
+      item.width = add(add(before, item.value.width), widthOn(item.trailing));
+      node.width = add(node.width, item.width);
+    }
+    if (node.items.size() > 1) node.width = add(node.width, 2 * (static_cast<int>(node.items.size()) - 1));
+  }
+
+  const std::string_view text_;
+  const JsonTree tree_;
+  std::size_t at_ = 0;
+};
+
+bool startsBlank(const Item& item) {
+  return item.leading.empty() ? item.blankBefore : item.leading.front().blankBefore;
+}
+
+bool holdsObjects(const Node& node) {
+  return std::ranges::any_of(node.items, [](const Item& item) {
+    return item.value.kind == Node::Kind::object && !item.value.items.empty();
+  });
+}
+
+bool holdsContainers(const Node& node) {
+  return std::ranges::any_of(node.items, [](const Item& item) { return item.value.isContainer(); });
+}
+
+bool endsLine(const Item& item) {
+  return std::ranges::any_of(item.trailing, &Comment::endsLine);
+}
+
+bool isOneOf(const std::vector<std::string_view>& names, std::string_view key) {
+  return key.size() > 2 && std::ranges::find(names, key.substr(1, key.size() - 2)) != names.end();
+}
+
+class Writer {
+ public:
+  explicit Writer(const LayoutRules& rules) : rules_(rules) {}
+
+  std::string write(const Document& document) {
+    for (const Comment& each : document.before) ownLine(each, 0);
+    if (document.blankBefore && !document.before.empty()) out_ += '\n';
+    value(document.root, {.depth = 0, .indent = 0, .tail = 0, .key = {}});
+    newLine();
+    for (const Comment& each : document.after) ownLine(each, 0);
+    return std::move(out_);
+  }
+
+ private:
+  // Where a value stands.
+  struct Place {
+    int depth;             // 0: the document
+    int indent;            // column of what is around it
+    int tail;              // characters that follow on its last line
+    std::string_view key;  // of the member, with its quotes
+  };
+
+  // ---- text ----
+
+  int column() const { return widthOf(std::string_view(out_).substr(out_.rfind('\n') + 1)); }
+
+  void newLine() {
+    while (!out_.empty() && out_.back() == ' ') out_.pop_back();
+    out_ += '\n';
+  }
+
+  void newLine(int indent) {
+    newLine();
+    out_.append(static_cast<std::size_t>(indent), ' ');
+  }
+
+  // At the start of a line.
+  void ownLine(const Comment& comment, int indent) {
+    if (comment.blankBefore && !out_.empty()) newLine();
+    out_.append(static_cast<std::size_t>(indent), ' ');
+    out_ += comment.text;
+    newLine();
+  }
+
+  // ---- one line ----
+
+  void flat(const Node& node) {
+    if (!node.isContainer()) {
+      out_ += node.text;
+      return;
+    }
+    const bool object = node.kind == Node::Kind::object, empty = node.items.empty();
+    out_ += object ? '{' : '[';
+    if (object && !empty) out_ += ' ';
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+      if (i > 0) out_ += ", ";
+      flat(node.items[i]);
+    }
+    if (object && !empty) out_ += ' ';
+    out_ += object ? '}' : ']';
+  }
+
+  void key(const Item& item) {
+    if (!item.key.empty()) (out_ += item.key) += ": ";
+  }
+
+  void flat(const Item& item) {
+    for (const Comment& each : item.leading) (out_ += each.text) += ' ';
+    key(item);
+    flat(item.value);
+    for (const Comment& each : item.trailing) (out_ += ' ') += each.text;
+  }
+
+  // ---- several lines ----
+
+  // A section of the document that holds several entries with keys of their own has a line for each.
+  static bool isTable(const Node& node, const Place& place) {
+    if (place.depth == 0) return !node.items.empty();
+    return place.depth == 1 && node.items.size() > 1 && holdsObjects(node);
+  }
+
+  // Blank lines between entries that are more than a few numbers or words.
+  static bool isGrouped(const Node& node, const Place& place) {
+    if (place.depth > 1 && !holdsContainers(node)) return false;
+    return std::any_of(node.items.begin() + (node.items.empty() ? 0 : 1), node.items.end(), startsBlank);
+  }
+
+  void value(const Node& node, const Place& place) {
+    const bool broken = isTable(node, place) || isGrouped(node, place);
+    if (!broken && node.width < kBroken && column() + node.width + place.tail <= kColumns) return flat(node);
+    if (!node.isContainer())
+      flat(node);
+    else if (place.depth <= 1 || node.items.empty())
+      block(node, place);
+    else if (node.kind == Node::Kind::object && !place.key.empty() && holdsObjects(node))
+      openBlock(node, place);
+    else
+      hanging(node, place);
+  }
+
+  // Each entry on a line of its own; the closing bracket too.
+  void block(const Node& node, const Place& place) {
+    const bool object = node.kind == Node::Kind::object, packs = !object || isOneOf(rules_.packed, place.key);
+    const int indent = place.indent + kStep;
+    out_ += object ? '{' : '[';
+    newLine();
+    int pad = 0;
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+      const Item& item = node.items[i];
+      const bool last = i + 1 == node.items.size();
+      if (i > 0 && packs && mayFollow(node.items[i - 1], item, last)) {
+        out_.back() = ' ';  // was the line end
+      } else {
+        if (startsBlank(item) && i > 0) newLine();
+        leadingLines(item, indent, last);
+        out_.append(static_cast<std::size_t>(indent), ' ');
+      }
+      if (place.depth == 1 && !(object && packs) && (i == 0 || startsBlank(item)))
+        pad = paddingOf(std::span(node.items).subspan(i));
+      entry(item, {.depth = place.depth + 1, .indent = indent, .tail = last ? 0 : 1, .key = item.key}, pad);
+      if (movesUp(item, indent, last))
+        comma(last);
+      else
+        trailing(item, last);
+      newLine();
+    }
+    for (const Comment& each : node.dangling) ownLine(each, indent);
+    out_.append(static_cast<std::size_t>(place.indent), ' ');
+    out_ += object ? '}' : ']';
+  }
+
+  // Whether the item goes on the line that was just ended, which holds one like it.
+  bool mayFollow(const Item& before, const Item& item, bool last) const {
+    const auto isPlain = [](const Item& each) {
+      return each.width <= kColumns && !holdsContainers(each.value) && each.value.kind != Node::Kind::object;
+    };
+    if (!isPlain(before) || !isPlain(item) || endsLine(before) || !item.leading.empty() || startsBlank(item))
+      return false;
+    const std::size_t end = out_.size() - 1;
+    return widthOf(std::string_view(out_).substr(out_.rfind('\n', end - 1) + 1)) - 1 + 1 + item.width +
+               (last ? 0 : 1) <=
+           kColumns;
+  }
+
+  // A comment for which the line of its entry is too short stands in front of it.
+  static bool movesUp(const Item& item, int indent, bool last) {
+    if (item.trailing.size() != 1 || !item.trailing.back().toLineEnd() || item.value.commented) return false;
+    const int entry =
+        indent + (item.key.empty() ? 0 : widthOf(item.key) + 2) + item.value.width + (last ? 0 : 1);
+    return entry <= kColumns && entry + 1 + widthOf(item.trailing.back().text) > kColumns;
+  }
+
+  void leadingLines(const Item& item, int indent, bool last) {
+    for (std::size_t i = 0; i < item.leading.size(); ++i) {
+      Comment each = item.leading[i];
+      if (i == 0) each.blankBefore = false;
+      ownLine(each, indent);
+    }
+    if (item.blankBefore && !item.leading.empty()) newLine();
+    if (movesUp(item, indent, last)) ownLine({item.trailing.back().text, false}, indent);
+  }
+
+  // The key, padded to a column of the table, and the value.
+  void entry(const Item& item, const Place& place, int pad) {
+    key(item);
+    if (pad > 0 && !item.key.empty())
+      out_.append(static_cast<std::size_t>(std::max(pad - widthOf(item.key), 0)), ' ');
+    value(item.value, place);
+  }
+
+  // The width of the longest key in the rows up to the next blank line, where some values are objects or
+  // lists.
+  static int paddingOf(std::span<const Item> items) {
+    int longest = 0, shortest = kColumns;
+    bool table = false;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      if (i > 0 && startsBlank(items[i])) break;
+      table = table || items[i].value.isContainer();
+      longest = std::max(longest, widthOf(items[i].key));
+      shortest = std::min(shortest, widthOf(items[i].key));
+    }
+    return table && longest - shortest <= kMaxPadding ? longest : 0;
+  }
+
+  // The first entry behind the bracket, the others below it, as many to a line as there is room for.
+  void hanging(const Node& node, const Place& place) {
+    const bool object = node.kind == Node::Kind::object;
+    const int bracket = column(), indent = bracket + (object ? kStep : 1);
+    out_ += object ? "{ " : "[";
+    fill(node, {.depth = place.depth, .indent = indent, .tail = place.tail + (object ? 2 : 1), .key = {}},
+         place.key.empty() && object ? Fill::stanza : Fill::packed);
+    if (!node.dangling.empty() || (!node.items.empty() && endsLine(node.items.back()))) {
+      newLine();
+      for (const Comment& each : node.dangling) ownLine(each, indent);
+      out_.append(static_cast<std::size_t>(bracket), ' ');
+    } else if (object) {
+      out_ += ' ';
+    }
+    out_ += object ? '}' : ']';
+  }
+
+  // Objects of their own lines below the key; the closing bracket behind the last.
+  void openBlock(const Node& node, const Place& place) {
+    const int indent = place.indent + kStep;
+    out_ += '{';
+    newLine(indent);
+    fill(node, {.depth = place.depth, .indent = indent, .tail = place.tail + 2, .key = {}}, Fill::rows);
+    if (!node.dangling.empty() || endsLine(node.items.back())) {
+      newLine();
+      for (const Comment& each : node.dangling) ownLine(each, indent);
+      out_.append(static_cast<std::size_t>(place.indent), ' ');
+    } else {
+      out_ += ' ';
+    }
+    out_ += '}';
+  }
+
+  // packed: as many entries to a line as there is room for. stanza: likewise, but with a line end in front of
+  // the first object. rows: each object in lines of its own.
+  enum class Fill : unsigned char { packed, stanza, rows };
+
+  // Entries in lines that begin at `place.indent`; the first where the text is.
+  void fill(const Node& node, const Place& place, Fill how) {
+    bool head = how == Fill::stanza, started = how == Fill::rows;
+    bool alone = false;  // nothing follows what stands in this line
+    const bool grouped = isGrouped(node, place);
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+      const Item& item = node.items[i];
+      const bool last = i + 1 == node.items.size(), object = item.value.kind == Node::Kind::object;
+      const int tail = last ? place.tail : 1;
+      const bool fits = item.width < kBroken &&
+                        !isGrouped(item.value, {.depth = place.depth + 1, .indent = 0, .tail = 0, .key = {}});
+      bool fresh = i == 0;
+      if (i > 0) {
+        const bool blank = grouped && startsBlank(item);
+        const bool ownLines = std::ranges::any_of(item.leading, &Comment::endsLine);
+        const bool start = !started && isOneOf(rules_.starts, item.key);
+        const bool row = object && (how == Fill::rows || head);
+        fresh = alone || blank || ownLines || row || start || !fits ||
+                column() + 1 + item.width + tail > kColumns;
+        if (blank) newLine();
+        if (fresh)
+          newLine(place.indent);
+        else
+          out_ += ' ';
+      }
+      head = head && !object;
+      started = started || isOneOf(rules_.starts, item.key);
+      for (const Comment& each : item.leading) {
+        out_ += each.text;
+        if (each.endsLine())
+          newLine(place.indent);
+        else
+          out_ += ' ';
+      }
+      const int before = static_cast<int>(out_.size());
+      key(item);
+      value(item.value, {.depth = place.depth + 1, .indent = place.indent, .tail = tail, .key = item.key});
+      const bool lines = std::string_view(out_).substr(static_cast<std::size_t>(before)).find('\n') !=
+                         std::string_view::npos;
+      trailing(item, last);
+      alone = lines || endsLine(item) || (object && how == Fill::rows);
+    }
+  }
+
+  void comma(bool last) {
+    if (!last) out_ += ',';
+  }
+
+  // What would swallow the comma stands behind it.
+  void trailing(const Item& item, bool last) {
+    for (const Comment& each : item.trailing)
+      if (!each.toLineEnd()) (out_ += ' ') += each.text;
+    comma(last);
+    for (const Comment& each : item.trailing)
+      if (each.toLineEnd()) (out_ += ' ') += each.text;
+  }
+
+  const LayoutRules& rules_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string layoutJson(std::string_view text, const LayoutRules& rules) {
+  const bool marked = text.starts_with(kByteOrderMark);
+  if (marked) text.remove_prefix(kByteOrderMark.size());
+  const std::size_t end = text.find('\n');
+  const bool carriage = end != std::string_view::npos && end > 0 && text[end - 1] == '\r';
+  std::string plain(text);
+  std::erase(plain, '\r');
+  const std::string laid = Writer(rules).write(Arranger(plain).run());
+  std::string out(marked ? kByteOrderMark : "");
+  for (const char c : laid) {
+    if (c == '\n' && carriage) out += '\r';
+    out += c;
+  }
+  return out;
+}
+
+}  // namespace weft::text

@@ -1,0 +1,38 @@
+#include "engine/text/limits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace weft::text {
+
+namespace {
+
+std::uint64_t raisedTimes = 1;
+
+}  // namespace
+
+void raiseLimits(std::uint64_t times) {
+  raisedTimes = times;
+}
+
+std::uint64_t limitsRaised() {
+  return raisedTimes;
+}
+
+std::string hintToRaise(std::uint64_t bound, std::uint64_t needed) {
+  const std::uint64_t times = std::max(2 * raisedTimes, needed / bound + (needed % bound != 0 ? 1 : 0));
+  if (times > kMaxRaise) return {};
+  return fmt::format("raise the limits with --limit {}, if that is meant", times);
+}
+
+Diagnostic& reportLimit(Diagnostics& diagnostics, Where place, std::string message, std::uint64_t bound,
+                        std::string_view counts, std::uint64_t needed) {
+  Diagnostic& d = diagnostics.error(Code::limitExceeded, std::move(place), std::move(message));
+  d.expected = fmt::format("at most {} {}", raised(bound), counts);
+  d.hint = hintToRaise(bound, needed);
+  return d;
+}
+
+}  // namespace weft::text

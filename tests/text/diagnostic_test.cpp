@@ -1,0 +1,85 @@
+#include "engine/text/diagnostic.h"
+
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/text/report.h"
+
+using namespace weft::text;
+
+static Place at(std::uint32_t line, std::uint32_t column) {
+  return {std::make_shared<const std::string>("a.json"), line, column};
+}
+
+TEST_CASE("a diagnostic prints place, code, message and its details") {
+  Diagnostics all;
+  Diagnostic& d = all.error(Code::unknownResource, at(12, 7), "pass 'fxaa' reads unknown resource 'ldrr'");
+  d.pass = "fxaa";
+  d.hint = "did you mean 'ldr'?";
+  CHECK(format(all.items()[0]) ==
+        "a.json:12:7: error[W040]: pass 'fxaa' reads unknown resource 'ldrr'\n"
+        "    pass: fxaa\n"
+        "    fix: did you mean 'ldr'?");
+  CHECK(all.hasErrors());
+  CHECK(all.contains(Code::unknownResource));
+}
+
+TEST_CASE("the place of an option is no file: in text, in JSON and in SARIF") {
+  const Where place = placeOfOption("--set bloom=yes");
+  CHECK_FALSE(place.file);
+  CHECK(place.line == 0);
+  CHECK(place.column == 0);
+  CHECK(place.option == "--set bloom=yes");
+  CHECK(isKnown(place));
+  CHECK(isKnown(placeOfOption("")));
+  CHECK(isKnown(at(1, 1)));
+  CHECK_FALSE(isKnown(Where{}));
+  // A slot of a graph has a place in a file; a graph has up to a million of them.
+  static_assert(sizeof(Place) <= 2 * sizeof(void*) + 8);
+  static_assert(!std::is_convertible_v<Where, Place>, "it would lose the option");
+  Diagnostics all;
+  all.error(Code::badParameterValue, at(1, 1), "in a file");
+  all.error(Code::badParameterValue, place, "of an option");
+  all.error(Code::badParameterValue, {}, "of nothing");
+  all.error(Code::badParameterValue, placeOfOption(""), "of the command line");
+  all.sortByPlace();
+  CHECK(all.text() ==
+        "error[W047]: of nothing\n"
+        "command line: error[W047]: of the command line\n"
+        "command line: --set bloom=yes: error[W047]: of an option\n"
+        "a.json:1:1: error[W047]: in a file\n");
+  const auto json = nlohmann::json::parse(diagnosticsJson(all, 0));
+  CHECK_FALSE(json[2].contains("file"));
+  CHECK(json[2]["option"] == "--set bloom=yes");
+  CHECK(json[3]["file"] == "a.json");
+  CHECK_FALSE(json[3].contains("option"));
+  const auto sarif = nlohmann::json::parse(diagnosticsSarif(all, "1"));
+  const auto& results = sarif["runs"][0]["results"];
+  CHECK_FALSE(results[2].contains("locations"));
+  CHECK(results[3]["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] == "a.json");
+}
+
+TEST_CASE("a text longer than a screen is cut between two characters, and says so") {
+  Diagnostics all;
+  Diagnostic& d = all.error(Code::badExpression, at(1, 1), "short");
+  std::string words = "aaaa";
+  for (int i = 0; i < 71; ++i) words += " aaaa";  // 359 bytes
+  d.found = words;
+  for (int i = 0; i < 100; ++i) d.found += "é";
+  const std::string text = format(all.items()[0]);
+  CHECK(text == "a.json:1:1: error[W020]: short\n    found: " + words + "… (559 bytes in all)");
+}
+
+TEST_CASE("warnings are no errors; sorting drops repeats and keeps the count right") {
+  Diagnostics all;
+  all.warning(Code::unknownResource, at(1, 1), "w");
+  CHECK_FALSE(all.hasErrors());
+  all.error(Code::unreadableFile, at(9, 1), "late");
+  all.error(Code::unreadableFile, at(2, 1), "early");
+  all.error(Code::unreadableFile, at(9, 1), "late");
+  all.sortByPlace();
+  REQUIRE(all.size() == 3);
+  CHECK(all.errorCount() == 2);
+  CHECK(all.items()[1].message == "early");
+}

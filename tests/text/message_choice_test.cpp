@@ -1,0 +1,72 @@
+#include "engine/text/message_choice.h"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include "engine/text/limits.h"
+#include "engine/text/nearest.h"
+
+using namespace weft::text;
+
+namespace {
+
+Place at(std::uint32_t line) {
+  static const auto file = std::make_shared<const std::string>("a.json");
+  return {file, line, 1};
+}
+
+}  // namespace
+
+TEST_CASE("up to the limit everything is reported, in order") {
+  Diagnostics all;
+  for (std::uint32_t i = 100; i > 0; --i) all.warning(Code::culledOverwritten, at(i), "warning");
+  const Diagnostics chosen = chooseMessages(all);
+  CHECK(chosen.size() == 100);
+  CHECK(chosen.items().front().place.line == 1);
+  CHECK_FALSE(chosen.contains(Code::messagesLeftOut));
+}
+
+TEST_CASE("beyond it errors stay before warnings, from the first place on, and the rest is counted") {
+  Diagnostics all;
+  for (std::uint32_t i = 1; i <= 500; ++i) {
+    all.warning(Code::culledOverwritten, at(2 * i), "warning");
+    all.error(Code::unknownKey, at(2 * i + 1), "error");
+    if (i <= 7)
+      all.add(
+          {.severity = Severity::note, .code = Code::unknownResource, .message = "note", .place = at(2 * i)});
+  }
+  const Diagnostics chosen = chooseMessages(all);
+  REQUIRE(chosen.size() == 101);
+  CHECK(chosen.errorCount() == 100);
+  CHECK(chosen.items()[0].place.line == 3);
+  CHECK(chosen.items()[99].place.line == 201);
+  const Diagnostic& last = chosen.items().back();
+  CHECK(last.code == Code::messagesLeftOut);
+  CHECK(last.severity == Severity::note);
+  CHECK(last.message == "907 further messages are left out: 400 errors, 500 warnings, 7 notes");
+  CHECK(last.hint == "correct these first, or raise the limits with --limit 2, if that is meant");
+  CHECK(chooseMessages(all, false).items().back().message ==
+        "900 further messages are left out: 400 errors, 500 warnings, 0 notes");
+
+  raiseLimits(10);
+  const Diagnostics most = chooseMessages(all);
+  raiseLimits(1);
+  CHECK(most.size() == 1001);
+  CHECK(most.items().back().message == "7 further messages are left out: 0 errors, 0 warnings, 7 notes");
+  CHECK(most.items()[0].severity == Severity::warning);  // in the order of places again
+}
+
+TEST_CASE("names that were too many to be compared are reported once") {
+  takeUncompared();
+  std::vector<std::string> names;
+  for (int i = 0; i < 2000; ++i) names.push_back(fmt::format("{:0>100}{:0>100}", i * 7919, i * 104729));
+  for (int i = 0; i < 2000; ++i) nearestHint(fmt::format("{:x>200}", i), names);
+  Diagnostics all;
+  all.error(Code::unknownResource, at(1), "unknown");
+  const Diagnostics chosen = chooseMessages(all);
+  REQUIRE(chosen.size() == 2);
+  CHECK(chosen.items()[1].code == Code::messagesLeftOut);
+  CHECK(chosen.items()[1].message.find("unknown names are without a hint") != std::string::npos);
+  CHECK(chooseMessages(all).size() == 1);
+  CHECK(nearestName("scne", std::vector<std::string>{"scene"}) == "scene");  // a new budget
+}
