@@ -165,7 +165,6 @@ struct IncludeDesc {
   std::string file;  // as written, relative to the including file
   Place filePlace;
   std::string as;     // prefix; never empty after reading
-  std::string group;  // for its passes that are not `always` and name no group; may be empty
   std::vector<std::pair<std::string, RefDesc>> binds;
   std::vector<Place> bindPlaces;                  // parallel: of the keys
   std::shared_ptr<const struct GraphDesc> graph;  // null when it could not be read
@@ -190,7 +189,6 @@ struct PassDesc {
   std::vector<NamedExpr> defines;
   std::vector<NamedExpr> state;  // "depth_test", "cull", "blend" (all slots), "blend.radiance" (one slot), …
   Cadence cadence = Cadence::always;
-  std::string group;
   Expr slices, threads, instances;
   std::string list;
   Place listPlace;

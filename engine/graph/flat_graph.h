@@ -67,8 +67,6 @@ struct FlatPass {
   Cadence cadence = Cadence::always;
   bool sideEffect = false;
   std::uint16_t touches = 0;  // as PassType::touches
-  std::uint32_t group =
-      kNone;  // the "group" it names, into groupNames; which groups there are: versions/groups.h
   std::uint32_t slices = 1;
 };
 
@@ -262,7 +260,6 @@ struct FlatGraph {
   std::vector<std::string> outputNames;  // parallel to outputs
   std::vector<DisabledPass> disabled;
   std::vector<AliasSpec> aliases;
-  std::vector<std::string> groupNames;
   std::vector<std::string> files;  // to watch
   std::string name;
   std::uint32_t screenWidth = 0, screenHeight = 0;

@@ -276,32 +276,18 @@ class PassWalk {
                              std::ranges::any_of(slots_, [&](const auto& o) { return needs(o, work); })});
   }
 
-  std::uint32_t groupOf(const StanzaWalk& stanza) {
-    const PassDesc& desc = stanza.desc;
-    std::string name = desc.group.empty() ? std::string() : stanza.scope.prefix + desc.group;
-    if (name.empty() && desc.cadence != Cadence::always) name = stanza.scope.group;
-    if (name.empty()) return kNone;
-    const auto [at, fresh] = groups_.try_emplace(name, static_cast<std::uint32_t>(graph_.groupNames.size()));
-    if (fresh) graph_.groupNames.push_back(name);
-    return at->second;
-  }
-
   void addCadence(const StanzaWalk& stanza, const SlotContext& context, FlatPass& flat) {
     const PassDesc& desc = stanza.desc;
     flat.cadence = desc.cadence;
     flat.sideEffect = desc.sideEffect;
     if (stanza.type) flat.touches = stanza.type->touches;
-    flat.group = groupOf(stanza);
     const auto slices = evaluateWhole(context.names, desc.slices, 1, 0, 65536, "the number of slices");
     if (!slices) return;
     flat.slices = static_cast<std::uint32_t>(*slices);
     if (flat.slices > 1 && stanza.type && stanza.type->shader == ShaderShape::none)
       context.report(Code::badSlices, desc.slices.place(),
                      fmt::format("is a {}, which runs whole", desc.type),
-                     {.hint = "remove \"slices\": the pass takes one frame of its group"});
-    if (flat.slices == 0 && flat.group == kNone)
-      context.report(Code::badSlices, desc.slices.place(), "has no slices of its own and no group",
-                     {.hint = "0 slices go with a \"group\": the pass runs with its predecessor"});
+                     {.hint = "remove \"slices\": the pass takes one frame"});
   }
 
   // The slot as the executor needs it, with its uses in element order. Reads and modifies take the current resource. False
@@ -386,7 +372,6 @@ class PassWalk {
   Model& model_;
   FlatGraph& graph_;
   std::vector<DeferredUniform>& deferred_;
-  std::map<std::string, std::uint32_t> groups_;
   std::uint64_t made_ = 0, slotsMade_ = 0;  // passes, disabled ones and empty ranges counted; their slots
   // of the instance; kept from one to the next for their memory
   std::string name_, user_;  // "glow_down[3]", "pass 'glow_down[3]'"

@@ -37,7 +37,7 @@ void fillSpec(const SlotContext& context, const PassDesc& desc, const std::vecto
 
 // ---- the walk ----
 
-// Fills passes, uses, slots, specs, disabled and groupNames.
+// Fills passes, uses, slots, specs and disabled.
 void expandPasses(Model& model, std::vector<DeferredUniform>& deferred);
 
 }  // namespace weft::graph::expansion

@@ -222,7 +222,6 @@ class FileWriter {
     addDrawing(spec, json);
     addState(spec, json);
     if (flat.cadence != Cadence::always) json["update"] = nameOf(flat.cadence);
-    if (flat.group != kNone) json["group"] = plainName(graph_.groupNames[flat.group]);
     if (flat.slices != 1) json["slices"] = flat.slices;
     if (flat.sideEffect) json["side_effect"] = true;
     for (std::uint32_t u = flat.firstUse; u < flat.firstUse + flat.useCount; ++u) {

@@ -55,7 +55,6 @@ std::string dumpJson(const Plan& plan, bool explain) {
     ordered_json s;
     s["pass"] = graph.passNames[step.pass];
     s["update"] = nameOf(pass.cadence);
-    if (pass.group < graph.groupNames.size()) s["group"] = graph.groupNames[pass.group];
     if (pass.slices != 1) s["slices"] = pass.slices;
     s["barriers"] = barrierNames(step.barriers);
     s["clears"] = ordered_json::array();

@@ -61,7 +61,6 @@ class TextWriter {
     const FlatPass& pass = graph_.passes[step.pass];
     std::string head = fmt::format("{} {}", t, graph_.passNames[step.pass]);
     if (pass.cadence != Cadence::always) head += fmt::format(" update {}", nameOf(pass.cadence));
-    if (pass.group < graph_.groupNames.size()) head += " group " + graph_.groupNames[pass.group];
     if (pass.slices != 1) head += fmt::format(" slices {}", pass.slices);
     line(1, "{}{}", head, pass.sideEffect ? " side_effect" : "");
     if (explainer_) {

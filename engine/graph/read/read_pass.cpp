@@ -47,7 +47,6 @@ class PassReader {
     IncludeDesc& include = out_.include.emplace();
     include.file = textAt("include", include.filePlace);
     out_.namePlace = include.filePlace;
-    include.group = context_.text(value_, "group");
     out_.enabled = context_.expr(value_, "enabled");
     for (const JsonMember& member : context_.members(value_, "bind")) {
       const bool named = context_.checkName(member.key, member.place, {"an input"});
@@ -113,7 +112,6 @@ class PassReader {
     }
     const std::string update = context_.word(value_, "update", kUpdateWords).value_or("always");
     out_.cadence = static_cast<Cadence>(std::ranges::find(kUpdateWords, update) - kUpdateWords.begin());
-    out_.group = context_.text(value_, "group");
     out_.feedback = context_.flag(value_, "feedback");
     out_.sideEffect = context_.flag(value_, "side_effect");
     out_.view = context_.ref(value_, "view");

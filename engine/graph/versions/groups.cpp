@@ -31,26 +31,20 @@ Groups formGroups(const FlatGraph& graph, const std::function<bool(std::uint32_t
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
     const FlatPass& pass = graph.passes[p];
     if (!isLive(p)) continue;
-    const bool together = pass.cadence != Cadence::always && (pass.group != kNone || pass.slices != 1);
+    const bool together = pass.cadence != Cadence::always && pass.slices != 1;
     eachWrite(p, [&](const FlatUse& use) {
       if (use.access == Access::modify || together) joint[use.resource] = 1;
     });
   }
   std::vector<std::uint32_t> parents(graph.passes.size());
   for (std::uint32_t p = 0; p < parents.size(); ++p) parents[p] = p;
-  std::vector<std::uint32_t> firstWriter(graph.resources.size(), kNone), firstOfGroup;
+  std::vector<std::uint32_t> firstWriter(graph.resources.size(), kNone);
   const auto join = [&](std::uint32_t& first, std::uint32_t p) {
     if (first == kNone) first = p;
     const std::uint32_t a = rootOf(parents, first), b = rootOf(parents, p);
     parents[std::max(a, b)] = std::min(a, b);
+    return a != b;
   };
-  for (const std::uint32_t p : members) {
-    const std::uint32_t group = graph.passes[p].group;
-    if (group != kNone) {
-      if (group >= firstOfGroup.size()) firstOfGroup.resize(group + 1, kNone);
-      join(firstOfGroup[group], p);
-    }
-  }
   const auto joinWriters = [&] {
     for (const std::uint32_t p : members)
       eachWrite(p, [&](const FlatUse& use) {
@@ -58,17 +52,32 @@ Groups formGroups(const FlatGraph& graph, const std::function<bool(std::uint32_t
       });
   };
   joinWriters();
-  // What a time-sliced group writes is written by no other group: its writers join until none is left.
+  // A time-sliced group takes in who writes what it writes, the `on_change` passes whose results it reads, and other
+  // time-sliced groups that read an import it reads, until nothing is left to join.
   const auto sliced = [&](std::uint32_t p) { return graph.passes[p].slices > 1; };
   for (bool changed = std::ranges::any_of(members, sliced); changed;) {
     changed = false;
     std::vector<std::uint8_t> slicedRoot(graph.passes.size(), 0);
     for (const std::uint32_t p : members)
       if (sliced(p)) slicedRoot[rootOf(parents, p)] = 1;
-    for (const std::uint32_t p : members)
-      if (slicedRoot[rootOf(parents, p)] != 0)
-        eachWrite(p, [&](const FlatUse& use) {
+    std::vector<std::uint32_t> reader(graph.resources.size(), kNone);  // a pass of a time-sliced group
+    for (const std::uint32_t p : members) {
+      if (slicedRoot[rootOf(parents, p)] == 0) continue;
+      for (const std::uint32_t u : graph.usesOf(p)) {
+        const FlatUse& use = graph.uses[u];
+        if (use.access == Access::read && use.history == 0 && reader[use.resource] == kNone)
+          reader[use.resource] = p;
+        else if (use.access == Access::read && use.history == 0 &&
+                 graph.resources[use.resource].import != kNone)
+          changed |= join(reader[use.resource], p);
+        if (use.access != Access::read && isAttached(u))
           changed |= std::exchange(joint[use.resource], std::uint8_t{1}) == 0;
+      }
+    }
+    for (const std::uint32_t p : members)
+      if (graph.passes[p].cadence == Cadence::on_change)
+        eachWrite(p, [&](const FlatUse& use) {
+          if (reader[use.resource] != kNone) changed |= join(reader[use.resource], p);
         });
     if (changed) joinWriters();
   }

@@ -69,7 +69,7 @@ FILES = {
     "graph_and_shader.json": graph(shader="sky/no_such.frag.glsl").replace("rgba8", "rgba9"),
     "reserved_name.json": graph(write="ldrr").replace('"sky"', '"mip"'),
     "missing_include.json": graph(more=' }, { "include": "no_such.json"'),
-    "misspelt_include.json": graph(more=' }, { "include": "lihgt.json", "group": "g"').replace("@environment", "light.map"),
+    "misspelt_include.json": graph(more=' }, { "include": "lihgt.json"').replace("@environment", "light.map"),
     "light.json": '{ "passes": [] }',
     "own_include.json": graph(more=' }, { "include": "own_include.json"'),
     "unknown_key.json": graph(extra=', "formt": 1'),

@@ -222,8 +222,8 @@ def imports(n):
 
 def sliced_groups(n):
     resources = {f"r{i}": SMALL for i in range(n)}
-    first = [{**PASS, "name": f"a{i}", "update": "once", "slices": 2, "group": f"g{i}", "write": {"o": f"r{i}"}} for i in range(n)]
-    second = [{**PASS, "name": f"b{i}", "update": "once", "slices": 2, "group": f"g{i}", "read": {"s": f"r{i}"}, "write": {"o": f"r{i}"}} for i in range(n)]
+    first = [{**PASS, "name": f"a{i}", "update": "once", "slices": 2, "write": {"o": f"r{i}"}} for i in range(n)]
+    second = [{**PASS, "name": f"b{i}", "update": "once", "slices": 2, "read": {"s": f"r{i}"}, "write": {"o": f"r{i}"}} for i in range(n)]
     return {"g.json": graph(resources, [*first, *second])}
 
 

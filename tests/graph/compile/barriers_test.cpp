@@ -193,15 +193,14 @@ TEST_CASE(
   const auto a = b.texture("a"), sum = b.texture("sum"), shown = b.texture("shown");
   b.pass("slow", Cadence::on_change).write(a, Kind::image);
   b.graph.passes.back().slices = 4;
-  b.graph.passes.back().group = 0;
-  b.pass("rides", Cadence::on_change).read(a).write(sum, Kind::image);
-  b.graph.passes.back().group = 0;
+  b.pass("last", Cadence::on_change).read(a).write(sum, Kind::image);
+  b.graph.passes.back().slices = 2;
   b.pass("show").read(sum).write(shown).present(shown);
   const Plan plan = b.compiled();
   REQUIRE(plan.groups.slicedWriterOf(a) != kNone);
   REQUIRE(plan.groups.slicedWriterOf(sum) == plan.groups.slicedWriterOf(a));
   // Each waits for stores of the frame before, of which there is none too many: `show` looks at another copy
-  // of `sum` than `rides` stores to. What `rides` samples was stored in this frame.
+  // of `sum` than `last` stores to. What `last` samples was stored in this frame.
   CHECK(plan.steps[0].barriers == kBarrierImage);
   CHECK(plan.steps[1].barriers == kBarrierTexture);
   CHECK(plan.steps[2].barriers == 0);
@@ -210,23 +209,21 @@ TEST_CASE(
   CHECK(verdict.bits == 2);
 }
 
-TEST_CASE("who writes what a time-sliced group writes is of the group") {
+TEST_CASE("who writes what a time-sliced group writes or reads is of the group") {
   FlatBuilder b = emptyGraph();
   const auto a = b.texture("a"), mips = b.texture("mips", Format::rgba8, 64, 3), last = b.texture("last"),
-             shown = b.texture("shown");
-  b.pass("slow", Cadence::on_change).write(a);
+             made = b.texture("made"), shown = b.texture("shown");
+  b.pass("feeds", Cadence::on_change).write(a).mip(mips, 0, Kind::color, Access::write);
+  b.pass("slow", Cadence::on_change).read(a).write(made);
   b.graph.passes.back().slices = 4;
-  b.graph.passes.back().group = 0;
-  b.pass("rides", Cadence::on_change).mip(mips, 0, Kind::color, Access::write);
-  b.graph.passes.back().group = 0;
   b.pass("one", Cadence::on_change).mip(mips, 1, Kind::color, Access::write);
   b.pass("two", Cadence::once).mip(mips, 2, Kind::color, Access::write).write(last);
   b.pass("free", Cadence::once).write(shown);
-  b.pass("show").read(a).read(mips).read(last).modify(shown).present(shown);
+  b.pass("show").read(made).read(mips).read(last).modify(shown).present(shown);
   const Plan plan = b.compiled();
   for (const std::uint32_t p : {0u, 1u, 2u, 3u}) CHECK(plan.groups.groupOf(p) == 0);
   CHECK(plan.groups.groupOf(4) == kNone);
-  for (const std::uint32_t r : {a, mips, last}) CHECK(plan.copiesOf(r) == 2);
+  for (const std::uint32_t r : {a, mips, last, made}) CHECK(plan.copiesOf(r) == 2);
   CHECK(plan.copiesOf(shown) == 1);
 }
 

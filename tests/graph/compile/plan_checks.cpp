@@ -76,7 +76,7 @@ std::string checkLiveness(const Plan& plan) {
 }
 
 // What a pass in slices writes, or any pass that must publish with it: by closure, one pass after the other.
-// All that write what is written so belong to it.
+// All that write what is written so belong to it, and the on_change passes that such a pass reads from.
 static std::vector<char> slicedResources(const Plan& plan) {
   const FlatGraph& graph = *plan.graph;
   const auto writes = [&](std::uint32_t p, std::uint32_t r) {
@@ -86,10 +86,17 @@ static std::vector<char> slicedResources(const Plan& plan) {
         return true;
     return false;
   };
-  const auto together = [&](std::uint32_t p, std::uint32_t q) {
-    if (graph.passes[p].group != kNone && graph.passes[p].group == graph.passes[q].group) return true;
+  const auto reads = [&](std::uint32_t p, std::uint32_t r) {
+    for (std::uint32_t u = graph.passes[p].firstUse; u < graph.passes[p].firstUse + graph.passes[p].useCount;
+         ++u)
+      if (graph.uses[u].resource == r && graph.uses[u].access == Access::read && graph.uses[u].history == 0)
+        return true;
+    return false;
+  };
+  const auto together = [&](std::uint32_t p, std::uint32_t member) {
     for (std::uint32_t r = 0; r < graph.resources.size(); ++r) {
-      if (writes(p, r) && writes(q, r)) return true;
+      if (writes(p, r) && writes(member, r)) return true;
+      if (graph.passes[p].cadence == Cadence::on_change && writes(p, r) && reads(member, r)) return true;
     }
     return false;
   };

@@ -124,10 +124,8 @@ class Generator {
     constexpr Cadence cadences[] = {Cadence::once, Cadence::on_change};
     b_.pass("p" + std::to_string(p), cadences_ && chance(35) ? cadences[pick(2)] : Cadence::always);
     FlatPass& pass = b_.graph.passes.back();
-    if (pass.cadence != Cadence::always && slices_) {
-      if (chance(40)) pass.slices = static_cast<std::uint32_t>(2 + pick(3));
-      if (chance(30)) pass.group = static_cast<std::uint32_t>(pick(2));
-    }
+    if (pass.cadence != Cadence::always && slices_ && chance(40))
+      pass.slices = static_cast<std::uint32_t>(2 + pick(3));
     if (chance(8)) b_.sideEffect();
     // As a type that makes mip levels by whatever the driver likes.
     if (chance(6)) pass.touches = kBarrierFramebuffer | kBarrierTexture | kBarrierTextureUpdate;

@@ -194,14 +194,12 @@ TEST_CASE("equal imports are one, and a declared camera is everybody's view") {
 
 TEST_CASE("cadence: an always pass may not add to what a slower one made") {
   const std::string head = R"J({ "resources": { "out": { "texture": "rgba8", "size": 8 } }, "passes": [
-    { "name": "slow", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", "group": "g", "slices": 4, "write": { "result": "out" } },
-    { "name": "rides", "type": "compute", "shader": "a.comp.glsl", "update": "on_change", "group": "g", "slices": 0, "modify": { "result": "out" } })J";
+    { "name": "slow", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", "slices": 4, "write": { "result": "out" } },
+    { "name": "rides", "type": "compute", "shader": "a.comp.glsl", "update": "on_change", "slices": 0, "modify": { "result": "out" } })J";
   const Expanded good = expandText(head + R"J(], "present": "out" })J");
   CHECK(good.text() == "");
   CHECK(good.graph->passes[0].slices == 4);
   CHECK(good.graph->passes[1].slices == 0);
-  CHECK(good.graph->passes[1].group == good.graph->passes[0].group);
-  CHECK(good.graph->groupNames == std::vector<std::string>{"g"});
   const Expanded bad = expandText(
       head +
       R"J(, { "name": "fast", "type": "fullscreen", "shader": "a.frag.glsl", "modify": { "result": "out" }, "state": { "blend": "add" } } ], "present": "out" })J");
@@ -237,15 +235,15 @@ TEST_CASE("slices: what could never end, what another writes too, and types that
   CHECK(after.of(Code::addsUp).pass == "fast");
   CHECK(after.text().find("W077") == std::string::npos);
   const std::string group =
-      R"J({ "name": "one", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", "slices": 2, "group": "g",
+      R"J({ "name": "one", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", "slices": 2,
         "write": { "r": "a.mip[0]" } },
-      { "name": "between", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", GROUP "read": { "src": "a.mip[0]" }, "write": { "r": "c" } },
-      { "name": "two", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", "group": "g", "read": { "src": "c" }, "write": { "r": "b" } })J";
+      { "name": "between", "type": "fullscreen", "shader": "a.frag.glsl", "update": "CADENCE", "read": { "src": "a.mip[0]" }, "write": { "r": "c" } },
+      { "name": "two", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", "slices": 2, "read": { "src": "c" }, "write": { "r": "b" } })J";
   const auto with = [&](const std::string& in) {
-    return std::string(group).replace(group.find("GROUP"), 5, in);
+    return std::string(group).replace(group.find("CADENCE"), 7, in);
   };
-  CHECK(tryPasses(with("")).of(Code::badSlices).pass == "between");
-  CHECK(tryPasses(with(R"J("group": "g",)J")).text() == "");
+  CHECK(tryPasses(with("once")).of(Code::badSlices).pass == "between");
+  CHECK(tryPasses(with("on_change")).text() == "");
   CHECK(
       tryPasses(
           R"J({ "name": "top", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", "write": { "r": "a.mip[0]" } },

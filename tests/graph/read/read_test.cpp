@@ -125,7 +125,7 @@ TEST_CASE("every part of a graph arrives in its description") {
       "write": { "velocity": "flat" }, "read": { "source": "sky.mip[k]" }, "modify": { "result": "hdr" },
       "parameters": { "stage": "k", "radius": { "default": 0.5, "min": 0 } }, "defines": { "NEAR": "j == 0" },
       "state": { "blend": { "result": "premultiplied", "velocity": "none" }, "depth_test": "greater", "offset": [2, 4] },
-      "update": "on_change", "group": "g", "slices": 4, "threads": [1, "size(hdr).y"], "instances": "$count",
+      "update": "on_change", "slices": 4, "threads": [1, "size(hdr).y"], "instances": "$count",
       "list": "spheres", "geometry": "icosphere($count)", "view": "@sun", "feedback": true, "side_effect": true },
     { "name": "two", "type": "fullscreen", "repeat": { "b": [0, 1], "a": [0, "b"] }, "state": { "blend": "add" } }
   ],
@@ -193,7 +193,6 @@ TEST_CASE("every part of a graph arrives in its description") {
   CHECK(one.state[2].name == "depth_test");
   CHECK(one.state[3].expr.text() == "[2, 4]");
   CHECK(one.cadence == Cadence::on_change);
-  CHECK(one.group == "g");
   CHECK(one.geometry == "icosphere");
   CHECK(one.geometryArguments[0].text() == "$count");
   CHECK(one.view->name == "sun");

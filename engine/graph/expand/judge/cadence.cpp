@@ -66,21 +66,18 @@ void warnOfMistiming(Model& model, std::uint32_t pass, const Mistiming& found) {
     d.hint += fmt::format(", or, if '{}' always writes the same, make that \"update\": \"once\"", writer);
 }
 
-// The `once` passes that may run again, with an `on_change` pass of their group or one that writes the same.
+// The `once` passes that may run again, with an `on_change` pass that writes the same.
 std::set<std::uint32_t> findReruns(const FlatGraph& graph) {
-  std::set<std::uint32_t> groups, resources, reruns;
-  const auto eachPass = [&](Cadence cadence, auto&& f) {
+  std::set<std::uint32_t> changing, reruns;  // resources, passes
+  const auto eachWrite = [&](Cadence cadence, auto&& f) {
     for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
       if (graph.passes[p].cadence == cadence)
         for (const std::uint32_t u : graph.usesOf(p))
-          if (graph.uses[u].access != Access::read) f(p, graph.passes[p].group, graph.uses[u].resource);
+          if (graph.uses[u].access != Access::read) f(p, graph.uses[u].resource);
   };
-  eachPass(Cadence::on_change, [&](std::uint32_t, std::uint32_t group, std::uint32_t resource) {
-    if (group != kNone) groups.insert(group);
-    resources.insert(resource);
-  });
-  eachPass(Cadence::once, [&](std::uint32_t pass, std::uint32_t group, std::uint32_t resource) {
-    if (groups.contains(group) || resources.contains(resource)) reruns.insert(pass);
+  eachWrite(Cadence::on_change, [&](std::uint32_t, std::uint32_t resource) { changing.insert(resource); });
+  eachWrite(Cadence::once, [&](std::uint32_t pass, std::uint32_t resource) {
+    if (changing.contains(resource)) reruns.insert(pass);
   });
   return reruns;
 }
@@ -109,7 +106,7 @@ void checkWayBack(Model& model, const Groups& groups, std::uint32_t group) {
            fmt::format(
                "pass '{}' stands between slices: it reads what they write and pass '{}' reads what it writes",
                graph.passNames[between], graph.passNames[p]),
-           "give it the same \"group\"");
+           "make it \"update\": \"on_change\"");
       between = kNone;
     }
     if (inside || !follows || graph.passes[p].cadence == Cadence::always) continue;

@@ -271,26 +271,7 @@ void warnOfList(Model& model, const Entity& list) {
   }
 }
 
-// ---- groups and lists of the scene ----
-
-// A pass alone in its group, whose name is nearly that of another group: it would publish by itself.
-void warnOfGroups(Model& model, const Scope& scope) {
-  std::map<std::string, int> members;
-  for (const PassDesc& pass : scope.desc->passes)
-    if (const std::string& group = pass.include ? pass.include->group : pass.group; !group.empty())
-      members[group] += pass.include ? 2 : 1;  // an include has several passes
-  std::vector<std::string> shared;
-  for (const auto& [group, count] : members)
-    if (count > 1) shared.push_back(group);
-  for (const PassDesc& pass : scope.desc->passes) {
-    if (pass.include || pass.group.empty() || members[pass.group] > 1 || !isOnTop(scope, pass.place))
-      continue;
-    if (const std::string near = text::nearestName(pass.group, shared); !near.empty())
-      warnAt(model, pass.place, fmt::format("pass '{}' is alone in the group '{}'", pass.name, pass.group),
-             fmt::format("did you mean '{}'?", near))
-          .pass = pass.name;
-  }
-}
+// ---- lists of the scene ----
 
 // Things of the scene whose author put them into lists, of which the graph draws others only.
 void warnOfSceneLists(Model& model) {
@@ -325,7 +306,6 @@ void warnUnused(Model& model) {
   for (const Scope& scope : model.scopes) {
     if (!judged.insert(scope.desc).second) continue;
     warnOfVariables(model, scope, mentions);
-    warnOfGroups(model, scope);
     for (const ResourceDesc& resource : scope.desc->resources)
       if (isOnTop(scope, resource.place)) warnOfResource(model, scope, resource, mentions);
   }

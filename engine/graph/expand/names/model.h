@@ -110,7 +110,6 @@ struct Scope {
   Scope* parent = nullptr;
   const PassDesc* stanza = nullptr;     // the include in the parent
   std::string prefix;                   // "" or "post."
-  std::string group;                    // full name of the group that the include puts its passes into, or ""
   KnownNames<std::uint32_t> resources;  // entities
   KnownNames<Variable> variables;       // parameters, lets, and parameters of passes: "composite.fog"
   std::map<std::string, Variable, std::less<>> below;  // found in the files that are included below, so far

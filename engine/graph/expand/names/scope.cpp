@@ -81,7 +81,6 @@ void addInclude(Model& model, Scope& scope, const PassDesc& stanza) {
   child.parent = &scope;
   child.stanza = &stanza;
   child.prefix = scope.prefix + include.as + ".";
-  child.group = include.group.empty() ? scope.group : scope.prefix + include.group;
   scope.includes.try_emplace(include.as, &child);
   buildScope(model, child);
   for (const auto& [name, ref] : include.binds) checkBind(model, include, name, ref);
