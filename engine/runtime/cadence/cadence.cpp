@@ -1,6 +1,7 @@
 #include "engine/runtime/cadence/cadence.h"
 
-#include <algorithm>
+#include <string_view>
+#include <unordered_map>
 
 namespace weft::runtime {
 
@@ -9,7 +10,8 @@ using graph::Cadence;
 using graph::FlatUse;
 using graph::kNone;
 
-FrameCadence::FrameCadence(const graph::Plan& plan) : plan_(plan) {
+FrameCadence::FrameCadence(const graph::Plan& plan, const FrameCadence* before)
+    : plan_(plan), ran_(plan.steps.size()), lasting_(findLastingSteps(plan)) {
   const std::size_t steps = plan.steps.size();
   const std::size_t resources = plan.graph->resources.size();
   memories_.resize(steps);
@@ -29,6 +31,15 @@ FrameCadence::FrameCadence(const graph::Plan& plan) : plan_(plan) {
     if (groupOf_[s] != kNone) groups_[groupOf_[s]].steps.push_back(s);
   }
   for (std::size_t j = 0; j < groups_.size(); ++j) groups_[j].sliced = plan.groups.sliced[j] != 0;
+  if (!before) return;
+  const auto nameOf = [](const graph::Plan& of, std::size_t step) -> std::string_view {
+    return of.graph->passNames[of.steps[step].pass];
+  };
+  std::unordered_map<std::string_view, std::size_t> stepOf;
+  for (std::size_t s = 0; s < before->memories_.size(); ++s) stepOf[nameOf(before->plan_, s)] = s;
+  for (std::size_t s = 0; s < steps; ++s)
+    if (const auto old = stepOf.find(nameOf(plan, s)); old != stepOf.end())
+      memories_[s] = before->memories_[old->second];
 }
 
 // A use of what the step's own time-sliced group writes.
@@ -157,10 +168,6 @@ bool FrameCadence::decideAhead(const std::vector<std::uint64_t>& own,
     if (groups_[group].sliced && groups_[group].finished) return true;
   std::fill(run_.begin(), run_.end(), std::uint8_t{0});
   return false;
-}
-
-std::size_t FrameCadence::countRunning() const {
-  return static_cast<std::size_t>(std::count(run_.begin(), run_.end(), std::uint8_t{1}));
 }
 
 void FrameCadence::take(std::size_t step, PassMemory& memory, std::uint64_t own,

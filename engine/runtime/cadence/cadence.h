@@ -3,9 +3,10 @@
 // program or storage have changed since they last ran. Of the passes of one group (plan.h) all run or none. A time-sliced
 // group runs one slice of one pass per frame and starts again when something it has read changes; its owner publishes it at
 // the start of the frame after its last slice. A pass that is not `always` waits while something it reads was never
-// published. Works on hashes and generations only.
+// published. Works on hashes and generations only. A frame allocates nothing.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -29,8 +30,11 @@ struct SliceRange {
 
 class FrameCadence {
  public:
-  explicit FrameCadence(const graph::Plan& plan);
+  // `plan` must outlive this. Remembers the last run of passes of the same name of `before`, which may be null.
+  explicit FrameCadence(const graph::Plan& plan, const FrameCadence* before = nullptr);
 
+  // To be called first in a frame: no step has run in it.
+  void beginFrame() { std::ranges::fill(ran_, std::uint8_t{0}); }
   // Takes `own[step]` and `generations[resource]` as they are before the frame. Afterwards runs(step) and slices(step)
   // give the result.
   void decide(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& generations);
@@ -39,7 +43,16 @@ class FrameCadence {
   bool decideAhead(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& generations);
   bool runs(std::size_t step) const { return run_[step] != 0; }
   SliceRange slices(std::size_t step) const { return slices_[step]; }
-  std::size_t countRunning() const;
+
+  bool isAlways(std::size_t step) const { return plan_.passOf(step).cadence == graph::Cadence::always; }
+  // Whether later frames need the step (findLastingSteps()).
+  bool isLasting(std::size_t step) const { return lasting_[step] != 0; }
+  void markRan(std::size_t step) { ran_[step] = 1; }
+  // Whether it ran in this frame, in whatever round.
+  bool ran(std::size_t step) const { return ran_[step] != 0; }
+  // Whether what the step writes is there, right after it or after it was skipped: it ran in this frame, or it ran earlier and
+  // keeps its results. The storage of any other step holds nothing, or what another resource left in it.
+  bool hasResults(std::size_t step) const { return ran(step) || (!isAlways(step) && memories_[step].ran); }
 
   // To be called after the frame, with the generations that decide() got and those after the frame. Both are needed,
   // because a pass may read a resource of which it, or a later pass, writes another part, and because a pass that reads
@@ -53,10 +66,6 @@ class FrameCadence {
   void markPublished(std::uint32_t group);
   // Marks the group as published, for a plan that takes over storage which already holds a publication of it.
   void restorePublished(std::uint32_t group) { groups_[group].published = true; }
-  bool isPublished(std::uint32_t group) const { return groups_[group].published; }
-
-  std::vector<PassMemory>& memories() { return memories_; }
-  const std::vector<PassMemory>& memories() const { return memories_; }
 
  private:
   struct Group {
@@ -84,7 +93,8 @@ class FrameCadence {
   std::vector<std::uint32_t> groupOf_;  // per step, kNone
   std::vector<Group> groups_;
   std::vector<SliceRange> slices_;
-  std::vector<std::uint8_t> run_, wants_;  // per step
+  std::vector<std::uint8_t> run_, wants_, ran_;  // per step
+  const std::vector<std::uint8_t> lasting_;
   std::vector<std::uint8_t> written_,
       blocked_;  // per resource, within decide(): a running step writes it; it is not there
   std::vector<std::uint8_t> alwaysWritten_;  // per resource

@@ -7,6 +7,7 @@
 #include "engine/graph/language/expr_node.h"
 #include "engine/runtime/prepare/prepared_pass.h"
 #include "engine/runtime/storage/formats.h"
+#include "engine/text/hash.h"
 
 namespace weft::runtime {
 
@@ -44,6 +45,25 @@ bool readsPointer(const graph::Plan& plan, Imports& imports) {
 
 }  // namespace
 
+std::uint64_t hashOf(const PreparedPass& pass, ResourcePool& pool, Imports& imports,
+                     const FrameUniforms& uniforms) {
+  std::uint64_t hash = pass.programHash;
+  hash = uniforms.hash(pass.parametersOffset, pass.parametersBlock, hash);
+  hash = uniforms.hash(pass.viewOffset, pass.viewBlock, hash);
+  for (const std::uint32_t resource : pass.written)
+    hash = text::hashCombine(hash, pool[resource].serial + (pool[resource].resets << 40));
+  // Adds the imports that this pass sees later than they change.
+  for (const std::uint32_t resource : pass.read)
+    if (const std::uint32_t publisher = pool[resource].publisher;
+        publisher != kNone && publisher != pass.group)
+      hash = text::hashCombine(hash, pool[resource].shows);
+  for (const std::uint32_t axis : pass.context.spec->threads) hash = text::hashCombine(hash, axis);
+  if (pass.list >= 0)
+    hash = text::hashCombine(
+        hash, imports.generation(static_cast<scene::DrawList>(pass.list), pass.meshes != nullptr));
+  return hash;
+}
+
 std::unique_ptr<Execution> Execution::create(Device& device, std::shared_ptr<const graph::Plan> plan,
                                              Execution* before, ShaderFiles files,
                                              text::Diagnostics& diagnostics) {
@@ -63,8 +83,9 @@ Execution::Execution(Device& device, PreparedPlan prepared, const Execution* bef
       uniforms_(
           plan(), device.imports,
           static_cast<std::uint32_t>(std::max(16, device.context.device().limits.uniformOffsetAlignment))),
-      steps_(plan(), *prepared_.pool, device.imports, prepared_.passes, before ? &before->steps_ : nullptr),
-      publications_(plan(), *prepared_.pool, device.imports, steps_.cadence(), prepared_.passes,
+      steps_(plan(), before ? &before->steps_ : nullptr),
+      hashes_(prepared_.passes.size()),
+      publications_(plan(), *prepared_.pool, device.imports, steps_, prepared_.passes,
                     before ? &before->publications_ : nullptr),
       runner_(plan(), device, *prepared_.pool, uniforms_),
       followsPointer_(readsPointer(plan(), device.imports)) {}
@@ -74,7 +95,9 @@ FrameReport Execution::frame(const World& world, const FrameInput& input, text::
   beginFrame(world, input);
   publishFinished(diagnostics);
   refreshUniforms(false);
-  steps_.refreshHashes(uniforms_);
+  for (std::size_t step = 0; step < hashes_.size(); ++step)
+    if (!steps_.isAlways(step))
+      hashes_[step] = hashOf(prepared_.passes[step], *prepared_.pool, device_.imports, uniforms_);
   if (input.headless) runAhead(report, diagnostics);
   chooseSteps();
   runSteps(watch_, report, diagnostics);
@@ -104,7 +127,7 @@ void Execution::publishFinished(text::Diagnostics& diagnostics) {
 void Execution::runAhead(FrameReport& report, text::Diagnostics& diagnostics) {
   bool any = false;
   for (std::size_t round = 0; round < plan().groups.sliced.size(); ++round) {
-    if (!steps_.chooseAhead(publications_.generations())) break;
+    if (!steps_.decideAhead(hashes_, publications_.generations())) break;
     runSteps({}, report, diagnostics);
     publications_.publishFinished();
     runner_.forgetState();  // an upload may have changed it
@@ -116,7 +139,7 @@ void Execution::runAhead(FrameReport& report, text::Diagnostics& diagnostics) {
 
 // All steps of the frame see what its steps will publish as new, of age 0.
 void Execution::chooseSteps() {
-  steps_.choose(publications_.generations());
+  steps_.decide(hashes_, publications_.generations());
   if (!publications_.announce()) return;
   refreshUniforms(true);
 }
@@ -154,7 +177,7 @@ void Execution::runSteps(const StepWatch& watch, FrameReport& report, text::Diag
       runner_.forgetState();
     }
   }
-  steps_.endRound(publications_.generationsBefore(), publications_.generations());
+  steps_.endFrame(hashes_, publications_.generationsBefore(), publications_.generations());
 }
 
 void Execution::endFrame(FrameReport& report, text::Diagnostics& diagnostics) {

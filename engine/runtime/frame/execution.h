@@ -1,5 +1,5 @@
 // Execution: runs a Plan on the GPU, frame after frame. Each part has one job: PreparedPlan has the storage, and knows what
-// each step binds; StepChoice chooses the steps that run; FrameUniforms has their uniforms; Publications decides what other
+// each step binds; FrameCadence chooses the steps that run; FrameUniforms has their uniforms; Publications decides what other
 // passes see; StepRunner makes the GL calls; ReadBack brings outputs to the CPU. A new execution is made beside the running
 // one and shares with it the storage that both have, so the running one goes on when the new one has an error. A frame of an
 // unchanged plan allocates nothing on the heap.
@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "engine/graph/plan.h"
+#include "engine/runtime/cadence/cadence.h"
 #include "engine/runtime/frame/device.h"
 #include "engine/runtime/frame/frame_report.h"
 #include "engine/runtime/frame/prepared_plan.h"
 #include "engine/runtime/frame/publications.h"
 #include "engine/runtime/frame/read_back.h"
-#include "engine/runtime/frame/step_choice.h"
 #include "engine/runtime/frame/step_runner.h"
 #include "engine/runtime/uniforms/frame_uniforms.h"
 
@@ -31,6 +31,10 @@ struct StepWatch {
   using Look = std::function<void(std::uint32_t step)>;
   Look before{}, after{};
 };
+
+// The hash of what a pass that is not `always` is made of, besides the generations of what it reads: program, uniforms, storage.
+std::uint64_t hashOf(const PreparedPass& pass, ResourcePool& pool, Imports& imports,
+                     const FrameUniforms& uniforms);
 
 class Execution {
  public:
@@ -53,7 +57,7 @@ class Execution {
   ReadBack& readBack() { return readBack_; }
   const ReadBack& readBack() const { return readBack_; }
   // What ran in the last frame, per step and by the name of a pass.
-  const StepChoice& steps() const { return steps_; }
+  const FrameCadence& steps() const { return steps_; }
   bool ran(std::string_view pass) const;
 
   // Whether a frame may differ by which frames ran before it: by a live history, by an import that remembers, or by results
@@ -97,7 +101,8 @@ class Execution {
   Device& device_;
   PreparedPlan prepared_;
   FrameUniforms uniforms_;
-  StepChoice steps_;
+  FrameCadence steps_;
+  std::vector<std::uint64_t> hashes_;  // per step, hashOf()
   Publications publications_;
   StepRunner runner_;
   ReadBack readBack_;

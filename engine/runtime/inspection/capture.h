@@ -34,7 +34,7 @@ class Capture {
   explicit Capture(Device& device) : inspector_(device) {}
 
   // The type of a function that is called within a frame, for each item, with its index. `inspector` has the copy. Not for an
-  // item whose pass has not run (StepChoice::hasResults).
+  // item whose pass has not run (FrameCadence::hasResults).
   using Visit = std::function<void(std::size_t item, Inspector& inspector)>;
   // Before a frame; holds until stop(), or until `execution` is another. There is one watch, which is this one's until then.
   void start(Execution& execution, std::vector<CaptureItem> items, Visit visit);

@@ -35,7 +35,7 @@ class StepRecorder {
   // To be called in StepWatch::before. Zeroes the buffers that the step writes anew: what it leaves out, padding and the end
   // behind the last element, is undefined, and must not be in a hash.
   void prepare(Execution& execution, std::uint32_t step);
-  // To be called in StepWatch::after. No record is made of a step that has no results (StepChoice::hasResults).
+  // To be called in StepWatch::after. No record is made of a step that has no results (FrameCadence::hasResults).
   void look(Execution& execution, std::uint32_t step);
 
   // The records of the steps since the last call, in their order.

@@ -2,7 +2,7 @@
 // is read off the graphs by hand. Nothing is drawn.
 #include <memory>
 
-#include "engine/runtime/frame/step_choice.h"
+#include "engine/runtime/frame/execution.h"
 #include "engine/runtime/uniforms/frame_uniforms.h"
 #include "tests/runtime/plan_on_device.h"
 #include "tests/runtime/stage.h"
@@ -18,30 +18,36 @@ constexpr std::uint32_t kAlignment = 256;
 struct ChosenSteps {
   PlanOnDevice on;
   runtime::FrameUniforms uniforms;
-  runtime::StepChoice steps;
+  runtime::FrameCadence steps;
+  std::vector<std::uint64_t> hashes;
   std::vector<std::uint64_t> generations;  // nothing that passes read ever changes
 
   explicit ChosenSteps(const std::string& graph)
       : on(graph),
         uniforms(*on.plan, on.device.imports, kAlignment),
-        steps(*on.plan, *on.pool, on.device.imports, on.passes),
+        steps(*on.plan),
+        hashes(on.passes.size()),
         generations(on.plan->graph->resources.size(), 1) {
     text::Diagnostics diagnostics;
     uniforms.layOut(on.passes, diagnostics);
     REQUIRE_MESSAGE(diagnostics.empty(), diagnostics.text());
   }
+  void refreshHashes() {
+    for (std::size_t step = 0; step < hashes.size(); ++step)
+      hashes[step] = runtime::hashOf(on.passes[step], *on.pool, on.device.imports, uniforms);
+  }
   // The names of the steps that a frame runs, in order.
   std::string frame() {
     steps.beginFrame();
-    steps.refreshHashes(uniforms);
-    steps.choose(generations);
+    refreshHashes();
+    steps.decide(hashes, generations);
     std::string names;
     for (std::size_t step = 0; step < on.passes.size(); ++step) {
       if (!steps.runs(step)) continue;
       steps.markRan(step);
       names += on.passes[step].context.spec->name + " ";
     }
-    steps.endRound(generations, generations);
+    steps.endFrame(hashes, generations, generations);
     return names;
   }
 };
@@ -103,10 +109,10 @@ TEST_CASE("what follows an execution of the same passes runs none of them again"
   const CleanScope clean;
   ChosenSteps live("tests/runtime/graphs/live.json");
   live.frame();
-  const auto runsKept = [&](const runtime::StepChoice* before) {
-    runtime::StepChoice next(*live.on.plan, *live.on.pool, live.on.device.imports, live.on.passes, before);
-    next.refreshHashes(live.uniforms);
-    next.choose(live.generations);
+  const auto runsKept = [&](const runtime::FrameCadence* before) {
+    runtime::FrameCadence next(*live.on.plan, before);
+    live.refreshHashes();
+    next.decide(live.hashes, live.generations);
     return next.runs(live.on.step("kept"));
   };
   CHECK(runsKept(nullptr));
