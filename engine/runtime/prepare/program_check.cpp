@@ -15,7 +15,6 @@
 #include "engine/runtime/storage/block_writer.h"
 #include "engine/text/chars.h"
 #include "engine/text/nearest.h"
-#include "engine/text/words/foreign_words.h"
 #include "engine/text/words/glsl_words.h"
 
 namespace weft::runtime {
@@ -36,7 +35,8 @@ using text::Code;
 
 namespace {
 
-Role roleFor(Kind kind) {
+// What a shader declares for a slot. Nothing: no shader knows of it.
+std::optional<Role> roleFor(Kind kind) {
   switch (kind) {
     case Kind::sampled:
       return Role::sampler;
@@ -46,8 +46,11 @@ Role roleFor(Kind kind) {
       return Role::uniform_block;
     case Kind::storage:
       return Role::storage_block;
-    default:
+    case Kind::color:
+    case Kind::depth:
       return Role::output;
+    default:
+      return std::nullopt;
   }
 }
 
@@ -66,82 +69,46 @@ std::string otherFormat(std::span<const std::string_view> words, graph::Format f
   return other;
 }
 
-GLenum baseOf(graph::TexelKind kind) {
-  return kind == graph::TexelKind::unsigned_integer ? GL_UNSIGNED_INT
-         : kind == graph::TexelKind::signed_integer ? GL_INT
-                                                    : GL_FLOAT;
-}
-
 // The prefix of "sampler2D" and "vec4": "", "u" or "i".
-const char* prefixFor(const FlatUse& use, const FlatResource& resource) {
+std::string prefixFor(const FlatUse& use, const FlatResource& resource) {
   const TexelKind kind = graph::infoOf(resource.format).kind;
   if (use.planes == 2 || kind == TexelKind::unsigned_integer) return "u";
   return kind == TexelKind::signed_integer ? "i" : "";
 }
 
-std::string shapeFor(const FlatUse& use, const FlatResource& resource) {
-  if (resource.samples > 1) return "2DMS";
-  if (resource.target == Target::texture_3d) return "3D";
-  const bool cubes = resource.target == Target::texture_cube || resource.target == Target::texture_cube_array;
-  if (cubes && use.layers % 6 == 0 && use.layer % 6 == 0) return use.layers == 6 ? "Cube" : "CubeArray";
-  return use.layers > 1 ? "2DArray" : "2D";
-}
-
-// "" when a sampler or image type fits, else what is expected ("a 2DArray type", "an unsigned int type", …). `type`: null for
-// one that the engine does not bind.
-std::string opaqueMismatch(const gl::GlslType* type, const FlatResource& resource, const FlatUse& use,
-                           bool compare) {
-  const bool cubes = resource.target == Target::texture_cube || resource.target == Target::texture_cube_array;
-  const auto fitsTarget = [&] {
-    switch (type ? type->target : 0) {
-      case GL_TEXTURE_2D:
-        return resource.target != Target::texture_3d && use.layers == 1 && resource.samples == 1;
-      case GL_TEXTURE_2D_ARRAY:
-        return resource.target != Target::texture_3d && resource.samples == 1;
-      case GL_TEXTURE_CUBE_MAP:
-        return cubes && use.layers == 6 && use.layer % 6 == 0;
-      case GL_TEXTURE_CUBE_MAP_ARRAY:
-        return cubes && use.layers % 6 == 0 && use.layer % 6 == 0;
-      case GL_TEXTURE_3D:
-        return resource.target == Target::texture_3d;
-      case GL_TEXTURE_2D_MULTISAMPLE:
-        return resource.samples > 1;
-      default:
-        return false;
-    }
-  };
-  if (!fitsTarget()) {
-    if (resource.samples > 1) return "a 2DMS type";
-    if (resource.target == Target::texture_3d) return "a 3D type";
-    if (use.layers == 1) return "a 2D type";
-    if (cubes && use.layers % 6 == 0)
-      return use.layers == 6 ? "a Cube or 2DArray type" : "a CubeArray or 2DArray type";
-    return "a 2DArray type";
-  }
-  const std::string_view prefix = prefixFor(use, resource);
-  const GLenum base = prefix == "u" ? GL_UNSIGNED_INT : prefix == "i" ? GL_INT : GL_FLOAT;
-  if (type->base != base)
-    return base == GL_FLOAT ? "a float type" : base == GL_INT ? "an int type" : "an unsigned int type";
-  if (type->shadow && !compare) return "a type without Shadow (or say `as compare` in the slot)";
-  if (!type->shadow && compare) return "a Shadow type (the slot says `as compare`)";
-  return {};
+// The types of samplers or images that can show `use` of `resource`, the most natural first.
+std::vector<std::string> opaqueTypesFor(const SlotSpec& slot, const FlatUse& use,
+                                        const FlatResource& resource) {
+  const bool cubes =
+      (resource.target == Target::texture_cube || resource.target == Target::texture_cube_array) &&
+      use.layers % 6 == 0 && use.layer % 6 == 0;
+  const bool volume = resource.target == Target::texture_3d, flat = resource.samples == 1 && !volume;
+  const std::string kind = prefixFor(use, resource) + (slot.kind == Kind::image ? "image" : "sampler");
+  std::vector<std::string> types;
+  for (const auto& [shape, fits] : {std::pair{"Cube", cubes && use.layers == 6},
+                                    {"CubeArray", cubes},
+                                    {"2D", flat && use.layers == 1},
+                                    {"2DArray", flat},
+                                    {"3D", volume},
+                                    {"2DMS", resource.samples > 1}})
+    if (fits)
+      types.push_back(kind + shape + (slot.kind == Kind::sampled && slot.sampler.compare ? "Shadow" : ""));
+  return types;
 }
 
 // "uniform usampler2DArray maps;", "layout(rgba16f) uniform writeonly image2D result;", "out vec4 result;", …: what the
-// shader declares for a slot of `kind` that holds `use` of `resource`.
-std::string declarationFor(const graph::SlotSpec& slot, Kind kind, const FlatUse& use,
-                           const FlatResource& resource) {
+// shader declares for a slot that holds `use` of `resource`.
+std::string declarationFor(const SlotSpec& slot, const FlatUse& use, const FlatResource& resource) {
   const std::string count = slot.array ? fmt::format("[{}]", slot.useCount) : "";
-  const char* const qualifier = slot.access == graph::Access::read    ? "readonly "
-                                : slot.access == graph::Access::write ? "writeonly "
-                                                                      : "";
-  switch (kind) {
+  const char* const qualifier = slot.access == Access::read    ? "readonly "
+                                : slot.access == Access::write ? "writeonly "
+                                                               : "";
+  switch (slot.kind) {
     case Kind::sampled:
-      return fmt::format("uniform {}sampler{}{} {}{};", prefixFor(use, resource), shapeFor(use, resource),
-                         slot.sampler.compare ? "Shadow" : "", slot.name, count);
+      return fmt::format("uniform {} {}{};", opaqueTypesFor(slot, use, resource)[0], slot.name, count);
     case Kind::image:
-      return fmt::format("layout({}) uniform {}{}image{} {}{};", graph::infoOf(resource.format).name,
-                         qualifier, prefixFor(use, resource), shapeFor(use, resource), slot.name, count);
+      return fmt::format("layout({}) uniform {}{} {}{};", graph::infoOf(resource.format).name, qualifier,
+                         opaqueTypesFor(slot, use, resource)[0], slot.name, count);
     case Kind::storage:
       return fmt::format("layout(std430) {}buffer {} {{ … }};", qualifier, slot.name);
     case Kind::uniform:
@@ -223,11 +190,15 @@ class Checker {
     return nullptr;
   }
 
-  const Declaration* findMember(std::string_view block, std::string_view name) const {
+  // The members of a block, each once, in whichever stage.
+  std::vector<const Declaration*> membersOf(std::string_view block) const {
+    std::vector<const Declaration*> members;
     for (const gl::StageSource& stage : stages_)
       for (const Declaration& each : of(stage).declarations)
-        if (each.role == Role::member && each.owner == block && each.name == name) return &each;
-    return nullptr;
+        if (each.role == Role::member && each.owner == block &&
+            std::ranges::find(members, each.name, &Declaration::name) == members.end())
+          members.push_back(&each);
+    return members;
   }
 
   // True when something for which `is` holds may be declared: here, in a branch that is not taken, or in a text that could not be
@@ -249,7 +220,12 @@ class Checker {
 
   // Whether main() reaches it, and the linker has kept it.
   bool isLive(const Declaration& declaration) const {
-    if (linked_) return isActive(declaration.name, declaration.role);
+    if (linked_) {
+      const gl::Reflection& r = linked_->reflection;
+      const std::string_view name = declaration.name;
+      return r.findSampler(name) || r.findImage(name) || r.findUniformBlock(name) ||
+             r.findStorageBlock(name) || r.findOutput(name);
+    }
     return std::ranges::any_of(stagesFor(declaration.role), [&](const gl::StageSource& stage) {
       const glsl::Interface& interface = of(stage);
       if (!isBlock(declaration.role) || !declaration.instance.empty()) return interface.isLive(declaration);
@@ -258,29 +234,11 @@ class Checker {
       });
     });
   }
-  bool isActive(std::string_view name, Role role) const {
-    const gl::Reflection& r = linked_->reflection;
-    switch (role) {
-      case Role::sampler:
-        return r.findSampler(name) != nullptr;
-      case Role::image:
-        return r.findImage(name) != nullptr;
-      case Role::uniform_block:
-        return r.findUniformBlock(name) != nullptr;
-      case Role::storage_block:
-        return r.findStorageBlock(name) != nullptr;
-      case Role::output:
-        return r.findOutput(name) != nullptr;
-      default:
-        return true;
-    }
-  }
-
   const FlatResource& resourceOf(const FlatUse& use) const { return graph_.resources[use.resource]; }
   const std::string& nameOf(const FlatUse& use) const { return graph_.resourceNames[use.resource]; }
   std::string declarationOf(const SlotSpec& slot) const {
     const FlatUse& use = graph_.uses[slot.firstUse];
-    return declarationFor(slot, slot.kind, use, resourceOf(use));
+    return declarationFor(slot, use, resourceOf(use));
   }
   bool isSlot(std::string_view name) const {
     for (std::uint32_t i = 0; i < spec_.slotCount; ++i)
@@ -297,13 +255,11 @@ class Checker {
     return text::isGlslFunction(name) ? "a built-in function" : nullptr;
   }
 
-  std::vector<std::string> namesIn(std::span<const gl::StageSource> stages, std::optional<Role> role) const {
+  std::vector<std::string> namesInShaders() const {
     std::vector<std::string> names;
-    for (const gl::StageSource& stage : stages)
+    for (const gl::StageSource& stage : stages_)
       for (const Declaration& each : stage.source->ofAllBranches().declarations)
-        if (role ? each.role == *role : each.role <= Role::member) names.emplace_back(each.name);
-    std::ranges::sort(names);
-    names.erase(std::ranges::unique(names).begin(), names.end());
+        if (each.role <= Role::member) names.emplace_back(each.name);
     return names;
   }
 
@@ -311,41 +267,23 @@ class Checker {
     if (slot.useCount == 0) return;
     const FlatUse& use = graph_.uses[slot.firstUse];
     if (slot.access != Access::read && !plan_.attached[slot.firstUse]) return;
-    const Role role = roleFor(slot.kind);
+    if (!roleFor(slot.kind)) return;
+    const Role role = *roleFor(slot.kind);
     const Declaration* declared = find(slot.name, role);
-    switch (slot.kind) {
-      case Kind::depth:
-        if (declared) reportType(slot, use, "output", "a texture with a color format, such as rgba16f");
-        return;
-      case Kind::sampled:
-      case Kind::image:
-      case Kind::uniform:
-      case Kind::storage:
-      case Kind::color:
-        break;
-      default:
-        return;
-    }
-    if (!declared) {
+    if (slot.kind == Kind::depth) {
+      if (declared) reportType(slot, use, "output", "a texture with a color format, such as rgba16f");
+    } else if (!declared) {
       if (slot.kind != Kind::color || !givesRasterAlone(plan_, pass_, slot.firstUse))
         checkMissing(slot, role);
-      return;
-    }
-    if (!isLive(*declared)) return;
-    if (slot.kind == Kind::color) {
-      checkOutput(slot, use, *declared);
-    } else if (isBlock(role)) {
-      if (linked_)
+    } else if (isLive(*declared)) {
+      if (slot.kind == Kind::color)
+        checkOutput(slot, use, *declared);
+      else if (!isBlock(role))
+        checkOpaque(slot, use, *declared);
+      else if (linked_)
         checkTable(role == Role::uniform_block ? linked_->reflection.findUniformBlock(slot.name)
                                                : linked_->reflection.findStorageBlock(slot.name),
                    columnsOf(graph_, use), slot.place);
-    } else {
-      checkOpaque(slot, use, *declared);
-      // Stores and loads through another format than the texture's are undefined (OpenGL 4.5 core, 8.26), and silent.
-      const std::string other = otherFormat(declared->layout, resourceOf(use).format);
-      if (slot.kind == Kind::image && !other.empty())
-        reportType(slot, use, fmt::format("layout({})", other),
-                   fmt::format("layout({})", graph::infoOf(resourceOf(use).format).name));
     }
   }
 
@@ -367,11 +305,7 @@ class Checker {
                   : fmt::format("slot '{}' is not in the shader '{}'", slot.name, shaders_));
     d.resource = nameOf(graph_.uses[slot.firstUse]);
     d.expected = fmt::format("{} named '{}'", glsl::nameOf(role), slot.name);
-    // Of the things that fit the slot, the only one that no slot has; else the nearest name.
-    std::vector<std::string> fitting = namesIn(stagesFor(role), role);
-    std::erase_if(fitting, [&](const std::string& name) { return isSlot(name); });
-    const std::string near = what ? (fitting.size() == 1 ? fitting[0] : "")
-                                  : text::nearestName(slot.name, namesIn(stages_, std::nullopt));
+    const std::string near = what ? "" : text::nearestName(slot.name, namesInShaders());
     d.hint = !what && slot.inherited
                  ? fmt::format("remove it: \"{}\": {{ \"{}\": null }}", graph::nameOf(slot.access), slot.name)
              : !near.empty() ? fmt::format("did you mean '{}'?", near)
@@ -392,26 +326,28 @@ class Checker {
   // Writing float outputs to integer formats, or the other way round, leaves undefined texels (OpenGL 4.5 core, 15.2.3).
   void checkOutput(const SlotSpec& slot, const FlatUse& use, const Declaration& output) {
     const gl::GlslType* type = gl::findGlslType(output.type);
-    const GLenum base = baseOf(graph::infoOf(resourceOf(use).format).kind);
-    if (!type || type->kind != gl::GlslType::Kind::value || type->base == base) return;
-    reportType(slot, use, type->name,
-               fmt::format("{} output for {}",
-                           base == GL_FLOAT ? "a float"
-                           : base == GL_INT ? "an int"
-                                            : "an unsigned int",
-                           graph::infoOf(resourceOf(use).format).name));
+    const std::string prefix = prefixFor(use, resourceOf(use));
+    const GLenum base = prefix == "u" ? GL_UNSIGNED_INT : prefix == "i" ? GL_INT : GL_FLOAT;
+    if (type && type->kind == gl::GlslType::Kind::value && type->base != base)
+      reportType(slot, use, type->name,
+                 fmt::format("{}vec4, or fewer components, for {}", prefix,
+                             graph::infoOf(resourceOf(use).format).name));
   }
 
   void checkOpaque(const SlotSpec& slot, const FlatUse& use, const Declaration& uniform) {
     const std::string type(uniform.type);
-    const bool compare = slot.kind == Kind::sampled && slot.sampler.compare;
-    if (std::string problem = opaqueMismatch(gl::findGlslType(type), resourceOf(use), use, compare);
-        !problem.empty())
-      reportType(slot, use, type, std::move(problem));
+    const std::vector<std::string> fitting = opaqueTypesFor(slot, use, resourceOf(use));
+    if (std::ranges::find(fitting, type) == fitting.end())
+      reportType(slot, use, type, fmt::format("{}", fmt::join(fitting, " or ")));
     const std::uint32_t elements = uniform.elements;
     if (elements != 0 && (elements < slot.useCount || (!slot.array && elements != 1)))
       reportType(slot, use, fmt::format("array of {}", elements),
                  fmt::format("an array of {}", slot.useCount));
+    // Stores and loads through another format than the texture's are undefined (OpenGL 4.5 core, 8.26), and silent.
+    const std::string other = otherFormat(uniform.layout, resourceOf(use).format);
+    if (slot.kind == Kind::image && !other.empty())
+      reportType(slot, use, fmt::format("layout({})", other),
+                 fmt::format("layout({})", graph::infoOf(resourceOf(use).format).name));
   }
 
   void checkTable(const gl::Block* block, std::span<const graph::TableColumn> columns,
@@ -430,11 +366,14 @@ class Checker {
   }
 
   void checkParameters() {
+    const std::vector<const Declaration*> members = membersOf("Parameters");
+    const Declaration* block = find("Parameters", Role::uniform_block);
+    const bool live = block && isLive(*block);
     bool missing = false;
     for (const graph::UniformSpec& uniform : spec_.uniforms) {
-      const Declaration* member = findMember("Parameters", uniform.name);
-      if (member) {
-        checkParameter(uniform, *member);
+      if (const auto member = std::ranges::find(members, uniform.name, &Declaration::name);
+          member != members.end()) {
+        if (live) checkParameter(uniform, **member);
         continue;
       }
       // A uniform outside a block has a message of its own.
@@ -443,24 +382,15 @@ class Checker {
       };
       if (maybe(Role::member, isParameter) || maybe(uniform.name, Role::uniform)) continue;
       missing = true;
-      if (const std::string block = blockOf(uniform.name); block.empty())
+      if (const std::string other = blockOf(uniform.name); other.empty())
         reportMissing(uniform);
       else if (misnamed_.empty())
-        reportBlockName(misnamed_ = block);
+        reportBlockName(misnamed_ = other);
     }
-    const Declaration* block = find("Parameters", Role::uniform_block);
-    // One misspelling is one mistake.
-    if (missing || !block || !isLive(*block)) return;
-    std::vector<std::string_view> said;
-    for (const gl::StageSource& stage : stages_)
-      for (const Declaration& member : of(stage).declarations) {
-        const bool other =
-            member.role != Role::member || member.owner != "Parameters" ||
-            std::ranges::find(said, member.name) != said.end() ||
-            std::ranges::find(spec_.uniforms, member.name, &graph::UniformSpec::name) != spec_.uniforms.end();
-        if (!other) reportUnset(member);
-        if (!other) said.push_back(member.name);
-      }
+    if (missing || !live) return;  // one misspelling is one mistake
+    for (const Declaration* member : members)
+      if (std::ranges::find(spec_.uniforms, member->name, &graph::UniformSpec::name) == spec_.uniforms.end())
+        reportUnset(*member);
   }
 
   // The uniform block that has a parameter as its member, where none has the name Parameters and the pass does not name it; or "".
@@ -491,7 +421,7 @@ class Checker {
         Code::parameterNotInShader, uniform.place,
         fmt::format("parameter '{}' is {} in the shader '{}'", uniform.name,
                     what ? fmt::format("{}, not a member of the block Parameters,", what) : "not", shaders_));
-    const std::string near = what ? "" : text::nearestName(uniform.name, namesIn(stages_, std::nullopt));
+    const std::string near = what ? "" : text::nearestName(uniform.name, namesInShaders());
     d.hint = fmt::format("declare it: `layout(std140) uniform Parameters {{ {} {}; }};`",
                          memberTypeFor(uniform.value), uniform.name);
     if (!near.empty()) d.hint += fmt::format(", or did you mean '{}'?", near);
@@ -513,9 +443,8 @@ class Checker {
   }
 
   void checkParameter(const graph::UniformSpec& uniform, const Declaration& declared) {
-    const Declaration* block = find("Parameters", Role::uniform_block);
     const gl::GlslType* type = gl::findGlslType(declared.type);
-    if (!type || !block || !isLive(*block)) return;
+    if (!type) return;
     const gl::BlockMember member{.name = uniform.name, .type = type->type, .arraySize = declared.elements};
     std::string expected;
     if (memberTakes(member, uniform.value, expected)) return checkWhole(uniform, *type);
@@ -558,24 +487,16 @@ class Checker {
 
   // What the blocks that the engine fills may have.
   void checkViews() {
-    for (const char* const name : {"View", "Slice"}) {
+    for (const std::string name : {"View", "Slice"}) {
       const Declaration* block = find(name, Role::uniform_block);
       if (!block || !isLive(*block)) continue;
-      const bool view = block->name == "View";
-      std::vector<std::string> names =
-          view ? viewMemberNames() : std::vector<std::string>{"first_group", "first_invocation"};
-      std::vector<std::string_view> said;
-      for (const gl::StageSource& stage : stages_)
-        for (const Declaration& member : of(stage).declarations) {
-          if (member.role != Role::member || member.owner != name ||
-              std::ranges::find(names, member.name) != names.end() ||
-              std::ranges::find(said, member.name) != said.end())
-            continue;
-          said.push_back(member.name);
+      const std::vector<std::string> names =
+          name == "View" ? viewMemberNames() : std::vector<std::string>{"first_group", "first_invocation"};
+      for (const Declaration* member : membersOf(name))
+        if (std::ranges::find(names, member->name) == names.end())
           fail(Code::unknownViewMember, spec_.shaderPlace,
-               fmt::format("the {} block of '{}' has an unknown member '{}'", name, shaders_, member.name))
-              .hint = view ? text::nearestHint(std::string(member.name), names) : "include common/slice.glsl";
-        }
+               fmt::format("the {} block of '{}' has an unknown member '{}'", name, shaders_, member->name))
+              .hint = text::nearestHint(std::string(member->name), names);
     }
   }
 
@@ -598,10 +519,9 @@ class Checker {
   // What the linked program has besides.
   void checkRest() {
     const gl::Reflection& reflection = linked_->reflection;
-    for (const auto& sampler : reflection.samplers)
-      if (!isSlot(sampler.name)) unfed("a sampler", sampler.name);
-    for (const auto& image : reflection.images)
-      if (!isSlot(image.name)) unfed("an image", image.name);
+    for (const auto* opaque : {&reflection.samplers, &reflection.images})
+      for (const gl::OpaqueUniform& each : *opaque)
+        if (!isSlot(each.name)) unfed(opaque == &reflection.images ? "an image" : "a sampler", each.name);
     for (const auto& block : reflection.storageBlocks) {
       if (isSlot(block.name)) continue;
       if (block.name == imports::kInstancesBlock && !spec_.list.empty())
@@ -616,8 +536,7 @@ class Checker {
     for (const auto& loose : reflection.looseUniforms) {
       std::string hint = isViewMember(loose.name)
                              ? fmt::format("remove it: #include \"common/view.glsl\" has '{}'", loose.name)
-                             : text::hintForForeign(text::Foreign::shader_name, loose.name);
-      if (hint.empty()) hint = "move it into `layout(std140) uniform Parameters { … };`";
+                             : "move it into `layout(std140) uniform Parameters { … };`";
       std::string message =
           fmt::format("the shader '{}' has a uniform '{}' outside a block", shaders_, loose.name);
       failed_ = true;
@@ -646,38 +565,32 @@ class Checker {
     if (context.groupSize[0] == 0) return;  // no compute shader
     const passes::WorkGroups groups = passes::workGroupsOf(context);
     for (int axis = 0; axis < 3; ++axis) {
-      const std::uint32_t most = context.maxGroups[axis], size = context.groupSize[axis];
-      if (groups.count[axis] <= most) continue;
+      if (groups.count[axis] <= context.maxGroups[axis]) continue;
       text::Diagnostic& d = fail(Code::tooManyWorkGroups, spec_.threadsPlace,
                                  fmt::format("pass '{}' has more work groups along {} than the device takes",
                                              spec_.name, "xyz"[axis]));
       d.expected =
-          fmt::format("at most {} groups of {} threads, that is {}", most, size, std::uint64_t{most} * size);
+          fmt::format("at most {} groups of {} threads", context.maxGroups[axis], context.groupSize[axis]);
       d.found = fmt::format("{} groups for {} threads", groups.count[axis], spec_.threads[axis]);
-      d.hint = fmt::format("raise local_size_{} in '{}', or spread the work over the other axes", "xyz"[axis],
-                           shaders_);
+      d.hint = fmt::format("raise local_size_{}, or spread the work over the other axes", "xyz"[axis]);
     }
   }
 
-  // A pass that does not run in every frame, and whose shader reads what changes in every frame.
+  // A pass that does not run in every frame, and whose shader reads what changes in every frame. A variable may hide its name.
   void warnTimeless() {
     if (graph_.passes[pass_].cadence == graph::Cadence::always) return;
-    const Declaration* view = find("View", Role::uniform_block);
-    if (!view || !isLive(*view)) return;
     for (const char* const member : {"time", "delta_time", "frame"}) {
-      // A variable of that name may hide it.
       const bool reads = std::ranges::any_of(stages_, [&](const gl::StageSource& stage) {
-        const Declaration* found = of(stage).find(member);
+        const Declaration* found = of(stage).find(member, Role::member);
         return found && found->owner == "View" && of(stage).isLive(*found) &&
                !of(stage).find(member, Role::variable);
       });
       if (!reads) continue;
-      warnOnce(
+      return warnOnce(
           Code::cadenceMisfit, spec_.place,
           fmt::format("pass '{}' does not run in every frame, and its shader reads '{}', which is 0 there",
                       spec_.declared, member),
           fmt::format("leave \"update\" out of '{}' if its picture is to move", spec_.declared), "");
-      return;
     }
   }
 
