@@ -269,12 +269,7 @@ class InterfaceReader {
     }
     made.array = std::move(array);
     made.elements = static_cast<std::uint32_t>(std::min<std::uint64_t>(elements, 0xffffffff));
-    const auto structure = structures_.find(type);
-    const std::uint64_t each = structure == structures_.end() ? 1 : structure->second;
-    if (role == Role::field)
-      structures_[made.owner] = addTimes(structures_[made.owner], elements, each);
-    else if ((role == Role::constant || role == Role::variable) && !shared_)
-      note(addTimes(0, elements, each));
+    if ((role == Role::constant || role == Role::variable) && !shared_) note(elements);
     add(made, role, name, type);
   }
 
@@ -292,7 +287,6 @@ class InterfaceReader {
     Kind kind{.role = Role::field, .owner = name.text};
     Declaration made{.layout = {}, .begin = before[0], .end = brace};
     if (has(before, "struct")) {
-      structures_[name.text] = 0;
       add(made, Role::structure, name, {});
       for (const Token& each : behind)
         if (isWord(each)) add(made, Role::variable, each, name.text);
@@ -345,8 +339,6 @@ class InterfaceReader {
         function->words.insert(word.text);
         if (next && next->is("(")) ++function->calls[word.text];
       }
-      if (const auto structure = structures_.find(word.text); structure != structures_.end())
-        note(structure->second);
       if (next && next->is("[")) {
         std::size_t at = i + 1;
         note(elementsAt(words, at));
@@ -363,7 +355,6 @@ class InterfaceReader {
   const Words tokens_;
   Interface& out_;
   CallTree calls_;
-  std::map<std::string_view, std::uint64_t> structures_;  // elements of one
   std::map<std::string_view, std::int64_t> constants_;
   bool shared_ = false;  // the statement declares what a work group shares, which devices bound by themselves
 };

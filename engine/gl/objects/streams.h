@@ -1,4 +1,4 @@
-// Texels and levels of large textures, a portion at a time, so that no frame waits for them.
+// Texels of large textures, a portion at a time, so that no frame waits for them.
 #pragma once
 
 #include <array>
@@ -37,29 +37,6 @@ class PixelStream {
   std::size_t rowBytes_ = 0, next_ = 0;
   GLenum format_ = 0, type_ = 0;
   std::array<Portion, kBuffers> ring_;
-};
-
-// Makes the levels of a 2D texture below its first, a portion at a time, each from the level above it: so that no frame
-// waits for the levels of a large map. Big levels of powers of two are made by rows, as the average of four texels, to the
-// bit what llvmpipe makes of them; others one per portion, and small ones all at once, by the driver.
-class LevelStream {
- public:
-  // Level 0 of `texture` is whole. `texelsPerPortion` at least 1.
-  LevelStream(const TextureRef& texture, std::uint32_t texelsPerPortion)
-      : texture_(texture), texelsPerPortion_(texelsPerPortion) {}
-
-  // Makes the next portion. False after W115.
-  bool advance(text::Diagnostics& diagnostics);
-  bool madeAll() const { return level_ >= texture_.desc.mips; }
-  // The share of the texels below level 0 that are made, 0 to 1.
-  float done() const;
-
- private:
-  void makeLevels(std::uint32_t last);
-  TextureRef texture_;
-  std::uint32_t texelsPerPortion_ = 1;
-  std::uint32_t level_ = 1, row_ = 0;  // the next to make
-  Framebuffer from_, to_;              // of the level that is made by rows
 };
 
 }  // namespace weft::gl

@@ -19,17 +19,7 @@ namespace {
 
 using text::Diagnostics;
 
-constexpr std::size_t kMaxFailures = 256;
-constexpr std::size_t kMaxKnown = 512;  // above it, those that nobody holds are forgotten
-constexpr std::string_view kMagic = "WEFTBIN1";
-
 constexpr std::size_t kBinaryKeyLength = 32;
-
-struct Binary {
-  std::filesystem::file_time_type used;
-  std::string path;
-  std::uint64_t bytes = 0;
-};
 
 bool hasBinaryName(const std::string& name) {
   return name.size() == kBinaryKeyLength + 4 && name.ends_with(".bin") &&
@@ -38,12 +28,8 @@ bool hasBinaryName(const std::string& name) {
 
 // What stands before the binary in its file. The checksum keeps damaged bytes away from the driver.
 struct BinaryHeader {
-  char magic[kMagic.size()] = {};
   char key[kBinaryKeyLength] = {};
-  std::uint32_t format = 0;
-  std::uint32_t compute = 0;
-  std::uint64_t bytes = 0;
-  std::uint64_t checksum = 0;
+  std::uint64_t format = 0, checksum = 0;
 };
 
 std::string makeKey(const std::vector<StageSource>& stages, const ProgramRequest& request,
@@ -73,7 +59,6 @@ void appendFor(const ProgramRequest& request, const Diagnostics& from, Diagnosti
 
 ProgramCache::ProgramCache(const DeviceInfo& device, glsl::SourceLoader& loader, Options options)
     : device_(device), loader_(loader), options_(std::move(options)) {
-  assert(options_.capacity >= 1);
   trials_ = {.command = options_.trial, .all = options_.trialSeconds};
   if (!device_.hasProgramBinaries) options_.folder.clear();
   std::error_code ignored;  // a folder that cannot be made is a cache that always misses
@@ -93,22 +78,26 @@ std::shared_ptr<const Variant> ProgramCache::get(const ProgramRequest& request, 
   if (stages.size() != request.stages.size()) return nullptr;
 
   const std::string key = makeKey(stages, request, device_);
-  if (const auto known = known_.find(key); known != known_.end())
-    if (auto variant = known->second.lock()) {
-      ++stats_.hits;
-      return keep(std::move(variant));
-    }
-  if (const auto failed = failures_.find(key); failed != failures_.end()) {
+  if (const auto known = known_.find(key); known != known_.end()) {
     ++stats_.hits;
-    appendFor(request, failed->second, diagnostics);
-    return nullptr;
+    appendFor(request, known->second.said, diagnostics);
+    return known->second.variant;
   }
   ++stats_.misses;
-  Diagnostics refused;
+  if (known_.size() >= options_.capacity)
+    std::erase_if(known_, [](const auto& each) { return each.second.variant.use_count() <= 1; });
+  const Entry& made = known_[key] = make(std::move(stages), key, request);
+  appendFor(request, made.said, diagnostics);
+  return made.variant;
+}
+
+ProgramCache::Entry ProgramCache::make(std::vector<StageSource> stages, const std::string& key,
+                                       const ProgramRequest& request) {
+  Entry made;
   bool good = true, unusual = false;
   for (const StageSource& stage : stages) {
     const glsl::Interface& interface = stage.source->interfaceWith(request.defines);
-    good &= glsl::checkShaderSize(interface.size, *stage.source, refused);
+    good &= glsl::checkShaderSize(interface.size, *stage.source, made.said);
     unusual |= glsl::isUnusual(interface);
   }
   const bool compute = stages.front().stage == GL_COMPUTE_SHADER;
@@ -116,51 +105,24 @@ std::shared_ptr<const Variant> ProgramCache::get(const ProgramRequest& request, 
   if (good) program = loadBinary(key, compute, request.label);
   if (good && !program && unusual && !trials_.command.empty()) {
     ++stats_.trials;
-    good = survivesTrial(trials_, device_, stages, request.defines, request.outputs, refused);
+    good = survivesTrial(trials_, device_, stages, request.defines, request.outputs, made.said);
   }
   if (!good) {
     ++stats_.refusals;
-    return refuse(key, request, std::move(refused), diagnostics);
+    return made;
   }
   if (!program) {
     ++stats_.compilations;
-    program = Program::compile(stages, request.defines, request.outputs, request.label, refused);
+    program = Program::compile(stages, request.defines, request.outputs, request.label, made.said);
     if (!program) {
       ++stats_.failures;
-      return refuse(key, request, std::move(refused), diagnostics);
+      return made;
     }
-    storeBinary(key, compute, *program);
+    storeBinary(key, *program);
   }
-  return keep(
-      std::make_shared<const Variant>(Variant{std::move(*program), std::move(stages), key, request.defines}));
-}
-
-void ProgramCache::touch(const std::shared_ptr<const Variant>& variant) {
-  ++stats_.hits;
-  keep(variant);
-}
-
-// Tells what is wrong, now and when it is asked for again.
-std::shared_ptr<const Variant> ProgramCache::refuse(const std::string& key, const ProgramRequest& request,
-                                                    Diagnostics said, Diagnostics& diagnostics) {
-  appendFor(request, said, diagnostics);
-  if (failures_.size() >= kMaxFailures) failures_.clear();
-  failures_.emplace(key, std::move(said));
-  return nullptr;
-}
-
-// The variant becomes the most recently used one.
-std::shared_ptr<const Variant> ProgramCache::keep(std::shared_ptr<const Variant> variant) {
-  if (const auto at = std::ranges::find(recent_, variant); at != recent_.end()) {
-    recent_.splice(recent_.begin(), recent_, at);
-    return variant;
-  }
-  if (known_.size() >= kMaxKnown)
-    std::erase_if(known_, [](const auto& each) { return each.second.expired(); });
-  known_.insert_or_assign(variant->key, variant);
-  recent_.push_front(variant);
-  if (recent_.size() > options_.capacity) recent_.pop_back();
-  return variant;
+  made.variant =
+      std::make_shared<const Variant>(Variant{std::move(*program), std::move(stages), key, request.defines});
+  return made;
 }
 
 std::optional<Program> ProgramCache::loadBinary(const std::string& key, bool compute,
@@ -178,12 +140,10 @@ std::optional<Program> ProgramCache::loadBinary(const std::string& key, bool com
   BinaryHeader header;
   std::memcpy(&header, bytes->data(), sizeof header);
   const std::string_view body = std::string_view(*bytes).substr(sizeof header);
-  if (std::string_view(header.magic, sizeof header.magic) != kMagic ||
-      std::string_view(header.key, kBinaryKeyLength) != key || header.bytes != body.size() ||
-      header.checksum != text::hashBytes(body) || (header.compute != 0) != compute)
+  if (std::string_view(header.key, kBinaryKeyLength) != key || header.checksum != text::hashBytes(body))
     return reject();
   ProgramBinary binary;
-  binary.format = header.format;
+  binary.format = static_cast<GLenum>(header.format);
   binary.bytes.resize(body.size());
   std::memcpy(binary.bytes.data(), body.data(), body.size());
   std::optional<Program> program = Program::load(binary, compute, label);
@@ -193,16 +153,13 @@ std::optional<Program> ProgramCache::loadBinary(const std::string& key, bool com
   return program;
 }
 
-void ProgramCache::storeBinary(const std::string& key, bool compute, const Program& program) {
+void ProgramCache::storeBinary(const std::string& key, const Program& program) {
   if (options_.folder.empty()) return;
   const std::optional<ProgramBinary> binary = program.binary();
   if (!binary) return;
   BinaryHeader header;
-  std::memcpy(header.magic, kMagic.data(), kMagic.size());
   std::memcpy(header.key, key.data(), kBinaryKeyLength);
   header.format = binary->format;
-  header.compute = compute;
-  header.bytes = binary->bytes.size();
   const std::string_view body(reinterpret_cast<const char*>(binary->bytes.data()), binary->bytes.size());
   header.checksum = text::hashBytes(body);
   std::string file(sizeof header, '\0');
@@ -214,39 +171,36 @@ void ProgramCache::storeBinary(const std::string& key, bool compute, const Progr
     return;
   Diagnostics unwritten;  // a cache that cannot be written is slow, not wrong
   if (!text::writeFile(pathOf(key), file, unwritten)) return;
-  ++stats_.binaryWrites;
-  // Looks at the folder with the first binary of this process, then when what it knows of and wrote itself is too much.
-  if (folderBytes_) *folderBytes_ += file.size();
-  if (folderBytes_ && *folderBytes_ <= options_.folderBytes) return;
-  const BinaryFolderUse use = pruneBinaries(options_.folder, options_.folderBytes);
-  folderBytes_ = use.bytes;
-  stats_.binaryRemovals += use.removed;
+  if (stats_.binaryWrites++ == 0) pruneBinaries(options_.folder, options_.folderBytes);
 }
 
-BinaryFolderUse pruneBinaries(const std::string& folder, std::uint64_t most) {
+std::size_t pruneBinaries(const std::string& folder, std::uint64_t most) {
+  struct Binary {
+    std::filesystem::file_time_type used;
+    std::filesystem::path path;
+    std::uint64_t bytes = 0;
+  };
   std::vector<Binary> all;
-  BinaryFolderUse use;
+  std::uint64_t bytes = 0;
   std::error_code ec;
   for (std::filesystem::directory_iterator it(folder, ec), end; !ec && it != end; it.increment(ec)) {
-    if (!hasBinaryName(it->path().filename().string())) continue;
     std::error_code gone;  // others may remove it meanwhile
-    if (it->symlink_status(gone).type() != std::filesystem::file_type::regular || gone) continue;
-    Binary binary{.used = it->last_write_time(gone), .path = it->path().string()};
-    if (!gone) binary.bytes = it->file_size(gone);
+    if (!hasBinaryName(it->path().filename().string()) || it->is_symlink(gone) || !it->is_regular_file(gone))
+      continue;
+    const Binary binary{it->last_write_time(gone), it->path(), it->file_size(gone)};
     if (gone) continue;
-    use.bytes += binary.bytes;
-    all.push_back(std::move(binary));
+    bytes += binary.bytes;
+    all.push_back(binary);
   }
-  if (use.bytes <= most) return use;
+  if (bytes <= most) return 0;
   std::ranges::sort(all, {}, [](const Binary& binary) { return std::tie(binary.used, binary.path); });
+  std::size_t removed = 0;
   for (const Binary& binary : all) {
-    if (use.bytes <= most - most / 8) break;
-    const bool removed = std::filesystem::remove(binary.path, ec);
-    if (ec) continue;  // it may not be removed
-    use.bytes -= binary.bytes;
-    use.removed += removed ? 1 : 0;
+    if (bytes <= most - most / 8) break;
+    removed += std::filesystem::remove(binary.path, ec);
+    if (!ec) bytes -= binary.bytes;  // else it may not be removed
   }
-  return use;
+  return removed;
 }
 
 }  // namespace weft::gl

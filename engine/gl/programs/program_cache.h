@@ -1,14 +1,12 @@
-// Variants by (source text, defines, outputs, stages, driver, backend). Memory has the most recently used ones, and
-// those that somebody still holds: so a graph with more programs than the cache has room for loses none when it is
-// loaded again. The disk has all of them, as program binaries. A broken, foreign or rejected binary is a miss and is
+// Variants by (source text, defines, outputs, stages, driver, backend). Memory has those that somebody holds, and some that
+// nobody does; the disk has all of them, as program binaries. A broken, foreign or rejected binary is a miss and is
 // written anew. A variant that does not compile gives its diagnostics and null, and the caller keeps the program it
 // has; the failure is remembered until the sources change, so that asking again compiles nothing. A shader that is
 // too large for the driver is refused; an unusual one is first tried in a process of its own (glsl::isUnusual(),
-// shader_trial.h). The folder is kept below program_cache_bytes.
+// shader_trial.h).
 #pragma once
 
 #include <cstdint>
-#include <list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -54,17 +52,17 @@ struct ProgramCacheStats {
   std::uint64_t refusals =
       0;  // not compiled: too large (W203), or the driver did not survive the trial (W204)
   std::uint64_t trials = 0;
-  std::uint64_t binaryLoads = 0, binaryRejects = 0, binaryWrites = 0, binaryRemovals = 0;
+  std::uint64_t binaryLoads = 0, binaryRejects = 0, binaryWrites = 0;
 };
 
 class ProgramCache {
  public:
   struct Options {
-    std::size_t capacity = 32;         // variants that are kept though nobody holds them; at least 1
+    std::size_t capacity = 128;        // above it, variants that nobody holds are forgotten
     std::string folder;                // of binaries, made when absent; "": no disk cache
     std::vector<std::string> trial{};  // as Trials::command
     double trialSeconds = static_cast<double>(text::raised(5));  // for all trials of a graph
-    std::uint64_t folderBytes = 256ull << 20;                    // the least recently used binaries go
+    std::uint64_t folderBytes = 256ull << 20;  // see pruneBinaries(); looked at with the first binary that is written
   };
   // `device` and `loader` must outlive the cache.
   ProgramCache(const DeviceInfo& device, glsl::SourceLoader& loader, Options options);
@@ -75,18 +73,16 @@ class ProgramCache {
   // A graph begins to load: trials have all of their time again.
   void startTrials() { trials_.spent = 0; }
 
-  // Does what get() does for the request that `variant` answers, and does not look at its sources. It is for a pass that is
-  // known to be unchanged.
-  void touch(const std::shared_ptr<const Variant>& variant);
-
   const ProgramCacheStats& stats() const { return stats_; }
 
  private:
-  std::shared_ptr<const Variant> refuse(const std::string& key, const ProgramRequest& request,
-                                        text::Diagnostics said, text::Diagnostics& diagnostics);
-  std::shared_ptr<const Variant> keep(std::shared_ptr<const Variant> variant);
+  struct Entry {
+    std::shared_ptr<const Variant> variant;  // null: it was refused, or did not compile
+    text::Diagnostics said{};
+  };
+  Entry make(std::vector<StageSource> stages, const std::string& key, const ProgramRequest& request);
   std::optional<Program> loadBinary(const std::string& key, bool compute, std::string_view label);
-  void storeBinary(const std::string& key, bool compute, const Program& program);
+  void storeBinary(const std::string& key, const Program& program);
   std::string pathOf(const std::string& key) const { return options_.folder + "/" + key + ".bin"; }
 
   const DeviceInfo& device_;
@@ -94,20 +90,12 @@ class ProgramCache {
   Options options_;
   ProgramCacheStats stats_;
   Trials trials_;
-  std::optional<std::uint64_t> folderBytes_;          // of binaries, as far as is known here
-  std::list<std::shared_ptr<const Variant>> recent_;  // most recently used first
-  std::unordered_map<std::string, std::weak_ptr<const Variant>> known_;
-  std::unordered_map<std::string, text::Diagnostics> failures_;
+  std::unordered_map<std::string, Entry> known_;
 };
 
-struct BinaryFolderUse {
-  std::uint64_t bytes = 0;    // of the binaries that are there
-  std::uint64_t removed = 0;  // files
-};
-
-// Keeps a folder of program binaries below a size: above `most` bytes, removes those that were not used for longest until an
-// eighth of it is free. Several processes may write, use and remove at once. Only files with a name of 32 hex digits and
-// ".bin" are ever removed.
-BinaryFolderUse pruneBinaries(const std::string& folder, std::uint64_t most);
+// Above `most` bytes of program binaries in a folder, removes those that were not used for longest until an eighth of that is
+// free. Several processes may write, use and remove at once. Only files with a name of 32 hex digits and ".bin" are ever
+// removed. How many were.
+std::size_t pruneBinaries(const std::string& folder, std::uint64_t most);
 
 }  // namespace weft::gl

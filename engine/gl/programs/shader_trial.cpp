@@ -2,8 +2,8 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -12,12 +12,13 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <iostream>
+#include <iterator>
 
 #include "engine/glsl/interface.h"
 
@@ -30,34 +31,26 @@ namespace {
 // A busy machine may take this many times longer by the clock than by the processor.
 constexpr std::uint64_t kClockPerProcessor = 6;
 
-using Clock = std::chrono::steady_clock;
-
 // What the process says of how far it is.
 constexpr char kTrialOpened = 'o', kTrialLinked = 'l', kTrialDrawn = 'd';
+
+struct TrialProgram {
+  std::vector<StageSource> stages;  // with the defines before their texts
+  std::vector<std::string> outputs;
+};
 
 // The program as fields that end with a zero byte, which no source has: a letter says what a field is.
 std::string writeTrial(std::span<const StageSource> stages, std::span<const glsl::Define> defines,
                        std::span<const std::string> outputs) {
-  std::string text;
-  const auto add = [&](char kind, std::string_view field) { (text += kind).append(field) += '\0'; };
-  for (const StageSource& stage : stages)
-    add(stage.stage == GL_VERTEX_SHADER     ? 'v'
-        : stage.stage == GL_FRAGMENT_SHADER ? 'f'
-                                            : 'c',
-        stage.source->text);
-  for (const glsl::Define& define : defines) {
-    add('d', define.name);
-    add('=', define.value);
+  std::string text, before;
+  for (const glsl::Define& define : defines) before += fmt::format("#define {} {}\n", define.name, define.value);
+  for (const StageSource& stage : stages) {
+    text += stage.stage == GL_VERTEX_SHADER ? 'v' : stage.stage == GL_FRAGMENT_SHADER ? 'f' : 'c';
+    (text += before).append(stage.source->text) += '\0';
   }
-  for (const std::string& output : outputs) add('o', output);
+  for (const std::string& output : outputs) (text += 'o').append(output) += '\0';
   return text;
 }
-
-struct TrialProgram {
-  std::vector<StageSource> stages;
-  std::vector<glsl::Define> defines;
-  std::vector<std::string> outputs;
-};
 
 TrialProgram readTrial(std::string_view text) {
   TrialProgram program;
@@ -65,66 +58,35 @@ TrialProgram readTrial(std::string_view text) {
     std::string field(text.substr(1, text.find('\0') - 1));
     const char kind = text[0];
     text.remove_prefix(std::min(field.size() + 2, text.size()));
-    if (kind == 'd') {
-      program.defines.push_back({std::move(field), ""});
-    } else if (kind == '=') {
-      program.defines.back().value = std::move(field);
-    } else if (kind == 'o') {
+    if (kind == 'o') {
       program.outputs.push_back(std::move(field));
-    } else {
-      auto source = std::make_shared<glsl::ShaderSource>();
-      source->file = std::make_shared<const std::string>("trial");
-      source->text = std::move(field);
-      program.stages.push_back({static_cast<GLenum>(kind == 'v'   ? GL_VERTEX_SHADER
-                                                    : kind == 'f' ? GL_FRAGMENT_SHADER
-                                                                  : GL_COMPUTE_SHADER),
-                                std::move(source)});
+      continue;
     }
+    auto source = std::make_shared<glsl::ShaderSource>();
+    source->file = std::make_shared<const std::string>("trial");
+    source->text = std::move(field);
+    program.stages.push_back({static_cast<GLenum>(kind == 'v'   ? GL_VERTEX_SHADER
+                                                  : kind == 'f' ? GL_FRAGMENT_SHADER
+                                                                : GL_COMPUTE_SHADER),
+                              std::move(source)});
   }
   return program;
 }
 
-// The process, with the other end of a socket as its standard input and output; -1 when it cannot be started.
-pid_t start(std::vector<std::string> command, int end) {
+// The process; -1 when it cannot be started.
+pid_t start(std::vector<std::string> command, int input, int output) {
   std::vector<char*> words;
   for (std::string& word : command) words.push_back(word.data());
   words.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, end, STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, end, STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   pid_t pid = -1;
   const int error = posix_spawn(&pid, words[0], &actions, nullptr, words.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   return error == 0 ? pid : -1;
-}
-
-bool sendAll(int to, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t sent = ::send(to, text.data(), text.size(), MSG_NOSIGNAL);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent <= 0) return false;
-    text.remove_prefix(static_cast<std::size_t>(sent));
-  }
-  return ::shutdown(to, SHUT_WR) == 0;
-}
-
-// What the process says until it ends or time is up.
-std::string listen(int from, Clock::time_point until, bool& late) {
-  std::string said;
-  for (;;) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now()).count();
-    late = left <= 0;
-    if (late) return said;
-    pollfd ready{.fd = from, .events = POLLIN, .revents = 0};
-    if (::poll(&ready, 1, static_cast<int>(std::min<long>(left, 1000))) <= 0) continue;
-    char byte = 0;
-    const ssize_t got = ::recv(from, &byte, 1, 0);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return said;
-    said += byte;
-  }
 }
 
 struct TrialResult {
@@ -137,24 +99,30 @@ struct TrialResult {
 TrialResult tryProgram(std::vector<std::string> command, Backend backend, const std::string& program,
                        std::uint64_t seconds) {
   TrialResult result;
-  int ends[2];
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return result;
+  const int input = ::memfd_create("trial", MFD_CLOEXEC);
+  int ends[2] = {-1, -1};
+  const bool ready = input >= 0 &&
+                     ::write(input, program.data(), program.size()) == static_cast<ssize_t>(program.size()) &&
+                     ::lseek(input, 0, SEEK_SET) == 0 &&
+                     ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0;
   for (const std::string& word : {std::string(kTrialWord), std::string(nameOf(backend)),
                                   std::to_string(seconds), std::to_string(kMaxTrialBytes)})
     command.push_back(word);
-  const pid_t pid = start(std::move(command), ends[1]);
+  const pid_t pid = ready ? start(std::move(command), input, ends[1]) : -1;
+  ::close(input);
   ::close(ends[1]);
   if (pid < 0) {
     ::close(ends[0]);
     return result;
   }
-  // A process that does not read is not waited for.
-  const timeval patience{.tv_sec = static_cast<time_t>(seconds), .tv_usec = 0};
-  ::setsockopt(ends[0], SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
-  bool late = false;
+  const timeval patience{.tv_sec = static_cast<time_t>(kClockPerProcessor * seconds), .tv_usec = 0};
+  ::setsockopt(ends[0], SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
   std::string said;
-  if (sendAll(ends[0], program))
-    said = listen(ends[0], Clock::now() + std::chrono::seconds(kClockPerProcessor * seconds), late);
+  char step = 0;
+  ssize_t got = 0;
+  while ((got = ::recv(ends[0], &step, 1, 0)) > 0 || (got < 0 && errno == EINTR))
+    if (got > 0) said += step;
+  const bool late = got < 0;
   ::close(ends[0]);
   ::kill(pid, SIGKILL);  // what it tidies up is not waited for
   int status = 0;
@@ -179,17 +147,6 @@ TrialResult tryProgram(std::vector<std::string> command, Backend backend, const 
 }
 
 // ---- the process of a trial ----
-
-std::string readAll(int from) {
-  std::string text;
-  char bytes[65536];
-  for (;;) {
-    const ssize_t got = ::read(from, bytes, sizeof bytes);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return text;
-    text.append(bytes, static_cast<std::size_t>(got));
-  }
-}
 
 void say(char step) {
   if (::write(STDOUT_FILENO, &step, 1) != 1) ::_exit(0);  // nobody listens
@@ -299,14 +256,15 @@ bool survivesTrial(Trials& trials, const DeviceInfo& device, std::span<const Sta
 void runTrial(int argc, char** argv) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // not longer than who asked for it
   const auto backend = argc > 3 ? findBackend(argv[1]) : std::nullopt;
-  const TrialProgram program = backend ? readTrial(readAll(STDIN_FILENO)) : TrialProgram();
+  const std::string input = backend ? std::string(std::istreambuf_iterator<char>(std::cin), {}) : "";
+  const TrialProgram program = readTrial(input);
   text::Diagnostics ignored;
   const auto context =
       program.stages.empty() ? nullptr : createContext({.backend = *backend, .debug = false}, ignored);
   if (!context) ::_exit(0);
   takeLimits(std::strtoull(argv[2], nullptr, 10), std::strtoull(argv[3], nullptr, 10));
   say(kTrialOpened);
-  const auto linked = Program::compile(program.stages, program.defines, program.outputs, "trial", ignored);
+  const auto linked = Program::compile(program.stages, {}, program.outputs, "trial", ignored);
   if (linked) {
     say(kTrialLinked);
     drawNothing(program, linked->id());

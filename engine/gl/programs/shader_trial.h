@@ -27,7 +27,7 @@ struct Trials {
 
 // False after an error (W204): the driver did not survive the program, or no time is left to try it. True also when no
 // process or context could be had: then nothing is known. The process is gone when this returns: it is ended when the time
-// is spent, or after six times that by the clock.
+// is spent, or when it has said nothing for six times that by the clock.
 bool survivesTrial(Trials& trials, const DeviceInfo& device, std::span<const StageSource> stages,
                    std::span<const glsl::Define> defines, std::span<const std::string> outputs,
                    text::Diagnostics& diagnostics);

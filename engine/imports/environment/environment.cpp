@@ -12,8 +12,8 @@ namespace weft::imports {
 
 namespace {
 
-// Shares of a transfer: sending the rows; that and making the levels. The rest is the GPU.
-constexpr float kShareOfRows = 0.7f, kShareOfTransfer = 0.99f;
+// The share of a transfer that is sending the rows. The rest is the GPU, which makes the levels.
+constexpr float kShareOfRows = 0.9f;
 
 // Row 0 of the map is its top row, and row 0 of the texture is +Y: the same order.
 std::span<const std::byte> bytesOf(const assets::EnvironmentMap& map) {
@@ -75,17 +75,11 @@ std::optional<float> EnvironmentTextures::send(const Map& map, text::Diagnostics
     incoming_.stream->advance(bytesOf(*map));
     const float sent = static_cast<float>(incoming_.stream->rows()) / static_cast<float>(map->height);
     if (!incoming_.stream->sentAll()) return sent * kShareOfRows;
-    incoming_.levels.emplace(incoming_.texture.ref(), kLevelTexelsPerFrame);
     incoming_.stream.reset();
-    return kShareOfRows;
-  }
-  if (!incoming_.last) {
-    if (!incoming_.levels->advance(diagnostics)) return std::nullopt;
-    if (!incoming_.levels->madeAll())
-      return kShareOfRows + (kShareOfTransfer - kShareOfRows) * incoming_.levels->done();
+    glGenerateTextureMipmap(incoming_.texture.id());
     incoming_.last = gl::Fence::insert();
   }
-  return incoming_.last.isSignalled() ? 1.0f : kShareOfTransfer;
+  return incoming_.last.isSignalled() ? 1.0f : kShareOfRows;
 }
 
 bool EnvironmentTextures::use(const Map& map, text::Diagnostics& diagnostics) {

@@ -20,10 +20,6 @@ class EnvironmentTextures {
   // One frame's portion. Copying 4 MiB takes about a millisecond, little beside a frame of 16; a 1k map is
   // there in one frame, an 8k map (256 MiB) in 64 frames, about a second at 60 Hz.
   static constexpr std::size_t kBytesPerFrame = std::size_t{4} << 20;
-  // One frame's portion of the levels below, made once all rows are sent: 2 MiB of texels, of an 8k map 43
-  // frames.
-  static constexpr std::uint32_t kLevelTexelsPerFrame = 1u << 18;
-
   // Call once per frame with the same map: sends the next portion beside the texture in use. 1 when use()
   // will take it without another upload. Another map drops what was sent of the one before. Empty when the
   // GPU has no room: W116, W117.
@@ -41,8 +37,7 @@ class EnvironmentTextures {
     Map map;
     gl::Texture texture;
     std::optional<gl::PixelStream> stream;
-    std::optional<gl::LevelStream> levels;  // once all rows are sent
-    gl::Fence last;                         // behind the last level
+    gl::Fence last;  // behind the levels, which are made when all rows are sent
   };
   Incoming incoming_;
   std::uint64_t currentId_ = 0;

@@ -238,8 +238,8 @@ std::optional<PreparedPlan> preparePlan(Device& device, std::shared_ptr<const gr
     if (old != graph::kNone && before->passes[old].usable && keeper->isSame(step, old)) same[step] = old;
     if (files == ShaderFiles::read || same[step] == graph::kNone)
       variants[step] = findVariant(device, *made.plan, step, problems);
-    else if ((variants[step] = before->passes[old].variant))
-      device.programs.touch(variants[step]);
+    else
+      variants[step] = before->passes[old].variant;
   }
   diagnostics.append(problems);
   if (problems.hasErrors()) return std::nullopt;
