@@ -364,12 +364,11 @@ bool isControl(const Token& token) {
                            token.is("do") || token.is("switch"));
 }
 
-// How deeply brackets, blocks and operators are nested, and how long switches and tables are.
+// How deeply brackets, blocks and operators are nested.
 void measure(Words tokens, ShaderSize& size) {
   struct Level {
     std::uint32_t operators = 0;  // of the expression under way
     std::uint32_t controls = 0;   // if, else, for … around the statement under way
-    std::uint64_t commas = 0;
   };
   std::vector<Level> levels(1);
   std::uint64_t depth = 0;
@@ -377,7 +376,6 @@ void measure(Words tokens, ShaderSize& size) {
   const auto endStatement = [&](std::size_t at) {
     Level& level = levels.back();
     depth -= std::exchange(level.operators, 0);
-    level.commas = 0;
     if (at + 1 == tokens.size() || !tokens[at + 1].is("else")) depth -= std::exchange(level.controls, 0);
     statement = at + 1;
   };
@@ -387,24 +385,20 @@ void measure(Words tokens, ShaderSize& size) {
       ++levels.back().controls;
       ++depth;
       if (token.is("else") || token.is("do")) statement = i + 1;
-    } else if (token.is("case")) {
-      ++size.cases;
     } else if (token.is("(") || token.is("[") || token.is("{")) {
       levels.emplace_back();
       ++depth;
       if (token.is("{") && (i == 0 || !tokens[i - 1].is("="))) statement = i + 1;
     } else if (token.is(")") || token.is("]") || token.is("}")) {
       if (levels.size() == 1) continue;
-      size.elements = std::max(size.elements, levels.back().commas + 1);
       depth -= 1 + levels.back().operators + levels.back().controls;
       levels.pop_back();
       if (token.is("}")) endStatement(i);
     } else if (token.is(";")) {
       endStatement(i);
-    } else if (token.is(",") || token.is(":")) {
-      ++levels.back().commas;
-      if (token.is(",")) depth -= std::exchange(levels.back().operators, 0);
-    } else if (token.kind == TokenKind::sign && !token.is(".")) {
+    } else if (token.is(",")) {
+      depth -= std::exchange(levels.back().operators, 0);
+    } else if (token.kind == TokenKind::sign && !token.is(".") && !token.is(":")) {
       ++levels.back().operators;
       ++depth;
     }
@@ -471,10 +465,10 @@ bool checkShaderSize(const ShaderSize& size, const ShaderSource& source, text::D
 }
 
 bool isUnusual(const Interface& interface) {
-  constexpr std::uint64_t kUsualTokens = 25'000, kUsualDepth = 60, kUsualCases = 50, kUsualElements = 128;
+  constexpr std::uint64_t kUsualTokens = 25'000, kUsualDepth = 60, kUsualElements = 128;
   const ShaderSize& size = interface.size;
   return interface.unsure || size.tokens.count > kUsualTokens || size.inlined > kUsualTokens ||
-         size.depth.count > kUsualDepth || size.cases > kUsualCases || size.elements > kUsualElements;
+         size.depth.count > kUsualDepth || size.elements > kUsualElements;
 }
 
 const char* nameOf(Role role) {

@@ -65,8 +65,7 @@ struct ShaderSize {
   ShaderCount depth;   // brackets, blocks and operators around one another
   std::uint64_t bytes = 0;
   std::uint64_t inlined = 0;   // tokens of all functions, once calls are replaced by what they call
-  std::uint64_t cases = 0;     // of all switches
-  std::uint64_t elements = 0;  // of the largest array or table, blocks aside
+  std::uint64_t elements = 0;  // of the largest array, blocks aside
 };
 
 struct Interface {

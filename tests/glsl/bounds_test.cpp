@@ -118,19 +118,10 @@ TEST_CASE("what drivers work long for is unusual, and tried first") {
                 inMain("result = vec4(f1000(1.0));")));
   CHECK_FALSE(
       isTried(zero + chain("float f$(float x) { return f%(x); }", 10) + inMain("result = vec4(f10(1.0));")));
-  const auto casesOf = [](int count) {
-    return inMain("switch (int(result.x)) {\n" + times("case 1: break;\n", count) + "}");
-  };
-  CHECK(isTried(casesOf(60)));
-  CHECK_FALSE(isTried(casesOf(40)));
   CHECK(isTried(inMain("float a[100000];\na[int(result.x)] = 1.0;")));
   CHECK(isTried("const int kHigh = 30;\n#define WIDE (kHigh * 4)\n" +
                 inMain("vec3 b = vec3(0.0), c[kHigh][WIDE + 1];")));
   CHECK(isTried("float[20][20] a;\n" + inMain("")));
-  CHECK(isTried("struct S0 { float a, b; };\n" + chain("struct S$ { S% a; S% b[2]; };", 10) +
-                inMain("const S10 s;")));
-  CHECK(isTried("const float kTable[] = float[](" + times("1.0, ", 500) + "1.0);\n" + inMain("")));
-  CHECK(isTried("const float kTable[] = {" + times("1.0, ", 500) + "1.0};\n" + inMain("")));
   // What a group shares and what a block holds is no matter of the compiler.
   CHECK_FALSE(isTried("shared float tile[1024];\n" + inMain("tile[int(result.x)] = 1.0;")));
   for (const char* block : {"buffer", "uniform"})
@@ -203,7 +194,6 @@ TEST_CASE("every shader of the tree is a usual one") {
       CAPTURE(size.tokens.count);
       CAPTURE(size.inlined);
       CAPTURE(size.depth.count);
-      CAPTURE(size.cases);
       CAPTURE(size.elements);
       CHECK_MESSAGE(checkShaderSize(size, *source, diagnostics), diagnostics.text());
       CHECK_MESSAGE((kUnusual.contains(name) || !isUnusual(interface)), name);

@@ -259,6 +259,9 @@ ProgramRequest fragmentOf(const std::string& text) {
   return request;
 }
 
+constexpr const char* kUnusual =
+    "out vec4 result;\nvoid main() {\n  float a[200];\n  result = vec4(a[int(gl_FragCoord.x)]);\n}\n";
+
 }  // namespace
 
 TEST_CASE_FIXTURE(Fixture, "what is too large is not compiled, and reported again without counting") {
@@ -279,9 +282,7 @@ TEST_CASE_FIXTURE(Fixture, "what is too large is not compiled, and reported agai
 }
 
 TEST_CASE_FIXTURE(Fixture, "a process that dies over a program is reported, one that cannot be had is not") {
-  std::string cases = "out vec4 result;\nvoid main() {\n  switch (int(gl_FragCoord.x)) {\n";
-  for (int i = 0; i < 60; ++i) cases += "    case " + std::to_string(i) + ": result = vec4(1.0); break;\n";
-  const ProgramRequest request = fragmentOf(cases + "  }\n}\n");
+  const ProgramRequest request = fragmentOf(kUnusual);
   // Says that it has opened a context, takes its input, and dies.
   ProgramCache dies(
       context().device(), loader,
@@ -315,14 +316,12 @@ TEST_CASE_FIXTURE(Fixture, "a process that dies over a program is reported, one 
 }
 
 TEST_CASE_FIXTURE(Fixture, "a process that does not come to an end is ended") {
-  std::string cases = "out vec4 result;\nvoid main() {\n  switch (int(gl_FragCoord.x)) {\n";
-  for (int i = 0; i < 60; ++i) cases += "    case " + std::to_string(i) + ": result = vec4(1.0); break;\n";
   ProgramCache cache(context().device(), loader,
                      {.capacity = 2,
                       .folder = "",
                       .trial = {"/bin/sh", "-c", "printf o; cat >/dev/null; exec sleep 1000"},
                       .trialSeconds = 1});
-  CHECK_FALSE(cache.get(fragmentOf(cases + "  }\n}\n"), diagnostics));
+  CHECK_FALSE(cache.get(fragmentOf(kUnusual), diagnostics));
   CHECK(diagnostics.contains(Code::driverDied));
 }
 
