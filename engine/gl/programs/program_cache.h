@@ -62,7 +62,8 @@ class ProgramCache {
     std::string folder;                // of binaries, made when absent; "": no disk cache
     std::vector<std::string> trial{};  // as Trials::command
     double trialSeconds = static_cast<double>(text::raised(5));  // for all trials of a graph
-    std::uint64_t folderBytes = 256ull << 20;  // see pruneBinaries(); looked at with the first binary that is written
+    std::uint64_t folderBytes =
+        256ull << 20;  // see pruneBinaries(); looked at with the first binary that is written
   };
   // `device` and `loader` must outlive the cache.
   ProgramCache(const DeviceInfo& device, glsl::SourceLoader& loader, Options options);

@@ -43,7 +43,8 @@ struct TrialProgram {
 std::string writeTrial(std::span<const StageSource> stages, std::span<const glsl::Define> defines,
                        std::span<const std::string> outputs) {
   std::string text, before;
-  for (const glsl::Define& define : defines) before += fmt::format("#define {} {}\n", define.name, define.value);
+  for (const glsl::Define& define : defines)
+    before += fmt::format("#define {} {}\n", define.name, define.value);
   for (const StageSource& stage : stages) {
     text += stage.stage == GL_VERTEX_SHADER ? 'v' : stage.stage == GL_FRAGMENT_SHADER ? 'f' : 'c';
     (text += before).append(stage.source->text) += '\0';
@@ -101,10 +102,9 @@ TrialResult tryProgram(std::vector<std::string> command, Backend backend, const 
   TrialResult result;
   const int input = ::memfd_create("trial", MFD_CLOEXEC);
   int ends[2] = {-1, -1};
-  const bool ready = input >= 0 &&
-                     ::write(input, program.data(), program.size()) == static_cast<ssize_t>(program.size()) &&
-                     ::lseek(input, 0, SEEK_SET) == 0 &&
-                     ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0;
+  const bool ready =
+      input >= 0 && ::write(input, program.data(), program.size()) == static_cast<ssize_t>(program.size()) &&
+      ::lseek(input, 0, SEEK_SET) == 0 && ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0;
   for (const std::string& word : {std::string(kTrialWord), std::string(nameOf(backend)),
                                   std::to_string(seconds), std::to_string(kMaxTrialBytes)})
     command.push_back(word);
