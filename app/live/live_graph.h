@@ -37,8 +37,6 @@ class LiveGraph {
   // Whether files changed that poll() has not loaded yet. False while a scene
   // is on its way: then there is nothing to wait for.
   bool pending() const { return (graphStale_ && !scene_.loading()) || !changedEnvironment_.empty(); }
-  // Whether files changed, and poll() would load them now. Costs one system call when there is nothing new.
-  bool wantsLoad(double now);
   // Once per frame: takes up an environment that has arrived. True when something came of the last request;
   // on failure the environment before stays, or, when it was to be the first, the stand-in comes.
   bool pollEnvironment(text::Diagnostics& diagnostics);
@@ -79,6 +77,8 @@ class LiveGraph {
  private:
   // What a load that is not `final` finds wrong may come right by the next file that is saved: settings stay.
   enum class Attempt { early, final };
+  // Whether files changed, and poll() is to load them now.
+  bool wantsLoad(double now);
   bool tryLoad(Attempt attempt, text::Diagnostics& diagnostics);
   bool tryScene(runtime::World& world, text::Diagnostics& diagnostics);
   bool tryGraph(Attempt attempt, const runtime::World& world, text::Diagnostics& diagnostics);

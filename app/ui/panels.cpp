@@ -66,7 +66,7 @@ void Panels::beforeFrame(std::uint64_t frame) {
 
 void Panels::afterFrame(const runtime::FrameReport& report) {
   profiler_.end(report);
-  if (visible && open_[kHistogram] && report.whole && renderer_.execution())
+  if (visible && open_[kHistogram] && renderer_.execution())
     histogram_.update(renderer_.execution()->presented());
 }
 

@@ -116,7 +116,6 @@ class Viewer {
   float uiScale_ = 1;
   gl::Size size_;  // of the window, as it was said last
   double renderScale_ = 1;
-  bool dropped_ = false;  // the last frame was not shown
   bool vsync_ = true, idle_ = false, help_ = false, minimized_ = false;
   bool resting_ = false, shown_ = false;  // as it was said last; a picture was
   bool lastSaved_ = false;

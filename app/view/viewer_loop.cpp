@@ -197,11 +197,6 @@ void Viewer::frame(gl::Size size) {
   // A recording has the frames that `weft render` makes. The first frame of a
   // window that waited is finished, and does not fade in.
   in.headless = !options_.record.empty() || (options_.waitForAssets && frame_ == 0);
-  // When files change meanwhile, the frame is not shown. That happens to every second frame at most, so that some
-  // picture is shown in any case. The one frame that tells of a click is always shown.
-  const bool mayDrop = !std::exchange(dropped_, false) && !recorder_.active() && screenshot_.empty() &&
-                       frame_ + 1 != options_.maxFrames && !in.pointer.clicked;
-  if (mayDrop) in.obsolete = [this] { return live_.wantsLoad(glfwGetTime()); };
   panels_.beforeFrame(frame_);
   report_ = renderer_.frame(live_.world(), in, diagnostics_);
   panels_.afterFrame(report_);
@@ -209,15 +204,9 @@ void Viewer::frame(gl::Size size) {
   if (!readsMouse() || report_.passesRun + report_.passesSkipped > 0) input_.pointerShown();
   live_.dropUploaded();
   if (report_.slowRun > 0) clock_.worked();
-  if (report_.whole) previousPose_ = in.pose;
+  previousPose_ = in.pose;
   ++frame_;
-  dropped_ = !report_.whole || (mayDrop && live_.wantsLoad(glfwGetTime()));
-  if (!dropped_) {
-    show(size);
-  } else {
-    rest_.disturb();  // another is due
-    tellFrame();
-  }
+  show(size);
 }
 
 void Viewer::show(gl::Size size) {

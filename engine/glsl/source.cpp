@@ -65,24 +65,11 @@ std::vector<std::string> below(std::span<const std::string> folders, const std::
   return paths;
 }
 
-// For an included file that is not there: one of the same name in another folder, else the nearest of `names`.
-std::string hintForInclude(const std::string& name, const std::vector<std::string>& names) {
-  const auto same =
-      std::ranges::find_if(names, [&](const std::string& each) { return each.ends_with("/" + name); });
-  return same == names.end() ? text::nearestHint(name, names) : "did you mean '" + *same + "'?";
-}
-
-// Those that differ in stage and ending only, else those of nearly that name.
-std::string hintForShader(const std::string& path, const std::vector<std::string>& known) {
-  if (path.find_first_of("{;\n") != std::string::npos)
-    return "a shader is a file: write the text into one below shaders/, and its path here";
-  for (const std::string& each : known)
-    if (path.ends_with("/" + each))
-      return fmt::format("write '{}': paths begin in the folder of shaders", each);
-  const std::string stem = path.substr(0, path.find('.', path.rfind('/') + 1)) + ".";
-  const auto same =
-      std::ranges::find_if(known, [&](const std::string& each) { return each.starts_with(stem); });
-  return same == known.end() ? text::nearestHint(path, known) : fmt::format("did you mean '{}'?", *same);
+// For a file that is not there: one of the same name in another folder, else the nearest of `names`.
+std::string hintForFile(const std::string& name, const std::vector<std::string>& names) {
+  for (const std::string& each : names)
+    if (each.ends_with("/" + name) || name.ends_with("/" + each)) return "did you mean '" + each + "'?";
+  return text::nearestHint(name, names);
 }
 
 // The file name of `#include "name"`, from what follows the word, or nullopt.
@@ -251,16 +238,11 @@ class IncludeExpander {
       text::reportOutside(*outside, diagnostics_, place);
       return std::nullopt;
     }
-    for (const std::string& path : candidates)
-      if (fs::exists(path, ec)) {  // and is no regular file: readFile() says what it is
-        text::readFile(path, diagnostics_, Code::missingShaderInclude, place);
-        return std::nullopt;
-      }
     text::Diagnostic& error = diagnostics_.error(Code::missingShaderInclude, place,
                                                  fmt::format("included file '{}' not found", name));
     error.expected =
         fmt::format("a file beside the including one or below {}", fmt::join(loader_.roots_, ", "));
-    error.hint = hintForInclude(name, loader_.namesFrom(folder));
+    error.hint = hintForFile(name, loader_.names());
     return std::nullopt;
   }
 
@@ -320,15 +302,9 @@ std::shared_ptr<const ShaderSource> SourceLoader::expand(const std::string& key,
   return (cache_[key] = {std::move(source), {taken.begin(), taken.end()}}).source;
 }
 
-const std::vector<std::string>& SourceLoader::namesFrom(const std::string& folder) {
-  constexpr std::size_t kMaxListings = 32;  // a hint may do without the rest
-  static const std::vector<std::string> kNone;
-  const auto known = names_.find(folder);
-  if (known != names_.end()) return known->second;
-  if (names_.size() >= kMaxListings) return kNone;
-  std::vector<std::string> folders = roots_;
-  if (!folder.empty()) folders.push_back(folder);
-  return names_[folder] = shadersBelow(folders);
+const std::vector<std::string>& SourceLoader::names() {
+  if (!names_) names_ = shadersBelow(roots_);
+  return *names_;
 }
 
 std::optional<std::string> SourceLoader::locate(const std::string& path) const {
@@ -352,7 +328,7 @@ void SourceLoader::reportMissing(const std::string& path, Diagnostics& diagnosti
       diagnostics.error(Code::unreadableShader, place, fmt::format("shader '{}' not found", path));
   error.expected =
       roots_.empty() ? "an existing file" : fmt::format("a file below {}", fmt::join(roots_, ", "));
-  error.hint = hintForShader(path, namesFrom(""));
+  error.hint = hintForFile(path, names());
 }
 
 std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, Diagnostics& diagnostics,

@@ -83,7 +83,7 @@ class SourceLoader {
   // Forgets everything (files will be read again).
   void clear() {
     cache_.clear();
-    names_.clear();
+    names_.reset();
   }
   const std::vector<std::string>& roots() const { return roots_; }
   // Forgets everything when they are others: names may lead to other files.
@@ -96,7 +96,7 @@ class SourceLoader {
   const std::set<std::string>& touched() const { return touched_; }
   void forgetTouched() {
     touched_.clear();
-    names_.clear();
+    names_.reset();
   }
   // Files expanded so far, not answered from the cache.
   std::uint64_t expansions() const { return expansions_; }
@@ -111,12 +111,12 @@ class SourceLoader {
   std::shared_ptr<const ShaderSource> expand(const std::string& key, const FileStamp& own,
                                              std::string_view text, text::Diagnostics& diagnostics);
   void reportMissing(const std::string& path, text::Diagnostics& diagnostics, const text::Place& place);
-  const std::vector<std::string>& namesFrom(const std::string& folder);
+  const std::vector<std::string>& names();
 
   std::vector<std::string> roots_;
   std::unordered_map<std::string, Entry> cache_;
   std::set<std::string> touched_;
-  std::map<std::string, std::vector<std::string>> names_;  // by the folder of who includes
+  std::optional<std::vector<std::string>> names_;  // of the files below the roots, for hints
   std::uint64_t expansions_ = 0;
 };
 

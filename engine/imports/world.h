@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -97,9 +96,6 @@ struct FrameInput {
   std::uint64_t cutGeneration = 0;  // changes when the camera jumps
   Pointer pointer{};                // all zero when there is no mouse
   bool headless = true;             // publications of the first frame count as infinitely old
-  // Asked between passes; may be empty. Once true, nobody will look at this frame: passes that serve its picture alone
-  // are left out. What persists is what it is after a whole frame.
-  std::function<bool()> obsolete{};
 };
 
 // Frame `frame` of the world's default camera at `fps` steps per second. `pointer` is that of every frame; a button that is

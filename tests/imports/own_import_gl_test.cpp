@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/runtime/imports/import_part.h"
+#include "engine/runtime/prepare/prepared_pass.h"
 #include "tests/runtime/stage.h"
 #include "tests/temporary_folder.h"
 

@@ -243,21 +243,6 @@ std::string refusal(const TextureDesc& d) {
   return "";
 }
 
-std::string statusReason(GLenum status) {
-  switch (status) {
-    case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT:
-      return "an attachment has no such mip or layer, or a format that cannot be rendered to at that point";
-    case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT:
-      return "it has no attachment and no size of its own";
-    case GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE:
-      return "its attachments differ in sample count";
-    case GL_FRAMEBUFFER_INCOMPLETE_LAYER_TARGETS:
-      return "some attachments are layered and some are not, or they differ in target";
-    default:
-      return "this driver does not render to this combination of formats";
-  }
-}
-
 // Filters and wrapping of a texture or view that is read without a sampler object.
 void setDefaults(GLuint id, GLenum target, std::uint32_t mips) {
   if (isMultisample(target)) return;
@@ -386,8 +371,8 @@ std::optional<Framebuffer> Framebuffer::create(std::span<const Attachment> attac
   const std::string errors = takeErrors();
   diagnostics
       .error(text::Code::incompleteFramebuffer, {},
-             fmt::format("framebuffer '{}' is incomplete: {} ({}{}{})", label, statusReason(status),
-                         enumName(status), errors.empty() ? "" : ", ", errors))
+             fmt::format("framebuffer '{}' is incomplete: {}{}{}", label, enumName(status),
+                         errors.empty() ? "" : ", ", errors))
       .found = parts.empty() ? "no attachments" : parts;
   return std::nullopt;
 }
@@ -499,14 +484,6 @@ std::vector<float> readFloats(const TextureRef& texture, std::uint32_t mip, std:
       break;
   }
   return texels;
-}
-
-void readTextureInto(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format,
-                     GLenum type, GLuint buffer, std::uint64_t offset, std::uint64_t bytes) {
-  assert(bytes >= static_cast<std::uint64_t>(byteCount(extentOf(texture.desc, mip), format, type)));
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer);
-  getLayer(texture, mip, layer, format, type, static_cast<GLsizei>(bytes), reinterpret_cast<void*>(offset));
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
 }
 
 void uploadBuffer(GLuint buffer, std::uint64_t offset, std::span<const std::byte> data) {

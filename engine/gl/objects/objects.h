@@ -221,7 +221,7 @@ class Fence {
 };
 
 // ---- texels and bytes ----
-// All of these wait until they are done, but for readTextureInto(). `layer` is an array layer, a cube's layer * 6 + face,
+// All of these wait until they are done. `layer` is an array layer, a cube's layer * 6 + face,
 // or a 3D slice. Rows are bottom first and tightly packed.
 
 struct Extent {
@@ -240,10 +240,6 @@ std::vector<std::byte> readTexture(const TextureRef& texture, std::uint32_t mip,
 std::vector<float> readFloats(const TextureRef& texture, std::uint32_t mip = 0, std::uint32_t layer = 0);
 // Floats per texel of readFloats: 4, or 1 for depth.
 std::uint32_t floatChannelsOf(GLenum internalFormat);
-// Starts a read-back into `buffer` at `offset`; finished when a fence inserted afterwards is signalled.
-void readTextureInto(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format,
-                     GLenum type, GLuint buffer, std::uint64_t offset, std::uint64_t bytes);
-
 // The buffer was created with GL_DYNAMIC_STORAGE_BIT.
 void uploadBuffer(GLuint buffer, std::uint64_t offset, std::span<const std::byte> data);
 std::vector<std::byte> readBuffer(GLuint buffer, std::uint64_t offset, std::uint64_t bytes);

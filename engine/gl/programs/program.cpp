@@ -75,9 +75,7 @@ bool compileStage(const Shader& shader, const StageSource& stage, std::span<cons
   glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
   if (compiled) return true;
   glGetShaderiv(shader.id(), GL_INFO_LOG_LENGTH, &logLength);
-  const std::string log = textOf(logLength, shader.id(), [](GLuint i, GLsizei n, GLsizei* w, GLchar* t) {
-    glGetShaderInfoLog(i, n, w, t);
-  });
+  const std::string log = textOf(logLength, shader.id(), glGetShaderInfoLog);
   reportLog(log, *stage.source, Code::shaderDoesNotCompile,
             fmt::format("the {} does not compile, and the driver does not say why", stageName(stage.stage)),
             diagnostics, defines);
@@ -279,9 +277,7 @@ std::optional<Program> Program::compile(std::span<const StageSource> stages,
   glGetProgramiv(program.id_, GL_LINK_STATUS, &linked);
   if (!linked) {
     glGetProgramiv(program.id_, GL_INFO_LOG_LENGTH, &logLength);
-    const std::string log = textOf(logLength, program.id_, [](GLuint i, GLsizei n, GLsizei* w, GLchar* t) {
-      glGetProgramInfoLog(i, n, w, t);
-    });
+    const std::string log = textOf(logLength, program.id_, glGetProgramInfoLog);
     reportLog(log, *stages.back().source, Code::programDoesNotLink,
               fmt::format("program '{}' does not link, and the driver does not say why", label), diagnostics);
     return std::nullopt;
@@ -291,13 +287,6 @@ std::optional<Program> Program::compile(std::span<const StageSource> stages,
 }
 
 std::optional<Program> Program::load(const ProgramBinary& binary, bool compute, std::string_view label) {
-  // An unknown format would be GL_INVALID_ENUM: ask first.
-  GLint count = 0;
-  glGetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &count);
-  std::vector<GLint> formats(static_cast<std::size_t>(std::max(0, count)));
-  if (count > 0) glGetIntegerv(GL_PROGRAM_BINARY_FORMATS, formats.data());
-  if (std::find(formats.begin(), formats.end(), static_cast<GLint>(binary.format)) == formats.end())
-    return std::nullopt;
   Program program(glCreateProgram());
   program.label_ = label;
   labelObject(GL_PROGRAM, program.id_, label);

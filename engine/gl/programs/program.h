@@ -98,8 +98,8 @@ class Program : public Owner<ObjectKind::program> {
                                         std::span<const glsl::Define> defines,
                                         std::span<const std::string> outputs, std::string_view label,
                                         text::Diagnostics& diagnostics);
-  // Nullopt when the driver rejects the binary, without an error or a message of the driver. `compute` says whether
-  // the binary is a compute program, because OpenGL does not tell.
+  // Nullopt when the driver rejects the binary, without an error or a message of the driver. Its format must be one that the
+  // driver has given. `compute` says whether the binary is a compute program, because OpenGL does not tell.
   static std::optional<Program> load(const ProgramBinary& binary, bool compute, std::string_view label);
   // The linked binary, or nullopt when the driver has no format for it.
   std::optional<ProgramBinary> binary() const;

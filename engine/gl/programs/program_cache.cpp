@@ -26,11 +26,15 @@ bool hasBinaryName(const std::string& name) {
          name.find_first_not_of("0123456789abcdef") == kBinaryKeyLength;
 }
 
-// What stands before the binary in its file. The checksum keeps damaged bytes away from the driver.
+// What stands before the binary in its file. The checksum keeps damaged bytes, and formats that the driver has not, away from it.
 struct BinaryHeader {
   char key[kBinaryKeyLength] = {};
   std::uint64_t format = 0, checksum = 0;
 };
+
+std::uint64_t checksumOf(std::uint64_t format, std::string_view bytes) {
+  return text::hashBytes(bytes, text::hashCombine(text::kHashSeed, format));
+}
 
 std::string makeKey(const std::vector<StageSource>& stages, const ProgramRequest& request,
                     const DeviceInfo& device) {
@@ -140,7 +144,8 @@ std::optional<Program> ProgramCache::loadBinary(const std::string& key, bool com
   BinaryHeader header;
   std::memcpy(&header, bytes->data(), sizeof header);
   const std::string_view body = std::string_view(*bytes).substr(sizeof header);
-  if (std::string_view(header.key, kBinaryKeyLength) != key || header.checksum != text::hashBytes(body))
+  if (std::string_view(header.key, kBinaryKeyLength) != key ||
+      header.checksum != checksumOf(header.format, body))
     return reject();
   ProgramBinary binary;
   binary.format = static_cast<GLenum>(header.format);
@@ -161,7 +166,7 @@ void ProgramCache::storeBinary(const std::string& key, const Program& program) {
   std::memcpy(header.key, key.data(), kBinaryKeyLength);
   header.format = binary->format;
   const std::string_view body(reinterpret_cast<const char*>(binary->bytes.data()), binary->bytes.size());
-  header.checksum = text::hashBytes(body);
+  header.checksum = checksumOf(header.format, body);
   std::string file(sizeof header, '\0');
   std::memcpy(file.data(), &header, sizeof header);
   file.append(body);

@@ -11,7 +11,7 @@ using graph::FlatUse;
 using graph::kNone;
 
 FrameCadence::FrameCadence(const graph::Plan& plan, const FrameCadence* before)
-    : plan_(plan), ran_(plan.steps.size()), lasting_(findLastingSteps(plan)) {
+    : plan_(plan), ran_(plan.steps.size()) {
   const std::size_t steps = plan.steps.size();
   const std::size_t resources = plan.graph->resources.size();
   memories_.resize(steps);
@@ -204,34 +204,6 @@ void FrameCadence::markPublished(std::uint32_t index) {
     memories_[s].own = latches_[s].own;
     memories_[s].inputs.assign(latches_[s].inputs.begin(), latches_[s].inputs.end());
   }
-}
-
-std::vector<std::uint8_t> findFrameHistories(const graph::Plan& plan) {
-  std::vector<std::uint8_t> found;
-  for (const graph::FlatResource& resource : plan.graph->resources) found.push_back(resource.history > 0);
-  for (std::size_t step = 0; step < plan.steps.size(); ++step) {
-    if (plan.passOf(step).cadence == Cadence::always) continue;
-    for (const FlatUse& use : plan.usesOf(step))
-      if (use.access != Access::read) found[use.resource] = 0;
-  }
-  return found;
-}
-
-std::vector<std::uint8_t> findLastingSteps(const graph::Plan& plan) {
-  std::vector<std::uint8_t> lasting(plan.steps.size(), 0);
-  std::vector<std::uint8_t> wanted(plan.persistent.begin(), plan.persistent.end());  // per resource
-  const std::vector<std::uint8_t> ofOneFrame = findFrameHistories(plan);
-  for (std::size_t r = 0; r < wanted.size(); ++r)
-    if (ofOneFrame[r]) wanted[r] = 0;
-  for (std::size_t step = plan.steps.size(); step-- > 0;) {
-    bool lasts = plan.passOf(step).cadence != Cadence::always || plan.passOf(step).sideEffect;
-    plan.forEachWrite(step, [&](const FlatUse& use) { lasts |= wanted[use.resource] != 0; });
-    lasting[step] = lasts;
-    if (!lasts) continue;
-    for (const FlatUse& use : plan.usesOf(step))
-      if (use.access != Access::write) wanted[use.resource] = 1;
-  }
-  return lasting;
 }
 
 }  // namespace weft::runtime

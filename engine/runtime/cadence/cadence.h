@@ -45,8 +45,6 @@ class FrameCadence {
   SliceRange slices(std::size_t step) const { return slices_[step]; }
 
   bool isAlways(std::size_t step) const { return plan_.passOf(step).cadence == graph::Cadence::always; }
-  // Whether later frames need the step (findLastingSteps()).
-  bool isLasting(std::size_t step) const { return lasting_[step] != 0; }
   void markRan(std::size_t step) { ran_[step] = 1; }
   // Whether it ran in this frame, in whatever round.
   bool ran(std::size_t step) const { return ran_[step] != 0; }
@@ -94,18 +92,9 @@ class FrameCadence {
   std::vector<Group> groups_;
   std::vector<SliceRange> slices_;
   std::vector<std::uint8_t> run_, wants_, ran_;  // per step
-  const std::vector<std::uint8_t> lasting_;
   std::vector<std::uint8_t> written_,
       blocked_;  // per resource, within decide(): a running step writes it; it is not there
   std::vector<std::uint8_t> alwaysWritten_;  // per resource
 };
-
-// Per resource: a history that only `always` passes write, so that it is made anew in each frame.
-std::vector<std::uint8_t> findFrameHistories(const graph::Plan& plan);
-
-// Per step: later frames depend on it even when nobody sees this one. Its results are kept, it is a slice, or one of those
-// needs what it makes. The other steps serve only the picture of their frame: they may be left out of a frame that is
-// dropped, whose histories go back to what they were before it. What is read back for display does not count.
-std::vector<std::uint8_t> findLastingSteps(const graph::Plan& plan);
 
 }  // namespace weft::runtime

@@ -161,8 +161,7 @@ void Execution::runSteps(const StepWatch& watch, FrameReport& report, text::Diag
       glMemoryBarrier(glBarriersOf(planned.barriers));
       ++report.barriers;
     }
-    report.whole = report.whole && !(input_.obsolete && input_.obsolete());
-    if (steps_.runs(step) && (report.whole || steps_.isLasting(step))) {
+    if (steps_.runs(step)) {
       steps_.markRan(step);
       if (watch.before) {
         watch.before(static_cast<std::uint32_t>(step));
@@ -172,7 +171,7 @@ void Execution::runSteps(const StepWatch& watch, FrameReport& report, text::Diag
     } else if (planned.barriersAfterClears) {
       glMemoryBarrier(glBarriersOf(planned.barriersAfterClears));
     }
-    if (report.whole && watch.after) {
+    if (watch.after) {
       watch.after(static_cast<std::uint32_t>(step));
       runner_.forgetState();
     }
@@ -186,15 +185,13 @@ void Execution::endFrame(FrameReport& report, text::Diagnostics& diagnostics) {
     glMemoryBarrier(glBarriersOf(plan().finalBarriers));
     ++report.barriers;
   }
-  if (report.whole)
-    readBack_.copy(plan(), *prepared_.pool, runner_.framebuffers(), input_.frame, diagnostics);
+  readBack_.copy(plan(), *prepared_.pool, runner_.framebuffers(), input_.frame, diagnostics);
   const std::size_t steps = prepared_.passes.size();
   for (std::size_t step = 0; step < steps; ++step) {
     report.passesRun += steps_.ran(step);
     report.slowRun += steps_.ran(step) && !steps_.isAlways(step);
   }
   report.passesSkipped = static_cast<std::uint32_t>(steps) - report.passesRun;
-  if (!report.whole) publications_.dropFrame();
   publications_.endFrame();
 }
 

@@ -7,7 +7,6 @@ namespace weft::runtime {
 
 struct FrameReport {
   std::uint32_t passesRun = 0, passesSkipped = 0, barriers = 0;
-  bool whole = true;  // false: FrameInput::obsolete left passes out, and the picture must not be shown
   std::uint32_t slowRun = 0;  // how many of passesRun are not `always`
 };
 

@@ -41,8 +41,7 @@ Publications::Publications(const graph::Plan& plan, ResourcePool& pool, Imports&
       imports_(imports),
       cadence_(cadence),
       passes_(passes),
-      ages_([this](std::uint32_t resource) { return ageOf(resource); }),
-      ofOneFrame_(findFrameHistories(plan)) {
+      ages_([this](std::uint32_t resource) { return ageOf(resource); }) {
   const std::size_t resources = plan.graph->resources.size();
   generations_.resize(resources);
   generationsBefore_.resize(resources);
@@ -82,15 +81,6 @@ void Publications::findPublishers() {
 void Publications::beginFrame(const FrameInput& input) {
   input_ = input;
   std::fill(publishing_.begin(), publishing_.end(), std::uint8_t{0});
-}
-
-void Publications::dropFrame() {
-  for (std::size_t r = 0; r < turned_.size(); ++r) {
-    if (!turned_[r] || !ofOneFrame_[r]) continue;
-    GpuResource& resource = pool_[r];
-    resource.current = (resource.current + resource.copies - 1) % resource.copies;
-    --resource.publications;
-  }
 }
 
 void Publications::publishFinished() {

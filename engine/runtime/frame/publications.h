@@ -31,9 +31,6 @@ class Publications {
 
   void beginFrame(const FrameInput& input);
   void endFrame() { ++framesRun_; }
-  // Before endFrame(), when nobody sees the frame and steps of it were left out: histories that `always` passes write go
-  // back to what they were before it.
-  void dropFrame();
 
   // Publishes what time-sliced groups finished in the frame before.
   void publishFinished();
@@ -84,8 +81,7 @@ class Publications {
       publishing_;                    // per resource: a pass that is not `always` publishes it in this frame
   std::vector<std::uint8_t> turned_;  // per resource: rotated in this round
   std::vector<std::uint8_t> made_;    // per resource: the world's, or some pass writes it
-  const std::vector<std::uint8_t> ofOneFrame_;  // per resource, see findFrameHistories
-  std::vector<std::uint64_t> resetState_;       // per history: hash of what resets it
+  std::vector<std::uint64_t> resetState_;  // per history: hash of what resets it
 };
 
 // The last version of the texture or buffer `name` ("hdr", "ibl.brdf") that is alive in the plan, or kNone.

@@ -311,17 +311,12 @@ InspectView Inspector::fittedView() const {
   InspectView view = viewOf(execution_->plan().graph->resources[resource_]);
   const gl::FormatClass kind = gl::classOf(picture_.desc().format);
   if (!hasPicture_ || kind == gl::FormatClass::floating) return view;
-  const auto image = values();
-  if (!image) return view;
-  float low = std::numeric_limits<float>::infinity(), high = -low;
-  for (const float value : image->texels) {
-    if (!std::isfinite(value)) continue;
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  if (low > high) return view;
-  view.low = low;
-  view.high = high > low ? high : low + 1;
+  std::vector<double> finite = read(0, 0, picture_.desc().width, picture_.desc().height);
+  std::erase_if(finite, [](double number) { return !std::isfinite(number); });
+  if (finite.empty()) return view;
+  const auto [low, high] = std::ranges::minmax(finite);
+  view.low = static_cast<float>(low);
+  view.high = static_cast<float>(high > low ? high : low + 1);
   return view;
 }
 

@@ -1,6 +1,5 @@
 #include "engine/runtime/inspection/picture_histogram.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -9,52 +8,27 @@
 
 namespace weft::runtime {
 
-namespace {
-
-constexpr std::uint64_t kBytes = std::uint64_t{PictureHistogram::kWidth} * PictureHistogram::kHeight * 4;
-
-}  // namespace
-
-bool PictureHistogram::prepare() {
-  if (target_ && buffer_) return true;
-  text::Diagnostics ignored;
-  auto texture =
-      gl::Texture::create({.format = GL_RGBA8, .width = kWidth, .height = kHeight}, "histogram", ignored);
-  if (!texture) return false;
-  small_ = std::move(*texture);
-  const gl::Attachment to{.texture = small_.id()};
-  auto target = gl::Framebuffer::create({&to, 1}, "histogram", ignored);
-  auto buffer = gl::Buffer::create(kBytes, GL_CLIENT_STORAGE_BIT | GL_MAP_READ_BIT, "histogram", ignored);
-  if (!target || !buffer) return false;
-  target_ = std::move(*target);
-  buffer_ = std::move(*buffer);
-  return true;
-}
-
 void PictureHistogram::update(const gl::TextureRef& presented) {
-  if (pending_) {
-    if (!fence_.isSignalled()) return;
-    count();
-    pending_ = false;
-  }
-  if (presented.id == 0 || gl::classOf(presented.desc.format) != gl::FormatClass::floating ||
-      presented.desc.samples > 1 || !prepare())
+  if (calls_++ % kFrames != 0 || presented.id == 0 || presented.desc.samples > 1 ||
+      gl::classOf(presented.desc.format) != gl::FormatClass::floating)
     return;
   text::Diagnostics ignored;
+  if (!target_) {
+    auto texture =
+        gl::Texture::create({.format = GL_RGBA8, .width = kWidth, .height = kHeight}, "histogram", ignored);
+    if (!texture) return;
+    small_ = std::move(*texture);
+    const gl::Attachment to{.texture = small_.id()};
+    if (auto target = gl::Framebuffer::create({&to, 1}, "histogram", ignored)) target_ = std::move(*target);
+  }
   const gl::Attachment from{.texture = presented.id};
   const auto source = gl::Framebuffer::create({&from, 1}, "histogram", ignored);
-  if (!source) return;
+  if (!source || !target_) return;
   openMasks();
   glBlitNamedFramebuffer(source->id(), target_.id(), 0, 0, static_cast<GLint>(presented.desc.width),
                          static_cast<GLint>(presented.desc.height), 0, 0, kWidth, kHeight,
                          GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  gl::readTextureInto(small_.ref(), 0, 0, GL_RGBA, GL_UNSIGNED_BYTE, buffer_.id(), 0, kBytes);
-  fence_ = gl::Fence::insert();
-  pending_ = true;
-}
-
-void PictureHistogram::count() {
-  const std::vector<std::byte> bytes = gl::readBuffer(buffer_.id(), 0, kBytes);
+  const std::vector<std::byte> bytes = gl::readTexture(small_.ref(), 0, 0, GL_RGBA, GL_UNSIGNED_BYTE);
   for (Bins& bins : bins_) bins.fill(0);
   const float share = 1.0f / static_cast<float>(kWidth * kHeight);
   for (std::size_t i = 0; i + 3 < bytes.size(); i += 4) {
@@ -65,7 +39,6 @@ void PictureHistogram::count() {
     for (std::size_t c = 0; c < 3; ++c) bins_[c][channel(c)] += share;
     bins_[3][static_cast<std::size_t>(std::lround(luminance))] += share;
   }
-  ++results_;
 }
 
 }  // namespace weft::runtime

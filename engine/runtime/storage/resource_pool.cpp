@@ -92,23 +92,21 @@ std::uint32_t largestTransientOf(const Plan& plan) {
   return largest;
 }
 
-// Reports buffers of shaders that are larger than the largest block of the device, whose end no shader could reach.
+// Reports buffers that are larger than the largest block of the device, whose end no shader could reach.
 bool checkBlocks(const Plan& plan, text::Diagnostics& diagnostics) {
   GLint64 most = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-  std::vector<std::uint8_t> told(plan.graph->resources.size(), 0);
   bool good = true;
-  for (std::size_t u = 0; u < plan.graph->uses.size(); ++u) {
-    const FlatUse& use = plan.graph->uses[u];
-    if (use.kind != graph::Kind::storage || plan.attached[u] == 0 || use.resource == kNone) continue;
-    const FlatResource& resource = plan.graph->resources[use.resource];
-    if (resource.kind != ResourceKind::buffer || resource.bytes <= static_cast<std::uint64_t>(most)) continue;
+  for (std::size_t r = 0; r < plan.graph->resources.size(); ++r) {
+    const FlatResource& resource = plan.graph->resources[r];
+    if (resource.kind != ResourceKind::buffer || plan.firstStep[r] == kNone ||
+        resource.bytes <= static_cast<std::uint64_t>(most))
+      continue;
     good = false;
-    if (std::exchange(told[use.resource], std::uint8_t{1}) != 0) continue;
     auto& d = diagnostics.error(text::Code::bufferNotCreated, {},
                                 fmt::format("buffer '{}' of {} bytes is larger than a shader can see",
-                                            plan.graph->resourceNames[use.resource], resource.bytes));
-    d.resource = plan.graph->resourceNames[use.resource];
+                                            plan.graph->resourceNames[r], resource.bytes));
+    d.resource = plan.graph->resourceNames[r];
     d.expected = fmt::format("at most {} bytes in one storage block of this device", most);
     d.hint = "split it into several buffers";
   }

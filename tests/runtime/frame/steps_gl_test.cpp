@@ -1,4 +1,4 @@
-// What runs in a frame, and why: hashes of what a pass is made of, obsolete frames, slices. Which steps must run
+// What runs in a frame, and why: hashes of what a pass is made of, slices. Which steps must run
 // is read off the graphs by hand. Nothing is drawn.
 #include <memory>
 
@@ -90,19 +90,6 @@ TEST_CASE("a step ran or not: in this frame, and always or not") {
   CHECK_FALSE(live.steps.ran(start));
   CHECK_FALSE(live.steps.isAlways(kept));
   CHECK(live.steps.isAlways(start));
-}
-
-TEST_CASE(
-    "later frames need the steps that lead to what is kept, and not those that lead to a picture and its "
-    "history") {
-  const CleanScope clean;
-  ChosenSteps obsolete("tests/runtime/graphs/obsolete.json");
-  for (const auto& [pass, lasts] :
-       {std::pair{"next", false}, {"keep", false}, {"scale", false}, {"show", false}})
-    CHECK_MESSAGE(obsolete.steps.isLasting(obsolete.on.step(pass)) == lasts, pass);
-  ChosenSteps live("tests/runtime/graphs/live.json");
-  for (const auto& [pass, lasts] : {std::pair{"kept", true}, {"start", false}, {"timed", false}})
-    CHECK_MESSAGE(live.steps.isLasting(live.on.step(pass)) == lasts, pass);
 }
 
 TEST_CASE("what follows an execution of the same passes runs none of them again") {
