@@ -44,7 +44,7 @@ void Viewer::addActions() {
               {"reset_camera", [this] { lookThrough(0); }},
               {"next_environment", [this] { live_.stepEnvironment(1); }},
               {"previous_environment", [this] { live_.stepEnvironment(-1); }},
-              {"vsync", [this] { session_.context->setVsync(vsync_ = !vsync_); }},
+              {"vsync", [this] { glfwSwapInterval((vsync_ = !vsync_) ? 1 : 0); }},
               {"idle", [this] { idle_ = !idle_; }},
               {"render_scale_down", [this] { scaleRendering(-1); }},
               {"render_scale_up", [this] { scaleRendering(1); }},

@@ -259,7 +259,7 @@ void Viewer::finishFrame() {
   saveScreenshots();
   tellFrame();
   drawUi();
-  session_.context->swapBuffers();
+  glfwSwapBuffers(window_);
 }
 
 void Viewer::drawPanels() {

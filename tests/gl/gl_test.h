@@ -37,7 +37,7 @@ class CleanScope {
     CHECK(takeErrors() == "");
     text::Diagnostics diagnostics;
     log_.drain(diagnostics);
-    CHECK_MESSAGE(!log_.hasAboveNotification(), diagnostics.text());
+    CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
     CHECK_MESSAGE(liveObjects() == before_, "alive: " << toText(liveObjects()));
     log_.clear();
   }

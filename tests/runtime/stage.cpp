@@ -38,7 +38,7 @@ CleanScope::~CleanScope() {
   CHECK(gl::takeErrors() == "");
   text::Diagnostics diagnostics;
   context().debugLog().drain(diagnostics);
-  CHECK_MESSAGE(!context().debugLog().hasAboveNotification(), diagnostics.text());
+  CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
   CHECK_MESSAGE(gl::liveObjects() == before_, "alive: " << gl::toText(gl::liveObjects()));
   context().debugLog().clear();
 }

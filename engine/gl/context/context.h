@@ -29,7 +29,7 @@ struct ContextOptions {
   // has fewer ways to fail and the same pixels.
   Backend backend = Backend::automatic;
   std::string title = "weft";                // GLFW
-  std::uint32_t width = 1280, height = 720;  // window size in screen coordinates; headless: framebufferSize()
+  std::uint32_t width = 1280, height = 720;  // GLFW: window size in screen coordinates
   bool visible = false;                      // GLFW
   bool vsync = true;                         // GLFW
   bool debug = true;                         // a debug context with its messages in debugLog()
@@ -61,17 +61,10 @@ class Context {
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
-  // False when the platform refuses (lost device).
-  virtual bool makeCurrent() = 0;
-  // GLFW only; a no-op elsewhere.
-  virtual void swapBuffers() {}
-  virtual void setVsync(bool) {}
   // GLFWwindow* of the GLFW backend, else null. Owned by the context.
   virtual void* window() const { return nullptr; }
-  // Pixels of framebuffer 0 (GLFW), or the size asked for. Framebuffer 0 exists only when
-  // hasFramebufferZero().
-  virtual Size framebufferSize() const = 0;
-  virtual bool hasFramebufferZero() const { return false; }
+  // Pixels of the window's framebuffer 0; 0 without a window.
+  virtual Size framebufferSize() const { return {}; }
   // Screen scale for the UI, 1 when there is no screen.
   virtual float contentScale() const { return 1.0f; }
 

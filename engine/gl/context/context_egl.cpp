@@ -24,8 +24,7 @@ std::string errorText() {
 
 class EglContext final : public Context {
  public:
-  EglContext(EGLDisplay display, EGLContext context, Size size)
-      : display_(display), context_(context), size_(size) {}
+  EglContext(EGLDisplay display, EGLContext context) : display_(display), context_(context) {}
   ~EglContext() override {
     eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display_, context_);
@@ -33,15 +32,13 @@ class EglContext final : public Context {
     eglReleaseThread();
   }
 
-  bool makeCurrent() override {
+  bool makeCurrent() {
     return eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE;
   }
-  Size framebufferSize() const override { return size_; }
 
  private:
   EGLDisplay display_;
   EGLContext context_;
-  Size size_;
 };
 
 // A current context on `display`, or null with the reason in `why`. Terminates the display on failure.
@@ -80,7 +77,7 @@ std::unique_ptr<Context> openOn(EGLDisplay display, const ContextOptions& option
   const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
   if (context == EGL_NO_CONTEXT)
     return fail(fmt::format("gives no OpenGL 4.5 core context ({})", errorText()));
-  auto opened = std::make_unique<EglContext>(display, context, Size{options.width, options.height});
+  auto opened = std::make_unique<EglContext>(display, context);
   if (!opened->makeCurrent()) {
     why = fmt::format("eglMakeCurrent failed ({})", errorText());
     return nullptr;

@@ -27,14 +27,11 @@ class GlfwContext final : public Context {
     if (--g_windows == 0) glfwTerminate();
   }
 
-  bool makeCurrent() override {
+  bool makeCurrent() {
     glfwMakeContextCurrent(window_);
     return glfwGetCurrentContext() == window_;
   }
-  void swapBuffers() override { glfwSwapBuffers(window_); }
-  void setVsync(bool on) override { glfwSwapInterval(on ? 1 : 0); }
   void* window() const override { return window_; }
-  bool hasFramebufferZero() const override { return true; }
   Size framebufferSize() const override {
     int width = 0, height = 0;
     glfwGetFramebufferSize(window_, &width, &height);
@@ -79,7 +76,7 @@ OpenedContext openGlfw(const ContextOptions& options, std::vector<std::string>& 
     failures.push_back(fmt::format("GLFW: the window's context cannot be made current: {}", lastError()));
     return {};
   }
-  context->setVsync(options.vsync);
+  glfwSwapInterval(options.vsync ? 1 : 0);
   return {std::move(context), [](const char* name) { return glfwGetProcAddress(name); }, "GLFW"};
 }
 

@@ -19,8 +19,8 @@ namespace weft::gl {
 
 namespace {
 
-// Framebuffer 0 is a stand-in of this size: the engine renders to textures only.
-constexpr int kStandIn = 16;
+// Of framebuffer 0, which nobody draws to: the engine renders to textures only.
+constexpr int kSide = 16;
 
 // Loaded once, and kept until the process ends: Mesa's threads may outlive a context.
 void* library() {
@@ -36,19 +36,16 @@ Function find(const char* name) {
 
 class OsmesaContext final : public Context {
  public:
-  OsmesaContext(OSMesaContext context, Size size)
-      : context_(context), size_(size), memory_(kStandIn * kStandIn * 4) {}
+  explicit OsmesaContext(OSMesaContext context) : context_(context), memory_(kSide * kSide * 4) {}
   ~OsmesaContext() override { find<decltype(&OSMesaDestroyContext)>("OSMesaDestroyContext")(context_); }
 
-  bool makeCurrent() override {
+  bool makeCurrent() {
     const auto make = find<decltype(&OSMesaMakeCurrent)>("OSMesaMakeCurrent");
-    return make(context_, memory_.data(), GL_UNSIGNED_BYTE, kStandIn, kStandIn) == GL_TRUE;
+    return make(context_, memory_.data(), GL_UNSIGNED_BYTE, kSide, kSide) == GL_TRUE;
   }
-  Size framebufferSize() const override { return size_; }
 
  private:
   OSMesaContext context_;
-  Size size_;
   std::vector<unsigned char> memory_;
 };
 
@@ -82,7 +79,7 @@ OpenedContext openOsmesa(const ContextOptions& options, std::vector<std::string>
     failures.emplace_back("OSMesa: gives no OpenGL 4.5 core context");
     return {};
   }
-  auto context = std::make_unique<OsmesaContext>(raw, Size{options.width, options.height});
+  auto context = std::make_unique<OsmesaContext>(raw);
   if (!context->makeCurrent()) {
     failures.emplace_back("OSMesa: OSMesaMakeCurrent failed");
     return {};

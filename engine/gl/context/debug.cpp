@@ -36,10 +36,10 @@ GLsizei greatestLength(GLenum name) {
   return std::max(value, 256) - 1;
 }
 
-void GLAPIENTRY receive(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
-                        const GLchar* text, const void* user) {
+void GLAPIENTRY receive(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* text,
+                        const void* user) {
   const std::size_t size = length >= 0 ? static_cast<std::size_t>(length) : std::string_view(text).size();
-  static_cast<DebugLog*>(const_cast<void*>(user))->record(source, type, id, severity, {text, size});
+  static_cast<DebugLog*>(const_cast<void*>(user))->record(type, severity, {text, size});
 }
 
 }  // namespace
@@ -49,54 +49,36 @@ void DebugLog::install() {
   glEnable(GL_DEBUG_OUTPUT);
   glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
   glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_TRUE);
-  for (const GLenum marker : {GL_DEBUG_TYPE_PUSH_GROUP, GL_DEBUG_TYPE_POP_GROUP})
-    glDebugMessageControl(GL_DONT_CARE, marker, GL_DONT_CARE, 0, nullptr, GL_FALSE);
+  glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DEBUG_SEVERITY_NOTIFICATION, 0, nullptr, GL_FALSE);
   // workarounds.h: compiler-messages-twice
   for (const GLenum type : {GL_DEBUG_TYPE_ERROR, GL_DEBUG_TYPE_OTHER})
     glDebugMessageControl(GL_DEBUG_SOURCE_SHADER_COMPILER, type, GL_DONT_CARE, 0, nullptr, GL_FALSE);
   glDebugMessageCallback(receive, this);
 }
 
-void DebugLog::record(GLenum source, GLenum type, GLuint id, GLenum severity, std::string_view text) {
+void DebugLog::record(GLenum type, GLenum severity, std::string_view text) {
   while (!text.empty() && (text.back() == '\n' || text.back() == '\0' || text.back() == ' '))
     text.remove_suffix(1);
   const std::lock_guard lock(mutex_);
-  const auto same = std::find_if(messages_.begin(), messages_.end(), [&](const DebugMessage& m) {
-    return m.source == source && m.type == type && m.id == id && m.severity == severity && m.text == text;
-  });
-  if (same != messages_.end()) {
-    ++same->count;
-    return;
-  }
-  messages_.push_back({source, type, severity, id, std::string(text),
-                       groups_.empty() ? std::string() : std::string(groups_.back()), 1});
+  for (Message& m : messages_)
+    if (m.type == type && m.severity == severity && m.text == text) {
+      ++m.count;
+      return;
+    }
+  messages_.push_back({.type = type,
+                       .severity = severity,
+                       .text = std::string(text),
+                       .group = groups_.empty() ? std::string() : std::string(groups_.back())});
 }
 
-bool DebugLog::hasAboveNotification() const {
-  const std::lock_guard lock(mutex_);
-  return std::any_of(messages_.begin(), messages_.end(),
-                     [](const DebugMessage& m) { return m.severity != GL_DEBUG_SEVERITY_NOTIFICATION; });
-}
-
-std::vector<DebugMessage> DebugLog::messages() const {
-  const std::lock_guard lock(mutex_);
-  return messages_;
-}
-
-void DebugLog::drain(text::Diagnostics& diagnostics, bool notifications) {
+void DebugLog::drain(text::Diagnostics& diagnostics) {
   const std::lock_guard lock(mutex_);
   for (; drained_ < messages_.size(); ++drained_) {
-    const DebugMessage& m = messages_[drained_];
-    text::Severity severity = text::Severity::warning;
-    if (m.severity == GL_DEBUG_SEVERITY_NOTIFICATION) {
-      if (!notifications) continue;
-      severity = text::Severity::note;
-    } else if (m.severity == GL_DEBUG_SEVERITY_HIGH || m.type == GL_DEBUG_TYPE_ERROR) {
-      severity = text::Severity::error;
-    }
+    const Message& m = messages_[drained_];
+    const bool error = m.severity == GL_DEBUG_SEVERITY_HIGH || m.type == GL_DEBUG_TYPE_ERROR;
     std::string text = fmt::format("OpenGL: {}", m.text);
     if (m.count > 1) text += fmt::format(" (seen {} times)", m.count);
-    diagnostics.add({.severity = severity,
+    diagnostics.add({.severity = error ? text::Severity::error : text::Severity::warning,
                      .code = text::Code::driverMessage,
                      .message = std::move(text),
                      .place = {},

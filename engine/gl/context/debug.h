@@ -15,14 +15,6 @@
 
 namespace weft::gl {
 
-struct DebugMessage {
-  GLenum source = 0, type = 0, severity = 0;  // GL_DEBUG_*
-  GLuint id = 0;
-  std::string text;
-  std::string group;  // innermost debug group when it was first raised (the pass), or empty
-  std::uint64_t count = 1;
-};
-
 // Messages of one context. Safe to be called from a driver's thread.
 class DebugLog {
  public:
@@ -30,25 +22,27 @@ class DebugLog {
   DebugLog(const DebugLog&) = delete;
   DebugLog& operator=(const DebugLog&) = delete;
 
-  // Registers with the current context, which must not outlive this log; synchronous. Group markers are
-  // filtered out, and so are the shader compiler's errors, which Program reports with true places.
+  // Registers with the current context, which must not outlive this log; synchronous. Notifications are filtered out, and
+  // so are the shader compiler's errors, which Program reports with true places.
   void install();
   // What the callback does; public for tests.
-  void record(GLenum source, GLenum type, GLuint id, GLenum severity, std::string_view text);
+  void record(GLenum type, GLenum severity, std::string_view text);
 
-  // Any message above GL_DEBUG_SEVERITY_NOTIFICATION since construction or clear()?
-  bool hasAboveNotification() const;
-  std::vector<DebugMessage> messages() const;
-  // Adds a W120 for each message that is new since the last drain: an error for high severity or type error, a
-  // warning for medium and low severity, a note for notifications when `notifications` is set. The text says how
-  // often the message was seen ("seen 12 times").
-  void drain(text::Diagnostics& diagnostics, bool notifications = false);
+  // Adds a W120 for each message that is new since the last drain: an error for high severity or type error, else a warning.
+  // The text says how often the message was seen ("seen 12 times").
+  void drain(text::Diagnostics& diagnostics);
   void clear();
 
  private:
   friend class DebugGroup;
-  mutable std::mutex mutex_;
-  std::vector<DebugMessage> messages_;
+  struct Message {
+    GLenum type = 0, severity = 0;  // GL_DEBUG_*
+    std::string text;
+    std::string group;  // innermost debug group when it was first raised (the pass), or empty
+    std::uint64_t count = 1;
+  };
+  std::mutex mutex_;
+  std::vector<Message> messages_;
   std::size_t drained_ = 0;
   std::vector<std::string_view> groups_;
 };

@@ -42,9 +42,8 @@ TEST_CASE("a context opens, knows its device, keeps the conventions and can be o
       CHECK_FALSE(device.hasTimerQueries);
     }
     CHECK((context->window() != nullptr) == (device.backend == Backend::glfw));
-    CHECK(context->hasFramebufferZero() == (device.backend == Backend::glfw));
-    CHECK(context->framebufferSize().width == 320);
-    CHECK(context->framebufferSize().height == 200);
+    CHECK(context->framebufferSize().width == (device.backend == Backend::glfw ? 320u : 0u));
+    CHECK(context->framebufferSize().height == (device.backend == Backend::glfw ? 200u : 0u));
     CHECK(context->contentScale() > 0);
 
     GLint depthMode = 0, origin = 0, pack = 0;
@@ -70,12 +69,11 @@ TEST_CASE("a context opens, knows its device, keeps the conventions and can be o
       REQUIRE(texels.size() == 8 * 4 * 4);
       CHECK(texels[4 * 31 + 2] == 2.0f);
     }
-    context->swapBuffers();
     CHECK(liveObjects().total() == 0);
     CHECK(takeErrors() == "");
     Diagnostics messages;
     context->debugLog().drain(messages);
-    CHECK_MESSAGE(!context->debugLog().hasAboveNotification(), messages.text());
+    CHECK_MESSAGE(messages.empty(), messages.text());
   }
 }
 
