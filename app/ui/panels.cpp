@@ -59,15 +59,15 @@ std::vector<std::string> Panels::names() {
   return {kNames.begin(), kNames.end()};
 }
 
-void Panels::beforeFrame(std::uint64_t frame) {
+void Panels::beforeFrame() {
   inspector_.beforeFrame(visible && open_[kInspector]);
-  if (renderer_.execution()) profiler_.begin(renderer_.execution()->plan(), frame);
+  profiler_.begin();
 }
 
-void Panels::afterFrame(const runtime::FrameReport& report) {
-  profiler_.end(report);
-  if (visible && open_[kHistogram] && renderer_.execution())
-    histogram_.update(renderer_.execution()->presented());
+void Panels::afterFrame() {
+  if (!renderer_.execution()) return;
+  profiler_.end(renderer_.execution()->plan());
+  if (visible && open_[kHistogram]) histogram_.update(renderer_.execution()->presented());
 }
 
 void Panels::draw(const runtime::FrameReport& report, text::Diagnostics& diagnostics) {

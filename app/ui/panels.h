@@ -36,8 +36,8 @@ class Panels {
   static std::vector<std::string> names();
 
   // Around Renderer::frame().
-  void beforeFrame(std::uint64_t frame);
-  void afterFrame(const runtime::FrameReport& report);
+  void beforeFrame();
+  void afterFrame();
   // Between Overlay::begin() and end(). `diagnostics` gets what a change that was made here led to.
   void draw(const runtime::FrameReport& report, text::Diagnostics& diagnostics);
 

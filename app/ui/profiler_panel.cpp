@@ -66,7 +66,7 @@ void Panels::drawProfiler() {
   if (history.empty()) return;
   const runtime::FrameProfile& last = history.back();
   ImGui::TextDisabled(
-      "%s", fmt::format("frame {:.2f} ms{}", last.end - last.start,
+      "%s", fmt::format("frame {:.2f} ms{}", last.ms,
                         last.passes.empty() ? std::string()
                                             : fmt::format(", passes: GPU {:.2f} ms, CPU {:.2f} ms",
                                                           totalOf(last, true), totalOf(last, false)))
@@ -81,8 +81,7 @@ void Panels::drawProfiler() {
   draw.AddRectFilled(corner, {corner.x + area.x, corner.y + area.y}, IM_COL32(20, 20, 24, 255));
   // A few frames that took much longer (the first, a reload) may stand out of the picture.
   std::vector<double> totals;
-  for (const auto& profile : history)
-    totals.push_back(std::max(profile.end - profile.start, totalOf(profile, gpuStack_)));
+  for (const auto& profile : history) totals.push_back(std::max(profile.ms, totalOf(profile, gpuStack_)));
   std::ranges::sort(totals);
   const double highest = std::max(1e-3, totals[(totals.size() - 1) * 19 / 20] * 1.25);
   const float bar = area.x / 240.0f;
@@ -93,8 +92,7 @@ void Panels::drawProfiler() {
     const auto level = [&](double ms) {
       return corner.y + area.y * (1 - static_cast<float>(std::min(1.0, ms / highest)));
     };
-    draw.AddRectFilled({left, level(profile.end - profile.start)}, {right, corner.y + area.y},
-                       IM_COL32(60, 60, 68, 255));
+    draw.AddRectFilled({left, level(profile.ms)}, {right, corner.y + area.y}, IM_COL32(60, 60, 68, 255));
     double sum = 0;
     for (std::size_t step = 0; step < profile.passes.size() && step < profile.names->size(); ++step) {
       const double time = timeOf(profile.passes[step], gpuStack_);

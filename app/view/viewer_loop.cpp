@@ -197,9 +197,9 @@ void Viewer::frame(gl::Size size) {
   // A recording has the frames that `weft render` makes. The first frame of a
   // window that waited is finished, and does not fade in.
   in.headless = !options_.record.empty() || (options_.waitForAssets && frame_ == 0);
-  panels_.beforeFrame(frame_);
+  panels_.beforeFrame();
   report_ = renderer_.frame(live_.world(), in, diagnostics_);
-  panels_.afterFrame(report_);
+  panels_.afterFrame();
   // While an import is on its way no pass runs, and a click is kept for the frame in which one does.
   if (!readsMouse() || report_.passesRun + report_.passesSkipped > 0) input_.pointerShown();
   live_.dropUploaded();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/gl/programs/program.h"
 #include "engine/text/nearest.h"
 
 namespace weft::imports {

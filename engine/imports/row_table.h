@@ -19,10 +19,13 @@
 #include <vector>
 
 #include "engine/gl/objects/objects.h"
-#include "engine/gl/programs/program.h"
 #include "engine/graph/registry.h"
 #include "engine/imports/world.h"
 #include "engine/text/diagnostic.h"
+
+namespace weft::gl {
+struct Block;
+}
 
 namespace weft::imports {
 

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstring>
 
+#include "engine/gl/programs/program.h"
+
 using namespace weft;
 
 namespace {

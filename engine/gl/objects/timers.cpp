@@ -23,7 +23,7 @@ void PassTimers::beginFrame(std::uint32_t passes) {
   if (!enabled_) return;
   current_ = (current_ + 1) % kFramesInFlight;
   Frame& frame = frames_[current_];
-  if (frame.number != 0) collect(frame);
+  if (frame.pending) collect(frame);
   frame.times.assign(passes, PassTime{});
   if (!queries_) return;
   while (frame.starts.size() < passes) {
@@ -60,11 +60,11 @@ void PassTimers::end(std::uint32_t pass) {
 
 void PassTimers::endFrame() {
   if (!enabled_) return;
-  frames_[current_].number = ++counter_;
+  frames_[current_].pending = true;
   // Oldest first, so that results() only moves forward.
   for (std::size_t i = 1; i <= kFramesInFlight; ++i) {
     Frame& frame = frames_[(current_ + i) % kFramesInFlight];
-    if (frame.number == 0) continue;
+    if (!frame.pending) continue;
     const bool any =
         std::any_of(frame.times.begin(), frame.times.end(), [](const PassTime& t) { return t.ran; });
     if (queries_ && any && !frame.ends[frame.last].available()) break;
@@ -78,14 +78,13 @@ void PassTimers::collect(Frame& frame) {
       if (frame.times[i].ran)
         frame.times[i].gpu = static_cast<double>(frame.ends[i].result() - frame.starts[i].result()) * 1e-6;
   results_.assign(frame.times.begin(), frame.times.end());
-  resultFrame_ = frame.number;
-  frame.number = 0;
+  frame.pending = false;
 }
 
 void PassTimers::finish() {
   for (std::size_t i = 1; i <= kFramesInFlight; ++i) {
     Frame& frame = frames_[(current_ + i) % kFramesInFlight];
-    if (frame.number != 0) collect(frame);
+    if (frame.pending) collect(frame);
   }
 }
 

@@ -38,10 +38,6 @@ class PassTimers {
 
   // The newest frame whose times are complete (with queries some frames old); empty before the first.
   std::span<const PassTime> results() const { return results_; }
-  // Its number, counting endFrame() calls while enabled from 1; 0 before the first.
-  std::uint64_t resultFrame() const { return resultFrame_; }
-  // The number that the frame to begin next will have.
-  std::uint64_t nextFrame() const { return counter_ + 1; }
   // Waits for all frames in flight; results() is then the last one.
   void finish();
 
@@ -50,14 +46,13 @@ class PassTimers {
   struct Frame {
     std::vector<Query> starts, ends;
     std::vector<PassTime> times;
-    std::uint64_t number = 0;  // 0: nothing pending
-    std::uint32_t last = 0;    // the pass that ended last
+    bool pending = false;
+    std::uint32_t last = 0;  // the pass that ended last
   };
   void collect(Frame& frame);  // waits when it must
   bool queries_ = false, enabled_ = false;
   Frame frames_[kFramesInFlight];
   std::size_t current_ = 0;
-  std::uint64_t counter_ = 0, resultFrame_ = 0;
   double cpuStart_ = 0;
   std::vector<PassTime> results_;
 };

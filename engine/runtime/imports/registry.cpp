@@ -1,5 +1,6 @@
 #include "engine/runtime/imports/registry.h"
 
+#include "engine/imports/files.h"
 #include "engine/passes/draw/geometry.h"
 
 namespace weft::runtime {

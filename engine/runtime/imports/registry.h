@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "engine/graph/registry.h"
-#include "engine/imports/files.h"
 #include "engine/imports/import_registry.h"
 #include "engine/passes/pass_registry.h"
 

@@ -2,47 +2,49 @@
 // stay right when plans change in between.
 #pragma once
 
-#include <cstdint>
 #include <deque>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "engine/gl/objects/timers.h"
-#include "engine/runtime/frame/execution.h"
+#include "engine/graph/plan.h"
 
 namespace weft::runtime {
 
 struct FrameProfile {
-  std::uint64_t frame = 0;    // the caller's number
-  double start = 0, end = 0;  // ms of the steady clock, around the calls of the frame
+  double ms = 0;                                          // around the calls of the frame
   std::shared_ptr<const std::vector<std::string>> names;  // of the plan's steps
-  std::vector<gl::PassTime> passes;                       // parallel to names; empty when the timers were off
-  FrameReport report;
-  std::uint64_t bytesAllocated = 0;  // of the plan
+  // Parallel to names; empty when the timers were off. With queries they are those of a frame shortly before.
+  std::vector<gl::PassTime> passes;
 };
 
 class FrameProfiler {
  public:
+  static constexpr std::size_t kFrames = 240;
   // `timers` must outlive this.
-  explicit FrameProfiler(const gl::PassTimers& timers, std::size_t capacity = 240)
-      : timers_(timers), capacity_(capacity) {}
+  explicit FrameProfiler(const gl::PassTimers& timers) : timers_(timers) {}
 
-  // Around Execution::frame() of this plan.
-  void begin(const graph::Plan& plan, std::uint64_t frame);
-  void end(const FrameReport& report);
-  // Frames whose times are complete, the newest last.
+  // Around a frame, which runs `plan`.
+  void begin() { start_ = gl::steadyMs(); }
+  void end(const graph::Plan& plan) {
+    if (named_ != plan.graph) {
+      std::vector<std::string> names;
+      for (const graph::Step& step : plan.steps) names.push_back(plan.graph->passNames[step.pass]);
+      names_ = std::make_shared<const std::vector<std::string>>(std::move(names));
+      named_ = plan.graph;
+    }
+    FrameProfile& profile = history_.emplace_back(FrameProfile{gl::steadyMs() - start_, names_, {}});
+    if (timers_.enabled() && timers_.results().size() == names_->size())
+      profile.passes.assign(timers_.results().begin(), timers_.results().end());
+    if (history_.size() > kFrames) history_.pop_front();
+  }
+  // The newest last.
   const std::deque<FrameProfile>& history() const { return history_; }
 
  private:
-  struct Pending {
-    FrameProfile profile;
-    std::uint64_t number = 0;  // of the timers; 0: they were off
-  };
-
   const gl::PassTimers& timers_;
-  std::size_t capacity_;
-  std::deque<Pending> pending_;
+  double start_ = 0;
   std::deque<FrameProfile> history_;
   // The graph whose steps names_ are; held so that no other takes its place.
   std::shared_ptr<const graph::FlatGraph> named_;
