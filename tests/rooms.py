@@ -64,7 +64,7 @@ SUB_ROOMS = {
         "prepare": {"storage", "imports"},
         "uniforms": {"storage", "cadence", "imports", "prepare"},
         "frame": {"storage", "cadence", "imports", "prepare", "uniforms"},
-        "inspection": {"frame", "storage"},
+        "inspection": {"frame", "storage", "prepare"},
     },
     "app": {
         "import": set(),

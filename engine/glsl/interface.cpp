@@ -428,9 +428,6 @@ Interface readExpanded(std::string_view text, std::span<const Define> defines, B
                      .column = list.at.column,
                      .name = list.macro};
   measure(list.tokens, out.size);
-  if (list.nested > out.size.depth.count)
-    out.size.depth = {
-        .count = list.nested, .line = list.nestedAt.line, .column = list.nestedAt.column, .name = {}};
   return out;
 }
 

@@ -324,25 +324,12 @@ class Expander {
     }
     Tokens expanded;
     expand(line, expanded, 0);
-    noteNesting(expanded);
+    out_.uncertain |= expanded.size() > deepest_;
     const auto known = [](std::string_view name) -> std::optional<std::int64_t> {
       if (isDrivers(name)) return std::nullopt;
       return 0;
     };
     return evaluateTokens(expanded, known, deepest_);
-  }
-
-  // Brackets and signs of a condition, one inside or after the other.
-  void noteNesting(const Tokens& line) {
-    std::uint32_t nested = 0;
-    for (const Token& token : line) nested += token.kind == TokenKind::sign && !token.is(")") ? 1 : 0;
-    if (!line.empty()) nest(nested, line.front());
-  }
-
-  void nest(std::uint32_t depth, const Token& at) {
-    if (depth <= out_.nested) return;
-    out_.nested = depth;
-    out_.nestedAt = at;
   }
 
   void define(std::span<const Token> rest) {
@@ -452,7 +439,6 @@ class Expander {
       else
         arguments.back().push_back(*next);
     } while (true);
-    nest(depth + 1, place);
     if (depth + 1 >= deepest_) {
       out_.uncertain = true;
       return true;

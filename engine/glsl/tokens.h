@@ -35,9 +35,8 @@ struct TokenList {
   bool exceeded = false;           // there are more than `most`
   Token at;                        // the token of the text where that came to light
   std::string macro;               // which was being expanded there, or empty
-  std::uint32_t nested = 0;  // the deepest use of a macro in an argument of a macro, or brackets of an #if
-  Token nestedAt;
-  // A call of a macro that a directive interrupts: how much it makes was not counted.
+  // A call of a macro that a directive interrupts or that is nested too deeply: how much it makes was not counted. Or an #if
+  // that was too long to look at.
   bool uncertain = false;
 };
 

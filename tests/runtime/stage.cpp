@@ -77,6 +77,13 @@ void Stage::run(const FrameInput& input) {
   REQUIRE_MESSAGE(diagnostics.empty(), diagnostics.text());
 }
 
+bool Stage::ran(std::string_view pass) {
+  const graph::Plan& plan = execution().plan();
+  for (std::size_t step = 0; step < plan.steps.size(); ++step)
+    if (plan.graph->passNames[plan.steps[step].pass] == pass) return execution().steps().ran(step);
+  return false;
+}
+
 std::vector<float> Stage::read(const std::string& resource, std::uint32_t mip) {
   const gl::TextureRef texture = execution().texture(resource);
   REQUIRE_MESSAGE(texture.id != 0, resource);

@@ -51,7 +51,7 @@ class Stage {
   bool apply();                       // does not: the settings alone changed
   void run(std::uint32_t frame = 0);  // headless; requires that nothing is reported
   void run(const FrameInput& input);
-  bool ran(std::string_view pass) { return execution().ran(pass); }
+  bool ran(std::string_view pass);
   Execution& execution() { return *renderer_->execution(); }
   Renderer& renderer() { return *renderer_; }
   // Floats of a whole level of a resource, four per texel (depth: one).

@@ -22,7 +22,7 @@ struct OpenedContext {
 
 OpenedContext openOsmesa(const ContextOptions& options, std::vector<std::string>& failures);
 OpenedContext openGlfw(const ContextOptions& options, std::vector<std::string>& failures);
-// Hardware devices, then (unless hardwareOnly) software devices, then the surfaceless platform.
+// Hardware devices, then, unless hardwareOnly, software devices.
 OpenedContext openEgl(const ContextOptions& options, bool hardwareOnly, std::vector<std::string>& failures);
 
 }  // namespace weft::gl

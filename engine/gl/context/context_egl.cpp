@@ -1,5 +1,5 @@
-// EGL without a display: the device platform (every device it lists), then Mesa's surfaceless platform. Needs
-// no X, no Wayland and no DRM master, so that a GPU of a headless machine works.
+// EGL without a display: every device that the device platform lists. Needs no X, no Wayland and no DRM master, so that a GPU
+// of a headless machine works.
 #define EGL_NO_X11
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -146,18 +146,7 @@ OpenedContext openEgl(const ContextOptions& options, bool hardwareOnly, std::vec
       return {std::move(context), loader, device.name};
     failures.push_back(fmt::format("{}: {}", device.name, why));
   }
-  if (hardwareOnly) {
-    if (!seenHardware) failures.emplace_back("EGL: no hardware device");
-    return {};
-  }
-  if (!hasExtension(client, "EGL_MESA_platform_surfaceless")) {
-    failures.emplace_back("EGL surfaceless: EGL_MESA_platform_surfaceless is missing");
-    return {};
-  }
-  if (auto context =
-          openOn(display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr), options, why))
-    return {std::move(context), loader, "EGL surfaceless"};
-  failures.push_back(fmt::format("EGL surfaceless: {}", why));
+  if (hardwareOnly && !seenHardware) failures.emplace_back("EGL: no hardware device");
   return {};
 }
 

@@ -61,21 +61,19 @@ std::optional<float> EnvironmentTextures::send(const Map& map, text::Diagnostics
     incoming_ = {};
     auto texture = makeTexture(*map, diagnostics);
     if (!texture) return std::nullopt;
-    const std::size_t rowBytes = std::size_t{map->width} * 4 * sizeof(std::uint16_t);
-    auto stream = gl::PixelStream::create(
-        texture->ref(), 0, GL_RGBA, GL_HALF_FLOAT,
-        static_cast<std::uint32_t>(std::max<std::size_t>(1, kBytesPerFrame / rowBytes)), "@environment",
-        diagnostics);
-    if (!stream) return std::nullopt;
     incoming_.map = map;
     incoming_.texture = std::move(*texture);
-    incoming_.stream = std::move(stream);
   }
-  if (incoming_.stream) {
-    incoming_.stream->advance(bytesOf(*map));
-    const float sent = static_cast<float>(incoming_.stream->rows()) / static_cast<float>(map->height);
-    if (!incoming_.stream->sentAll()) return sent * kShareOfRows;
-    incoming_.stream.reset();
+  if (incoming_.rows < map->height) {
+    const std::size_t rowBytes = std::size_t{map->width} * 4 * sizeof(std::uint16_t);
+    const auto rows = static_cast<std::uint32_t>(
+        std::clamp<std::size_t>(kBytesPerFrame / rowBytes, 1, map->height - incoming_.rows));
+    glTextureSubImage2D(incoming_.texture.id(), 0, 0, static_cast<GLint>(incoming_.rows),
+                        static_cast<GLsizei>(map->width), static_cast<GLsizei>(rows), GL_RGBA, GL_HALF_FLOAT,
+                        bytesOf(*map).data() + incoming_.rows * rowBytes);
+    incoming_.rows += rows;
+    if (incoming_.rows < map->height)
+      return kShareOfRows * static_cast<float>(incoming_.rows) / static_cast<float>(map->height);
     glGenerateTextureMipmap(incoming_.texture.id());
     incoming_.last = gl::Fence::insert();
   }

@@ -8,7 +8,6 @@
 
 #include "engine/assets/environments/environment_map.h"
 #include "engine/gl/objects/objects.h"
-#include "engine/gl/objects/streams.h"
 #include "engine/imports/import.h"
 #include "engine/text/diagnostic.h"
 
@@ -22,7 +21,7 @@ class EnvironmentTextures {
   static constexpr std::size_t kBytesPerFrame = std::size_t{4} << 20;
   // Call once per frame with the same map: sends the next portion beside the texture in use. 1 when use()
   // will take it without another upload. Another map drops what was sent of the one before. Empty when the
-  // GPU has no room: W116, W117.
+  // GPU has no room: W116.
   std::optional<float> send(const Map& map, text::Diagnostics& diagnostics);
   void stopSending() { incoming_ = {}; }
 
@@ -36,8 +35,8 @@ class EnvironmentTextures {
   struct Incoming {
     Map map;
     gl::Texture texture;
-    std::optional<gl::PixelStream> stream;
-    gl::Fence last;  // behind the levels, which are made when all rows are sent
+    std::uint32_t rows = 0;  // that are sent
+    gl::Fence last;          // behind the levels, which are made when all rows are sent
   };
   Incoming incoming_;
   std::uint64_t currentId_ = 0;

@@ -315,10 +315,4 @@ bool Execution::remembers(const World& world) const {
   return false;
 }
 
-bool Execution::ran(std::string_view pass) const {
-  for (std::size_t step = 0; step < prepared_.passes.size(); ++step)
-    if (prepared_.passes[step].context.spec->name == pass) return steps_.ran(step);
-  return false;
-}
-
 }  // namespace weft::runtime

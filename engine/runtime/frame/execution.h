@@ -56,9 +56,8 @@ class Execution {
   // them.
   ReadBack& readBack() { return readBack_; }
   const ReadBack& readBack() const { return readBack_; }
-  // What ran in the last frame, per step and by the name of a pass.
+  // What ran in the last frame.
   const FrameCadence& steps() const { return steps_; }
-  bool ran(std::string_view pass) const;
 
   // Whether a frame may differ by which frames ran before it: by a live history, by an import that remembers, or by results
   // that are kept and were made of something that moves. If not, headless frame n may be the first to run.

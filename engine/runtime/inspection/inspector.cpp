@@ -8,21 +8,11 @@
 #include <limits>
 
 #include "engine/runtime/frame/gl_state.h"
+#include "engine/runtime/prepare/program_request.h"
 
 namespace weft::runtime {
 
 using graph::kNone;
-
-namespace {
-
-constexpr const char* kVertex = R"(
-void main() {
-  vec2 corner = vec2(float((gl_VertexID << 1) & 2), float(gl_VertexID & 2));
-  gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
-}
-)";
-
-}  // namespace
 
 std::vector<std::string> Inspector::writersOf(const graph::Plan& plan, std::uint32_t resource) {
   std::vector<std::string> names;
@@ -147,7 +137,7 @@ GLuint Inspector::draw(const InspectView& view, std::uint32_t width, std::uint32
                                                                             : 0;
   gl::ProgramRequest request;
   request.label = "inspector";
-  request.stages = {{GL_VERTEX_SHADER, "inspector.vert.glsl", kVertex},
+  request.stages = {{GL_VERTEX_SHADER, "inspector.vert.glsl", kFullscreenVertex},
                     {GL_FRAGMENT_SHADER, "inspect/inspect.frag.glsl", ""}};
   request.defines = {{"INTEGER", std::to_string(integer)}};
   request.outputs = {"result"};

@@ -16,18 +16,13 @@ using graph::Plan;
 using graph::ShaderShape;
 using graph::SlotSpec;
 
-namespace {
-
-// z = 0 is the far plane (reversed Z), so that a depth test "equal" against a cleared buffer finds the background.
-constexpr const char* kFullscreenVertex = R"(
+const char* const kFullscreenVertex = R"(
 out vec2 uv;
 void main() {
   uv = vec2(float((gl_VertexID << 1) & 2), float(gl_VertexID & 2));
   gl_Position = vec4(uv * 2.0 - 1.0, 0.0, 1.0);
 }
 )";
-
-}  // namespace
 
 std::string presenceDefineOf(std::string_view name) {
   std::string text = "HAS_" + std::string(name);

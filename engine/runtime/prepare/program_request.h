@@ -10,6 +10,10 @@
 
 namespace weft::runtime {
 
+// The vertex shader of a triangle over the whole picture. z = 0 is the far plane (reversed Z), so that a depth test "equal"
+// against a cleared buffer finds the background.
+extern const char* const kFullscreenVertex;
+
 // Whether an attachment does no more than say how large the raster of a pass is that stores: nobody reads it, and the
 // shader need not write it.
 bool givesRasterAlone(const graph::Plan& plan, std::uint32_t pass, std::uint32_t use);
