@@ -1,5 +1,4 @@
-#include "engine/gl/programs/log.h"
-
+// Logs of shader compilers and linkers as diagnostics with true places. Declared in program.h.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +6,7 @@
 #include <optional>
 #include <regex>
 
+#include "engine/gl/programs/program.h"
 #include "engine/glsl/interface.h"
 #include "engine/glsl/tokens.h"
 #include "engine/text/chars.h"

@@ -9,7 +9,6 @@
 #include <tuple>
 
 #include "engine/gl/context/debug.h"
-#include "engine/gl/programs/log.h"
 
 namespace weft::gl {
 
@@ -265,7 +264,6 @@ std::optional<Program> Program::compile(std::span<const StageSource> stages,
   if (!compiled) return std::nullopt;
 
   Program program(glCreateProgram());
-  program.label_ = label;
   labelObject(GL_PROGRAM, program.id_, label);
   glProgramParameteri(program.id_, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
   for (const Shader& shader : shaders) glAttachShader(program.id_, shader.id());
@@ -288,7 +286,6 @@ std::optional<Program> Program::compile(std::span<const StageSource> stages,
 
 std::optional<Program> Program::load(const ProgramBinary& binary, bool compute, std::string_view label) {
   Program program(glCreateProgram());
-  program.label_ = label;
   labelObject(GL_PROGRAM, program.id_, label);
   glProgramBinary(program.id_, binary.format, binary.bytes.data(), static_cast<GLsizei>(binary.bytes.size()));
   GLint linked = 0;

@@ -219,7 +219,7 @@ void Execution::lookAtMeshes() {
 
 bool Execution::drawsMotion() const {
   return std::ranges::any_of(prepared_.passes, [&](const PreparedPass& pass) {
-    return pass.usable && pass.list >= 0 &&
+    return pass.list >= 0 &&
            device_.imports.isMoving(static_cast<scene::DrawList>(pass.list), pass.meshes != nullptr);
   });
 }
@@ -231,9 +231,7 @@ gl::TextureRef Execution::texture(std::string_view name) {
 
 gl::TextureRef Execution::texture(std::uint32_t r, std::uint32_t history) {
   text::Diagnostics ignored;
-  const graph::FlatResource& desc = plan().graph->resources[r];
-  const FlatUse all{.resource = r, .mips = desc.mips, .layers = desc.layers};
-  return prepared_.pool->view(plan(), all, (*prepared_.pool)[r].copyOf(history), 0, ignored);
+  return prepared_.pool->whole(plan(), r, (*prepared_.pool)[r].copyOf(history), ignored);
 }
 
 BufferRef Execution::buffer(std::string_view name, std::uint64_t& offset) {

@@ -235,7 +235,7 @@ std::optional<PreparedPlan> preparePlan(Device& device, std::shared_ptr<const gr
   text::Diagnostics problems;
   for (std::size_t step = 0; step < steps; ++step) {
     const std::uint32_t old = keeper ? keeper->stepBefore(step) : graph::kNone;
-    if (old != graph::kNone && before->passes[old].usable && keeper->isSame(step, old)) same[step] = old;
+    if (old != graph::kNone && keeper->isSame(step, old)) same[step] = old;
     if (files == ShaderFiles::read || same[step] == graph::kNone)
       variants[step] = findVariant(device, *made.plan, step, problems);
     else
@@ -263,7 +263,7 @@ std::optional<PreparedPlan> preparePlan(Device& device, std::shared_ptr<const gr
     text::Diagnostics said;
     PrepareContext context{
         *made.plan, device.passTypes, variants[step], *made.pool, device.geometries, device.samplers, said};
-    PreparedPass& pass = made.passes[step] = preparePass(context, step);
+    std::optional<PreparedPass> pass = preparePass(context, step);
     appendWithPlaces(
         said,
         [&](text::Diagnostic& d) {
@@ -271,8 +271,9 @@ std::optional<PreparedPlan> preparePlan(Device& device, std::shared_ptr<const gr
           d.pass = spec.name;
         },
         diagnostics);
-    std::copy_n(device.context.device().limits.computeGroups, 3, pass.context.maxGroups);
-    if (!pass.usable) return std::nullopt;
+    if (!pass) return std::nullopt;
+    std::copy_n(device.context.device().limits.computeGroups, 3, pass->context.maxGroups);
+    made.passes[step] = *std::move(pass);
   }
   return made;
 }

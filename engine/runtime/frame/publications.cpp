@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/graph/pick/pick.h"
 #include "engine/text/hash.h"
 
 namespace weft::runtime {
@@ -273,12 +274,8 @@ void Publications::continueImports(const Publications& before) {
 std::uint32_t lastVersionOf(const graph::Plan& plan, std::string_view name) {
   std::uint32_t found = kNone;
   const auto& names = plan.graph->resourceNames;
-  for (std::uint32_t r = 0; r < names.size(); ++r) {
-    const std::string_view each = names[r];
-    const bool version =
-        each == name || (each.starts_with(name) && each.size() > name.size() && each[name.size()] == '#');
-    if (version && plan.firstStep[r] != kNone) found = r;
-  }
+  for (std::uint32_t r = 0; r < names.size(); ++r)
+    if ((names[r] == name || graph::sharedName(names[r]) == name) && plan.firstStep[r] != kNone) found = r;
   return found;
 }
 

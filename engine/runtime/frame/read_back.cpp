@@ -166,8 +166,8 @@ void ReadBack::copyTexture(const graph::Plan& plan, const FlatUse& use, Resource
                            FramebufferCache& framebuffers, const Slot& slot, std::uint64_t offset,
                            text::Diagnostics& diagnostics) {
   const FlatResource& resource = plan.graph->resources[use.resource];
-  const FlatUse all{.resource = use.resource, .mips = resource.mips, .layers = resource.layers};
-  const gl::TextureRef texture = pool.view(plan, all, pool[use.resource].copyOf(use.history), 0, diagnostics);
+  const gl::TextureRef texture =
+      pool.whole(plan, use.resource, pool[use.resource].copyOf(use.history), diagnostics);
   const Client client = clientOf(resource, use);
   const bool plain = resource.target == graph::Target::texture_2d,
              volume = resource.target == graph::Target::texture_3d;

@@ -36,23 +36,11 @@ std::vector<std::string> shaderRootsOf(std::span<const std::string> files, const
   return roots;
 }
 
-namespace {
-
-// As far as they are known before the graph was read.
-std::vector<std::string> givenFiles(const std::string& graphPath, const Renderer::Options& options) {
-  std::vector<std::string> files{graphPath};
-  files.insert(files.end(), options.presets.begin(), options.presets.end());
-  return files;
-}
-
-}  // namespace
-
 Renderer::Renderer(gl::Context& context, const std::string& graphPath, Options options)
     : graphPath_(graphPath),
       options_(std::move(options)),
-      device_(std::make_unique<Device>(context,
-                                       shaderRootsOf(givenFiles(graphPath, options_), options_.dataFolder),
-                                       options_.cacheFolder, options_.trial, options_.plugIns)),
+      device_(std::make_unique<Device>(context, std::vector<std::string>{}, options_.cacheFolder,
+                                       options_.trial, options_.plugIns)),
       registry_(makeRegistry(device_->plugIns, {})) {}
 
 Renderer::~Renderer() = default;
@@ -190,20 +178,6 @@ void Renderer::blackOut() {
   clearTexture(texture, graph.resources[graph.present.resource].format, 0, 0, 1,
                graph::Value{graph::Value::Type::list, 4, {0, 0, 0, 1}, {}});
 }
-
-namespace {
-
-// The rows of a picture, the last one first.
-template <class To, class From>
-std::vector<To> flipped(const std::vector<From>& texels, std::size_t row) {
-  std::vector<To> out;
-  out.reserve(texels.size());
-  for (std::size_t end = texels.size(); end > 0; end -= row)
-    for (std::size_t i = end - row; i < end; ++i) out.push_back(static_cast<To>(texels[i]));
-  return out;
-}
-
-}  // namespace
 
 std::optional<assets::ImageF> Renderer::readPresentedFloat() {
   const gl::TextureRef texture = execution_ ? execution_->presented() : gl::TextureRef{};

@@ -99,9 +99,7 @@ void StepRunner::clear(const PreparedPass& pass, GLuint framebuffer, text::Diagn
     } else if (clear.attachment >= 0 && framebuffer) {
       clearAttachment(framebuffer, pass.attachments[static_cast<std::size_t>(clear.attachment)].point, clear);
     } else {
-      const graph::FlatResource& desc = plan_.graph->resources[clear.use.resource];
-      const FlatUse all{.resource = clear.use.resource, .mips = desc.mips, .layers = desc.layers};
-      const gl::TextureRef ref = pool_.view(plan_, all, copy, 0, diagnostics);
+      const gl::TextureRef ref = pool_.whole(plan_, clear.use.resource, copy, diagnostics);
       for (std::uint32_t mip = clear.use.mip; mip < clear.use.mip + clear.use.mips; ++mip)
         clearTexture(ref, clear.format, mip, clear.use.layer, clear.use.layers, clear.value);
     }

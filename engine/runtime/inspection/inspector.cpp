@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "engine/runtime/frame/gl_state.h"
@@ -316,26 +315,17 @@ std::optional<assets::Image8> Inspector::drawWhole(const InspectView& view, text
   whole.x = whole.y = 0;
   whole.texelsPerPixel = 1;
   if (draw(whole, picture_.desc().width, picture_.desc().height, diagnostics) == 0) return std::nullopt;
-  const std::vector<std::byte> pixels = gl::readTexture(canvas_.ref(), 0, 0, GL_RGBA, GL_UNSIGNED_BYTE);
-  assets::Image8 image{
-      static_cast<int>(canvas_.desc().width), static_cast<int>(canvas_.desc().height), 4, {}};
-  image.texels.resize(pixels.size());
-  const std::size_t row = std::size_t{canvas_.desc().width} * 4, rows = canvas_.desc().height;
-  for (std::size_t y = 0; y < rows; ++y)
-    std::memcpy(&image.texels[y * row], &pixels[(rows - 1 - y) * row], row);
-  return image;
+  const gl::TextureDesc& size = canvas_.desc();
+  return assets::Image8{static_cast<int>(size.width), static_cast<int>(size.height), 4,
+                        flipped<std::uint8_t>(gl::readTexture(canvas_.ref(), 0, 0, GL_RGBA, GL_UNSIGNED_BYTE),
+                                              std::size_t{size.width} * 4)};
 }
 
 std::optional<assets::ImageF> Inspector::values() const {
   if (!hasPicture_) return std::nullopt;
   const std::uint32_t width = picture_.desc().width, rows = picture_.desc().height;
-  const std::vector<double> texels = read(0, 0, width, rows);
-  const std::size_t row = std::size_t{width} * numbers();
-  assets::ImageF image{static_cast<int>(width), static_cast<int>(rows), static_cast<int>(numbers()), {}};
-  image.texels.reserve(texels.size());
-  for (std::size_t y = rows; y-- > 0;)
-    for (std::size_t i = 0; i < row; ++i) image.texels.push_back(static_cast<float>(texels[y * row + i]));
-  return image;
+  return assets::ImageF{static_cast<int>(width), static_cast<int>(rows), static_cast<int>(numbers()),
+                        flipped<float>(read(0, 0, width, rows), std::size_t{width} * numbers())};
 }
 
 std::vector<std::byte> Inspector::bytes(std::uint64_t offset, std::uint64_t count) const {

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <utility>
 
+#include "engine/graph/pick/pick.h"
 #include "engine/runtime/frame/gl_state.h"
 #include "engine/runtime/storage/formats.h"
 #include "engine/runtime/storage/resource_pool.h"
@@ -29,10 +30,6 @@ std::uint64_t hashOf(const void* data, std::size_t bytes, std::uint64_t hash) {
 bool isInteger(GLenum format) {
   const gl::FormatClass kind = gl::classOf(format);
   return kind == gl::FormatClass::unsigned_integer || kind == gl::FormatClass::signed_integer;
-}
-
-std::string nameWithoutVersion(const std::string& name) {
-  return name.substr(0, name.find('#'));
 }
 
 }  // namespace
@@ -178,7 +175,7 @@ void StepRecorder::look(Execution& execution, std::uint32_t step) {
   glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
   std::vector<std::pair<std::string, Sum>> sums;  // in the order of the slots
   plan.forEachWrite(step, [&](const graph::FlatUse& use) {
-    const std::string name = nameWithoutVersion(graph.resourceNames[use.resource]);
+    const std::string name(graph::sharedName(graph.resourceNames[use.resource]));
     auto sum = std::ranges::find(sums, name, &std::pair<std::string, Sum>::first);
     if (sum == sums.end()) sum = sums.emplace(sums.end(), name, Sum{});
     add(execution, use, sum->second);

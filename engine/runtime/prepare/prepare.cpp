@@ -25,7 +25,7 @@ class Preparer {
   Preparer(PrepareContext& context, std::size_t step)
       : c_(context), step_(c_.plan.steps[step]), graph_(*c_.plan.graph), spec_(graph_.specs[step_.pass]) {}
 
-  PreparedPass run() {
+  std::optional<PreparedPass> run() {
     out_.type = c_.types.find(spec_.type);
     out_.context.spec = &spec_;
     const graph::PassType type = out_.type->reflect();
@@ -34,10 +34,9 @@ class Preparer {
     out_.group = c_.plan.groups.groupOf(step_.pass);
     collectUses();
     const bool shaded = type.shader != graph::ShaderShape::none;
-    out_.usable = !shaded || takeProgram();
-    if (!out_.usable) return std::move(out_);
-    out_.usable = shaded ? bindSlots() : bindFixed();
-    if (out_.usable && shaded) prepareGeometry(type);
+    if (shaded) takeProgram();
+    if (!(shaded ? bindSlots() : bindFixed())) return std::nullopt;
+    if (shaded) prepareGeometry(type);
     collectClears();
     return std::move(out_);
   }
@@ -60,16 +59,14 @@ class Preparer {
     }
   }
 
-  bool takeProgram() {
+  void takeProgram() {
     out_.variant = c_.variant;
-    if (!out_.variant) return false;
     out_.programHash = text::hashBytes(out_.variant->key);
     const gl::Reflection& reflection = out_.variant->program.reflection();
     out_.parametersBlock = reflection.findUniformBlock("Parameters");
     out_.viewBlock = reflection.findUniformBlock("View");
     out_.sliceBlock = reflection.findUniformBlock("Slice");
     std::copy_n(reflection.workGroup, 3, out_.context.groupSize);
-    return true;
   }
 
   std::vector<GLuint> viewsOf(const FlatUse& use, GLenum target) {
@@ -234,14 +231,9 @@ class Preparer {
     return true;
   }
 
-  FlatUse wholeOf(const FlatUse& use) const {
-    FlatUse whole = use;
-    whole.mip = 0;
-    whole.mips = graph_.resources[use.resource].mips;
-    whole.layer = 0;
-    whole.layers = graph_.resources[use.resource].layers;
-    whole.planes = 1;
-    return whole;
+  std::vector<GLuint> wholesOf(std::uint32_t resource) {
+    const FlatResource& desc = graph_.resources[resource];
+    return viewsOf({.resource = resource, .mips = desc.mips, .layers = desc.layers}, 0);
   }
 
   // Attachments go through a view of the whole resource, so that equal storage gives equal framebuffers.
@@ -253,7 +245,7 @@ class Preparer {
     const bool plain = resource.target == graph::Target::texture_2d ||
                        resource.target == graph::Target::texture_2d_multisample;
     binding.layer = plain || use.layers > 1 || resource.target == graph::Target::texture_3d ? -1 : use.layer;
-    binding.textures = viewsOf(wholeOf(use), 0);
+    binding.textures = wholesOf(use.resource);
     out_.width = std::max(1u, resource.width >> use.mip);
     out_.height = std::max(1u, resource.height >> use.mip);
     out_.encodesSrgb |= resource.format == graph::Format::srgb8_a8;
@@ -284,7 +276,7 @@ class Preparer {
       binding.mip = use.mip;
       if (use.layers < resource.layers && use.layers == 1) binding.layer = use.layer;
       if (out_.framebuffers)
-        binding.textures = viewsOf(wholeOf(use), 0);
+        binding.textures = wholesOf(use.resource);
       else
         binding.part = importPartOf(use, 0);
       passes::BoundTexture& bound = from ? out_.context.source : out_.context.destination;
@@ -341,7 +333,7 @@ class Preparer {
 
 }  // namespace
 
-PreparedPass preparePass(PrepareContext& context, std::size_t step) {
+std::optional<PreparedPass> preparePass(PrepareContext& context, std::size_t step) {
   return Preparer(context, step).run();
 }
 

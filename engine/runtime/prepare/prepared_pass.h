@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -129,9 +130,7 @@ struct DynamicUniform {
 struct PreparedPass {
   const passes::PassType* type = nullptr;
   passes::PassContext context;
-  std::shared_ptr<const gl::Variant>
-      variant;          // null for types without a shader, or when it failed to compile
-  bool usable = false;  // false: the pass is skipped until its shader compiles
+  std::shared_ptr<const gl::Variant> variant;  // null for types without a shader
   std::vector<TextureBinding> textures;
   std::vector<BufferBinding> buffers;
   std::vector<AttachmentBinding> attachments;
@@ -168,8 +167,8 @@ struct PrepareContext {
   text::Diagnostics& diagnostics;
 };
 
-// Fills everything but the uniform offsets. Reports what does not fit; `usable` says whether the pass can run.
-PreparedPass preparePass(PrepareContext& context, std::size_t step);
+// Fills everything but the uniform offsets. Nothing when the device refuses a view, which is reported.
+std::optional<PreparedPass> preparePass(PrepareContext& context, std::size_t step);
 
 // How many instances a draw has whose number contains age(), see PassSpec::timedInstances.
 std::uint32_t instancesAt(const graph::Expr& timed, const std::function<double(std::uint32_t)>& ageOf);

@@ -534,7 +534,8 @@ class Checker {
       if (!ours && !isSlot(block.name) && block.name != misnamed_) unfed("a uniform block", block.name);
     }
     for (const auto& loose : reflection.looseUniforms) {
-      std::string hint = isViewMember(loose.name)
+      const std::vector<std::string> names = viewMemberNames();
+      std::string hint = std::ranges::find(names, loose.name) != names.end()
                              ? fmt::format("remove it: #include \"common/view.glsl\" has '{}'", loose.name)
                              : "move it into `layout(std140) uniform Parameters { … };`";
       std::string message =

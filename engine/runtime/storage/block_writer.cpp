@@ -107,12 +107,6 @@ std::vector<std::string> viewMemberNames() {
   return names;
 }
 
-bool isViewMember(std::string_view name) {
-  for (const ViewMember& member : kViewMembers)
-    if (name == member.name) return true;
-  return false;
-}
-
 void writeView(std::byte* block, const gl::Block& layout, const scene::ViewData& view, glm::vec2 viewport,
                bool timeless) {
   for (const gl::BlockMember& member : layout.members)

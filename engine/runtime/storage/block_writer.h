@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "engine/gl/programs/program.h"
@@ -24,7 +23,6 @@ void writeValue(std::byte* block, const gl::BlockMember& member, const graph::Va
 
 // The names that the View block may declare (docs/shaders.md).
 std::vector<std::string> viewMemberNames();
-bool isViewMember(std::string_view name);
 // Writes the members of `layout` that are view members. `viewport` (pixels) replaces the camera's. `timeless`: frame and
 // times are 0, as for passes that are not `always`.
 void writeView(std::byte* block, const gl::Block& layout, const scene::ViewData& view, glm::vec2 viewport,

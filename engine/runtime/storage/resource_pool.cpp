@@ -39,10 +39,6 @@ gl::TextureDesc descOf(const Storage& s) {
           .samples = s.samples};
 }
 
-bool isTexture(const FlatResource& r) {
-  return r.kind == ResourceKind::texture;
-}
-
 }  // namespace
 
 std::shared_ptr<PhysicalTexture> PhysicalTexture::create(const Storage& storage, std::string owner,
@@ -81,16 +77,6 @@ gl::TextureRef PhysicalTexture::view(std::uint32_t copy, const gl::ViewDesc& des
 }
 
 namespace {
-
-// The largest of the buffers that share the arena; kNone when there are none.
-std::uint32_t largestTransientOf(const Plan& plan) {
-  std::uint32_t largest = kNone;
-  for (std::uint32_t r = 0; r < plan.bufferOffsetOf.size(); ++r)
-    if (plan.bufferOffsetOf[r] != Plan::kNoOffset &&
-        (largest == kNone || plan.graph->resources[r].bytes > plan.graph->resources[largest].bytes))
-      largest = r;
-  return largest;
-}
 
 // Reports buffers that are larger than the largest block of the device, whose end no shader could reach.
 bool checkBlocks(const Plan& plan, text::Diagnostics& diagnostics) {
@@ -163,8 +149,7 @@ void ResourcePool::fill(const Plan& plan, std::uint32_t resource, const graph::V
   const FlatResource& r = plan.graph->resources[resource];
   for (std::uint32_t copy = 0; copy < mine.copies; ++copy) {
     if (mine.texture) {
-      const FlatUse all{.resource = resource, .mips = r.mips, .layers = r.layers};
-      const gl::TextureRef ref = view(plan, all, copy, 0, diagnostics);
+      const gl::TextureRef ref = whole(plan, resource, copy, diagnostics);
       for (std::uint32_t mip = 0; mip < r.mips && ref.id; ++mip)
         clearTexture(ref, r.format, mip, 0, r.layers, value);
     } else if (copy < mine.buffers.size()) {
@@ -212,7 +197,7 @@ bool ResourcePool::createTextures(const Plan& plan, const ResourcePool* before,
   }
   for (std::size_t r = 0; r < resources_.size(); ++r) {
     const std::uint32_t s = plan.storageOf[r];
-    if (s == kNone || !isTexture(plan.graph->resources[r])) continue;
+    if (s == kNone || plan.graph->resources[r].kind != ResourceKind::texture) continue;
     GpuResource& mine = resources_[r];
     mine.texture = textures[s];
     mine.copies = mine.texture->copies();
@@ -250,10 +235,7 @@ bool ResourcePool::createArena(const Plan& plan, const ResourcePool* before, tex
     arena_ = before->arena_;
     return true;
   }
-  // A refusal is reported by the largest of the buffers, which has a place.
-  const std::uint32_t largest = largestTransientOf(plan);
-  arena_ =
-      createBuffer(1, plan.arenaBytes, largest == kNone ? "transient buffers" : names_[largest], diagnostics);
+  arena_ = createBuffer(1, plan.arenaBytes, "transient buffers", diagnostics);
   return arena_ != nullptr;
 }
 
@@ -299,6 +281,12 @@ gl::TextureRef ResourcePool::view(const Plan& plan, const FlatUse& use, std::uin
                     .layers = use.layers,
                     .stencil = use.planes == 2};
   return mine.texture->view(copy, view, diagnostics);
+}
+
+gl::TextureRef ResourcePool::whole(const Plan& plan, std::uint32_t resource, std::uint32_t copy,
+                                   text::Diagnostics& diagnostics) {
+  const FlatResource& desc = plan.graph->resources[resource];
+  return view(plan, {.resource = resource, .mips = desc.mips, .layers = desc.layers}, copy, 0, diagnostics);
 }
 
 void clearTexture(const gl::TextureRef& texture, graph::Format format, std::uint32_t mip, std::uint32_t layer,

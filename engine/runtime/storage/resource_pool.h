@@ -96,6 +96,9 @@ class ResourcePool {
   // A view of the levels and layers of `use` in the resource's own format. `target` 0: the resource's own target.
   gl::TextureRef view(const graph::Plan& plan, const graph::FlatUse& use, std::uint32_t copy, GLenum target,
                       text::Diagnostics& diagnostics);
+  // All of a resource in its own format and target.
+  gl::TextureRef whole(const graph::Plan& plan, std::uint32_t resource, std::uint32_t copy,
+                       text::Diagnostics& diagnostics);
   // Fills every copy of a resource of the graph's own with `value`.
   void fill(const graph::Plan& plan, std::uint32_t resource, const graph::Value& value,
             text::Diagnostics& diagnostics);

@@ -82,7 +82,7 @@ void FrameUniforms::refresh(std::span<PreparedPass> passes, const std::function<
   for (std::size_t step = 0; step < passes.size(); ++step) {
     PreparedPass& pass = passes[step];
     const bool timeless = graph.passes[plan_.steps[step].pass].cadence != graph::Cadence::always;
-    if (!pass.usable || (alwaysOnly && timeless)) continue;
+    if (alwaysOnly && timeless) continue;
     for (const DynamicUniform& uniform : pass.dynamics)
       write(pass.parametersOffset, uniform.member, uniform.expr.evaluateFolded(ageOf, parameters_));
     if (const graph::Expr& timed = pass.context.spec->timedInstances; timed.present())

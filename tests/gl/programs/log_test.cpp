@@ -1,8 +1,7 @@
 // What a shader's author reads: the driver's log at the true place, with what to write for a name that is not declared.
-#include "engine/gl/programs/log.h"
-
 #include <doctest/doctest.h>
 
+#include "engine/gl/programs/program.h"
 #include "engine/glsl/source.h"
 #include "tests/gl/documented.h"
 #include "tests/temporary_folder.h"

@@ -49,9 +49,6 @@ TEST_CASE("a frame writes what depends on time; a parameter is written when it i
   CHECK(live.uniforms.parameters()[1] == Value::number(7));
   live.uniforms.refresh(live.on.passes, agedBy(5), true);  // the pass is `always`
   CHECK(live.amountOf("timed") == 20);
-  live.on["timed"].usable = false;
-  live.uniforms.refresh(live.on.passes, agedBy(6), false);
-  CHECK(live.amountOf("timed") == 20);
 }
 
 TEST_CASE("slices: the pass type learns its part, and the shader where that begins") {
