@@ -408,29 +408,6 @@ void measure(Words tokens, ShaderSize& size) {
   }
 }
 
-Interface readExpanded(std::string_view text, std::span<const Define> defines, Branches branches) {
-  const std::uint64_t most = text::raised(kMaxShaderTokens);
-  const auto deepest =
-      static_cast<std::uint32_t>(std::min<std::uint64_t>(text::raised(kMaxShaderDepth), 5000));
-  if (text.size() > text::raised(kMaxShaderBytes)) {
-    Interface none;
-    none.unsure = true;
-    none.size.bytes = text.size();
-    return none;
-  }
-  TokenList list = expandTokens(text, defines, most, deepest + 1, branches);
-  Interface out = readInterface(list.tokens);
-  out.unsure = out.unsure || list.exceeded || list.uncertain;
-  out.pasted = std::move(list.pasted);
-  out.size.bytes = text.size();
-  out.size.tokens = {.count = list.exceeded ? most + 1 : list.tokens.size(),
-                     .line = list.at.line,
-                     .column = list.at.column,
-                     .name = list.macro};
-  measure(list.tokens, out.size);
-  return out;
-}
-
 }  // namespace
 
 bool checkShaderSize(const ShaderSize& size, const ShaderSource& source, text::Diagnostics& diagnostics) {
@@ -504,12 +481,27 @@ Interface readInterface(std::span<const Token> tokens) {
   return out;
 }
 
-Interface readInterface(std::string_view text, std::span<const Define> defines) {
-  return readExpanded(text, defines, Branches::taken);
-}
-
-Interface readAllBranches(std::string_view text) {
-  return readExpanded(text, {}, Branches::all);
+Interface readInterface(std::string_view text, std::span<const Define> defines, Branches branches) {
+  const std::uint64_t most = text::raised(kMaxShaderTokens);
+  const auto deepest =
+      static_cast<std::uint32_t>(std::min<std::uint64_t>(text::raised(kMaxShaderDepth), 5000));
+  if (text.size() > text::raised(kMaxShaderBytes)) {
+    Interface none;
+    none.unsure = true;
+    none.size.bytes = text.size();
+    return none;
+  }
+  TokenList list = expandTokens(text, defines, most, deepest + 1, branches);
+  Interface out = readInterface(list.tokens);
+  out.unsure = out.unsure || list.exceeded || list.uncertain;
+  out.pasted = std::move(list.pasted);
+  out.size.bytes = text.size();
+  out.size.tokens = {.count = list.exceeded ? most + 1 : list.tokens.size(),
+                     .line = list.at.line,
+                     .column = list.at.column,
+                     .name = list.macro};
+  measure(list.tokens, out.size);
+  return out;
 }
 
 }  // namespace weft::glsl

@@ -93,8 +93,8 @@ bool isUnusual(const Interface& interface);
 // Of these tokens, directives apart.
 Interface readInterface(std::span<const Token> tokens);
 // Of a text with these defines, as assembleSource() puts them before it. The text must outlive the interface.
-Interface readInterface(std::string_view text, std::span<const Define> defines);
-// Of all branches of every #if at once: a name may be several things.
-Interface readAllBranches(std::string_view text);
+// Of all branches of every #if at once a name may be several things.
+Interface readInterface(std::string_view text, std::span<const Define> defines,
+                        Branches branches = Branches::taken);
 
 }  // namespace weft::glsl

@@ -386,7 +386,7 @@ const Interface& ShaderSource::interfaceWith(std::span<const Define> defines) co
 }
 
 const Interface& ShaderSource::ofAllBranches() const {
-  if (!allBranches_) allBranches_ = std::make_shared<const Interface>(readAllBranches(text));
+  if (!allBranches_) allBranches_ = std::make_shared<const Interface>(readInterface(text, {}, Branches::all));
   return *allBranches_;
 }
 

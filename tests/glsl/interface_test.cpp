@@ -50,7 +50,7 @@ std::vector<std::string> typesOf(const Interface& interface, std::string_view ow
 }  // namespace
 
 TEST_CASE("each name of a shader has the role that its declaration gives it") {
-  const Interface interface = readAllBranches(kText);
+  const Interface interface = readInterface(kText, {}, Branches::all);
   CHECK_FALSE(interface.unsure);
   for (const auto& [name, role] : std::initializer_list<std::pair<const char*, Role>>{
            {"source", Role::sampler},     {"mask", Role::sampler},   {"maps", Role::sampler},
@@ -121,7 +121,7 @@ layout(std140) uniform Parameters {
 };
 void main() { imageStore(result, ivec2(0), vec4(bias)); }
 )";
-  const Interface all = readAllBranches(branches);
+  const Interface all = readInterface(branches, {}, Branches::all);
   CHECK(all.find("mask", Role::sampler));
   CHECK(all.find("gain", Role::member));
   const Define defines[] = {{"MODE", "1"}, {"MODE_A", "0"}, {"HAS_GAIN", "1"}};
@@ -136,7 +136,7 @@ TEST_CASE("what a macro stands for is declared where the macro stands") {
       "#define SLOT sampler2D source\n#define MAP(n) sampler2D n##_map\n#define T vec2\n#define STRENGTH "
       "strength\n"
       "#if A\nuniform SLOT;\nuniform MAP(color);\n#endif\nin T uv;\nvoid main() { float strength = 1.0; }\n";
-  const Interface interface = readAllBranches(text);
+  const Interface interface = readInterface(text, {}, Branches::all);
   CHECK(interface.find("source", Role::sampler));
   CHECK(interface.find("color_map", Role::sampler));
   CHECK(interface.find("uv", Role::input));
@@ -144,7 +144,8 @@ TEST_CASE("what a macro stands for is declared where the macro stands") {
 }
 
 TEST_CASE("a text that is not read whole leaves everything open") {
-  CHECK(readAllBranches("#if A\nvoid main() {\n#else\nvoid main() { float a;\n#endif\n}\n").unsure);
+  CHECK(readInterface("#if A\nvoid main() {\n#else\nvoid main() { float a;\n#endif\n}\n", {}, Branches::all)
+            .unsure);
   CHECK(readInterface("void main() {} }", {}).unsure);
   CHECK(readInterface("void main() {} float a", {}).isLive("whatever"));
   CHECK_FALSE(readInterface("void main() { vec2 a[2] = { vec2(0), vec2(1) }; if (true) { } }", {}).unsure);

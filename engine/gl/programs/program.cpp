@@ -30,19 +30,6 @@ class Shader {
   GLuint id_;
 };
 
-const char* stageName(GLenum stage) {
-  switch (stage) {
-    case GL_VERTEX_SHADER:
-      return "vertex shader";
-    case GL_FRAGMENT_SHADER:
-      return "fragment shader";
-    case GL_COMPUTE_SHADER:
-      return "compute shader";
-    default:
-      return "shader";
-  }
-}
-
 std::string textOf(GLint length, GLuint id, void (*read)(GLuint, GLsizei, GLsizei*, GLchar*)) {
   if (length <= 1) return {};
   std::string text(static_cast<std::size_t>(length), '\0');
@@ -76,8 +63,7 @@ bool compileStage(const Shader& shader, const StageSource& stage, std::span<cons
   glGetShaderiv(shader.id(), GL_INFO_LOG_LENGTH, &logLength);
   const std::string log = textOf(logLength, shader.id(), glGetShaderInfoLog);
   reportLog(log, *stage.source, Code::shaderDoesNotCompile,
-            fmt::format("the {} does not compile, and the driver does not say why", stageName(stage.stage)),
-            diagnostics, defines);
+            "the shader does not compile, and the driver does not say why", diagnostics, defines);
   return false;
 }
 
@@ -258,7 +244,7 @@ std::optional<Program> Program::compile(std::span<const StageSource> stages,
   bool compiled = true;
   for (const StageSource& stage : stages) {
     shaders.emplace_back(stage.stage);
-    labelObject(GL_SHADER, shaders.back().id(), fmt::format("{} {}", label, stageName(stage.stage)));
+    labelObject(GL_SHADER, shaders.back().id(), label);
     compiled &= compileStage(shaders.back(), stage, defines, diagnostics);
   }
   if (!compiled) return std::nullopt;

@@ -13,10 +13,8 @@ void openMasks(gl::StateCache& states) {
 }
 
 void openMasks() {
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glDepthMask(GL_TRUE);
-  glStencilMask(0xff);
-  glDisable(GL_SCISSOR_TEST);
+  gl::StateCache unknown;
+  openMasks(unknown);
 }
 
 GLenum attachmentPointOf(GLenum format) {

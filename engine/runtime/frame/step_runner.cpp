@@ -1,6 +1,8 @@
 // One step of a frame: clears, bindings, the pass itself.
 #include "engine/runtime/frame/step_runner.h"
 
+#include <cstring>
+
 #include "engine/runtime/frame/gl_state.h"
 #include "engine/runtime/storage/formats.h"
 
@@ -107,29 +109,23 @@ void StepRunner::clear(const PreparedPass& pass, GLuint framebuffer, text::Diagn
 }
 
 void StepRunner::clearAttachment(GLuint framebuffer, GLenum point, const ClearCommand& clear) {
-  const std::array<float, 4> value = clearChannelsOf(clear.value);
-  const auto texel = clearTexelOf(clear.format, clear.value);
+  const ClearTexel texel = clearTexelOf(clear.format, clear.value);
   const auto index = static_cast<GLint>(point - GL_COLOR_ATTACHMENT0);
-  switch (graph::infoOf(clear.format).kind) {
-    case graph::TexelKind::depth:
-      glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, value.data());
-      break;
-    case graph::TexelKind::depth_stencil: {
-      const bool list = clear.value.type == graph::Value::Type::list;
-      glClearNamedFramebufferfi(framebuffer, GL_DEPTH_STENCIL, 0, value[0],
-                                list ? static_cast<GLint>(value[1]) : 0);
-      break;
-    }
-    case graph::TexelKind::unsigned_integer:
-      glClearNamedFramebufferuiv(framebuffer, GL_COLOR, index,
-                                 reinterpret_cast<const GLuint*>(texel.bytes.data()));
-      break;
-    case graph::TexelKind::signed_integer:
-      glClearNamedFramebufferiv(framebuffer, GL_COLOR, index,
-                                reinterpret_cast<const GLint*>(texel.bytes.data()));
-      break;
-    default:
-      glClearNamedFramebufferfv(framebuffer, GL_COLOR, index, value.data());
+  const void* const bytes = texel.bytes.data();
+  if (texel.format == GL_DEPTH_STENCIL) {
+    GLfloat depth = 0;
+    GLint stencil = 0;
+    std::memcpy(&depth, texel.bytes.data(), 4);
+    std::memcpy(&stencil, texel.bytes.data() + 4, 4);
+    glClearNamedFramebufferfi(framebuffer, GL_DEPTH_STENCIL, 0, depth, stencil);
+  } else if (texel.type == GL_UNSIGNED_INT) {
+    glClearNamedFramebufferuiv(framebuffer, GL_COLOR, index, static_cast<const GLuint*>(bytes));
+  } else if (texel.type == GL_INT) {
+    glClearNamedFramebufferiv(framebuffer, GL_COLOR, index, static_cast<const GLint*>(bytes));
+  } else {
+    const bool depth = texel.format == GL_DEPTH_COMPONENT;
+    glClearNamedFramebufferfv(framebuffer, depth ? GL_DEPTH : GL_COLOR, depth ? 0 : index,
+                              static_cast<const GLfloat*>(bytes));
   }
 }
 

@@ -120,18 +120,6 @@ std::string declarationFor(const SlotSpec& slot, const FlatUse& use, const FlatR
   }
 }
 
-// "float", "vec3" or "bool": the member of the Parameters block for such a value.
-std::string memberTypeFor(const graph::Value& value) {
-  switch (value.type) {
-    case graph::Value::Type::boolean:
-      return "bool";
-    case graph::Value::Type::list:
-      return fmt::format("vec{}", value.count);
-    default:
-      return "float";
-  }
-}
-
 class Checker {
  public:
   Checker(const Plan& plan, std::uint32_t pass, std::span<const gl::StageSource> stages,
@@ -382,10 +370,16 @@ class Checker {
       };
       if (maybe(Role::member, isParameter) || maybe(uniform.name, Role::uniform)) continue;
       missing = true;
-      if (const std::string other = blockOf(uniform.name); other.empty())
-        reportMissing(uniform);
-      else if (misnamed_.empty())
-        reportBlockName(misnamed_ = other);
+      const std::string other = blockOf(uniform.name);
+      if (other.empty()) reportMissing(uniform);
+      if (other.empty() || !misnamed_.empty()) continue;
+      misnamed_ = other;
+      text::Diagnostic& d =
+          fail(Code::undeclaredShaderInput, spec_.shaderPlace,
+               fmt::format("the shader '{}' has its parameters in a uniform block '{}'", shaders_, other));
+      d.expected = "a uniform block 'Parameters'";
+      d.found = fmt::format("uniform {} {{ … }}", other);
+      d.hint = "call it 'Parameters'";
     }
     if (missing || !live) return;  // one misspelling is one mistake
     for (const Declaration* member : members)
@@ -406,15 +400,6 @@ class Checker {
     return block == "View" || block == "Slice" || isSlot(block) ? std::string() : block;
   }
 
-  void reportBlockName(const std::string& block) {
-    text::Diagnostic& d =
-        fail(Code::undeclaredShaderInput, spec_.shaderPlace,
-             fmt::format("the shader '{}' has its parameters in a uniform block '{}'", shaders_, block));
-    d.expected = "a uniform block 'Parameters'";
-    d.found = fmt::format("uniform {} {{ … }}", block);
-    d.hint = "call it 'Parameters'";
-  }
-
   void reportMissing(const graph::UniformSpec& uniform) {
     const char* const what = whatIs(uniform.name);
     text::Diagnostic& d = fail(
@@ -422,8 +407,7 @@ class Checker {
         fmt::format("parameter '{}' is {} in the shader '{}'", uniform.name,
                     what ? fmt::format("{}, not a member of the block Parameters,", what) : "not", shaders_));
     const std::string near = what ? "" : text::nearestName(uniform.name, namesInShaders());
-    d.hint = fmt::format("declare it: `layout(std140) uniform Parameters {{ {} {}; }};`",
-                         memberTypeFor(uniform.value), uniform.name);
+    d.hint = "declare it in `layout(std140) uniform Parameters { … };`";
     if (!near.empty()) d.hint += fmt::format(", or did you mean '{}'?", near);
   }
 
@@ -438,8 +422,7 @@ class Checker {
     text::Diagnostic& d = fail(Code::parameterTypeMismatch, uniform.place, message);
     d.expected = expected;
     d.found = graph::toText(uniform.value);
-    d.hint = fmt::format("declare `{} {};` in the block, or give it {}", memberTypeFor(uniform.value),
-                         uniform.name, expected);
+    d.hint = fmt::format("give it {}, or declare the member with another type", expected);
   }
 
   void checkParameter(const graph::UniformSpec& uniform, const Declaration& declared) {

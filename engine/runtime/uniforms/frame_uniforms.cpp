@@ -26,10 +26,7 @@ double trialAge(std::uint32_t) {
 
 FrameUniforms::FrameUniforms(const graph::Plan& plan, Imports& imports, std::uint32_t alignment)
     : plan_(plan), imports_(imports), alignment_(alignment) {
-  for (const graph::ParameterSpec& parameter : plan.graph->parameters) {
-    parameterOf_.emplace(parameter.path, static_cast<std::uint32_t>(parameters_.size()));
-    parameters_.push_back(parameter.value);
-  }
+  for (const graph::ParameterSpec& parameter : plan.graph->parameters) parameters_.push_back(parameter.value);
 }
 
 bool FrameUniforms::layOut(std::span<PreparedPass> passes, text::Diagnostics& diagnostics) {
@@ -110,13 +107,15 @@ void FrameUniforms::setSlices(PreparedPass& pass, const SliceRange& range) {
 }
 
 bool FrameUniforms::set(std::string_view path, const graph::Value& value) {
-  const auto found = parameterOf_.find(path);
-  if (found == parameterOf_.end()) return false;
-  const graph::ParameterSpec& parameter = plan_.graph->parameters[found->second];
+  const auto& all = plan_.graph->parameters;
+  const auto index =
+      static_cast<std::size_t>(std::ranges::find(all, path, &graph::ParameterSpec::path) - all.begin());
+  if (index == all.size()) return false;
+  const graph::ParameterSpec& parameter = all[index];
   if (parameter.structural || !graph::takesValue(parameter.desc, value)) return false;
-  graph::Value& mine = parameters_[found->second];
+  graph::Value& mine = parameters_[index];
   graph::Value before = std::exchange(mine, value);
-  const std::vector<Reader>& readers = readersOf_[found->second];
+  const std::vector<Reader>& readers = readersOf_[index];
   std::string unexpected;
   for (std::size_t i = 0; i < readers.size(); ++i) {
     results_[i] = readers[i].expr->evaluateFolded(trialAge, parameters_);

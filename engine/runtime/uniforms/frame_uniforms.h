@@ -8,7 +8,6 @@
 #include <functional>
 #include <span>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "engine/graph/plan.h"
@@ -66,9 +65,8 @@ class FrameUniforms {
   gl::Buffer buffer_;
   bool changed_ = true;
   std::vector<graph::Value> parameters_;
-  std::unordered_map<std::string_view, std::uint32_t> parameterOf_;  // by path, which the graph holds
-  std::vector<std::vector<Reader>> readersOf_;                       // per parameter
-  std::vector<graph::Value> results_;                                // scratch of set()
+  std::vector<std::vector<Reader>> readersOf_;  // per parameter
+  std::vector<graph::Value> results_;           // scratch of set()
 };
 
 }  // namespace weft::runtime
