@@ -7,7 +7,7 @@
 #include "app/output/standard_streams.h"
 #include "app/session/command_line.h"
 #include "app/view/viewer.h"
-#include "engine/gl/programs/shader_trial.h"
+#include "engine/gl/programs/program_cache.h"
 
 namespace {
 

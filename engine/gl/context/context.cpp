@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include "engine/gl/context/context_backends.h"
+#include "engine/text/chars.h"
 #include "engine/text/hash.h"
 
 namespace weft::gl {
@@ -33,12 +33,11 @@ std::int32_t integerOf(GLenum name) {
   return value;
 }
 
-bool isSoftware(std::string renderer) {
-  std::transform(renderer.begin(), renderer.end(), renderer.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  for (const char* name : {"llvmpipe", "softpipe", "swrast", "software rasterizer", "swiftshader"})
-    if (renderer.find(name) != std::string::npos) return true;
-  return false;
+bool isSoftware(const std::string& renderer) {
+  constexpr const char* kNames[] = {"llvmpipe", "softpipe", "swrast", "software rasterizer", "swiftshader"};
+  return std::ranges::any_of(kNames, [lower = text::lowered(renderer)](const char* name) {
+    return lower.find(name) != std::string::npos;
+  });
 }
 
 DeviceInfo describeDevice(Backend backend, const std::string& platform) {

@@ -2,25 +2,52 @@
 // nobody does; the disk has all of them, as program binaries. A broken, foreign or rejected binary is a miss and is
 // written anew. A variant that does not compile gives its diagnostics and null, and the caller keeps the program it
 // has; the failure is remembered until the sources change, so that asking again compiles nothing. A shader that is
-// too large for the driver is refused; an unusual one is first tried in a process of its own (glsl::isUnusual(),
-// shader_trial.h).
+// too large for the driver is refused; an unusual one is first tried in a process of its own.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "engine/gl/context/context.h"
 #include "engine/gl/programs/program.h"
-#include "engine/gl/programs/shader_trial.h"
 #include "engine/glsl/source.h"
 #include "engine/text/diagnostic.h"
 #include "engine/text/limits.h"
 
 namespace weft::gl {
+
+// ---- trials: shader_trial.cpp ----
+// Compiles a program in a process of its own first. A driver that crashes, takes all memory or never ends then harms
+// only that process. The process is this executable again, started with kTrialWord, or one that an embedder names. It
+// opens a context of the same driver, compiles, links, and makes the driver generate machine code by a draw or a
+// dispatch that covers nothing, so that no loop of the shader runs. Which programs are tried: glsl::isUnusual().
+
+// First argument of the process that is started; its main() hands over to runTrial().
+constexpr const char* kTrialWord = "try-program";
+
+constexpr std::uint64_t kMaxTrialBytes = 768ull << 20;  // that a program may take to compile
+
+// What trials may cost together, in seconds of processor time.
+struct Trials {
+  std::vector<std::string>
+      command;  // the executable and what comes before kTrialWord; empty: nothing is tried
+  double all = 0, spent = 0;
+};
+
+// False after an error (W204): the driver did not survive the program, or no time is left to try it. True also when no
+// process or context could be had: then nothing is known. The process is gone when this returns: it is ended when the time
+// is spent, or when it has said nothing for six times that by the clock.
+bool survivesTrial(Trials& trials, const DeviceInfo& device, std::span<const StageSource> stages,
+                   std::span<const glsl::Define> defines, std::span<const std::string> outputs,
+                   text::Diagnostics& diagnostics);
+
+// The other end: `argv` from kTrialWord on, the program on standard input. Does not return.
+[[noreturn]] void runTrial(int argc, char** argv);
 
 struct ProgramRequest {
   struct Stage {
@@ -49,8 +76,7 @@ struct Variant {
 struct ProgramCacheStats {
   std::uint64_t hits = 0, misses = 0;
   std::uint64_t compilations = 0, failures = 0;  // from source; of those
-  std::uint64_t refusals =
-      0;  // not compiled: too large (W203), or the driver did not survive the trial (W204)
+  std::uint64_t refusals = 0;  // too large (W203), or the driver did not survive the trial (W204)
   std::uint64_t trials = 0;
   std::uint64_t binaryLoads = 0, binaryRejects = 0, binaryWrites = 0;
 };

@@ -1,5 +1,4 @@
-#include "engine/gl/programs/shader_trial.h"
-
+// Declared in program_cache.h.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
@@ -20,6 +19,7 @@
 #include <iostream>
 #include <iterator>
 
+#include "engine/gl/programs/program_cache.h"
 #include "engine/glsl/interface.h"
 
 extern char** environ;

@@ -25,7 +25,6 @@ struct PassMemory {
 struct SliceRange {
   std::uint32_t first = 0, count = 1, of = 1;
   bool begins() const { return first == 0; }
-  friend bool operator==(const SliceRange&, const SliceRange&) = default;
 };
 
 class FrameCadence {

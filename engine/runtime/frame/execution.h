@@ -14,7 +14,6 @@
 #include "engine/graph/plan.h"
 #include "engine/runtime/cadence/cadence.h"
 #include "engine/runtime/frame/device.h"
-#include "engine/runtime/frame/frame_report.h"
 #include "engine/runtime/frame/prepared_plan.h"
 #include "engine/runtime/frame/publications.h"
 #include "engine/runtime/frame/read_back.h"
@@ -22,6 +21,8 @@
 #include "engine/runtime/uniforms/frame_uniforms.h"
 
 namespace weft::runtime {
+
+struct FrameReport;  // renderer.h
 
 // Functions that are called around the steps of a frame while it runs, to look at results: `before` right before a step that
 // runs, when its barriers are issued and its clears are not yet made; `after` right after a step, also when it was skipped,

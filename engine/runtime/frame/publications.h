@@ -53,7 +53,6 @@ class Publications {
   double ageOf(std::uint32_t resource) const;
   const std::function<double(std::uint32_t)>& ages() const { return ages_; }
   bool firstHeadlessFrame() const { return input_.headless && framesRun_ == 0; }
-  double time() const { return input_.time; }
 
  private:
   void findPublishers();

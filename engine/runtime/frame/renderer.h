@@ -17,7 +17,6 @@
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/expand/expand.h"
 #include "engine/imports/world.h"
-#include "engine/runtime/frame/frame_report.h"
 #include "engine/runtime/imports/registry.h"
 
 namespace weft::runtime {
@@ -25,6 +24,12 @@ namespace weft::runtime {
 using imports::FrameInput;
 using imports::headlessFrame;
 using imports::World;
+
+// What a frame did.
+struct FrameReport {
+  std::uint32_t passesRun = 0, passesSkipped = 0, barriers = 0;
+  std::uint32_t slowRun = 0;  // how many of passesRun are not `always`
+};
 
 struct Device;
 class Execution;

@@ -89,7 +89,6 @@ class ResourcePool {
   static std::unique_ptr<ResourcePool> create(const graph::Plan& plan, const ResourcePool* before,
                                               text::Diagnostics& diagnostics);
 
-  std::vector<GpuResource>& resources() { return resources_; }
   GpuResource& operator[](std::size_t resource) { return resources_[resource]; }
   const GpuResource& operator[](std::size_t resource) const { return resources_[resource]; }
 

@@ -70,7 +70,8 @@ TEST_CASE("storage that cannot be made leaves the running plan as it was") {
   PlanOnDevice running("tests/runtime/graphs/live.json");
   const auto serials = [&] {
     std::vector<std::uint64_t> found;
-    for (const runtime::GpuResource& resource : running.pool->resources()) {
+    for (std::size_t r = 0; r < running.plan->graph->resources.size(); ++r) {
+      const runtime::GpuResource& resource = (*running.pool)[r];
       found.push_back(resource.serial);
       if (resource.texture) CHECK(resource.texture->serial() == resource.serial);
     }
