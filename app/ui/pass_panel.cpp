@@ -42,7 +42,7 @@ void Panels::drawPasses(text::Diagnostics& diagnostics) {
         const auto step = static_cast<std::size_t>(row);
         const std::uint32_t index = plan.steps[step].pass;
         const std::string& name = graph.passNames[index];
-        const bool ran = execution.ran(name);
+        const bool ran = execution.steps().ran(step);
         const std::string slice = ran ? sliceText(execution.steps().slices(step)) : "";
         ImGui::PushID(row);
         ImGui::TableNextRow();
