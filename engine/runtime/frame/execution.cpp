@@ -268,13 +268,6 @@ bool Execution::remembers(const World& world) const {
     for (const graph::FlatUse& use : plan.usesOf(step))
       if (use.access != graph::Access::read && plan.passOf(step).cadence == graph::Cadence::always)
         still[use.resource] = 0;
-  // What is still was published before the first frame and never again, so its history is the same in every frame, and a
-  // draw that counts its instances by the age of such things draws the same number in every frame.
-  for (std::size_t step = 0; step < passes.size(); ++step) {
-    if (drawsNothing(passes[step].context.spec->timedInstances, still)) continue;
-    for (const graph::FlatUse& use : plan.usesOf(step))
-      if (use.history > 0 && !still[use.resource]) return true;
-  }
   for (const graph::HistorySpec& history : graph.histories) {
     const auto moves = [&](std::uint32_t import) { return !imports.isStill(graph.imports[import], world); };
     const auto changes = [&](std::uint32_t resource) { return !still[resource]; };
@@ -289,27 +282,31 @@ bool Execution::remembers(const World& world) const {
   };
   for (std::size_t step = 0; step < passes.size(); ++step) {
     const PreparedPass& pass = passes[step];
-    if (pass.viewBlock && remembers(pass.context.spec->view)) return true;
+    const graph::PassSpec& spec = *pass.context.spec;
+    const bool kept = plan.passOf(step).cadence != graph::Cadence::always;
+    if (pass.viewBlock && remembers(spec.view)) return true;
+    // What is still was published before the first frame and never again, so its history is the same in every frame, and a
+    // draw that counts its instances by the age of such things draws the same number in every frame. A result that is kept
+    // must be made of what is still; otherwise it matters in which frame it was made.
+    const bool idle = drawsNothing(spec.timedInstances, still);
     for (const graph::FlatUse& use : plan.usesOf(step))
-      if (remembers(graph.resources[use.resource].import)) return true;
+      if (remembers(graph.resources[use.resource].import) ||
+          (!still[use.resource] && (kept || (use.history > 0 && !idle))))
+        return true;
     bool unsteady = false;
     const auto look = [&](const graph::Expr& expr) {
       if (expr.present())
         forEachAge(*expr.root(), [&](std::uint32_t resource) { unsteady |= !still[resource]; });
     };
-    for (const graph::UniformSpec& uniform : pass.context.spec->uniforms) look(uniform.dynamic);
-    look(pass.context.spec->timedInstances);
+    for (const graph::UniformSpec& uniform : spec.uniforms) look(uniform.dynamic);
+    look(spec.timedInstances);
     if (unsteady) return true;
-    if (plan.passOf(step).cadence == graph::Cadence::always) continue;
-    // A result that is kept must be made of what is still; otherwise it matters in which frame it was made.
-    if (std::ranges::any_of(plan.usesOf(step),
-                            [&](const graph::FlatUse& use) { return !still[use.resource]; }))
-      return true;
+    if (!kept) continue;
     if (pass.meshes
             ? scene::isMoving(world.scene())
             : pass.list >= 0 && scene::isMoving(world.scene(), static_cast<scene::DrawList>(pass.list)))
       return true;
-    if (pass.viewBlock && (cameraMoves || pass.context.spec->view != graph::kNone)) return true;
+    if (pass.viewBlock && (cameraMoves || spec.view != graph::kNone)) return true;
   }
   return false;
 }
