@@ -1,6 +1,5 @@
 #include "engine/runtime/inspection/poison.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "engine/graph/subresource.h"
@@ -40,25 +39,14 @@ std::optional<PoisonPattern> findPoison(std::string_view name) {
   return std::nullopt;
 }
 
-Poison::Poison(Execution& execution, PoisonPattern pattern) : execution_(execution), pattern_(pattern) {
-  const graph::Plan& plan = execution.plan();
-  for (std::uint32_t r = 0; r < plan.graph->resources.size(); ++r)
-    if (plan.firstStep[r] != graph::kNone && !plan.persistent[r] &&
-        !graph::isImported(plan.graph->resources[r]))
-      transients_.push_back(r);
-  std::ranges::stable_sort(transients_, {}, [&](std::uint32_t r) { return plan.firstStep[r]; });
-}
-
 void Poison::fill(std::uint32_t step) const {
   constexpr GLbitfield kTransfer =
       GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT;
   const graph::Plan& plan = execution_.plan();
-  const auto touched =
-      std::ranges::equal_range(transients_, step, {}, [&](std::uint32_t r) { return plan.firstStep[r]; });
-  if (touched.empty()) return;
   glMemoryBarrier(kTransfer);
-  for (const std::uint32_t r : touched) {
+  for (std::uint32_t r = 0; r < plan.graph->resources.size(); ++r) {
     const graph::FlatResource& desc = plan.graph->resources[r];
+    if (plan.firstStep[r] != step || plan.persistent[r] || graph::isImported(desc)) continue;
     if (desc.kind == graph::ResourceKind::buffer) {
       std::uint64_t offset = 0;
       const BufferRef buffer = execution_.buffer(r, offset);

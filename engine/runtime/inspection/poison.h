@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
-#include <vector>
 
 #include "engine/runtime/frame/execution.h"
 
@@ -24,14 +23,13 @@ std::optional<PoisonPattern> findPoison(std::string_view name);
 class Poison {
  public:
   // `execution` must outlive this.
-  Poison(Execution& execution, PoisonPattern pattern);
+  Poison(Execution& execution, PoisonPattern pattern) : execution_(execution), pattern_(pattern) {}
   // To be called in StepWatch::before.
   void fill(std::uint32_t step) const;
 
  private:
   Execution& execution_;
   PoisonPattern pattern_;
-  std::vector<std::uint32_t> transients_;  // in the order of the first steps that touch them
 };
 
 }  // namespace weft::runtime
