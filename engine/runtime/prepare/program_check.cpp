@@ -83,7 +83,8 @@ std::vector<std::string> opaqueTypesFor(const SlotSpec& slot, const FlatUse& use
       (resource.target == Target::texture_cube || resource.target == Target::texture_cube_array) &&
       use.layers % 6 == 0 && use.layer % 6 == 0;
   const bool volume = resource.target == Target::texture_3d, flat = resource.samples == 1 && !volume;
-  const std::string kind = prefixFor(use, resource) + (slot.kind == Kind::image ? "image" : "sampler");
+  const std::string prefix = prefixFor(use, resource),
+                    kind = slot.kind == Kind::image ? fmt::format("{}image", prefix) : prefix + "sampler";
   std::vector<std::string> types;
   for (const auto& [shape, fits] : {std::pair{"Cube", cubes && use.layers == 6},
                                     {"CubeArray", cubes},
