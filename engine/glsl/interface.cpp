@@ -15,12 +15,12 @@ namespace {
 
 using Words = std::span<const Token>;
 
-constexpr std::uint64_t kMost = std::uint64_t{1} << 40;
+constexpr std::uint64_t kMaxWork = std::uint64_t{1} << 40;
 
-// a + b · n, or kMost.
+// a + b · n, or kMaxWork.
 std::uint64_t addTimes(std::uint64_t a, std::uint64_t b, std::uint64_t n) {
-  if (n != 0 && b > kMost / n) return kMost;
-  return std::min(kMost, a + b * n);
+  if (n != 0 && b > kMaxWork / n) return kMaxWork;
+  return std::min(kMaxWork, a + b * n);
 }
 
 bool isWord(const Token& token) {
@@ -69,7 +69,7 @@ class CallTree {
     // Mesa does it in every function, not in main() alone: a chain of calls costs the square of its length.
     for (const Function& function : functions)
       out.size.inlined = addTimes(out.size.inlined, function.inlined, 1);
-    if (grows) out.size.inlined = kMost;
+    if (grows) out.size.inlined = kMaxWork;
   }
 
  private:

@@ -253,7 +253,7 @@ class IncludeExpander {
     const std::size_t column = before == std::string_view::npos ? at + 1 : at - before;
     diagnostics_
         .error(Code::shaderDoesNotCompile, {source_->files[number], line, static_cast<std::uint32_t>(column)},
-               "a zero byte stands in the shader")
+               "there is a zero byte in the shader")
         .hint = "remove it, or save the file as plain text (UTF-8, not UTF-16)";
   }
 

@@ -115,7 +115,7 @@ std::unique_ptr<Context> createContext(const ContextOptions& options, text::Diag
     }
     opened.context->device_ = describeDevice(attempt.backend, opened.platform);
     if (attempt.hardwareOnly && opened.context->device_.software) {
-      failures.push_back(fmt::format("{}: is a software rasteriser", opened.platform));
+      failures.push_back(fmt::format("{}: is a software rasterizer", opened.platform));
       continue;
     }
     if (options.debug) opened.context->debugLog_.install();

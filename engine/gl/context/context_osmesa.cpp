@@ -1,5 +1,5 @@
 // OSMesa: llvmpipe into memory. It is loaded when the first context is made, never linked: libOSMesa brings LLVM, and relocating
-// these takes most of the time of a command that draws nothing. glad's header comes first: it stands in for the GL/gl.h that
+// these takes most of the time of a command that draws nothing. glad's header comes first: it is in place of the GL/gl.h that
 // osmesa.h includes.
 // clang-format off
 #include "engine/gl/context/context_backends.h"

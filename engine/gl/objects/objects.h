@@ -142,7 +142,7 @@ struct Attachment {
 class Framebuffer : public Owner<ObjectKind::framebuffer> {
  public:
   // Draw buffer i writes GL_COLOR_ATTACHMENTi when that is attached, else nothing. Without attachments, width and
-  // height give the area that is rasterised. When the framebuffer is incomplete, reports W115 with the reason.
+  // height give the area that is rasterized. When the framebuffer is incomplete, reports W115 with the reason.
   static std::optional<Framebuffer> create(std::span<const Attachment> attachments, std::string_view label,
                                            text::Diagnostics& diagnostics, std::uint32_t width = 0,
                                            std::uint32_t height = 0);

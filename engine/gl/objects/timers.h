@@ -1,5 +1,5 @@
 // Time per pass of a frame, in milliseconds. On hardware by timestamp queries that are collected some frames
-// later and never stall; on software rasterisers, whose timer queries lie, by the wall clock between
+// later and never stall; on software rasterizers, whose timer queries lie, by the wall clock between
 // glFinish. Off until enabled: then begin() and end() do nothing. No heap allocation in a frame once its
 // number of passes was seen.
 #pragma once

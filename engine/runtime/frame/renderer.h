@@ -114,7 +114,7 @@ class Renderer {
   std::shared_ptr<const graph::GraphDesc> desc_;  // what runs
   std::vector<std::string> runningFiles_, triedFiles_;
   std::vector<graph::Refusal> refused_;
-  // Graphs whose pictures stand in for imports that the world lacks. Each has run one frame.
+  // Graphs whose pictures replace imports that the world lacks. Each has run one frame.
   std::map<std::string, std::unique_ptr<Renderer>> standIns_;
   gl::Framebuffer presentSource_;
   GLuint presentTexture_ = 0;

@@ -72,7 +72,7 @@ class Imports {
 
   // Something that `graph` imports is on its way.
   bool isPending(const graph::FlatGraph& graph, const World& world);
-  // The graph whose picture is to stand in for an import that the world lacks; empty: none is needed.
+  // The graph whose picture is to replace an import that the world lacks; empty: none is needed.
   std::string standInGraph(const graph::ImportSpec& import, const World& world);
   // `texture` must live as long as the provider.
   void setStandIn(const graph::ImportSpec& import, gl::TextureRef texture) {

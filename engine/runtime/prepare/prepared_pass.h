@@ -35,7 +35,7 @@ class ImportPart {
   ImportPart(const gl::ViewDesc& part, std::string import) : part_(part), import_(std::move(import)) {}
 
   // `generation` is another number when `texture` is another one under the name of one that was destroyed. Levels and layers
-  // that it lacks are its last ones: what stands in while an import is loaded may be one texel. 0: there is none, or W118 was
+  // that it lacks are its last ones: the texture that is there while an import is loaded may be one texel. 0: there is none, or W118 was
   // reported.
   GLuint viewOf(const gl::TextureRef& texture, std::uint64_t generation, text::Diagnostics& diagnostics) {
     if (texture.id == texture_ && generation == generation_) return view_.id();

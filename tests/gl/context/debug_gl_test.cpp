@@ -63,7 +63,7 @@ TEST_CASE("enums have names") {
 
 TEST_CASE("timers are off until enabled, then give one time per pass that ran") {
   CleanScope clean;
-  // Both ways of measuring work here; that queries lie on this rasteriser does not matter to their
+  // Both ways of measuring work here; that queries lie on this rasterizer does not matter to their
   // bookkeeping.
   for (const bool hardware : {false, true}) {
     DeviceInfo device = context().device();
