@@ -65,10 +65,12 @@ std::vector<std::string> below(std::span<const std::string> folders, const std::
   return paths;
 }
 
-// For a file that is not there: one of the same name in another folder, else the nearest of `names`.
+// For a file that is not there: one of the same name in another folder or of another stage, else the nearest of `names`.
 std::string hintForFile(const std::string& name, const std::vector<std::string>& names) {
+  const std::string stem = name.substr(0, name.find('.', name.rfind('/') + 1)) + ".";
   for (const std::string& each : names)
-    if (each.ends_with("/" + name) || name.ends_with("/" + each)) return "did you mean '" + each + "'?";
+    if (each.ends_with("/" + name) || name.ends_with("/" + each) || each.starts_with(stem))
+      return "did you mean '" + each + "'?";
   return text::nearestHint(name, names);
 }
 
