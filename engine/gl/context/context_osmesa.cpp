@@ -51,7 +51,7 @@ class OsmesaContext final : public Context {
 
 }  // namespace
 
-OpenedContext openOsmesa(const ContextOptions& options, std::vector<std::string>& failures) {
+OpenedContext openOsmesa(const ContextOptions&, std::vector<std::string>& failures) {
   if (!library()) {
     const char* why = ::dlerror();
     failures.push_back(fmt::format("OSMesa: cannot be loaded: {}", why ? why : WEFT_OSMESA_NAME));
