@@ -30,7 +30,6 @@ OTHER_MEANINGS = {
     ("engine/glsl/interface.cpp", "image"): "how types of GLSL begin",
     ("engine/gl/programs/glsl_type.cpp", "image"): "how types of GLSL begin",
     ("engine/graph/subresource.h", "image"): "a kind of use",
-    ("engine/graph/expand/checks.cpp", "image"): "a kind of use",
     ("engine/graph/read/read_resource.cpp", "file"): "a rule of the language: arguments of this name, and of names that end so, hold paths",
 }
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
