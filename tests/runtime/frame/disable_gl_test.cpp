@@ -87,7 +87,7 @@ void tryAll(Stage& stage, bool pairs, std::string_view of = {}) {
   for (const auto& [code, count] : outcome.codes) codes += " " + code + " x " + std::to_string(count);
   MESSAGE(names.size() << " passes: " << outcome.pictures << " pictures, " << outcome.refusals
                        << " refusals:" << codes);
-  CHECK(outcome.pictures > (outcome.pictures + outcome.refusals) / (pairs ? 3 : 2));
+  CHECK(outcome.pictures > (outcome.pictures + outcome.refusals) / 4);
 }
 
 }  // namespace
