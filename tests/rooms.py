@@ -51,7 +51,7 @@ SUB_ROOMS = {
         "models/assimp": {".", "models/parts"},
         "models": {".", "loading", "models/parts", "models/gltf", "models/assimp"},
     },
-    "scene": {".": set(), "frame": {"."}, "probes": {".", "frame"}, "models": {".", "frame"}, "files": {".", "frame", "models"}},
+    "scene": {".": set(), "frame": {"."}, "models": {".", "frame"}, "files": {".", "frame", "models"}},
     "gl": {
         "context": set(),
         "objects": {"context"},
@@ -98,7 +98,7 @@ OUTSIDE = {
     "GLFW/": {"gl", "app"},
     "stb_": {"assets"}, "stb/": {"assets"}, "tinyexr": {"assets"}, "assimp/": {"assets"},
     "glm/": {"assets", "scene", "passes", "imports", "runtime", "app"},
-    "CLI/": {"app"}, "imgui": {"app"}, "benchmark/": {"app"}, "tbb/": {"scene"},
+    "CLI/": {"app"}, "imgui": {"app"}, "benchmark/": {"app"}, "tbb/": {"assets", "scene"},
 }
 
 

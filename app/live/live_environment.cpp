@@ -11,8 +11,7 @@ namespace weft::app {
 
 namespace {
 
-constexpr std::uint32_t kEnvironmentChannel = 1;  // a request replaces the one before
-constexpr float kLoadingShare = 0.8f;             // of the bar; the rest is sending
+constexpr float kLoadingShare = 0.8f;  // of the bar; the rest is sending
 
 std::vector<std::string> listEnvironments(const std::filesystem::path& folder) {
   std::vector<std::string> files;
@@ -42,7 +41,8 @@ void LiveEnvironment::request(std::string path) {
   wanted_ = std::move(path);
   incoming_ = nullptr;
   sent_ = 0;
-  ticket_ = loader_.request(wanted_, kEnvironmentChannel);
+  loading_ = true;
+  loader_.request(wanted_);
 }
 
 bool LiveEnvironment::step(int by) {
@@ -62,7 +62,7 @@ bool LiveEnvironment::step(int by) {
 std::optional<LiveEnvironment::Event> LiveEnvironment::poll(imports::EnvironmentTextures& textures,
                                                             text::Diagnostics& diagnostics) {
   if (auto result = loader_.poll()) {
-    ticket_ = 0;
+    loading_ = false;
     incoming_ = result->as<assets::EnvironmentMap>();
     said_ = std::move(result->diagnostics);
     if (!incoming_) {
@@ -88,8 +88,8 @@ std::optional<LiveEnvironment::Event> LiveEnvironment::poll(imports::Environment
 std::optional<LoadStatus> LiveEnvironment::status() const {
   const std::string name = std::filesystem::path(wanted_).filename().string();
   if (incoming_) return LoadStatus{name, "sending", kLoadingShare + (1 - kLoadingShare) * sent_};
-  if (ticket_ == 0) return std::nullopt;
-  const assets::LoadProgress progress = loader_.progress(ticket_);
+  if (!loading_) return std::nullopt;
+  const assets::LoadProgress progress = loader_.progress();
   return LoadStatus{name, assets::nameOf(progress.stage), kLoadingShare * progress.done};
 }
 

@@ -45,11 +45,15 @@ class LiveEnvironment {
 
  private:
   std::string shown_, wanted_;
-  std::uint64_t ticket_ = 0;  // of the request that is loading, or 0
-  Map incoming_;              // decoded, being sent
-  text::Diagnostics said_;    // while it was decoded
+  bool loading_ = false;
+  Map incoming_;            // decoded, being sent
+  text::Diagnostics said_;  // while it was decoded
   float sent_ = 0;
-  assets::Loader loader_;
+  assets::Loader loader_{[](const std::string& path, text::Diagnostics& diagnostics,
+                            const assets::LoadObserver& observer) -> std::shared_ptr<const void> {
+    auto map = assets::loadEnvironmentMap(path, diagnostics, observer);
+    return map ? std::make_shared<const assets::EnvironmentMap>(std::move(*map)) : nullptr;
+  }};
 };
 
 }  // namespace weft::app

@@ -5,12 +5,6 @@
 
 namespace weft::app {
 
-namespace {
-
-constexpr std::uint32_t kSceneChannel = 1;  // a request replaces the one before
-
-}  // namespace
-
 LiveScene::LiveScene(std::string path, scene::SceneChoice choice, std::vector<std::string> files)
     : path_(std::move(path)),
       choice_(std::move(choice)),
@@ -30,7 +24,7 @@ void LiveScene::outdate() {
   outdated_ = true;
   slow_.reset();
   arrived_ = nullptr;
-  if (ticket_ != 0) loader_.cancel(std::exchange(ticket_, 0));
+  if (std::exchange(loading_, false)) loader_.cancel();
 }
 
 bool LiveScene::slow() {
@@ -50,7 +44,7 @@ void LiveScene::take(std::shared_ptr<const Loaded> loaded, text::Diagnostics dia
 }
 
 void LiveScene::readNow() {
-  if (ticket_ != 0) loader_.cancel(std::exchange(ticket_, 0));
+  if (std::exchange(loading_, false)) loader_.cancel();
   auto loaded = std::make_shared<Loaded>();
   text::Diagnostics said;
   loaded->scene = scene::loadScene(path_, said, &loaded->files, choice_);
@@ -58,21 +52,20 @@ void LiveScene::readNow() {
 }
 
 void LiveScene::request() {
-  if (arrived_ || ticket_ != 0) return;
-  ticket_ = loader_.request(path_, kSceneChannel);
+  if (arrived_ || loading_) return;
+  loading_ = true;
+  loader_.request(path_);
   ++reads_;
 }
 
 bool LiveScene::arrived() {
   if (arrived_) return true;
   request();
-  while (auto result = loader_.poll()) {
-    if (result->ticket != ticket_) continue;
-    ticket_ = 0;
-    take(result->as<Loaded>(), std::move(result->diagnostics));
-    return true;
-  }
-  return false;
+  auto result = loader_.poll();
+  if (!result) return false;
+  loading_ = false;
+  take(result->as<Loaded>(), std::move(result->diagnostics));
+  return true;
 }
 
 const scene::Scene* LiveScene::scene(text::Diagnostics& diagnostics) const {
@@ -82,8 +75,8 @@ const scene::Scene* LiveScene::scene(text::Diagnostics& diagnostics) const {
 }
 
 std::optional<LoadStatus> LiveScene::status() const {
-  if (ticket_ == 0) return std::nullopt;
-  const assets::LoadProgress progress = loader_.progress(ticket_);
+  if (!loading_) return std::nullopt;
+  const assets::LoadProgress progress = loader_.progress();
   return LoadStatus{name(), assets::nameOf(progress.stage), progress.done};
 }
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/loading/load_queue.h"
+#include "engine/assets/loading/loader.h"
 #include "engine/scene/files/scene_file.h"
 
 namespace weft::app {
@@ -46,7 +46,7 @@ class LiveScene {
   // Whether what is in the files has arrived; else it is on its way from now on. Never waits.
   bool arrived();
   bool ready() const { return arrived_ != nullptr; }
-  bool loading() const { return ticket_ != 0; }
+  bool loading() const { return loading_; }
   // How many times that was begun beside the frames.
   std::uint64_t reads() const { return reads_; }
   // What arrived, with what is to be said of it; null after errors.
@@ -67,11 +67,11 @@ class LiveScene {
   std::vector<std::string> files_;
   bool outdated_ = false;
   std::optional<bool> slow_;  // as the files are; empty: nobody asked
-  std::uint64_t ticket_ = 0;  // of the request that is loading, or 0
+  bool loading_ = false;
   std::uint64_t reads_ = 0;
   std::shared_ptr<const Loaded> arrived_;  // null: not yet
   text::Diagnostics said_;                 // while it was read
-  assets::LoadQueue loader_;
+  assets::Loader loader_;
 };
 
 }  // namespace weft::app

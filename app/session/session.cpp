@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <future>
 
 #include "app/output/standard_streams.h"
 #include "engine/assets/environments/environment_map.h"
@@ -73,13 +74,14 @@ std::optional<runtime::World> loadWorld(const Options& options, text::Diagnostic
   std::optional<scene::Scene> scene;
   std::shared_ptr<const assets::EnvironmentMap> environment;
   if (!options.environment.empty()) {
-    assets::Loader loader;  // beside the scene
-    const std::uint64_t ticket = loader.request(options.environment);
+    text::Diagnostics said;
+    auto loading = std::async(std::launch::async, [&] {  // beside the scene
+      return assets::loadEnvironmentMap(options.environment, said);
+    });
     scene = scene::loadScene(scenePathOf(options), diagnostics, nullptr, sceneChoiceOf(options));
-    if (auto loaded = loader.wait(ticket)) {
-      diagnostics.append(loaded->diagnostics);
-      environment = loaded->as<assets::EnvironmentMap>();
-    }
+    if (auto map = loading.get())
+      environment = std::make_shared<const assets::EnvironmentMap>(std::move(*map));
+    diagnostics.append(said);
   } else {
     scene = scene::loadScene(scenePathOf(options), diagnostics, nullptr, sceneChoiceOf(options));
   }
