@@ -1,7 +1,7 @@
 // A thread that loads: runs requests one after another, off the thread that draws. Requests wait in a bounded queue and finish
 // in the order they were made; a request of a channel replaces what that channel asked for before and has not fetched yet, so
 // that only the last choice of a person costs anything. What a request makes is the job's business, given to the constructor:
-// environments (engine/assets/environments/environment_map.h), scenes with their models (app/live/live_scene.h). Failure is a value: a result
+// environments (engine/assets/environments/environment_map.h), scenes with their models (app/live/live_loads.h). Failure is a value: a result
 // without a product, with Diagnostics. Progress is read without locks. Destroying the queue stops at the next look of the job
 // at its observer.
 #pragma once

@@ -1,6 +1,5 @@
-// The scene of a window: the file that is followed, and its loading beside the frames. Models are read, decoded and converted
-// on a loader thread; nothing here waits for the disk or a decoder. What arrived stays until the files change again, so that
-// it can be tried with one graph after another.
+// What a window loads beside its frames: its scene and its environment. Nothing here waits for the disk, a decoder or the GPU.
+// (Going on to another environment lists the folder: names only.)
 #pragma once
 
 #include <cstdint>
@@ -9,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/assets/environments/environment_map.h"
 #include "engine/assets/loading/load_queue.h"
+#include "engine/imports/environment/environment.h"
 #include "engine/scene/files/scene_file.h"
 
 namespace weft::app {
@@ -21,6 +22,8 @@ struct LoadStatus {
   float done = 0;     // 0 to 1
 };
 
+// The scene of a window: the file that is followed, and its loading beside the frames. Models are read, decoded and converted
+// on a loader thread. What arrived stays until the files change again, so that it can be tried with one graph after another.
 class LiveScene {
  public:
   // `files`: of the scene that is shown.
@@ -72,6 +75,44 @@ class LiveScene {
   std::shared_ptr<const Loaded> arrived_;  // null: not yet
   text::Diagnostics said_;                 // while it was read
   assets::LoadQueue loader_;
+};
+
+// The file that `--environment` means: itself, or of a folder the first that can be read, in the order of
+// names. Empty after an error (W150): there is none. A path that does not exist is left to whoever loads it.
+std::optional<std::string> firstEnvironment(const std::string& fileOrFolder, text::Diagnostics& diagnostics);
+
+// The environment of a window: the file that is shown, the one on its way, and the others of its folder. Loads on the loader
+// thread and sends to the GPU a portion per frame. A failed load changes nothing but what is said.
+class LiveEnvironment {
+ public:
+  using Map = imports::EnvironmentTextures::Map;
+
+  // `path` is already shown.
+  void assume(std::string path) { wanted_ = shown_ = std::move(path); }
+  // Loads `path`, instead of whatever is on its way.
+  void request(std::string path);
+  // The one `by` files after the last one asked for, in the order of names,
+  // round and round. False when there is no other.
+  bool step(int by);
+
+  // Once per frame: something came of the last request. A map is whole on the GPU and to be taken into use at once; null: it
+  // failed, and `diagnostics` says why.
+  std::optional<Map> poll(imports::EnvironmentTextures& textures, text::Diagnostics& diagnostics);
+
+  // What is on its way.
+  std::optional<LoadStatus> status() const;
+
+  // To watch: the file that is shown and the one last asked for; empty names for none.
+  const std::string& shown() const { return shown_; }
+  const std::string& wanted() const { return wanted_; }
+
+ private:
+  std::string shown_, wanted_;
+  std::uint64_t ticket_ = 0;  // of the request that is loading, or 0
+  Map incoming_;              // decoded, being sent
+  text::Diagnostics said_;    // while it was decoded
+  float sent_ = 0;
+  assets::Loader loader_;
 };
 
 }  // namespace weft::app
