@@ -73,14 +73,13 @@ SUB_ROOMS = {
         "live": {"session", "output"},
         "ui": {"session", "output", "live"},
         "view": {"session", "output", "live", "ui"},
-        "bench": {"session", "output", "live"},
         "lsp/text": {"session", "output"},
         "lsp/files": {"session", "output", "lsp/text"},
         "lsp/answers": {"session", "output", "lsp/text", "lsp/files"},
         "lsp": {"session", "output", "lsp/text", "lsp/files", "lsp/answers"},
         "trials": {"session", "output"},
-        "commands": {"import", "session", "output", "bench", "trials"},
-        ".": {"session", "output", "commands", "view", "bench", "lsp"},
+        "commands": {"import", "session", "output", "live", "trials"},
+        ".": {"session", "output", "commands", "view", "lsp"},
     },
 }
 MOST_FILES = 24
