@@ -1,7 +1,6 @@
 // weft: the command line. Each command declares its own options; the one that is chosen runs, its exit code out.
 #include <string_view>
 
-#include "app/bench/bench.h"
 #include "app/commands/commands.h"
 #include "app/lsp/lsp.h"
 #include "app/output/standard_streams.h"

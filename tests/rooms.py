@@ -51,7 +51,7 @@ SUB_ROOMS = {
         "models/assimp": {".", "models/parts"},
         "models": {".", "loading", "models/parts", "models/gltf", "models/assimp"},
     },
-    "scene": {".": set(), "frame": {"."}, "probes": {".", "frame"}, "models": {".", "frame"}, "files": {".", "frame", "models"}},
+    "scene": {".": set(), "frame": {"."}, "models": {".", "frame"}, "files": {".", "frame", "models"}},
     "gl": {
         "context": set(),
         "objects": {"context"},
@@ -73,14 +73,13 @@ SUB_ROOMS = {
         "live": {"session", "output"},
         "ui": {"session", "output", "live"},
         "view": {"session", "output", "live", "ui"},
-        "bench": {"session", "output", "live"},
         "lsp/text": {"session", "output"},
         "lsp/files": {"session", "output", "lsp/text"},
         "lsp/answers": {"session", "output", "lsp/text", "lsp/files"},
         "lsp": {"session", "output", "lsp/text", "lsp/files", "lsp/answers"},
         "trials": {"session", "output"},
-        "commands": {"import", "session", "output", "bench", "trials"},
-        ".": {"session", "output", "commands", "view", "bench", "lsp"},
+        "commands": {"import", "session", "output", "live", "trials"},
+        ".": {"session", "output", "commands", "view", "lsp"},
     },
 }
 MOST_FILES = 24
@@ -98,7 +97,7 @@ OUTSIDE = {
     "GLFW/": {"gl", "app"},
     "stb_": {"assets"}, "stb/": {"assets"}, "tinyexr": {"assets"}, "assimp/": {"assets"},
     "glm/": {"assets", "scene", "passes", "imports", "runtime", "app"},
-    "CLI/": {"app"}, "imgui": {"app"}, "benchmark/": {"app"}, "tbb/": {"scene"},
+    "CLI/": {"app"}, "imgui": {"app"}, "benchmark/": {"app"}, "tbb/": {"assets", "scene"},
 }
 
 

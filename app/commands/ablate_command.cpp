@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "app/commands/commands.h"
-#include "app/output/progress.h"
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
 #include "app/trials/report_page.h"
@@ -141,11 +140,9 @@ int ablate(gl::Context& context, const AblateOptions& options, const runtime::Wo
 }
 
 int runAblate(AblateOptions& options) {
-  const Options* const one = &options;
-  return runOnDevice({one, 1}, 1,
-                     [&](gl::Context& context, const runtime::World& world, text::Diagnostics& diagnostics) {
-                       return ablate(context, options, world, diagnostics);
-                     });
+  return runOnDevice({&options}, 1, [&](auto& session, auto& world, text::Diagnostics& diagnostics) {
+    return ablate(*session->context, options, world, diagnostics);
+  });
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 
 #include "app/commands/commands.h"
 #include "app/output/standard_streams.h"
-#include "app/session/device_session.h"
 #include "app/session/session.h"
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/language/enough.h"
@@ -39,7 +38,7 @@ struct CheckOptions : Options {
   bool watch = false;        // again after every save
 };
 
-// What tells the variants of a plan's passes apart, and which slots and parameters a pass holds against them.
+// What tells the variants of a plan's passes apart.
 std::string keyOf(const gl::ProgramRequest& request) {
   std::string key = request.pass;
   for (const gl::ProgramRequest::Stage& stage : request.stages) key += "|" + stage.file;
@@ -54,7 +53,7 @@ std::string keyOf(const text::Diagnostic& d) {
   return fmt::format("{}:{}:{} {}", place.file ? *place.file : "", place.line, place.column, d.message);
 }
 
-// The shaders of plans held against their passes, each variant once: compiled, in a context that is opened for the first plan,
+// Checks the shaders of plans against their passes, each variant once: compiled, in a context that is opened for the first plan,
 // or with --no-shaders by what they declare.
 class ShaderCheck {
  public:
@@ -73,7 +72,7 @@ class ShaderCheck {
       const graph::PassType type = types_.find(spec.type)->reflect();
       if (type.shader == graph::ShaderShape::none) continue;
       const auto request = runtime::programRequestOf(*plan.graph, plan, step.pass, type);
-      if (!known_.insert(keyOf(request)).second) continue;
+      if (!variants.insert(keyOf(request)).second) continue;
       if (session_)
         checkCompiled(plan, step.pass, request, said);
       else
@@ -85,22 +84,13 @@ class ShaderCheck {
       if (!with.empty()) each.message += fmt::format(" (with {})", with);
       diagnostics.add(std::move(each));
     }
-    read_.insert(sources.touched().begin(), sources.touched().end());
+    files.insert(sources.touched().begin(), sources.touched().end());
   }
 
-  // A graph that cannot be compiled has no variants; its shader files are read all the same, so that a misspelt
-  // path or include is reported together with the graph's own mistakes. Needs no OpenGL.
-  void checkFiles(const graph::GraphDesc& desc, text::Diagnostics& diagnostics) {
-    glsl::SourceLoader sources(runtime::shaderRootsOf(desc.files, dataFolder()));
-    checkFiles(desc, sources, diagnostics);
-    read_.insert(sources.touched().begin(), sources.touched().end());
-  }
-
-  std::size_t variants() const { return known_.size(); }
-  // Shaders that are missing, or an include of theirs, where none is compiled: they were not looked at.
-  const text::Diagnostics& unread() const { return unread_; }
-  // Every file that was read or looked for.
-  std::vector<std::string> files() const { return {read_.begin(), read_.end()}; }
+  std::set<std::string> files;     // that were read or looked for
+  std::set<std::string> variants;  // by what they are made of
+  text::Diagnostics
+      unread;  // why shaders were not looked at (--no-shaders): they, or an include, are missing
 
  private:
   bool open(text::Diagnostics& diagnostics) {
@@ -127,7 +117,7 @@ class ShaderCheck {
     for (const gl::ProgramRequest::Stage& stage : request.stages) {
       if (!stage.text.empty()) continue;
       if (missing_.contains(stage.file)) return;
-      stages.push_back({stage.stage, sources_.load(stage.file, unread_, request.place)});
+      stages.push_back({stage.stage, sources_.load(stage.file, unread, request.place)});
       if (stages.back().source) continue;
       missing_.insert(stage.file);
       return;
@@ -136,92 +126,58 @@ class ShaderCheck {
     runtime::warnOfConditions(request.pass, stages, request.defines, said);
   }
 
-  void checkFiles(const graph::GraphDesc& desc, glsl::SourceLoader& sources, text::Diagnostics& diagnostics) {
-    for (const graph::PassDesc& pass : desc.passes) {
-      if (graph::enoughErrors(diagnostics)) return;
-      if (pass.include && pass.include->graph) checkFiles(*pass.include->graph, sources, diagnostics);
-      const passes::PassType* type = pass.shader.empty() ? nullptr : types_.find(pass.type);
-      if (!type) continue;
-      std::vector<std::string> files = {pass.shader};
-      if (!pass.vertexShader.empty())
-        files.push_back(pass.vertexShader);
-      else if (type->reflect().shader == graph::ShaderShape::draw && pass.shader.ends_with(".glsl"))
-        continue;  // a shader of one stage, for a draw (W067)
-      else if (type->reflect().shader == graph::ShaderShape::draw)
-        files = {pass.shader + ".vert.glsl", pass.shader + ".frag.glsl"};
-      text::Diagnostics said;
-      for (const std::string& file : files) sources.load(file, said, pass.shaderPlace);
-      for (const text::Diagnostic& each :
-           said.items())  // a pass that is like another has its shader from there
-        if (told_.insert(keyOf(each)).second) diagnostics.add(each);
-    }
-  }
-
   const CheckOptions& options_;
-  const passes::PassRegistry types_ = passes::PassRegistry::builtin();
+  passes::PassRegistry types_ = passes::PassRegistry::builtin();
   std::unique_ptr<DeviceSession> session_;
   bool failed_ = false;
   glsl::SourceLoader sources_{std::vector<std::string>()};  // where nothing is compiled
-  std::set<std::string> known_;                             // variants, by what they are made of
-  std::set<std::string> read_, told_;                       // files, messages
-  std::set<std::string> missing_;                           // files that unread_ is about
-  text::Diagnostics unread_;
+  std::set<std::string> told_;                              // messages
+  std::set<std::string> missing_;                           // files that `unread` is about
 };
 
 struct Checked {
-  text::Diagnostics diagnostics;
-  std::shared_ptr<const graph::Plan> plan;  // null after errors of the graph
-  std::optional<graph::Matrix> matrix;
-  std::size_t variants = 0;        // of shaders that were compiled
-  std::vector<std::string> files;  // that were read
-  text::Diagnostics unread;        // why shaders were not looked at (--no-shaders)
+  text::Diagnostics diagnostics{};
+  std::shared_ptr<const graph::Plan> plan{};  // null after errors of the graph
+  std::optional<graph::Matrix> matrix{};
+  ShaderCheck shaders;
 };
 
-// The variations of the graph: what they refuse, and with --all the shader variants that they reach.
-graph::Matrix tryVariations(const CheckOptions& options, const graph::GraphDesc& desc,
-                            const runtime::WorldFacts& facts, ShaderCheck& shaders,
-                            text::Diagnostics& diagnostics) {
-  const graph::Registry registry = runtime::makeRegistry({}, facts);
-  graph::MatrixOptions wanted{.pairs = options.matrix};
-  if (options.allVariants)
-    wanted.visit = [&](const graph::Variation& variation, std::shared_ptr<const graph::FlatGraph> flat) {
-      const bool changed = !variation.disables.empty() || !variation.parameter.empty();
-      shaders.check(graph::compile(std::move(flat)), changed ? variation.text() : "", diagnostics);
-    };
-  return graph::tryMatrix(desc, registry, settingsOf(options, true), wanted);
-}
-
 Checked checkOnce(const CheckOptions& options) {
-  Checked checked;
+  Checked checked{.shaders = ShaderCheck(options)};
   text::Diagnostics& diagnostics = checked.diagnostics;
   const auto world = loadWorld(options, diagnostics);
   const runtime::WorldFacts facts = world ? world->facts() : factsWithoutWorld();
   checked.plan = makePlan(options, facts, true, diagnostics);
-  ShaderCheck shaders(options);
-  if (checked.plan) shaders.check(*checked.plan, "", diagnostics);
-  // Beyond a limit nothing that follows can be trusted, and there may be very much of it.
-  const bool over = diagnostics.contains(text::Code::limitExceeded);
+  if (checked.plan) checked.shaders.check(*checked.plan, "", diagnostics);
   const bool vary = checked.plan && !diagnostics.hasErrors() && (options.matrix || options.allVariants);
   text::Diagnostics again;
-  if (const auto desc = over || (checked.plan && !vary)
-                            ? nullptr
-                            : graph::readGraph(options.graph, options.presets, again)) {
-    if (!checked.plan) shaders.checkFiles(*desc, diagnostics);
-    if (vary) checked.matrix = tryVariations(options, *desc, facts, shaders, diagnostics);
-    checked.files = desc->files;
+  const auto desc = vary || (options.watch && !checked.plan)
+                        ? graph::readGraph(options.graph, options.presets, again)
+                        : nullptr;
+  if (vary) {
+    graph::MatrixOptions wanted{.pairs = options.matrix};
+    if (options.allVariants)
+      wanted.visit = [&](const graph::Variation& variation, std::shared_ptr<const graph::FlatGraph> flat) {
+        const bool changed = !variation.disables.empty() || !variation.parameter.empty();
+        checked.shaders.check(graph::compile(std::move(flat)), changed ? variation.text() : "", diagnostics);
+      };
+    checked.matrix =
+        graph::tryMatrix(*desc, runtime::makeRegistry({}, facts), settingsOf(options, true), wanted);
   }
-  if (checked.plan) checked.files = checked.plan->graph->files;
-  if (checked.files.empty()) checked.files = {options.graph};
-  for (std::string& file : shaders.files()) checked.files.push_back(std::move(file));
-  checked.variants = shaders.variants();
-  checked.unread = shaders.unread();
-  if (checked.matrix && options.matrix)
+  if (vary && options.matrix)
     for (const auto* told : {&checked.matrix->broken, &checked.matrix->lost})
       for (const graph::RefusedVariation& variation : *told)
         for (text::Diagnostic each : variation.said.items()) {
           each.message += fmt::format(" (with {})", variation.variation.text());
           diagnostics.add(std::move(each));
         }
+  std::set<std::string>& files = checked.shaders.files;
+  if (checked.plan)
+    files.insert(checked.plan->graph->files.begin(), checked.plan->graph->files.end());
+  else if (desc)
+    files.insert(desc->files.begin(), desc->files.end());
+  else
+    files.insert(options.graph);
   diagnostics.sortByPlace();
   return checked;
 }
@@ -243,7 +199,7 @@ std::string matrixText(const CheckOptions& options, const Checked& checked) {
                 : fmt::format("  {} of these are refused without saying so\n", matrix.broken.size());
   }
   if (options.allVariants && options.shaders)
-    text += fmt::format("shaders: {} compiled\n", text::counted(checked.variants, "variant"));
+    text += fmt::format("shaders: {} compiled\n", text::counted(checked.shaders.variants.size(), "variant"));
   return text;
 }
 
@@ -256,8 +212,8 @@ int tellText(const CheckOptions& options, Checked& checked) {
                       text::counted(checked.plan->storages.size(), "texture"),
                       checked.plan->storages.size() == 1 ? "takes" : "share", checked.plan->bytesAllocated,
                       checked.plan->bytesDeclared));
-  // A graph may stand apart from its shaders: no mistake, but then nobody has looked at them.
-  for (const text::Diagnostic& each : checked.unread.items())
+  // A graph may be elsewhere than its shaders: no mistake, but then nobody has looked at them.
+  for (const text::Diagnostic& each : checked.shaders.unread.items())
     if (code == 0) print(fmt::format("  not looked at: {}\n", text::printable(each.message)));
   return code;
 }
@@ -282,8 +238,9 @@ Json documentOf(const CheckOptions& options, const Checked& checked) {
                    {"textures", checked.plan->storages.size()},
                    {"bytes_declared", checked.plan->bytesDeclared},
                    {"bytes_allocated", checked.plan->bytesAllocated}};
-  for (const text::Diagnostic& each : checked.unread.items()) out["not_looked_at"].push_back(each.message);
-  if (options.shaders) out["shader_variants"] = checked.variants;
+  for (const text::Diagnostic& each : checked.shaders.unread.items())
+    out["not_looked_at"].push_back(each.message);
+  if (options.shaders) out["shader_variants"] = checked.shaders.variants.size();
   if (checked.matrix && options.matrix)
     out["matrix"] = {{"passes", checked.matrix->passes},
                      {"pairs", checked.matrix->pairs},
@@ -298,12 +255,8 @@ int tell(const CheckOptions& options, Checked& checked) {
   if (options.format == "text") return tellText(options, checked);
   if (options.format == "sarif")
     print(text::diagnosticsSarif(checked.diagnostics, kVersion) + "\n");
-  else if (options.watch)  // a line for each time
-    print(text::printableJson(
-              documentOf(options, checked).dump(-1, ' ', false, Json::error_handler_t::replace)) +
-          "\n");
-  else
-    print(dumpJson(documentOf(options, checked)) + "\n");
+  else  // to be watched: a line for each time
+    print(dumpJson(documentOf(options, checked), options.watch ? -1 : 2) + "\n");
   return checked.diagnostics.hasErrors() ? 1 : 0;
 }
 
@@ -326,13 +279,13 @@ int runCheck(CheckOptions& options) {
   while (true) {
     Checked checked = checkOnce(options);
     if (options.watch) {
-      watcher.watch(checked.files);
+      watcher.watch({checked.shaders.files.begin(), checked.shaders.files.end()});
       checked.diagnostics.append(watcher.takeNotices());
     }
     const int code = tell(options, checked);
     if (!options.watch) return code;
     const bool text = options.format == "text";
-    if (text) print(fmt::format("watching {}\n", text::counted(checked.files.size(), "file")));
+    if (text) print(fmt::format("watching {}\n", text::counted(checked.shaders.files.size(), "file")));
     flushPrinted();
     const std::vector<std::string> changed = waitForChange(watcher);
     if (text) print(fmt::format("\nchanged: {}\n", text::printable(changed[0])));

@@ -21,5 +21,6 @@ void addFormat(CommandLine& line);
 void addImport(CommandLine& line);
 void addSchema(CommandLine& line);
 void addTypes(CommandLine& line);
+void addBench(CommandLine& line);
 
 }  // namespace weft::app

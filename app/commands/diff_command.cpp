@@ -8,7 +8,6 @@
 #include "app/output/output_files.h"
 #include "app/output/picture_writer.h"
 #include "app/output/standard_streams.h"
-#include "app/session/device_session.h"
 #include "app/session/session.h"
 #include "app/trials/divergence.h"
 #include "app/trials/shot.h"
@@ -106,11 +105,10 @@ void leavePictures(const DiffOptions& options, const ShotPair& pair, text::Diagn
   std::vector<std::string> files;
   std::vector<OutputFile> outputs;
   for (const char* name : {"/before.png", "/after.png", "/difference.png"})
-    outputs.push_back({"-o", files.emplace_back(options.output + name)});
+    outputs.push_back({"-o", files.emplace_back(options.output + name), OutputFile::Over::file});
   std::vector<std::string> read = pair.before.files;
   read.insert(read.end(), pair.after.files.begin(), pair.after.files.end());
-  if (!checkMadeFiles(files, diagnostics) || !checkDistinct(outputs, read, diagnostics) ||
-      !savePng(files[0], pair.pictureBefore(), diagnostics) ||
+  if (!checkDistinct(outputs, read, diagnostics) || !savePng(files[0], pair.pictureBefore(), diagnostics) ||
       !savePng(files[1], pair.pictureAfter(), diagnostics))
     return;
   std::error_code ignored;
@@ -127,8 +125,7 @@ int renderBoth(gl::Context& context, const DiffOptions& options, std::span<const
   auto after = before ? takeShot(context, sides[1], world, wish, diagnostics) : std::nullopt;
   if (!after) return 2;
   ShotPair pair{options.lastFrame, *std::move(before), *std::move(after), {}, {}};
-  const std::string& driver = context.device().driverKey;
-  pair.first = findDivergence(recordsOf(pair.before, driver), recordsOf(pair.after, driver));
+  pair.first = findDivergence(pair.before.records, pair.after.records);
   pair.difference = comparePictures(pair.pictureAfter(), pair.pictureBefore());
   const std::string plans = graph::diffText(*pair.before.plan, *pair.after.plan);
   if (!options.output.empty()) leavePictures(options, pair, diagnostics);
@@ -140,10 +137,10 @@ int renderBoth(gl::Context& context, const DiffOptions& options, std::span<const
 int runDiff(DiffOptions& options) {
   const Options sides[] = {options, otherOf(options)};
   if (options.render)
-    return runOnDevice(
-        sides, 2, [&](gl::Context& context, const runtime::World& world, text::Diagnostics& diagnostics) {
-          return renderBoth(context, options, sides, world, diagnostics);
-        });
+    return runOnDevice({&sides[0], &sides[1]}, 2,
+                       [&](auto& session, auto& world, text::Diagnostics& diagnostics) {
+                         return renderBoth(*session->context, options, sides, world, diagnostics);
+                       });
   text::Diagnostics diagnostics;
   const auto world = loadWorld(options, diagnostics);
   const runtime::WorldFacts facts = world ? world->facts() : factsWithoutWorld();

@@ -1,12 +1,12 @@
 // weft fuzz: whatever a plan leaves open, the picture is the same.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/commands/commands.h"
-#include "app/output/progress.h"
 #include "app/output/standard_streams.h"
-#include "app/session/device_session.h"
+#include "app/session/session.h"
 #include "app/trials/divergence.h"
-#include "app/trials/fuzz.h"
 #include "engine/text/counted.h"
 #include "engine/text/printable.h"
 
@@ -17,23 +17,62 @@ namespace {
 struct FuzzOptions : Options {
   std::uint32_t runs = 12;            // random orders
   std::optional<std::uint32_t> seed;  // this order alone; 0 is the declared one
-  std::string order, share = "both", poison = "both";
+  std::uint32_t first = 0, last = ~0u;
+  std::string share = "both", poison = "both";
 };
 
-std::vector<FuzzTrial> trialsOf(const FuzzOptions& wanted) {
+// The graph in another legal order, with shared storage or without, with poisoned transients or not.
+struct Trial {
+  std::uint32_t seed = 0;               // of the order; 0: the declared one
+  std::uint32_t first = 0, last = ~0u;  // places in the plan that are reordered; the others stay
+  bool share = true;
+  std::optional<runtime::PoisonPattern> poison{};
+
+  // "--seed 7 --order 3:5 --share off --poison nan": repeats this one.
+  std::string arguments() const {
+    const std::string order = first > 0 || last != ~0u ? fmt::format(" --order {}:{}", first, last) : "";
+    return fmt::format("--seed {}{} --share {} --poison {}", seed, seed == 0 ? "" : order,
+                       share ? "on" : "off", poison ? runtime::nameOf(*poison) : "none");
+  }
+};
+
+std::vector<Trial> trialsOf(const FuzzOptions& wanted) {
   std::vector<bool> shares;
   if (wanted.share != "off") shares.push_back(true);
   if (wanted.share != "on") shares.push_back(false);
   std::vector<std::optional<runtime::PoisonPattern>> poisons{runtime::findPoison(wanted.poison)};
   if (wanted.poison == "both") poisons = {runtime::PoisonPattern::nan, runtime::PoisonPattern::large};
-  std::uint32_t first = 0, last = ~0u;
-  if (!wanted.order.empty()) parseRange(wanted.order, first, last);
-  std::vector<FuzzTrial> trials;
+  std::vector<Trial> trials;
   for (std::uint32_t run = 0; run <= (wanted.seed ? 0 : wanted.runs); ++run)
     for (const bool share : shares)
       for (const auto& poison : poisons)
-        trials.push_back({wanted.seed.value_or(run), first, last, share, poison});
+        trials.push_back({wanted.seed.value_or(run), wanted.first, wanted.last, share, poison});
   return trials;
+}
+
+// The smallest trial that still differs, found by leaving out one thing after another: the poison, the storage, the order, then
+// the passes that are reordered at its ends. `end`: the last place of the plan.
+template <class Differs>
+Trial shrink(Trial trial, std::uint32_t end, const Differs& differs) {
+  const auto keepIf = [&](Trial smaller) {
+    const bool kept = differs(smaller);
+    if (kept) trial = smaller;
+    return kept;
+  };
+  const auto with = [&](auto Trial::*member, auto value) {
+    Trial smaller = trial;
+    smaller.*member = value;
+    return smaller;
+  };
+  if (trial.poison) keepIf(with(&Trial::poison, std::optional<runtime::PoisonPattern>{}));
+  if (!trial.share) keepIf(with(&Trial::share, true));
+  if (trial.seed == 0 || keepIf(with(&Trial::seed, 0u))) return trial;
+  trial.last = std::min(trial.last, end);
+  while (trial.first + 1 < trial.last && keepIf(with(&Trial::first, trial.first + 1))) {
+  }
+  while (trial.first + 1 < trial.last && keepIf(with(&Trial::last, trial.last - 1))) {
+  }
+  return trial;
 }
 
 // The passes that run elsewhere than they are declared.
@@ -49,10 +88,13 @@ std::string reordered(const graph::Plan& declared, const graph::Plan& plan) {
 // Returns the exit code.
 int fuzz(gl::Context& context, const FuzzOptions& options, const runtime::World& world,
          text::Diagnostics& diagnostics) {
-  const auto shoot = [&](const FuzzTrial& trial, text::Diagnostics& said) {
+  const auto shoot = [&](const Trial& trial, text::Diagnostics& said) {
     const ShotWish wish{.frames = {options.lastFrame},
                         .records = true,
-                        .compile = trial.compileOptions(),
+                        .compile = {.share = trial.share,
+                                    .orderSeed = trial.seed,
+                                    .orderFirst = trial.first,
+                                    .orderLast = trial.last},
                         .poison = trial.poison};
     return takeShot(context, options, world, wish, said);
   };
@@ -63,16 +105,16 @@ int fuzz(gl::Context& context, const FuzzOptions& options, const runtime::World&
   if (!declared) return 2;
   std::optional<Shot> other;  // the last picture that differed
   text::Diagnostics problems;
-  const auto differs = [&](const FuzzTrial& trial) {
+  const auto differs = [&](const Trial& trial) {
     problems.clear();
     auto shot = shoot(trial, problems);
     if (!shot || pictureOf(*shot).texels == pictureOf(*declared).texels) return false;
     other = std::move(shot);
     return true;
   };
-  const std::vector<FuzzTrial> trials = trialsOf(options);
+  const std::vector<Trial> trials = trialsOf(options);
   ProgressLines lines({.total = trials.size(), .unit = "runs"});
-  for (const FuzzTrial& found : trials) {
+  for (const Trial& found : trials) {
     const bool same = !differs(found);
     lines.countOne();
     if (problems.hasErrors()) {
@@ -80,13 +122,11 @@ int fuzz(gl::Context& context, const FuzzOptions& options, const runtime::World&
       return 2;
     }
     if (same) continue;
-    const FuzzTrial trial =
-        shrinkTrial(found, static_cast<std::uint32_t>(declared->plan->steps.size()), differs);
+    const Trial trial = shrink(found, static_cast<std::uint32_t>(declared->plan->steps.size() - 1), differs);
     differs(trial);
     if (const auto difference = comparePictures(pictureOf(*other), pictureOf(*declared)))
       print("a picture differs: " + difference->text() + "\n");
-    const std::string& driver = context.device().driverKey;
-    if (const auto first = findDivergence(recordsOf(*declared, driver), recordsOf(*other, driver)))
+    if (const auto first = findDivergence(declared->records, other->records))
       print("    first that differs: " + text::printable(first->text()) + "\n");
     print(fmt::format("    found with {}\n", found.arguments()));
     if (trial.seed != 0)
@@ -101,11 +141,9 @@ int fuzz(gl::Context& context, const FuzzOptions& options, const runtime::World&
 }
 
 int runFuzz(FuzzOptions& options) {
-  const Options* const one = &options;
-  return runOnDevice({one, 1}, 2,
-                     [&](gl::Context& context, const runtime::World& world, text::Diagnostics& diagnostics) {
-                       return fuzz(context, options, world, diagnostics);
-                     });
+  return runOnDevice({&options}, 2, [&](auto& session, auto& world, text::Diagnostics& diagnostics) {
+    return fuzz(*session->context, options, world, diagnostics);
+  });
 }
 
 }  // namespace
@@ -123,10 +161,10 @@ void addFuzz(CommandLine& line) {
   command.add_option("--runs", options.runs, "how many random orders to try")->check(CLI::Range(1u, 100000u));
   command.add_option("--seed", options.seed,
                      "try this order alone; 0 is the declared one (default: 0 to --runs)");
-  command
-      .add_option("--order", options.order,
-                  "reorder only the passes at these places of the plan, counted from 0")
-      ->check(CLI::Validator(checkRange, "FIRST:LAST"));
+  addTaken(
+      command, "--order",
+      [&options = options](const std::string& text) { return takeRange(text, options.first, options.last); },
+      "FIRST:LAST", "reorder only the passes at these places of the plan, counted from 0");
   addChoice(command, "--share", options.share, "whether transient textures share storage: on, off or both",
             {"on", "off", "both"});
   addChoice(command, "--poison", options.poison,

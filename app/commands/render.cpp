@@ -1,6 +1,7 @@
-// weft render: frames of a graph to image files, reproducible to the byte.
+// weft render: frames of a graph to image files, reproducible to the byte. weft dump: what each pass wrote in one of them.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <utility>
@@ -9,10 +10,9 @@
 #include "app/commands/commands.h"
 #include "app/output/output_files.h"
 #include "app/output/picture_writer.h"
-#include "app/output/progress.h"
 #include "app/output/standard_streams.h"
-#include "app/session/device_session.h"
 #include "app/session/session.h"
+#include "engine/graph/language/suffix.h"
 #include "engine/runtime/inspection/capture.h"
 #include "engine/text/printable.h"
 
@@ -24,172 +24,247 @@ double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// A texture of the graph that is written to a file, or to those of a pattern.
-struct PickedOutput {
-  graph::Pick pick;
-  std::string file;
+// A texture or buffer of the graph that is written to files, or to those of patterns.
+struct Part {
+  std::string name;  // as it was asked for
+  std::vector<std::string> files;
+  runtime::CaptureItem item;
+  bool saved = false;  // in the last frame
 };
+
+// What a run of frames writes, and what is known of it afterwards.
+struct FrameRun {
+  std::string output;  // the presented picture; empty: only the parts
+  std::vector<Part> parts;
+  PictureWriter writer{};
+  runtime::FrameReport last{};
+  std::uint64_t frames = 0;
+  double firstSeconds = 0;  // of the first frame
+};
+
+bool isBuffer(const graph::FlatGraph& graph, const runtime::CaptureItem& item) {
+  const auto at = std::ranges::find(graph.resourceNames, item.target.resource) - graph.resourceNames.begin();
+  return graph.resources[static_cast<std::size_t>(at)].kind == graph::ResourceKind::buffer;
+}
+
+// Runs the frames up to options.lastFrame and writes those from options.firstFrame on. Frames before them run too when one of
+// them may look back, so frame N does not depend on where the range starts. `onWritten` is called after each that was written.
+void runFrames(DeviceSession& session, runtime::World& world, const Options& options, FrameRun& run,
+               const std::function<void()>& onWritten, text::Diagnostics& diagnostics) {
+  runtime::Renderer& renderer = session.renderer;
+  runtime::Execution& execution = *renderer.execution();
+  const std::uint32_t begin = execution.remembers(world) ? 0 : options.firstFrame;
+  run.frames = std::uint64_t{options.lastFrame} - begin + 1;
+  ProgressLines lines({.total = run.frames, .lead = options.firstFrame - begin});
+  std::vector<runtime::CaptureItem> items;
+  for (const Part& part : run.parts) items.push_back(part.item);
+  runtime::Capture capture(renderer.device());
+  std::uint32_t frame = begin;
+  text::Diagnostics said;
+  const auto save = [&](std::size_t i, runtime::Inspector& inspector) {
+    Part& part = run.parts[i];
+    part.saved = std::ranges::all_of(part.files, [&](const std::string& file) {
+      return saveInspected(inspector, *outputNameOf(file, frame), said);
+    });
+  };
+  for (std::uint64_t done = 1; done <= run.frames && !diagnostics.hasErrors(); ++done) {
+    frame = static_cast<std::uint32_t>(begin + (done - 1));
+    if (frame == options.firstFrame && !items.empty()) capture.start(execution, items, save);
+    for (Part& part : run.parts) part.saved = false;
+    const double before = now();
+    run.last = renderer.frame(world, runtime::headlessFrame(world, frame, options.fps, options.pointer),
+                              diagnostics);
+    renderer.dropUploaded(world);
+    session.context->debugLog().drain(diagnostics);
+    if (done == 1) {
+      glFinish();
+      run.firstSeconds = now() - before;
+    }
+    if (run.frames > 1 && !options.quiet) lines.countOne();
+    if (frame < options.firstFrame) continue;
+    diagnostics.append(std::exchange(said, {}));
+    onWritten();
+    if (!run.output.empty() && !diagnostics.hasErrors())
+      run.writer.save(renderer, *outputNameOf(run.output, frame), diagnostics);
+  }
+  if (!items.empty()) capture.stop(execution);
+  session.context->debugLog().drain(diagnostics);
+  run.writer.tell(diagnostics);
+}
 
 struct RenderOptions : Options {
   std::vector<std::string> outputs;  // -o, as they were written
   std::string present;
-  std::string output;  // the presented picture; empty: only `picked`
-  std::vector<PickedOutput> picked;
-  bool quiet = false;
 };
 
-// Whether what stands before a '=' names a texture, and is not the beginning of a path.
-bool isMeantAsName(const std::string& text) {
-  return !text.empty() && text.find('/') == std::string::npos &&
-         (text.find('.') == std::string::npos || text.find_first_of("#[@") != std::string::npos ||
-          graph::parsePick(text));
-}
-
-// `-o FILE`, `-o NAME=FILE` and `--present NAME`. What is wrong with them, or nothing.
-std::string takeOutputs(RenderOptions& options) {
+// `-o FILE`, `-o NAME=FILE` and `--present NAME`: the parts are those of options.kept. What is wrong with them, or nothing.
+std::string takeOutputs(RenderOptions& options, FrameRun& run) {
+  const auto add = [&](graph::Pick pick, const char* option, std::string file) {
+    pick.option = option;
+    run.parts.push_back({pick.text, {std::move(file)}, {}});
+    options.kept.push_back(std::move(pick));
+  };
   for (const std::string& text : options.outputs) {
-    const std::size_t at = text.find('=');
-    const std::string name = at == std::string::npos ? "" : text.substr(0, at);
-    if (at == 0)
-      return fmt::format("'-o {0}' has no NAME before the '='; a file of that name is './{0}'", text);
-    if (isMeantAsName(name) && at + 1 == text.size())
-      return fmt::format("'-o {0}' has no FILE behind the '='; write {0}picture.png", text);
-    if (isMeantAsName(name)) {
+    const std::string name = text.substr(0, text.find('='));
+    if (name != text && name.find('/') == std::string::npos)
       // A word that is spelled in another way names nothing; then the graph's names tell which one is near.
-      graph::Pick pick = graph::parsePick(name).value_or(graph::Pick{.text = name, .name = name, .pass = {}});
-      pick.option = "-o";
-      options.picked.push_back({std::move(pick), text.substr(at + 1)});
-    } else if (options.output.empty()) {
-      options.output = text;
-    } else {
+      add(graph::parsePick(name).value_or(graph::Pick{.text = name, .name = name, .pass = {}}), "-o",
+          text.substr(name.size() + 1));
+    else if (run.output.empty())
+      run.output = text;
+    else
       return fmt::format(
-          "the picture would be written to '{}' and to '{}'; write NAME=FILE for another texture",
-          options.output, text);
-    }
+          "the picture would be written to '{}' and to '{}'; write NAME=FILE for another texture, ./FILE for "
+          "a "
+          "name with a '='",
+          run.output, text);
   }
   if (options.present.empty()) return {};
-  std::optional<graph::Pick> shown = graph::parsePick(options.present);
+  const std::optional<graph::Pick> shown = graph::parsePick(options.present);
   if (!shown)
     return fmt::format("--present takes a texture such as depth, hdr#1 or 'glow.mip[2]', found '{}'",
                        options.present);
-  if (options.output.empty()) return "--present needs a file: -o FILE";
-  shown->option = "--present";
-  options.picked.insert(options.picked.begin(), {std::move(*shown), std::exchange(options.output, {})});
+  if (run.output.empty()) return "--present needs a file: -o FILE";
+  add(*shown, "--present", std::exchange(run.output, {}));
   return {};
 }
 
-// The items of the plan that are picked. Nothing after an error.
-std::optional<std::vector<runtime::CaptureItem>> itemsOf(const RenderOptions& options,
-                                                         const graph::Plan& plan,
-                                                         text::Diagnostics& diagnostics) {
-  std::vector<runtime::CaptureItem> items;
-  const graph::FlatGraph& graph = *plan.graph;
-  for (const PickedOutput& each : options.picked) {
-    const auto item = runtime::captureItemOf(plan, each.pick, diagnostics);
+// Finds the parts in the plan.
+void findParts(const RenderOptions& options, const graph::Plan& plan, FrameRun& run,
+               text::Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < run.parts.size(); ++i) {
+    const auto item = runtime::captureItemOf(plan, options.kept[i], diagnostics);
     if (!item) continue;
-    const auto at =
-        std::ranges::find(graph.resourceNames, item->target.resource) - graph.resourceNames.begin();
-    if (graph.resources[static_cast<std::size_t>(at)].kind == graph::ResourceKind::buffer)
-      diagnostics
-          .error(text::Code::outputNotWritten, {std::make_shared<const std::string>(each.file)},
-                 fmt::format("'{}' is a buffer and no picture", each.pick.name))
-          .hint = "weft dump writes the bytes of buffers";
-    items.push_back(*item);
+    run.parts[i].item = *item;
+    if (isBuffer(*plan.graph, *item))
+      refuseOutput(run.parts[i].files[0],
+                   fmt::format("'{}' is a buffer and no picture", options.kept[i].name),
+                   "weft dump writes the bytes of buffers", diagnostics);
   }
-  return diagnostics.hasErrors() ? std::nullopt : std::optional(std::move(items));
 }
 
 int runRender(RenderOptions& options) {
   const double start = now();
-  if (const std::string wrong = takeOutputs(options); !wrong.empty()) {
+  FrameRun run;
+  if (const std::string wrong = takeOutputs(options, run); !wrong.empty()) {
     printError("weft render: " + text::shortened(text::printable(wrong)) + "\n");
     return 2;
   }
-  text::Diagnostics diagnostics;
-  const bool whole = !options.output.empty();
+  text::Diagnostics wrong;
   std::vector<OutputFile> outputs;
-  if (whole) outputs.push_back({"-o", options.output, options.firstFrame, options.lastFrame});
-  for (const PickedOutput& each : options.picked) {
-    options.kept.push_back(each.pick);
-    outputs.push_back({"-o " + each.pick.text, each.file, options.firstFrame, options.lastFrame});
-  }
+  if (!run.output.empty()) outputs.push_back({"-o", run.output});
+  for (const Part& part : run.parts) outputs.push_back({"-o " + part.name, part.files[0]});
   for (const OutputFile& each : outputs)
-    checkOutput(each.pattern, options.firstFrame, options.lastFrame > options.firstFrame, diagnostics);
-  int exitCode = 0;
-  auto opened = openGraph(options, diagnostics, exitCode);
-  if (!opened) return exitCode;
-  std::unique_ptr<DeviceSession> session = std::move(opened->session);
-  runtime::World& world = opened->world;
-  runtime::Renderer& renderer = session->renderer;
-  if (whole && !checkPresents(options, renderer, diagnostics)) return report(diagnostics);
-  const double prepared = now();
-  double firstFrame = 0;
-  // Frames before the first one written run too when it may look back at them.
-  const std::uint32_t begin = renderer.execution()->remembers(world) ? 0 : options.firstFrame;
-  const std::uint64_t total = std::uint64_t{options.lastFrame} - begin + 1;
-  const auto items = itemsOf(options, renderer.execution()->plan(), diagnostics);
-  if (!checkDistinct(outputs, filesReadBy(options, renderer, world), diagnostics) || !items)
-    return report(diagnostics);
-  ProgressLines lines({.total = total, .lead = options.firstFrame - begin});
-  renderer.device().timers.setEnabled(options.profile);
-  runtime::FrameReport last;
-  PictureWriter writer;
-  {
-    runtime::Capture capture(renderer.device());  // destroyed before the device
-    std::optional<std::uint32_t> written;         // the frame, where it is to be written
-    std::vector<std::uint8_t> saved(items->size());
-    text::Diagnostics said;
-    if (!items->empty())
-      capture.start(*renderer.execution(), *items, [&](std::size_t item, runtime::Inspector& inspector) {
-        if (written)
-          saved[item] = saveInspected(inspector, *outputNameOf(options.picked[item].file, *written), said);
-      });
-    // So frame N does not depend on where the range starts.
-    for (std::uint64_t done = 1; done <= total && !diagnostics.hasErrors(); ++done) {
-      const auto frame = static_cast<std::uint32_t>(begin + (done - 1));
-      const double before = now();
-      written = frame < options.firstFrame ? std::nullopt : std::optional(frame);
-      last = renderer.frame(world, runtime::headlessFrame(world, frame, options.fps, options.pointer),
-                            diagnostics);
-      renderer.dropUploaded(world);
-      session->context->debugLog().drain(diagnostics);
-      if (done == 1) {
-        glFinish();
-        firstFrame = now() - before;
-      }
-      if (total > 1 && !options.quiet) lines.countOne();
-      if (!written) continue;
-      diagnostics.append(std::exchange(said, {}));
-      for (std::size_t i = 0; i < saved.size() && !diagnostics.hasErrors(); ++i)
-        if (!std::exchange(saved[i], 0))
-          diagnostics
-              .error(text::Code::outputNotWritten,
-                     {std::make_shared<const std::string>(options.picked[i].file)},
-                     fmt::format("nothing was in '{}' to write", options.picked[i].pick.text))
-              .hint = "an import that is not there has no picture, nor has a pass that did not run";
-      if (whole && !diagnostics.hasErrors())
-        writer.save(renderer, *outputNameOf(options.output, frame), diagnostics);
-    }
-    if (!items->empty()) capture.stop(*renderer.execution());
-  }
-  session->context->debugLog().drain(diagnostics);
-  writer.tell(diagnostics);
-  if (diagnostics.hasErrors()) return report(diagnostics);
-  if (options.stats) {
+    checkOutput(each.pattern, options.firstFrame, options.lastFrame > options.firstFrame, wrong);
+  if (wrong.hasErrors()) return report(wrong);
+  return runOnDevice({&options}, 1, [&](auto& session, auto& world, text::Diagnostics& diagnostics) {
+    runtime::Renderer& renderer = session->renderer;
+    if (!renderer.load(settingsOf(options, session->context->device().software), world, diagnostics) ||
+        (!run.output.empty() && !checkPresents(options, renderer, diagnostics)))
+      return 1;
+    const double prepared = now();
+    findParts(options, renderer.execution()->plan(), run, diagnostics);
+    if (!checkDistinct(outputs, filesReadBy(options, renderer, world), diagnostics) ||
+        diagnostics.hasErrors())
+      return 1;
+    renderer.device().timers.setEnabled(options.profile);
+    const auto checkSaved = [&] {
+      for (const Part& part : run.parts)
+        if (!part.saved && !diagnostics.hasErrors())
+          refuseOutput(part.files[0], fmt::format("nothing was in '{}' to write", part.name),
+                       "an import that is not there has no picture, nor has a pass that did not run",
+                       diagnostics);
+    };
+    runFrames(*session, world, options, run, checkSaved, diagnostics);
+    if (diagnostics.hasErrors() || !options.stats) return 0;
     auto stats = statsOf(*session, {{"setup_ms", (prepared - start) * 1e3},
-                                    {"first_frame_ms", firstFrame * 1e3},
+                                    {"first_frame_ms", run.firstSeconds * 1e3},
                                     {"total_ms", (now() - start) * 1e3},
-                                    {"frames_run", total},
-                                    {"passes_run_last_frame", last.passesRun},
-                                    {"passes_skipped_last_frame", last.passesSkipped},
-                                    {"barriers_last_frame", last.barriers}});
-    stats["pictures"] = {{"written", writer.counts().pictures},
-                         {"with_nan_or_infinity", writer.counts().broken},
-                         {"pixels_nan_or_infinite", writer.counts().pixels}};
+                                    {"frames_run", run.frames},
+                                    {"passes_run_last_frame", run.last.passesRun},
+                                    {"passes_skipped_last_frame", run.last.passesSkipped},
+                                    {"barriers_last_frame", run.last.barriers}});
+    stats["pictures"] = {{"written", run.writer.counts().pictures},
+                         {"with_nan_or_infinity", run.writer.counts().broken},
+                         {"pixels_nan_or_infinite", run.writer.counts().pixels}};
     stats["gl_objects_left"] = closeDevice(std::move(session));
     printStats(stats);
+    return 0;
+  });
+}
+
+// ---- dump ----
+
+struct DumpOptions : Options {
+  std::vector<std::string> patterns;
+  std::string folder;
+};
+
+// Without what a shell or a file system takes in another way: "hdr#2" is "hdr-2", "down[3]" is "down-3".
+std::string plainWord(std::string name) {
+  std::erase_if(name, [](char c) { return c == ']' || c == '@'; });
+  std::ranges::replace_if(
+      name, [](char c) { return c == '#' || c == '[' || c == ','; }, '-');
+  return name;
+}
+
+// "007_glow_down-1.mip1.layer0": steps sort as they ran.
+std::string fileNameOf(const runtime::CaptureItem& item, const graph::Plan& plan) {
+  const graph::FlatGraph& graph = *plan.graph;
+  const auto at = std::ranges::find(graph.resourceNames, item.target.resource) - graph.resourceNames.begin();
+  const graph::FlatResource& resource = graph.resources[static_cast<std::size_t>(at)];
+  std::string name =
+      fmt::format("{:03}_{}_{}", item.step, plainWord(item.target.resource), plainWord(item.target.pass));
+  if (resource.mips > 1) name += fmt::format(".mip{}", item.target.mip);
+  if (resource.layers > 1 || resource.depth > 1) name += fmt::format(".layer{}", item.target.layer);
+  return name + (item.target.stencil ? ".stencil" : "");
+}
+
+// The parts of the plan that the patterns name; each of them names some.
+std::vector<Part> matchingParts(const DumpOptions& options, const graph::Plan& plan,
+                                text::Diagnostics& diagnostics) {
+  std::vector<std::string> names;
+  for (const std::string& name : plan.graph->resourceNames) names.emplace_back(graph::sharedName(name));
+  for (const std::string& pattern : options.patterns)
+    if (runtime::captureItems(plan, {&pattern, 1}).empty())
+      diagnostics
+          .error(text::Code::unknownResource, text::placeOfOption(pattern),
+                 fmt::format("no pass that runs writes a resource '{}'", pattern))
+          .hint = graph::suffixHint(pattern, names);
+  std::vector<Part> parts;
+  for (const runtime::CaptureItem& item : runtime::captureItems(plan, options.patterns)) {
+    const std::string stem = options.folder + "/" + fileNameOf(item, plan);
+    std::vector<std::string> files{stem + ".bin"};
+    if (!isBuffer(*plan.graph, item)) files = {stem + ".png", stem + ".exr"};
+    parts.push_back({item.target.resource, std::move(files), item});
   }
-  return report(diagnostics, !options.quiet);
+  return parts;
+}
+
+int runDump(DumpOptions& options) {
+  options.firstFrame = options.lastFrame;
+  return runOnDevice({&options}, 1, [&](auto& session, auto& world, text::Diagnostics& diagnostics) {
+    runtime::Renderer& renderer = session->renderer;
+    if (!renderer.load(settingsOf(options, session->context->device().software), world, diagnostics))
+      return 1;
+    FrameRun run{.output = {}, .parts = matchingParts(options, renderer.execution()->plan(), diagnostics)};
+    std::vector<OutputFile> outputs;
+    for (const Part& part : run.parts)
+      for (const std::string& file : part.files) outputs.push_back({"-o", file, OutputFile::Over::file});
+    if (diagnostics.hasErrors() ||
+        !checkDistinct(outputs, filesReadBy(options, renderer, world), diagnostics))
+      return 1;
+    runFrames(
+        *session, world, options, run, [] {}, diagnostics);
+    for (const Part& part : run.parts)
+      if (!options.quiet && !diagnostics.hasErrors())
+        print(text::printable(
+                  part.saved ? fmt::format("{}  {} after {}", part.files[0], part.name, part.item.target.pass)
+                             : fmt::format("'{}' did not run in frame {}: nothing of it is written",
+                                           part.item.target.pass, options.lastFrame)) +
+              "\n");
+    return 0;
+  });
 }
 
 }  // namespace
@@ -209,16 +284,34 @@ void addRender(CommandLine& line) {
       "--present", options.present,
       "show this texture instead of the graph's picture, as the viewer's inspector does: depth, "
       "'hdr after skybox', 'glow.mip[2]'");
-  const auto takeFrames = [&options](const std::string& text) {
-    parseRange(text, options.firstFrame, options.lastFrame);
+  const auto takeFrames = [&options = options](const std::string& text) {
+    return takeRange(text, options.firstFrame, options.lastFrame);
   };
-  command.add_option_function<std::string>("--frames", takeFrames, "a frame number, or FIRST:LAST")
-      ->check(CLI::Validator(checkRange, "A:B"));
+  addTaken(command, "--frames", takeFrames, "A:B", "a frame number, or FIRST:LAST");
   options.addFps(command);
   options.addPointer(command);
   command.add_flag("--wait-for-assets")
       ->description("as always without a window: the first frame waits for all that it needs");
   command.add_flag("--quiet", options.quiet, "no progress bar and no notes");
+}
+
+void addDump(CommandLine& line) {
+  const auto [command, options] = line.add("dump",
+                                           "write what each pass wrote of some resources, as pictures "
+                                           "(.png), values (.exr) and bytes (.bin): weft "
+                                           "dump graphs/glow.json 'glow*' -o out",
+                                           runDump);
+  options.addGraph(command);
+  command
+      .add_option("name", options.patterns,
+                  "names of resources, or any suffix of theirs; * stands for any letters; hdr#2 is a version")
+      ->required();
+  addPath(command, "-o,--output", options.folder, "folder to write to", "FOLDER")->required();
+  options.addFrame(command, "--frames");
+  options.addFps(command);
+  options.addPointer(command);
+  options.addBackend(command);
+  command.add_flag("--quiet", options.quiet, "no list of files and no notes");
 }
 
 }  // namespace weft::app

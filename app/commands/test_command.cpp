@@ -1,7 +1,8 @@
 // weft test: cases of pictures and plans against their goldens.
 #include <fmt/format.h>
 
-#include <map>
+#include <algorithm>
+#include <iterator>
 
 #include "app/commands/commands.h"
 #include "app/output/output_files.h"
@@ -21,7 +22,7 @@ namespace {
 using State = CaseResult::State;
 
 const char* wordOf(State state) {
-  static constexpr const char* kWords[] = {"ok", "FAILED", "written", "kept", "BROKEN"};
+  static constexpr const char* kWords[] = {"ok", "FAILED", "written", "BROKEN"};
   return kWords[static_cast<std::size_t>(state)];
 }
 
@@ -55,28 +56,14 @@ struct Cases {
 // The cases to run; what is wrong with any of them ends the run.
 Cases chooseCases(const TestOptions& options, text::Diagnostics& diagnostics) {
   Cases cases;
-  std::vector<TestCase>&all = cases.all, &wanted = cases.wanted;
   for (const std::string& file : findCaseFiles(options.folder, diagnostics))
-    readCases(file, options, all, diagnostics);
-  std::map<std::string, const TestCase*> goldens;
-  for (const TestCase& test : all) {
-    for (const std::string& file : test.acceptedFiles()) {
-      const auto [known, fresh] = goldens.emplace(file, &test);
-      if (fresh) continue;
-      const TestCase& other = *known->second;
-      diagnostics
-          .error(text::Code::duplicateName, test.place,
-                 fmt::format("the cases '{}' and '{}' of '{}' have one golden, '{}'", test.name, other.name,
-                             other.place.file ? *other.place.file : "", file))
-          .hint = "give one of them another name";
-      break;
-    }
-    if (isWanted(test, options.only)) wanted.push_back(test);
-  }
-  if (wanted.empty() && !diagnostics.hasErrors()) {
-    diagnostics.error(text::Code::unknownWord, text::placeOfOption(all.empty() ? options.folder : "--only"),
-                      all.empty() ? "there are no cases" : "no case has such a name");
-  }
+    readCases(file, options, cases.all, diagnostics);
+  std::ranges::copy_if(cases.all, std::back_inserter(cases.wanted),
+                       [&](const TestCase& test) { return isWanted(test, options.only); });
+  if (cases.wanted.empty() && !diagnostics.hasErrors())
+    diagnostics.error(text::Code::unknownWord,
+                      text::placeOfOption(cases.all.empty() ? options.folder : "--only"),
+                      cases.all.empty() ? "there are no cases" : "no case has such a name");
   return cases;
 }
 
@@ -91,7 +78,7 @@ std::string leftName(const std::string& folder, const TestCase& test, std::uint3
 // those.
 bool checkOutputs(const TestOptions& options, const Cases& cases, text::Diagnostics& diagnostics) {
   std::vector<OutputFile> outputs;
-  std::vector<std::string> inputs, made;
+  std::vector<std::string> inputs;
   if (!options.report.empty()) outputs.push_back({"--report", options.report});
   for (const TestCase& test : cases.all) {
     inputs.insert(inputs.end(),
@@ -103,8 +90,7 @@ bool checkOutputs(const TestOptions& options, const Cases& cases, text::Diagnost
       inputs.insert(inputs.end(), goldens.begin(), goldens.end());
   }
   const auto make = [&](const char* option, const std::string& file) {
-    made.push_back(file);
-    outputs.push_back({option, file});
+    outputs.push_back({option, file, OutputFile::Over::file});
   };
   for (const TestCase& test : cases.wanted) {
     if (options.accept)
@@ -114,8 +100,7 @@ bool checkOutputs(const TestOptions& options, const Cases& cases, text::Diagnost
         if (!options.output.empty() && !test.plan) make("-o", leftName(options.output, test, frame) + end);
   }
   std::erase(inputs, "");
-  const bool plain = checkMadeFiles(made, diagnostics);
-  return checkDistinct(outputs, inputs, diagnostics) && plain;
+  return checkDistinct(outputs, inputs, diagnostics);
 }
 
 // Writes the picture and the difference of what failed. `read`: files of all cases.
@@ -132,15 +117,6 @@ void leaveFiles(const std::string& folder, const TestCase& test, const CaseResul
   }
 }
 
-// Writes the page over nothing that a case reads.
-void writeReport(const std::string& path, const std::string& page, const std::vector<std::string>& read,
-                 text::Diagnostics& diagnostics) {
-  const OutputFile output{"--report", path};
-  if (checkDistinct({&output, 1}, read, diagnostics) && checkMadeFiles({&path, 1}, diagnostics) &&
-      makeFolderOf(path, diagnostics))
-    text::writeFile(path, page, diagnostics);
-}
-
 int runTest(TestOptions& options) {
   text::Diagnostics diagnostics;
   const Cases chosen = chooseCases(options, diagnostics);
@@ -152,7 +128,7 @@ int runTest(TestOptions& options) {
   CaseRunner runner(options);
   std::vector<std::pair<TestCase, CaseResult>> results;
   std::vector<std::string> read;
-  std::size_t counts[5] = {};
+  std::size_t counts[4] = {};
   for (const TestCase& test : cases) {
     CaseResult result = runner.run(test, options.accept, diagnostics);
     report(diagnostics, false);
@@ -167,13 +143,17 @@ int runTest(TestOptions& options) {
   std::ranges::sort(read);
   read.erase(std::ranges::unique(read).begin(), read.end());
   std::string sum;
-  for (const State state : {State::same, State::kept, State::written, State::different, State::broken})
+  for (const State state : {State::same, State::written, State::different, State::broken})
     if (const std::size_t count = counts[static_cast<std::size_t>(state)])
       sum += fmt::format("{}{} {}", sum.empty() ? "" : ", ", count, wordOf(state));
   print(fmt::format("{}: {}\n", text::counted(cases.size(), "case"), sum));
   if (!options.output.empty())
     for (const auto& [test, result] : results) leaveFiles(options.output, test, result, read, diagnostics);
-  if (!options.report.empty()) writeReport(options.report, reportPage(results), read, diagnostics);
+  const OutputFile page{"--report", options.report,
+                        OutputFile::Over::file};  // over nothing that a case reads
+  if (!options.report.empty() && checkDistinct({&page, 1}, read, diagnostics) &&
+      makeFolderOf(options.report, diagnostics))
+    text::writeFile(options.report, reportPage(results), diagnostics);
   const bool written = report(diagnostics) == 0;
   if (runner.lacksContext()) return 3;
   if (counts[static_cast<std::size_t>(State::broken)] > 0 || !written) return 2;

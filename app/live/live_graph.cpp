@@ -177,8 +177,8 @@ bool LiveGraph::pollEnvironment(text::Diagnostics& diagnostics) {
   const auto event = environment_.poll(provider->textures(), diagnostics);
   if (!event) return false;
   runtime::World world = world_;
-  if (event->map) world.setEnvironment(event->map);
-  environmentGood_ = event->map && tryWorld(world, diagnostics);
+  if (*event) world.setEnvironment(*event);
+  environmentGood_ = *event != nullptr && tryWorld(world, diagnostics);
   if (!environmentGood_ && world_.environmentPending()) {
     world = world_;
     world.expectEnvironment(false);

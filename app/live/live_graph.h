@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/live/live_environment.h"
-#include "app/live/live_scene.h"
+#include "app/live/live_loads.h"
 #include "app/session/options.h"
 #include "engine/graph/expand/expand.h"
 #include "engine/runtime/frame/execution.h"

@@ -22,24 +22,25 @@ std::string pictureKindOf(const std::string& path);
 bool checkOutput(const std::string& pattern, std::uint32_t first, bool several,
                  text::Diagnostics& diagnostics);
 
+// W180 at `path`.
+void refuseOutput(const std::string& path, const std::string& message, const std::string& hint,
+                  text::Diagnostics& diagnostics);
 // Makes the folder of a file. False after W180.
 bool makeFolderOf(const std::string& path, text::Diagnostics& diagnostics);
 
 // What one option has a run write: a file, or the frames of a pattern.
 struct OutputFile {
+  // What may be there: anything; a plain file or nothing, for a name that the command makes up, so that no pipe is waited for and
+  // no device written to; nothing.
+  enum class Over { anything, file, nothing };
+
   std::string option;   // "-o", for messages
-  std::string pattern;  // empty: nothing
-  std::uint32_t first = 0, last = 0;
+  std::string pattern;  // empty: nothing is written
+  Over over = Over::anything;
 };
-// That no output is one of the files that the run reads, or another output, however it is spelled and whatever links lead to
-// it. Devices and pipes may be anything. False after W180.
+// Checks that no output is one of the files that the run reads, or another output, however it is spelled and whatever links lead
+// to it; a pattern is that of every frame. False after W180.
 bool checkDistinct(std::span<const OutputFile> outputs, std::span<const std::string> inputs,
                    text::Diagnostics& diagnostics);
-
-// Files whose names a command makes itself: each is nothing yet or a plain file, so that no pipe is waited for and no device
-// written to. False after W180.
-bool checkMadeFiles(std::span<const std::string> paths, text::Diagnostics& diagnostics);
-// That there is no file of these names yet. False after W180.
-bool checkFree(std::span<const std::string> paths, text::Diagnostics& diagnostics);
 
 }  // namespace weft::app

@@ -10,6 +10,7 @@
 #include "app/output/output_files.h"
 #include "app/output/standard_streams.h"
 #include "engine/text/counted.h"
+#include "engine/text/files/file.h"
 #include "engine/text/printable.h"
 
 namespace weft::app {
@@ -20,6 +21,11 @@ bool savePng(const std::string& path, const assets::Image8& image, text::Diagnos
 }
 
 bool saveInspected(runtime::Inspector& inspector, const std::string& path, text::Diagnostics& diagnostics) {
+  if (inspector.picture().id == 0) {
+    const std::vector<std::byte> bytes = inspector.bytes(0, inspector.bufferBytes());
+    return makeFolderOf(path, diagnostics) &&
+           text::writeFile(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, diagnostics);
+  }
   if (pictureKindOf(path) != ".exr") {
     const auto image = inspector.drawWhole(inspector.fittedView(), diagnostics);
     return image && savePng(path, *image, diagnostics);

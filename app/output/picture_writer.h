@@ -14,7 +14,7 @@ namespace weft::app {
 
 // Makes the folder of the file. False after W180, as all of these.
 bool savePng(const std::string& path, const assets::Image8& image, text::Diagnostics& diagnostics);
-// What a copy of the inspector's is saved as under `path`, by the kind of its name.
+// Saves a copy of the inspector's: a picture by the kind of the name, a buffer as its bytes.
 bool saveInspected(runtime::Inspector& inspector, const std::string& path, text::Diagnostics& diagnostics);
 
 class PictureWriter {
@@ -54,7 +54,6 @@ class Recorder {
   void stop(text::Diagnostics& diagnostics);
   bool active() const { return active_; }
   std::uint32_t frames() const { return frames_; }
-  const std::string& pattern() const { return pattern_; }
 
   // The presented picture is the next frame. Stops after an error.
   void add(runtime::Renderer& renderer, text::Diagnostics& diagnostics);

@@ -68,8 +68,8 @@ void printError(std::string_view text) {
   put(text, stderr, errorFailure);
 }
 
-std::string dumpJson(const nlohmann::ordered_json& json) {
-  return text::printableJson(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+std::string dumpJson(const nlohmann::ordered_json& json, int indent) {
+  return text::printableJson(json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 int finishStreams(int exitCode) {
@@ -91,6 +91,31 @@ int finishStreams(int exitCode) {
   const bool lost =
       (errorFailure != 0 && errorFailure != EPIPE) || (errorFailure == 0 && std::ferror(stderr));
   return exitCode == 0 && (outputFailure != 0 || lost) ? 1 : exitCode;
+}
+
+std::string durationText(double seconds) {
+  if (seconds < 10) return fmt::format("{:.1f} s", std::max(0.0, seconds));
+  if (seconds < 90) return fmt::format("{:.0f} s", seconds);
+  return seconds < 5400 ? fmt::format("{:.0f} min", seconds / 60) : fmt::format("{:.1f} h", seconds / 3600);
+}
+
+std::string progressText(const Progress& p) {
+  std::string text = fmt::format("{}/{} {}", p.done, p.total, p.unit);
+  if (p.done >= p.total) return text + " in " + durationText(p.seconds);
+  if (p.lead > 0) text += fmt::format(", {} of them lead up to the first picture", p.lead);
+  const double each = p.seconds / static_cast<double>(std::max<std::uint64_t>(1, p.done));
+  return text + fmt::format(", {} left", durationText(each * static_cast<double>(p.total - p.done)));
+}
+
+void ProgressLines::countOne() {
+  constexpr double kPause = 10;  // seconds
+  ++progress_.done;
+  progress_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const bool last = progress_.done == progress_.total, terminal = ::isatty(STDERR_FILENO) == 1;
+  if (terminal) printError("\r" + progressText(progress_) + "\033[K" + (last ? "\n" : ""));
+  if (terminal || (progress_.seconds - printed_ < kPause && !(last && printed_ > 0))) return;
+  printError(progressText(progress_) + "\n");
+  printed_ = progress_.seconds;
 }
 
 }  // namespace weft::app

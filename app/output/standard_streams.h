@@ -2,6 +2,8 @@
 // Nothing here throws: finishStreams() reports at the end what could not be written, and gives the exit code.
 #pragma once
 
+#include <chrono>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -19,12 +21,39 @@ void printTable(const std::vector<std::vector<std::string>>& rows);
 void flushPrinted();                     // writes what print() has kept back so far
 void printError(std::string_view text);  // on standard error
 
-// Indented text. Bytes that are no UTF-8 are replaced.
-std::string dumpJson(const nlohmann::ordered_json& json);
+// Indented text, or with -1 a line. Bytes that are no UTF-8 are replaced.
+std::string dumpJson(const nlohmann::ordered_json& json, int indent = 2);
 
 // To be called at the end, with the exit code so far: writes what is left. After a failed write it reports W180 and
 // returns at least 1. When the reader of standard output has gone, that is no error: it returns 141 instead of 0, as a
 // shell would.
 int finishStreams(int exitCode);
+
+// "4.2 s", "52 s", "12 min", "2.2 h": as exact as an estimate is worth.
+std::string durationText(double seconds);
+
+// Of `total`, `lead` frames run only because a later frame looks back at them, and `done` are finished after `seconds`.
+struct Progress {
+  std::uint64_t done = 0, total = 1, lead = 0;
+  double seconds = 0;
+  const char* unit = "frames";  // what is counted
+};
+
+// "12/501 frames, 500 of them lead up to the first picture, 2.2 h left".
+std::string progressText(const Progress& progress);
+
+// How far a long run is, on standard error: one line on a terminal, elsewhere a line every ten seconds, so that a quick run says
+// nothing.
+class ProgressLines {
+ public:
+  explicit ProgressLines(Progress progress) : progress_(progress) {}
+  // To be called when one more is done.
+  void countOne();
+
+ private:
+  Progress progress_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double printed_ = 0;  // seconds
+};
 
 }  // namespace weft::app

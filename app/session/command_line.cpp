@@ -32,7 +32,7 @@ void addCommon(CLI::App& command) {
   const auto confine = [](const std::string& folder) { return text::confineTo(folder).value_or(""); };
   const auto limit = [](const std::string& text) -> std::string {
     std::uint32_t times = 0;
-    if (!parseNumber(text, times) || times < 1 || times > text::kMaxRaise)
+    if (!takeCount(text, times).empty() || times < 1 || times > text::kMaxRaise)
       return fmt::format("expected a whole number from 1 to {}, found '{}'", text::kMaxRaise, text);
     text::raiseLimits(times);
     return "";
@@ -132,7 +132,7 @@ int CommandLine::run(int argc, char** argv) {
     printError(fmt::format("weft {}: {}\n", command.get_name(), shown(wrong)));
     return 2;
   }
-  for (const char* folder : {"graphs", "shaders", "scenes", "materials"})
+  for (const char* folder : {"graphs", "shaders", "scenes", "materials", "app/commands"})
     text::allowFolder(dataFolder() + "/" + folder);
   return run_();
 }

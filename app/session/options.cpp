@@ -14,11 +14,17 @@ namespace {
 
 constexpr int kMaxPixels = 16384;  // of a side of a picture
 
-std::optional<double> numberIn(std::string_view text, double low, double high) {
-  double x = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-  const bool good = error == std::errc{} && end == text.data() + text.size() && x >= low && x <= high;
-  return good ? std::optional(x) : std::nullopt;
+template <class Number>
+bool readNumber(std::string_view text, Number& out) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+template <class Number>
+bool readPair(std::string_view text, char separator, Number& a, Number& b) {
+  const std::size_t at = text.find(separator);
+  return at != std::string_view::npos && readNumber(text.substr(0, at), a) &&
+         readNumber(text.substr(at + 1), b);
 }
 
 }  // namespace
@@ -41,11 +47,9 @@ CLI::Option* Options::addGraph(CLI::App& command) {
 }
 
 void Options::addSize(CLI::App& command) {
-  command
-      .add_option_function<std::string>(
-          "--size", [this](const std::string& text) { parsePair(text, 'x', width, height); },
-          "size of the screen in pixels")
-      ->check(CLI::Validator(checkSize, "WxH"));
+  addTaken(
+      command, "--size", [this](const std::string& text) { return takeSize(text, width, height); }, "WxH",
+      "size of the screen in pixels");
 }
 
 void Options::addPresetFolder(CLI::App& command) {
@@ -64,8 +68,9 @@ void Options::addMeasurements(CLI::App& command) {
 }
 
 CLI::Option* Options::addFrame(CLI::App& command, const char* name) {
-  return command.add_option(name, lastFrame, "number of the frame to look at (default: 0)")
-      ->check(CLI::Validator(checkCount, "FRAME"));
+  return addTaken(
+      command, name, [this](const std::string& text) { return takeCount(text, lastFrame); }, "FRAME",
+      "number of the frame to look at (default: 0)");
 }
 
 void Options::addFps(CLI::App& command, const char* doc) {
@@ -73,12 +78,11 @@ void Options::addFps(CLI::App& command, const char* doc) {
 }
 
 void Options::addPointer(CLI::App& command) {
-  command
-      .add_option_function<std::string>(
-          "--mouse", [this](const std::string& text) { pointer = *parsePointer(text); },
-          "where the mouse points in every frame, for graphs that read it: pixels from the lower left "
-          "corner of the picture; with ',down' its button is held from frame 0 on (default: 0,0)")
-      ->check(CLI::Validator(checkPointer, "X,Y[,down]"));
+  addTaken(
+      command, "--mouse", [this](const std::string& text) { return takePointer(text, pointer); },
+      "X,Y[,down]",
+      "where the mouse points in every frame, for graphs that read it: pixels from the lower left corner of "
+      "the picture; with ',down' its button is held from frame 0 on (default: 0,0)");
 }
 
 void Options::addBackend(CLI::App& command) {
@@ -130,73 +134,51 @@ CLI::Option* addDisables(CLI::App& command, const char* name, std::vector<graph:
 
 CLI::Validator numberFrom(double low, double high) {
   const auto check = [low, high](const std::string& text) -> std::string {
-    return numberIn(text, low, high)
-               ? ""
-               : fmt::format("expected a number from {} to {}, found '{}'", low, high, text);
+    double x = 0;
+    if (readNumber(text, x) && x >= low && x <= high) return {};
+    return fmt::format("expected a number from {} to {}, found '{}'", low, high, text);
   };
   return {check, fmt::format("{} to {}", low, high)};
 }
 
-bool parseNumber(const std::string& text, std::uint32_t& out) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
-  return error == std::errc{} && end == text.data() + text.size();
+CLI::Option* addTaken(CLI::App& command, const char* name,
+                      const std::function<std::string(const std::string&)>& take, const char* type,
+                      const std::string& doc) {
+  const auto ignore = [](const std::string&) {};  // the check has taken it
+  return command.add_option_function<std::string>(name, ignore, doc)->check(CLI::Validator(take, type));
 }
 
-bool parsePair(const std::string& text, char separator, std::uint32_t& a, std::uint32_t& b) {
-  const std::size_t at = text.find(separator);
-  return at != std::string::npos && parseNumber(text.substr(0, at), a) && parseNumber(text.substr(at + 1), b);
+std::string takeSize(const std::string& text, std::uint32_t& width, std::uint32_t& height) {
+  const auto isSide = [](std::uint32_t pixels) { return pixels >= 1 && pixels <= kMaxPixels; };
+  if (readPair(text, 'x', width, height) && isSide(width) && isSide(height)) return {};
+  return fmt::format("expected WIDTHxHEIGHT, each from 1 to {}, found '{}'", kMaxPixels, text);
 }
 
-std::optional<imports::Pointer> parsePointer(const std::string& text) {
-  const std::string_view held = ",down";
-  std::string_view rest = text;
-  imports::Pointer pointer;
-  pointer.down = rest.ends_with(held);
-  if (pointer.down) rest.remove_suffix(held.size());
-  const std::size_t comma = std::min(rest.find(','), rest.size());
-  const auto x = numberIn(rest.substr(0, comma), 0, kMaxPixels);
-  const auto y = numberIn(rest.substr(std::min(comma + 1, rest.size())), 0, kMaxPixels);
-  if (!x || !y) return std::nullopt;
-  pointer.position[0] = static_cast<float>(*x);
-  pointer.position[1] = static_cast<float>(*y);
-  if (pointer.down) pointer.pressed = pointer.dragged = pointer.position;
-  return pointer;
+std::string takeCount(const std::string& text, std::uint32_t& count) {
+  return readNumber(text, count) ? ""
+                                 : fmt::format("expected a number of frames up to {}, found '{}'", ~0u, text);
 }
 
-std::string checkCount(const std::string& text) {
-  std::uint32_t count = 0;
-  return parseNumber(text, count)
-             ? ""
-             : fmt::format("expected a number of frames up to {}, found '{}'", ~0u, text);
-}
-
-std::string checkPointer(const std::string& text) {
-  if (parsePointer(text)) return "";
-  return fmt::format(
-      "expected X,Y or X,Y,down: pixels from the lower left corner of the picture, each from 0 to {}, found "
-      "'{}'",
-      kMaxPixels, text);
-}
-
-std::string checkSize(const std::string& text) {
-  std::uint32_t width = 0, height = 0;
-  const bool good = parsePair(text, 'x', width, height) && width >= 1 && height >= 1 && width <= kMaxPixels &&
-                    height <= kMaxPixels;
-  return good ? "" : fmt::format("expected WIDTHxHEIGHT, each from 1 to {}, found '{}'", kMaxPixels, text);
-}
-
-bool parseRange(const std::string& text, std::uint32_t& first, std::uint32_t& last) {
-  if (text.find(':') != std::string::npos) return parsePair(text, ':', first, last) && first <= last;
-  const bool good = parseNumber(text, first);
-  last = first;
-  return good;
-}
-
-std::string checkRange(const std::string& text) {
-  std::uint32_t first = 0, last = 0;
-  if (parseRange(text, first, last)) return "";
+std::string takeRange(const std::string& text, std::uint32_t& first, std::uint32_t& last) {
+  if (readPair(text, ':', first, last) && first <= last) return {};
+  if (readNumber(text, first)) return last = first, "";
   return fmt::format(
       "expected NUMBER or FIRST:LAST with FIRST <= LAST, whole numbers from 0 to {}, found '{}'", ~0u, text);
+}
+
+std::string takePointer(const std::string& text, imports::Pointer& pointer) {
+  constexpr std::string_view kHeld = ",down";
+  float x = 0, y = 0;
+  const bool held = text.ends_with(kHeld);
+  const bool good =
+      readPair(std::string_view(text).substr(0, text.size() - (held ? kHeld.size() : 0)), ',', x, y);
+  pointer = {.position = {x, y}, .down = held};
+  if (held) pointer.pressed = pointer.dragged = pointer.position;
+  const auto isIn = [](float pixels) { return pixels >= 0 && pixels <= kMaxPixels; };
+  if (good && isIn(x) && isIn(y)) return {};
+  return fmt::format(
+      "expected X,Y or X,Y,down: pixels from the lower left corner, each from 0 to {}, found '{}'",
+      kMaxPixels, text);
 }
 
 std::string checkSet(const std::string& text) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +39,7 @@ struct Options {
   std::string cacheFolder;            // program binaries; empty: the user's cache folder, "none": none
   bool window = false, vsync = true;  // of the context
   bool stats = false, profile = false;
+  bool quiet = false;  // no progress, no notes, no list of files
 
   // The graph, its settings and its surroundings. Returns the option of the graph's file.
   CLI::Option* addGraph(CLI::App& command);
@@ -68,20 +70,17 @@ CLI::Option* addDisables(CLI::App& command, const char* name, std::vector<graph:
                          const std::string& doc);
 // A number within `low` and `high`; what is no number (nan), has no end (inf) or is no double (1e999) is neither.
 CLI::Validator numberFrom(double low, double high);
+// An option that `take` reads.
+CLI::Option* addTaken(CLI::App& command, const char* name,
+                      const std::function<std::string(const std::string&)>& take, const char* type,
+                      const std::string& doc);
 
-// False when `text` is no whole number, or no two with `separator` between them.
-bool parseNumber(const std::string& text, std::uint32_t& out);
-bool parsePair(const std::string& text, char separator, std::uint32_t& a, std::uint32_t& b);
-// One number, which is both, or FIRST:LAST.
-bool parseRange(const std::string& text, std::uint32_t& first, std::uint32_t& last);
-// Pixels of the picture from its lower left corner, and whether the button is held there. Nothing when `text` is neither.
-std::optional<imports::Pointer> parsePointer(const std::string& text);
-
-// Checks of values: "" or what is wrong.
-std::string checkSize(const std::string& text);     // "640x360"
-std::string checkCount(const std::string& text);    // "7"
-std::string checkRange(const std::string& text);    // "7" or "0:59"
-std::string checkSet(const std::string& text);      // "NAME=VALUE"
-std::string checkPointer(const std::string& text);  // "80,45" or "80,45,down"
+// These read a text. They return "", or what is wrong with it.
+std::string takeSize(const std::string& text, std::uint32_t& width, std::uint32_t& height);  // "640x360"
+std::string takeCount(const std::string& text, std::uint32_t& count);                        // "7"
+std::string takeRange(const std::string& text, std::uint32_t& first, std::uint32_t& last);   // "7" or "0:59"
+// "80,45" or "80,45,down": pixels of the picture from its lower left corner, and that the button is held there.
+std::string takePointer(const std::string& text, imports::Pointer& pointer);
+std::string checkSet(const std::string& text);  // "NAME=VALUE"
 
 }  // namespace weft::app

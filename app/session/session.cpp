@@ -1,17 +1,39 @@
 #include "app/session/session.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <future>
 
 #include "app/output/standard_streams.h"
 #include "engine/assets/environments/environment_map.h"
+#include "engine/gl/objects/objects.h"
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/read/read.h"
 #include "engine/runtime/imports/registry.h"
 #include "engine/scene/files/scene_file.h"
+#include "engine/text/files/file_access.h"
 #include "engine/text/message_choice.h"
 
 namespace weft::app {
+
+namespace {
+
+// A person's folder of this kind: that of the variable, else the one in the home folder; "" where there is neither.
+std::string userFolder(const char* variable, const char* inHome) {
+  if (const char* folder = std::getenv(variable); folder && *folder) return folder;
+  const char* home = std::getenv("HOME");
+  return home && *home ? std::string(home) + "/" + inHome : "";
+}
+
+std::string cacheFolderOf(const Options& options) {
+  if (options.cacheFolder == "none") return {};
+  if (!options.cacheFolder.empty()) return options.cacheFolder;
+  const std::string user = userFolder("XDG_CACHE_HOME", ".cache");
+  return user.empty() ? "" : user + "/weft/programs";
+}
+
+}  // namespace
 
 std::string presetsFolder() {
   return dataFolder() + "/graphs/presets";
@@ -20,12 +42,8 @@ std::string presetsFolder() {
 std::vector<std::string> presetFolders(const std::string& own) {
   std::vector<std::string> folders;
   if (!own.empty()) folders.push_back(own);
-  const char* config = std::getenv("XDG_CONFIG_HOME");
-  const char* home = std::getenv("HOME");
-  if (config && *config)
-    folders.push_back(std::string(config) + "/weft/presets");
-  else if (home && *home)
-    folders.push_back(std::string(home) + "/.config/weft/presets");
+  if (const std::string user = userFolder("XDG_CONFIG_HOME", ".config"); !user.empty())
+    folders.push_back(user + "/weft/presets");
   folders.push_back(presetsFolder());
   return folders;
 }
@@ -70,19 +88,14 @@ scene::SceneChoice sceneChoiceOf(const Options& options) {
 }
 
 std::optional<runtime::World> loadWorld(const Options& options, text::Diagnostics& diagnostics) {
-  std::optional<scene::Scene> scene;
+  text::Diagnostics said;
+  auto loading = std::async(std::launch::async, [&] {  // beside the scene
+    return options.environment.empty() ? std::nullopt : assets::loadEnvironmentMap(options.environment, said);
+  });
+  auto scene = scene::loadScene(scenePathOf(options), diagnostics, nullptr, sceneChoiceOf(options));
   std::shared_ptr<const assets::EnvironmentMap> environment;
-  if (!options.environment.empty()) {
-    assets::Loader loader;  // beside the scene
-    const std::uint64_t ticket = loader.request(options.environment);
-    scene = scene::loadScene(scenePathOf(options), diagnostics, nullptr, sceneChoiceOf(options));
-    if (auto loaded = loader.wait(ticket)) {
-      diagnostics.append(loaded->diagnostics);
-      environment = loaded->as<assets::EnvironmentMap>();
-    }
-  } else {
-    scene = scene::loadScene(scenePathOf(options), diagnostics, nullptr, sceneChoiceOf(options));
-  }
+  if (auto map = loading.get()) environment = std::make_shared<const assets::EnvironmentMap>(std::move(*map));
+  diagnostics.append(said);
   if (!scene || diagnostics.hasErrors()) return std::nullopt;
   runtime::World world(std::move(*scene));
   if (environment) world.setEnvironment(std::move(environment));
@@ -122,6 +135,136 @@ int report(text::Diagnostics& diagnostics, bool notes) {
   diagnostics.sortByPlace();
   printError(text::chooseMessages(diagnostics, notes).text());
   return diagnostics.hasErrors() ? 1 : 0;
+}
+
+// ---- on a device ----
+
+std::unique_ptr<gl::Context> openContext(const Options& options, text::Diagnostics& diagnostics) {
+  gl::ContextOptions wanted;
+  wanted.backend = gl::findBackend(options.backend).value_or(gl::Backend::automatic);
+  if (options.window && wanted.backend == gl::Backend::automatic) wanted.backend = gl::Backend::glfw;
+  text::allowFolder(cacheFolderOf(options));
+  wanted.title = "weft: " + options.graph;
+  wanted.width = options.width;
+  wanted.height = options.height;
+  wanted.visible = options.window;
+  wanted.vsync = options.vsync;
+  return gl::createContext(wanted, diagnostics);
+}
+
+runtime::Renderer::Options rendererOptionsOf(const Options& options) {
+  return {.dataFolder = dataFolder(),
+          .cacheFolder = cacheFolderOf(options),
+          .trial = {"/proc/self/exe"},
+          .presets = options.presets};
+}
+
+std::unique_ptr<DeviceSession> openDevice(const Options& options, text::Diagnostics& diagnostics) {
+  auto context = openContext(options, diagnostics);
+  if (!context) return nullptr;
+  gl::Context& current = *context;
+  return std::unique_ptr<DeviceSession>(new DeviceSession{
+      std::move(context), runtime::Renderer(current, options.graph, rendererOptionsOf(options))});
+}
+
+int runOnDevice(std::initializer_list<const Options*> all, int wrong, const DeviceRun& run) {
+  text::Diagnostics diagnostics;
+  const Options& options = **all.begin();
+  auto world = loadWorld(options, diagnostics);
+  const runtime::WorldFacts facts = world ? world->facts() : factsWithoutWorld();
+  const auto isRight = [&](const Options* each) { return !isWrong(*each, facts, diagnostics); };
+  if (!world || diagnostics.hasErrors()) {
+    makePlan(options, facts, true, diagnostics);
+  } else if (std::ranges::all_of(all, isRight)) {
+    auto session = openDevice(options, diagnostics);
+    if (session) {
+      const int code = run(session, *world, diagnostics);
+      return report(diagnostics, !options.quiet) ? wrong : code;
+    }
+    makePlan(options, facts, true, diagnostics);  // one that came by a pipe
+    wrong = 3;
+  }
+  report(diagnostics);
+  return wrong;
+}
+
+std::vector<std::string> filesReadBy(const Options& options, const runtime::Renderer& renderer,
+                                     const runtime::World& world) {
+  std::vector<std::string> files = renderer.files();
+  files.insert(files.end(), world.scene().files.begin(), world.scene().files.end());
+  for (const std::string& file : {options.graph, scenePathOf(options), options.environment})
+    files.push_back(file);
+  return files;
+}
+
+bool checkPresents(const Options& options, runtime::Renderer& renderer, text::Diagnostics& diagnostics) {
+  if (renderer.execution()->presented().id != 0) return true;
+  diagnostics
+      .error(text::Code::presentsNothing, {std::make_shared<const std::string>(options.graph), 1, 1},
+             "the graph presents nothing to write")
+      .hint = "add \"present\": \"<texture>\", and enable a pass that writes it";
+  return false;
+}
+
+nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json times) {
+  const gl::ProgramCacheStats& programs = session.renderer.device().programs.stats();
+  const gl::DeviceInfo& device = session.context->device();
+  nlohmann::ordered_json out;
+  out["device"] = {{"renderer", device.renderer},
+                   {"version", device.version},
+                   {"platform", device.platform},
+                   {"software", device.software}};
+  out["times"] = std::move(times);
+  out["programs"] = {{"hits", programs.hits},
+                     {"misses", programs.misses},
+                     {"compilations", programs.compilations},
+                     {"refusals", programs.refusals},
+                     {"trials", programs.trials},
+                     {"binary_loads", programs.binaryLoads},
+                     {"binary_rejects", programs.binaryRejects}};
+  out["plans_built"] = session.renderer.plansBuilt();
+  runtime::Execution* execution = session.renderer.execution();
+  if (!execution) return out;
+  const graph::Plan& plan = execution->plan();
+  out["bytes"] = {{"declared", plan.bytesDeclared},
+                  {"allocated", plan.bytesAllocated},
+                  {"lower_bound", plan.bytesLowerBound}};
+  execution->readBack().finish();
+  nlohmann::ordered_json outputs = nlohmann::ordered_json::object();
+  for (const runtime::Output& output : execution->readBack().outputs()) {
+    nlohmann::ordered_json numbers = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < output.count(); ++i)
+      if (output.kind == runtime::NumberKind::floating)
+        numbers.push_back(output.number(i));
+      else
+        numbers.push_back(static_cast<std::int64_t>(output.number(i)));
+    outputs[output.name] = std::move(numbers);
+  }
+  out["outputs"] = std::move(outputs);
+  gl::PassTimers& timers = session.renderer.device().timers;
+  if (timers.enabled()) {
+    timers.finish();
+    nlohmann::ordered_json passes;
+    for (std::size_t step = 0; step < timers.results().size() && step < plan.steps.size(); ++step) {
+      const gl::PassTime& time = timers.results()[step];
+      if (time.ran)
+        passes.push_back({{"pass", plan.graph->passNames[plan.steps[step].pass]},
+                          {"gpu_ms", time.gpu},
+                          {"cpu_ms", time.cpu}});
+    }
+    out["passes"] = std::move(passes);
+  }
+  return out;
+}
+
+void printStats(const nlohmann::ordered_json& stats) {
+  printError(dumpJson(stats) + "\n");
+}
+
+std::string closeDevice(std::unique_ptr<DeviceSession> session) {
+  const std::unique_ptr<gl::Context> context = std::move(session->context);
+  session.reset();
+  return gl::toText(gl::liveObjects());
 }
 
 }  // namespace weft::app

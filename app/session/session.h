@@ -1,16 +1,22 @@
-// Makes of the command-line options what every command begins with: the world, the graph's description, its plan. Needs no
-// GL context.
+// Makes of the command-line options what every command begins with: the world, the graph's description, its plan; and for those
+// that draw a GL context and a renderer on it.
 #pragma once
 
+#include <functional>
+#include <initializer_list>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/session/options.h"
+#include "engine/gl/context/context.h"
 #include "engine/graph/desc.h"
 #include "engine/graph/expand/expand.h"
 #include "engine/graph/plan.h"
+#include "engine/runtime/frame/execution.h"
+#include "engine/runtime/frame/renderer.h"
 #include "engine/runtime/imports/imports.h"
 #include "engine/scene/files/scene_file.h"
 #include "engine/text/diagnostic.h"
@@ -20,7 +26,7 @@ namespace weft::app {
 
 using text::dataFolder;
 
-// The folder of the bundled presets, in it.
+// The folder of the bundled presets, in the data folder.
 std::string presetsFolder();
 // Where a preset's name is looked for, the first first: `own` (--preset-folder) unless it is empty, the user's folder
 // ($XDG_CONFIG_HOME/weft/presets, else ~/.config/weft/presets), the bundled ones. They need not be there.
@@ -56,5 +62,40 @@ bool isWrong(const Options& options, const runtime::WorldFacts& facts, text::Dia
 // Prints the diagnostics to standard error, with or without notes. Of very many it prints only some
 // (engine/text/message_choice.h). Returns 1 when there is an error among them, else 0.
 int report(text::Diagnostics& diagnostics, bool notes = true);
+
+// ---- on a device ----
+
+struct DeviceSession {
+  std::unique_ptr<gl::Context> context;  // destroyed last
+  runtime::Renderer renderer;
+};
+
+// A context alone, and what a renderer on it takes from the options.
+std::unique_ptr<gl::Context> openContext(const Options& options, text::Diagnostics& diagnostics);
+runtime::Renderer::Options rendererOptionsOf(const Options& options);
+
+// Headless unless options.window. Null after errors.
+std::unique_ptr<DeviceSession> openDevice(const Options& options, text::Diagnostics& diagnostics);
+
+// Runs a headless command: calls `run`, which returns the exit code, with a device that has loaded no graph yet and a world,
+// and reports. `wrong`: the exit code after errors; a graph of `all` that is wrong is refused before OpenGL is opened. 3
+// without OpenGL. The first of `all` says which world, which device and what is reported.
+using DeviceRun = std::function<int(std::unique_ptr<DeviceSession>&, runtime::World&, text::Diagnostics&)>;
+int runOnDevice(std::initializer_list<const Options*> all, int wrong, const DeviceRun& run);
+
+// What the run reads, once the graph is loaded: none of it is to be written over.
+std::vector<std::string> filesReadBy(const Options& options, const runtime::Renderer& renderer,
+                                     const runtime::World& world);
+
+// False after W188: the graph presents nothing.
+bool checkPresents(const Options& options, runtime::Renderer& renderer, text::Diagnostics& diagnostics);
+
+// --stats: one JSON object. Waits for the outputs of the last frame.
+nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json times);
+void printStats(const nlohmann::ordered_json& stats);  // on standard error
+
+// Destroys the renderer, then asks the driver which objects still exist: "none", unless one was forgotten.
+// The context goes last. What the overlay made must be gone by then.
+std::string closeDevice(std::unique_ptr<DeviceSession> session);
 
 }  // namespace weft::app

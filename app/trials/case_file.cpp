@@ -112,9 +112,9 @@ class CaseReader {
           *target = std::filesystem::path(besideFile(value->place, *path)).lexically_normal().string();
     if (const auto camera = fields.text("camera")) options.camera = *camera;
     if (const auto fps = fields.number("fps", kRate)) options.fps = *fps;
-    if (const auto size = textOf(fields, "size", checkSize))
-      parsePair(*size, 'x', options.width, options.height);
-    if (const auto mouse = textOf(fields, "mouse", checkPointer)) options.pointer = *parsePointer(*mouse);
+    take(fields, "size",
+         [&](const std::string& text) { return takeSize(text, options.width, options.height); });
+    take(fields, "mouse", [&](const std::string& text) { return takePointer(text, options.pointer); });
     readFrames(fields, test);
     readNames(fields, "preset", [&](const JsonValue& item) {
       // A word is a bundled preset whoever runs the case, and where: what lies here or is a person's own does not count.
@@ -158,30 +158,26 @@ class CaseReader {
   }
 
   // A text that the command line takes, too.
-  std::optional<std::string> textOf(JsonFields& fields, const char* key,
-                                    std::string (*check)(const std::string&)) {
-    auto text = fields.text(key);
-    const std::string wrong = text ? check(*text) : "";
-    if (wrong.empty()) return text;
-    diagnostics_.error(Code::outOfRange, fields.find(key)->textPlace(),
-                       fmt::format("the {}: {}", key, wrong));
-    return std::nullopt;
+  template <class Take>
+  void take(JsonFields& fields, const char* key, const Take& taken) {
+    const auto text = fields.text(key);
+    if (const std::string wrong = text ? taken(*text) : ""; !wrong.empty())
+      diagnostics_.error(Code::outOfRange, fields.find(key)->textPlace(),
+                         fmt::format("the {}: {}", key, wrong));
   }
 
   void readFrames(JsonFields& fields, TestCase& test) {
-    const auto frame = fields.number("frame", kFrame);
-    if (frame) test.frames = {static_cast<std::uint32_t>(*frame)};
+    if (const auto frame = fields.number("frame", kFrame)) test.frames = {static_cast<std::uint32_t>(*frame)};
     const JsonValue* frames = fields.array("frames");
     if (!frames) return;
-    if (frames->items.empty())
-      diagnostics_.error(Code::outOfRange, frames->place, "\"frames\" is empty, so nothing would be compared")
-          .hint = "name a frame, such as [0]";
     std::set<std::uint32_t> numbers;
     for (const JsonValue& item : frames->items)
       if (const auto number = text::readNumber(item, "a frame", kFrame, Code::outOfRange, diagnostics_))
         numbers.insert(static_cast<std::uint32_t>(*number));
-    test.frames.assign(numbers.begin(), numbers.end());
-    if (test.frames.empty()) test.frames = {0};
+    if (frames->items.empty())
+      diagnostics_.error(Code::outOfRange, frames->place, "\"frames\" is empty, so nothing would be compared")
+          .hint = "name a frame, such as [0]";
+    if (!numbers.empty()) test.frames.assign(numbers.begin(), numbers.end());
   }
 
   template <class Take>

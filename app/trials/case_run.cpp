@@ -77,9 +77,7 @@ std::string firstLineOfDifference(const std::string& before, const std::string& 
 CaseResult CaseRunner::run(const TestCase& test, bool accept, text::Diagnostics& diagnostics) {
   text::Diagnostics said;
   CaseResult result = test.plan ? runPlan(test, accept, said) : runPictures(test, accept, said);
-  bool warned = false;
-  for (const text::Diagnostic& each : said.items())
-    warned = warned || each.severity == text::Severity::warning;
+  const bool warned = std::ranges::count(said.items(), text::Severity::warning, &text::Diagnostic::severity);
   appendWithPlaces(test, said, diagnostics);
   if (said.hasErrors()) {
     result.state = State::broken;
@@ -96,23 +94,16 @@ CaseResult CaseRunner::runPlan(const TestCase& test, bool accept, text::Diagnost
   if (!plan || diagnostics.hasErrors()) return result;
   result.files = plan->graph->files;
   const std::string text = graph::dumpText(*plan), file = test.planGolden();
-  const bool known = isThere(file);
-  text::Diagnostics unreadable;  // which ends with being written anew
-  const auto golden = known ? text::readFile(file, accept ? unreadable : diagnostics) : std::nullopt;
-  if (known && !golden && accept)
-    result.lines.push_back(fmt::format("'{}' could not be read, and is written anew", file));
-  const bool same = golden && *golden == text;
-  if (golden && !same) result.lines.push_back(firstLineOfDifference(*golden, text));
-  if (!known) result.lines.push_back(fmt::format("there is no golden plan '{}' yet", file));
-  if (accept) {
-    const OutputFile written{"--accept", file};
-    if (!checkDistinct({&written, 1}, plan->graph->files, diagnostics)) return result;
-    result.state = same ? State::kept : State::written;
-    if (!same) text::writeFile(file, text, diagnostics);
-  } else {
-    result.state = same ? State::same : State::different;
-    if (!known) result.lines.back() += "; --accept writes it";
-  }
+  text::Diagnostics ignored;  // what cannot be read is written anew
+  const auto golden = isThere(file) ? text::readFile(file, accept ? ignored : diagnostics) : std::nullopt;
+  if (!golden)
+    result.lines.push_back(fmt::format("there is no golden plan '{}' yet; --accept writes it", file));
+  if (golden == text) return result;
+  result.state = accept ? State::written : State::different;
+  if (golden) result.lines.push_back(firstLineOfDifference(*golden, text));
+  const OutputFile written{"--accept", file};
+  if (accept && checkDistinct({&written, 1}, plan->graph->files, diagnostics))
+    text::writeFile(file, text, diagnostics);
   return result;
 }
 
@@ -136,11 +127,11 @@ std::optional<Shot> CaseRunner::shoot(const TestCase& test, text::Diagnostics& d
 bool CaseRunner::judgePicture(const TestCase& test, std::uint32_t frame, const assets::Image8& picture,
                               bool accept, CaseResult& result, text::Diagnostics& diagnostics) {
   const std::string file = test.goldenOf(frame);
-  const bool known = isThere(file);
-  text::Diagnostics unreadable;  // which ends with being written anew
-  const auto golden = known ? assets::loadImage8(file, 4, accept ? unreadable : diagnostics) : std::nullopt;
+  text::Diagnostics ignored;  // what cannot be read is written anew
+  const auto golden =
+      isThere(file) ? assets::loadImage8(file, 4, accept ? ignored : diagnostics) : std::nullopt;
   const auto weights = readMask(test, picture, diagnostics);
-  if (!weights || (known && !golden && !accept)) return false;
+  if (!weights || diagnostics.hasErrors()) return false;
   std::optional<PictureDifference> found;
   bool good = false;
   if (golden) {
@@ -154,8 +145,7 @@ bool CaseRunner::judgePicture(const TestCase& test, std::uint32_t frame, const a
               : fmt::format("the picture is {}, its golden {}", sizeText(picture), sizeText(*golden))));
     if (found && !good && !accept) result.lines.push_back(text(test.tolerance));
   } else {
-    result.lines.push_back(!known ? fmt::format("there is no golden '{}' yet; --accept writes it", file)
-                                  : fmt::format("'{}' could not be read, and is written anew", file));
+    result.lines.push_back(fmt::format("there is no golden '{}' yet; --accept writes it", file));
   }
   if (accept) {
     savePng(file, picture, diagnostics);
@@ -171,7 +161,6 @@ CaseResult CaseRunner::runPictures(const TestCase& test, bool accept, text::Diag
   const auto shot = shoot(test, diagnostics);
   if (!shot) return result;
   result.files = shot->files;
-  const PassRecords records = recordsOf(*shot, context_->device().driverKey);
   const std::string record = test.recordFile();
   if (accept) {
     std::vector<OutputFile> outputs;
@@ -181,25 +170,21 @@ CaseResult CaseRunner::runPictures(const TestCase& test, bool accept, text::Diag
       if (!readMask(test, picture, diagnostics)) return result;
   }
   bool same = true;
-  for (const auto& [frame, picture] : shot->pictures) {
+  for (const auto& [frame, picture] : shot->pictures)
     same = judgePicture(test, frame, picture, accept, result, diagnostics) && same;
-  }
   if (accept) {
     if (diagnostics.hasErrors()) return result;  // a picture is not written: the record would be of another
     text::Diagnostics ignored;
-    const std::string text = toText(records);
+    const std::string text = toText(shot->records);
     const auto before = isThere(record) ? text::readFile(record, ignored) : std::nullopt;
     if (before != text) text::writeFile(record, text, diagnostics);
-    result.state = !same ? State::written : State::kept;
-    if (same && before != text) {
-      result.lines.push_back(fmt::format("'{}' is written anew, the pictures are the same", record));
-      result.state = State::written;
-    }
+    result.state = same && before == text ? State::same : State::written;
     return result;
   }
   result.state = same ? State::same : State::different;
   if (!same && isThere(record))
-    if (const auto before = readRecords(record, diagnostics)) result.first = findDivergence(*before, records);
+    if (const auto before = readRecords(record, diagnostics))
+      result.first = findDivergence(*before, shot->records);
   return result;
 }
 

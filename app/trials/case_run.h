@@ -13,8 +13,8 @@
 namespace weft::app {
 
 struct CaseResult {
-  // same, different: compared. written, kept: accepted. broken: it could not be rendered, or its golden not be read.
-  enum class State { same, different, written, kept, broken };
+  // written: accepted. broken: it could not be rendered, or its golden not be read.
+  enum class State { same, different, written, broken };
   // A frame and its golden.
   struct Pair {
     std::uint32_t frame = 0;

@@ -126,13 +126,6 @@ std::string Divergence::text() const {
   return fmt::format("pass '{}' writes another '{}' in frame {}{}", pass, resource, frame, much);
 }
 
-PassRecords recordsOf(const Shot& shot, std::string driver) {
-  PassRecords records{std::move(driver), shot.records, {}};
-  for (std::size_t pass = 0; pass < shot.plan->stepOf.size(); ++pass)
-    if (shot.plan->stepOf[pass] == graph::kNone) records.culled.push_back(shot.plan->graph->passNames[pass]);
-  return records;
-}
-
 std::string toText(const PassRecords& records) {
   std::string text = fmt::format("{}\ndriver {}\n", kHeading, records.driver);
   for (const FrameRecord& frame : records.frames) {

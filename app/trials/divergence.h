@@ -10,13 +10,6 @@
 
 namespace weft::app {
 
-struct PassRecords {
-  std::string driver;  // DeviceInfo::driverKey
-  std::vector<FrameRecord> frames;
-  std::vector<std::string> culled{};  // passes of the graph that do not run; not written to the file
-};
-PassRecords recordsOf(const Shot& shot, std::string driver);
-
 // One line per pass and resource: hash, signature, pass, resource, with tabs between.
 std::string toText(const PassRecords& records);
 // Empty after an error (W001, or W003 with its line).

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 #include "engine/assets/images/image.h"
 #include "engine/text/counted.h"
@@ -84,14 +83,13 @@ std::string imageTag(const assets::Image8& image, std::string_view alt) {
 }
 
 std::string escapeHtml(std::string_view text) {
-  static const std::map<char, std::string_view> kEscapes{
-      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
   std::string out;
   for (const char c : text)
-    if (const auto found = kEscapes.find(c); found != kEscapes.end())
-      out += found->second;
-    else
-      out += c;
+    out += c == '&'   ? "&amp;"
+           : c == '<' ? "&lt;"
+           : c == '>' ? "&gt;"
+           : c == '"' ? "&quot;"
+                      : std::string(1, c);
   return out;
 }
 

@@ -48,6 +48,10 @@ std::optional<Shot> takeShot(gl::Context& context, const Options& options, const
   Shot shot;
   shot.plan = std::make_shared<const graph::Plan>(execution.plan());
   shot.files = filesReadBy(options, renderer, world);
+  shot.records.driver = context.device().driverKey;
+  for (std::size_t pass = 0; pass < shot.plan->stepOf.size(); ++pass)
+    if (shot.plan->stepOf[pass] == graph::kNone)
+      shot.records.culled.push_back(shot.plan->graph->passNames[pass]);
   runtime::StepRecorder recorder;
   const bool remembers = execution.remembers(world);
   const std::uint32_t first = remembers ? 0 : wish.frames.front(), last = wish.frames.back();
@@ -72,7 +76,8 @@ std::optional<Shot> takeShot(gl::Context& context, const Options& options, const
     renderer.frame(world, runtime::headlessFrame(world, number, options.fps, options.pointer), diagnostics);
     context.debugLog().drain(diagnostics);
     if (diagnostics.hasErrors()) return std::nullopt;
-    if (auto steps = recorder.take(); !steps.empty()) shot.records.push_back({number, std::move(steps)});
+    if (auto steps = recorder.take(); !steps.empty())
+      shot.records.frames.push_back({number, std::move(steps)});
     if (!shown) continue;
     if (wish.records && !wish.poison && !renderer.presentsBytes())  // 8 bits hold no NaN
       if (const auto values = renderer.readPresentedFloat()) writer.look(*values, renderer, options.graph);

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "app/session/device_session.h"
 #include "app/session/options.h"
+#include "app/session/session.h"
 #include "engine/assets/images/flip.h"
 #include "engine/assets/images/image.h"
 #include "engine/graph/compile/compile.h"
@@ -31,9 +31,16 @@ struct FrameRecord {
   std::vector<runtime::StepRecord> steps;
 };
 
+// What every pass wrote.
+struct PassRecords {
+  std::string driver;  // DeviceInfo::driverKey
+  std::vector<FrameRecord> frames;
+  std::vector<std::string> culled{};  // passes of the graph that do not run; not written to the file
+};
+
 struct Shot {
   std::map<std::uint32_t, assets::Image8> pictures;  // RGBA, by frame
-  std::vector<FrameRecord> records;
+  PassRecords records;
   std::shared_ptr<const graph::Plan> plan;
   std::vector<std::string> files;                  // that were read
   double milliseconds = 0;                         // of the fastest frame that was measured

@@ -1,12 +1,10 @@
-#include "app/ui/inspector_panel.h"
-
-#include <fmt/format.h>
-#include <imgui.h>
-
+// Declared in panels.h.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <vector>
+
+#include "app/ui/panels.h"
 
 namespace weft::app::ui {
 

@@ -18,7 +18,6 @@ class Log {
   void set(Topic topic, std::vector<text::Diagnostic> items);
   void addPast(const text::Diagnostics& diagnostics);  // keeps the last hundred
   void dismiss();                                      // all there is now
-  const std::vector<text::Diagnostic>& files() const { return topics_[kFiles].items; }
   // What is not dismissed: errors, warnings, notes; within each the newest topic first, a topic's in their
   // order, the past backwards. Without `all`, only what stands on screen while the panels are hidden.
   std::vector<const text::Diagnostic*> shown(bool all) const;

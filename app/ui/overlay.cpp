@@ -35,28 +35,27 @@ void Overlay::setMouseEnabled(bool enabled) {
 }
 
 Overlay::~Overlay() {
+  skip();
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
 }
 
-void Overlay::layOut(const std::function<void()>& draw) {
-  if (!begun_) return;
-  ImGui::NewFrame();
-  draw();
-  ImGui::EndFrame();
-}
-
 void Overlay::begin() {
-  begun_ = true;
+  if (std::exchange(begun_, true)) return;
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
 }
 
 void Overlay::end() {
+  begun_ = false;
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+void Overlay::skip() {
+  if (std::exchange(begun_, false)) ImGui::EndFrame();
 }
 
 std::optional<std::pair<int, int>> Overlay::releasedMouse() const {

@@ -3,7 +3,6 @@
 // found.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -21,13 +20,11 @@ class Overlay {
   Overlay(const Overlay&) = delete;
   Overlay& operator=(const Overlay&) = delete;
 
-  // Panels are made between the two; end() draws them. Framebuffer 0 must be bound.
+  // Panels are made between the two; end() draws them. Framebuffer 0 must be bound. begin() takes the events that have come:
+  // wantsMouse() knows of them from then on. It does nothing between the two; without panels, call skip() instead of end().
   void begin();
   void end();
-  // Before the two, when panels appeared or went: the same panels, made by `draw`, without an event or a
-  // picture. ImGui looks for what is under the mouse among those of the time before, and the next begin() is
-  // to find these.
-  void layOut(const std::function<void()>& draw);
+  void skip();
   // Sizes of text and widgets, 1 at 96 dots an inch. Between frames.
   void setScale(float scale);
   // Off: panels ignore the mouse, wherever it is (it is captured).
@@ -42,7 +39,7 @@ class Overlay {
  private:
   Overlay() = default;
 
-  bool begun_ = false;  // there was a begin()
+  bool begun_ = false;  // between begin() and end()
 };
 
 }  // namespace weft::app::ui

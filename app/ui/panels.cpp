@@ -1,9 +1,6 @@
 #include "app/ui/panels.h"
 
-#include <imgui.h>
-
 #include <algorithm>
-#include <functional>
 
 #include "app/output/standard_streams.h"
 #include "engine/text/printable.h"
@@ -30,6 +27,22 @@ void tooltip(const std::string& text, bool hovered) {
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
+}
+
+bool beginTable(const char* id, std::initializer_list<const char*> titles, int stretched,
+                ImGuiTableFlags flags) {
+  if (!ImGui::BeginTable(id, static_cast<int>(titles.size()), flags | ImGuiTableFlags_SizingFixedFit))
+    return false;
+  ImGui::TableSetupScrollFreeze(0, 1);
+  for (const char* title : titles)
+    ImGui::TableSetupColumn(title, stretched-- == 0 ? ImGuiTableColumnFlags_WidthStretch : 0);
+  ImGui::TableHeadersRow();
+  return true;
+}
+
+void cell(const std::string& text) {
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(text.c_str());
 }
 
 Panels::Panels(LiveGraph& live, runtime::Renderer& renderer, Log& log)
@@ -78,17 +91,15 @@ void Panels::draw(const runtime::FrameReport& report, text::Diagnostics& diagnos
   if (visible) {
     drawMenu(diagnostics);
     arrange();
-    const std::function<void()> draws[kPanelCount] = {[&] {
-                                                        drawSummary(report);
-                                                        drawParameters(diagnostics);
-                                                      },
-                                                      [&] { drawPasses(diagnostics); },
-                                                      [&] { inspector_.draw(diagnostics); },
-                                                      [&] { drawProfiler(); },
-                                                      [&] { drawStorage(); },
-                                                      [&] { drawHistogram(); }};
     for (std::size_t i = 0; i < kPanelCount; ++i) {
-      if (begin(static_cast<Panel>(i))) draws[i]();
+      if (begin(static_cast<Panel>(i))) {
+        if (i == kParameters) drawParameters(report, diagnostics);
+        if (i == kPasses) drawPasses(diagnostics);
+        if (i == kInspector) inspector_.draw(diagnostics);
+        if (i == kProfiler) drawProfiler();
+        if (i == kStorage) drawStorage();
+        if (i == kHistogram) drawHistogram();
+      }
       if (open_[i]) ImGui::End();
     }
     arrange_ = false;
@@ -202,15 +213,65 @@ void Panels::writeBack(text::Diagnostics& diagnostics) {
   }
 }
 
-void Panels::drawSummary(const runtime::FrameReport& report) {
-  const ImGuiIO& io = ImGui::GetIO();
-  const graph::Settings& settings = live_.settings();
+float Panels::logHeight() const {
+  return std::max(64.0f, std::min(ImGui::GetIO().DisplaySize.y * 0.2f, ImGui::GetFontSize() * 9));
+}
+
+void Panels::drawLog() {
+  const std::vector<const text::Diagnostic*> shown = log_.shown(visible);
+  if (shown.empty()) return;
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const char* const lastGood =
+      !live_.running() ? "Nothing to show yet; the picture comes when the files are saved without errors:"
+      : live_.good()   ? nullptr
+                       : "This is the last good picture; the files on disk have errors:";
+  // The first error is to be read whole, message and fix.
+  float height = logHeight();
+  if (shown.front()->severity == text::Severity::error) {
+    const float wrap = std::max(1.0f, screen.x - 16 - 2 * style.WindowPadding.x - style.ScrollbarSize);
+    float wanted = ImGui::GetFrameHeight() + 2 * style.WindowPadding.y + style.ItemSpacing.y;
+    if (lastGood) wanted += ImGui::CalcTextSize(lastGood, nullptr, false, wrap).y + style.ItemSpacing.y;
+    wanted += ImGui::CalcTextSize(text::format(*shown.front()).c_str(), nullptr, false, wrap).y;
+    height = std::max(height, std::min(wanted, screen.y * 0.6f));
+  }
+  ImGui::SetNextWindowPos({8, screen.y - height - 8}, ImGuiCond_Always);
+  ImGui::SetNextWindowSize({screen.x - 16, height}, ImGuiCond_Always);
+  bool stays = true;
+  ImGui::Begin("Log", &stays,
+               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse);
   ImGui::PushTextWrapPos(0);
-  ImGui::Text("%ux%u, %.1f ms a frame, %u passes run, %u skipped", settings.screenWidth,
-              settings.screenHeight, 1000.0 / std::max(1e-3, static_cast<double>(io.Framerate)),
-              report.passesRun, report.passesSkipped);
-  ImGui::TextDisabled("%s", renderer_.graphPath().c_str());
+  if (lastGood) ImGui::TextColored({1, 0.7f, 0.3f, 1}, "%s", lastGood);
+  for (const text::Diagnostic* each : shown) {
+    const ImVec4 color = each->severity == text::Severity::error     ? ImVec4(1, 0.45f, 0.4f, 1)
+                         : each->severity == text::Severity::warning ? ImVec4(1, 0.85f, 0.4f, 1)
+                                                                     : ImVec4(0.7f, 0.7f, 0.7f, 1);
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::TextUnformatted(text::format(*each).c_str());
+    ImGui::PopStyleColor();
+  }
   ImGui::PopTextWrapPos();
+  ImGui::End();
+  if (!stays) log_.dismiss();
+}
+
+void Panels::drawLoading() {
+  const std::optional<LoadStatus> all[] = {live_.environment().status(), live_.scene().status()};
+  if (!all[0] && !all[1]) return;
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const float width = std::min(420.0f * ImGui::GetIO().FontGlobalScale, screen.x - 16);
+  // Between the panels, which end at three quarters, and the log.
+  ImGui::SetNextWindowPos({screen.x * 0.5f, screen.y * 0.8f - 12}, ImGuiCond_Always, {0.5f, 1});
+  ImGui::SetNextWindowSize({width, 0}, ImGuiCond_Always);
+  ImGui::Begin("Loading", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoSavedSettings);
+  for (const auto& status : all) {
+    if (!status) continue;
+    ImGui::TextUnformatted(fmt::format("{}: {}", status->name, status->stage).c_str());
+    ImGui::ProgressBar(status->done, {-1, 0}, fmt::format("{:.0f} %", status->done * 100.0f).c_str());
+  }
+  ImGui::End();
 }
 
 }  // namespace weft::app::ui

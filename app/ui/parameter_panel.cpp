@@ -2,7 +2,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -108,24 +107,18 @@ std::optional<Value> edit(const char* label, const ParameterDesc& desc, const Va
   return std::nullopt;
 }
 
-// Whether every letter of `wanted` stands in `text`, in one piece, in whatever case.
-bool matches(const std::string& wanted, const std::string& text) {
-  const auto same = [](char a, char b) {
-    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-  };
-  return wanted.empty() ||
-         std::search(text.begin(), text.end(), wanted.begin(), wanted.end(), same) != text.end();
-}
-
 }  // namespace
 
-void Panels::drawParameters(text::Diagnostics& diagnostics) {
+void Panels::drawParameters(const runtime::FrameReport& report, text::Diagnostics& diagnostics) {
   const graph::FlatGraph& graph = *renderer_.execution()->plan().graph;
   const std::span<const Value> values = renderer_.execution()->uniforms().parameters();
-  char search[128] = {};
-  search_.copy(search, sizeof search - 1);
-  ImGui::SetNextItemWidth(-1);
-  if (ImGui::InputTextWithHint("##search", "search", search, sizeof search)) search_ = search;
+  ImGui::PushTextWrapPos(0);
+  ImGui::Text("%ux%u, %.1f ms a frame, %u passes run, %u skipped", live_.settings().screenWidth,
+              live_.settings().screenHeight, 1e3 / std::max(1e-3f, ImGui::GetIO().Framerate),
+              report.passesRun, report.passesSkipped);
+  ImGui::TextDisabled("%s", renderer_.graphPath().c_str());
+  ImGui::PopTextWrapPos();
+  filter_.Draw("search", -4 * ImGui::GetFontSize());
   ImGui::BeginChild("list");
   std::optional<Value> changedTo;
   std::string changed, reset, scope = "\n";
@@ -135,7 +128,7 @@ void Panels::drawParameters(text::Diagnostics& diagnostics) {
     const graph::ParameterSpec& parameter = graph.parameters[i];
     const Value& now = values[i];
     const std::string& label = parameter.desc.label.empty() ? parameter.desc.name : parameter.desc.label;
-    if (!matches(search_, parameter.path) && !matches(search_, label)) continue;
+    if (!filter_.PassFilter(parameter.path.c_str()) && !filter_.PassFilter(label.c_str())) continue;
     const std::size_t dot = parameter.path.rfind('.');
     const std::string prefix = dot == std::string::npos ? std::string() : parameter.path.substr(0, dot);
     if (prefix != scope) {

@@ -29,12 +29,9 @@ void Panels::drawPasses(text::Diagnostics& diagnostics) {
   std::string pass;  // to turn on or off when all is drawn
   bool enable = false;
 
-  const ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
-  if (ImGui::BeginTable("passes", profile ? 4 : 2, flags)) {
-    ImGui::TableSetupColumn("in the order they run", ImGuiTableColumnFlags_WidthStretch);
-    for (const char* title : {"", "GPU ms", "CPU ms"})
-      if (profile || !*title) ImGui::TableSetupColumn(title);
-    ImGui::TableHeadersRow();
+  constexpr const char* kOrder = "in the order they run";
+  if (profile ? beginTable("passes", {kOrder, "", "GPU ms", "CPU ms"}, 0, ImGuiTableFlags_RowBg)
+              : beginTable("passes", {kOrder, ""}, 0, ImGuiTableFlags_RowBg)) {
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(plan.steps.size()));
     while (clipper.Step())
@@ -57,11 +54,8 @@ void Panels::drawPasses(text::Diagnostics& diagnostics) {
                 (ran ? "" : "\nkept: nothing it depends on has changed since it ran"));
         ImGui::TableNextColumn();
         ran ? ImGui::TextUnformatted(slice.empty() ? "ran" : slice.c_str()) : ImGui::TextDisabled("kept");
-        for (const bool gpu : {true, false}) {
-          if (!timed) continue;
-          ImGui::TableNextColumn();
-          ImGui::Text("%6.2f", gpu ? timers.results()[step].gpu : timers.results()[step].cpu);
-        }
+        if (timed) cell(fmt::format("{:6.2f}", timers.results()[step].gpu));
+        if (timed) cell(fmt::format("{:6.2f}", timers.results()[step].cpu));
         ImGui::PopID();
       }
     ImGui::EndTable();

@@ -3,8 +3,10 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/ui/panels.h"
@@ -33,24 +35,22 @@ double totalOf(const runtime::FrameProfile& profile, bool gpu) {
 }
 
 struct Mean {
-  std::string name;
   double gpu = 0, cpu = 0;
 };
 
-std::vector<Mean> meansOf(const std::deque<runtime::FrameProfile>& history, bool gpu) {
+std::vector<std::pair<std::string, Mean>> meansOf(const std::deque<runtime::FrameProfile>& history,
+                                                  bool gpu) {
   std::map<std::string, Mean> byName;
   const std::size_t count = std::min(kAveraged, history.size());
   for (std::size_t f = history.size() - count; f < history.size(); ++f)
     for (std::size_t step = 0; step < history[f].passes.size() && step < history[f].names->size(); ++step) {
       Mean& mean = byName[(*history[f].names)[step]];
-      mean.name = (*history[f].names)[step];
       mean.gpu += timeOf(history[f].passes[step], true) / static_cast<double>(count);
       mean.cpu += timeOf(history[f].passes[step], false) / static_cast<double>(count);
     }
-  std::vector<Mean> means;
-  for (auto& [name, mean] : byName) means.push_back(std::move(mean));
-  std::ranges::stable_sort(means,
-                           [&](const Mean& a, const Mean& b) { return gpu ? a.gpu > b.gpu : a.cpu > b.cpu; });
+  std::vector<std::pair<std::string, Mean>> means(byName.begin(), byName.end());
+  std::ranges::stable_sort(means, std::greater(),
+                           [&](const auto& named) { return gpu ? named.second.gpu : named.second.cpu; });
   return means;
 }
 
@@ -108,25 +108,18 @@ void Panels::drawProfiler() {
     ImGui::TextDisabled("P measures each pass");
     return;
   }
-  if (!ImGui::BeginTable("means", 3,
-                         ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit))
+  if (!beginTable("means", {"mean of the last 30 frames", "GPU ms", "CPU ms"}, 0,
+                  ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg))
     return;
-  ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("mean of the last 30 frames", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("GPU ms");
-  ImGui::TableSetupColumn("CPU ms");
-  ImGui::TableHeadersRow();
-  for (const Mean& mean : meansOf(history, gpuStack_)) {
+  for (const auto& [name, mean] : meansOf(history, gpuStack_)) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::PushStyleColor(ImGuiCol_Text, colorOf(mean.name));
+    ImGui::PushStyleColor(ImGuiCol_Text, colorOf(name));
     ImGui::Bullet();
     ImGui::PopStyleColor();
-    ImGui::TextUnformatted(mean.name.c_str());
-    ImGui::TableNextColumn();
-    ImGui::Text("%7.2f", mean.gpu);
-    ImGui::TableNextColumn();
-    ImGui::Text("%7.2f", mean.cpu);
+    ImGui::TextUnformatted(name.c_str());
+    cell(fmt::format("{:7.2f}", mean.gpu));
+    cell(fmt::format("{:7.2f}", mean.cpu));
   }
   ImGui::EndTable();
 }

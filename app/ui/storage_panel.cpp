@@ -56,23 +56,16 @@ void Panels::drawStorage() {
                       bytesText(plan.bytesAllocated).c_str(), plan.storages.size(),
                       bytesText(plan.bytesDeclared).c_str(), bytesText(plan.bytesLowerBound).c_str());
   ImGui::PopTextWrapPos();
-  const ImGuiTableFlags flags =
-      ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_BordersInnerV;
-  if (!ImGui::BeginTable("storage", 3, flags)) return;
-  ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("storage");
-  ImGui::TableSetupColumn("bytes");
-  ImGui::TableSetupColumn("steps of the frame", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableHeadersRow();
+  if (!beginTable("storage", {"storage", "bytes", "steps of the frame"}, 2,
+                  ImGuiTableFlags_ScrollY | ImGuiTableFlags_BordersInnerV))
+    return;
   const float line = ImGui::GetTextLineHeight();
   const auto steps = static_cast<float>(std::max<std::size_t>(1, plan.steps.size()));
   int id = 0;
   for (const Row& row : rowsOf(plan)) {
     ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(row.name.c_str());
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(row.bytes.c_str());
+    cell(row.name);
+    cell(row.bytes);
     ImGui::TableNextColumn();
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float width = std::max(16.0f, ImGui::GetContentRegionAvail().x);

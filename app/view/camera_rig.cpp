@@ -15,6 +15,7 @@ constexpr double kFarthest = 1e5;
 // Head-bob of a person whose eye is 1.7 high and who covers twice that in a pair of steps; all in units of
 // speed.
 constexpr double kBobPerUnit = 4.5, kBobRise = 0.012, kBobSway = 0.008;
+constexpr double kBobSeconds = 0.15;  // the time constant with which it begins and ends
 
 double finite(double x, double low, double high) {
   return std::isfinite(x) ? std::clamp(x, low, high) : 0.0;
@@ -24,9 +25,13 @@ glm::dvec2 finite(glm::dvec2 v) {
   return {finite(v.x, -1e5, 1e5), finite(v.y, -1e5, 1e5)};
 }
 
-// How much of the way to a goal is covered in a step.
-double closing(double timeConstant) {
-  return 1 - std::exp(-CameraRig::kStep / timeConstant);
+// Where a value is that closes on a goal with the time constant kMouseSeconds, after `dt` in which the goal went evenly by `by` to
+// where it is: the solution of y' = (g(t) - y) / tau.
+template <class T>
+T followed(const T& value, const T& goal, const T& by, double dt) {
+  if (dt == 0) return value;
+  const double k = -std::expm1(-dt / CameraRig::kMouseSeconds);
+  return value + (goal - by - value) * k + by * (1 - k * CameraRig::kMouseSeconds / dt);
 }
 
 }  // namespace
@@ -38,8 +43,7 @@ glm::dvec3 CameraRig::backOf(double yaw, double pitch) {
 void CameraRig::jumpTo(const scene::CameraPose& pose) {
   ++cuts_;
   mode_ = Mode::scene;
-  pending_ = {};
-  rest_ = 0;
+  keys_ = {0, 0, 0};
   follow(pose);
   speed_ = std::max(now_.distance * 0.4, pose.nearPlane);
 }
@@ -54,16 +58,13 @@ void CameraRig::follow(const scene::CameraPose& pose) {
   // Straight up and down have no yaw of their own: 0 is what viewMatrix() shows there.
   now_.yaw = goalYaw_ = std::abs(offset.y) < now_.distance * (1 - 1e-12) ? std::atan2(offset.x, offset.z) : 0;
   now_.pitch = goalPitch_ = std::asin(std::clamp(offset.y / now_.distance, -1.0, 1.0));
-  before_ = now_;
 }
 
 void CameraRig::setMode(Mode mode) {
   if (mode == mode_) return;
-  for (State* state : {&before_, &now_}) {
-    if (mode_ == Mode::fly) state->pivot = state->eye - backOf(state->yaw, state->pitch) * state->distance;
-    state->velocity = {0, 0, 0};
-    if (mode != Mode::fly) state->bobAmount = 0;
-  }
+  if (mode_ == Mode::fly) now_.pivot = now_.eye - backOf(now_.yaw, now_.pitch) * now_.distance;
+  now_.velocity = {0, 0, 0};
+  if (mode != Mode::fly) now_.bobAmount = 0;
   // The rest of a smoothed pan or wheel movement is dropped.
   goalPivot_ = now_.pivot;
   goalDistance_ = now_.distance;
@@ -71,112 +72,74 @@ void CameraRig::setMode(Mode mode) {
 }
 
 void CameraRig::advance(double seconds, const CameraInput& raw) {
-  CameraInput input = raw;
-  input.turn = finite(raw.turn);
-  input.pan = finite(raw.pan);
-  input.wheel = finite(raw.wheel, -100, 100);
-  input.move = {finite(raw.move.x, -1, 1), finite(raw.move.y, -1, 1), finite(raw.move.z, -1, 1)};
+  CameraInput in = raw;
+  in.turn = finite(raw.turn);
+  in.pan = finite(raw.pan);
+  in.wheel = finite(raw.wheel, -100, 100);
+  in.move = {finite(raw.move.x, -1, 1), finite(raw.move.y, -1, 1), finite(raw.move.z, -1, 1)};
   if (mode_ == Mode::scene) {
-    input.move = {0, 0, 0};
-    if (!input.any()) return;
+    in.move = {0, 0, 0};
+    if (!in.any()) return;
     setMode(Mode::orbit);
   }
-  const double length = finite(seconds, 0, kLongestFrame);
-  double covered = 0;
-  const auto share = [&](double until) {
-    const double part = length > 0 ? (until - covered) / length : 1;
-    covered = until;
-    pending_.turn += input.turn * part;
-    pending_.pan += input.pan * part;
-    pending_.wheel += input.wheel * part;
-  };
-  pending_.move = input.move;
-  pending_.fast = input.fast;
-  // Rounding must not decide whether there is one step more or less: twice 1/120 s is a step.
-  while (rest_ + (length - covered) >= kStep * (1 - 1e-9)) {
-    share(std::clamp(covered + kStep - rest_, covered, length));
-    rest_ = 0;
-    step(pending_);
-    pending_.turn = pending_.pan = {0, 0};
-    pending_.wheel = 0;
-  }
-  rest_ = std::min(rest_ + (length - covered), kStep);
-  share(length);
-}
-
-void CameraRig::step(const CameraInput& in) {
-  before_ = now_;
   if (in.any()) exact_.reset();
-  const double turned = in.turn.y * kTurnPerPixel;
-  goalYaw_ -= in.turn.x * kTurnPerPixel;
-  if (turned != 0) goalPitch_ = std::clamp(goalPitch_ + turned, -kPole, kPole);
-  const double k = closing(kMouseSeconds);
-  now_.yaw += (goalYaw_ - now_.yaw) * k;
-  now_.pitch += (goalPitch_ - now_.pitch) * k;
+  keys_ = in.move;
+  const double dt = finite(seconds, 0, kLongestFrame), yaw = now_.yaw, pitch = now_.pitch;
+  const double turned = -in.turn.x * kTurnPerPixel, tilt = goalPitch_;
+  goalYaw_ += turned;
+  if (in.turn.y != 0) goalPitch_ = std::clamp(goalPitch_ + in.turn.y * kTurnPerPixel, -kPole, kPole);
+  now_.yaw = followed(yaw, goalYaw_, turned, dt);
+  now_.pitch = followed(pitch, goalPitch_, goalPitch_ - tilt, dt);
+  // The axes in the middle of the frame.
+  const double middle = (yaw + now_.yaw) / 2;
+  const glm::dvec3 back = backOf(middle, (pitch + now_.pitch) / 2),
+                   right(std::cos(middle), 0, -std::sin(middle));
   if (mode_ == Mode::fly) {
-    flyStep(in);
+    if (dt > 0) fly(in, dt, back, right);
     return;
   }
-  goalDistance_ =
-      std::clamp(goalDistance_ * std::pow(kZoomPerStep, in.wheel), lens_.nearPlane * 2, kFarthest);
-  const glm::dvec3 back = backOf(now_.yaw, now_.pitch), right(std::cos(now_.yaw), 0, -std::sin(now_.yaw));
+  const double distance = goalDistance_;
+  goalDistance_ = std::clamp(distance * std::pow(kZoomPerStep, in.wheel), lens_.nearPlane * 2, kFarthest);
   const double unit =
       goalDistance_ * std::tan(lens_.fovDegrees * std::numbers::pi / 360) / 360;  // of a pixel in 720
-  goalPivot_ += (glm::cross(back, right) * in.pan.y - right * in.pan.x) * unit;
-  now_.distance += (goalDistance_ - now_.distance) * k;
-  now_.pivot += (goalPivot_ - now_.pivot) * k;
-  place(now_);
+  const glm::dvec3 slid = (glm::cross(back, right) * in.pan.y - right * in.pan.x) * unit;
+  goalPivot_ += slid;
+  now_.distance = followed(now_.distance, goalDistance_, goalDistance_ - distance, dt);
+  now_.pivot = followed(now_.pivot, goalPivot_, slid, dt);
+  now_.eye = now_.pivot + backOf(now_.yaw, now_.pitch) * now_.distance;
 }
 
 // Speed closes on what the keys ask for: acceleration and friction in one, exact for a constant wish.
-void CameraRig::flyStep(const CameraInput& in) {
+void CameraRig::fly(const CameraInput& in, double dt, const glm::dvec3& back, const glm::dvec3& right) {
+  const double before = speed_;
   speed_ = std::clamp(speed_ * std::pow(kSpeedPerStep, in.wheel), 1e-3, kFarthest);
-  const glm::dvec3 back = backOf(now_.yaw, now_.pitch), right(std::cos(now_.yaw), 0, -std::sin(now_.yaw));
+  const double speed = std::sqrt(before * speed_);  // in the middle of the frame
   glm::dvec3 wish = right * in.move.x + glm::dvec3(0, in.move.y, 0) - back * in.move.z;
   if (const double size = glm::length(wish); size > 1) wish /= size;
-  wish *= speed_ * (in.fast ? kFastFactor : 1.0);
-  const double kept = std::exp(-kFriction * kStep);
-  // The way covered while the speed closes on the wish, integrated over the step.
-  const glm::dvec3 way = wish * kStep + (now_.velocity - wish) * ((1 - kept) / kFriction);
+  wish *= speed * (in.fast ? kFastFactor : 1.0);
+  const double kept = std::exp(-kFriction * dt);
+  // The way covered while the speed closes on the wish, integrated over the frame.
+  const glm::dvec3 way = wish * dt + (now_.velocity - wish) * ((1 - kept) / kFriction);
   now_.velocity = wish + (now_.velocity - wish) * kept;
-  if (glm::length(now_.velocity) < speed_ * 1e-4 && wish == glm::dvec3(0)) now_.velocity = {0, 0, 0};
+  if (glm::length(now_.velocity) < speed * 1e-4 && wish == glm::dvec3(0)) now_.velocity = {0, 0, 0};
   now_.eye += way;
   const double walk = glm::length(glm::dvec2(way.x, way.z));
-  now_.bobPhase += walk / speed_ * kBobPerUnit;
-  const double wanted = headBob ? std::min(1.0, walk / (kStep * speed_)) : 0.0;
-  now_.bobAmount += (wanted - now_.bobAmount) * closing(0.15);
+  now_.bobPhase += walk / speed * kBobPerUnit;
+  const double wanted = headBob ? std::min(1.0, walk / (dt * speed)) : 0.0;
+  now_.bobAmount += (wanted - now_.bobAmount) * (1 - std::exp(-dt / kBobSeconds));
   if (wanted == 0 && now_.bobAmount < 1e-4) now_.bobAmount = 0;
-  place(now_);
-}
-
-// In flight the eye gives the pivot; otherwise the pivot gives the eye.
-void CameraRig::place(State& state) const {
-  const glm::dvec3 back = backOf(state.yaw, state.pitch) * state.distance;
-  if (mode_ == Mode::fly)
-    state.pivot = state.eye - back;
-  else
-    state.eye = state.pivot + back;
+  now_.pivot = now_.eye - backOf(now_.yaw, now_.pitch) * now_.distance;
 }
 
 scene::CameraPose CameraRig::pose() const {
   if (exact_) return *exact_;
-  const double f = std::clamp(rest_ / kStep, 0.0, 1.0);
-  const auto mix = [f](const auto& a, const auto& b) { return a + (b - a) * f; };
-  State state;
-  state.yaw = mix(before_.yaw, now_.yaw);
-  state.pitch = mix(before_.pitch, now_.pitch);
-  state.distance = mix(before_.distance, now_.distance);
-  state.pivot = mix(before_.pivot, now_.pivot);
-  state.eye = mix(before_.eye, now_.eye);
-  place(state);
-  const double bob = mix(before_.bobAmount, now_.bobAmount), phase = mix(before_.bobPhase, now_.bobPhase);
-  const glm::dvec3 right(std::cos(state.yaw), 0, -std::sin(state.yaw));
-  const glm::dvec3 sway =
-      bob * speed_ *
-      (glm::dvec3(0, kBobRise * std::sin(2 * phase), 0) + right * (kBobSway * std::sin(phase)));
+  const glm::dvec3 right(std::cos(now_.yaw), 0, -std::sin(now_.yaw));
+  const glm::dvec3 sway = now_.bobAmount * speed_ *
+                          (glm::dvec3(0, kBobRise * std::sin(2 * now_.bobPhase), 0) +
+                           right * (kBobSway * std::sin(now_.bobPhase)));
   scene::CameraPose pose = lens_;
-  pose.position = state.eye + sway;
-  pose.target = state.pivot + sway;
+  pose.position = now_.eye + sway;
+  pose.target = now_.pivot + sway;
   return pose;
 }
 
@@ -186,8 +149,8 @@ bool CameraRig::moving() const {
   const bool still = near(now_.yaw, goalYaw_, 1) && near(now_.pitch, goalPitch_, 1) &&
                      near(now_.distance, goalDistance_, goalDistance_) &&
                      (mode_ == Mode::fly || glm::length(now_.pivot - goalPivot_) < 1e-6 * goalDistance_) &&
-                     now_.velocity == glm::dvec3(0) && now_.bobAmount == 0 && pending_.move == glm::dvec3(0);
-  return !still || pending_.turn != glm::dvec2(0) || pending_.pan != glm::dvec2(0) || pending_.wheel != 0;
+                     now_.velocity == glm::dvec3(0) && now_.bobAmount == 0 && keys_ == glm::dvec3(0);
+  return !still;
 }
 
 }  // namespace weft::app

@@ -1,7 +1,6 @@
-// The person's camera: follows a camera of the scene until someone takes it, turns around a pivot (orbit), or flies. Moves in
-// steps of 1/60 s whatever the frame rate and is shown between the last two of them, so the same input over the same time
-// gives the same path; the mouse of a frame counts as spread evenly over it. Never rolls, never passes the poles. No call
-// makes a pose that is not finite.
+// The person's camera: follows a camera of the scene until someone takes it, turns around a pivot (orbit), or flies. Movement is
+// the solution of its equations over a frame in which the mouse moved evenly, so the same input over the same time gives the same path at
+// any frame rate. Never rolls, never passes the poles. No call makes a pose that is not finite.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +27,6 @@ class CameraRig {
  public:
   enum class Mode : std::uint8_t { scene, orbit, fly };
 
-  static constexpr double kStep = 1.0 / 60;  // seconds of a step
   static constexpr double kLongestFrame =
       0.5;  // seconds: of a longer frame the rest is lost, its mouse is not
   static constexpr double kTurnPerPixel = 0.005;  // radians
@@ -58,26 +56,24 @@ class CameraRig {
   double speed() const { return speed_; }  // flying: world units per second that held keys end up at
 
  private:
-  // A step's result. Angles in radians; in orbit `pivot` and `distance` rule, in flight `eye`.
+  // Angles in radians; in orbit `pivot` and `distance` rule, in flight `eye`.
   struct State {
     glm::dvec3 eye{0}, pivot{0}, velocity{0};
     double yaw = 0, pitch = 0, distance = 1;
     double bobPhase = 0, bobAmount = 0;  // radians; 0 to 1
   };
   static glm::dvec3 backOf(double yaw, double pitch);
-  void step(const CameraInput& share);
-  void flyStep(const CameraInput& share);
-  void place(State& state) const;
+  // A frame of more than no seconds.
+  void fly(const CameraInput& in, double seconds, const glm::dvec3& back, const glm::dvec3& right);
 
   Mode mode_ = Mode::scene;
   std::optional<scene::CameraPose> exact_;  // what pose() says while nothing has moved
   scene::CameraPose lens_;                  // field of view and near plane
-  State before_, now_;
+  State now_;
   double goalYaw_ = 0, goalPitch_ = 0, goalDistance_ = 1;
   glm::dvec3 goalPivot_{0};
   double speed_ = 1;
-  double rest_ = 0;      // seconds since the last step, below kStep
-  CameraInput pending_;  // came after the last step
+  glm::dvec3 keys_{0};  // held in the last frame
   std::uint64_t cuts_ = 0;
 };
 

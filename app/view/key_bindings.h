@@ -2,23 +2,15 @@
 // whoever does something registers it under that name; the help and the table in docs/viewer.md are made of the same rows.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string>
-#include <string_view>
 
 namespace weft::app {
 
 struct KeyBinding {
-  enum class How : std::uint8_t {
-    press,  // runs the action
-    held,   // asked for by name while it is down (WindowInput::held)
-    mouse   // only listed
-  };
-  How how;
   int key;             // GLFW_KEY_…
-  bool shift;          // press: with or without the shift key
-  const char* action;  // name; empty for the mouse
+  bool shift;          // with the shift key; without, the key does so in any case where it has no other row
+  const char* action;  // name; empty: only listed
   const char* keys;    // as a person reads it; empty: listed by the row before
   const char* does;
 };
@@ -26,6 +18,6 @@ struct KeyBinding {
 std::span<const KeyBinding> keyBindings();
 
 // The action of a key that was pressed, empty when it has none.
-std::string_view actionOf(int key, bool shift);
+std::string actionOf(int key, bool shift);
 
 }  // namespace weft::app

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "app/live/live_environment.h"
 #include "app/output/output_files.h"
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
@@ -16,11 +15,6 @@
 namespace weft::app {
 
 namespace {
-
-// The number of the last frame; 0 when nobody knows it.
-std::uint32_t lastFrameOf(const ViewOptions& options) {
-  return options.maxFrames ? options.maxFrames - 1 : 0;
-}
 
 // Whether saving a file may make it good: nobody is to wait for a file that is
 // not there, or for a wrong command line.
@@ -33,27 +27,12 @@ bool canBeFixed(const ViewOptions& options, const text::Diagnostics& diagnostics
   });
 }
 
-// Runs before the window opens. The frames of a recording have no end unless --max-frames gives one.
-bool checkOutputs(const ViewOptions& options, text::Diagnostics& diagnostics) {
-  if (!options.screenshot.empty()) checkOutput(options.screenshot, lastFrameOf(options), false, diagnostics);
-  if (!options.record.empty()) checkOutput(options.record, 0, true, diagnostics);
-  return !diagnostics.hasErrors();
-}
-
-// Runs when all files that are read are known.
-bool checkInputs(const ViewOptions& options, const LiveGraph& live, text::Diagnostics& diagnostics) {
-  const std::uint32_t last = lastFrameOf(options);
-  const OutputFile outputs[] = {{"--screenshot", outputNameOf(options.screenshot, last).value_or("")},
-                                {"--record", options.record, 0, options.maxFrames ? last : ~0u}};
-  std::vector<std::string> inputs = live.files();
-  inputs.push_back(options.graph);
-  return checkDistinct(outputs, inputs, diagnostics);
-}
-
 int runView(ViewOptions& options) {
   text::Diagnostics diagnostics;
   options.window = true;
-  if (!checkOutputs(options, diagnostics)) return report(diagnostics);
+  const std::uint32_t last = options.maxFrames ? options.maxFrames - 1 : 0;
+  if (!options.screenshot.empty()) checkOutput(options.screenshot, last, false, diagnostics);
+  if (!options.record.empty()) checkOutput(options.record, 0, true, diagnostics);
   Options files = options;
   if (!files.environment.empty())
     files.environment = firstEnvironment(options.environment, diagnostics).value_or("");
@@ -109,7 +88,11 @@ int runView(ViewOptions& options) {
     // With a number of frames to draw there is nobody who could save a file.
     if (!live.load(diagnostics) && (options.maxFrames || !canBeFixed(options, diagnostics)))
       return report(diagnostics);
-    if (!checkInputs(options, live, diagnostics)) return report(diagnostics);
+    const OutputFile outputs[] = {{"--screenshot", outputNameOf(options.screenshot, last).value_or("")},
+                                  {"--record", options.record}};
+    std::vector<std::string> inputs = live.files();
+    inputs.push_back(options.graph);
+    if (!checkDistinct(outputs, inputs, diagnostics)) return report(diagnostics);
     Viewer viewer(options, *session, live, std::move(diagnostics));
     code = viewer.run();
     if (options.stats) {
@@ -131,10 +114,10 @@ void addView(CommandLine& line) {
   options.addGraph(command);
   options.addBackend(command);
   options.addMeasurements(command);
-  command
-      .add_option("--max-frames", options.maxFrames,
-                  "close after this many frames (0: when the window is closed)")
-      ->check(CLI::Validator(checkCount, "FRAMES"));
+  addTaken(
+      command, "--max-frames",
+      [&frames = options.maxFrames](const std::string& text) { return takeCount(text, frames); }, "FRAMES",
+      "close after this many frames (0: when the window is closed)");
   command.add_flag("--wait-for-assets", options.waitForAssets,
                    "open the window when the environment is there, not before");
   command

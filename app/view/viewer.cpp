@@ -1,18 +1,83 @@
-// What the viewer can do, by name.
+// What the viewer can do, by name; its loop: events, files, camera, frame, panels; and what it draws over the picture besides the
+// panels.
 #include "app/view/viewer.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
+#include <imgui.h>
 
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <chrono>
+#include <cmath>
+#include <span>
+#include <thread>
 #include <utility>
+#include <vector>
 
+#include "app/output/output_files.h"
+#include "app/output/standard_streams.h"
+#include "app/session/session.h"
 #include "app/view/key_bindings.h"
+#include "engine/text/counted.h"
+#include "engine/text/hash.h"
+#include "engine/text/message_choice.h"
+#include "engine/text/printable.h"
 
 namespace weft::app {
+
+namespace {
+
+constexpr double kLookAround = 0.05;   // seconds between looks at everything while nothing is drawn
+constexpr double kLookAtFiles = 0.02;  // the same while files that changed are to settle
+constexpr std::chrono::milliseconds kWaitForWrites{5};
+constexpr int kWaitsForWrites = 10;     // who writes for longer than this gets frames in between
+constexpr int kRestlessAfterEvent = 4;  // panels answer an event within so many redraws
+
+// What is wrong with the files or with a change made here is reported, and does not count against the program.
+void tell(text::Diagnostics& diagnostics, ui::Log& log, ui::Log::Topic topic) {
+  report(diagnostics);
+  log.set(topic, text::chooseMessages(diagnostics).items());
+  diagnostics.clear();
+}
+
+// The rows of keyBindings(), in two columns and as small as the window asks for.
+void drawHelp() {
+  constexpr float kMargin = 16;  // pixels
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  std::vector<const KeyBinding*> rows;
+  float width = 0;
+  for (const KeyBinding& binding : keyBindings())
+    if (*binding.keys) {
+      rows.push_back(&binding);
+      width = std::max(width, ImGui::CalcTextSize(binding.does).x);
+    }
+  const std::size_t high = (rows.size() + 1) / 2;
+  const float wanted = 2 * width + 24 * ImGui::GetFontSize();
+  const float height = static_cast<float>(high + 1) * ImGui::GetTextLineHeightWithSpacing();
+  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowFocus();
+  ImGui::SetNextWindowBgAlpha(1);
+  ImGui::Begin("Help", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::SetWindowFontScale(std::min({1.0f, (screen.x - kMargin) / wanted, (screen.y - kMargin) / height}));
+  if (ImGui::BeginTable("keys", 4, ImGuiTableFlags_SizingFixedFit)) {
+    for (std::size_t row = 0; row < high; ++row)
+      for (std::size_t at = row; at < rows.size(); at += high) {
+        ImGui::TableNextColumn();
+        ImGui::TextColored({0.6f, 0.85f, 1, 1}, "%s", rows[at]->keys);
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(rows[at]->does);
+      }
+    ImGui::EndTable();
+  }
+  ImGui::End();
+}
+
+}  // namespace
 
 Viewer::Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& live, text::Diagnostics said)
     : options_(options),
@@ -63,8 +128,7 @@ void Viewer::addActions() {
   for (const std::string& panel : ui::Panels::names())
     actions_["panel_" + panel] = [this, panel] { panels_.toggle(panel); };
   for ([[maybe_unused]] const KeyBinding& binding : keyBindings())
-    assert((binding.how != KeyBinding::How::press || actions_.contains(binding.action)) &&
-           "every key does something");
+    assert((!*binding.action || actions_.contains(binding.action)) && "every key does something");
 }
 
 const scene::Camera* Viewer::sceneCamera() const {
@@ -104,6 +168,278 @@ void Viewer::toggleRecording() {
   } else if (recorder_.start(options_.record, diagnostics_)) {
     clock_.fix(options_.fps);
   }
+}
+
+void Viewer::say(std::string_view event) const {
+  if (!options_.events) return;
+  print(fmt::format("event {} {}\n", frame_, event));
+  flushPrinted();
+}
+
+int Viewer::run() {
+  tell(diagnostics_, log_, ui::Log::kFiles);
+  if (!options_.record.empty()) toggleRecording();
+  while (!glfwWindowShouldClose(window_)) {
+    input_.giveButton(readsMouse());  // before the first events, too: some came while files were loaded
+    waitForEvents();
+    const gl::Size size = session_.context->framebufferSize();
+    minimized_ = size.width == 0 || size.height == 0;
+    if (minimized_) {
+      clock_.skip(glfwGetTime());
+      continue;
+    }
+    if (overlay_) {
+      const float uiScale =
+          options_.uiScale > 0 ? static_cast<float>(options_.uiScale) : session_.context->contentScale();
+      if (std::exchange(uiScale_, uiScale) != uiScale) overlay_->setScale(uiScale);
+      overlay_->begin();
+    }
+    input_.decide(overlay_ && overlay_->wantsMouse());
+    update(size);
+    if (mustDraw()) {
+      frame(size);
+    } else {
+      clock_.skip(glfwGetTime());
+      if (restless_ > 0)
+        redraw(size);
+      else if (overlay_)
+        overlay_->skip();
+    }
+    if (options_.maxFrames && frame_ >= options_.maxFrames) break;
+  }
+  saveLast();
+  recorder_.stop(diagnostics_);
+  input_.capture(false);
+  say("closed");
+  return report(diagnostics_) || broken_ || !live_.good() ? 1 : 0;
+}
+
+void Viewer::waitForEvents() {
+  const bool nothingToDo = restless_ == 0 && idle_ && live_.running() && rest_.resting() && !busy();
+  if (minimized_ || nothingToDo || !live_.running())
+    glfwWaitEventsTimeout(live_.pending() ? kLookAtFiles : kLookAround);
+  else
+    glfwPollEvents();
+}
+
+void Viewer::update(gl::Size size) {
+  if (std::exchange(inputs_, input_.events()) != input_.events()) restless_ = kRestlessAfterEvent;
+  if (size.width != size_.width || size.height != size_.height)
+    say(fmt::format("size {} {}", size.width, size.height));
+  size_ = size;
+  // A recording keeps the size it began with.
+  if (!recorder_.active() || recorder_.frames() == 0) {
+    const auto scaled = [&](std::uint32_t pixels) {
+      return static_cast<std::uint32_t>(std::clamp(std::lround(pixels * renderScale_), 1l, 16384l));
+    };
+    if (live_.resize(scaled(size.width), scaled(size.height), diagnostics_))
+      tell(diagnostics_, log_, ui::Log::kChange);
+  }
+  bool looked = live_.poll(glfwGetTime(), diagnostics_);
+  // Waits here while more may be written, instead of drawing another frame that is out of date.
+  for (int i = 0; i < kWaitsForWrites && !looked && live_.pending(); ++i) {
+    std::this_thread::sleep_for(kWaitForWrites);
+    looked = live_.poll(glfwGetTime(), diagnostics_);
+  }
+  if (std::exchange(sceneReads_, live_.scene().reads()) != live_.scene().reads())
+    say("loading " + live_.scene().name());
+  if (looked) {
+    tell(diagnostics_, log_, ui::Log::kFiles);
+    restless_ = kRestlessAfterEvent;
+    say(live_.good() ? "files good" : "files wrong");
+  }
+  if (live_.pollEnvironment(diagnostics_)) {
+    tell(diagnostics_, log_, ui::Log::kEnvironment);
+    rest_.disturb();
+    restless_ = kRestlessAfterEvent;
+    say("environment " + live_.environment().shown());
+  }
+  const std::uint64_t changes = live_.changes();
+  for (const std::string& action : input_.takeActions()) {
+    actions_.find(action)->second();
+    say(fmt::format("action {}", action));
+  }
+  if (live_.changes() != changes) tell(diagnostics_, log_, ui::Log::kChange);
+  if (rig_.mode() == CameraRig::Mode::fly && !input_.captured()) toggleFlight();  // the focus went elsewhere
+  if (std::exchange(switches_, live_.switches()) != live_.switches()) rest_.disturb();
+  if (std::exchange(livesSet_, live_.livesSet()) != live_.livesSet()) rest_.disturb();
+  showState();
+}
+
+void Viewer::showState() {
+  std::string title = "weft: " + options_.graph;
+  const auto add = [&](const std::string& mode) { title += " (" + mode + ")"; };
+  if (!live_.running())
+    add("waiting: the files have errors");
+  else if (const auto scene = live_.scene().status())
+    add("loading " + scene->name);
+  else if (!live_.good())
+    add("the files have errors");
+  if (recorder_.active()) add("recording, " + text::counted(recorder_.frames(), "frame"));
+  if (rig_.mode() == CameraRig::Mode::fly) add("flying, Esc lets go");
+  if (idle_) add("idle");
+  if (renderScale_ != 1) add(fmt::format("render scale {}", renderScale_));
+  if (title == title_) return;
+  title_ = title;
+  glfwSetWindowTitle(window_, title_.c_str());
+}
+
+bool Viewer::readsMouse() {
+  return live_.running() && renderer_.execution()->followsPointer();
+}
+
+imports::Pointer Viewer::pointer() {
+  const gl::TextureDesc picture = renderer_.execution()->presented().desc;
+  return input_.pointer(picture.width, picture.height);
+}
+
+bool Viewer::busy() {
+  if (recorder_.active() || rig_.moving() || rig_.cuts() != cuts_ || input_.captured() ||
+      input_.movesCamera() || live_.environment().status() || live_.scene().loading())
+    return true;
+  if (readsMouse() && pointer() != pointer_) return true;
+  // What moves counts also while it pauses or is out of view, because it will go on.
+  if (frame_ > 0 && live_.running() && renderer_.execution()->drawsMotion()) return true;
+  const scene::Camera* camera = sceneCamera();
+  return rig_.mode() == CameraRig::Mode::scene && camera && scene::isMoving(*camera);
+}
+
+bool Viewer::mustDraw() {
+  if (!live_.running()) {
+    restless_ = kRestlessAfterEvent;
+    return false;
+  }
+  if (!idle_) return true;
+  if (busy()) rest_.disturb();
+  return !rest_.resting();
+}
+
+void Viewer::frame(gl::Size size) {
+  const FrameClock::Tick tick = clock_.tick(glfwGetTime());
+  moveCamera(tick);
+  runtime::FrameInput in;
+  in.frame = frame_;
+  in.time = tick.time;
+  in.deltaTime = tick.delta;
+  in.pose = rig_.pose();
+  in.previousPose = frame_ == 0 || cuts_ != rig_.cuts() ? in.pose : previousPose_;
+  in.cutGeneration = cuts_ = rig_.cuts();
+  if (readsMouse()) in.pointer = pointer_ = pointer();
+  // A recording has the frames that `weft render` makes. The first frame of a
+  // window that waited is finished, and does not fade in.
+  in.headless = !options_.record.empty() || (options_.waitForAssets && frame_ == 0);
+  panels_.beforeFrame();
+  report_ = renderer_.frame(live_.world(), in, diagnostics_);
+  panels_.afterFrame();
+  // While an import is on its way no pass runs, and a click is kept for the frame in which one does.
+  if (!readsMouse() || report_.passesRun + report_.passesSkipped > 0) input_.pointerShown();
+  live_.dropUploaded();
+  if (report_.slowRun > 0) clock_.worked();
+  previousPose_ = in.pose;
+  ++frame_;
+  show(size);
+}
+
+void Viewer::show(gl::Size size) {
+  recorder_.add(renderer_, diagnostics_);
+  if (!recorder_.active() && clock_.fixed()) clock_.fix(0);  // it could not write
+  renderer_.present(size.width, size.height);
+  if (frame_ == options_.maxFrames) saveLast();
+  finishFrame();
+  if (!std::exchange(shown_, true)) say("shown");
+  if (!idle_) return;
+  judgeRest();
+  if (std::exchange(resting_, rest_.resting()) != rest_.resting()) say(resting_ ? "resting" : "awake");
+}
+
+void Viewer::moveCamera(const FrameClock::Tick& tick) {
+  CameraInput input = input_.takeCamera();
+  const scene::Camera* camera = sceneCamera();
+  if (camera && rig_.mode() == CameraRig::Mode::scene) {
+    const scene::CameraPose pose = scene::poseAt(*camera, tick.time);
+    // The scene is another, or the first: the camera that is followed may stand
+    // elsewhere. A camera that a person took stays where it is.
+    if (sceneGeneration_ != live_.world().sceneGeneration() && pose != rig_.pose())
+      rig_.jumpTo(pose);
+    else
+      rig_.follow(pose);
+  }
+  sceneGeneration_ = live_.world().sceneGeneration();
+  rig_.advance(tick.delta, input);
+}
+
+void Viewer::judgeRest() {
+  // After a pass that runs only when something changed, the picture may follow later (slices, a load in steps).
+  if (report_.slowRun > 0) rest_.disturb();
+  const double now = glfwGetTime();
+  if (!rest_.wantsLook(now)) return;
+  const auto image = renderer_.readPresented8();
+  rest_.look(now, image ? text::hashBytes(
+                              {reinterpret_cast<const char*>(image->texels.data()), image->texels.size()})
+                        : 0);
+}
+
+void Viewer::redraw(gl::Size size) {
+  --restless_;
+  ++redraws_;
+  renderer_.present(size.width, size.height);
+  finishFrame();
+}
+
+void Viewer::finishFrame() {
+  saveScreenshots();
+  tellFrame();
+  drawUi();
+  glfwSwapBuffers(window_);
+}
+
+void Viewer::drawPanels() {
+  if (help_) return drawHelp();
+  if (live_.running())
+    panels_.draw(report_, diagnostics_);
+  else
+    panels_.drawLog();
+}
+
+void Viewer::drawUi() {
+  if (!overlay_) return;
+  const std::uint64_t before = live_.changes();
+  overlay_->begin();
+  drawPanels();
+  const auto click = overlay_->releasedMouse();
+  overlay_->end();
+  if (panels_.wantsFrame()) rest_.disturb();
+  if (live_.changes() != before) {
+    tell(diagnostics_, log_, ui::Log::kChange);
+    say("change");
+  }
+  if (click) say(fmt::format("click {} {}", click->first, click->second));
+}
+
+void Viewer::saveScreenshots() {
+  if (screenshot_.empty()) return;
+  const std::string name = screenshotName(frame_, screenshot_.c_str());
+  screenshot_.clear();
+  if (live_.running() && writer_.save(renderer_, name, diagnostics_)) {
+    print(fmt::format("wrote {}\n", text::printable(name)));
+    flushPrinted();
+  }
+  writer_.tell(diagnostics_);
+}
+
+void Viewer::saveLast() {
+  if (options_.screenshot.empty() || frame_ == 0 || !live_.running() || std::exchange(lastSaved_, true))
+    return;
+  writer_.save(renderer_, *outputNameOf(options_.screenshot, frame_ - 1), diagnostics_);
+  writer_.tell(diagnostics_);
+}
+
+void Viewer::tellFrame() {
+  session_.context->debugLog().drain(diagnostics_);
+  if (diagnostics_.empty()) return;
+  log_.addPast(diagnostics_);
+  broken_ |= report(diagnostics_) != 0;
+  diagnostics_.clear();
 }
 
 }  // namespace weft::app

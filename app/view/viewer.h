@@ -12,7 +12,7 @@
 #include "app/live/live_graph.h"
 #include "app/output/picture_writer.h"
 #include "app/session/command_line.h"
-#include "app/session/device_session.h"
+#include "app/session/session.h"
 #include "app/ui/overlay.h"
 #include "app/ui/panels.h"
 #include "app/view/camera_rig.h"
@@ -61,13 +61,12 @@ class Viewer {
   void waitForEvents();
   void update(gl::Size size);
   void showState();
-  std::string modes()
-      const;  // that are on and that nothing else shows while the panels are hidden Idle mode: whether something is under way that may not show for a while, and whether a frame is due.
+  // Idle mode: whether something is under way that may not show for a while, and whether a frame is due.
   bool busy();
+  bool mustDraw();
   // Whether the graph reads the mouse; the mouse over the picture that it presents.
   bool readsMouse();
   imports::Pointer pointer();
-  bool mustDraw();
   // May end without a picture, when files change meanwhile.
   void frame(gl::Size size);
   void show(gl::Size size);
@@ -119,7 +118,6 @@ class Viewer {
   bool vsync_ = true, idle_ = false, help_ = false, minimized_ = false;
   bool resting_ = false, shown_ = false;  // as it was said last; a picture was
   bool lastSaved_ = false;
-  bool acted_ = false;   // an action ran since panels were drawn
   bool broken_ = false;  // the driver or an output reported an error
 };
 

@@ -24,7 +24,7 @@ WindowInput::WindowInput(GLFWwindow* window) : window_(window) {
   glfwSetMouseButtonCallback(
       window, [](GLFWwindow* w, int button, int action, int mods) { of(w).onButton(button, action, mods); });
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { of(w).onMove(x, y); });
-  glfwSetScrollCallback(window, [](GLFWwindow* w, double, double dy) { of(w).onScroll(dy); });
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double, double dy) { of(w).fresh_.wheel += dy; });
   glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
     WindowInput& input = of(w);
     if (!focused) input.capture(false);
@@ -40,10 +40,10 @@ WindowInput::WindowInput(GLFWwindow* window) : window_(window) {
 void WindowInput::capture(bool on) {
   if (on == captured_) return;
   captured_ = on;
-  turning_ = panning_ = undecided_ = moved_ = down_ = false;
-  waiting_ = {};
-  waitingPress_.reset();
-  fresh_ = true;  // the cursor is put elsewhere: that is no movement
+  turning_ = panning_ = moved_ = pressed_ = held_ = down_ = false;
+  fresh_ = {};
+  press_.reset();
+  known_ = false;  // the cursor is put elsewhere: that is no movement
   glfwSetInputMode(window_, GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
   if (glfwRawMouseMotionSupported())
     glfwSetInputMode(window_, GLFW_RAW_MOUSE_MOTION, on ? GLFW_TRUE : GLFW_FALSE);
@@ -52,45 +52,33 @@ void WindowInput::capture(bool on) {
 
 void WindowInput::onKey(int key, int action, int mods) {
   if (action != GLFW_PRESS || (overlay_ && overlay_->wantsKeys())) return;
-  const std::string_view name = actionOf(key, (mods & GLFW_MOD_SHIFT) != 0);
-  if (!name.empty()) actions_.push_back(name);
-}
-
-void WindowInput::waitIfUnknown() {
-  if (!captured_ && (moved_ || !actions_.empty())) undecided_ = true;
+  std::string name = actionOf(key, (mods & GLFW_MOD_SHIFT) != 0);
+  if (!name.empty()) actions_.push_back(std::move(name));
 }
 
 void WindowInput::onButton(int button, int action, int mods) {
-  if (action == GLFW_PRESS) waitIfUnknown();
-  const bool panels = !undecided_ && overlay_ && overlay_->wantsMouse();
-  const bool down = action == GLFW_PRESS && !captured_ && !panels;
-  if (button == GLFW_MOUSE_BUTTON_LEFT) {
-    const bool graph = graphHasButton_ && (mods & GLFW_MOD_CONTROL) == 0;
-    turning_ = down && !graph;
-    if (action == GLFW_RELEASE) down_ = waitingDown_ = false;
-    if (down && graph && undecided_) {
-      waitingPress_ = place();
-      waitingDown_ = true;
-    } else if (down && graph) {
-      press(place());
-    }
-  }
+  const bool down = action == GLFW_PRESS && !captured_;
+  pressed_ |= down;
   if (button == GLFW_MOUSE_BUTTON_RIGHT || button == GLFW_MOUSE_BUTTON_MIDDLE) panning_ = down;
+  if (button != GLFW_MOUSE_BUTTON_LEFT) return;
+  const bool graph = graphHasButton_ && (mods & GLFW_MOD_CONTROL) == 0;
+  turning_ = down && !graph;
+  held_ = down && graph;
+  if (held_) press_ = place();
+  if (!held_) down_ = false;
 }
 
 void WindowInput::onMove(double x, double y) {
   const glm::dvec2 at(x, y);
-  if (!std::exchange(fresh_, false)) {
-    CameraInput& input = undecided_ ? waiting_ : camera_;
+  if (std::exchange(known_, true)) {
     if (captured_ || turning_)
-      input.turn += at - last_;
+      fresh_.turn += at - last_;
     else if (panning_)
-      input.pan += at - last_;
+      fresh_.pan += at - last_;
   }
   last_ = at;
   moved_ = !captured_;
-  // A mouse that only points is looked at when panels were drawn: then it is known whether one of them is under it.
-  if (!captured_ && (!overlay_ || down_)) point();
+  if (down_) point();
 }
 
 glm::dvec2 WindowInput::place() const {
@@ -107,76 +95,42 @@ void WindowInput::point() {
   if (down_) dragged_ = position_;
 }
 
-void WindowInput::press(glm::dvec2 at) {
-  position_ = dragged_ = pressed_ = at;
-  down_ = clicked_ = true;
-}
-
 imports::Pointer WindowInput::pointer(std::uint32_t width, std::uint32_t height) const {
   const glm::dvec2 size(width, height);
-  imports::Pointer pointer;
-  pointer.position = position_ * size;
-  pointer.dragged = dragged_ * size;
-  pointer.pressed = pressed_ * size;
-  pointer.clicked = clicked_;
-  pointer.down = down_ || clicked_;  // a click that ended between two frames is seen in one
-  return pointer;
+  return {.position = position_ * size,
+          .dragged = dragged_ * size,
+          .pressed = pressedAt_ * size,
+          .down = down_ || clicked_,  // a click that ended between two frames is seen in one
+          .clicked = clicked_};
 }
 
-void WindowInput::onScroll(double steps) {
-  waitIfUnknown();
-  if (undecided_)
-    waiting_.wheel += steps;
-  else if (captured_ || !(overlay_ && overlay_->wantsMouse()))
-    camera_.wheel += steps;
-}
-
-bool WindowInput::held(std::string_view action) const {
-  if (overlay_ && overlay_->wantsKeys()) return false;
-  for (const KeyBinding& binding : keyBindings())
-    if (binding.how == KeyBinding::How::held && action == binding.action &&
-        glfwGetKey(window_, binding.key) == GLFW_PRESS)
-      return true;
-  return false;
-}
-
-void WindowInput::panelsDrawn() {
-  const bool panels = overlay_ && overlay_->wantsMouse();
-  if (std::exchange(moved_, false) && !panels && !captured_ && !waitingPress_) point();
-  if (!std::exchange(undecided_, false)) return;
-  const CameraInput input = std::exchange(waiting_, {});
-  const std::optional<glm::dvec2> pressed = std::exchange(waitingPress_, {});
-  if (panels) {
-    turning_ = panning_ = false;
-    return;
+void WindowInput::decide(bool panels) {
+  const CameraInput input = std::exchange(fresh_, {});
+  const std::optional<glm::dvec2> press = std::exchange(press_, {});
+  const bool moved = std::exchange(moved_, false), pressed = std::exchange(pressed_, false);
+  if (panels && pressed) turning_ = panning_ = held_ = false;
+  if (!panels || !pressed) {
+    camera_.turn += input.turn;
+    camera_.pan += input.pan;
   }
-  if (pressed) {
-    press(*pressed);
-    down_ = waitingDown_;
-    if (down_) point();
-  }
-  camera_.turn += input.turn;
-  camera_.pan += input.pan;
+  if (panels) return;
   camera_.wheel += input.wheel;
-}
-
-bool WindowInput::movesCamera() const {
-  return camera_.any();
+  if (press) {
+    position_ = dragged_ = pressedAt_ = *press;
+    clicked_ = true;
+    down_ = held_;
+  }
+  if (moved && (!press || held_)) point();
 }
 
 CameraInput WindowInput::takeCamera() {
   CameraInput input = std::exchange(camera_, {});
-  if (!captured_) return input;
-  const auto axis = [&](std::string_view plus, std::string_view minus) {
-    return (held(plus) ? 1.0 : 0.0) - (held(minus) ? 1.0 : 0.0);
-  };
-  input.move = {axis("right", "left"), axis("up", "down"), axis("forward", "back")};
-  input.fast = held("fast");
+  if (!captured_ || (overlay_ && overlay_->wantsKeys())) return input;
+  const auto down = [&](int key) { return glfwGetKey(window_, key) == GLFW_PRESS ? 1.0 : 0.0; };
+  input.move = {down(GLFW_KEY_D) - down(GLFW_KEY_A), down(GLFW_KEY_E) - down(GLFW_KEY_Q),
+                down(GLFW_KEY_W) - down(GLFW_KEY_S)};
+  input.fast = down(GLFW_KEY_LEFT_SHIFT) > 0;
   return input;
-}
-
-std::vector<std::string_view> WindowInput::takeActions() {
-  return std::exchange(actions_, {});
 }
 
 }  // namespace weft::app

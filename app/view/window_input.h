@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
-#include <string_view>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "app/view/camera_rig.h"
@@ -36,19 +37,17 @@ class WindowInput {
   // What was done for the camera since it was asked last. Held keys count only while the mouse is captured.
   CameraInput takeCamera();
   // Whether there is any of it, the mouse's.
-  bool movesCamera() const;
+  bool movesCamera() const { return camera_.any(); }
   // The mouse over a picture of this size, for graphs that read it: where it is, whether its left button is held, and
   // whether that went down since pointerShown(). What it does over a panel does not count.
   imports::Pointer pointer(std::uint32_t width, std::uint32_t height) const;
   void pointerShown() { clicked_ = false; }
   // The left button is the graph's, and turns the camera with Ctrl only.
   void giveButton(bool toGraph) { graphHasButton_ = toGraph; }
-  // To be called when panels were drawn. A button or wheel that came behind a key or a movement waits until
-  // then: the key may show or hide the panel under the mouse, and the movement may end over another.
-  void panelsDrawn();
-  std::vector<std::string_view> takeActions();
-  // Whether a key bound as `held` to this action is down.
-  bool held(std::string_view action) const;
+  // To be called when the events of a frame have come and the overlay has seen them. `panels`: the mouse is theirs, and so is
+  // what it did, but for a drag that began over the picture.
+  void decide(bool panels);
+  std::vector<std::string> takeActions() { return std::exchange(actions_, {}); }
   // Counts every event of any kind: whether anything happened at all.
   std::uint64_t events() const { return events_; }
 
@@ -57,27 +56,22 @@ class WindowInput {
   void onKey(int key, int action, int mods);
   void onButton(int button, int action, int mods);
   void onMove(double x, double y);
-  // A button or wheel comes: notes when the panels do not know yet whether it is theirs.
-  void waitIfUnknown();
   glm::dvec2 place() const;  // where the mouse is: 0 to 1 of the window from its lower left corner
   void point();
-  void press(glm::dvec2 at);
-  void onScroll(double steps);
 
   GLFWwindow* window_;
   ui::Overlay* overlay_ = nullptr;
-  std::vector<std::string_view> actions_;
+  std::vector<std::string> actions_;
   CameraInput camera_;
-  CameraInput waiting_;     // what the mouse did since `undecided_`
-  bool undecided_ = false;  // whether a panel or the picture has the mouse
+  CameraInput fresh_;  // of the mouse, since decide()
   glm::dvec2 last_{0};
-  bool moved_ = false;  // since panels were drawn
-  bool turning_ = false, panning_ = false, captured_ = false, fresh_ = true;
-  // As Pointer has them, in places.
-  glm::dvec2 position_{0}, dragged_{0}, pressed_{0};
-  bool down_ = false, clicked_ = false, graphHasButton_ = false;
-  std::optional<glm::dvec2> waitingPress_;  // a press since `undecided_`, and whether it is still held
-  bool waitingDown_ = false;
+  bool known_ = false;                    // whether last_ is where the mouse was
+  bool moved_ = false, pressed_ = false;  // since decide(): the mouse, one of its buttons
+  bool turning_ = false, panning_ = false, captured_ = false;
+  bool graphHasButton_ = false, held_ = false;  // the left button is the graph's; and is held
+  bool down_ = false, clicked_ = false;         // as Pointer has them, and these in places
+  glm::dvec2 position_{0}, dragged_{0}, pressedAt_{0};
+  std::optional<glm::dvec2> press_;  // of the graph's button, since decide()
   std::uint64_t events_ = 0;
 };
 

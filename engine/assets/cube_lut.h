@@ -1,5 +1,5 @@
 // .cube color tables (Adobe "Cube LUT Specification" 1.0): 1D or 3D of any legal size, DOMAIN_MIN/MAX,
-// comments. Errors are W154 with line and column; an unreadable file is W001.
+// comments. The first mistake is W154 with its line; an unreadable file is W001.
 #pragma once
 
 #include <array>

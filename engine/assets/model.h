@@ -77,6 +77,10 @@ struct Material {
   // occlusion r.
   std::uint32_t albedoMap = kNoRow, normalMap = kNoRow, metallicRoughnessMap = kNoRow, occlusionMap = kNoRow,
                 emissiveMap = kNoRow;
+
+  std::array<std::uint32_t*, 5> maps() {
+    return {&albedoMap, &normalMap, &metallicRoughnessMap, &occlusionMap, &emissiveMap};
+  }
 };
 
 struct Vertex {

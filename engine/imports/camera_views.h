@@ -1,11 +1,10 @@
-// A camera through one lens and one jitter: a view per size of screen, made once a frame. Shared by what needs
+// A camera through one lens and one jitter: the view for a size of screen, kept for the frame. Shared by what needs
 // the scene's camera as it is, and one more per camera that a graph declares.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <utility>
-#include <vector>
 
 #include "engine/imports/world.h"
 #include "engine/scene/camera.h"
@@ -26,17 +25,14 @@ class CameraViews {
   const scene::ViewData& view(const Frame& frame, std::uint32_t width, std::uint32_t height);
 
  private:
-  struct Cached {
-    std::uint32_t width = 0, height = 0;
-    std::uint64_t frame = 0;  // that it was made in
-    scene::ViewData data;
-  };
   std::pair<scene::CameraPose, scene::CameraPose> posesOf(const Frame& frame) const;
   std::uint32_t jitter_;
   Poses poses_;
   scene::CameraPose seen_;  // of generation_
   std::uint64_t generation_ = 0;
-  std::vector<Cached> cached_;
+  scene::ViewData data_;  // of a size, in a frame
+  glm::uvec2 size_{0};
+  std::uint64_t made_ = 0;
 };
 
 }  // namespace weft::imports

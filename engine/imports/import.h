@@ -97,29 +97,6 @@ class ImportOf : public Import {
   }
 };
 
-// Gives a table of rows. `Table` has functions without an object: columns(), rows(frame), and, where the table changes with
-// more than the scene, generation(frame) and isStill(world).
-template <class Table>
-class TableProvider : public Provider {
- public:
-  BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
-    const auto rows = [&] { return Table::rows(frame); };
-    return table_.get(layout, generation(frame), rows, diagnostics);
-  }
-  std::uint64_t generation(const Frame& frame) override { return Table::generation(frame); }
-  bool isStill(const World& world) const override { return Table::isStill(world); }
-
- private:
-  RowTable<typename Table::Row> table_{Table::kLabel, Table::columns()};
-};
-
-template <class Of>
-struct SceneTable {
-  using Row = Of;
-  static std::uint64_t generation(const Frame& frame) { return frame.world.sceneGeneration(); }
-  static bool isStill(const World&) { return true; }
-};
-
 // For reflect().
 inline graph::ImportArgument argument(std::string name, graph::Value initial, std::string doc,
                                       std::vector<std::string> choices = {}) {
@@ -132,6 +109,17 @@ inline graph::ImportArgument drawListArgument(scene::DrawList initial = scene::D
 // That a request names: expansion lets known ones through only.
 inline scene::DrawList drawListOf(const graph::ImportRequest& request) {
   return scene::findDrawList(request.at("list").symbol).value_or(scene::DrawList::spheres);
+}
+
+// For facts(): an argument that cannot be, without the place, which expansion knows.
+inline text::Diagnostic badArgument(std::string message, std::string expected, std::string found,
+                                    std::string hint = {}) {
+  return {.code = text::Code::badImportArgument,
+          .message = std::move(message),
+          .place = {},
+          .expected = std::move(expected),
+          .found = std::move(found),
+          .hint = std::move(hint)};
 }
 
 }  // namespace weft::imports

@@ -6,9 +6,9 @@ namespace weft::imports {
 
 ImportRegistry ImportRegistry::builtin() {
   ImportRegistry registry;
-  for (const auto make : {makeEnvironment, makeSpheres, makeDrawOrder, makeSilhouettes, makeMeshes,
-                          makeMaterials, makeMaterialMaps, makeJoints, makeVertexColors, makeSun, makeLamps,
-                          makeGround, makeCamera, makeCubeLut, makeImage, makeCut, makeMouse, makeProbes})
+  addTables(registry);
+  for (const auto make : {makeEnvironment, makeDrawOrder, makeSilhouettes, makeMaterialMaps, makeSun,
+                          makeLamps, makeCamera, makeCubeLut, makeImage, makeCut, makeMouse})
     registry.add(make());
   return registry;
 }

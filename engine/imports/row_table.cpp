@@ -41,12 +41,6 @@ bool rowLayoutOf(const gl::Block& block, std::span<const graph::TableColumn> col
   return problem.empty();
 }
 
-RowBuffers::Copy& RowBuffers::copyOf(const RowLayout& layout) {
-  const auto known = std::ranges::find_if(copies_, [&](const auto& each) { return each->layout == layout; });
-  if (known != copies_.end()) return **known;
-  return *copies_.emplace_back(std::make_unique<Copy>(Copy{.layout = layout, .buffer = {}}));
-}
-
 bool sendTo(gl::Buffer& buffer, std::span<const std::byte> bytes, const std::string& label, bool grows,
             text::Diagnostics& diagnostics) {
   if (!buffer || (grows ? buffer.bytes() < bytes.size() : buffer.bytes() != bytes.size())) {

@@ -11,7 +11,6 @@
 #include <cstring>
 #include <functional>
 #include <glm/glm.hpp>
-#include <memory>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -107,49 +106,37 @@ void writeRows(const RowLayout& layout, const Columns<Row>& columns, std::span<c
 bool sendTo(gl::Buffer& buffer, std::span<const std::byte> bytes, const std::string& label, bool grows,
             text::Diagnostics& diagnostics);
 
-// The buffers of a table, one for each layout.
-class RowBuffers {
- public:
-  explicit RowBuffers(std::string label) : label_(std::move(label)) {}
-  struct Copy {
-    RowLayout layout;
-    gl::Buffer buffer;
-    std::uint64_t generation = 0;
-  };
-  Copy& copyOf(const RowLayout& layout);
-  bool send(Copy& copy, std::vector<std::byte>& bytes, text::Diagnostics& diagnostics) {
-    bytes.resize(std::max<std::size_t>(bytes.size(), 16));
-    return sendTo(copy.buffer, bytes, label_, false, diagnostics);
-  }
-
- private:
-  std::string label_;
-  std::vector<std::unique_ptr<Copy>> copies_;
-};
-
 template <class Row>
 class RowTable {
  public:
   RowTable(std::string label, Columns<Row> columns)
-      : columns_(std::move(columns)), buffers_(std::move(label)) {}
+      : label_(std::move(label)), columns_(std::move(columns)) {}
 
   // `rows()` gives all rows; it is called when a layout is of another generation. Id 0 after an error.
   template <class Rows>
   BufferRef get(const RowLayout& layout, std::uint64_t generation, const Rows& rows,
                 text::Diagnostics& diagnostics) {
-    RowBuffers::Copy& copy = buffers_.copyOf(layout);
-    if (copy.generation != generation) {
+    auto copy = std::ranges::find(copies_, layout, &Copy::layout);
+    if (copy == copies_.end()) copy = copies_.insert(copy, Copy{.layout = layout, .buffer = {}});
+    if (copy->generation != generation) {
       const auto& all = rows();
-      writeRows(copy.layout, columns_, std::span<const Row>(all), bytes_);
-      if (!buffers_.send(copy, bytes_, diagnostics)) return {};
-      copy.generation = generation;
+      writeRows(layout, columns_, std::span<const Row>(all), bytes_);
+      bytes_.resize(std::max<std::size_t>(bytes_.size(), 16));
+      if (!sendTo(copy->buffer, bytes_, label_, false, diagnostics)) return {};
+      copy->generation = generation;
     }
-    return {copy.buffer.id(), copy.buffer.bytes()};
+    return {copy->buffer.id(), copy->buffer.bytes()};
   }
 
  private:
+  struct Copy {
+    RowLayout layout;
+    gl::Buffer buffer;
+    std::uint64_t generation = 0;
+  };
+  std::string label_;
   Columns<Row> columns_;
-  RowBuffers buffers_;
+  std::vector<Copy> copies_;
   std::vector<std::byte> bytes_;
 };
 

@@ -96,9 +96,4 @@ MeshDraw SceneTables::draw(MeshPass& pass, text::Diagnostics& diagnostics) {
   return pass.draw(meshBuffers_, diagnostics);
 }
 
-void SceneTables::setThreads(int threads) {
-  meshFrame_.setThreads(threads);
-  meshViews_.setThreads(threads);
-}
-
 }  // namespace weft::imports

@@ -44,8 +44,6 @@ class SceneTables {
   void see(std::span<scene::MeshView* const> views);
   // What the view of `pass` saw in the last see().
   MeshDraw draw(MeshPass& pass, text::Diagnostics& diagnostics);
-  // How many threads may place and see meshes; 0, the default: as many as the machine has.
-  void setThreads(int threads);
   const scene::MeshFrame& meshFrame();
 
   MaterialTextures& textures() { return textures_; }

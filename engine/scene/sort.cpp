@@ -1,16 +1,13 @@
 #include "engine/scene/sort.h"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
 namespace weft::scene {
 
-namespace {
-
 // Least significant digit first, three digits of 11 bits: stable, 2 * 8 bytes moved per element and digit. A
 // digit that all keys share is skipped.
-void sortRadix(std::vector<SortElement>& elements, std::vector<SortElement>& scratch) {
+void sortElements(std::vector<SortElement>& elements, std::vector<SortElement>& scratch) {
   constexpr std::size_t kBuckets = 2048;
   constexpr std::uint32_t kMask = kBuckets - 1;
   std::array<std::array<std::uint32_t, kBuckets>, 3> counts{};
@@ -31,8 +28,6 @@ void sortRadix(std::vector<SortElement>& elements, std::vector<SortElement>& scr
   }
 }
 
-}  // namespace
-
 float viewDepth(const glm::mat4& view, glm::vec3 center) {
   return -(((view[0].z * center.x + view[1].z * center.y) + view[2].z * center.z) + view[3].z);
 }
@@ -42,8 +37,8 @@ float powerOf(glm::vec3 eye, glm::vec3 center, float radius) {
   return ((to.x * to.x + to.y * to.y) + to.z * to.z) - radius * radius;
 }
 
-void makeKeys(std::span<const Instance> instances, const ViewData& view, SortBy by,
-              std::vector<SortElement>& out) {
+void drawOrder(std::span<const Instance> instances, const ViewData& view, SortBy by,
+               std::vector<SortElement>& out, std::vector<SortElement>& scratch) {
   out.resize(instances.size());
   for (std::size_t i = 0; i < instances.size(); ++i) {
     const Instance& instance = instances[i];
@@ -51,18 +46,7 @@ void makeKeys(std::span<const Instance> instances, const ViewData& view, SortBy 
                                           : viewDepth(view.view, instance.center);
     out[i] = {depthKey(far), static_cast<std::uint32_t>(i)};
   }
-}
-
-void sortElements(std::vector<SortElement>& elements, SortMethod method, std::vector<SortElement>& scratch) {
-  if (method == SortMethod::cpu_radix) return sortRadix(elements, scratch);
-  std::stable_sort(elements.begin(), elements.end(),
-                   [](const SortElement& a, const SortElement& b) { return a.key < b.key; });
-}
-
-void drawOrder(std::span<const Instance> instances, const ViewData& view, SortBy by, SortMethod method,
-               std::vector<SortElement>& out, std::vector<SortElement>& scratch) {
-  makeKeys(instances, view, by, out);
-  sortElements(out, method, scratch);
+  sortElements(out, scratch);
 }
 
 }  // namespace weft::scene

@@ -28,8 +28,6 @@ struct SortElement {  // uvec2 of the GPU buffer
   friend auto operator<=>(const SortElement&, const SortElement&) = default;
 };
 
-enum class SortMethod : std::uint8_t { cpu_std, cpu_radix };
-
 constexpr std::uint32_t depthKey(float depth) {
   if (depth != depth) return 0xffffffffu;
   const std::uint32_t bits = depth == 0 ? 0u : std::bit_cast<std::uint32_t>(depth);
@@ -40,17 +38,12 @@ float powerOf(glm::vec3 eye, glm::vec3 center, float radius);
 
 enum class SortBy : std::uint8_t { power, depth };
 
-// Sorts by (key, index) ascending. `elements` must come with ascending indices (as makeKeys leaves them):
-// both methods are stable and look at the key only. `scratch` is working memory, reused from call to call;
-// cpu_std leaves it alone.
-void sortElements(std::vector<SortElement>& elements, SortMethod method, std::vector<SortElement>& scratch);
+// Sorts by (key, index) ascending; `elements` must come with ascending indices, because only the keys are compared. `scratch` is
+// working memory, reused from call to call.
+void sortElements(std::vector<SortElement>& elements, std::vector<SortElement>& scratch);
 
-// Replaces `out` by (key, index) of each instance, unsorted.
-void makeKeys(std::span<const Instance> instances, const ViewData& view, SortBy by,
-              std::vector<SortElement>& out);
-
-// makeKeys, then sortElements.
-void drawOrder(std::span<const Instance> instances, const ViewData& view, SortBy by, SortMethod method,
+// Replaces `out` by the elements of the instances, sorted.
+void drawOrder(std::span<const Instance> instances, const ViewData& view, SortBy by,
                std::vector<SortElement>& out, std::vector<SortElement>& scratch);
 
 }  // namespace weft::scene

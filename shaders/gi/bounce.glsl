@@ -16,7 +16,7 @@ struct Bounce {
 
 // `c` and `left`: from probeAt().
 // Cosine-weighted mean direction of the light by its moments up to band 2 (w n = cosine, F, D, T the integrals of the radiance times
-// 1, w, w w'): 3/16 D + 1/2 T n + 3/16 n (n.D). See bounceOf in engine/scene/probes.
+// 1, w, w w'): 3/16 D + 1/2 T n + 3/16 n (n.D). See bounceOf in tests/theory/gi/probe_reading.h.
 Bounce bounceOf(vec3 c[9], float left, vec3 normal) {
   const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
   float y[9], l[9], all = 0.0;

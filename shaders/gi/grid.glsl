@@ -1,4 +1,4 @@
-// A grid of light probes in a buffer. The import `probes` gives it, and spheres/probes/bake.comp.glsl writes it.
+// A grid of light probes in a buffer, which spheres/probes/bake.comp.glsl writes.
 // probes   buffer; the define PROBES_ACCESS is its qualifier, readonly by default
 #ifndef GI_GRID_GLSL
 #define GI_GRID_GLSL

@@ -1,5 +1,5 @@
 // Reads a grid of light probes (gi/grid.glsl) at a point: irradiance in units of an environment of radiance 1.
-// probes   buffer: of the import `probes`, or of spheres/probes/bake.comp.glsl
+// probes   buffer: of spheres/probes/bake.comp.glsl
 // sh?      a 3D texture that gi/textures.comp.glsl makes of it, `as linear`: seven parts along z; channel c of part i has number
 //          4 i + c of the 27 (coefficient * 3 + channel); the last channel is zero. No lookup reaches from one part into another
 #ifndef GI_PROBES_GLSL
@@ -13,7 +13,7 @@ uniform sampler3D sh;
 #endif
 
 // The nine coefficients at a place, rgb; outside the box those of its nearest point. Returns the falloff outside the box, as leftOutside()
-// in engine/scene/probes. Textures and buffer differ only by the rounding to half floats.
+// in tests/theory/gi. Textures and buffer differ only by the rounding to half floats.
 float probeAt(vec3 position, out vec3 c[9]) {
   vec3 count = vec3(probes_count.xyz), extent = probes_high.xyz - probes_low.xyz;
   vec3 nearest = clamp(position, probes_low.xyz, probes_high.xyz) - probes_low.xyz;

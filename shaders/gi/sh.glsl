@@ -1,4 +1,6 @@
-// Real spherical harmonics up to band 2, in the order of engine/scene/probes/probes.h; and the coefficients of a cap.
+// Real spherical harmonics up to band 2, and the coefficients of a cap. Order: Y00, Y1-1 (y), Y10 (z), Y11 (x), Y2-2 (xy), Y2-1 (yz),
+// Y20 (3zz - 1), Y21 (xz), Y22 (xx - yy), as in Ramamoorthi and Hanrahan, "An Efficient Representation for Irradiance Environment
+// Maps", SIGGRAPH 2001.
 #ifndef GI_SH_GLSL
 #define GI_SH_GLSL
 

@@ -161,13 +161,13 @@ inline ImportFacts testFacts(const World& world, const ImportRequest& request) {
   } else if (request.type == "shadowed_lights") {
     facts.exists = world.shadowedLights > 0;
     facts.count = world.shadowedLights;
-  } else if (request.type == "probes" && request.arguments[1].second.v[0] < 1) {
+  } else if (request.type == "silhouettes" && request.at("height").v[0] < 1) {
     text::Diagnostic problem;  // as the import says it: without a place
     problem.code = text::Code::badImportArgument;
-    problem.message = "import 'probes': argument 'grid' does not fit";
-    problem.expected = "three whole numbers from 1 to 256 whose product is at most 262144";
-    problem.found = toText(request.arguments[1].second);
-    problem.hint = "give \"grid\" such a value, or leave it out";
+    problem.message = "import 'silhouettes': argument 'height' does not fit";
+    problem.expected = "the height of the picture, 1 to 65536 pixels";
+    problem.found = toText(request.at("height"));
+    problem.hint = "write \"height\": \"size(hdr).y\", with the picture's name in place of hdr";
     facts.problems.push_back(problem);
   }
   return facts;

@@ -71,7 +71,7 @@ TEST_CASE(
   }
   CHECK(names == std::set<std::string>{"camera", "cube_lut", "cut", "draw_order", "environment", "ground",
                                        "image", "joints", "lamps", "material_maps", "materials", "meshes",
-                                       "mouse", "probes", "silhouettes", "spheres", "sun", "vertex_colors"});
+                                       "mouse", "silhouettes", "spheres", "sun", "vertex_colors"});
   CHECK_FALSE(registry().find("clouds"));
 }
 
@@ -212,43 +212,6 @@ TEST_CASE(
   CHECK(facts.problems[0].found == "-1");
 }
 
-TEST_CASE(
-    "probes are a buffer of a header and nine vec4 each; a grid or distances that cannot be are refused") {
-  const graph::ImportType type = importOf("probes").reflect();
-  CHECK(type.kind == ImportKind::buffer);
-  CHECK(type.columns.empty());
-  graph::ImportRequest request = requestOf("probes", "list", "opaque");
-  const auto facts = [&] { return factsOf(request, {}); };
-  CHECK(facts().exists);
-  CHECK(facts().count == 21 * 21 * 3);
-  CHECK(facts().bytes == 48 + 144 * 21 * 21 * 3);
-  CHECK(facts().problems.empty());
-  const auto with = [&](std::size_t argument, graph::Value value) {
-    graph::ImportRequest other = request;
-    other.arguments[argument].second = std::move(value);
-    return factsOf(other, {}).problems;
-  };
-  const auto grid = [](double x, double y, double z) {
-    return graph::Value{graph::Value::Type::list, 3, {x, y, z, 0}, {}};
-  };
-  CHECK(with(1, grid(256, 256, 4)).empty());
-  CHECK(with(1, grid(1, 1, 1)).empty());
-  for (const graph::Value& value :
-       {grid(0, 1, 1), grid(257, 1, 1), grid(2.5, 1, 1), grid(-1, -1, 1), grid(256, 256, 5)}) {
-    CAPTURE(graph::toText(value));
-    const auto problems = with(1, value);
-    REQUIRE(problems.size() == 1);
-    CHECK(problems[0].code == text::Code::badImportArgument);
-    CHECK(problems[0].found == graph::toText(value));
-    CHECK_FALSE(problems[0].hint.empty());
-  }
-  CHECK(with(2, graph::Value::number(1)).empty());
-  CHECK(with(2, graph::Value::number(0.99)).size() == 1);
-  CHECK(with(2, graph::Value::number(10)).size() == 1);  // as far as `far`
-  CHECK(with(3, graph::Value::number(1.04)).size() == 1);
-  CHECK(with(3, graph::Value::number(1e7)).size() == 1);
-}
-
 TEST_CASE("a cut is an event: it changes with the input, and stays in a world that nobody changes") {
   CHECK(importOf("cut").reflect().kind == ImportKind::event);
   const World world{scene::Scene{}};
@@ -267,7 +230,7 @@ TEST_CASE("what may differ from frame to frame says so; none of the built-in imp
     CAPTURE(type.name);
     const auto provider = importOf(type.name).provide(requestOf(type.name));
     CHECK(provider->isStill(moving) == always.contains(type.name));
-    const bool ofTheScene = (!type.columns.empty() && type.name != "mouse") || type.name == "probes";
+    const bool ofTheScene = !type.columns.empty() && type.name != "mouse";
     CHECK(provider->isStill(still) == (always.contains(type.name) || ofTheScene));
     CHECK_FALSE(provider->remembers(moving));
   }

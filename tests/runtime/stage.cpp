@@ -1,6 +1,7 @@
 #include "tests/runtime/stage.h"
 
 #include "engine/scene/files/scene_file.h"
+#include "tests/load_image.h"
 #include "tests/skip.h"
 
 namespace weft::runtime::test {

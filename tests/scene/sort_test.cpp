@@ -33,14 +33,12 @@ std::vector<std::uint32_t> orderByMeaning(const std::vector<float>& depths) {
   return order;
 }
 
-void checkBoth(const std::vector<float>& depths) {
-  std::vector<SortElement> byStd = keysOf(depths), byRadix = byStd, scratch;
-  sortElements(byStd, SortMethod::cpu_std, scratch);
-  sortElements(byRadix, SortMethod::cpu_radix, scratch);
-  REQUIRE(byStd == byRadix);
-  REQUIRE(std::is_sorted(byStd.begin(), byStd.end()));
+void checkSort(const std::vector<float>& depths) {
+  std::vector<SortElement> sorted = keysOf(depths), scratch;
+  sortElements(sorted, scratch);
+  REQUIRE(std::is_sorted(sorted.begin(), sorted.end()));
   const std::vector<std::uint32_t> expected = orderByMeaning(depths);
-  for (std::size_t i = 0; i < expected.size(); ++i) REQUIRE(byStd[i].index == expected[i]);
+  for (std::size_t i = 0; i < expected.size(); ++i) REQUIRE(sorted[i].index == expected[i]);
 }
 
 }  // namespace
@@ -57,7 +55,7 @@ TEST_CASE("keys ascend as depth descends; zeros are one; NaN is last; padding fo
   CHECK(depthKey(-1.0f) == 0xbf800000u);  // ~(~0xbf800000)
 }
 
-TEST_CASE("both methods give the order of the depths, for every count to 2000") {
+TEST_CASE("the order is that of the depths, for every count to 2000") {
   std::mt19937 random(1);
   std::vector<float> depths;
   for (std::size_t n = 0; n <= 2000; ++n) {
@@ -70,7 +68,7 @@ TEST_CASE("both methods give the order of the depths, for every count to 2000") 
       constexpr float kSpecials[] = {kInfinity, -kInfinity, 0.0f, -0.0f, kNan, -kNan};
       depths[random() % n] = kSpecials[random() % 6];
     }
-    checkBoth(depths);
+    checkSort(depths);
   }
 }
 
@@ -78,13 +76,13 @@ TEST_CASE("a hundred thousand, of any bits, all equal, sorted and reversed") {
   std::mt19937 random(2);
   std::vector<float> depths(100000);
   for (float& d : depths) d = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
-  checkBoth(depths);
+  checkSort(depths);
   std::fill(depths.begin(), depths.end(), 4.0f);
-  checkBoth(depths);
+  checkSort(depths);
   for (std::size_t i = 0; i < depths.size(); ++i) depths[i] = static_cast<float>(i);
-  checkBoth(depths);
+  checkSort(depths);
   std::reverse(depths.begin(), depths.end());
-  checkBoth(depths);
+  checkSort(depths);
 }
 
 TEST_CASE("the draw order of instances is back to front in view depth") {
@@ -99,15 +97,13 @@ TEST_CASE("the draw order of instances is back to front in view depth") {
   instances[2].center = {-2, 0, 1};
   instances[3].center = {0, 0, 7};
   std::vector<SortElement> order, scratch;
-  for (const SortMethod method : {SortMethod::cpu_std, SortMethod::cpu_radix}) {
-    drawOrder(instances, seen, SortBy::depth, method, order, scratch);
-    REQUIRE(order.size() == 4);
-    CHECK(order[0].index == 1);
-    CHECK(order[1].index == 0);
-    CHECK(order[2].index == 2);
-    CHECK(order[3].index == 3);
-  }
-  drawOrder({}, seen, SortBy::power, SortMethod::cpu_radix, order, scratch);
+  drawOrder(instances, seen, SortBy::depth, order, scratch);
+  REQUIRE(order.size() == 4);
+  CHECK(order[0].index == 1);
+  CHECK(order[1].index == 0);
+  CHECK(order[2].index == 2);
+  CHECK(order[3].index == 3);
+  drawOrder({}, seen, SortBy::power, order, scratch);
   CHECK(order.empty());
 }
 
@@ -139,9 +135,9 @@ TEST_CASE("by power, no sphere that hides another comes before it; by depth, som
     if (first < 0) continue;
     ++pairs;
     std::vector<SortElement> order, scratch;
-    drawOrder(both, ViewData{}, SortBy::power, SortMethod::cpu_std, order, scratch);
+    drawOrder(both, ViewData{}, SortBy::power, order, scratch);
     wrongByPower += order.back().index != std::uint32_t(first);
-    drawOrder(both, ViewData{}, SortBy::depth, SortMethod::cpu_std, order, scratch);
+    drawOrder(both, ViewData{}, SortBy::depth, order, scratch);
     wrongByDepth += order.back().index != std::uint32_t(first);
   }
   CHECK(wrongByPower == 0);

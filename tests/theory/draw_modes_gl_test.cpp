@@ -168,9 +168,5 @@ TEST_CASE("icospheres: nothing is sorted; a wireframe draws lines only") {
 
 TEST_CASE("the sorts on the CPU and on the GPU give one picture, byte for byte") {
   const Picture first = draw(studio({{"sort", "gpu_bitonic"}}));
-  for (const char* sort : {"cpu_std", "cpu_radix"}) {
-    const Picture other = draw(studio({{"sort", sort}}));
-    CAPTURE(sort);
-    CHECK(first.texels == other.texels);
-  }
+  CHECK(first.texels == draw(studio({{"sort", "cpu_radix"}})).texels);
 }

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
-#include <memory>
-#include <utility>
 
 #include "engine/assets/images/half.h"
 #include "engine/assets/images/image_codecs.h"
@@ -40,15 +38,6 @@ std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, text::
   reportUnreadable(diagnostics, path, fmt::format("decoding failed ({})", error.what()));
   return {};
 }
-
-Loader::Loader(StageHook hook)
-    : LoadQueue(
-          [](const std::string& path, text::Diagnostics& diagnostics,
-             const LoadObserver& observer) -> std::shared_ptr<const void> {
-            auto map = loadEnvironmentMap(path, diagnostics, observer);
-            return map ? std::make_shared<const EnvironmentMap>(std::move(*map)) : nullptr;
-          },
-          std::move(hook)) {}
 
 bool isEnvironmentName(const std::string& name) {
   const ImageKind kind = kindOfName(name);

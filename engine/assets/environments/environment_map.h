@@ -1,5 +1,5 @@
 // An environment as the GPU takes it: equirectangular RGBA halves, and the way there from a file. What the
-// loader thread runs, and anyone else may call. Errors and warnings are those of loadEnvironment (image.h),
+// loader thread runs, and anyone else may call. Errors and warnings are those of decodeEnvironment (image.h),
 // with file and reason. Thread safe: no state is shared between calls.
 #pragma once
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/assets/images/image.h"
-#include "engine/assets/loading/load_queue.h"
+#include "engine/assets/loading/load_observer.h"
 
 namespace weft::assets {
 
@@ -28,16 +28,10 @@ struct EnvironmentMap {
 std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, text::Diagnostics& diagnostics,
                                                  const LoadObserver& observer = {});
 
-// Loads them on a thread of its own: what it makes is an EnvironmentMap.
-class Loader : public LoadQueue {
- public:
-  explicit Loader(StageHook hook = {});
-};
-
 // Whether a name is that of an environment, by its end: .hdr or .exr.
 bool isEnvironmentName(const std::string& name);
 
-// A picture that loadEnvironment would accept, 3 or 4 channels, rounded to halves (half.h).
+// A picture that decodeEnvironment gives, 3 or 4 channels, rounded to halves (half.h).
 EnvironmentMap toEnvironmentMap(const ImageF& image);
 
 }  // namespace weft::assets

@@ -114,15 +114,6 @@ void reportUnreadable(Diagnostics& diagnostics, const std::string& name, const s
                     fmt::format("cannot read image '{}': {}", name, why));
 }
 
-ImageKind checkKind(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
-  const ImageKind kind = kindOfName(name);
-  if (kind == ImageKind::unknown)
-    reportUnknownKind(diagnostics, name, ".hdr, .exr, .png, .jpg, .jpeg or .tga");
-  else if (bytes.empty())
-    reportUnreadable(diagnostics, name, "the file is empty");
-  return bytes.empty() ? ImageKind::unknown : kind;
-}
-
 bool checkSize(Diagnostics& diagnostics, const std::string& name, long long width, long long height) {
   const bool tooLarge = width > kMaxImageSide || height > kMaxImageSide ||
                         width * height > static_cast<long long>(kMaxImageTexels);
@@ -166,29 +157,38 @@ ImageF linearize(const ImageOf<T>& encoded) {
   return image;
 }
 
-template <class T>
-std::optional<ImageF> decodeLinear(std::string_view bytes, const std::string& name,
-                                   Diagnostics& diagnostics) {
-  const auto encoded = decodePicture<T>(bytes, 0, name, diagnostics);
-  return encoded ? std::optional(linearize(*encoded)) : std::nullopt;
+std::optional<ImageHeader> readHeader(std::string_view bytes, const std::string& name,
+                                      Diagnostics& diagnostics) {
+  const ImageKind kind = kindOfName(name);
+  if (kind == ImageKind::unknown)
+    reportUnknownKind(diagnostics, name, ".hdr, .exr, .png, .jpg, .jpeg or .tga");
+  else if (bytes.empty())
+    reportUnreadable(diagnostics, name, "the file is empty");
+  if (kind == ImageKind::unknown || bytes.empty()) return {};
+  return kind == ImageKind::hdr   ? readHdrHeader(bytes, name, diagnostics)
+         : kind == ImageKind::exr ? readExrHeader(bytes, name, diagnostics)
+                                  : readPictureHeader(bytes, name, diagnostics);
 }
 
 }  // namespace
 
-std::optional<ImageF> decodeImage(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
-  const ImageKind kind = checkKind(bytes, name, diagnostics);
-  if (kind == ImageKind::unknown) return {};
-  if (kind == ImageKind::hdr) return decodeHdr(bytes, name, diagnostics);
-  if (kind == ImageKind::exr) return decodeExr(bytes, name, diagnostics);
-  const std::optional<ImageHeader> header = readPictureHeader(bytes, name, diagnostics);
-  if (!header) return {};
-  return header->shorts ? decodeLinear<std::uint16_t>(bytes, name, diagnostics)
-                        : decodeLinear<std::uint8_t>(bytes, name, diagnostics);
+std::optional<ImageHeader> loadHeader(const std::string& path, Diagnostics& diagnostics) {
+  const auto bytes = text::readFile(path, diagnostics, Code::unreadableImage);
+  return bytes ? readHeader(*bytes, path, diagnostics) : std::nullopt;
 }
 
-std::optional<ImageF> loadImage(const std::string& path, Diagnostics& diagnostics) {
-  const std::optional<std::string> bytes = text::readFile(path, diagnostics, Code::unreadableImage);
-  return bytes ? decodeImage(*bytes, path, diagnostics) : std::nullopt;
+std::optional<ImageF> decodeImage(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
+  const std::optional<ImageHeader> header = readHeader(bytes, name, diagnostics);
+  if (!header) return {};
+  const auto linear = [](const auto& encoded) {
+    return encoded ? std::optional(linearize(*encoded)) : std::nullopt;
+  };
+  if (header->type == StoredType::byte)
+    return linear(decodePicture<std::uint8_t>(bytes, 0, name, diagnostics));
+  if (header->type == StoredType::word)
+    return linear(decodePicture<std::uint16_t>(bytes, 0, name, diagnostics));
+  return kindOfName(name) == ImageKind::hdr ? decodeHdr(bytes, name, diagnostics)
+                                            : decodeExr(bytes, name, diagnostics);
 }
 
 std::optional<Image8> loadImage8(const std::string& path, int channels, Diagnostics& diagnostics) {
@@ -199,11 +199,6 @@ std::optional<Image8> loadImage8(const std::string& path, int channels, Diagnost
     return {};
   }
   return decodePicture<std::uint8_t>(*bytes, channels, path, diagnostics);
-}
-
-std::optional<ImageF> loadEnvironment(const std::string& path, Diagnostics& diagnostics) {
-  const std::optional<std::string> bytes = text::readFile(path, diagnostics, Code::unreadableImage);
-  return bytes ? decodeEnvironment(*bytes, path, diagnostics) : std::nullopt;
 }
 
 std::optional<ImageF> decodeEnvironment(std::string_view bytes, const std::string& name,
@@ -290,33 +285,11 @@ float decodeSrgb(float encoded) {
   return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
-namespace {
-
-std::optional<StoredHeader> readStoredHeader(std::string_view bytes, const std::string& name,
-                                             Diagnostics& diagnostics) {
-  const ImageKind kind = checkKind(bytes, name, diagnostics);
-  if (kind == ImageKind::unknown) return {};
-  const auto header = kind == ImageKind::hdr   ? readHdrHeader(bytes, name, diagnostics)
-                      : kind == ImageKind::exr ? readExrHeader(bytes, name, diagnostics)
-                                               : readPictureHeader(bytes, name, diagnostics);
-  if (!header) return {};
-  const StoredType type = kind != ImageKind::eight_bit ? StoredType::real
-                          : header->shorts             ? StoredType::word
-                                                       : StoredType::byte;
-  return StoredHeader{header->width, header->height, type};
-}
-
-}  // namespace
-
-std::optional<StoredHeader> loadStoredHeader(const std::string& path, Diagnostics& diagnostics) {
+std::optional<StoredImage> loadStored(const std::string& path, bool srgb, Diagnostics& diagnostics) {
   const auto bytes = text::readFile(path, diagnostics, Code::unreadableImage);
-  return bytes ? readStoredHeader(*bytes, path, diagnostics) : std::nullopt;
-}
-
-std::optional<StoredImage> loadStored(const std::string& path, Diagnostics& diagnostics) {
-  const auto bytes = text::readFile(path, diagnostics, Code::unreadableImage);
-  const auto header = bytes ? readStoredHeader(*bytes, path, diagnostics) : std::nullopt;
+  auto header = bytes ? readHeader(*bytes, path, diagnostics) : std::nullopt;
   if (!header) return {};
+  if (srgb && header->type == StoredType::word) header->type = StoredType::real;
   const auto stored = [&](const auto& picture) -> std::optional<StoredImage> {
     if (!picture) return {};
     return StoredImage{*header, turnedOver(std::span(picture->texels), header->height)};
@@ -328,21 +301,6 @@ std::optional<StoredImage> loadStored(const std::string& path, Diagnostics& diag
   std::optional<ImageF> picture = decodeImage(*bytes, path, diagnostics);
   if (picture) picture = widenToRgba(std::move(*picture));
   return stored(picture);
-}
-
-StoredImage decodeSrgbWords(const StoredImage& image) {
-  assert(image.header.type == StoredType::word);
-  const std::size_t count = image.texels.size() / sizeof(std::uint16_t);
-  StoredImage out{{image.header.width, image.header.height, StoredType::real}};
-  out.texels.resize(count * sizeof(float));
-  for (std::size_t i = 0; i < count; ++i) {
-    std::uint16_t word = 0;
-    std::memcpy(&word, &image.texels[i * sizeof word], sizeof word);
-    const float encoded = static_cast<float>(word) / 65535.0f;
-    const float value = i % 4 == 3 ? encoded : decodeSrgb(encoded);
-    std::memcpy(&out.texels[i * sizeof value], &value, sizeof value);
-  }
-  return out;
 }
 
 }  // namespace weft::assets

@@ -28,46 +28,40 @@ constexpr int kMaxImageSide = 32768;
 constexpr std::size_t kMaxImageTexels = std::size_t{1} << 27;  // 16384 x 8192
 
 // .hdr (RGB), .exr (RGBA; RGB and gray are widened), .png .jpg .jpeg .tga (channels as stored, 8 or 16 bit;
-// color is decoded from sRGB, alpha is not). The kind comes from the extension, case-insensitive.
-std::optional<ImageF> loadImage(const std::string& path, text::Diagnostics& diagnostics);
-// The same for bytes in memory; `name` gives the extension and stands in messages.
+// color is decoded from sRGB, alpha is not). The kind comes from the extension of `name`, case-insensitive.
 std::optional<ImageF> decodeImage(std::string_view bytes, const std::string& name,
                                   text::Diagnostics& diagnostics);
 
 // .png .jpg .jpeg .tga; `channels` 1 to 4, or 0 for what the file has. 16-bit files are reduced.
 std::optional<Image8> loadImage8(const std::string& path, int channels, text::Diagnostics& diagnostics);
 
-// loadImage, made RGBA (alpha 1) and fit for rgba16f: NaN and negative become 0, infinite becomes 65504, and light beyond
+// decodeImage, made RGBA (alpha 1) and fit for rgba16f: NaN and negative become 0, infinite becomes 65504, and light beyond
 // 65504 moves to the texels around. Adds one W153 with the counts, and with the share of the light that found no room.
-std::optional<ImageF> loadEnvironment(const std::string& path, text::Diagnostics& diagnostics);
-// The same for bytes in memory, as decodeImage.
 std::optional<ImageF> decodeEnvironment(std::string_view bytes, const std::string& name,
                                         text::Diagnostics& diagnostics);
 // The cleaning step alone: the color channels of `image`, RGB or RGBA and equirectangular, in place.
 void sanitizeRadiance(ImageF& image, const std::string& name, text::Diagnostics& diagnostics);
 
-// A picture file as a texture can hold it: the numbers of the file, four channels, bottom row first as OpenGL counts rows. Gray
-// becomes equal red, green and blue; a missing alpha is 1.
 // What a channel is in the file: .png .jpg .tga of 8 bits, .png of 16 bits, .hdr and .exr.
 enum class StoredType : std::uint8_t { byte, word, real };
 
-struct StoredHeader {
-  int width = 0, height = 0;
+struct ImageHeader {
+  int width = 0, height = 0, channels = 0;
   StoredType type = StoredType::byte;
-  friend bool operator==(const StoredHeader&, const StoredHeader&) = default;
-};
-
-struct StoredImage {
-  StoredHeader header;
-  std::vector<std::byte> texels{};  // of 1, 2 or 4 bytes a channel
+  friend bool operator==(const ImageHeader&, const ImageHeader&) = default;
 };
 
 // Walks the file but decodes no texels.
-std::optional<StoredHeader> loadStoredHeader(const std::string& path, text::Diagnostics& diagnostics);
-std::optional<StoredImage> loadStored(const std::string& path, text::Diagnostics& diagnostics);
+std::optional<ImageHeader> loadHeader(const std::string& path, text::Diagnostics& diagnostics);
 
-// Red, green and blue of 16 bits decoded from sRGB, as real numbers; alpha stays linear.
-StoredImage decodeSrgbWords(const StoredImage& image);
+// A picture file as a texture can hold it: the numbers of the file, four channels, bottom row first as OpenGL counts rows. Gray
+// becomes equal red, green and blue; a missing alpha is 1.
+struct StoredImage {
+  ImageHeader header;
+  std::vector<std::byte> texels{};  // of 1, 2 or 4 bytes a channel
+};
+// `srgb`: red, green and blue of 16 bits are decoded from sRGB and become real numbers; alpha stays linear.
+std::optional<StoredImage> loadStored(const std::string& path, bool srgb, text::Diagnostics& diagnostics);
 
 // A picture as the bytes of a PNG file. Empty when it cannot be encoded.
 std::string encodePng8(int width, int height, int channels, std::span<const std::uint8_t> texels);

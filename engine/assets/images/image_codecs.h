@@ -12,18 +12,10 @@ namespace weft::assets {
 
 enum class ImageKind : std::uint8_t { unknown, hdr, exr, eight_bit };
 ImageKind kindOfName(const std::string& name);
-// The kind of a file that holds something; unknown after W150 or W151.
-ImageKind checkKind(std::string_view bytes, const std::string& name, text::Diagnostics& diagnostics);
-
 // Adds "cannot read NAME: WHY" as W150.
 void reportUnreadable(text::Diagnostics& diagnostics, const std::string& name, const std::string& why);
 // True when the size is sound; else adds W152.
 bool checkSize(text::Diagnostics& diagnostics, const std::string& name, long long width, long long height);
-
-struct ImageHeader {
-  int width = 0, height = 0, channels = 0;
-  bool shorts = false;  // 16 bits a channel
-};
 
 // What the decoders take, without decoding texels: .png, .jpg and .tga; .hdr; .exr.
 std::optional<ImageHeader> readPictureHeader(std::string_view bytes, const std::string& name,

@@ -290,7 +290,8 @@ std::optional<ImageHeader> readExrHeader(std::string_view bytes, const std::stri
   return guarded<ImageHeader>(name, diagnostics, [&]() -> std::optional<ImageHeader> {
     const std::unique_ptr<Opening> opening = openExr(bytes, name, diagnostics);
     if (!opening) return {};
-    return ImageHeader{static_cast<int>(opening->width), static_cast<int>(opening->height), 4};
+    return ImageHeader{static_cast<int>(opening->width), static_cast<int>(opening->height), 4,
+                       StoredType::real};
   });
 }
 

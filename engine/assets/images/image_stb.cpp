@@ -146,8 +146,8 @@ int stbSize(std::string_view bytes) {
 
 // `check` says what is wrong with a file whose header is sound, or "".
 template <class Check>
-std::optional<ImageHeader> readHeader(std::string_view bytes, const std::string& name,
-                                      Diagnostics& diagnostics, const Check& check) {
+std::optional<ImageHeader> readStbHeader(std::string_view bytes, const std::string& name,
+                                         Diagnostics& diagnostics, const Check& check) {
   ImageHeader header;
   if (bytes.size() > 0x7fffffffu) {  // stb_image counts bytes in int
     reportUnreadable(diagnostics, name, "the file is larger than 2 GiB");
@@ -163,7 +163,9 @@ std::optional<ImageHeader> readHeader(std::string_view bytes, const std::string&
     reportUnreadable(diagnostics, name, problem);
     return {};
   }
-  header.shorts = stbi_is_16_bit_from_memory(stbData(bytes), stbSize(bytes));
+  header.type = stbi_is_hdr_from_memory(stbData(bytes), stbSize(bytes))      ? StoredType::real
+                : stbi_is_16_bit_from_memory(stbData(bytes), stbSize(bytes)) ? StoredType::word
+                                                                             : StoredType::byte;
   return header;
 }
 
@@ -196,7 +198,7 @@ std::optional<ImageHeader> readHdrHeader(std::string_view bytes, const std::stri
     reportUnreadable(diagnostics, name, "it does not begin as a Radiance picture (#?RADIANCE)");
     return {};
   }
-  return readHeader(bytes, name, diagnostics, [&] { return checkHdr(bytes); });
+  return readStbHeader(bytes, name, diagnostics, [&] { return checkHdr(bytes); });
 }
 
 std::optional<ImageHeader> readPictureHeader(std::string_view bytes, const std::string& name,
@@ -206,7 +208,7 @@ std::optional<ImageHeader> readPictureHeader(std::string_view bytes, const std::
   if (stbi_is_hdr_from_memory(stbData(bytes), stbSize(bytes)))
     problem = "it holds a Radiance picture; rename it to .hdr";
   if (problem.empty())
-    return readHeader(bytes, name, diagnostics, [&] { return jpeg || png ? "" : checkTga(bytes); });
+    return readStbHeader(bytes, name, diagnostics, [&] { return jpeg || png ? "" : checkTga(bytes); });
   reportUnreadable(diagnostics, name, problem);
   return {};
 }

@@ -30,8 +30,7 @@ bool isModelName(const std::string& name) {
 }
 
 std::optional<Model> loadModel(const std::string& path, text::Diagnostics& diagnostics,
-                               const LoadObserver& observer, std::vector<std::string>* files,
-                               const DecodeRunner& decode) {
+                               const LoadObserver& observer, std::vector<std::string>* files) {
   ModelFiles mine(path, diagnostics, observer);
   Model model;
   model.name = std::filesystem::path(path).stem().string();
@@ -43,10 +42,9 @@ std::optional<Model> loadModel(const std::string& path, text::Diagnostics& diagn
     d.expected = ".gltf, .glb, .obj or .fbx";
     d.found = kind.empty() ? "no extension" : kind;
   } else if (auto bytes = mine.readModel()) {
-    good =
-        kind == ".gltf" || kind == ".glb"
-            ? readGltf(std::move(*bytes), mine, observer, decode, diagnostics, model)
-            : readWithAssimp(std::move(*bytes), kind == ".obj", mine, observer, decode, diagnostics, model);
+    good = kind == ".gltf" || kind == ".glb"
+               ? readGltf(std::move(*bytes), mine, observer, diagnostics, model)
+               : readWithAssimp(std::move(*bytes), kind == ".obj", mine, observer, diagnostics, model);
   }
   model.files = mine.files();
   if (files) *files = model.files;

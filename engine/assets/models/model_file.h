@@ -19,9 +19,7 @@ bool isModelName(const std::string& name);
 
 // Empty after errors, and without any when `observer` gave up. `files`, when given, is set to everything that was read or
 // should have been, also after errors: what to watch.
-// `decode` decodes the images: empty, in turn on this thread.
 std::optional<Model> loadModel(const std::string& path, text::Diagnostics& diagnostics,
-                               const LoadObserver& observer = {}, std::vector<std::string>* files = nullptr,
-                               const DecodeRunner& decode = {});
+                               const LoadObserver& observer = {}, std::vector<std::string>* files = nullptr);
 
 }  // namespace weft::assets

@@ -5,12 +5,7 @@
 #include <algorithm>
 #include <span>
 
-#include "engine/graph/expand/checks.h"
 #include "engine/graph/expand/judge/judge.h"
-#include "engine/graph/expand/names/apply_settings.h"
-#include "engine/graph/expand/names/resources.h"
-#include "engine/graph/expand/names/scope.h"
-#include "engine/graph/expand/names/versions.h"
 #include "engine/graph/expand/passes.h"
 #include "engine/graph/language/enough.h"
 #include "engine/graph/pick/pick.h"
@@ -27,7 +22,6 @@ namespace {
 std::optional<FlatUse> resolveFinal(Model& model, Scope& scope, const RefDesc& ref, const std::string& user,
                                     const std::string& name) {
   Names names(model, scope);
-  markStructural(model, scope, ref);
   const SlotDesc slot{.name = name, .place = ref.place, .access = Access::read, .ref = ref};
   const SlotContext context{model, names, nullptr, user, {}};
   if (ref.wordsSize > 0) {
@@ -36,7 +30,7 @@ std::optional<FlatUse> resolveFinal(Model& model, Scope& scope, const RefDesc& r
     return std::nullopt;
   }
   const SlotWork work = resolveSlot(context, slot, kNone);
-  if (work.state != SlotWork::State::connected) return std::nullopt;
+  if (!work.isConnected()) return std::nullopt;
   if (work.array) {
     context.report(Code::badKind, ref.place, fmt::format("reads '{}', which is an array", ref.text),
                    {.expected = fmt::format("one element, '{}[0]'", ref.name)});
@@ -115,34 +109,26 @@ void resolveOutputs(Model& model) {
 // What `entity`, a resource or an input that stands for it, says resets the history.
 void addResets(Model& model, const Entity& entity, HistorySpec& spec) {
   Names names(model, *entity.scope);
-  for (const Expr& value : entity.desc->resetValues) {
-    markStructural(model, *entity.scope, value);
+  for (const Expr& value : entity.desc->resetValues)
     spec.resetValues.push_back(value.evaluate(names, model.diagnostics));
-  }
   for (const RefDesc& ref : entity.desc->resetRefs) {
-    markStructural(model, *entity.scope, ref);
-    if (ref.mip || ref.layer || ref.face || ref.element || ref.stencil || ref.history || ref.wordsSize > 0 ||
-        ref.optional)
+    if (!isWhole(ref))
       report(model, Code::badSelector, ref.place,
              fmt::format("the reset of '{}' names '{}'", entity.name, ref.text),
              {.expected = "the name of a whole resource or import, perhaps with 'if'",
-              .found = ref.text,
               .hint = fmt::format("write '{}{}'", ref.import ? "@" : "", ref.name),
               .resource = entity.name});
     const auto holds = evaluateCondition(names, ref.condition, true, "the condition of a reset");
-    const std::uint32_t found = findEntityOrReport(model, *entity.scope, ref, {"\"reset\""});
+    const std::uint32_t found = findEntityOrReport(model, *entity.scope, ref, "\"reset\" names");
     if (found == kNone || !holds || !*holds) continue;
     // An import that has nothing now may have something later.
     const std::uint32_t target =
         model.entities[found].kind == ResourceDesc::Kind::import ? found : staticTarget(model, found);
     if (target == kNone || !ensureShape(model, target)) continue;
     const Entity& reset = model.entities[target];
-    if (reset.import != kNone) {
-      spec.resetImports.push_back(reset.import);
-    } else {
-      for (const Element& element : reset.elements)
-        if (element.resource != kNone) spec.resetResources.push_back(element.resource);
-    }
+    if (reset.import != kNone) spec.resetImports.push_back(reset.import);
+    for (const Element& element : reset.elements)
+      if (reset.import == kNone && element.resource != kNone) spec.resetResources.push_back(element.resource);
   }
 }
 
@@ -203,55 +189,44 @@ void nameAliases(Model& model) {
   }
 }
 
-// What contains age().
-void foldTimed(Model& model, const std::vector<DeferredUniform>& deferred) {
+// Folds what contains age() or live parameters.
+void foldDeferred(Model& model, const std::vector<DeferredUniform>& deferred) {
   const auto ageless = [](std::uint32_t) { return 0.0; };
-  for (const DeferredUniform& each : deferred) {
-    if (!each.expr || !isDynamic(model, *each.scope, *each.expr)) continue;
-    Names names(model, *each.scope);
-    names.indices = each.indices;
-    PassSpec& spec = model.graph.specs[each.pass];
-    if (each.uniform == kNone) {
-      spec.timedInstances = each.expr->fold(names, model.diagnostics);
-      continue;
-    }
-    UniformSpec& uniform = spec.uniforms[each.uniform];
-    uniform.dynamic = each.expr->fold(names, model.diagnostics);
-    uniform.value = uniform.dynamic.evaluateFolded(ageless);
-  }
-}
-
-// What reads live parameters. One whose expression cannot be folded with them as leaves (it has branches that
-// are not taken now and mean nothing now, or it is too long) makes them structural: then it says what it says
-// when it is evaluated anew.
-void foldLive(Model& model, const std::vector<DeferredUniform>& deferred) {
-  std::vector<Value> values;
-  values.reserve(model.parameters.size());
-  for (const Parameter& parameter : model.parameters) values.push_back(parameter.value);
-  findLiveLets(model);
   const auto trialAge = [](std::uint32_t) { return kTrialAge; };
-  for (const DeferredUniform& each : deferred) {
-    if (each.uniform == kNone) continue;
-    UniformSpec& uniform = model.graph.specs[each.pass].uniforms[each.uniform];
-    if (!each.expr) {
-      if (!model.parameters[each.parameter].structural)
-        uniform.dynamic = Expr::parameter(each.parameter, uniform.place);
-      continue;
-    }
-    const Expr& expr = *each.expr;
-    if (!isLive(model, *each.scope, expr)) continue;
-    Names names(model, *each.scope);
+  const auto fold = [&](const DeferredUniform& each, Names names, text::Diagnostics& said) {
     names.indices = each.indices;
+    const Expr folded = each.expr->fold(names, said);
+    return names.failed ? Expr() : folded;
+  };
+  for (const DeferredUniform& each : deferred) {
+    if (!isDynamic(model, *each.scope, *each.expr)) continue;
+    const Expr folded = fold(each, Names(model, *each.scope), model.diagnostics);
+    PassSpec& spec = model.graph.specs[each.pass];
+    (each.uniform == kNone ? spec.timedInstances : spec.uniforms[each.uniform].dynamic) = folded;
+    if (each.uniform != kNone) spec.uniforms[each.uniform].value = folded.evaluateFolded(ageless);
+  }
+  if (model.diagnostics.hasErrors()) return;
+  // An expression that cannot be folded with live parameters as leaves (it has branches that are not taken now and mean
+  // nothing now, or it is too long) makes them structural: then it says what it says when it is evaluated anew.
+  std::vector<Value> values;
+  for (const Parameter& parameter : model.parameters) values.push_back(parameter.value);
+  const text::Diagnostics said = model.diagnostics;
+  for (const DeferredUniform& each : deferred) {
+    if (each.uniform == kNone || !isLive(model, *each.scope, *each.expr)) continue;
+    UniformSpec& uniform = model.graph.specs[each.pass].uniforms[each.uniform];
+    Names names(model, *each.scope);
     names.live = true;
     text::Diagnostics ignored;
-    const Expr folded = expr.fold(names, ignored);
+    const Expr folded = fold(each, names, ignored);
     // The same as it is without leaves, which was checked.
     const Value before = uniform.dynamic.present() ? uniform.dynamic.evaluateFolded(trialAge) : uniform.value;
-    if (folded.live() && !names.failed && folded.evaluateFolded(trialAge, values) == before)
+    if (folded.present() && folded.live() && folded.evaluateFolded(trialAge, values) == before)
       uniform.dynamic = folded;
-    else if (!folded.present() || names.failed || folded.live())
-      markStructural(model, *each.scope, expr);
+    else if (!folded.present() || folded.live())
+      markStructural(model, *each.scope, *each.expr);
   }
+  model.diagnostics = said;  // what cannot be folded is no mistake
+  model.stopped = false;
 }
 
 // Which uses of a pass stay even when no other pass reads what they write.
@@ -308,7 +283,7 @@ void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred) {
   model.position = static_cast<std::uint32_t>(-1);
   resolvePresent(model);
   resolveOutputs(model);
-  foldTimed(model, deferred);
+  foldDeferred(model, deferred);
   resolveHistories(model);
   settleKept(model.graph);
   settleCopies(model.graph);
@@ -316,16 +291,6 @@ void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred) {
   inferComparisons(model);
   nameStandIns(model);
   nameAliases(model);
-  if (!model.diagnostics.hasErrors()) {
-    // What cannot be folded is no mistake.
-    const text::Diagnostics said = model.diagnostics;
-    const bool incomplete = model.incomplete;
-    foldLive(model, deferred);
-    model.diagnostics = said;
-    model.incomplete = incomplete;
-    model.stopped = false;
-  }
-  model.graph.parameters.reserve(model.parameters.size());
   for (const Parameter& parameter : model.parameters)
     model.graph.parameters.push_back({*parameter.desc, parameter.path, parameter.value, parameter.origin,
                                       parameter.valuePlace, parameter.structural});
@@ -361,10 +326,12 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
   std::vector<DeferredUniform> deferred;
   if (!isOver(model)) expandPasses(model, deferred);
   if (!isOver(model)) finishGraph(model, deferred);
-  if (!own.hasErrors() && !model.incomplete) keepPicks(model.graph, settings.kept, own);
-  if (!isOver(model)) reportMissingReads(model);
-  if (!own.hasErrors()) checkSlices(model);
-  if (!own.hasErrors() && !diagnostics.hasErrors()) {
+  // What is only missing because of a mistake is no second one.
+  const bool whole = !diagnostics.hasErrors() && !model.stopped;
+  if (whole && !own.hasErrors()) keepPicks(model.graph, settings.kept, own);
+  if (whole && !own.hasErrors()) reportMissingReads(model);
+  if (whole && !own.hasErrors()) checkSlices(model);
+  if (whole && !own.hasErrors()) {
     warnUnread(model);
     warnUnused(model);
     warnCadence(model);

@@ -1,14 +1,12 @@
 #include "engine/graph/expand/passes.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <iterator>
+#include <deque>
 
-#include "engine/graph/expand/checks.h"
-#include "engine/graph/expand/names/versions.h"
 #include "engine/text/limits.h"
-#include "engine/text/nearest.h"
 
 namespace weft::graph::expansion {
 
@@ -16,10 +14,9 @@ namespace {
 
 // Why a pass whose "enabled" is false is disabled. Kept for each instance, so a long expression is cut.
 std::string whyFalse(const Expr& enabled) {
-  std::string text = enabled.text();
+  const std::string text = enabled.text();
   if (enabled.isConstant()) return fmt::format("\"enabled\": {}", text);
-  if (text.size() > 80) text = text.substr(0, 80) + "…";
-  return fmt::format("enabled: {} is false", text);
+  return fmt::format("enabled: {:.80}{} is false", text, text.size() > 80 ? "…" : "");
 }
 
 using State = SlotWork::State;
@@ -32,17 +29,6 @@ std::uint64_t slotsOf(const PassDesc& desc) {
   return count;
 }
 
-// A pass that writes by this slot was left out for its mistakes: what is missing of the resource is no second mistake.
-void leaveOutWrite(Model& model, Scope& scope, const RefDesc& ref) {
-  const std::uint32_t found = findEntity(model, scope, ref.name, ref.import);
-  using Kind = ResourceDesc::Kind;
-  const Kind kind = found == kNone ? Kind::import : model.entities[found].kind;
-  if (kind == Kind::import || kind == Kind::alternatives)
-    model.incomplete = true;  // nobody knows which one is meant
-  else
-    model.entities[found].incomplete = true;
-}
-
 // A range that is empty whatever the settings are can hardly be meant to be: the bound that would make it longer is constant.
 bool isEmptyByMistake(const PassDesc& desc, const RangeDesc& range, std::int64_t step) {
   for (const RangeDesc& outer : desc.repeat)
@@ -51,10 +37,8 @@ bool isEmptyByMistake(const PassDesc& desc, const RangeDesc& range, std::int64_t
   return (step > 0 ? range.last : range.first).isConstant();
 }
 
-// The "repeat" of a pass is empty, by `range`: what it would write says so when it is missing.
-void noteEmptyRepeat(Model& model, Scope& scope, const PassDesc& desc, const RangeDesc& range,
-                     EmptyRepeat empty) {
-  empty.mistake = empty.mistake && isEmptyByMistake(desc, range, empty.step);
+// The "repeat" of a pass is empty, by a range: what it would write says so when it is missing.
+void noteEmptyRepeat(Model& model, Scope& scope, const PassDesc& desc, EmptyRepeat empty) {
   const bool first = model.emptied.empty() || model.emptied.back().pass != empty.pass;  // range of the pass
   for (const SlotDesc& slot : desc.slots) {
     const std::uint32_t found = findEntity(model, scope, slot.ref.name, slot.ref.import);
@@ -71,7 +55,7 @@ void noteEmptyRepeat(Model& model, Scope& scope, const PassDesc& desc, const Ran
 struct StanzaWalk {
   Scope& scope;
   const PassDesc& desc;
-  const PassType* type;
+  const PassType* type;    // null: there is none of the name
   std::string declared;    // "bloom.glow_down"
   const std::string& why;  // its include is disabled; "" when it is not
   std::uint64_t slots;     // of one instance
@@ -100,10 +84,8 @@ class PassWalk {
     const auto child = scope.includes.find(desc.include->as);
     if (child == scope.includes.end() || child->second->stanza != &desc) return;
     checkExpr(model_, scope, desc.enabled);
-    markStructural(model_, scope, desc.enabled);
     Names names(model_, scope);
     const auto enabled = evaluateCondition(names, desc.enabled, true, "'enabled' of an include");
-    model_.incomplete = model_.incomplete || !enabled;  // nobody knows whether its passes are there
     if (enabled) walk(*child->second, why.empty() && !*enabled ? whyFalse(desc.enabled) : why);
   }
 
@@ -112,30 +94,16 @@ class PassWalk {
   void walkStanza(Scope& scope, const PassDesc& desc, const std::string& why) {
     StanzaWalk stanza{scope, desc,         findPassType(model_.registry, desc.type), scope.prefix + desc.name,
                       why,   slotsOf(desc)};
-    if (stanza.slots > text::raised(kMaxSlotsOfPass))
-      return stopAt(model_, desc.place,
-                    fmt::format("pass '{}' has too many slots, parameters and defines", stanza.declared),
-                    kMaxSlotsOfPass, "slots, parameters and defines of one pass");
     stanza.sound = checkStanza(model_, scope, desc, stanza.type, stanza.declared);
-    if (!stanza.type) stanza.type = typeMeantBy(desc.type);  // so that nothing else is reported because of it
     Names names(model_, scope);
-    repeat(stanza, names);
-    if (!stanza.failed && stanza.sound) return;
-    for (const SlotDesc& slot : desc.slots)
-      if (slot.access != Access::read) leaveOutWrite(model_, scope, slot.ref);
-  }
-
-  const PassType* typeMeantBy(const std::string& name) const {
-    std::vector<std::string> types;
-    for (const PassType& known : model_.registry.passTypes) types.push_back(known.name);
-    return findPassType(model_.registry, text::nearestName(name, types));
+    if (stanza.type) repeat(stanza, names);
   }
 
   // Whether `more` passes may follow; reports otherwise.
   bool mayMake(const StanzaWalk& stanza, std::uint64_t more, const Place& place) {
     const std::uint64_t most = text::raised(kMaxPasses);
     if (made_ + more <= most) return true;
-    model_.stopped = model_.incomplete = true;
+    model_.stopped = true;
     return report(model_, Code::tooManyPasses, place,
                   fmt::format("with pass '{}' the graph has more than {} passes", stanza.declared, most),
                   {.expected = "one compute pass with more threads",
@@ -170,8 +138,9 @@ class PassWalk {
     if (!mayMake(stanza, static_cast<std::uint64_t>(std::max<std::int64_t>(steps, 1)), range.place)) return;
     if (steps <= 0) {
       ++made_;
-      noteEmptyRepeat(model_, stanza.scope, stanza.desc, range,
-                      {stanza.declared, range.index, *first, *last, *step, range.place, stanza.why.empty()});
+      noteEmptyRepeat(model_, stanza.scope, stanza.desc,
+                      {stanza.declared, range.index, *first, *last, *step, range.place,
+                       stanza.why.empty() && isEmptyByMistake(stanza.desc, range, *step)});
       return;
     }
     names.indices.push_back({range.index, 0});
@@ -195,16 +164,6 @@ class PassWalk {
     return false;
   }
 
-  // name_ and user_ of the instance.
-  void nameInstance(const StanzaWalk& stanza, const Names& names) {
-    name_ = stanza.declared;
-    for (std::size_t i = 0; i < names.indices.size(); ++i)
-      fmt::format_to(std::back_inserter(name_), "{}{}", i ? "," : "[",
-                     static_cast<std::int64_t>(names.indices[i].value));
-    if (!names.indices.empty()) name_ += "]";
-    user_.assign("pass '").append(name_).append("'");
-  }
-
   // Why the instance is disabled; empty: it is not.
   std::string whyDisabled(const StanzaWalk& stanza, bool enabled) const {
     if (const auto rules = model_.disables.find(stanza.declared); rules != model_.disables.end())
@@ -217,7 +176,10 @@ class PassWalk {
     slotsMade_ += stanza.slots;
     if (!maySee(stanza)) return;
     const std::size_t before = model_.diagnostics.errorCount();
-    nameInstance(stanza, names);
+    std::vector<std::int64_t> at;
+    for (const Names::Index& index : names.indices) at.push_back(static_cast<std::int64_t>(index.value));
+    name_ = stanza.declared + (at.empty() ? "" : fmt::format("[{}]", fmt::join(at, ",")));
+    user_ = fmt::format("pass '{}'", name_);
     const auto holds = evaluateCondition(names, stanza.desc.enabled, true, "'enabled'");
     if (!holds) {
       stanza.failed = true;
@@ -225,7 +187,7 @@ class PassWalk {
     }
     std::string why = whyDisabled(stanza, *holds);
     const bool enabled = why.empty();
-    const SlotContext context{model_, names, stanza.type, user_, name_, enabled, *holds, &leaves_};
+    const SlotContext context{model_, names, stanza.type, user_, name_, enabled, *holds};
     const std::uint32_t pass = enabled ? static_cast<std::uint32_t>(graph_.passes.size()) : kNone;
 
     const std::size_t missed = model_.missing.size();
@@ -236,11 +198,16 @@ class PassWalk {
       model_.slot = static_cast<std::uint32_t>(slots_.size());
       const State state = slots_.emplace_back(resolveSlot(context, slot, pass)).state;
       if (state == State::empty && !gone) gone = &slot;
-      if (state == State::failed && slot.access != Access::read)
-        leaveOutWrite(model_, stanza.scope, slot.ref);
     }
     model_.slot = kNone;
-    resolveFirsts(context, slots_, firsts_, pass);
+    firsts_.clear();
+    for (std::size_t i = 0; i < stanza.desc.slots.size(); ++i)
+      if (slots_[i].isConnected() && slots_[i].use.history > 0)
+        if (SlotWork first = resolveFirst(context, slots_[i], pass, firsts_.emplace_back());
+            first.isConnected()) {
+          first.firstOf = i;
+          slots_.push_back(std::move(first));
+        }
     checkPassUses(context, stanza.desc, slots_);
     if (isOver(model_)) return;
     if (gone) model_.missing.resize(missed);  // nobody runs to miss it
@@ -257,37 +224,27 @@ class PassWalk {
     graph_.disabled.push_back({name_, why});
     if (stanza.desc.sideEffect) wouldUse(model_, WouldUse{});
     for (const SlotWork& work : slots_)
-      if (work.state == State::empty && work.slot->access != Access::read)
+      if (work.state == State::empty && !work.reads())
         wouldUse(model_, WouldUse{});  // who knows what reads it at another size
-      else if (work.state == State::connected && work.slot->access == Access::read)
+      else if (work.isConnected() && work.reads())
         wouldUse(model_, {WouldUse::Why::off, work.entity, work.firstElement, work.elementCount, work.use});
-      else if (work.state == State::connected)
+      else if (work.isConnected())
         record(work, kNone, index);
     if (!context.ranges || !stanza.sound) return;
     PassSpec ignored;
-    fillSpec(context, stanza.desc, slots_, ignored, kNone, nullptr);
+    std::vector<DeferredUniform> never;
+    fillSpec(context, stanza.desc, slots_, ignored, kNone, never);
   }
 
   // ---- what goes into the graph ----
 
   void record(const SlotWork& work, std::uint32_t pass, std::uint32_t disabled) {
+    // Whether a slot needs what another one writes: some pass must have written it before.
+    const auto needs = [&](const SlotWork& other) {
+      return other.slot->access != Access::write && other.use.history == 0 && other.overlaps(work);
+    };
     model_.writes.push_back({work.entity, work.firstElement, work.elementCount, work.use, model_.position,
-                             pass, disabled, work.whole,
-                             std::ranges::any_of(slots_, [&](const auto& o) { return needs(o, work); })});
-  }
-
-  void addCadence(const StanzaWalk& stanza, const SlotContext& context, FlatPass& flat) {
-    const PassDesc& desc = stanza.desc;
-    flat.cadence = desc.cadence;
-    flat.sideEffect = desc.sideEffect;
-    if (stanza.type) flat.touches = stanza.type->touches;
-    const auto slices = evaluateWhole(context.names, desc.slices, 1, 0, 65536, "the number of slices");
-    if (!slices) return;
-    flat.slices = static_cast<std::uint32_t>(*slices);
-    if (flat.slices > 1 && stanza.type && stanza.type->shader == ShaderShape::none)
-      context.report(Code::badSlices, desc.slices.place(),
-                     fmt::format("is a {}, which runs whole", desc.type),
-                     {.hint = "remove \"slices\": the pass takes one frame"});
+                             pass, disabled, work.whole, std::ranges::any_of(slots_, needs)});
   }
 
   // The slot as the executor needs it, with its uses in element order. Reads and modifies take the current resource. False
@@ -307,14 +264,13 @@ class PassWalk {
     slot.place = work.slot->place;
     slot.inherited = text::isSamePlace(slot.place, stanza.desc.likePlace);
     slot.firstUse = static_cast<std::uint32_t>(graph_.uses.size());
-    const bool used =
-        work.state == State::connected ||
-        (work.state == State::missing && work.entity != kNone && work.slot->access != Access::write);
+    const bool used = work.isConnected() || (work.state == State::missing && work.entity != kNone &&
+                                             work.slot->access != Access::write);
     if (used && model_.entities[work.entity].state == Progress::done)
       for (std::uint32_t e = work.firstElement; e < work.firstElement + work.elementCount; ++e) {
         FlatUse use = work.use;
         use.feedback = stanza.desc.feedback && use.access == Access::modify;
-        use.exact = stanza.type && stanza.type->exactCopies;  // finishGraph() looks at the shapes
+        use.exact = stanza.type->exactCopies;  // finishGraph() looks at the shapes
         addUse(model_, work.entity, e, use, pass);
       }
     slot.useCount = static_cast<std::uint32_t>(graph_.uses.size()) - slot.firstUse;
@@ -341,7 +297,15 @@ class PassWalk {
     const PassDesc& desc = stanza.desc;
     const auto pass = static_cast<std::uint32_t>(graph_.passes.size());
     FlatPass flat;
-    addCadence(stanza, context, flat);
+    flat.cadence = desc.cadence;
+    flat.sideEffect = desc.sideEffect;
+    flat.touches = stanza.type->touches;
+    flat.slices = static_cast<std::uint32_t>(
+        evaluateWhole(context.names, desc.slices, 1, 0, 65536, "the number of slices").value_or(1));
+    if (flat.slices > 1 && stanza.type->shader == ShaderShape::none)
+      context.report(Code::badSlices, desc.slices.place(),
+                     fmt::format("is a {}, which runs whole", desc.type),
+                     {.hint = "remove \"slices\": the pass takes one frame"});
     PassSpec spec{.name = name_,
                   .declared = stanza.declared,
                   .type = desc.type,
@@ -351,7 +315,7 @@ class PassWalk {
                   .shaderPlace = desc.shaderPlace,
                   .firstSlot = static_cast<std::uint32_t>(graph_.slots.size()),
                   .slotCount = static_cast<std::uint32_t>(desc.slots.size())};
-    if (stanza.sound) fillSpec(context, desc, slots_, spec, pass, &deferred_);
+    if (stanza.sound) fillSpec(context, desc, slots_, spec, pass, deferred_);
     flat.firstUse = static_cast<std::uint32_t>(graph_.uses.size());
     for (std::size_t i = 0; i < desc.slots.size(); ++i)
       if (!emitSlot(stanza, slots_[i], pass)) return;
@@ -373,31 +337,15 @@ class PassWalk {
   FlatGraph& graph_;
   std::vector<DeferredUniform>& deferred_;
   std::uint64_t made_ = 0, slotsMade_ = 0;  // passes, disabled ones and empty ranges counted; their slots
-  // of the instance; kept from one to the next for their memory
+  // of the instance
   std::string name_, user_;  // "glow_down[3]", "pass 'glow_down[3]'"
   std::vector<SlotWork> slots_;
   std::deque<SlotDesc> firsts_;
-  std::vector<Leaf> leaves_;
 };
 
 }  // namespace
 
 void expandPasses(Model& model, std::vector<DeferredUniform>& deferred) {
-  // Of stanzas that do not repeat: a large graph of them is not copied while it grows.
-  std::size_t slots = 0, passes = 0, values = 0;
-  for (const Scope& scope : model.scopes) {
-    passes += scope.desc->passes.size();
-    for (const PassDesc& pass : scope.desc->passes) {
-      slots += pass.slots.size();
-      values += pass.parameters.size();
-    }
-  }
-  model.graph.slots.reserve(slots);
-  model.graph.uses.reserve(slots);
-  model.graph.passes.reserve(passes);
-  model.graph.passNames.reserve(passes);
-  model.graph.specs.reserve(passes);
-  deferred.reserve(values);
   PassWalk(model, deferred).walk(model.scopes[0], {});
 }
 

@@ -1,11 +1,9 @@
-#include "engine/graph/expand/slots.h"
-
+// Declared in passes.h.
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "engine/graph/expand/checks.h"
-#include "engine/graph/expand/names/versions.h"
+#include "engine/graph/expand/passes.h"
 #include "engine/graph/subresource.h"
 
 namespace weft::graph::expansion {
@@ -62,6 +60,15 @@ std::optional<Range> closeSpan(const Selection::Span& said, std::int64_t count, 
   return there ? std::optional(Range{first, last - first + 1}) : std::nullopt;
 }
 
+// What `outer`, of a slot, says of sampling, and where it says nothing, `inner` of the alternative that it means.
+Sampler layOver(const Sampler& outer, const Sampler& inner) {
+  Sampler both = outer.wrap == Wrap::clamp ? inner : outer;
+  both.linear = outer.linear || inner.linear;
+  both.compare = outer.compare || inner.compare;
+  both.function = outer.function ? outer.function : inner.function;
+  return both;
+}
+
 // All concrete candidates of a reference whose conditions hold, in order. `leaf` says what `ref` means, and what is said of it from
 // outside. False after a report.
 bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref, Leaf leaf,
@@ -78,7 +85,7 @@ bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref,
     leaves.push_back(std::move(leaf));
     return true;
   }
-  if (entity.listState == Progress::failed) return false;  // reported
+  if (entity.state == Progress::failed) return false;  // reported
   Names listNames(model, *entity.scope);
   bool good = true;
   for (std::size_t i = 0; i < entity.candidates.size(); ++i) {
@@ -166,18 +173,6 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
   return true;
 }
 
-// Kind and planes, once the rectangle is known.
-bool finishUse(const SlotContext& context, const Leaf& leaf, const RefDesc& ref, Access access,
-               SlotWork& work) {
-  const FlatResource& shape = context.model.entities[work.entity].shape;
-  work.use.access = access;
-  work.use.kind = leaf.kind.value_or(defaultKind(context.type, access, shape));
-  if (work.sampler.compare) work.sampler.linear = true;
-  const bool shaderRead = work.use.kind == Kind::sampled || work.use.kind == Kind::image;
-  if (shaderRead && work.use.planes == 3) work.use.planes = 1;  // a shader sees depth unless .stencil is said
-  return checkUse(context, ref, access, work);
-}
-
 const char* verbOf(Access access) {
   return access == Access::read ? "reads" : access == Access::write ? "writes" : "modifies";
 }
@@ -195,10 +190,6 @@ bool isWritable(const SlotContext& context, const SlotDesc& slot, std::uint32_t 
                         {.hint = "write a texture or buffer of the graph's own", .resource = entity.name});
 }
 
-void noteWould(Model& model, const SlotWork& work, WouldUse::Why why) {
-  wouldUse(model, {why, work.entity, work.firstElement, work.elementCount, work.use});
-}
-
 // A slot whose condition, or that of each of its alternatives, may leave it without a resource.
 struct SlotChoice {
   const SlotContext& context;
@@ -209,15 +200,14 @@ struct SlotChoice {
 
   // Its condition is false.
   SlotWork off() {
-    SlotWork work = none(State::failed);
+    SlotWork work = none();
     if (!leaves.empty()) {
-      if (!place(leaves[0], work)) return none(State::failed);
-      const bool placed = work.state == State::connected;
-      if (placed && context.versions) noteWould(context.model, work, WouldUse::Why::off);
+      if (!place(leaves[0], work)) return none();
+      const bool placed = work.isConnected();
+      if (placed) note(work, WouldUse::Why::off);
       if (context.versions) noteOthers(placed ? 1 : 0);
     }
-    work.state = slot.access == Access::read && !slot.ref.optional ? State::missing : State::absent;
-    if (work.state == State::missing) addMissing(MissingRead::Cause::condition);
+    leaveEmpty(work, MissingRead::Cause::condition, slot.access == Access::read);
     return work;
   }
 
@@ -226,8 +216,8 @@ struct SlotChoice {
     bool onlyImports = !leaves.empty(), byCondition = false;
     std::optional<SlotWork> zero, first;
     for (std::size_t i = 0; i < leaves.size(); ++i) {
-      SlotWork work = none(State::failed);
-      if (!place(leaves[i], work)) return none(State::failed);
+      SlotWork work = none();
+      if (!place(leaves[i], work)) return none();
       if (work.state == State::empty) {
         if (slot.ref.optional) work.state = State::absent;
         return work;
@@ -243,36 +233,39 @@ struct SlotChoice {
       }
       onlyImports = onlyImports && import;
       if (slot.access == Access::read)
-        noteWould(context.model, work,
-                  found.complete && !slot.ref.optional ? WouldUse::Why::zero : WouldUse::Why::empty);
+        note(work, found.complete && !slot.ref.optional ? WouldUse::Why::zero : WouldUse::Why::empty);
       if (found.complete && !zero) zero = work;
       if (!first) first = std::move(work);
     }
     if (zero && !slot.ref.optional) return *zero;
-    SlotWork work = first.value_or(none(State::failed));
-    work.state = slot.ref.optional || !context.versions ? State::absent : State::missing;
-    if (work.state == State::missing)
-      addMissing(leaves.empty() ? MissingRead::Cause::condition
-                 : onlyImports  ? MissingRead::Cause::import
-                                : MissingRead::Cause::version);
+    SlotWork work = first.value_or(none());
+    leaveEmpty(work,
+               leaves.empty() ? MissingRead::Cause::condition
+               : onlyImports  ? MissingRead::Cause::import
+                              : MissingRead::Cause::version,
+               context.versions);
     return work;
   }
 
-  SlotWork none(State state) const {
+  SlotWork none() const {
     SlotWork work;
     work.slot = &slot;
-    work.state = state;
     work.use.access = slot.access;
     return work;
   }
 
   bool place(const Leaf& leaf, SlotWork& work) const {
-    if (!placeSelection(context, leaf, slot.ref, work) ||
-        !finishUse(context, leaf, slot.ref, slot.access, work))
-      return false;
+    if (!placeSelection(context, leaf, slot.ref, work)) return false;
+    const Entity& entity = context.model.entities[work.entity];
+    work.use.access = slot.access;
+    work.use.kind = leaf.kind.value_or(defaultKind(context.type, slot.access, entity.shape));
+    if (work.sampler.compare) work.sampler.linear = true;
+    const bool shaderRead = work.use.kind == Kind::sampled || work.use.kind == Kind::image;
+    if (shaderRead && work.use.planes == 3)
+      work.use.planes = 1;  // a shader sees depth unless .stencil is said
     work.use.history = static_cast<std::uint8_t>(leaf.history);
-    return leaf.history == 0 ||
-           checkHistory(context, slot.ref, leaf.history, context.model.entities[work.entity]);
+    return checkUse(context, slot.ref, slot.access, work) &&
+           (leaf.history == 0 || checkHistory(context, slot.ref, leaf.history, entity));
   }
 
   // Of all elements together. Notes what is not there.
@@ -287,14 +280,20 @@ struct SlotChoice {
     return all;
   }
 
+  void note(const SlotWork& work, WouldUse::Why why) const {
+    if (context.versions)
+      wouldUse(context.model, {why, work.entity, work.firstElement, work.elementCount, work.use});
+  }
   // The alternatives from `first` on, which are off.
   void noteOthers(std::size_t first) const {
     for (std::size_t i = first; i < leaves.size(); ++i)
       wouldUse(context.model, leaves[i].entity, slot.access, leaves[i].history);
   }
 
-  void addMissing(MissingRead::Cause cause) {
-    if (context.versions)
+  // Nothing is there: a mistake when it is `needed`, and the slot does not say that it can do without.
+  void leaveEmpty(SlotWork& work, MissingRead::Cause cause, bool needed) {
+    work.state = needed && !slot.ref.optional ? State::missing : State::absent;
+    if (work.state == State::missing && context.versions)
       context.model.missing.push_back(
           {cause, pass, context.model.position, slot.name, slot.ref, false, slot.access, std::move(wanted)});
   }
@@ -312,40 +311,32 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
   SlotWork failed;
   failed.slot = &slot;
   failed.use.access = slot.access;
-  const std::uint32_t found = findEntityOrReport(context.model, context.names.scope(), ref,
-                                                 {context.user, verbOf(slot.access), context.pass});
+  const std::uint32_t found =
+      findEntityOrReport(context.model, context.names.scope(), ref,
+                         fmt::format("{} {}", context.user, verbOf(slot.access)), context.pass);
   if (found == kNone || (slot.access != Access::read && !isWritable(context, slot, found))) return failed;
   const auto holds = evaluateCondition(context.names, ref.condition, true, "the condition of a slot");
   if (!holds) return failed;
   // A slot whose condition is false may select what is not there; the rest of it must make sense all the same.
   SlotContext checked = context;
   checked.ranges = checked.ranges && *holds;
-  std::vector<Leaf> own;
-  std::vector<Leaf>& leaves = context.room ? *context.room : own;
-  leaves.clear();
+  std::vector<Leaf> leaves;
   if (!collectLeaves(checked, context.names, ref, {.entity = found}, leaves)) return failed;
   SlotChoice choice{checked, slot, pass, leaves};
   return *holds ? choice.choose() : choice.off();
 }
 
-// ---- what stands in for a publication that is not there yet ----
+// ---- what is read in the place of a publication that is not there yet ----
 
 namespace {
-
-bool sameNumbers(Format a, Format b) {
-  return isInteger(a) == isInteger(b) && (!isInteger(a) || infoOf(a).kind == infoOf(b).kind);
-}
 
 // "a texture of 8x8, 6 layers, rgba16f"
 std::string shapeText(const FlatResource& shape, std::uint32_t mip, std::uint32_t layers) {
   if (isBuffer(shape)) return fmt::format("a buffer of {} bytes", shape.bytes);
   const auto side = [&](std::uint32_t texels) { return std::max(1u, texels >> mip); };
-  std::string text =
-      fmt::format("a {} of {}x{}", isCube(shape) ? "cube" : "texture", side(shape.width), side(shape.height));
-  if (shape.target == Target::texture_3d) text += fmt::format("x{}", side(shape.depth));
-  if (layers != 1) text += fmt::format(", {} layers", layers);
-  if (shape.samples != 1) text += fmt::format(", {} samples", shape.samples);
-  return text;
+  return fmt::format("a {} of {}x{}x{}, {} layers, {} samples, {}", isCube(shape) ? "cube" : "texture",
+                     side(shape.width), side(shape.height), side(shape.depth), layers, shape.samples,
+                     infoOf(shape.format).name);
 }
 
 // Whether `first`, the whole of `theirs`, can be read where `work` reads the history of `mine`.
@@ -355,15 +346,18 @@ bool canReplace(const FlatResource& mine, const SlotWork& work, const FlatResour
   if (isBuffer(mine)) return theirs.kind == ResourceKind::buffer && theirs.bytes >= mine.bytes;
   // A pass that tests depth against the history attaches it.
   if (work.use.kind == Kind::depth || work.use.mip >= first.use.mips) return false;
-  if (isCube(mine) != (isCube(theirs) && first.use.layers % 6 == 0) ||
-      shapeText(mine, 0, mine.layers) != shapeText(theirs, first.use.mip, first.use.layers))
-    return false;
-  if (work.use.kind != Kind::sampled || work.use.planes != 1) return mine.format == theirs.format;
-  return sameNumbers(mine.format, theirs.format) && (!work.sampler.compare || isDepth(theirs.format));
+  const bool sampled = work.use.kind == Kind::sampled && work.use.planes == 1;
+  FlatResource same = theirs;  // what a sampler makes a float of may have another format
+  if (sampled && isInteger(mine.format) == isInteger(theirs.format) &&
+      (!isInteger(mine.format) || infoOf(mine.format).kind == infoOf(theirs.format).kind) &&
+      (!work.sampler.compare || isDepth(theirs.format)))
+    same.format = mine.format;
+  return isCube(mine) == (isCube(theirs) && first.use.layers % 6 == 0) &&
+         shapeText(mine, 0, mine.layers) == shapeText(same, first.use.mip, first.use.layers);
 }
 
-// For `work`, a slot that reads @-n: the same part of what `first` of the resource names, read in the same way. Is not
-// `connected` when `first` is a value, when its "?" left nothing, and after a report. `slot` is filled in.
+}  // namespace
+
 SlotWork resolveFirst(const SlotContext& context, const SlotWork& work, std::uint32_t pass, SlotDesc& slot) {
   Model& model = context.model;
   Entity& entity = model.entities[work.entity];
@@ -372,24 +366,20 @@ SlotWork resolveFirst(const SlotContext& context, const SlotWork& work, std::uin
   slot = {work.slot->name, ref.place, Access::read, ref};
   slot.ref.kind = work.use.kind;
   Names names(model, *entity.firstScope);
-  const SlotContext inside{
-      model, names, context.type, context.user, context.pass, context.versions, context.ranges, context.room};
+  const SlotContext inside{model,         names, context.type, context.user, context.pass, context.versions,
+                           context.ranges};
   const std::size_t missed = model.missing.size();
   SlotWork first = resolveSlot(inside, slot, pass);
   if (model.missing.size() > missed) model.missing.back().first = true;
-  if (first.state != SlotWork::State::connected) return {};
+  if (!first.isConnected()) return {};
 
   const FlatResource& source = model.entities[first.entity].shape;
   if (!canReplace(entity.shape, work, source, first)) {
-    const auto formatOf = [](const FlatResource& shape) {
-      return !isBuffer(shape) ? fmt::format(", {}", infoOf(shape.format).name) : std::string();
-    };
     context.report(
         Code::badFormat, ref.place,
         fmt::format("cannot read '{}' as the first value of '{}'", ref.text, entity.name),
-        {.expected =
-             shapeText(entity.shape, 0, entity.shape.layers) + formatOf(entity.shape) + ", in this frame",
-         .found = shapeText(source, first.use.mip, first.use.layers) + formatOf(source),
+        {.expected = shapeText(entity.shape, 0, entity.shape.layers) + ", in this frame",
+         .found = shapeText(source, first.use.mip, first.use.layers),
          .hint =
              "let a pass write a texture of that size and format, with \"update\": \"once\", and name that",
          .resource = entity.name});
@@ -407,19 +397,6 @@ SlotWork resolveFirst(const SlotContext& context, const SlotWork& work, std::uin
   }
   first.elementCount = 1;
   return first;
-}
-
-}  // namespace
-
-void resolveFirsts(const SlotContext& context, std::vector<SlotWork>& slots, std::deque<SlotDesc>& descs,
-                   std::uint32_t pass) {
-  descs.clear();
-  for (std::size_t i = 0, own = slots.size(); i < own; ++i) {
-    if (slots[i].state != State::connected || slots[i].use.history == 0) continue;
-    SlotWork first = resolveFirst(context, slots[i], pass, descs.emplace_back());
-    first.firstOf = i;
-    if (first.state == State::connected) slots.push_back(std::move(first));
-  }
 }
 
 }  // namespace weft::graph::expansion

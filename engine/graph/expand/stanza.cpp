@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "engine/graph/desc_walk.h"
-#include "engine/graph/expand/checks.h"
 #include "engine/graph/expand/passes.h"
 #include "engine/text/nearest.h"
 #include "engine/text/words/foreign_words.h"
@@ -45,76 +44,72 @@ void checkShaders(const Stanza& stanza) {
   const PassDesc& desc = stanza.desc;
   const ShaderShape shader = stanza.type->shader;
   const bool draw = shader == ShaderShape::draw, pair = !desc.vertexShader.empty();
-  if (pair && shader == ShaderShape::compute)
-    return stanza.error(
-        Code::keyNotTaken, desc.shaderPlace,
-        fmt::format("names a vertex shader, which a {} pass does not take", stanza.type->name),
-        {.expected = fmt::format("\"shader\": \"{}\"", desc.shader)});
-  const auto check = [&](const std::string& path, ShaderShape own) {
-    for (const ShaderShape stage : {ShaderShape::compute, ShaderShape::fragment, ShaderShape::draw})
-      if (path.ends_with(endingOf(stage)) && (stage != own || (draw && !pair)))
-        stanza.error(
-            Code::keyNotTaken, desc.shaderPlace,
-            fmt::format("is a {} pass and names '{}', which is for another stage", stanza.type->name, path),
-            {.expected = draw && !pair
-                             ? "a path without stage and ending, or { \"vertex\": …, \"fragment\": … }"
-                             : fmt::format("a path that ends in '{}'", endingOf(own))});
-  };
-  if (pair) check(desc.vertexShader, ShaderShape::draw);
-  check(desc.shader, pair ? ShaderShape::fragment : shader);
+  const char* const expected = draw ? "\"shader\": \"spheres/billboard\", without stage and ending, or { "
+                                      "\"vertex\": …, \"fragment\": … }"
+                               : shader == ShaderShape::compute ? "\"shader\": \"folder/name.comp.glsl\""
+                                                                : "\"shader\": \"folder/name.frag.glsl\"";
   if (!pair && desc.shader.empty())
-    stanza.error(Code::keyNeeded, desc.namePlace, "lacks a shader",
-                 {.expected = draw ? "\"shader\": \"spheres/billboard\", without stage and ending, or "
-                                     "{ \"vertex\": …, \"fragment\": … }"
-                                   : "\"shader\": \"folder/name.stage.glsl\""});
+    return stanza.error(Code::keyNeeded, desc.namePlace, "lacks a shader", {.expected = expected});
+  bool fits = !pair || shader != ShaderShape::compute;
+  const auto check = [&](const std::string& path, ShaderShape own, bool ending) {
+    for (const ShaderShape stage : {ShaderShape::compute, ShaderShape::fragment, ShaderShape::draw})
+      if (path.ends_with(endingOf(stage)) && (stage != own || !ending)) fits = false;
+  };
+  if (pair) check(desc.vertexShader, ShaderShape::draw, true);
+  check(desc.shader, pair ? ShaderShape::fragment : shader, pair || !draw);
+  if (!fits)
+    stanza.error(Code::keyNotTaken, desc.shaderPlace,
+                 fmt::format("is a {} pass and names a shader for another stage", stanza.type->name),
+                 {.expected = expected, .found = desc.shader});
 }
 
 void checkKeys(const Stanza& stanza) {
   const PassDesc& desc = stanza.desc;
   const ShaderShape shader = stanza.type->shader;
   const bool hasShader = shader != ShaderShape::none, draw = shader == ShaderShape::draw;
-  const auto check = [&](const char* key, bool present, bool taken, const Place& place) {
-    const auto& keys = stanza.type->keys;
-    if (present && !taken && std::ranges::find(keys, key) == keys.end())
+  const struct {
+    const char* key;
+    bool present, taken;
+    Place place;
+  } keys[] = {
+      {"threads", desc.threads.present(), false, desc.threads.place()},
+      {"instances", desc.instances.present(), false, desc.instances.place()},
+      {"list", !desc.list.empty(), false, desc.listPlace},
+      {"geometry", !desc.geometry.empty(), false, desc.geometryPlace},
+      {"shader", !desc.shader.empty(), hasShader, desc.shaderPlace},
+      {"state", !desc.state.empty(), draw || shader == ShaderShape::fragment,
+       desc.state.empty() ? Place{} : desc.state[0].place},
+      {"view", desc.view.has_value(), hasShader, desc.view ? desc.view->place : Place{}},
+      {"parameters", !desc.parameters.empty(), hasShader,
+       desc.parameters.empty() ? Place{} : desc.parameters[0].place},
+      {"defines", !desc.defines.empty(), hasShader, desc.defines.empty() ? Place{} : desc.defines[0].place}};
+  for (const auto& [key, present, taken, place] : keys)
+    if (present && !taken && std::ranges::find(stanza.type->keys, key) == stanza.type->keys.end())
       stanza.error(Code::keyNotTaken, place,
                    fmt::format("has the key '{}', which a {} pass does not take", key, stanza.type->name),
                    {.hint = fmt::format("remove \"{}\"", key)});
-  };
-  check("threads", desc.threads.present(), false, desc.threads.place());
-  check("instances", desc.instances.present(), false, desc.instances.place());
-  check("list", !desc.list.empty(), false, desc.listPlace);
-  check("geometry", !desc.geometry.empty(), false, desc.geometryPlace);
-  check("shader", !desc.shader.empty(), hasShader, desc.shaderPlace);
-  if (!desc.state.empty()) check("state", true, draw || shader == ShaderShape::fragment, desc.state[0].place);
-  if (desc.view) check("view", true, hasShader, desc.view->place);
-  if (!desc.parameters.empty()) check("parameters", true, hasShader, desc.parameters[0].place);
-  if (!desc.defines.empty()) check("defines", true, hasShader, desc.defines[0].place);
   const auto modifies = [](const SlotDesc& slot) { return slot.access == Access::modify; };
   if (desc.feedback && std::ranges::none_of(desc.slots, modifies))
     stanza.error(Code::keyNotTaken, desc.namePlace, "has the key 'feedback' and modifies nothing",
-                 {.expected = "a slot in \"modify\" whose own texel it reads",
-                  .hint = "leave \"feedback\" out, or say \"modify\" where the slot says \"write\""});
+                 {.hint = "leave \"feedback\" out, or say \"modify\" where the slot says \"write\""});
   if (!desc.list.empty() && desc.instances.present())
     stanza.error(Code::keyNotTaken, desc.instances.place(),
                  "has \"instances\" and a \"list\", which says how many",
                  {.hint = "leave one of the two out"});
   if (!hasShader) return;
   checkShaders(stanza);
-  const auto lacks = [&](const char* what, const char* expected) {
-    stanza.error(Code::keyNeeded, desc.namePlace, fmt::format("lacks {}", what), {.expected = expected});
-  };
-  if (draw && desc.list.empty() && !desc.instances.present())
-    lacks("what to draw", "\"list\" or \"instances\"");
-  if (draw && desc.geometry.empty())
-    lacks("a geometry", "\"geometry\": \"quad\", \"icosphere(3)\", \"mesh\", …");
   const auto attaches = [](const SlotDesc& slot) {
     return slot.access != Access::read && slot.ref.kind != Kind::image && slot.ref.kind != Kind::storage;
   };
-  if (shader != ShaderShape::compute && !stanza.model.incomplete &&
-      std::ranges::none_of(desc.slots, attaches))
-    lacks("something to draw into",
-          "a slot in \"write\" or \"modify\" that is an attachment: it gives the size of what is drawn, and "
-          "the shader need not write it if nobody reads it");
+  const char* const lacking =
+      draw && desc.list.empty() && !desc.instances.present() ? "what to draw: \"list\" or \"instances\""
+      : draw && desc.geometry.empty() ? "a geometry: \"quad\", \"icosphere(3)\", \"mesh\", …"
+      : shader != ShaderShape::compute && !stanza.model.incomplete &&
+              std::ranges::none_of(desc.slots, attaches)
+          ? "something to draw into: a slot in \"write\" or \"modify\" that is an attachment says how large "
+            "it is"
+          : nullptr;
+  if (lacking) stanza.error(Code::keyNeeded, desc.namePlace, "lacks a key or a slot", {.expected = lacking});
 }
 
 void checkLists(const Stanza& stanza) {
@@ -168,17 +163,13 @@ void checkFixedSlots(const Stanza& stanza) {
 
 void checkExpressions(const Stanza& stanza) {
   const PassDesc& desc = stanza.desc;
-  for (const PassParameterDesc& parameter : desc.parameters)
-    if (parameter.declared && parameter.declared->define)
-      if (const std::uint32_t own = findPassParameter(stanza.scope, desc.name, parameter.name); own != kNone)
-        stanza.model.parameters[own].structural = true;
-  const auto check = [&](const Expr& expr) {
-    if (!expr.present() || expr.isConstant()) return;
-    // The value of a uniform is live, and may contain age(); so may "instances".
+  // The value of a uniform is live, and may contain age(); so may "instances".
+  const auto mayChange = [&](const Expr& expr) {
     const auto isValue = [&](const PassParameterDesc& parameter) { return &parameter.value == &expr; };
-    const bool uniform = std::ranges::any_of(desc.parameters, isValue);
-    checkExpr(stanza.model, stanza.scope, expr, uniform || &expr == &desc.instances, desc.repeat);
-    if (!uniform) markStructural(stanza.model, stanza.scope, expr);
+    return &expr == &desc.instances || std::ranges::any_of(desc.parameters, isValue);
+  };
+  const auto check = [&](const Expr& expr) {
+    checkExpr(stanza.model, stanza.scope, expr, mayChange(expr), desc.repeat);
   };
   visitPass(desc, check, [](const RefDesc&) {});
 }

@@ -93,14 +93,10 @@ class Camera : public ImportOf<CameraProvider> {
                            Files&) const override {
     graph::ImportFacts facts{.exists = true};
     const std::string& name = request.at("name").symbol;
-    if (name.empty() || world.cameras.empty() ||
-        std::ranges::find(world.cameras, name) != world.cameras.end())
-      return facts;
-    text::Diagnostics said;
-    text::Diagnostic& d =
-        said.error(text::Code::badImportArgument, {}, fmt::format("the scene has no camera '{}'", name));
-    d.hint = text::nearestHint(name, world.cameras);
-    facts.problems = said.items();
+    const std::vector<std::string>& known = world.cameras;
+    if (!name.empty() && !known.empty() && std::ranges::find(known, name) == known.end())
+      facts.problems.push_back(badArgument(fmt::format("the scene has no camera '{}'", name), "", "",
+                                           text::nearestHint(name, known)));
     return facts;
   }
 };

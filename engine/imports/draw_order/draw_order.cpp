@@ -16,16 +16,12 @@ class DrawOrderProvider : public Provider {
  public:
   explicit DrawOrderProvider(const graph::ImportRequest& request)
       : list_(drawListOf(request)),
-        by_(request.at("by").symbol == "depth" ? scene::SortBy::depth : scene::SortBy::power),
-        method_(request.at("method").symbol == "cpu_std" ? scene::SortMethod::cpu_std
-                                                         : scene::SortMethod::cpu_radix),
-        sorts_(request.at("method").symbol != "gpu_bitonic") {}
+        by_(request.at("by").symbol == "depth" ? scene::SortBy::depth : scene::SortBy::power) {}
 
   BufferRef buffer(const Frame& frame, const RowLayout&, text::Diagnostics& diagnostics) override {
-    if (!sorts_) return {};
     if (const std::uint64_t now = generation(frame); sorted_ != now) {
       const scene::ViewData& view = frame.camera.view(frame, 1, 1);
-      scene::drawOrder(frame.tables.rows(list_), view, by_, method_, elements_, scratch_);
+      scene::drawOrder(frame.tables.rows(list_), view, by_, elements_, scratch_);
       if (elements_.empty()) elements_.emplace_back();
       if (!sendTo(buffer_, std::as_bytes(std::span(elements_)), "draw order", false, diagnostics)) return {};
       sorted_ = now;
@@ -43,8 +39,6 @@ class DrawOrderProvider : public Provider {
  private:
   scene::DrawList list_;
   scene::SortBy by_;
-  scene::SortMethod method_;
-  bool sorts_;  // else a graph's own passes do
   gl::Buffer buffer_;
   std::uint64_t generation_ = 0, rows_ = 0, camera_ = 0;
   std::uint64_t sorted_ = 0;  // the generation that the buffer holds
@@ -63,10 +57,7 @@ class DrawOrder : public ImportOf<DrawOrderProvider> {
             argument("by", Value::text("power"),
                      "what is compared: power, the squared distance from the eye less the squared radius, "
                      "right for all spheres that do not meet; depth, of the centers along the view axis",
-                     {"power", "depth"}),
-            argument("method", Value::text("cpu_radix"),
-                     "how; gpu_bitonic leaves the buffer to a graph's own passes",
-                     {"cpu_std", "cpu_radix", "gpu_bitonic"})}};
+                     {"power", "depth"})}};
   }
 
   graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,

@@ -1,5 +1,5 @@
 // The environment on the GPU, and one being sent beside it. A new one is sent in portions, one per frame, and taken into use
-// whole: with all its levels, and when the GPU has them. When to switch is decided from outside (app/live/live_environment.h).
+// whole: with all its levels, and when the GPU has them. When to switch is decided from outside (app/live/live_loads.h).
 #pragma once
 
 #include <cstdint>

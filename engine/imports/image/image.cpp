@@ -15,7 +15,7 @@ namespace weft::imports {
 
 namespace {
 
-using assets::StoredHeader;
+using assets::ImageHeader;
 using assets::StoredType;
 using graph::Value;
 
@@ -47,13 +47,13 @@ TexelLayout layoutOf(StoredType type, bool srgb) {
   return {graph::Format::rgba32f, GL_RGBA32F, GL_FLOAT};
 }
 
-std::uint32_t levelsOf(const StoredHeader& header, bool mips) {
+std::uint32_t levelsOf(const ImageHeader& header, bool mips) {
   return mips ? static_cast<std::uint32_t>(
                     std::bit_width(static_cast<unsigned>(std::max(header.width, header.height))))
               : 1;
 }
 
-gl::TextureDesc textureDescOf(const StoredHeader& header, const ImageRequest& request) {
+gl::TextureDesc textureDescOf(const ImageHeader& header, const ImageRequest& request) {
   return {.format = layoutOf(header.type, request.srgb).stored,
           .width = static_cast<std::uint32_t>(header.width),
           .height = static_cast<std::uint32_t>(header.height),
@@ -111,14 +111,13 @@ class ImageProvider : public Provider {
     const bool another = path != path_;
     path_ = path;
     text::Diagnostics said;
-    const auto header = frame.files.get<StoredHeader>(path, assets::loadStoredHeader, said);
+    const auto header = frame.files.get<ImageHeader>(path, assets::loadHeader, said);
     if (header && header == header_ && !another) return;  // as it was
     header_ = header;
-    auto image = header ? assets::loadStored(path, said) : std::nullopt;
+    auto image = header ? assets::loadStored(path, request_.srgb, said) : std::nullopt;
     if (image && pattern_ && another && texture_ && !fits(image->header, path, said)) image.reset();
     diagnostics.append(said);
     if (!image) return;
-    if (request_.srgb && image->header.type == StoredType::word) *image = assets::decodeSrgbWords(*image);
     const gl::TextureDesc desc = textureDescOf(image->header, request_);
     if (!texture_ || !(texture_.desc() == desc)) {
       auto texture = gl::Texture::create(desc, request_.file, diagnostics);
@@ -132,7 +131,7 @@ class ImageProvider : public Provider {
   }
 
   // A sequence has one size: the graph's sizes depend on it.
-  bool fits(const StoredHeader& header, const std::string& path, text::Diagnostics& diagnostics) const {
+  bool fits(const ImageHeader& header, const std::string& path, text::Diagnostics& diagnostics) const {
     if (textureDescOf(header, request_) == texture_.desc()) return true;
     text::Diagnostic& d =
         diagnostics.error(text::Code::badImageSize, {std::make_shared<const std::string>(path)},
@@ -147,8 +146,8 @@ class ImageProvider : public Provider {
   ImageRequest request_;
   std::optional<SequencePattern> pattern_;
   std::vector<std::uint32_t> numbers_;
-  std::string path_;                            // tried last
-  std::shared_ptr<const StoredHeader> header_;  // of it: another object when the file is another
+  std::string path_;                           // tried last
+  std::shared_ptr<const ImageHeader> header_;  // of it: another object when the file is another
   gl::Texture texture_;
   std::uint64_t generation_ = 0;
   bool stale_ = true;
@@ -159,11 +158,9 @@ std::string firstFileOf(const ImageRequest& request, Files& files, text::Diagnos
   const auto pattern = sequencePatternOf(request.file);
   if (!pattern) {
     if (request.frame >= 0) {
-      text::Diagnostic& d =
-          diagnostics.error(text::Code::badImportArgument, {}, "\"frame\" chooses from a sequence");
-      d.expected = "a \"file\" with #### or %04d in its name";
-      d.found = request.file;
-      d.hint = "leave \"frame\" out, or name a sequence: \"clouds.####.png\"";
+      diagnostics.add(badArgument("\"frame\" chooses from a sequence",
+                                  "a \"file\" with #### or %04d in its name", request.file,
+                                  "leave \"frame\" out, or name a sequence: \"clouds.####.png\""));
       return {};
     }
     return request.file;
@@ -175,12 +172,9 @@ std::string firstFileOf(const ImageRequest& request, Files& files, text::Diagnos
   if (request.frame < 0) return pattern->nameOf(numbers.front());
   const std::uint32_t nearest = numberAt(numbers, request.frame);
   if (nearest != std::floor(request.frame)) {
-    text::Diagnostic& d =
-        diagnostics.error(text::Code::badImportArgument, {},
-                          fmt::format("the sequence '{}' has no such picture", request.file));
-    d.expected = fmt::format("\"frame\" from {} to {}", numbers.front(), numbers.back());
-    d.found = fmt::format("{}", request.frame);
-    d.hint = fmt::format("the nearest is {}", nearest);
+    diagnostics.add(badArgument(fmt::format("the sequence '{}' has no such picture", request.file),
+                                fmt::format("\"frame\" from {} to {}", numbers.front(), numbers.back()),
+                                fmt::format("{}", request.frame), fmt::format("the nearest is {}", nearest)));
     return {};
   }
   return pattern->nameOf(nearest);
@@ -217,14 +211,11 @@ class Image : public ImportOf<ImageProvider> {
     const ImageRequest image = imageRequestOf(request);
     if (image.file.empty()) return result;
     text::Diagnostics said;
-    if (image.fps < 0) {
-      text::Diagnostic& d = said.error(text::Code::badImportArgument, {}, "\"fps\" is below 0");
-      d.expected = "pictures per second, or 0 for one per frame";
-      d.found = fmt::format("{}", image.fps);
-    }
+    if (image.fps < 0)
+      said.add(badArgument("\"fps\" is below 0", "pictures per second, or 0 for one per frame",
+                           fmt::format("{}", image.fps)));
     const std::string path = firstFileOf(image, files, said);
-    const auto header =
-        path.empty() ? nullptr : files.get<StoredHeader>(path, assets::loadStoredHeader, said);
+    const auto header = path.empty() ? nullptr : files.get<ImageHeader>(path, assets::loadHeader, said);
     if (header) {
       result.exists = true;
       result.format = layoutOf(header->type, image.srgb).format;

@@ -50,26 +50,19 @@ class LampsProvider : public Provider {
     return generation_;
   }
   bool isStill(const World& world) const override {
-    return !standOnNodes(world.scene()) || !scene::isMoving(world.scene());
+    return !scene::isMoving(world.scene()) ||
+           std::ranges::none_of(world.scene().lamps.rows(),
+                                [](const scene::Lamp& lamp) { return lamp.node.valid(); });
   }
 
  private:
-  static bool standOnNodes(const scene::Scene& scene) {
-    return std::ranges::any_of(scene.lamps.rows(), [](const scene::Lamp& lamp) { return lamp.node.valid(); });
-  }
-
-  // Lamps that stand on no node are the scene's own rows: nothing of the frame is needed for them.
   void follow(const Frame& frame) {
     if (frame_ == frame.number) return;
     frame_ = frame.number;
-    const scene::Scene& scene = frame.world.scene();
-    const std::uint64_t changed = frame.world.sceneGeneration();
-    if (scene_ != changed) onNodes_ = standOnNodes(scene);
-    lamps_ = onNodes_ ? frame.tables.meshFrame().lamps() : scene.lamps.rows();
-    const std::uint64_t placed = onNodes_ ? frame.tables.meshFrame().lightsGeneration() : 0;
-    if (scene_ == changed && placed_ == placed) return;
-    scene_ = changed;
-    placed_ = placed;
+    const scene::MeshFrame& placed = frame.tables.meshFrame();
+    lamps_ = placed.lamps();
+    if (placed_ == placed.lightsGeneration()) return;
+    placed_ = placed.lightsGeneration();
     generation_ = frame.newGeneration();
     rows_.clear();
     for (std::uint32_t row = 0; row < lamps_.size(); ++row)
@@ -86,8 +79,7 @@ class LampsProvider : public Provider {
 
   bool casting_;
   std::uint64_t frame_ = 0, generation_ = 0;
-  std::uint64_t scene_ = 0, placed_ = 0;  // generations of what was seen last
-  bool onNodes_ = false;
+  std::uint64_t placed_ = 0;            // generation of the lamps that were seen last
   std::span<const scene::Lamp> lamps_;  // of this frame
   std::vector<std::uint32_t> rows_;     // of lamps_ that the import has
   scene::ViewData view_;

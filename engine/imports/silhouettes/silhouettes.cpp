@@ -71,13 +71,10 @@ class Silhouettes : public ImportOf<SilhouettesProvider> {
     graph::ImportFacts facts{.exists = true, .count = world.countOf(request.at("list").symbol)};
     const double height = request.at("height").v[0];
     if (height >= 1 && height <= kHighest) return facts;
-    text::Diagnostics said;
-    text::Diagnostic& d =
-        said.error(text::Code::badImportArgument, {}, "import 'silhouettes': argument 'height' does not fit");
-    d.expected = "the height of the picture, 1 to 65536 pixels";
-    d.found = graph::toText(request.at("height"));
-    d.hint = "write \"height\": \"size(hdr).y\", with the picture's name in place of hdr";
-    facts.problems = said.items();
+    facts.problems.push_back(
+        badArgument("import 'silhouettes': argument 'height' does not fit",
+                    "the height of the picture, 1 to 65536 pixels", graph::toText(request.at("height")),
+                    "write \"height\": \"size(hdr).y\", with the picture's name in place of hdr"));
     return facts;
   }
 };

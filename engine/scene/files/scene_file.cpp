@@ -4,14 +4,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <set>
 
 #include "engine/assets/models/model_file.h"
-#include "engine/scene/files/models.h"
 #include "engine/scene/files/reading.h"
+#include "engine/scene/frame/mesh_frame.h"
+#include "engine/scene/models/add_model.h"
 #include "engine/text/files/text_file.h"
 #include "engine/text/nearest.h"
 
@@ -25,32 +28,35 @@ using text::JsonValue;
 namespace {
 
 constexpr text::NumberRange kFov{.min = 1, .max = 170};
-constexpr std::size_t kMaxSpheres = 1 << 24;
+constexpr text::NumberRange kDegrees{.min = -1e6, .max = 1e6};
+constexpr text::NumberRange kSpeed{.min = -1e3, .max = 1e3};
+constexpr std::size_t kMaxSpheres = 1 << 24, kMaxNodes = 1 << 21;
 
-void failNoGrid(const SceneChoice& choice, const JsonValue& where, Diagnostics& diagnostics) {
-  failAt(diagnostics, Code::unknownMaterial, where,
-         fmt::format("there is no grid to give the materials of '{}' to", choice.materials));
+float toRadians(double degrees) {
+  return static_cast<float>(degrees * std::numbers::pi / 180);
 }
 
-// The chosen camera becomes the first one. False after W160: there is none of that name.
-bool chooseCamera(Scene& scene, const SceneChoice& choice, const JsonValue& where, Diagnostics& diagnostics) {
-  std::vector<Camera> cameras(scene.cameras.rows().begin(), scene.cameras.rows().end());
-  const auto chosen =
-      choice.camera.empty() ? cameras.begin() : std::ranges::find(cameras, choice.camera, &Camera::name);
-  if (chosen == cameras.end() && !choice.camera.empty()) {
-    std::vector<std::string> names;
-    for (const Camera& camera : cameras) names.push_back(camera.name);
-    failAt(diagnostics, Code::badSceneValue, where,
-           fmt::format("the scene has no camera '{}'", choice.camera),
-           names.empty() ? "name one under \"cameras\"" : text::nearestHint(choice.camera, names));
-    return false;
-  }
-  if (chosen != cameras.begin()) {
-    std::rotate(cameras.begin(), chosen, chosen + 1);
-    scene.cameras = {};
-    for (Camera& camera : cameras) scene.cameras.add(std::move(camera));
-  }
-  return true;
+// About X, then Y, then Z.
+glm::quat rotationOf(glm::dvec3 degrees) {
+  return glm::angleAxis(toRadians(degrees[2]), glm::vec3(0, 0, 1)) *
+         glm::angleAxis(toRadians(degrees[1]), glm::vec3(0, 1, 0)) *
+         glm::angleAxis(toRadians(degrees[0]), glm::vec3(1, 0, 0));
+}
+
+constexpr double kFovDegrees = 35;
+constexpr float kSunLux = 50000;  // a bright day
+
+// Looks along `towards`, a unit vector, at the whole of `box`.
+CameraPose framePose(const Box& box, glm::dvec3 towards) {
+  const glm::dvec3 center = (glm::dvec3(box.low) + glm::dvec3(box.high)) * 0.5;
+  const double radius = std::max(glm::length(glm::dvec3(box.high) - glm::dvec3(box.low)) / 2, 1e-6);
+  const double distance = radius / std::sin(kFovDegrees / 2 * std::numbers::pi / 180);
+  CameraPose pose;
+  pose.target = center;
+  pose.position = center - towards * distance;
+  pose.fovDegrees = kFovDegrees;
+  pose.nearPlane = distance / 1000;
+  return pose;
 }
 
 Material readMaterial(SceneFields& fields) {
@@ -65,10 +71,10 @@ class Reader {
  public:
   Reader(const std::string& name, Diagnostics& diagnostics, const SceneChoice& choice,
          const assets::LoadObserver& observer)
-      : name_(name),
-        diagnostics_(diagnostics),
-        choice_(choice),
-        models_(scene_, name_, diagnostics, observer) {}
+      : name_(name), diagnostics_(diagnostics), choice_(choice), observer_(observer) {}
+
+  // Everything that was read or should have been, the scene's own file first.
+  const std::vector<std::string>& files() const { return files_; }
 
   std::optional<Scene> read(std::string_view text) {
     const std::size_t errorsBefore = diagnostics_.errorCount();
@@ -82,7 +88,6 @@ class Reader {
             .expected = "a scene, with \"cameras\", \"grid\", \"spheres\", \"models\", \"sun\" or \"lamps\"";
         return {};
       }
-    scene_.files.push_back(name_);
     SceneFields fields(*root, "the scene", Code::badSceneValue, diagnostics_);
     scene_.name = fields.text("name").value_or(std::filesystem::path(name_).stem().string());
     if (const JsonValue* library = fields.find("library")) readLibrary(*library, "'library' of the scene");
@@ -91,34 +96,91 @@ class Reader {
     const JsonValue* cameras = fields.object("cameras");
     if (cameras)
       for (const JsonMember& member : cameras->members) readCamera(member.key, member.value);
-    chooseCamera(scene_, choice_, cameras ? *cameras : *root, diagnostics_);
+    chooseCamera(cameras ? *cameras : *root);
     if (scene_.cameras.size() == 0) scene_.cameras.add({.name = "default", .pose = {.position = {0, 0, 20}}});
     const JsonValue* grid = fields.find("grid");
     if (grid) readGrid(*grid);
-    if (!grid && !choice_.materials.empty()) failNoGrid(choice_, *root, diagnostics_);
+    if (!grid && !choice_.materials.empty()) failNoGrid(*root);
     if (const JsonValue* spheres = fields.array("spheres"))
       for (std::size_t i = 0; i < spheres->items.size(); ++i) readSphere(spheres->items[i], i);
     readLights(fields, scene_, diagnostics_);
     if (const JsonValue* ground = fields.find("ground")) readGround(*ground);
-    models_.read(fields,
-                 [this](const JsonValue& value, const std::string& what) { return materialOf(value, what); });
-    models_.finish();
+    if (const JsonValue* models = fields.object("models"))
+      for (const JsonMember& member : models->members) readModel(member.key, member.value);
     fields.finish();
-    if (diagnostics_.errorCount() > errorsBefore || models_.failed()) return {};
-    return std::move(scene_);
+    if (diagnostics_.errorCount() > errorsBefore || modelMissing_) return {};
+    return finish();
   }
 
-  // Paths of the material libraries and of what belongs to models, readable or not.
-  std::vector<std::string> others() const {
-    std::vector<std::string> paths;
-    for (const auto& [path, ids] : libraries_) paths.push_back(path);
-    paths.insert(paths.end(), models_.files().begin(), models_.files().end());
-    return paths;
+  // A model file as a scene: the model at its own coordinates with its first animation, cameras that frame its box (`front`,
+  // `left`, `right`, `back`, `top`), and its lights; a sun where it has none.
+  std::optional<Scene> readModelFile() {
+    JsonValue whole;
+    whole.place.file = std::make_shared<const std::string>(name_);
+    scene_.name = std::filesystem::path(name_).stem().string();
+    const Loaded* loaded = load(name_);
+    if (!loaded) return {};
+    if (loaded->model.lights.size() > kMaxLamps) {
+      failTooMany(diagnostics_, whole, fmt::format("the model '{}' has too many lights", name_), kMaxLamps,
+                  fmt::format("{}", loaded->model.lights.size()));
+      return {};
+    }
+    ModelCopy copy;
+    copy.root.name = loaded->model.name;
+    if (!loaded->model.animations.empty()) copy.animation = 0;
+    addModelCopy(scene_, loaded->rows, loaded->model, copy);
+    MeshFrame frame;
+    frame.update(scene_, 1, 0, 0);
+    const Box box = frame.sceneBounds();
+    const std::pair<const char*, glm::dvec3> kViews[] = {{"front", {0, 0, -1}},
+                                                         {"left", {1, 0, 0}},
+                                                         {"right", {-1, 0, 0}},
+                                                         {"back", {0, 0, 1}},
+                                                         {"top", {0, -1, 0}}};
+    for (const auto& [name, towards] : kViews)
+      scene_.cameras.add({.name = name, .pose = framePose(box, towards)});
+    if (!scene_.sun && scene_.lamps.size() == 0)
+      scene_.sun = Sun{.direction = glm::normalize(glm::vec3(0.4f, 0.8f, 0.6f)),
+                       .irradiance = glm::vec3(kSunLux / scene_.nits)};
+    if (!choice_.materials.empty()) {
+      failNoGrid(whole);
+      return {};
+    }
+    return chooseCamera(whole) ? std::optional(finish()) : std::nullopt;
   }
 
  private:
   text::Diagnostic& fail(Code code, const JsonValue& value, std::string message, std::string hint = "") {
     return failAt(diagnostics_, code, value, std::move(message), std::move(hint));
+  }
+
+  void failNoGrid(const JsonValue& where) {
+    fail(Code::unknownMaterial, where,
+         fmt::format("there is no grid to give the materials of '{}' to", choice_.materials));
+  }
+
+  Scene finish() {
+    scene_.files = files_;
+    if (!data_->vertices.empty()) scene_.meshData = data_;
+    return std::move(scene_);
+  }
+
+  // The chosen camera becomes the first one. False after W160: there is none of that name.
+  bool chooseCamera(const JsonValue& where) {
+    std::vector<Camera> cameras(scene_.cameras.rows().begin(), scene_.cameras.rows().end());
+    if (choice_.camera.empty()) return true;
+    const auto chosen = std::ranges::find(cameras, choice_.camera, &Camera::name);
+    if (chosen == cameras.end()) {
+      std::vector<std::string> names;
+      for (const Camera& camera : cameras) names.push_back(camera.name);
+      fail(Code::badSceneValue, where, fmt::format("the scene has no camera '{}'", choice_.camera),
+           names.empty() ? "name one under \"cameras\"" : text::nearestHint(choice_.camera, names));
+      return false;
+    }
+    std::rotate(cameras.begin(), chosen, chosen + 1);
+    scene_.cameras = {};
+    for (Camera& camera : cameras) scene_.cameras.add(std::move(camera));
+    return true;
   }
 
   void readGround(const JsonValue& value) {
@@ -157,9 +219,9 @@ class Reader {
     if (const auto known = libraries_.find(path); known != libraries_.end()) return known->second;
     std::vector<MaterialId>& ids = libraries_[path];
     const auto text = text::readTextFile(path, diagnostics_, Code::unreadableFile, value.place);
-    if (text) scene_.files.push_back(path);
+    files_.push_back(path);
     auto library = text ? readMaterialLibrary(*text, path, diagnostics_) : std::nullopt;
-    unread_ = unread_ || !library;
+    libraryMissing_ = libraryMissing_ || !library;
     if (!library) return {};
     if (library->empty())
       fail(Code::unknownMaterial, value, fmt::format("the material library '{}' is empty", path));
@@ -194,7 +256,7 @@ class Reader {
     const auto name = text::readText(value, what, diagnostics_);
     if (!name) return {};
     if (const auto found = byName_.find(*name); found != byName_.end()) return found->second;
-    if (unread_) return {};  // it may be one of a library that could not be read
+    if (libraryMissing_) return {};  // it may be one of a library that could not be read
     std::vector<std::string> names;
     for (const auto& [known, id] : byName_) names.push_back(known);
     fail(Code::unknownMaterial, value, fmt::format("unknown material '{}'", *name),
@@ -312,29 +374,141 @@ class Reader {
     camera.pose.fovDegrees = camera.path.front().fovDegrees;
   }
 
+  // --- models: a file that several entries name is read once
+
+  struct Loaded {
+    assets::Model model;
+    ModelRows rows;
+  };
+
+  const Loaded* load(const std::string& path) {
+    const auto [known, isNew] = models_.try_emplace(path);
+    std::unique_ptr<Loaded>& loaded = known->second;
+    if (!isNew) return loaded.get();
+    std::vector<std::string> files;
+    std::optional<assets::Model> model = assets::loadModel(path, diagnostics_, observer_, &files);
+    for (std::string& file : files)
+      if (std::ranges::find(files_, file) == files_.end()) files_.push_back(std::move(file));
+    modelMissing_ = modelMissing_ || !model;
+    if (!model) return nullptr;
+    loaded = std::make_unique<Loaded>(Loaded{std::move(*model), {}});
+    loaded->rows = addModelTables(scene_, *data_, loaded->model);
+    // They are in the scene's arrays now.
+    static_cast<MeshData&>(loaded->model) = {};
+    return loaded.get();
+  }
+
+  void readModel(const std::string& name, const JsonValue& value) {
+    const std::string what = fmt::format("model '{}'", name);
+    SceneFields fields(value, what, Code::badSceneValue, diagnostics_);
+    fields.require({"file"});
+    ModelCopy copy;
+    Node& root = copy.root;
+    SceneGrid grid;
+    glm::dvec3 rotation(0);
+    float scale = 1;
+    double spin = 0;
+    fields.read("position", kWorld, grid.center);
+    fields.read("rotation", kDegrees, rotation);
+    fields.read("scale", kSize, scale);
+    fields.read("spin", kDegrees, spin);
+    fields.read("velocity", kWorld, root.velocity);
+    root.local.rotation = rotationOf(rotation);
+    root.local.scale = glm::vec3(scale);
+    root.spin = {0, toRadians(spin), 0};
+    copy.lists = readLists(fields, what, diagnostics_);
+    fields.read("speed", kSpeed, copy.speed);
+    fields.read("lights", copy.lights);
+    fields.read("lamp_shadows", copy.lampShadows);
+    const auto file = fields.text("file");
+    if (!fields.find("count")) grid.count = {1, 1, 1};
+    grid.read(fields);
+    if (const JsonValue* material = fields.find("material"))
+      copy.material = materialOf(*material, fmt::format("'material' of {}", what));
+    const JsonValue* animation = fields.find("animation");
+    fields.finish();
+    if (!file || grid.total() == 0) return;
+    const Loaded* loaded =
+        load((std::filesystem::path(name_).parent_path() / *file).lexically_normal().string());
+    if (!loaded) return;
+    if (animation) readAnimation(*animation, what, loaded->model, copy);
+    if (copy.material && !scene_.materials.find(*copy.material)) return;
+    addCopies(value, name, *loaded, std::move(copy), grid);
+  }
+
+  void readAnimation(const JsonValue& value, const std::string& what, const assets::Model& model,
+                     ModelCopy& copy) {
+    std::vector<std::string> names;
+    for (const auto& animation : model.animations) names.push_back(animation->name);
+    std::size_t row = names.size();
+    if (value.is(JsonValue::Type::number)) {
+      if (value.whole && value.number >= 0 && value.number < static_cast<double>(row))
+        row = static_cast<std::size_t>(value.number);
+    } else if (const auto name =
+                   text::readText(value, fmt::format("'animation' of {}", what), diagnostics_)) {
+      row = static_cast<std::size_t>(std::ranges::find(names, *name) - names.begin());
+    } else {
+      return;
+    }
+    if (row < names.size()) {
+      copy.animation = static_cast<std::uint32_t>(row);
+      return;
+    }
+    text::Diagnostic& d = fail(Code::unknownAnimation, value, fmt::format("{} has no such animation", what));
+    d.expected =
+        names.empty() ? "none: its file has no animation" : fmt::format("{}", fmt::join(names, ", "));
+    d.found = describe(value);
+    if (value.is(JsonValue::Type::string)) d.hint = text::nearestHint(value.text, names);
+  }
+
+  void addCopies(const JsonValue& value, const std::string& name, const Loaded& loaded, ModelCopy copy,
+                 const SceneGrid& grid) {
+    const assets::Model& model = loaded.model;
+    const double total = grid.total();
+    const auto suns = static_cast<std::size_t>(
+        std::ranges::count(model.lights, assets::ModelLightKind::sun, &assets::ModelLight::kind));
+    const double rows = total * static_cast<double>(1 + std::max(model.nodes.size(), model.instances.size())),
+                 lamps = copy.lights ? total * static_cast<double>(model.lights.size() - suns) : 0;
+    if (rows + static_cast<double>(scene_.nodes.size()) > static_cast<double>(kMaxNodes))
+      return failTooMany(diagnostics_, value,
+                         fmt::format("with model '{}' the scene has too many nodes", name), kMaxNodes,
+                         fmt::format("{} copies of {} nodes", total, model.nodes.size() + 1));
+    if (lamps + static_cast<double>(scene_.lamps.size()) > static_cast<double>(kMaxLamps))
+      return failTooMany(diagnostics_, value,
+                         fmt::format("with model '{}' the scene has too many lamps", name), kMaxLamps,
+                         fmt::format("{} copies of {} lamps", total, model.lights.size() - suns),
+                         "leave them out: \"lights\": false");
+    if (copy.lights && suns > 0 && !scene_.sun) {
+      sunOf_ = name;
+    } else if (copy.lights && suns > 0 &&
+               !sunOf_.empty()) {  // a sun of the scene file takes the place of all
+      text::Diagnostic& d = diagnostics_.warning(Code::modelPartLeftOut, value.place,
+                                                 fmt::format("the sun of model '{}' was left out", name));
+      d.expected = "one model with a directional light, or a 'sun' in the scene file";
+      d.found = fmt::format("the sun of model '{}'", sunOf_);
+      d.hint = "\"lights\": false leaves the lights of a model out";
+    }
+    grid.forEach([&](std::size_t index, glm::vec3 place) {
+      copy.root.name = total > 1 ? fmt::format("{}[{}]", name, index) : name;
+      copy.root.local.translation = place;
+      addModelCopy(scene_, loaded.rows, model, copy);
+    });
+  }
+
   const std::string name_;
   Diagnostics& diagnostics_;
   const SceneChoice& choice_;
+  const assets::LoadObserver& observer_;
   Scene scene_;
+  std::vector<std::string> files_{name_};
   std::map<std::string, MaterialId> byName_;
   std::map<std::string, std::vector<MaterialId>> libraries_;  // by path
-  bool unread_ = false;                                       // one of them could not be read
-  SceneModels models_;
+  bool libraryMissing_ = false;
+  std::map<std::string, std::unique_ptr<Loaded>> models_;  // by path; null: it failed
+  bool modelMissing_ = false;                              // after errors, or because the observer gave up
+  std::shared_ptr<MeshData> data_ = std::make_shared<MeshData>();
+  std::string sunOf_;  // the model that gave the scene its sun
 };
-
-std::optional<Scene> loadModelFile(const std::string& path, Diagnostics& diagnostics,
-                                   std::vector<std::string>* files, const SceneChoice& choice,
-                                   const assets::LoadObserver& observer) {
-  std::optional<Scene> scene = loadModelScene(path, diagnostics, files, observer);
-  JsonValue whole;
-  whole.place.file = std::make_shared<const std::string>(path);
-  if (scene && !choice.materials.empty()) {
-    failNoGrid(choice, whole, diagnostics);
-    return {};
-  }
-  if (!scene || !chooseCamera(*scene, choice, whole, diagnostics)) return {};
-  return scene;
-}
 
 }  // namespace
 
@@ -372,14 +546,13 @@ std::optional<Scene> readScene(std::string_view text, const std::string& name, D
 std::optional<Scene> loadScene(const std::string& path, Diagnostics& diagnostics,
                                std::vector<std::string>* files, const SceneChoice& choice,
                                const assets::LoadObserver& observer) {
-  if (files) *files = {path};
-  if (assets::isModelName(path)) return loadModelFile(path, diagnostics, files, choice, observer);
-  const std::optional<std::string> text = text::readTextFile(path, diagnostics);
-  if (!text) return {};
   Reader reader(path, diagnostics, choice, observer);
-  std::optional<Scene> scene = reader.read(*text);
-  if (files)
-    for (const std::string& other : reader.others()) files->push_back(other);
+  std::optional<Scene> scene;
+  if (assets::isModelName(path))
+    scene = reader.readModelFile();
+  else if (const auto text = text::readTextFile(path, diagnostics))
+    scene = reader.read(*text);
+  if (files) *files = reader.files();
   return scene;
 }
 

@@ -1,6 +1,6 @@
 // Scene files (scenes/*.json) to Scene. Everything wrong is reported at once: JSON mistakes as W002..W006 with
 // their place, values out of range and an unknown camera as W160, unknown materials as W161, unknown draw
-// lists as W162, and what its material library reports. The format is described in docs/scenes.md.
+// lists as W162, unknown animations as W169, and what its material library and its models report. The format is described in docs/scenes.md.
 #pragma once
 
 #include <optional>
@@ -21,9 +21,10 @@ struct SceneChoice {
       materials;  // path of a library that takes the place of the grid's `materials`; without a grid: W161
 };
 
-// A model file (.gltf, .glb, .obj, .fbx) is a scene too: engine/scene/files/models.h. `observer` hears how far the
-// loading of models is, and may end it: empty then, without a message. Paths in the file are relative to it. Empty after any error. `files`, when given, is set to every file that
-// took part or should have, also after errors: what to watch.
+// A model file (.gltf, .glb, .obj, .fbx) is a scene too: the model at its own coordinates with its first animation, cameras that frame
+// its box, and its lights, or a sun. `observer` hears how far the loading of models is, and may end it: empty then, without a message.
+// Paths in the file are relative to it. Empty after any error. `files`, when given, is set to every file that took part or should have,
+// also after errors: what to watch.
 std::optional<Scene> loadScene(const std::string& path, text::Diagnostics& diagnostics,
                                std::vector<std::string>* files = nullptr, const SceneChoice& choice = {},
                                const assets::LoadObserver& observer = {});

@@ -74,7 +74,7 @@ void MeshFrame::rebuild(const Scene& scene) {
 void MeshFrame::fillJoints(const Scene& scene, bool all) {
   if (!all && std::ranges::find(skinMoves_, 1) == skinMoves_.end()) return;
   jointsGeneration_ = count_;
-  forRanges(skinMoves_.size(), kMinSkins, [&](std::size_t from, std::size_t to) {
+  forRanges(many_, skinMoves_.size(), kMinSkins, [&](std::size_t from, std::size_t to) {
     for (std::size_t s = from; s < to; ++s) {
       const std::vector<glm::mat4>& inverseBind = scene.skins.rows()[s].inverseBind;
       for (std::size_t j = 0; (all || skinMoves_[s] != 0) && j < inverseBind.size(); ++j) {
@@ -108,10 +108,11 @@ void MeshFrame::fillRow(const Scene& scene, ListTable& table, std::uint32_t row)
 void MeshFrame::fillRows(const Scene& scene, bool all) {
   for (ListTable& table : tables_) {
     if (!all && table.moving.empty()) continue;
-    forRanges(all ? table.rows.size() : table.moving.size(), kMinRows, [&](std::size_t from, std::size_t to) {
-      for (std::size_t i = from; i < to; ++i)
-        fillRow(scene, table, all ? static_cast<std::uint32_t>(i) : table.moving[i]);
-    });
+    forRanges(many_, all ? table.rows.size() : table.moving.size(), kMinRows,
+              [&](std::size_t from, std::size_t to) {
+                for (std::size_t i = from; i < to; ++i)
+                  fillRow(scene, table, all ? static_cast<std::uint32_t>(i) : table.moving[i]);
+              });
     table.generation = count_;
   }
 }
@@ -133,7 +134,7 @@ void MeshFrame::fillBounds(const Scene& scene, double time, bool all) {
   for (const ListTable& table : tables_) {
     // In the same parts whatever the number of threads: which of two zeros is least depends on the order.
     partBoxes_.assign((table.bounds.size() + kBoxes - 1) / kBoxes, Box{});
-    forRanges(partBoxes_.size(), 1, [&](std::size_t from, std::size_t to) {
+    forRanges(many_, partBoxes_.size(), 1, [&](std::size_t from, std::size_t to) {
       for (std::size_t i = from * kBoxes; i < std::min(to * kBoxes, table.bounds.size()); ++i)
         partBoxes_[i / kBoxes].add(table.bounds[i]);
     });
@@ -171,13 +172,15 @@ void MeshFrame::update(const Scene& scene, std::uint64_t sceneGeneration, double
   if (another) rebuild(scene);
   std::size_t work = transforms_.movingCount();
   for (const ListTable& table : tables_) work += another ? table.rows.size() : table.moving.size();
-  onThreads(work < kLittleWork ? 1 : threads_, [&] {
-    using Moment = WorldTransforms::Moment;
-    both([&] { transforms_.place(scene, Moment::now); }, [&] { transforms_.place(scene, Moment::previous); });
-    fillJoints(scene, another);
-    fillRows(scene, another);
-    both([&] { fillBounds(scene, time, another); }, [&] { fillLights(scene, another); });
-  });
+  many_ = work >= kLittleWork;
+  using Moment = WorldTransforms::Moment;
+  both(
+      many_, [&] { transforms_.place(scene, Moment::now, many_); },
+      [&] { transforms_.place(scene, Moment::previous, many_); });
+  fillJoints(scene, another);
+  fillRows(scene, another);
+  both(
+      many_, [&] { fillBounds(scene, time, another); }, [&] { fillLights(scene, another); });
   sceneGeneration_ = sceneGeneration;
   time_ = time;
   previousTime_ = previousTime;

@@ -29,10 +29,8 @@ struct Joint {
 
 class MeshFrame {
  public:
-  // How many threads update() may use; 0, the default: as many as the machine has. The tables are the same, byte for byte.
-  // Little work is done on one in any case.
-  void setThreads(int threads) { threads_ = threads; }
-  // Nothing happens for a generation and times that are those of the last call.
+  // Nothing happens for a generation and times that are those of the last call. Little work is done on one thread; the tables are
+  // the same, byte for byte, on any number.
   void update(const Scene& scene, std::uint64_t sceneGeneration, double time, double previousTime);
 
   // The rows of the last update. Those of one mesh stand together, in table order; meshes stand in the order of Scene::meshes.
@@ -76,8 +74,7 @@ class MeshFrame {
   void fillBounds(const Scene& scene, double time, bool all);
   void fillLights(const Scene& scene, bool all);
 
-  int threads_ = 0;
-
+  bool many_ = false;                  // threads, in the present update()
   std::uint64_t sceneGeneration_ = 0;  // 0: none yet
   double time_ = 0, previousTime_ = 0;
   WorldTransforms transforms_;

@@ -87,16 +87,16 @@ void MeshViews::join(MeshView& view) {
   view.visible_.resize(count);
 }
 
-void MeshViews::sort(const MeshFrame& frame, MeshView& view) {
+void MeshViews::sort(const MeshFrame& frame, MeshView& view, bool many) {
   const std::span<const Box> boxes = frame.bounds(view.wish_.list);
   view.keys_.resize(view.visible_.size());
-  forRanges(view.keys_.size(), kMinKeys, [&](std::size_t from, std::size_t to) {
+  forRanges(many, view.keys_.size(), kMinKeys, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
       const std::uint32_t row = view.visible_[i];
       view.keys_[i] = {depthKey(viewDepth(view.wish_.view, boxes[row].center())), row};
     }
   });
-  sortElements(view.keys_, SortMethod::cpu_radix, view.scratch_);
+  sortElements(view.keys_, view.scratch_);
   for (std::size_t i = 0; i < view.keys_.size(); ++i) view.visible_[i] = view.keys_[i].index;
 }
 
@@ -120,18 +120,17 @@ void MeshViews::update(const Scene& scene, const MeshFrame& frame, std::span<Mes
     work += count;
   }
   if (due_.empty()) return;
-  onThreads(work < kLittleViewWork ? 1 : threads_, [&] {
-    forRanges(parts_.size(), 1, [&](std::size_t from, std::size_t to) {
-      for (std::size_t i = from; i < to; ++i) cullPart(frame, parts_[i]);
-    });
-    forRanges(due_.size(), 1, [&](std::size_t from, std::size_t to) {
-      for (std::size_t i = from; i < to; ++i) {
-        MeshView& view = *due_[i];
-        join(view);
-        if (view.wish_.order == MeshOrder::back_to_front) sort(frame, view);
-        makeCommands(scene, frame.rows(view.wish_.list), view.visible_, view.commands_);
-      }
-    });
+  const bool many = work >= kLittleViewWork;
+  forRanges(many, parts_.size(), 1, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) cullPart(frame, parts_[i]);
+  });
+  forRanges(many, due_.size(), 1, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
+      MeshView& view = *due_[i];
+      join(view);
+      if (view.wish_.order == MeshOrder::back_to_front) sort(frame, view, many);
+      makeCommands(scene, frame.rows(view.wish_.list), view.visible_, view.commands_);
+    }
   });
 }
 

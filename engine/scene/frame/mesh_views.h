@@ -73,8 +73,6 @@ class MeshView {
 
 class MeshViews {
  public:
-  // The same as MeshFrame::setThreads().
-  void setThreads(int threads) { threads_ = threads; }
   // Brings the views up to date whose list or wish is another than they were made of.
   void update(const Scene& scene, const MeshFrame& frame, std::span<MeshView* const> views);
 
@@ -85,11 +83,10 @@ class MeshViews {
   };
   void cullPart(const MeshFrame& frame, Part part);
   static void join(MeshView& view);
-  static void sort(const MeshFrame& frame, MeshView& view);
+  static void sort(const MeshFrame& frame, MeshView& view, bool many);
 
   std::vector<MeshView*> due_;  // of the present update()
   std::vector<Part> parts_;     // of these views
-  int threads_ = 0;
   std::uint64_t count_ = 0;
 };
 

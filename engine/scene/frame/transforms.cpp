@@ -128,9 +128,9 @@ void WorldTransforms::rebuild(const Scene& scene) {
   std::ranges::reverse(parts_);
 }
 
-void WorldTransforms::animateAt(const Scene& scene, At& at) const {
+void WorldTransforms::animateAt(const Scene& scene, At& at, bool many) const {
   const std::span<const Animation> animations = scene.animations.rows();
-  forRanges(animations.size(), animationsApart_ ? kMinAnimations : animations.size(),
+  forRanges(many, animations.size(), animationsApart_ ? kMinAnimations : animations.size(),
             [&](std::size_t from, std::size_t to) {
               for (std::size_t i = from; i < to; ++i)
                 applyAnimation(animations[i], at.time, animatedRows_[i], at.locals);
@@ -148,7 +148,7 @@ void WorldTransforms::prepare(const Scene& scene, std::uint64_t sceneGeneration,
   if (sceneGeneration != generation_) {
     rebuild(scene);
     now_.time = time;
-    animateAt(scene, now_);
+    animateAt(scene, now_, false);
     for (std::uint32_t row = 0; row < scene.nodes.size(); ++row) placeRow(scene, now_, row);
     placed_ += scene.nodes.size();
     previous_.world = now_.world;
@@ -170,11 +170,11 @@ void WorldTransforms::prepare(const Scene& scene, std::uint64_t sceneGeneration,
   previous_.time = previousTime;
 }
 
-void WorldTransforms::place(const Scene& scene, Moment moment) {
+void WorldTransforms::place(const Scene& scene, Moment moment, bool many) {
   At& at = of(moment);
   if (!at.due) return;
-  animateAt(scene, at);
-  forRanges(parts_.size() - 1, 1, [&](std::size_t from, std::size_t to) {
+  animateAt(scene, at, many);
+  forRanges(many, parts_.size() - 1, 1, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = parts_[from]; i < parts_[to]; ++i) placeRow(scene, at, moving_[i]);
   });
   at.updates += moving_.size();

@@ -25,11 +25,11 @@ void applyAnimation(const Animation& animation, double time, std::span<const std
 
 class WorldTransforms {
  public:
-  // prepare(), then place() of each moment, the two in any order or at once. Nothing happens for a generation and times that
+  // prepare(), then place() of each moment, the two in any order or at once, each on `many` threads or one. Nothing happens for a generation and times that
   // are those of the last call.
   enum class Moment : std::uint8_t { now, previous };
   void prepare(const Scene& scene, std::uint64_t sceneGeneration, double time, double previousTime);
-  void place(const Scene& scene, Moment moment);
+  void place(const Scene& scene, Moment moment, bool many = false);
 
   // One matrix per row of Scene::nodes.
   std::span<const glm::mat4> now() const { return now_.world; }
@@ -50,7 +50,7 @@ class WorldTransforms {
     std::uint64_t updates = 0;
   };
   void rebuild(const Scene& scene);
-  void animateAt(const Scene& scene, At& at) const;
+  void animateAt(const Scene& scene, At& at, bool many) const;
   void placeRow(const Scene& scene, At& at, std::uint32_t row) const;
   At& of(Moment moment) { return moment == Moment::now ? now_ : previous_; }
 

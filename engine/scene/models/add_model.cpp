@@ -3,9 +3,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "engine/scene/frame/mesh_frame.h"
-#include "engine/scene/frame/parallel.h"
-
 namespace weft::scene {
 
 namespace {
@@ -51,8 +48,7 @@ ModelRows addModelTables(Scene& scene, MeshData& data, const assets::Model& mode
   std::vector<std::uint32_t> textures;
   for (const Texture& texture : model.textures) textures.push_back(addTexture(scene, texture));
   for (Material material : model.materials) {
-    for (std::uint32_t* map : {&material.albedoMap, &material.normalMap, &material.metallicRoughnessMap,
-                               &material.occlusionMap, &material.emissiveMap})
+    for (std::uint32_t* map : material.maps())
       if (*map != kNoRow) *map = textures[*map];
     rows.materials.push_back(scene.materials.add(std::move(material)));
   }
@@ -125,14 +121,6 @@ void addModelCopy(Scene& scene, const ModelRows& rows, const assets::Model& mode
   for (const assets::ModelTrack& track : animation.tracks->tracks)
     animation.nodes.push_back(nodes[track.node]);
   scene.animations.add(std::move(animation));
-}
-
-void decodeOnThreads(int threads, std::size_t count, const std::function<void(std::size_t)>& decode) {
-  onThreads(count > 1 ? threads : 1, [&] {
-    forRanges(count, 1, [&](std::size_t from, std::size_t to) {
-      for (std::size_t i = from; i < to; ++i) decode(i);
-    });
-  });
 }
 
 }  // namespace weft::scene

@@ -2,9 +2,7 @@
 // instances once per copy, and its lights with them.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -35,8 +33,5 @@ struct ModelCopy {
   bool lampShadows = false;  // its lamps cast shadows
 };
 void addModelCopy(Scene& scene, const ModelRows& rows, const assets::Model& model, const ModelCopy& copy);
-
-// Calls `decode` with 0 to count - 1 on at most `threads` threads; 0: as many as the machine has. For assets::DecodeRunner.
-void decodeOnThreads(int threads, std::size_t count, const std::function<void(std::size_t)>& decode);
 
 }  // namespace weft::scene

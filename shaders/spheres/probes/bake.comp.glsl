@@ -1,4 +1,6 @@
-// Light probes, as the import `probes` computes them on the CPU (engine/scene/probes): one thread per probe, spheres in the same order.
+// Light probes: a grid of points, each with the light that spheres throw back to it, as irradiance in spherical harmonics up to
+// band 2, in units of the environment: a sphere's diffuse color, albedo * (1 - metallic), is its radiance, as it is under an
+// environment of radiance 1. Spheres hide neither each other nor the sky. One thread per probe.
 // read    instances   the spheres
 //         box         of spheres/probes/box.comp.glsl
 // write   probes      see gi/grid.glsl

@@ -1,4 +1,4 @@
-// The bounding box of all spheres, which the probes fill: equal to that of engine/scene/probes to the bit. One group of 256 threads.
+// The bounding box of all spheres, which the probes fill. One group of 256 threads.
 // read    instances   the spheres
 // write   box         vec4 low, vec4 high; zeros when there are no spheres
 // params  count       spheres

@@ -1,6 +1,6 @@
-#include "app/output/progress.h"
-
 #include <doctest/doctest.h>
+
+#include "app/output/standard_streams.h"
 
 using namespace weft::app;
 

@@ -1,11 +1,10 @@
-// Records of passes and their comparison; how a failure of fuzz is made smaller.
+// Records of passes and their comparison.
 #include <doctest/doctest.h>
 
 #include <cstdio>
 #include <filesystem>
 
 #include "app/trials/divergence.h"
-#include "app/trials/fuzz.h"
 #include "tests/temporary_folder.h"
 
 using namespace weft;
@@ -118,20 +117,4 @@ TEST_CASE("a signature sees exchanged channels and what is not finite") {
   b = a;
   b.broken = 0.5f;
   CHECK(runtime::differenceOf(a, b) == doctest::Approx(0.5));
-}
-
-TEST_CASE("what fuzz found is made as small as it stays wrong") {
-  const auto shrink = [](FuzzTrial trial, const auto& differs) { return shrinkTrial(trial, 40, differs); };
-  const FuzzTrial found{.seed = 9, .share = false, .poison = runtime::PoisonPattern::nan};
-  // Only the order of the passes 11 and 12 matters.
-  FuzzTrial least =
-      shrink(found, [](const FuzzTrial& t) { return t.seed != 0 && t.first <= 11 && t.last >= 12; });
-  CHECK(least == FuzzTrial{.seed = 9, .first = 11, .last = 12});
-  CHECK(least.arguments() == "--seed 9 --order 11:12 --share on --poison none");
-  // Only the poison.
-  least = shrink(found, [](const FuzzTrial& t) { return t.poison.has_value(); });
-  CHECK(least.arguments() == "--seed 0 --share on --poison nan");
-  // Only that storage is not shared.
-  least = shrink(found, [](const FuzzTrial& t) { return !t.share; });
-  CHECK(least.arguments() == "--seed 0 --share off --poison none");
 }

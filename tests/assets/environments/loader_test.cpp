@@ -1,3 +1,5 @@
+#include "engine/assets/loading/loader.h"
+
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 
@@ -13,6 +15,7 @@
 #include "engine/assets/images/half.h"
 #include "engine/text/files/file_access.h"
 #include "tests/assets/images/save_hdr.h"
+#include "tests/load_image.h"
 #include "tests/temporary_folder.h"
 
 using namespace weft;
@@ -43,6 +46,30 @@ struct Gate {
   }
 };
 
+// What a window's loader of environments does. `gate` may be null.
+static LoadJob environmentJob(Gate* gate = nullptr) {
+  return [gate](const std::string& path, text::Diagnostics& diagnostics,
+                const LoadObserver& observer) -> std::shared_ptr<const void> {
+    auto map = loadEnvironmentMap(path, diagnostics, [&](LoadStage stage, double done) {
+      if (gate) (*gate)(stage);
+      return observer(stage, done);
+    });
+    return map ? std::make_shared<const EnvironmentMap>(std::move(*map)) : nullptr;
+  };
+}
+
+static Loader::Result waitFor(Loader& loader) {
+  for (;;) {
+    if (auto result = loader.poll()) return std::move(*result);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+static Loader::Result load(Loader& loader, const std::string& path) {
+  loader.request(path);
+  return waitFor(loader);
+}
+
 static void checkSame(const EnvironmentMap& map, const ImageF& image) {
   CHECK(map.width == static_cast<std::uint32_t>(image.width));
   CHECK(map.height == static_cast<std::uint32_t>(image.height));
@@ -58,20 +85,20 @@ TEST_CASE("a loaded environment is what the synchronous path gives, rounded to h
   ImageF odd = makeSky(67, 33, 700.0f);  // beyond 65504 in places; a size that no portion divides
   odd.texels[5] = -1;
   REQUIRE(saveExr(exr, odd, diagnostics));
-  Loader loader;
+  Loader loader(environmentJob());
   for (const std::string& path : {writeHdr(folder, "a.hdr", 512, 300), exr}) {
-    const auto result = loader.wait(loader.request(path));
-    REQUIRE(result);
-    REQUIRE(result->as<EnvironmentMap>());
+    const auto result = load(loader, path);
+    REQUIRE(result.as<EnvironmentMap>());
     text::Diagnostics said;
     const auto image = loadEnvironment(path, said);
     REQUIRE(image);
-    checkSame(*result->as<EnvironmentMap>(), *image);
-    CHECK(result->diagnostics.text() == said.text());
-    CHECK(loader.progress(result->ticket).stage == LoadStage::idle);
+    checkSame(*result.as<EnvironmentMap>(), *image);
+    CHECK(result.path == path);
+    CHECK(result.diagnostics.text() == said.text());
+    CHECK(loader.progress().stage == LoadStage::idle);
   }
   const std::string real = std::string(WEFT_SOURCE_DIR) + "/scenes/environments/spiaggia_di_mondello_1k.hdr";
-  checkSame(*loader.wait(loader.request(real))->as<EnvironmentMap>(), *loadEnvironment(real, diagnostics));
+  checkSame(*load(loader, real).as<EnvironmentMap>(), *loadEnvironment(real, diagnostics));
 }
 
 TEST_CASE("an RGB picture in memory becomes the same map as its file") {
@@ -82,95 +109,60 @@ TEST_CASE("an RGB picture in memory becomes the same map as its file") {
   CHECK(toEnvironmentMap(*image).texels == loadEnvironmentMap(folder.at("a.hdr"), diagnostics)->texels);
 }
 
-TEST_CASE("many requests finish in the order they were made, and no more than the bound are taken") {
-  const TemporaryFolder folder;
-  Gate gate;
-  Loader loader([&](std::uint64_t, LoadStage stage) { gate(stage); });
-  std::vector<std::uint64_t> tickets;
-  for (std::size_t i = 0; i < Loader::kMaxRequests; ++i)
-    tickets.push_back(
-        loader.request(writeHdr(folder, std::to_string(i) + ".hdr", 8 + static_cast<int>(i), 8)));
-  gate.reached.acquire();
-  CHECK(loader.request(folder.at("0.hdr")) == 0);
-  CHECK(!loader.poll());
-  CHECK(loader.progress(tickets[0]).stage == LoadStage::reading);
-  CHECK(loader.progress(tickets[5]).stage == LoadStage::waiting);
-  CHECK(loader.progress(tickets.back() + 1).stage == LoadStage::idle);
-  gate.go.release();
-  auto last = loader.wait(tickets.back());
-  REQUIRE(last);
-  for (std::size_t i = 0; i + 1 < tickets.size(); ++i) {
-    const auto result = loader.poll();  // all before the last are finished
-    REQUIRE(result);
-    CHECK(result->ticket == tickets[i]);
-    REQUIRE(result->as<EnvironmentMap>());
-    CHECK(result->as<EnvironmentMap>()->width == 8 + i);
-  }
-  CHECK(!loader.poll());
-  CHECK(!loader.wait(tickets[0]));
-  CHECK(loader.request(folder.at("0.hdr")) != 0);
-}
-
-TEST_CASE("a request replaces those of its channel: waiting, running and finished ones, and no other's") {
+TEST_CASE("a request replaces the one before, whether it waits, runs or is finished") {
   const TemporaryFolder folder;
   const std::string a = writeHdr(folder, "a.hdr", 16, 8), b = writeHdr(folder, "b.hdr", 24, 8),
                     c = writeHdr(folder, "c.hdr", 32, 8);
   for (const LoadStage stage : {LoadStage::reading, LoadStage::decoding, LoadStage::converting}) {
     Gate gate{.at = stage};
-    Loader loader([&](std::uint64_t, LoadStage at) { gate(at); });
-    const std::uint64_t running = loader.request(a, 1);
+    Loader loader(environmentJob(&gate));
+    loader.request(a);
     gate.reached.acquire();
-    const std::uint64_t other = loader.request(a, 2), waiting = loader.request(b, 1),
-                        wanted = loader.request(c, 1);
+    loader.request(b);
+    CHECK(loader.progress().stage == LoadStage::waiting);
+    CHECK(!loader.poll());
+    loader.request(c);
     gate.go.release();
-    CHECK(!loader.wait(running));
-    CHECK(!loader.wait(waiting));
-    const auto result = loader.wait(wanted);
-    REQUIRE(result);
-    CHECK(result->as<EnvironmentMap>()->width == 32);
-    CHECK(loader.wait(other)->as<EnvironmentMap>()->width == 16);
+    CHECK(waitFor(loader).as<EnvironmentMap>()->width == 32);
     CHECK(!loader.poll());
   }
-  Loader loader;
-  const std::uint64_t finished = loader.request(a, 1);
-  CHECK(loader.wait(loader.request(b, 2)));  // after it
-  const std::uint64_t wanted = loader.request(c, 1);
-  CHECK(!loader.wait(finished));
-  CHECK(loader.wait(wanted)->as<EnvironmentMap>()->width == 32);
+  Loader loader(environmentJob());
+  loader.request(a);
+  while (loader.progress().stage != LoadStage::idle) std::this_thread::yield();
+  CHECK(load(loader, c).as<EnvironmentMap>()->width == 32);
 }
 
 TEST_CASE("a canceled request has no result, and the next one is served") {
   const TemporaryFolder folder;
   Gate gate;
-  Loader loader([&](std::uint64_t, LoadStage at) { gate(at); });
-  const std::uint64_t running = loader.request(writeHdr(folder, "a.hdr", 16, 8));
+  Loader loader(environmentJob(&gate));
+  loader.request(writeHdr(folder, "a.hdr", 16, 8));
   gate.reached.acquire();
-  const std::uint64_t next = loader.request(folder.at("a.hdr"));
-  loader.cancel(running);
-  loader.cancel(12345);
+  loader.cancel();
+  CHECK(loader.progress().stage == LoadStage::idle);
   gate.go.release();
-  CHECK(loader.wait(next));
+  CHECK(!loader.poll());
+  CHECK(load(loader, folder.at("a.hdr")).as<EnvironmentMap>());
   CHECK(!loader.poll());
 }
 
-TEST_CASE("a loader may die at any stage of a load, with requests waiting and results not fetched") {
+TEST_CASE("a loader may die at any stage of a load, with a request waiting or a result not fetched") {
   const TemporaryFolder folder;
   const std::string path = writeHdr(folder, "a.hdr", 64, 32);
   for (const LoadStage stage : {LoadStage::reading, LoadStage::decoding, LoadStage::converting}) {
     Gate gate{.at = stage};
     {
-      Loader loader([&](std::uint64_t, LoadStage at) { gate(at); });
-      loader.request(path);
+      Loader loader(environmentJob(&gate));
       loader.request(path);
       gate.reached.acquire();
+      loader.request(path);
       gate.go.release();
     }
-    Loader unfetched;
-    const std::uint64_t first = unfetched.request(path);
-    unfetched.wait(unfetched.request(path));
-    CHECK(first != 0);
+    Loader unfetched(environmentJob());
+    unfetched.request(path);
+    while (unfetched.progress().stage != LoadStage::idle) std::this_thread::yield();
   }
-  const Loader unused;
+  const Loader unused(environmentJob());
 }
 
 TEST_CASE(
@@ -190,25 +182,24 @@ TEST_CASE(
                                           folder.write("half.hdr", whole.substr(0, whole.size() / 2)),
                                           folder.write("text.exr", "not a picture"),
                                           folder.write("a.xyz", "x")};
-  Loader loader;
+  Loader loader(environmentJob());
   for (const std::string& path : paths) {
     CAPTURE(path);
-    const auto result = loader.wait(loader.request(path));
-    REQUIRE(result);
-    CHECK(!result->as<EnvironmentMap>());
+    const auto result = load(loader, path);
+    CHECK(!result.as<EnvironmentMap>());
     text::Diagnostics said;
     CHECK(!loadEnvironment(path, said));
     CHECK(said.hasErrors());
-    CHECK(result->diagnostics.text() == said.text());
-    CHECK(result->diagnostics.text().find(path) != std::string::npos);
+    CHECK(result.diagnostics.text() == said.text());
+    CHECK(result.diagnostics.text().find(path) != std::string::npos);
   }
   // Whatever a flipped byte does, it does the same on the thread.
-  const auto flipped = loader.wait(loader.request(folder.write("flipped.hdr", damaged)));
+  const auto flipped = load(loader, folder.write("flipped.hdr", damaged));
   text::Diagnostics said;
   CHECK(loadEnvironment(folder.at("flipped.hdr"), said).has_value() ==
-        (flipped->as<EnvironmentMap>() != nullptr));
-  CHECK(flipped->diagnostics.text() == said.text());
-  CHECK(loader.wait(loader.request(good))->as<EnvironmentMap>());
+        (flipped.as<EnvironmentMap>() != nullptr));
+  CHECK(flipped.diagnostics.text() == said.text());
+  CHECK(load(loader, good).as<EnvironmentMap>());
 }
 
 TEST_CASE("progress grows through the stages of a load and never falls within it") {
@@ -225,12 +216,12 @@ TEST_CASE("progress grows through the stages of a load and never falls within it
   CHECK(seen.back().first == LoadStage::converting);
   CHECK(std::ranges::count(seen, LoadStage::reading, &std::pair<LoadStage, double>::first) > 2);
 
-  Loader loader;
-  const std::uint64_t ticket = loader.request(path);
+  Loader loader(environmentJob());
+  loader.request(path);
   float before = 0;
-  std::optional<LoadQueue::Result> result;
+  std::optional<Loader::Result> result;
   while (!(result = loader.poll())) {
-    const LoadProgress now = loader.progress(ticket);
+    const LoadProgress now = loader.progress();
     if (now.stage == LoadStage::idle) continue;  // finished a moment ago
     CHECK(now.done >= before);
     CHECK(now.done <= 1);

@@ -10,6 +10,7 @@
 #include "engine/assets/images/image.h"
 #include "engine/text/files/file.h"
 #include "tests/assets/images/save_hdr.h"
+#include "tests/load_image.h"
 #include "tests/temporary_folder.h"
 
 using namespace weft;

@@ -9,6 +9,7 @@
 
 #include "engine/assets/images/half.h"
 #include "tests/assets/images/save_hdr.h"
+#include "tests/load_image.h"
 #include "tests/temporary_folder.h"
 
 using namespace weft;

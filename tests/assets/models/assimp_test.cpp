@@ -176,9 +176,7 @@ TEST_CASE("OBJ: where some vertices have no color, all are left out, with a warn
   const text::Diagnostic& d = diagnostics.items()[0];
   CHECK(d.code == Code::modelPartLeftOut);
   CHECK(d.severity == text::Severity::warning);
-  CHECK(d.place.line == 3);
   CHECK(d.message.find("vertex colors") != std::string::npos);
-  CHECK(!d.expected.empty());
   CHECK(!d.hint.empty());
 }
 

@@ -109,11 +109,8 @@ TEST_CASE(
   tryAll("graphs/deferred.json", {}, 30);
   tryAll("graphs/deferred.json",
          {{"ao_method", "hemisphere"}, {"store_positions", "true"}, {"bayer", "true"}}, 30);
-  for (const char* source : {"cpu", "gpu"}) {
-    const std::vector<graph::Setting> sets = {{"gi_source", source}, {"probes_debug", "true"}};
-    tryAll("graphs/deferred_gi.json", sets, 32);
-    tryAll("graphs/studio_gi.json", sets, 20);
-  }
+  tryAll("graphs/deferred_gi.json", {{"probes_debug", "true"}}, 32);
+  tryAll("graphs/studio_gi.json", {{"probes_debug", "true"}}, 20);
   tryAll("graphs/studio.json", {{"occlusion", "true"}}, 24);
-  tryAll("graphs/gi.json", {{"gi_source", "gpu"}}, 3);
+  tryAll("graphs/gi.json", {}, 3);
 }

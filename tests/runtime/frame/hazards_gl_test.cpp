@@ -103,7 +103,6 @@ TEST_CASE("hazards: each bit of a plan is missed when it is taken away") {
     CAPTURE(graph);
     GlTrace trace;
     Stage stage(graph, 64, 36, "tests/runtime/scenes/everything.json");
-    if (graph.ends_with("_gi.json")) stage.settings.sets = {{"gi_source", "gpu"}};
     REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
     runFrames(trace, stage, alwaysOf(*stage.execution().plan().graph), {}, 4);
     REQUIRE(findHazard(trace) == "");

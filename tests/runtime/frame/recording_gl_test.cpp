@@ -203,17 +203,16 @@ TEST_CASE("the same with every boolean parameter of the studio switched, one by 
   CHECK(switched >= 10);
 }
 
-TEST_CASE("the same with probes from the GPU and from the CPU, in textures and in a buffer, shown and not") {
+TEST_CASE("the same with probes in textures and in a buffer, shown and not") {
   const CleanScope clean;
   Tally tally;
   Stage stage("graphs/studio_gi.json", 96, 54, "tests/golden/moving.json");
-  for (const char* source : {"cpu", "gpu"})
-    for (const char* sampling : {"textures", "buffer"})
-      for (const char* shown : {"false", "true"}) {
-        stage.settings.sets = {{"gi_source", source}, {"gi_sampling", sampling}, {"probes_debug", shown}};
-        REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
-        recordFrames(stage, std::string(source) + " " + sampling + " " + shown, tally);
-      }
+  for (const char* sampling : {"textures", "buffer"})
+    for (const char* shown : {"false", "true"}) {
+      stage.settings.sets = {{"gi_sampling", sampling}, {"probes_debug", shown}};
+      REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+      recordFrames(stage, std::string(sampling) + " " + shown, tally);
+    }
   MESSAGE(tally.frames << " frames, " << tally.barriers << " barriers");
   CHECK(tally.barriers > 0);
 }
@@ -224,8 +223,8 @@ TEST_CASE("the same for the deferred graphs with all that a scene may hold, and 
       {},
       {{"ao_method", "hemisphere"}, {"clustered", "false"}, {"sun_shadow", "filtered"}},
       {{"store_positions", "true"}, {"bayer", "true"}, {"motion_blur", "true"}, {"auto_exposure", "true"}}};
-  const std::vector<std::vector<graph::Setting>> probes = {{{"gi_source", "gpu"}, {"probes_debug", "true"}},
-                                                           {{"gi_source", "gpu"}, {"gi_sampling", "buffer"}}};
+  const std::vector<std::vector<graph::Setting>> probes = {{{"probes_debug", "true"}},
+                                                           {{"gi_sampling", "buffer"}}};
   Tally deferred, gi;
   for (const bool with_probes : {false, true}) {
     Tally& tally = with_probes ? gi : deferred;

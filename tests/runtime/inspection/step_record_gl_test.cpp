@@ -76,10 +76,10 @@ TEST_CASE("a pass that did not run has no record, and one that keeps its results
       if (std::exchange(last, record.pass) != record.pass) passes += record.pass + " ";
     return passes;
   };
-  // `map` takes two frames, then its group is published. Until then `after` waits.
+  // `map` takes two frames, then its group is published. Until then `total` and `after` wait.
   CHECK(passesAt(0) == "field show ");
   CHECK(passesAt(1) == "map show ");
-  CHECK(passesAt(2) == "map total show ");
+  CHECK(passesAt(2) == "map show ");
   CHECK(passesAt(3) == "field map total after show ");
   CHECK(passesAt(4) == "field map total after show ");  // all but `show` ran earlier
   CHECK_FALSE(stage.ran("after"));

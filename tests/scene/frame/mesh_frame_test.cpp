@@ -2,6 +2,7 @@
 #include "engine/scene/frame/mesh_frame.h"
 
 #include <doctest/doctest.h>
+#include <tbb/task_arena.h>
 
 #include <cmath>
 #include <cstring>
@@ -277,12 +278,11 @@ TEST_CASE("a frame is the same, byte for byte, on one thread and on two") {
     const auto scene = loadScene(kSource + file, diagnostics);
     REQUIRE_MESSAGE(scene, diagnostics.text());
     MeshFrame one, two;
-    one.setThreads(1);
-    two.setThreads(2);
+    tbb::task_arena single(1), pair(2);
     for (int i = 0; i < 4; ++i) {
       const double time = 0.1 * i, before = i == 2 ? 7 : 0.1 * (i - 1);
-      one.update(*scene, 1, time, before);
-      two.update(*scene, 1, time, before);
+      single.execute([&] { one.update(*scene, 1, time, before); });
+      pair.execute([&] { two.update(*scene, 1, time, before); });
       const auto same = [](const auto& a, const auto& b) {
         return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
       };

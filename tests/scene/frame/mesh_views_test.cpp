@@ -2,6 +2,7 @@
 #include "engine/scene/frame/mesh_views.h"
 
 #include <doctest/doctest.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstring>
@@ -69,8 +70,7 @@ TEST_CASE("all views at once see what each would see alone, on one thread and on
   const Scene scene = scatteredMeshes(30000, 3);
   MeshFrame frame;
   MeshViews one, two;
-  one.setThreads(1);
-  two.setThreads(2);
+  tbb::task_arena single(1), pair(2);
   std::vector<MeshView> seen(5), seenByTwo(5);
   for (int i = 0; i < 4; ++i) {
     frame.update(scene, 1, 0.5 * i, 0.5 * (i - 1));
@@ -87,8 +87,8 @@ TEST_CASE("all views at once see what each would see alone, on one thread and on
       for (MeshView& view : from) all.push_back(&view);
       return all;
     };
-    one.update(scene, frame, pointers(seen));
-    two.update(scene, frame, pointers(seenByTwo));
+    single.execute([&] { one.update(scene, frame, pointers(seen)); });
+    pair.execute([&] { two.update(scene, frame, pointers(seenByTwo)); });
     for (std::size_t v = 0; v < seen.size(); ++v) {
       CHECK(areSame(seen[v].visible(), seenByTwo[v].visible()));
       CHECK(areSame(seen[v].commands(), seenByTwo[v].commands()));

@@ -41,12 +41,12 @@ TEST_CASE("gi: one bounce between two spheres against brute force, at a probe an
   int count = 0;
   const ProbeRules rules{.far = 100};
   const ProbeGrid grid{.low = {-3.5f, -2, -2}, .high = {3.5f, 2, 2}, .count = {21, 13, 13}};
-  const std::vector<Probe> probes = computed(grid, rules, spheres);
+  const std::vector<Probe> probes = computeProbes(grid, rules, spheres);
   for (const glm::vec3& point :
        {glm::vec3(0, 0, 0), glm::vec3(0.31f, 0.9f, -0.5f), glm::vec3(-0.73f, -0.6f, 1.2f),
         glm::vec3(0.11f, 1.7f, 0.4f), glm::vec3(2.4f, 1.6f, 0.1f), glm::vec3(-1.1f, 0.2f, 0.9f)}) {
     const ProbeGrid one{.low = point, .high = point, .count = {1, 1, 1}};
-    const Probe exact = computed(one, rules, spheres)[0];
+    const Probe exact = computeProbes(one, rules, spheres)[0];
     const Probe mixed = probeAt(grid, probes, point);
     for (const glm::dvec3& normal : directions(30, 6)) {
       const glm::dvec3 truth = bruteForce(point, normal, spheres, 100);
@@ -73,7 +73,7 @@ TEST_CASE("gi: in a wall of spheres, which hide nothing here, a sphere gets abou
   for (int i = 0; i < 100; ++i)
     spheres.push_back(ball({(i % 10 - 4.5f) * 2.5f, (i / 10 - 4.5f) * 2.5f, 0}, 1));
   const ProbeGrid grid = placeProbes(spheres, {21, 21, 3});
-  const std::vector<Probe> probes = computed(grid, {}, spheres);
+  const std::vector<Probe> probes = computeProbes(grid, {}, spheres);
   std::vector<Instance> others = spheres;
   others.erase(others.begin() + 44);
   double truth = 0, given = 0;
@@ -99,7 +99,7 @@ TEST_CASE("gi: outside the box of the spheres their light falls off about as ray
         std::tuple("two", std::vector{ball({-2.5f, 0, 0}, 1), ball({2.5f, 0, 0}, 1)},
                    glm::uvec3(21, 13, 13))}) {
     const ProbeGrid grid = placeProbes(spheres, counts);
-    const std::vector<Probe> probes = computed(grid, {}, spheres);
+    const std::vector<Probe> probes = computeProbes(grid, {}, spheres);
     const glm::dvec3 half = glm::dvec3(grid.high - grid.low) * 0.5,
                      middle = glm::dvec3(grid.high + grid.low) * 0.5;
     for (const auto& [away, most] :
@@ -131,7 +131,7 @@ TEST_CASE(
   // A probe far from one sphere: its light comes from one direction.
   const std::vector<Instance> one = {ball({0, 0, 0}, 1)};
   const auto probeOf = [](const std::vector<Instance>& spheres, glm::vec3 point) {
-    return computed({.low = point, .high = point, .count = {1, 1, 1}}, kBare, spheres)[0];
+    return computeProbes({.low = point, .high = point, .count = {1, 1, 1}}, kBare, spheres)[0];
   };
   for (const glm::dvec3& from : directions(20, 11)) {
     const Bounce bounce = bounceOf(probeOf(one, glm::vec3(from * 60.0)), glm::vec3(-from));

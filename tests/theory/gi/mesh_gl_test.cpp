@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/probes/probes.h"
 #include "tests/theory/gi/probe_reading.h"
+#include "tests/theory/gi/probe_reference.h"
 #include "tests/theory/mesh_scene.h"
 
 using namespace weft;
@@ -64,8 +64,7 @@ TEST_CASE(
     "from textures and from the buffer") {
   const CleanScope clean;
   const scene::ProbeGrid grid = scene::placeProbes(kSpheres, {21, 21, 3});
-  std::vector<scene::Probe> probes(grid.size());
-  scene::computeProbes(grid, {}, kSpheres, probes);
+  const std::vector<scene::Probe> probes = scene::computeProbes(grid, {}, kSpheres);
   for (const std::string graph : {"graphs/studio_gi.json", "graphs/deferred_gi.json"}) {
     const std::vector<float> off = render(graph, {{"bounce", "false"}});
     const std::vector<float> diffuse =

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/probes/probes.h"
+#include "tests/theory/gi/probe_reference.h"
 
 namespace weft::scene {
 

@@ -1,7 +1,5 @@
 // Light probes on the CPU against integrals written from the definitions: projection and irradiance of a known function, the
 // cap of a sphere by counting rays that meet it.
-#include "engine/scene/probes/probes.h"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -14,6 +12,7 @@
 #include <vector>
 
 #include "tests/theory/gi/probe_reading.h"
+#include "tests/theory/gi/probe_reference.h"
 #include "tests/theory/gi/spheres.h"
 
 using namespace weft::theory;
@@ -160,7 +159,7 @@ TEST_CASE("gi: a grid has what each sphere gives each probe, added up; none is l
   for (const ProbeRules& rules :
        {ProbeRules{}, ProbeRules{.far = 3, .window = ProbeWindow::hard}, ProbeRules{.far = 500}}) {
     const ProbeGrid grid = placeProbes(spheres, {7, 5, 4});
-    const std::vector<Probe> probes = computed(grid, rules, spheres);
+    const std::vector<Probe> probes = computeProbes(grid, rules, spheres);
     std::size_t lit = 0;
     for (std::uint32_t k = 0; k < 4; ++k)
       for (std::uint32_t j = 0; j < 5; ++j)
@@ -183,7 +182,7 @@ TEST_CASE("gi: a grid has what each sphere gives each probe, added up; none is l
   }
   std::vector<Instance> metals = spheres;
   for (Instance& sphere : metals) sphere.metallic = 1;
-  for (const Probe& probe : computed(placeProbes(metals, {5, 5, 5}), {}, metals))
+  for (const Probe& probe : computeProbes(placeProbes(metals, {5, 5, 5}), {}, metals))
     for (const glm::vec4& each : probe.sh) CHECK(each == glm::vec4(0));
 }
 
@@ -199,7 +198,8 @@ TEST_CASE(
   CHECK(grid.position({2, 0, 0}).x == 2);
   CHECK(grid.size() == 6);
   const ProbeGrid none = placeProbes({}, {2, 2, 2});
-  for (const Probe& probe : computed(none, {}, {})) CHECK(irradianceOf(probe, {0, 1, 0}) == glm::vec3(0));
+  for (const Probe& probe : computeProbes(none, {}, {}))
+    CHECK(irradianceOf(probe, {0, 1, 0}) == glm::vec3(0));
 }
 
 TEST_CASE("gi: between probes their mix is linear, and outside the box it falls off without a step") {
@@ -229,14 +229,4 @@ TEST_CASE("gi: between probes their mix is linear, and outside the box it falls 
                 farther = leftOutside(grid, edge + 400.0f * (point - edge));
     CHECK(far == doctest::Approx(4 * farther).epsilon(0.05));
   }
-}
-
-TEST_CASE("gi: computing stops where it is told to") {
-  const std::vector<Instance> spheres = cloud(10, 7);
-  const ProbeGrid grid = placeProbes(spheres, {4, 4, 4});
-  std::vector<Probe> probes(grid.size());
-  std::atomic<bool> canceled = true;
-  CHECK_FALSE(computeProbes(grid, {}, spheres, probes, &canceled));
-  canceled = false;
-  CHECK(computeProbes(grid, {}, spheres, probes, &canceled));
 }

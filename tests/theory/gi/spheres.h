@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "engine/scene/probes/probes.h"
+#include "tests/theory/gi/probe_reference.h"
 
 namespace weft::theory {
 
@@ -52,13 +52,6 @@ inline bool meets(glm::dvec3 from, glm::dvec3 direction, glm::dvec3 center, doub
 
 inline Instance ball(glm::vec3 center, float radius, glm::vec3 albedo = glm::vec3(1), float metallic = 0) {
   return {.center = center, .radius = radius, .albedo = albedo, .metallic = metallic};
-}
-
-inline std::vector<Probe> computed(const ProbeGrid& grid, const ProbeRules& rules,
-                                   const std::vector<Instance>& spheres) {
-  std::vector<Probe> probes(grid.size());
-  REQUIRE(computeProbes(grid, rules, spheres, probes));
-  return probes;
 }
 
 }  // namespace weft::theory

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/load_image.h"
+
 namespace weft::theory {
 
 namespace {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/load_image.h"
+
 namespace weft::theory {
 
 namespace {

@@ -7,6 +7,8 @@
 #include <memory>
 #include <numbers>
 
+#include "tests/load_image.h"
+
 namespace weft::theory {
 
 namespace {

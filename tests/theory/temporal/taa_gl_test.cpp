@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/load_image.h"
 #include "tests/theory/lab.h"
 
 using namespace weft::theory;

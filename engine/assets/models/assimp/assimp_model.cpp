@@ -1,6 +1,7 @@
 #include "engine/assets/models/assimp/assimp_model.h"
 
 #include <assimp/GltfMaterial.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <assimp/IOStream.hpp>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/ProgressHandler.hpp>
@@ -22,6 +22,7 @@
 
 #include "engine/assets/models/assimp/model_check.h"
 #include "engine/assets/models/parts/mesh_builder.h"
+#include "engine/assets/models/parts/texture_pool.h"
 #include "engine/text/limits.h"
 
 namespace weft::assets {
@@ -30,33 +31,6 @@ using text::Code;
 using text::Diagnostics;
 
 namespace {
-
-// A file in memory.
-class MemoryStream final : public Assimp::IOStream {
- public:
-  explicit MemoryStream(std::string bytes) : bytes_(std::move(bytes)) {}
-  std::size_t Read(void* out, std::size_t size, std::size_t count) override {
-    if (size == 0) return 0;
-    const std::size_t whole = std::min(count, (bytes_.size() - at_) / size);
-    std::memcpy(out, bytes_.data() + at_, whole * size);
-    at_ += whole * size;
-    return whole;
-  }
-  std::size_t Write(const void*, std::size_t, std::size_t) override { return 0; }
-  aiReturn Seek(std::size_t offset, aiOrigin origin) override {
-    const std::size_t from = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? at_ : bytes_.size();
-    if (offset > bytes_.size() - from) return aiReturn_FAILURE;
-    at_ = from + offset;
-    return aiReturn_SUCCESS;
-  }
-  std::size_t Tell() const override { return at_; }
-  std::size_t FileSize() const override { return bytes_.size(); }
-  void Flush() override {}
-
- private:
-  std::string bytes_;
-  std::size_t at_ = 0;
-};
 
 // All that Assimp may open: the model itself, which was read and checked, and material libraries of its folder.
 class ModelIo final : public Assimp::IOSystem {
@@ -68,22 +42,26 @@ class ModelIo final : public Assimp::IOSystem {
   char getOsSeparator() const override { return '/'; }
   Assimp::IOStream* Open(const char* path, const char* mode) override {
     if (std::strchr(mode, 'w') || std::strchr(mode, 'a')) return nullptr;
-    if (path == name_) return new MemoryStream(bytes_);
+    if (path == name_) return streamOf(bytes_);
     std::string wanted = path;
     std::ranges::replace(wanted, '\\', '/');
     while (wanted.starts_with("./")) wanted.erase(0, 2);
     // Each file once; Assimp asks again under a name of its own for a library that is missing.
     if (const auto known = others_.find(wanted); known != others_.end())
-      return known->second ? new MemoryStream(*known->second) : nullptr;
+      return known->second ? streamOf(*known->second) : nullptr;
     if (missing_) return nullptr;
     auto bytes = files_.readOptional(wanted, files_.place(), text::Code::modelPartLeftOut, false);
     missing_ = !bytes;
     const auto& kept = others_.emplace(wanted, std::move(bytes)).first->second;
-    return kept ? new MemoryStream(*kept) : nullptr;
+    return kept ? streamOf(*kept) : nullptr;
   }
   void Close(Assimp::IOStream* stream) override { delete stream; }
 
  private:
+  static Assimp::IOStream* streamOf(const std::string& bytes) {
+    return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  }
+
   std::string name_, bytes_;
   ModelFiles& files_;
   std::map<std::string, std::optional<std::string>> others_;
@@ -114,26 +92,24 @@ glm::mat4 toMatrix(const aiMatrix4x4& m) {
 
 class AssimpReader {
  public:
-  AssimpReader(const aiScene& scene, std::uint32_t colorlessLine, ModelFiles& files, Diagnostics& diagnostics,
+  AssimpReader(const aiScene& scene, bool colorless, ModelFiles& files, Diagnostics& diagnostics,
                Model& model)
       : scene_(scene),
-        colorlessLine_(colorlessLine),
+        colorless_(colorless),
         files_(files),
         diagnostics_(diagnostics),
         model_(model),
         builder_(model),
         pool_(diagnostics) {}
 
-  bool read(const LoadObserver& observer, const DecodeRunner& decode) {
+  bool read(const LoadObserver& observer) {
     const std::size_t before = diagnostics_.errorCount();
     if (!readNodes()) return false;
     for (unsigned i = 0; i < scene_.mNumMaterials; ++i) {
       if (observer && !observer(LoadStage::decoding, 0.5)) return false;
-      for (const std::string& name : imagesOf(*scene_.mMaterials[i])) numberOf(name);
+      readMaterial(*scene_.mMaterials[i]);
     }
-    if (!pool_.decodeAll(decode, observer, 0.5)) return false;
-    for (unsigned i = 0; i < scene_.mNumMaterials; ++i) readMaterial(*scene_.mMaterials[i]);
-    model_.textures = pool_.take();
+    if (!pool_.finish(model_, observer, 0.5)) return false;
     for (const auto& [node, row] : nodeRows_)
       for (unsigned i = 0; i < node->mNumMeshes; ++i)
         if (!readInstance(node->mMeshes[i], row)) return false;
@@ -184,35 +160,17 @@ class AssimpReader {
     aiString path;
     return material.GetTexture(type, 0, &path) == aiReturn_SUCCESS ? path.C_Str() : "";
   }
-  static constexpr aiTextureType kColorMaps[] = {aiTextureType_DIFFUSE, aiTextureType_BASE_COLOR};
-  static constexpr aiTextureType kNormalMaps[] = {aiTextureType_NORMALS, aiTextureType_HEIGHT};
-
-  // What readMaterial() will use: of two that stand for the same, the first.
-  static std::vector<std::string> imagesOf(const aiMaterial& material) {
-    std::vector<std::string> names = {imageOf(material, aiTextureType_EMISSIVE)};
-    for (const auto& types : {kColorMaps, kNormalMaps}) {
-      const std::string first = imageOf(material, types[0]);
-      names.push_back(first.empty() ? imageOf(material, types[1]) : first);
+  // The first that there is.
+  std::uint32_t mapOf(const aiMaterial& material, std::initializer_list<aiTextureType> types,
+                      TextureUse use) {
+    for (const aiTextureType type : types) {
+      const std::string name = imageOf(material, type);
+      if (name.empty()) continue;
+      auto known = images_.find(name);
+      if (known == images_.end()) known = images_.emplace(name, readImage(name)).first;
+      return pool_.use(known->second, name, use, files_.place());
     }
-    std::erase(names, "");
-    return names;
-  }
-
-  std::uint32_t mapOf(const aiMaterial& material, aiTextureType type, bool srgb) {
-    const std::string name = imageOf(material, type);
-    return name.empty() ? kNoRow : pool_.add(decodedNumberOf(name), name, srgb);
-  }
-
-  // In the pool; kNoRow for an image that cannot be read.
-  std::uint32_t numberOf(const std::string& name) {
-    auto known = images_.find(name);
-    if (known == images_.end()) known = images_.emplace(name, readImage(name)).first;
-    return known->second;
-  }
-  std::uint32_t decodedNumberOf(const std::string& name) {
-    const std::uint32_t number = numberOf(name);
-    pool_.decodeAll({}, {});  // of one that takes the place of another, which could not be read
-    return number;
+    return kNoRow;
   }
 
   // The image of a texture: embedded, or beside the model, by its own name if its path leads elsewhere (models often keep
@@ -264,27 +222,12 @@ class AssimpReader {
     } else {
       toMetallicRoughness(material);
     }
-    material.albedoMap = mapOf(from, kColorMaps[0], true);
-    if (material.albedoMap == kNoRow) material.albedoMap = mapOf(from, kColorMaps[1], true);
-    material.emissiveMap = mapOf(from, aiTextureType_EMISSIVE, true);
-    material.normalMap = mapOf(from, kNormalMaps[0], false);
-    if (material.normalMap == kNoRow) material.normalMap = normalMapOf(from);
+    material.albedoMap = mapOf(from, {aiTextureType_DIFFUSE, aiTextureType_BASE_COLOR}, TextureUse::color);
+    material.emissiveMap = mapOf(from, {aiTextureType_EMISSIVE}, TextureUse::color);
+    material.normalMap = mapOf(from, {aiTextureType_NORMALS}, TextureUse::numbers);
+    if (material.normalMap == kNoRow)
+      material.normalMap = mapOf(from, {aiTextureType_HEIGHT}, TextureUse::bump);
     model_.materials.push_back(std::move(material));
-  }
-
-  // A bump map of OBJ is a height, but most exporters write normal maps there: taken where it is blue.
-  std::uint32_t normalMapOf(const aiMaterial& from) {
-    const std::string name = imageOf(from, kNormalMaps[1]);
-    const std::uint32_t number = name.empty() ? kNoRow : decodedNumberOf(name);
-    const Image8* image = number == kNoRow ? nullptr : pool_.image(number);
-    if (!image) return kNoRow;
-    double sums[3] = {};
-    for (std::size_t i = 0; i < image->texels.size(); ++i)
-      if (i % 4 < 3) sums[i % 4] += image->texels[i];
-    if (sums[2] > 1.2 * sums[0] && sums[2] > 1.2 * sums[1]) return pool_.add(number, name, false);
-    leaveOut(fmt::format("the bump map '{}' was left out: it holds heights, not normals", name),
-             "make a normal map of it");
-    return kNoRow;
   }
 
   static float brightestOf(const glm::vec3& color) { return std::max({color.x, color.y, color.z}); }
@@ -317,15 +260,10 @@ class AssimpReader {
   // Assimp 5.2.5 gives the colors of an OBJ file, in their order, to its first vertices.
   bool hasColors(const aiMesh& mesh) {
     if (!mesh.HasVertexColors(0)) return false;
-    if (colorlessLine_ == 0) return true;
-    if (std::exchange(saidColorless_, true)) return false;
-    text::Place place = files_.place();
-    place.line = colorlessLine_;
-    text::Diagnostic& d = diagnostics_.warning(Code::modelPartLeftOut, place,
-                                               "the vertex colors were left out: some vertices have none");
-    d.expected = "three numbers of color behind the position in every line 'v', or in none";
-    d.found = "a line without them";
-    d.hint = "export the mesh again, with a color for every vertex";
+    if (!colorless_) return true;
+    if (!std::exchange(saidColorless_, true))
+      leaveOut("the vertex colors were left out: some vertices have none",
+               "export the mesh again, with a color for every vertex");
     return false;
   }
   // Neither format says what its colors are; other programs take them for sRGB (Blender 3.4 and later, three.js).
@@ -449,7 +387,7 @@ class AssimpReader {
   }
 
   const aiScene& scene_;
-  std::uint32_t colorlessLine_;
+  bool colorless_;  // some vertices of an OBJ file have no color
   ModelFiles& files_;
   Diagnostics& diagnostics_;
   Model& model_;
@@ -499,7 +437,7 @@ bool hasEndlessFace(const aiScene& scene) {
 }  // namespace
 
 bool readWithAssimp(std::string bytes, bool obj, ModelFiles& files, const LoadObserver& observer,
-                    const DecodeRunner& decode, Diagnostics& diagnostics, Model& model) {
+                    Diagnostics& diagnostics, Model& model) {
   ModelCounts counts;
   if (!checkBefore(bytes, obj, counts, files, diagnostics)) return false;
   const std::size_t before = diagnostics.errorCount();
@@ -524,7 +462,7 @@ bool readWithAssimp(std::string bytes, bool obj, ModelFiles& files, const LoadOb
   if (hasEndlessFace(*scene)) return unreadable("a face of it has more than 4096 corners");
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
   if (!scene) return unreadable(importer.GetErrorString());
-  return AssimpReader(*scene, counts.colorlessLine, files, diagnostics, model).read(observer, decode);
+  return AssimpReader(*scene, counts.colorless, files, diagnostics, model).read(observer);
 }
 
 }  // namespace weft::assets

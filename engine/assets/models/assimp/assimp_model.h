@@ -6,12 +6,11 @@
 
 #include "engine/assets/model.h"
 #include "engine/assets/models/parts/model_files.h"
-#include "engine/assets/models/parts/texture_pool.h"
 
 namespace weft::assets {
 
 // `obj`: else FBX. False after errors, or when `observer` gave up.
 bool readWithAssimp(std::string bytes, bool obj, ModelFiles& files, const LoadObserver& observer,
-                    const DecodeRunner& decode, text::Diagnostics& diagnostics, Model& model);
+                    text::Diagnostics& diagnostics, Model& model);
 
 }  // namespace weft::assets

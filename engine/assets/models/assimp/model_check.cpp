@@ -70,13 +70,6 @@ ModelProblem circleProblem() {
 
 ModelProblem checkObj(std::string_view bytes, ModelCounts& counts) {
   std::uint32_t number = 0;
-  std::int64_t highest = 0;
-  std::uint32_t highestLine = 0;
-  const auto outside = [&](std::int64_t index, std::uint32_t line) {
-    return ModelProblem{"a face names a vertex that is not there",
-                        fmt::format("an index from 1 to {}, or from the end", counts.vertices),
-                        fmt::format("{}", index), line};
-  };
   for (std::size_t at = 0; at < bytes.size();) {
     const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
     std::string_view line = bytes.substr(at, end - at);
@@ -86,32 +79,18 @@ ModelProblem checkObj(std::string_view bytes, ModelCounts& counts) {
       return {"a line of it is too long", fmt::format("lines of at most {} bytes", kLongestLine),
               fmt::format("{} bytes", line.size()), number};
     const std::string_view key = nextWord(line);
+    if (key != "v" && key != "f") continue;
+    const std::size_t words = countWords(line);
     if (key == "v") {
       ++counts.vertices;
-      if (counts.colorlessLine == 0 && countWords(line) != 6) counts.colorlessLine = number;
+      counts.colorless |= words != 6;
+      continue;
     }
-    if (key != "f") continue;
-    std::size_t corners = 0;
-    for (std::string_view word = nextWord(line); !word.empty(); word = nextWord(line)) {
-      if (word == "\\") break;
-      ++corners;
-      std::int64_t index = 0;
-      const auto read = std::from_chars(word.data(), word.data() + word.size(), index);
-      if (read.ec == std::errc::result_out_of_range)
-        return ModelProblem{"a face names a vertex that is not there", "an index that a file can have",
-                            std::string(word.substr(0, 40)), number};
-      if (index < 0 && -index > static_cast<std::int64_t>(counts.vertices)) return outside(index, number);
-      if (index > highest) {
-        highest = index;
-        highestLine = number;
-      }
-    }
-    if (corners > kMaxCorners)
+    if (words > kMaxCorners)
       return {"a face of it has too many corners", fmt::format("at most {}", kMaxCorners),
-              fmt::format("{}", corners), number};
-    counts.corners += corners > 2 ? (corners - 2) * 3 : 0;
+              fmt::format("{}", words), number};
+    counts.corners += words > 2 ? (words - 2) * 3 : 0;
   }
-  if (highest > static_cast<std::int64_t>(counts.vertices)) return outside(highest, highestLine);
   return {};
 }
 

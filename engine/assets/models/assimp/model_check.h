@@ -1,5 +1,5 @@
 // What Assimp 5.2.5 does not survive, or answers with minutes and gigabytes: OBJ files of one endless line, faces of a
-// million corners or of vertices that are not there; FBX files whose records reach beyond the file, nest without end, unpack
+// million corners; FBX files whose records reach beyond the file, nest without end, unpack
 // to more than memory, or whose nodes are their own ancestors. These functions walk a file's structure without making
 // anything of it. Internal to the folder.
 #pragma once
@@ -18,8 +18,8 @@ struct ModelProblem {
 
 struct ModelCounts {
   std::uint64_t vertices = 0, corners = 0;
-  std::uint64_t unpacked = 0;       // bytes that packed arrays hold
-  std::uint32_t colorlessLine = 0;  // of an OBJ file: of the first vertex without a color
+  std::uint64_t unpacked = 0;  // bytes that packed arrays hold
+  bool colorless = false;      // some vertices of an OBJ file have no color
 };
 
 ModelProblem checkObj(std::string_view bytes, ModelCounts& counts);

@@ -13,6 +13,7 @@
 
 #include "engine/assets/models/gltf/gltf_document.h"
 #include "engine/assets/models/parts/mesh_builder.h"
+#include "engine/assets/models/parts/texture_pool.h"
 
 namespace weft::assets {
 
@@ -35,13 +36,14 @@ struct GltfUv {
 
 constexpr struct {
   std::string_view object, key;  // in a material; "" for the material itself
-  bool srgb;
+  TextureUse use;
   std::uint32_t Material::*map;
-} kMaps[] = {{"pbrMetallicRoughness", "baseColorTexture", true, &Material::albedoMap},
-             {"pbrMetallicRoughness", "metallicRoughnessTexture", false, &Material::metallicRoughnessMap},
-             {"", "normalTexture", false, &Material::normalMap},
-             {"", "occlusionTexture", false, &Material::occlusionMap},
-             {"", "emissiveTexture", true, &Material::emissiveMap}};
+} kMaps[] = {{"pbrMetallicRoughness", "baseColorTexture", TextureUse::color, &Material::albedoMap},
+             {"pbrMetallicRoughness", "metallicRoughnessTexture", TextureUse::numbers,
+              &Material::metallicRoughnessMap},
+             {"", "normalTexture", TextureUse::numbers, &Material::normalMap},
+             {"", "occlusionTexture", TextureUse::numbers, &Material::occlusionMap},
+             {"", "emissiveTexture", TextureUse::color, &Material::emissiveMap}};
 
 class GltfReader {
  public:
@@ -56,11 +58,11 @@ class GltfReader {
         pool_(diagnostics),
         rows_(document.rows("nodes")) {}
 
-  void read(const DecodeRunner& decode) {
+  void read() {
     readNodes();
     findShown();
     for (const JsonValue& row : document_.rows("skins")) readSkin(row);
-    readMaterials(decode);
+    readMaterials();
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       goOn(LoadStage::converting, static_cast<double>(i) / static_cast<double>(rows_.size()));
       if (shown_[i]) readInstances(rows_[i], rowOf_[i]);
@@ -179,28 +181,17 @@ class GltfReader {
     return material;
   }
 
-  void readMaterials(const DecodeRunner& decode) {
+  void readMaterials() {
     const std::size_t before = diagnostics_.errorCount();
     const std::vector<JsonValue>& rows = document_.rows("materials");
     images_.resize(document_.rows("images").size());
-    for (const JsonValue& row : rows) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
       goOn(LoadStage::decoding, 0);
-      for (const auto& map : kMaps)
-        if (const JsonValue* info = infoOf(row, map.object, map.key)) imageOf(textureOf(*info));
+      readMaterial(rows[i], i);
     }
-    GltfDocument::refuseUnless(diagnostics_.errorCount() == before && pool_.decodeAll(decode, observer_));
-    for (std::size_t i = 0; i < rows.size(); ++i) readMaterial(rows[i], i);
     model_.materials.push_back(defaultMaterial("default"));
     uvs_.emplace_back();
-    model_.textures = pool_.take();
-  }
-
-  static const JsonValue* infoOf(const JsonValue& material, std::string_view object, std::string_view key) {
-    return object.empty() ? material.find(key) : valueOf(material, {object, key});
-  }
-
-  const JsonValue& textureOf(const JsonValue& info) {
-    return document_.rows("textures")[document_.index("textures", document_.need(info, "index"))];
+    GltfDocument::refuseUnless(diagnostics_.errorCount() == before && pool_.finish(model_, observer_));
   }
 
   struct Image {
@@ -254,7 +245,8 @@ class GltfReader {
     Material material = defaultMaterial(textOf(value, "name", fmt::format("material {}", number)));
     std::optional<GltfUv> uv;
     for (const auto& map : kMaps) {
-      const JsonValue* info = infoOf(value, map.object, map.key);
+      const JsonValue* info =
+          map.object.empty() ? value.find(map.key) : valueOf(value, {map.object, map.key});
       if (!info) continue;
       const GltfUv mine = readUv(*info);
       if (uv.value_or(mine) != mine) {
@@ -264,11 +256,12 @@ class GltfReader {
         continue;
       }
       uv = mine;
-      const JsonValue& texture = textureOf(*info);
+      const JsonValue& texture =
+          document_.rows("textures")[document_.index("textures", document_.need(*info, "index"))];
       if (!texture.find("source"))
         pool_.reportMissing("a texture", "it names no image that Weft can read", texture.place);
       const Image& image = imageOf(texture);
-      material.*map.map = pool_.add(image.number, image.name, map.srgb);
+      material.*map.map = pool_.use(image.number, image.name, map.use, texture.place);
     }
     uvs_.push_back(uv.value_or(GltfUv{}));
     const auto numberOf = [&](std::initializer_list<std::string_view> object, std::string_view key,
@@ -678,10 +671,10 @@ class GltfReader {
 
 }  // namespace
 
-bool readGltf(std::string bytes, ModelFiles& files, const LoadObserver& observer, const DecodeRunner& decode,
-              Diagnostics& diagnostics, Model& model) try {
+bool readGltf(std::string bytes, ModelFiles& files, const LoadObserver& observer, Diagnostics& diagnostics,
+              Model& model) try {
   GltfDocument document(std::move(bytes), files, diagnostics);
-  GltfReader(document, files, diagnostics, model, observer).read(decode);
+  GltfReader(document, files, diagnostics, model, observer).read();
   return true;
 } catch (const Refused&) {
   return false;

@@ -4,12 +4,11 @@
 
 #include "engine/assets/model.h"
 #include "engine/assets/models/parts/model_files.h"
-#include "engine/assets/models/parts/texture_pool.h"
 
 namespace weft::assets {
 
 // False after errors, or when `observer` gave up.
-bool readGltf(std::string bytes, ModelFiles& files, const LoadObserver& observer, const DecodeRunner& decode,
+bool readGltf(std::string bytes, ModelFiles& files, const LoadObserver& observer,
               text::Diagnostics& diagnostics, Model& model);
 
 }  // namespace weft::assets

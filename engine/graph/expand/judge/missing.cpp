@@ -8,8 +8,7 @@
 #include <tuple>
 
 #include "engine/graph/expand/judge/judge.h"
-#include "engine/graph/expand/names/resources.h"
-#include "engine/graph/expand/names/scope.h"
+#include "engine/graph/expand/names/names.h"
 #include "engine/graph/versions/live.h"
 
 namespace weft::graph::expansion {
@@ -45,7 +44,6 @@ struct Writers {
   const WriteRecord* self = nullptr;
   const RemovedPass* removed = nullptr;  // a pass that an overlay took out
   const EmptyRepeat* empty = nullptr;    // a pass that does not repeat even once
-  bool incomplete = false;               // a pass left out for its mistakes may be the writer
 };
 
 // Reads that miss the same thing for the same reason: a pass is disabled or removed, or there is none.
@@ -78,10 +76,9 @@ class MissingReadReporter {
 
  private:
   Writers findWriters(const MissingRead& missing) const {
-    Writers writers{.incomplete = model_.incomplete};
+    Writers writers;
     for (const MissingRead::Wanted& wanted : missing.wanted) {
       const Entity& entity = model_.entities[wanted.entity];
-      writers.incomplete = writers.incomplete || entity.incomplete;
       if (entity.emptied != kNone && !writers.empty) writers.empty = &model_.emptied[entity.emptied];
       if (entity.desc && !writers.removed)
         for (const RemovedPass& removed : entity.scope->desc->removed)
@@ -167,12 +164,10 @@ class MissingReadReporter {
                       head = fmt::format("{} {} {}", who(missing), verb(missing), thing);
     const auto disabled = [&](const WriteRecord* write) { return &graph_.disabled[write->disabled]; };
     if (missing.cause == MissingRead::Cause::condition) {
-      // What the reference stands for may be bound by the file that includes this one, or be in one that could not be read.
-      if (!model_.toInclude && std::ranges::none_of(model_.scopes, failedInclude))
-        report(missing, Code::conditionLeavesSlotEmpty,
-               fmt::format("{}: slot '{}' is left empty, the condition of '{}' is false", who(missing),
-                           missing.slot, missing.ref.text),
-               {kMayBeEmpty});
+      report(missing, Code::conditionLeavesSlotEmpty,
+             fmt::format("{}: slot '{}' is left empty, the condition of '{}' is false", who(missing),
+                         missing.slot, missing.ref.text),
+             {kMayBeEmpty});
     } else if (missing.cause == MissingRead::Cause::import) {
       report(missing, Code::emptyImport,
              fmt::format("{} {} '{}', which has nothing now", who(missing), verb(missing), missing.ref.text),
@@ -187,8 +182,6 @@ class MissingReadReporter {
              fmt::format("{}, but pass '{}' that would write it is not there once: its \"repeat\" is empty",
                          head, empty->pass),
              {rangeHint(*empty), orClear(missing)}, rangeText(*empty));
-    } else if (writers.incomplete) {
-      return;
     } else if (writers.enabledLater && missing.pass != kNone) {
       const std::string& later = graph_.passNames[writers.enabledLater->pass];
       if (const std::string path = cycle(missing.pass, writers.enabledLater->pass); !path.empty())

@@ -9,8 +9,7 @@
 
 #include "engine/graph/desc_walk.h"
 #include "engine/graph/expand/judge/judge.h"
-#include "engine/graph/expand/names/resources.h"
-#include "engine/graph/expand/names/scope.h"
+#include "engine/graph/expand/names/names.h"
 #include "engine/graph/language/expr_node.h"
 #include "engine/text/nearest.h"
 

@@ -4,9 +4,7 @@
 #pragma once
 
 #include <deque>
-#include <functional>
 #include <map>
-#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -56,10 +54,10 @@ struct Let {
   Scope* scope = nullptr;
   std::string path;
   Progress state = Progress::fresh;
-  Value value;                 // when done
-  bool dynamic = false;        // contains age(), perhaps through another let
-  std::optional<Expr> folded;  // of a dynamic one, after all passes are known
-  bool live = false;           // reads a live parameter, perhaps through another let; after findLiveLets()
+  Value value;                     // when done
+  bool dynamic = false;            // contains age(), perhaps through another let
+  std::optional<Expr> folded;      // of a dynamic one, after all passes are known
+  bool live = false;               // reads a live parameter, perhaps through another let
   std::optional<Expr> liveFolded;  // of a live let, and of a dynamic one when there are live ones
   bool structural = false;
 };
@@ -76,30 +74,24 @@ struct Entity {
   const ResourceDesc* desc = nullptr;  // null: an import named only by @x
   Scope* scope = nullptr;              // where it is declared
   std::string name;                    // "ibl.brdf", "@environment"
-  // texture and buffer: the shape of every FlatResource of it. import: what the registry says.
+  // Of what it is by its kind: the shape, what is bound to the input, or what the list names.
   Progress state = Progress::fresh;
-  FlatResource shape;
+  FlatResource shape;  // texture and buffer: of every FlatResource of it. import: what the registry says.
   Value clear, first;
   std::uint32_t arrayCount = 0;         // 0: not an array
   std::uint16_t writtenMips = 1;        // as the file says, before the clamp to the size
   std::uint32_t depth = 0;              // of the history
   std::vector<std::uint32_t> inputs{};  // that stand for it and ask for a history
-  bool badHistory = false;              // input: how long a history it asks for was reported
   const RefDesc* firstRef = nullptr;    // what is read in place of `first`, in the names of firstScope
   Scope* firstScope = nullptr;
-  FlatUse firstUse{.resource = kNone};  // of it, once some pass reads it
-  std::uint32_t import = kNone;         // index into FlatGraph::imports
-  bool exists = true;                   // imports only
-  bool fallback = false;                // imports only: a plain read may do without
-  double count = 0;                     // imports only
-  // input: what it stands for
-  Progress bindState = Progress::fresh;
-  std::uint32_t bound = kNone;
-  Progress listState = Progress::fresh;  // alternatives: cycle check
-  std::uint32_t emptied = kNone;         // into Model::emptied: one that would write it
-  bool incomplete = false;               // a pass that would write it was left out for its mistakes
-  std::vector<std::uint32_t>
-      candidates;  // alternatives: entities, parallel to desc->alternatives; kNone: unknown
+  FlatUse firstUse{.resource = kNone};    // of it, once some pass reads it
+  std::uint32_t import = kNone;           // index into FlatGraph::imports
+  bool exists = true;                     // imports only
+  bool fallback = false;                  // imports only: a plain read may do without
+  double count = 0;                       // imports only
+  std::uint32_t bound = kNone;            // input: what it stands for
+  std::uint32_t emptied = kNone;          // into Model::emptied: one that would write it
+  std::vector<std::uint32_t> candidates;  // alternatives: parallel to desc->alternatives; kNone: unknown
   std::vector<Element> elements;
   std::uint32_t firstRead = kNone;  // the first position at which some slot names it
 };
@@ -184,14 +176,14 @@ struct Model {
   text::Diagnostics& diagnostics;
   FlatGraph graph{};
   VersionWalk versions{graph};
-  // None of these moves: buildScopes() makes room for all that there will be.
-  std::vector<Scope> scopes{};  // scopes[0] is the root
-  std::vector<Parameter> parameters{};
-  std::vector<Let> lets{};
-  std::vector<Entity> entities{};
+  // None of these moves.
+  std::deque<Scope> scopes{};  // scopes[0] is the root
+  std::deque<Parameter> parameters{};
+  std::deque<Let> lets{};
+  std::deque<Entity> entities{};
+  std::size_t sets = 0;                                                 // values in "set", of all files
   std::map<std::string, std::uint32_t, std::less<>> implicitImports{};  // "environment" of @environment
-  std::vector<std::uint32_t> importResource{};                     // per import: its FlatResource or kNone
-  std::unordered_map<std::uint64_t, std::uint32_t> importIndex{};  // by keyOf(request)
+  std::vector<std::uint32_t> importResource{};                // per import: its FlatResource or kNone
   KnownNames<std::vector<std::uint32_t>> parametersByLeaf{};  // all of one name, in any file, in their order
   std::unordered_map<std::string, std::vector<DisableRule>> disables{};  // by declared name
   std::vector<WriteRecord> writes{};
@@ -211,10 +203,8 @@ struct Model {
   // `name.…` in a file that includes nothing under that name.
   std::set<std::pair<const Scope*, std::string>> unknown{};
   std::deque<std::string>
-      misspelt{};  // names that expressions use of parameters whose declaration is misspelt
-  // Some write is missing because of a mistake, and nobody knows of what: missing versions are not reported. Where it is
-  // known, Entity::incomplete says so.
-  bool incomplete = false;
+      misspelt{};           // names that expressions use of parameters whose declaration is misspelt
+  bool incomplete = false;  // the reader left something out for its mistakes
   bool toInclude =
       false;  // the file that was opened has inputs: it is to be included, and its own names are not all
   std::uint32_t position = 0;             // of the instance being expanded
@@ -236,13 +226,12 @@ struct Says {
 bool report(Model& model, Code code, const Where& place, std::string message, Says says = {});
 
 // Lives while a definition (a let, a size, what an input stands for, a list of alternatives) is evaluated for another.
-// `state` is that of the definition. It is not good when the definition is being evaluated already (W050: BEFORE LABEL AFTER:
-// "a -> b -> a"), or when too many wait for each other, which would end the stack (W201). Then the state is `failed`.
+// `state` is that of the definition. It is not good when the definition is being evaluated already (W050: "a -> b -> a"), or
+// when too many wait for each other, which would end the stack (W201). Then the state is `failed`.
 class Evaluation {
  public:
-  static constexpr std::uint32_t kMost = 32;
-  Evaluation(Model& model, Progress& state, std::string label, const Place& place, std::string_view before,
-             std::string_view after, std::size_t most = kMost);
+  static constexpr std::uint32_t kMax = 32;
+  Evaluation(Model& model, Progress& state, std::string label, const Place& place, std::size_t most = kMax);
   ~Evaluation();
   Evaluation(const Evaluation&) = delete;
   Evaluation& operator=(const Evaluation&) = delete;
@@ -250,15 +239,13 @@ class Evaluation {
 
  private:
   Model& model_;
-  bool good_ = true;
+  bool good_;
 };
 
-// Who names something, for the message when it is not there: "pass 'blur' reads the unknown resource 'hdr'".
-struct NamedBy {
-  std::string_view user;       // "pass 'blur'"
-  const char* verb = "names";  // "reads"
-  std::string_view pass = {};  // "blur"
-  bool orPass = false;         // the name may be one of a pass
-};
+// Whether a reference names a whole resource of this frame, perhaps by a condition.
+inline bool isWhole(const RefDesc& ref) {
+  return !ref.mip && !ref.layer && !ref.face && !ref.element && !ref.stencil && ref.history == 0 &&
+         ref.wordsSize == 0 && !ref.optional;
+}
 
 }  // namespace weft::graph::expansion

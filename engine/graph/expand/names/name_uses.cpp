@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "engine/graph/desc_walk.h"
-#include "engine/graph/expand/names/scope.h"
+#include "engine/graph/expand/names/names.h"
 #include "engine/graph/language/expr_node.h"
 
 namespace weft::graph {

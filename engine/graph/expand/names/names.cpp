@@ -5,23 +5,69 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/graph/desc_walk.h"
-#include "engine/graph/expand/names/resources.h"
-#include "engine/graph/expand/names/scope.h"
-#include "engine/graph/expand/names/versions.h"
+#include "engine/graph/language/enough.h"
 #include "engine/graph/language/expr_node.h"
 #include "engine/graph/subresource.h"
+#include "engine/text/limits.h"
 #include "engine/text/nearest.h"
 
 namespace weft::graph::expansion {
+
+bool isOver(const Model& model) {
+  return model.stopped || enoughErrors(model.diagnostics);
+}
+
+void stopAt(Model& model, const Where& place, std::string message, std::uint64_t bound, const char* counts) {
+  if (!std::exchange(model.stopped, true))
+    text::reportLimit(model.diagnostics, place, std::move(message), bound, counts);
+}
+
+bool report(Model& model, Code code, const Where& place, std::string message, Says says) {
+  model.diagnostics.add({.code = code,
+                         .message = std::move(message),
+                         .place = place,
+                         .pass = std::move(says.pass),
+                         .resource = std::move(says.resource),
+                         .expected = std::move(says.expected),
+                         .found = std::move(says.found),
+                         .hint = std::move(says.hint)});
+  return false;
+}
+
+Evaluation::Evaluation(Model& model, Progress& state, std::string label, const Place& place, std::size_t most)
+    : model_(model), good_(false) {
+  auto& stack = model.evaluating;
+  if (state == Progress::active) {
+    report(model, Code::dependsOnItself, place,
+           fmt::format("{} depends on itself: {} -> {}", label,
+                       fmt::join(std::find(stack.begin(), stack.end(), label), stack.end(), " -> "), label),
+           {.hint = "one of them must not refer to the next"});
+  } else if (stack.size() >= most) {
+    if (!std::exchange(model.stopped, true))
+      report(model, Code::limitExceeded, place,
+             fmt::format("definitions depend on each other in too long a row, which ends at {}", label),
+             {.expected = fmt::format("at most {} in a row", kMax),
+              .hint = "let some of them use fewer others"});
+  } else {
+    good_ = true;
+    stack.push_back(std::move(label));
+  }
+  state = good_ ? Progress::active : Progress::failed;
+}
+
+Evaluation::~Evaluation() {
+  if (good_) model_.evaluating.pop_back();
+}
 
 namespace {
 
 std::optional<Value> letValue(Model& model, Let& let) {
   if (let.state == Progress::done) return let.value;
   if (let.state == Progress::failed) return Value{};
-  const Evaluation evaluation(model, let.state, "$" + let.path, let.desc->place, "'", "' depends on itself");
+  const Evaluation evaluation(model, let.state, "$" + let.path, let.desc->place);
   if (!evaluation.good()) return Value{};
   Names names(model, *let.scope);
   let.value = let.desc->expr.evaluate(names, model.diagnostics);
@@ -29,42 +75,28 @@ std::optional<Value> letValue(Model& model, Let& let) {
   return let.value;
 }
 
-// The parameter or let of this name, or of one that is an edit away, in the nearest file on the way out.
-std::pair<Scope*, Variable> nearestVariable(Scope& from, std::string_view name) {
-  for (Scope* scope = &from; scope; scope = scope->parent)
-    for (const auto& [own, variable] : scope->variables)
-      if (own.find('.') == std::string_view::npos && text::editDistance(own, name, 1) <= 1)
-        return {scope, variable};
-  return {};
-}
-
-// What a name that nothing has stands for when it is the declaration that is misspelt: nothing reads it under its own name,
-// and more than one expression asks for `name`. That is one mistake, at the declaration.
+// What a name that nothing has stands for when it is the declaration of a parameter or let, an edit away, that is misspelt:
+// nothing reads it under its own name, and more than one expression asks for `name`. That is one mistake, at the declaration.
 Variable declarationMeant(Model& model, Scope& from, std::string_view name) {
-  const auto [scope, meant] = nearestVariable(from, name);
-  if (!scope) return {};
-  int asked = 0;
-  bool read = false;
-  const auto see = [&](Scope& user, const Expr& expr) {
+  const auto near = std::ranges::find_if(from.variables, [&](const auto& each) {
+    return each.first.find('.') == std::string_view::npos && text::editDistance(each.first, name, 1) <= 1;
+  });
+  if (near == from.variables.end()) return {};
+  const auto [declared, meant] = *near;
+  int asked = 0, read = 0;
+  const auto see = [&](const Expr& expr) {
     if (!expr.present()) return;
-    for (const std::string& each : variablesOf(expr)) {
-      const Variable found = findVariable(model, user, each);
-      read = read || (found.kind == meant.kind && found.index == meant.index);
-      if (each == name && found.kind == Variable::Kind::none) ++asked;
-    }
+    asked += static_cast<int>(std::ranges::count(variablesOf(expr), name));
+    read += static_cast<int>(std::ranges::count(variablesOf(expr), declared));
   };
-  for (Scope& user : model.scopes)
-    visitMentions(
-        *user.desc, [&](const Expr& expr) { see(user, expr); }, [](const RefDesc&) {});
-  if (read || asked < 2) return {};
+  visitMentions(*from.desc, see, [](const RefDesc&) {});
+  if (read > 0 || asked < 2) return {};
   const bool let = meant.kind == Variable::Kind::let;
-  const std::string& declared =
-      let ? model.lets[meant.index].desc->name : model.parameters[meant.index].desc->name;
   report(model, Code::unknownVariable,
          let ? model.lets[meant.index].desc->place : model.parameters[meant.index].desc->place,
          fmt::format("nothing reads '${}', and {} expressions ask for '${}'", declared, asked, name),
          {.hint = fmt::format("did you mean '{}'?", name)});
-  scope->variables.try_emplace(model.misspelt.emplace_back(name), meant);
+  from.variables.try_emplace(model.misspelt.emplace_back(name), meant);
   return meant;
 }
 
@@ -73,26 +105,19 @@ Variable declarationMeant(Model& model, Scope& from, std::string_view name) {
 std::optional<Value> Names::variable(std::string_view name) {
   Variable found = findVariable(model_, scope_, name);
   if (found.kind == Variable::Kind::none) {
-    if (model_.toInclude || mayBeUnread(scope_, name)) return Value{};
+    if (model_.toInclude || isUnread(scope_, name)) return Value{};
     found = declarationMeant(model_, scope_, name);
   }
-  switch (found.kind) {
-    case Variable::Kind::none:
-      return std::nullopt;
-    case Variable::Kind::parameter:
-      return model_.parameters[found.index].value;
-    case Variable::Kind::ambiguous: {
-      std::vector<std::string> all;
-      for (const std::uint32_t index : parametersMeant(model_, scope_.prefix, name))
-        all.push_back("$" + model_.parameters[index].path.substr(scope_.prefix.size()));
-      all.resize(std::min<std::size_t>(all.size(), 8));
-      report(model_, Code::ambiguousName, scope_.desc->place,
-             fmt::format("'${}' may mean several parameters of included files", name),
-             {.hint = fmt::format("write one of {}", fmt::join(all, ", "))});
-      return Value{};
-    }
-    case Variable::Kind::let:
-      break;
+  if (found.kind == Variable::Kind::none) return std::nullopt;
+  if (found.kind == Variable::Kind::parameter) return model_.parameters[found.index].value;
+  if (found.kind == Variable::Kind::ambiguous) {
+    std::vector<std::string> all;
+    for (const std::uint32_t index : parametersMeant(model_, scope_.prefix, name))
+      all.push_back("$" + model_.parameters[index].path.substr(scope_.prefix.size()));
+    report(model_, Code::ambiguousName, scope_.desc->place,
+           fmt::format("'${}' may mean several parameters of included files", name),
+           {.hint = fmt::format("write one of {}", fmt::join(all, ", "))});
+    return Value{};
   }
   Let& let = model_.lets[found.index];
   if (!let.dynamic || (!dynamicAllowed_ && let.state == Progress::active)) return letValue(model_, let);
@@ -126,39 +151,32 @@ namespace {
 
 // Whether nothing disables the pass or an include around it by name, nor its stanza by a plain `"enabled": false`, which is what the viewer
 // writes. An expression is not asked: it could ask back.
-bool isLeft(const Scope& from, const Model& model, const AskedPass& asked) {
+bool isLeft(const Scope& from, const Model& model, const PassDesc& pass, const Scope& in) {
   const auto isOff = [](const PassDesc& stanza) {
     return stanza.enabled.isConstant() && stanza.enabled.text() == "false";
   };
-  for (const Scope* at = asked.scope; at != &from; at = at->parent)
+  for (const Scope* at = &in; at != &from; at = at->parent)
     if (!at->disabledBy.empty() || isOff(*at->stanza)) return false;
-  const auto rules = model.disables.find(asked.scope->prefix + asked.desc->name);
-  return !isOff(*asked.desc) &&
+  const auto rules = model.disables.find(in.prefix + pass.name);
+  return !isOff(pass) &&
          (rules == model.disables.end() ||
           std::ranges::none_of(rules->second, [](const DisableRule& rule) { return rule.instance.empty(); }));
 }
 
 }  // namespace
 
-std::uint32_t Names::find(std::string_view resource) {
-  const std::uint32_t index = findEntity(model_, scope_, resource, false);
-  // An input with nothing behind it is no import of its name.
-  return index == kNone && !scope_.resources.contains(resource) ? findEntity(model_, scope_, resource, true)
-                                                                : index;
-}
-
 std::optional<Value> Names::fact(Fact fact, std::string_view resource, const Place& place) {
-  const std::uint32_t index = find(resource);
+  const std::uint32_t index = findAsked(model_, scope_, resource);
   if (index == kNone) {
     if (fact == Fact::has)
-      if (const AskedPass asked = findAskedPass(scope_, resource); asked.desc)
-        return Value::boolean(isLeft(scope_, model_, asked));
+      if (const auto [pass, in] = findAskedPass(scope_, resource); pass)
+        return Value::boolean(isLeft(scope_, model_, *pass, *in));
     // Its declaration, or the input that has nothing behind it, was reported where it stands.
-    if (isUnread(scope_, resource) || scope_.resources.contains(resource) ||
+    const bool reported =
+        isUnread(scope_, resource) || scope_.resources.contains(resource) ||
         model_.unknown.contains({&scope_, std::string(resource)}) ||
-        isUnincluded(model_, scope_, resource, place, kAsksOf))
-      return Value{};
-    return std::nullopt;
+        model_.unknown.contains({&scope_, std::string(resource.substr(0, resource.find('.')))});
+    return reported ? std::optional(Value{}) : std::nullopt;
   }
   if (fact == Fact::age) return std::nullopt;  // known when the frame runs
   Entity& entity = model_.entities[index];
@@ -231,12 +249,11 @@ std::vector<std::string> Names::candidates(NameKind kind) {
   for (const Parameter& parameter : model_.parameters)
     if (parameter.path.starts_with(scope_.prefix)) names.push_back(parameter.desc->name);
   std::ranges::sort(names);
-  names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
 }
 
 std::optional<std::uint32_t> Names::ageKey(std::string_view resource) {
-  std::uint32_t index = find(resource);
+  std::uint32_t index = findAsked(model_, scope_, resource);
   if (index != kNone) index = staticTarget(model_, index);
   if (index == kNone || !ensureShape(model_, index)) return std::nullopt;
   return currentResource(model_, index, 0);
@@ -246,31 +263,24 @@ const Expr* Names::folded(std::string_view variable) {
   const Variable found = findVariable(model_, scope_, variable);
   if (found.kind != Variable::Kind::let) return nullptr;
   Let& let = model_.lets[found.index];
-  if (live) return foldedLive(let);
-  if (!let.dynamic) return nullptr;
-  if (let.folded) return &*let.folded;
-  const Evaluation evaluation(model_, let.state, "$" + let.path, let.desc->place, "'", "' depends on itself");
-  if (!evaluation.good()) return nullptr;
-  Names names(model_, *let.scope);
-  let.folded = let.desc->expr.fold(names, model_.diagnostics);
-  let.state = Progress::fresh;
-  return &*let.folded;
-}
-
-const Expr* Names::foldedLive(Let& let) {
-  if (!let.dynamic && !let.live) return nullptr;
-  if (!let.liveFolded) {
-    Progress state = Progress::fresh;
-    const Evaluation evaluation(model_, state, "$" + let.path, let.desc->place, "'", "'");
-    let.liveFolded = Expr();    // met again in a circle, which nobody may have evaluated, it fails
-    text::Diagnostics ignored;  // a branch that is not taken now
-    Names names(model_, *let.scope);
-    names.live = true;
-    Expr folded = evaluation.good() ? let.desc->expr.fold(names, ignored) : Expr();
-    if (!names.failed) let.liveFolded = std::move(folded);
+  if (!let.dynamic && !(live && let.live)) return nullptr;
+  std::optional<Expr>& kept = live ? let.liveFolded : let.folded;
+  if (!kept) {
+    Progress own = Progress::fresh;
+    Progress& state = live ? own : let.state;
+    const Evaluation evaluation(model_, state, "$" + let.path, let.desc->place);
+    if (live || !evaluation.good()) kept = Expr();  // met again in a circle, it fails
+    if (evaluation.good()) {
+      text::Diagnostics ignored;  // a branch that is not taken now
+      Names names(model_, *let.scope);
+      names.live = live;
+      Expr tree = let.desc->expr.fold(names, live ? ignored : model_.diagnostics);
+      if (!names.failed) kept = std::move(tree);
+      state = Progress::fresh;
+    }
   }
-  failed = failed || !let.liveFolded->present();
-  return &*let.liveFolded;
+  failed = failed || (live && !kept->present());
+  return &*kept;
 }
 
 std::optional<std::uint32_t> Names::parameterKey(std::string_view name) {
@@ -284,9 +294,10 @@ namespace {
 
 // nullopt after a report, and without a value.
 std::nullopt_t refuse(Names& names, Code code, const Expr& expr, std::string message, std::string expected,
-                      const Value& found) {
+                      const Value& found, std::string hint = {}) {
+  if (hint.empty()) hint = hintForWord(names, found);
   report(names.model(), code, expr.place(), std::move(message),
-         {.expected = std::move(expected), .found = toText(found), .hint = hintForWord(names, found)});
+         {.expected = std::move(expected), .found = toText(found), .hint = std::move(hint)});
   return std::nullopt;
 }
 
@@ -301,29 +312,45 @@ std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absen
                 "true, false or a number", value);
 }
 
-std::optional<double> evaluateNumber(Names& names, const Expr& expr, double absent, const char* what) {
-  if (!expr.present()) return absent;
-  const Value value = expr.evaluate(names, names.model().diagnostics);
-  if (value.type == Value::Type::none) return std::nullopt;
-  if (value.isNumeric() && std::isfinite(value.v[0])) return value.v[0];
-  return refuse(names, Code::wrongValueType, expr,
-                fmt::format("{} is {}", what, value.isNumeric() ? "not finite" : "no number"), "a number",
-                value);
-}
-
 std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::int64_t absent,
                                           std::int64_t low, std::int64_t high, const char* what,
                                           bool floors) {
   if (!expr.present()) return absent;
-  std::optional<double> number = evaluateNumber(names, expr, 0, what);
-  if (!number) return std::nullopt;
-  if (floors) number = std::floor(*number);
-  const bool whole = *number == std::floor(*number);
-  if (whole && *number >= static_cast<double>(low) && *number <= static_cast<double>(high))
-    return static_cast<std::int64_t>(*number);
+  const Value value = expr.evaluate(names, names.model().diagnostics);
+  if (value.type == Value::Type::none) return std::nullopt;
+  const double number = floors ? std::floor(value.v[0]) : value.v[0];
+  const bool whole = value.isNumeric() && std::isfinite(number) && number == std::floor(number);
+  if (whole && number >= static_cast<double>(low) && number <= static_cast<double>(high))
+    return static_cast<std::int64_t>(number);
   return refuse(names, whole ? Code::numberOutOfRange : Code::wrongValueType, expr,
                 fmt::format("{} is {}", what, whole ? "out of its range" : "not a whole number"),
-                fmt::format("a whole number from {} to {}", low, high), Value::number(*number));
+                fmt::format("a whole number from {} to {}", low, high), value);
+}
+
+std::optional<Counts> evaluateCounts(Names& names, const Expr& expr, std::span<const std::uint64_t> bounds,
+                                     const std::string& what, const char* expected) {
+  const Value value = expr.evaluate(names, names.model().diagnostics);
+  if (value.type == Value::Type::none) return std::nullopt;
+  const bool list = value.type == Value::Type::list;
+  if (!value.isNumeric() && (!list || value.count < 2 || value.count > bounds.size()))
+    return refuse(
+        names, Code::wrongValueType, expr, what + " is no size", expected, value,
+        names.scope().resources.contains(value.symbol) ? fmt::format("write 'size({})'", value.symbol) : "");
+  Counts counts{.size = list ? value.count : 1u};
+  const std::uint64_t bound = bounds[counts.size - 1];
+  for (std::size_t i = 0; i < counts.size; ++i) {
+    const double count = value.v[i];
+    const bool low = count < 0 || (count < 1 && expr.isConstant()) ||
+                     (count == 0 && !countsElements(names.model(), names.scope(), expr));
+    if (!std::isfinite(count) || low || count > static_cast<double>(bound)) {
+      return refuse(
+          names, Code::numberOutOfRange, expr, what + " is out of its range", fmt::format("1 to {}", bound),
+          value,
+          expr.isConstant() ? "" : fmt::format("it is computed: write 'max(…, 1)' or 'min(…, {})'", bound));
+    }
+    counts.each[i] = static_cast<std::uint64_t>(std::max(1.0, std::floor(count)));
+  }
+  return counts;
 }
 
 }  // namespace weft::graph::expansion

@@ -1,18 +1,80 @@
-// The EvalScope of expansion: answers for names, which scope.h finds, while expressions of one scope are evaluated; and
-// evaluation with an expected type.
+// Names of one expansion: scopes, what a name means in them, and the values, shapes and versions behind it.
+//   $x       parameters and lets of this file, $pass.parameter, $include.x; then those of the including files, the
+//            nearest first; then the only parameter of the files included below whose dotted name ends in x
+//   name     resources of this file, then `include.name`; an input stands for the resource that the includer binds to
+//            it, else for the one of the same name
+//   @name    an import declared here or in an including file, else the import type of that name with its defaults
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
+#include <array>
+#include <span>
 
 #include "engine/graph/expand/names/model.h"
 
 namespace weft::graph::expansion {
 
-// Answers for names in expressions of one scope.
+// Of a graph with all that it includes; `--limit` raises them. Names: parameters, resources, values in "set", each.
+constexpr std::uint64_t kMaxNames = 4096, kMaxLets = 256, kMaxAlternatives = 64;
+constexpr std::uint32_t kMaxSize = 16384, kMaxSize3d = 2048, kMaxMips = 32, kMaxLayers = 2048,
+                        kMaxHistory = 16, kMaxArray = 256;
+constexpr std::uint64_t kMaxBufferBytes = 2ull << 30;
+
+// ---- scopes (scope.cpp) ----
+
+// Fills scopes, parameters with their defaults (the reader has checked those), lets and entities; marks lets that contain
+// age() and parameters that decide more than uniforms; finds what alternatives refer to, and reports lists that contain
+// themselves (W050) or lead to too many.
+void buildScopes(Model& model);
+
+// Sets Parameter::value, Scope::disabledBy and Model::disables: "set" of files, --set and --disable (settings.cpp).
+void applySettings(Model& model);
+void applySetting(Model& model, const Setting& set);
+void applyDisable(Model& model, const Disable& disable);
+
+// The entity that a name stands for; an input stands for what is bound to it. kNone when there is none (which is not
+// reported), or when nothing is bound to an input (which is reported once).
+std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool import);
+// The same, but reports W040 or W043, with the nearest name. `who`: "pass 'blur' reads"; `pass`: "blur".
+std::uint32_t findEntityOrReport(Model& model, Scope& scope, const RefDesc& ref, std::string_view who,
+                                 std::string_view pass = {});
+// The same for the name that a fact asks of; it may be that of a pass.
+std::uint32_t findAsked(Model& model, Scope& scope, std::string_view name);
+// What has(name) is about where no resource has the name: a pass of the scope's own file, or `include.pass` of one included
+// below, and the scope whose file declares it. Null: there is none.
+std::pair<const PassDesc*, Scope*> findAskedPass(Scope& scope, std::string_view name);
+// Follows the prefixes of a dotted name into the files that are included under them; `name` gets what is left.
+Scope& scopeOf(Scope& scope, std::string_view& name);
+// All names of resources that this file may use.
+std::vector<std::string> resourceNames(const Model& model, const Scope& scope);
+// True when the name may be of something that the reader reported and left out: a use of it is no second mistake.
+bool isUnread(const Scope& from, std::string_view name);
+
+Variable findVariable(Model& model, Scope& scope, std::string_view name);
+// The same without the files that are included below: a name of this file or of one that includes it.
+Variable findVariableFrom(Scope& scope, std::string_view name);
+// The parameters, of those whose path begins with `prefix`, that `name` may mean: the one that is called so, else all whose
+// dotted name ends in it.
+std::vector<std::uint32_t> parametersMeant(const Model& model, std::string_view prefix,
+                                           std::string_view name);
+// The parameter that a pass of the scope's own file declares; kNone when it was left out.
+std::uint32_t findPassParameter(const Scope& scope, const std::string& pass, const std::string& name);
+
+// Marks every parameter that `expr` depends on, directly or through lets, as structural.
+void markStructural(Model& model, Scope& scope, const Expr& expr);
+// True when the expression contains age(), perhaps through a let.
+bool isDynamic(Model& model, Scope& scope, const Expr& expr);
+// Whether the expression reads a parameter that is not structural, perhaps through a let.
+bool isLive(Model& model, Scope& scope, const Expr& expr);
+// True when the expression asks count() or has(), perhaps through a let: it may be 0 where a list is empty.
+bool countsElements(Model& model, Scope& scope, const Expr& expr);
+// Checks the names (variables, choices, resources) in all branches, also in those that are not taken.
+// `repeat`: of the pass, whose indices are bare.
+void checkExpr(Model& model, Scope& scope, const Expr& expr, bool dynamicAllowed = false,
+               std::span<const RangeDesc> repeat = {});
+
+// ---- values (names.cpp) ----
+
+// The EvalScope of expansion: answers for names in expressions of one scope.
 class Names final : public EvalScope {
  public:
   struct Index {
@@ -41,10 +103,7 @@ class Names final : public EvalScope {
   Scope& scope() { return scope_; }
 
  private:
-  const Expr* foldedLive(Let& let);
   std::optional<Value> factOfShape(Fact fact, std::uint32_t target, std::uint32_t mip, const Place& place);
-  // What a fact asks of: an entity, or kNone.
-  std::uint32_t find(std::string_view resource);
 
   Model& model_;
   Scope& scope_;
@@ -53,10 +112,55 @@ class Names final : public EvalScope {
 
 // Evaluation with the expected type held: nullopt after a report, which calls it `what`. An absent expression yields `absent`.
 std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absent, const char* what);
-std::optional<double> evaluateNumber(Names& names, const Expr& expr, double absent, const char* what);
 // A whole number from `low` to `high`, floored first when `floors`.
 std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::int64_t absent,
                                           std::int64_t low, std::int64_t high, const char* what,
                                           bool floors = false);
+// A number, or a list of up to as many as there are bounds, floored, each from 1 to the bound for so many numbers. 0 is a
+// mistake, but for the count of an empty list; what is computed between 0 and 1 is 1. An absent expression is a mistake.
+struct Counts {
+  std::size_t size = 1;
+  std::array<std::uint64_t, 3> each{1, 1, 1};
+};
+std::optional<Counts> evaluateCounts(Names& names, const Expr& expr, std::span<const std::uint64_t> bounds,
+                                     const std::string& what, const char* expected);
+
+// ---- shapes (resources.cpp): size, format, levels, layers, target, bytes and history. Lazily, as sizes refer to each other ----
+
+// True when entity.shape is usable. Reports what is wrong the first time only.
+bool ensureShape(Model& model, std::uint32_t entity);
+// Gives what is bound to inputs the history that they ask for. To be called when all shapes were asked for, before passes.
+void takeInputHistories(Model& model);
+// The entity itself, or of a list of alternatives the first whose condition holds and which exists, whether or not it has
+// a version. kNone when there is none. `mip` gets the level that its reference selects, 0 when it selects none.
+std::uint32_t staticTarget(Model& model, std::uint32_t entity, std::uint32_t* mip = nullptr);
+const ImportType* findImportType(const Registry& registry, std::string_view name);
+// What else an unknown import may mean: what Weft calls it, the nearest of its types, or all of them.
+std::string hintForImport(const Registry& registry, std::string_view name);
+
+// ---- versions (versions.cpp): which FlatResource an entity is at this point of the declared order. A whole rewrite makes
+// another ("hdr#2"). Who wrote what is the VersionWalk's (engine/graph/versions/version_walk.h) ----
+
+// The current FlatResource of an element, made when there is none yet. The shape must be ensured.
+std::uint32_t currentResource(Model& model, std::uint32_t entity, std::uint32_t element);
+
+struct VersionCheck {
+  bool complete = true;       // every selected sub-resource has a version (version zero counts)
+  bool real = false;          // one of them at least is above zero
+  std::uint32_t missing = 0;  // the first sub-resource without one, as an index
+};
+VersionCheck checkVersion(const Model& model, std::uint32_t entity, std::uint32_t element,
+                          const FlatUse& rect);
+// Adds `use` of `pass` to the graph, of the resource that it names, and links it to what it sees.
+void addUse(Model& model, std::uint32_t entity, std::uint32_t element, const FlatUse& use,
+            std::uint32_t pass);
+// For a whole write: another FlatResource when the current one has been written or its version zero used. One that `covers`
+// less than all of it begins with its "clear".
+std::uint32_t resourceToWrite(Model& model, std::uint32_t entity, std::uint32_t element, bool whole,
+                              bool covers);
+// Notes in Model::would what would be used at this position. Imports do not matter.
+void wouldUse(Model& model, WouldUse use);
+// The same for all of `entity`, or of what it lists.
+void wouldUse(Model& model, std::uint32_t entity, Access access, int history);
 
 }  // namespace weft::graph::expansion

@@ -1,5 +1,4 @@
-#include "engine/graph/expand/names/resources.h"
-
+// Shapes of textures, buffers and imports. Declared in names.h.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "engine/graph/expand/names/names.h"
 #include "engine/graph/language/expr_node.h"
 #include "engine/text/nearest.h"
 #include "engine/text/words/foreign_words.h"
@@ -70,16 +70,11 @@ bool evaluateArguments(Model& model, const Entity& entity, const ImportType& typ
   bool good = true;
   std::vector<std::string> known;
   for (const ImportArgument& argument : type.arguments) known.push_back(argument.name);
-  for (const NamedExpr& argument : given) {
-    markStructural(model, *entity.scope, argument.expr);
-    if (std::ranges::find(known, argument.name) != known.end()) continue;
-    std::string hint = text::hintForForeign(text::Foreign::import_argument, argument.name);
-    if (hint.empty() || std::ranges::find(known, "file") == known.end())
-      hint = text::nearestHint(argument.name, known);
-    good = report(model, Code::badImportArgument, argument.place,
-                  fmt::format("import '{}' has no argument '{}'", type.name, argument.name),
-                  {.hint = std::move(hint), .resource = entity.name});
-  }
+  for (const NamedExpr& argument : given)
+    if (std::ranges::find(known, argument.name) == known.end())
+      good = report(model, Code::badImportArgument, argument.place,
+                    fmt::format("import '{}' has no argument '{}'", type.name, argument.name),
+                    {.hint = text::nearestHint(argument.name, known), .resource = entity.name});
   for (const ImportArgument& argument : type.arguments) {
     const auto found = std::ranges::find(given, argument.name, &NamedExpr::name);
     Value value = argument.initial;
@@ -101,8 +96,9 @@ std::uint32_t internImport(Model& model, ImportRequest request, const ImportType
                            const ImportFacts& facts) {
   auto& imports = model.graph.imports;
   const std::uint64_t key = keyOf(request);
-  const auto [known, fresh] = model.importIndex.try_emplace(key, static_cast<std::uint32_t>(imports.size()));
-  if (fresh) {
+  const auto known = std::ranges::find(imports, key, &ImportSpec::key);
+  const auto index = static_cast<std::uint32_t>(known - imports.begin());
+  if (known == imports.end()) {
     imports.push_back({.request = std::move(request),
                        .key = key,
                        .kind = type.kind,
@@ -111,11 +107,11 @@ std::uint32_t internImport(Model& model, ImportRequest request, const ImportType
                        .standIns = {}});
     model.importResource.push_back(kNone);
   }
-  ImportSpec& spec = imports[known->second];
+  ImportSpec& spec = imports[index];
   spec.count = facts.count;
   spec.changing = facts.changing;
   if (!spec.place.file && entity.desc) spec.place = entity.desc->place;
-  return known->second;
+  return index;
 }
 
 void takeFacts(Model& model, Entity& entity, const ImportType& type, const ImportRequest& request,
@@ -225,43 +221,16 @@ bool rangeError(Model& model, const Entity& entity, const Expr& expr, const char
                  .resource = entity.name});
 }
 
-bool evaluateSize(Model& model, Names& names, Entity& entity) {
-  const ResourceDesc& desc = *entity.desc;
-  Value value = desc.size.evaluate(names, model.diagnostics);
-  if (value.type == Value::Type::none) return false;
-  if (value.isNumeric()) {
-    value.v[1] = value.v[0];
-    value.count = 2;
-  } else if (value.type != Value::Type::list || value.count < 2 || value.count > 3) {
-    return report(model, Code::wrongValueType, desc.size.place(),
-                  fmt::format("the size of '{}' is no size", entity.name),
-                  {.expected = "\"screen\", \"screen/2\", \"size(x)\", a number, or a list of 2 or 3 numbers",
-                   .found = toText(value),
-                   .hint = names.scope().resources.contains(value.symbol)
-                               ? fmt::format("write 'size({})'", value.symbol)
-                               : hintForWord(names, value),
-                   .resource = entity.name});
-  }
-  const std::uint32_t limit = value.count == 3 ? kMaxSize3d : kMaxSize;
-  for (std::size_t i = 0; i < value.count; ++i) {
-    // 0 is a mistake, but for an empty list; what is computed between 0 and 1 is 1.
-    const double side = value.v[i];
-    const bool low = side < 0 || (side < 1 && desc.size.isConstant()) ||
-                     (side == 0 && !countsElements(model, names.scope(), desc.size));
-    if (std::isfinite(side) && !low && side <= limit) continue;
-    std::string hint;
-    if (!desc.size.isConstant())
-      hint = fmt::format("it is computed: write '{}(…, {})'", side < 1 ? "max" : "min", side < 1 ? 1 : limit);
-    return rangeError(model, entity, desc.size, "size", fmt::format("1 to {} texels a side", limit), side,
-                      std::move(hint));
-  }
-  const auto side = [&](std::size_t i) {
-    return static_cast<std::uint32_t>(std::max(1.0, std::floor(value.v[i])));
-  };
-  entity.shape.width = side(0);
-  entity.shape.height = side(1);
-  entity.shape.depth = value.count == 3 ? side(2) : 1;
-  if (value.count == 3) entity.shape.target = Target::texture_3d;
+bool evaluateSize(Names& names, Entity& entity) {
+  constexpr std::uint64_t kBounds[] = {kMaxSize, kMaxSize, kMaxSize3d};
+  const auto size =
+      evaluateCounts(names, entity.desc->size, kBounds, fmt::format("the size of '{}'", entity.name),
+                     "\"screen\", \"screen/2\", \"size(x)\", a number, or a list of 2 or 3 numbers");
+  if (!size) return false;
+  entity.shape.width = static_cast<std::uint32_t>(size->each[0]);
+  entity.shape.height = static_cast<std::uint32_t>(size->each[size->size > 1 ? 1 : 0]);
+  entity.shape.depth = static_cast<std::uint32_t>(size->each[2]);
+  if (size->size == 3) entity.shape.target = Target::texture_3d;
   return true;
 }
 
@@ -306,30 +275,25 @@ bool decideTarget(Model& model, Entity& entity) {
   return true;
 }
 
-// An unknown format is reported, and read as the one that is meant, so that nothing else is reported because of it.
 bool evaluateFormat(Model& model, Entity& entity) {
   const ResourceDesc& desc = *entity.desc;
-  auto format = findFormat(desc.format);
-  if (!format) {
-    const std::string meant = text::formatMeantBy(desc.format);
-    const bool theirs = findFormat(meant).has_value();
-    const std::string near = text::nearestHint(desc.format, formatNames());
-    report(model, Code::unknownFormat, desc.formatPlace,
-           fmt::format("texture '{}' has the unknown format '{}'", entity.name, desc.format),
-           {.expected = "channels, bits and kind: r8, rg16f, rgba16f, rgba32ui, srgb8_a8, depth32f, …",
-            .hint = theirs ? fmt::format("write '{}'", meant) : near,
-            .resource = entity.name});
-    format = findFormat(theirs ? meant : text::nearestName(desc.format, formatNames()));
-  }
+  const auto format = findFormat(desc.format);
   if (format) entity.shape.format = *format;
-  return format.has_value();
+  const std::string meant = format ? "" : text::formatMeantBy(desc.format);
+  return format ||
+         report(model, Code::unknownFormat, desc.formatPlace,
+                fmt::format("texture '{}' has the unknown format '{}'", entity.name, desc.format),
+                {.expected = "channels, bits and kind: r8, rg16f, rgba16f, rgba32ui, srgb8_a8, depth32f, …",
+                 .hint = findFormat(meant) ? fmt::format("write '{}'", meant)
+                                           : text::nearestHint(desc.format, formatNames()),
+                 .resource = entity.name});
 }
 
 bool evaluateTexture(Model& model, Names& names, Entity& entity) {
   const ResourceDesc& desc = *entity.desc;
   FlatResource& shape = entity.shape;
   bool good = evaluateFormat(model, entity);
-  good = evaluateSize(model, names, entity) && good;
+  good = evaluateSize(names, entity) && good;
   const auto mips = evaluateWhole(names, desc.mips, 1, 1, kMaxMips, "the number of mips", true);
   const auto layers = evaluateWhole(names, desc.layers, 1, 0, kMaxLayers, "the number of layers", true);
   const auto samples = evaluateWhole(names, desc.samples, 1, 1, 32, "the number of samples");
@@ -352,22 +316,18 @@ bool evaluateTexture(Model& model, Names& names, Entity& entity) {
   return true;
 }
 
-bool evaluateBuffer(Model& model, Names& names, Entity& entity) {
-  const Expr& said = entity.desc->bytes;
+bool evaluateBuffer(Names& names, Entity& entity) {
   entity.shape.kind = ResourceKind::buffer;
-  const std::optional<double> bytes = evaluateNumber(names, said, 0, "the size of a buffer");
-  if (!bytes) return false;
-  if (*bytes < 0 || (*bytes < 1 && said.isConstant()) || *bytes > static_cast<double>(kMaxBufferBytes))
-    return rangeError(model, entity, said, "size", fmt::format("1 to {} bytes", kMaxBufferBytes), *bytes);
-  entity.shape.bytes = static_cast<std::uint64_t>(std::max(1.0, std::floor(*bytes)));
-  return true;
+  const auto bytes = evaluateCounts(names, entity.desc->bytes, {&kMaxBufferBytes, 1},
+                                    fmt::format("the size of '{}'", entity.name), "a number of bytes");
+  if (bytes) entity.shape.bytes = bytes->each[0];
+  return bytes.has_value();
 }
 
 // What `desc`, of the resource itself or of an input that stands for it, says of the time before the first publication.
 void takeFirst(Model& model, Entity& entity, const ResourceDesc& desc, Scope& scope) {
   Names names(model, scope);
   if (desc.firstRef) {
-    markStructural(model, scope, *desc.firstRef);
     entity.firstRef = &*desc.firstRef;
     entity.firstScope = &scope;
   } else {
@@ -378,11 +338,8 @@ void takeFirst(Model& model, Entity& entity, const ResourceDesc& desc, Scope& sc
 bool evaluateDeclared(Model& model, Entity& entity) {
   const ResourceDesc& desc = *entity.desc;
   Names names(model, *entity.scope);
-  for (const Expr* expr : {&desc.size, &desc.mips, &desc.layers, &desc.array, &desc.samples, &desc.bytes,
-                           &desc.history, &desc.clear, &desc.first})
-    markStructural(model, *entity.scope, *expr);
   const bool shaped = entity.kind == ResourceDesc::Kind::texture ? evaluateTexture(model, names, entity)
-                                                                 : evaluateBuffer(model, names, entity);
+                                                                 : evaluateBuffer(names, entity);
   const auto array = evaluateWhole(names, desc.array, 0, 1, kMaxArray, "the array size");
   const auto depth = evaluateWhole(names, desc.history, 0, 0, kMaxHistory, "the history");
   const std::size_t before = model.diagnostics.errorCount();
@@ -403,8 +360,7 @@ bool ensureShape(Model& model, std::uint32_t index) {
   if (entity.state == Progress::done) return true;
   if (entity.state == Progress::failed) return false;
   const Evaluation evaluation(model, entity.state, "'" + entity.name + "'",
-                              entity.desc ? entity.desc->place : Place{}, "the size of ",
-                              " depends on itself");
+                              entity.desc ? entity.desc->place : Place{});
   if (!evaluation.good()) return false;
   const bool good = entity.kind == ResourceDesc::Kind::import ? evaluateImport(model, entity)
                                                               : evaluateDeclared(model, entity);
@@ -442,12 +398,11 @@ void takeInputHistories(Model& model) {
     if (entity.kind != ResourceDesc::Kind::input || !entity.desc->history.present() || entity.bound == kNone)
       continue;
     Names names(model, *entity.scope);
-    markStructural(model, *entity.scope, entity.desc->history);
-    markStructural(model, *entity.scope, entity.desc->first);
     const auto depth = evaluateWhole(names, entity.desc->history, 0, 0, kMaxHistory, "the history");
-    entity.badHistory = !depth;
     std::set<std::uint32_t> seen;
-    if (depth && *depth > 0) deepen(model, entity.bound, i, static_cast<std::uint32_t>(*depth), seen);
+    const auto wanted =
+        static_cast<std::uint32_t>(depth.value_or(kMaxHistory));  // what was reported is long enough
+    if (wanted > 0) deepen(model, entity.bound, i, wanted, seen);
   }
 }
 
@@ -456,9 +411,9 @@ std::uint32_t staticTarget(Model& model, std::uint32_t index, std::uint32_t* mip
   if (entity.kind == ResourceDesc::Kind::import)
     return ensureShape(model, index) && entity.exists ? index : kNone;
   if (entity.kind != ResourceDesc::Kind::alternatives) return index;
-  const Progress before = entity.listState;
+  const Progress before = entity.state;
   if (before == Progress::active) return kNone;  // its own condition asks for its size
-  const Evaluation evaluation(model, entity.listState, "'" + entity.name + "'", entity.desc->place, "", "");
+  const Evaluation evaluation(model, entity.state, "'" + entity.name + "'", entity.desc->place);
   if (!evaluation.good()) return kNone;
   std::uint32_t result = kNone;
   Names names(model, *entity.scope);
@@ -472,7 +427,7 @@ std::uint32_t staticTarget(Model& model, std::uint32_t index, std::uint32_t* mip
       *mip = static_cast<std::uint32_t>(
           evaluateWhole(names, ref.mip->first, 0, 0, kMaxMips, "a level").value_or(0));
   }
-  entity.listState = before;
+  entity.state = before;
   return result;
 }
 

@@ -1,17 +1,14 @@
-#include "engine/graph/expand/names/scope.h"
-
+// Declared in names.h.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "engine/graph/desc_walk.h"
 #include "engine/graph/expand/names/names.h"
-#include "engine/graph/expand/names/resources.h"
-#include "engine/graph/language/expr_node.h"
 #include "engine/graph/language/suffix.h"
 #include "engine/text/limits.h"
 #include "engine/text/nearest.h"
@@ -26,26 +23,11 @@ namespace {
 void addParameter(Model& model, Scope& scope, const ParameterDesc& desc, std::string path) {
   const auto index = static_cast<std::uint32_t>(model.parameters.size());
   model.parametersByLeaf[desc.name].push_back(index);
-  model.parameters.push_back({&desc, std::move(path), desc.initial, false, desc.initialPlace});
+  // A variant is chosen before the first frame.
+  model.parameters.push_back({&desc, std::move(path), desc.initial, desc.define, desc.initialPlace});
   const std::string_view name = std::string_view(model.parameters.back().path).substr(scope.prefix.size());
   scope.variables.try_emplace(name, Variable{Variable::Kind::parameter, index});
 }
-
-// How many of each there will be, of a file and all that it includes.
-struct Counts {
-  std::size_t scopes = 0, parameters = 0, lets = 0, resources = 0, sets = 0;
-  void add(const GraphDesc& desc) {
-    ++scopes;
-    parameters += desc.parameters.size();
-    lets += desc.lets.size();
-    resources += desc.resources.size();
-    sets += desc.sets.size();
-    for (const PassDesc& pass : desc.passes) {
-      for (const PassParameterDesc& parameter : pass.parameters) parameters += parameter.declared ? 1 : 0;
-      if (pass.include && pass.include->graph) add(*pass.include->graph);
-    }
-  }
-};
 
 void buildScope(Model& model, Scope& scope);
 
@@ -58,16 +40,13 @@ void checkBind(Model& model, const IncludeDesc& include, const std::string& name
     report(model, Code::badBind, ref.place,
            fmt::format("include '{}' binds '{}', which is no input of '{}'", include.as, name, include.file),
            {.hint = text::nearestHint(name, inputs)});
-  const bool part = ref.mip || ref.layer || ref.face || ref.element || ref.stencil || ref.history ||
-                    ref.condition.present() || ref.optional;
-  if (!part && ref.wordsSize == 0) return;
-  report(model, Code::badBind, ref.place,
-         fmt::format("include '{}' binds '{}' to more than a name", include.as, name),
-         {.expected = "the name of a whole resource",
-          .found = ref.text,
-          .hint = part ? fmt::format("bind a list, \"resources\": {{ \"{}\": [\"{}\"] }}", name, ref.text)
-                       : fmt::format("write \"{}\" here, and '{}' in the slots that read it", ref.name,
-                                     ref.words())});
+  if (!isWhole(ref) || ref.condition.present())
+    report(model, Code::badBind, ref.place,
+           fmt::format("include '{}' binds '{}' to more than a name", include.as, name),
+           {.expected = "the name of a whole resource",
+            .found = ref.text,
+            .hint = fmt::format("bind '{}', and say the rest in the slots that read it, or bind a list",
+                                ref.name)});
 }
 
 void addInclude(Model& model, Scope& scope, const PassDesc& stanza) {
@@ -88,38 +67,34 @@ void addInclude(Model& model, Scope& scope, const PassDesc& stanza) {
 
 void buildScope(Model& model, Scope& scope) {
   const GraphDesc& desc = *scope.desc;
-  scope.variables.reserve(desc.parameters.size() + desc.lets.size());
-  scope.resources.reserve(desc.resources.size());
-  scope.passes.reserve(desc.passes.size());
   for (const ParameterDesc& parameter : desc.parameters)
     addParameter(model, scope, parameter, scope.prefix + parameter.name);
   for (const NamedExpr& let : desc.lets) {
-    scope.variables.try_emplace(let.name,
-                                Variable{Variable::Kind::let, static_cast<std::uint32_t>(model.lets.size())});
-    Let& made = model.lets.emplace_back();
-    made.desc = &let;
-    made.scope = &scope;
-    made.path = scope.prefix + let.name;
+    const auto index = static_cast<std::uint32_t>(model.lets.size());
+    scope.variables.try_emplace(let.name, Variable{Variable::Kind::let, index});
+    model.lets.push_back({.desc = &let, .scope = &scope, .path = scope.prefix + let.name});
   }
-  for (const ResourceDesc& resource : desc.resources) {
-    if (!scope.resources.try_emplace(resource.name, static_cast<std::uint32_t>(model.entities.size())).second)
-      continue;
-    Entity& entity = model.entities.emplace_back();
-    entity.kind = resource.kind;
-    entity.desc = &resource;
-    entity.scope = &scope;
-    entity.name = scope.prefix + resource.name;
-  }
+  for (const ResourceDesc& resource : desc.resources)
+    if (scope.resources.try_emplace(resource.name, static_cast<std::uint32_t>(model.entities.size())).second)
+      model.entities.push_back(
+          {.kind = resource.kind, .desc = &resource, .scope = &scope, .name = scope.prefix + resource.name});
   for (const PassDesc& pass : desc.passes) {
-    if (pass.include) {
-      addInclude(model, scope, pass);
-      continue;
-    }
-    if (!scope.passes.try_emplace(pass.name, &pass).second) continue;  // W009 of the reader
+    if (pass.include) addInclude(model, scope, pass);
+    if (model.stopped) return;
+    if (pass.include || !scope.passes.try_emplace(pass.name, &pass).second) continue;  // W009 of the reader
     for (const PassParameterDesc& parameter : pass.parameters)
       if (parameter.declared)
         addParameter(model, scope, *parameter.declared, scope.prefix + pass.name + "." + parameter.name);
   }
+  model.sets += desc.sets.size();
+  const std::tuple<std::size_t, std::uint64_t, const char*> bounds[] = {
+      {model.parameters.size(), kMaxNames, "parameters"},
+      {model.lets.size(), kMaxLets, "lets"},
+      {model.entities.size(), kMaxNames, "resources"},
+      {model.sets, kMaxNames, "values in \"set\""}};
+  for (const auto& [count, bound, what] : bounds)
+    if (count > text::raised(bound))
+      return stopAt(model, model.desc.place, fmt::format("the graph has too many {}", what), bound, what);
 }
 
 // A file with inputs that is opened by itself has nothing behind them.
@@ -129,7 +104,7 @@ void reportToInclude(Model& model) {
   };
   const auto first = std::ranges::find_if(model.desc.resources, needed);
   if (first == model.desc.resources.end()) return;
-  model.toInclude = model.incomplete = true;
+  model.toInclude = true;
   const std::string file = std::filesystem::path(model.desc.path).filename().string();
   report(model, Code::unboundInput, first->place,
          fmt::format("'{}' is a file to include: nothing is behind its input '{}'", file, first->name),
@@ -138,45 +113,41 @@ void reportToInclude(Model& model) {
           .resource = first->name});
 }
 
-// Follows a list to what it names, and returns how many alternatives it leads to, those of lists in it counted; 0 of what is no
-// list. Reports lists that lead back to themselves or to too many: everything that follows lists later may visit each of
-// these for each slot.
-std::uint64_t weighList(Model& model, std::uint32_t index, std::vector<std::uint64_t>& weights) {
+// Counts the alternatives that a list leads to, those of lists in it counted. Reports lists that lead back to themselves or to
+// too many: everything that follows lists later may visit each of these for each slot.
+void followList(Model& model, std::uint32_t index, std::uint64_t& count) {
   Entity& entity = model.entities[index];
-  if (entity.kind != ResourceDesc::Kind::alternatives || model.stopped) return 0;
-  if (entity.listState == Progress::done || entity.listState == Progress::failed) return weights[index];
-  const Evaluation evaluation(model, entity.listState, "'" + entity.name + "'", entity.desc->place,
-                              "the alternatives of ", " lead back to it", ~std::size_t{0});
-  if (!evaluation.good()) {
-    model.incomplete = true;
-    return 0;
+  if (entity.kind != ResourceDesc::Kind::alternatives || entity.state == Progress::failed) return;
+  const Evaluation evaluation(model, entity.state, "'" + entity.name + "'", entity.desc->place,
+                              ~std::size_t{0});
+  if (!evaluation.good()) return;
+  for (const std::uint32_t candidate : entity.candidates) {
+    if (candidate == kNone || model.stopped) continue;
+    if (++count > text::raised(kMaxAlternatives))
+      return stopAt(model, entity.desc->place, fmt::format("'{}' has too many alternatives", entity.name),
+                    kMaxAlternatives, "alternatives of one list, those of lists in it counted");
+    followList(model, candidate, count);
   }
-  const std::uint64_t most = text::raised(kMaxAlternatives);
-  std::uint64_t weight = model.evaluating.size() > most ? most + 1 : 0;  // of itself, in too long a row
-  for (std::size_t i = 0; i < entity.candidates.size() && weight <= most; ++i)
-    if (entity.candidates[i] != kNone) weight += 1 + weighList(model, entity.candidates[i], weights);
-  weights[index] = weight;
-  if (weight > most)
-    stopAt(model, entity.desc->place, fmt::format("'{}' has too many alternatives", entity.name),
-           kMaxAlternatives, "alternatives of one list, those of lists in it counted");
-  if (entity.listState == Progress::failed)
+  if (entity.state == Progress::failed)
     entity.candidates.assign(entity.candidates.size(), kNone);
   else
-    entity.listState = Progress::done;
-  return weight;
+    entity.state = Progress::done;
 }
 
 void linkAlternatives(Model& model) {
-  for (Entity& entity : model.entities) {
+  for (std::uint32_t i = 0; i < model.entities.size(); ++i) {  // imports may be added
+    Entity& entity = model.entities[i];
     if (entity.kind != ResourceDesc::Kind::alternatives) continue;
     for (const RefDesc& ref : entity.desc->alternatives) {
       if (isOver(model)) return;
-      markStructural(model, *entity.scope, ref);
-      entity.candidates.push_back(findEntityOrReport(model, *entity.scope, ref, {"a list of alternatives"}));
+      entity.candidates.push_back(
+          findEntityOrReport(model, *entity.scope, ref, "a list of alternatives names"));
     }
   }
-  std::vector<std::uint64_t> weights(model.entities.size(), 0);
-  for (std::uint32_t i = 0; i < weights.size(); ++i) weighList(model, i, weights);
+  for (std::uint32_t i = 0; i < model.entities.size() && !model.stopped; ++i) {
+    std::uint64_t count = 0;
+    followList(model, i, count);
+  }
 }
 
 // Calls see(variable) for each $variable of the expression until it returns true; whether it did.
@@ -187,52 +158,49 @@ bool anyVariable(Model& model, Scope& scope, const Expr& expr, See&& see) {
                              [&](const std::string& name) { return see(findVariable(model, scope, name)); });
 }
 
-// Sets `flag` of the lets for which `holds`, and of all that use them, perhaps through others. Without recursion, because lets
-// may be many in a row.
+// Sets `flag` of the lets for which `holds`, and of all that use them, perhaps through others. There are at most 256.
 template <class Holds>
 void spread(Model& model, bool Let::*flag, Holds&& holds) {
-  std::vector<std::uint32_t> found;
-  for (std::uint32_t i = 0; i < model.lets.size(); ++i)
-    if (holds(model.lets[i])) found.push_back(i);
-  if (found.empty()) return;
-  std::vector<std::vector<std::uint32_t>> users(model.lets.size());
-  for (std::uint32_t i = 0; i < model.lets.size(); ++i)
-    anyVariable(model, *model.lets[i].scope, model.lets[i].desc->expr, [&](const Variable& used) {
-      if (used.kind == Variable::Kind::let) users[used.index].push_back(i);
-      return false;
-    });
-  while (!found.empty()) {
-    const std::uint32_t let = found.back();
-    found.pop_back();
-    if (std::exchange(model.lets[let].*flag, true)) continue;
-    found.insert(found.end(), users[let].begin(), users[let].end());
+  for (Let& let : model.lets) let.*flag = holds(let);
+  for (bool more = true; more;) {
+    more = false;
+    for (Let& let : model.lets)
+      if (!(let.*flag) && anyVariable(model, *let.scope, let.desc->expr, [&](const Variable& used) {
+            return used.kind == Variable::Kind::let && model.lets[used.index].*flag;
+          }))
+        more = let.*flag = true;
   }
+}
+
+// What decides more than the values of uniforms, everything but these and lets, makes the parameters that it reads structural.
+void markAllStructural(Model& model) {
+  for (Scope& scope : model.scopes) {
+    std::set<const Expr*> values;
+    for (const NamedExpr& let : scope.desc->lets) values.insert(&let.expr);
+    for (const PassDesc& pass : scope.desc->passes)
+      for (const PassParameterDesc& parameter : pass.parameters) values.insert(&parameter.value);
+    const auto mark = [&](const Expr& expr) {
+      if (!values.contains(&expr)) markStructural(model, scope, expr);
+    };
+    visitMentions(*scope.desc, mark, [](const RefDesc&) {});
+  }
+  spread(model, &Let::live, [&](const Let& let) {
+    return anyVariable(model, *let.scope, let.desc->expr, [&](const Variable& used) {
+      return used.kind == Variable::Kind::parameter && !model.parameters[used.index].structural;
+    });
+  });
 }
 
 }  // namespace
 
 void buildScopes(Model& model) {
-  Counts counts;
-  counts.add(model.desc);
-  const std::tuple<std::size_t, std::uint64_t, const char*> bounds[] = {
-      {counts.parameters, kMaxNames, "parameters"},
-      {counts.lets, kMaxLets, "lets"},
-      {counts.resources, kMaxNames, "resources"},
-      {counts.sets, kMaxNames, "values in \"set\""}};
-  for (const auto& [count, bound, what] : bounds)
-    if (count > text::raised(bound))
-      return stopAt(model, model.desc.place, fmt::format("the graph has too many {}", what), bound, what);
-  model.scopes.reserve(counts.scopes);
-  model.parameters.reserve(counts.parameters);
-  model.parametersByLeaf.reserve(counts.parameters);
-  model.lets.reserve(counts.lets);
-  // Each type of import may be named without a declaration.
-  model.entities.reserve(counts.resources + model.registry.imports.size());
   Scope& root = model.scopes.emplace_back();
   root.desc = &model.desc;
   buildScope(model, root);
+  if (model.stopped) return;
   reportToInclude(model);
   spread(model, &Let::dynamic, [](const Let& let) { return let.desc->expr.dynamic(); });
+  markAllStructural(model);
   linkAlternatives(model);
 }
 
@@ -240,12 +208,11 @@ void buildScopes(Model& model) {
 
 namespace {
 
-// An optional input that nobody binds, where the including file has nothing of its name.
-bool isLeftOut(Model& model, const Entity& entity, const RefDesc* bind) {
-  const Scope* const parent = entity.scope->parent;
-  return entity.desc->optional &&
-         (!parent || (!bind && !parent->resources.contains(entity.desc->name) &&
-                      findEntity(model, *entity.scope->parent, entity.desc->name, false) == kNone));
+const RefDesc* bindOf(const Entity& input) {
+  if (!input.scope->parent) return nullptr;
+  const auto& binds = input.scope->stanza->include->binds;
+  const auto bind = std::ranges::find(binds, input.desc->name, &std::pair<std::string, RefDesc>::first);
+  return bind == binds.end() ? nullptr : &bind->second;
 }
 
 // Whether it may be bound to an input for a buffer or for a texture. An unknown import is reported where it stands.
@@ -258,29 +225,38 @@ bool fitsInput(const Model& model, const Entity& bound, bool wantsBuffer) {
   return !type || (type->kind == ImportKind::texture) != wantsBuffer;
 }
 
-// What the includer binds to an input, or what it has of its name. kNone after a report.
-std::uint32_t boundTo(Model& model, const Entity& input, const RefDesc* bind) {
-  Scope& parent = *input.scope->parent;
+// What the includer binds to an input, or what it has of its name; the input itself, which becomes a list of none, where it may
+// be left out. kNone after a report.
+std::uint32_t boundTo(Model& model, Entity& input, std::uint32_t index) {
+  Scope* const parent = input.scope->parent;
   const std::string& name = input.desc->name;
-  const PassDesc& stanza = *input.scope->stanza;
-  const std::uint32_t target =
-      bind ? findEntityOrReport(model, parent, *bind, {"\"bind\""}) : findEntity(model, parent, name, false);
-  if (target == kNone) {
-    // One of the includer's own that has nothing behind it was reported there.
-    if (!bind && !parent.resources.contains(name))
-      report(model, Code::unboundInput, stanza.place,
-             fmt::format("include '{}' leaves the input '{}' without a resource", stanza.include->as, name),
-             {.expected =
-                  fmt::format("a resource '{0}' in the including file, or \"bind\": {{ \"{0}\": … }}", name),
-              .hint = suffixHint(name, resourceNames(model, parent)),
-              .resource = input.name});
+  const RefDesc* const bind = bindOf(input);
+  const std::uint32_t target = bind     ? findEntityOrReport(model, *parent, *bind, "\"bind\" names")
+                               : parent ? findEntity(model, *parent, name, false)
+                                        : kNone;
+  if (target != kNone) {
+    const Entity& bound = model.entities[target];
+    if (fitsInput(model, bound, input.desc->input == "buffer")) return target;
+    report(model, Code::badBind, input.scope->stanza->place,
+           fmt::format("input '{}' is a {}, '{}' is not", input.name, input.desc->input, bound.name),
+           {.resource = bound.name});
     return kNone;
   }
-  if (fitsInput(model, model.entities[target], input.desc->input == "buffer")) return target;
-  report(model, Code::badBind, stanza.place,
-         fmt::format("input '{}' is a {}, '{}' is not", input.name, input.desc->input,
-                     model.entities[target].name),
-         {.resource = model.entities[target].name});
+  // One of the includer's own that has nothing behind it was reported there, and those of the root by reportToInclude().
+  if (bind || (parent && parent->resources.contains(name))) return kNone;
+  if (input.desc->optional) {
+    input.kind = ResourceDesc::Kind::alternatives;
+    input.state = Progress::done;
+    return index;
+  }
+  if (parent)
+    report(model, Code::unboundInput, input.scope->stanza->place,
+           fmt::format("include '{}' leaves the input '{}' without a resource",
+                       input.scope->stanza->include->as, name),
+           {.expected =
+                fmt::format("a resource '{0}' in the including file, or \"bind\": {{ \"{0}\": … }}", name),
+            .hint = suffixHint(name, resourceNames(model, *parent)),
+            .resource = input.name});
   return kNone;
 }
 
@@ -288,67 +264,54 @@ std::uint32_t boundTo(Model& model, const Entity& input, const RefDesc* bind) {
 std::uint32_t followInput(Model& model, std::uint32_t index) {
   Entity& entity = model.entities[index];
   if (entity.kind != ResourceDesc::Kind::input) return index;
-  if (entity.bindState == Progress::done || entity.bindState == Progress::failed) return entity.bound;
-  const Evaluation evaluation(model, entity.bindState, "'" + entity.name + "'", entity.desc->place, "input ",
-                              " stands for itself");
+  if (entity.state == Progress::done || entity.state == Progress::failed) return entity.bound;
+  const Evaluation evaluation(model, entity.state, "'" + entity.name + "'", entity.desc->place);
   if (!evaluation.good()) return kNone;
-  const RefDesc* bind = nullptr;
-  if (entity.scope->parent)
-    for (const auto& [input, ref] : entity.scope->stanza->include->binds)
-      if (input == entity.desc->name) bind = &ref;
-  if (isLeftOut(model, entity, bind)) {
-    entity.kind = ResourceDesc::Kind::alternatives;  // a list of none
-    entity.listState = Progress::done;
-    entity.bound = index;
-  } else if (entity.scope->parent) {  // else reportToInclude() said so
-    entity.bound = boundTo(model, entity, bind);
-  }
-  entity.bindState = entity.bound == kNone ? Progress::failed : Progress::done;
+  entity.bound = boundTo(model, entity, index);
+  entity.state = entity.bound == kNone ? Progress::failed : Progress::done;
   return entity.bound;
 }
 
-// An import declared under `name` here or in an enclosing file.
-std::uint32_t declaredImport(Model& model, Scope& from, std::string_view name) {
+// An import declared under `name` here or in an enclosing file, else one of that type with its defaults.
+std::uint32_t findImport(Model& model, Scope& from, std::string_view name) {
   for (Scope* scope = &from; scope; scope = scope->parent)
     if (const auto found = scope->resources.find(name); found != scope->resources.end())
       if (model.entities[found->second].kind == ResourceDesc::Kind::import) return found->second;
-  return kNone;
+  if (const auto found = model.implicitImports.find(name); found != model.implicitImports.end())
+    return found->second;
+  if (!findImportType(model.registry, name)) return kNone;
+  const auto index = static_cast<std::uint32_t>(model.entities.size());
+  model.entities.push_back(
+      {.kind = ResourceDesc::Kind::import, .scope = &model.scopes[0], .name = "@" + std::string(name)});
+  model.implicitImports.emplace(std::string(name), index);
+  return index;
 }
 
-// The import type's entity with default arguments; kNone when there is no such type.
-std::uint32_t implicitImport(Model& model, std::string_view type) {
-  if (const auto found = model.implicitImports.find(type); found != model.implicitImports.end())
-    return found->second;
-  if (!findImportType(model.registry, type)) return kNone;
-  const auto index = static_cast<std::uint32_t>(model.entities.size());
-  Entity& entity = model.entities.emplace_back();
-  entity.kind = ResourceDesc::Kind::import;
-  entity.scope = &model.scopes[0];
-  entity.name = "@" + std::string(type);
-  model.implicitImports.emplace(std::string(type), index);
-  return index;
+std::string_view firstPart(std::string_view name) {
+  return name.substr(0, name.find('.'));
 }
 
 }  // namespace
 
+Scope& scopeOf(Scope& scope, std::string_view& name) {
+  Scope* at = &scope;
+  for (auto child = at->includes.find(firstPart(name));
+       name.find('.') != std::string_view::npos && child != at->includes.end();
+       child = at->includes.find(firstPart(name))) {
+    at = child->second;
+    name.remove_prefix(name.find('.') + 1);
+  }
+  return *at;
+}
+
 std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool import) {
-  if (!import && name.starts_with('@')) return findEntity(model, scope, name.substr(1), true);
-  if (!import)
-    if (const auto found = scope.resources.find(name); found != scope.resources.end())
-      return followInput(model, found->second);
-  const std::size_t dot = name.find('.');
-  if (import && dot == std::string_view::npos) {
-    const std::uint32_t declared = declaredImport(model, scope, name);
-    return declared != kNone ? declared : implicitImport(model, name);
-  }
-  if (import) {
-    const std::uint32_t dotted = findEntity(model, scope, name, false);
-    return dotted != kNone && model.entities[dotted].kind == ResourceDesc::Kind::import ? dotted : kNone;
-  }
-  if (dot == std::string_view::npos) return kNone;
-  const auto child = scope.includes.find(name.substr(0, dot));
-  return child == scope.includes.end() ? kNone
-                                       : findEntity(model, *child->second, name.substr(dot + 1), false);
+  if (name.starts_with('@')) return findEntity(model, scope, name.substr(1), true);
+  if (import && name.find('.') == std::string_view::npos) return findImport(model, scope, name);
+  const Scope& in = scopeOf(scope, name);
+  const auto own = in.resources.find(name);
+  const std::uint32_t found = own == in.resources.end() ? kNone : followInput(model, own->second);
+  const bool fits = found != kNone && (!import || model.entities[found].kind == ResourceDesc::Kind::import);
+  return fits ? found : kNone;
 }
 
 std::vector<std::string> resourceNames(const Model& model, const Scope& scope) {
@@ -361,145 +324,92 @@ std::vector<std::string> resourceNames(const Model& model, const Scope& scope) {
 
 namespace {
 
-// "noise.png": a file in the place of a resource. "lit.hdr" is a resource.
-bool isPicturePath(std::string_view name) {
-  return name.ends_with(".png") || name.ends_with(".jpg") || name.ends_with(".jpeg") ||
-         name.ends_with(".exr");
-}
-
-std::string_view firstPart(std::string_view name) {
-  return name.substr(0, name.find('.'));
-}
-
 // The fix for a resource that is not there.
-std::string hintForResource(const Model& model, const Scope& scope, std::string_view name,
-                            const NamedBy& by) {
-  if (isPicturePath(name))
-    return fmt::format(
-        "a picture is a resource: declare {{ \"{0}\": {{ \"import\": \"image\", \"file\": \"{1}\" }} }} and "
-        "name \"{0}\" here",
-        firstPart(name.substr(name.rfind('/') + 1)), name);
+std::string hintForResource(const Model& model, const Scope& scope, std::string_view name, bool orPass) {
   // A whole name in its own file.
   if (!scope.prefix.empty() && name.starts_with(scope.prefix)) name.remove_prefix(scope.prefix.size());
   if (findImportType(model.registry, name)) return fmt::format("did you mean the import '@{}'?", name);
-  for (const Scope* outer = scope.resources.contains(name) ? nullptr : scope.parent; outer;
-       outer = outer->parent)
+  for (const Scope* outer = scope.parent; outer; outer = outer->parent)
     if (outer->resources.contains(name) || outer->includes.contains(firstPart(name)))
       return fmt::format(
           "the including file has it: declare \"{}\": {{ \"input\": \"texture\" }} in the file of the pass",
           name.substr(name.rfind('.') + 1));
-  if (const PassDesc* pass = by.orPass ? nullptr : findPass(scope, name))
-    for (const SlotDesc& slot : pass->slots)
-      if (slot.access != Access::read)
-        return fmt::format("'{}' is a pass: name what it writes, '{}'", name, slot.ref.name);
   std::vector<std::string> names = resourceNames(model, scope);
   for (const auto& [pass, stanza] : scope.passes)
-    if (by.orPass) names.emplace_back(pass);
+    if (orPass) names.emplace_back(pass);
   return suffixHint(name, names);
 }
 
-}  // namespace
-
-std::uint32_t findEntityOrReport(Model& model, Scope& scope, const RefDesc& ref, const NamedBy& by) {
+std::uint32_t findOrReport(Model& model, Scope& scope, const RefDesc& ref, std::string_view who,
+                           std::string_view pass, bool orPass) {
   const std::string& name = ref.name;
-  const bool import = ref.import;
+  const bool import = ref.import, own = scope.resources.contains(name);
   const std::size_t before = model.diagnostics.errorCount();
   const std::uint32_t found = findEntity(model, scope, name, import);
   if (found != kNone || isOver(model) || model.diagnostics.errorCount() > before) return found;
   // Its declaration was reported, or it is an input with nothing behind it, which was.
-  if (isUnread(scope, name) || (!import && scope.resources.contains(name))) return kNone;
-  if (!import && isUnincluded(model, scope, name, ref.place, by)) return kNone;
+  if (isUnread(scope, name) || (!import && own)) return kNone;
+  std::string hint = !import ? hintForResource(model, scope, name, orPass)
+                     : own   ? fmt::format("'{}' is a resource of this graph: write it without the @", name)
+                             : hintForImport(model.registry, name);
+  // A file that is not included is one mistake, however many of its names are used.
+  const std::string first(firstPart(name));
+  if (!import && first.size() < name.size() && !scope.includes.contains(first) &&
+      !scope.resources.contains(first) && !scope.passes.contains(first)) {
+    if (!model.unknown.emplace(&scope, first).second) return kNone;
+    if (hint.empty())
+      hint = fmt::format("include a file as that: {{ \"include\": …, \"as\": \"{}\" }}", first);
+  }
   const std::string written = (import ? "@" : "") + name;
   report(model, import ? Code::unknownImport : Code::unknownResource, ref.place,
-         fmt::format("{} {} the unknown {} '{}'", by.user, by.verb, import ? "import" : "resource", written),
-         {.hint = !import ? hintForResource(model, scope, name, by)
-                  : scope.resources.contains(name)
-                      ? fmt::format("'{}' is a resource of this graph: write it without the @", name)
-                      : hintForImport(model.registry, name),
-          .resource = written,
-          .pass = std::string(by.pass)});
+         fmt::format("{} the unknown {} '{}'", who, import ? "import" : "resource", written),
+         {.hint = std::move(hint), .resource = written, .pass = std::string(pass)});
   return kNone;
 }
 
-const PassDesc* findPass(const Scope& scope, std::string_view name) {
-  const auto found = scope.passes.find(name);
-  return found == scope.passes.end() ? nullptr : found->second;
+}  // namespace
+
+std::uint32_t findEntityOrReport(Model& model, Scope& scope, const RefDesc& ref, std::string_view who,
+                                 std::string_view pass) {
+  return findOrReport(model, scope, ref, who, pass, false);
 }
 
-AskedPass findAskedPass(const Scope& scope, std::string_view name) {
-  const Scope* at = &scope;
-  for (std::size_t dot = name.find('.'); dot != std::string_view::npos; dot = name.find('.')) {
-    const auto child = at->includes.find(name.substr(0, dot));
-    if (child == at->includes.end()) return {};
-    at = child->second;
-    name = name.substr(dot + 1);
-  }
-  const PassDesc* pass = findPass(*at, name);
-  return {pass, pass ? at : nullptr};
+std::uint32_t findAsked(Model& model, Scope& scope, std::string_view name) {
+  const std::uint32_t found = findEntity(model, scope, name, false);
+  // An input with nothing behind it is no import of its name.
+  return found == kNone && !scope.resources.contains(name) ? findEntity(model, scope, name, true) : found;
 }
 
-// ---- names that are unknown ----
-
-const PassDesc* failedInclude(const Scope& scope) {
-  for (const PassDesc& pass : scope.desc->passes)
-    if (pass.include && !pass.include->graph) return &pass;
-  return nullptr;
+std::pair<const PassDesc*, Scope*> findAskedPass(Scope& scope, std::string_view name) {
+  Scope& in = scopeOf(scope, name);
+  const auto found = in.passes.find(name);
+  return {found == in.passes.end() ? nullptr : found->second, &in};
 }
 
 bool isUnread(const Scope& from, std::string_view name) {
+  if (from.broken) return true;
+  if (const auto child = from.includes.find(firstPart(name));
+      child != from.includes.end() && name.find('.') != std::string_view::npos)
+    return isUnread(*child->second, name.substr(name.find('.') + 1));
   const std::string_view leaf = name.substr(name.rfind('.') + 1);
-  const auto holds = [&](const Scope& scope) {
-    const auto& unread = scope.desc->unread;
-    return std::ranges::find(unread, leaf) != unread.end();
-  };
   for (const Scope* scope = &from; scope; scope = scope->parent)
-    if (holds(*scope)) return true;
-  if (name.find('.') == std::string_view::npos) return false;
-  // A name into an include that could not be read, or that left the resource out.
-  const auto child = from.includes.find(name.substr(0, name.find('.')));
-  if (child != from.includes.end()) return isUnread(*child->second, name.substr(name.find('.') + 1));
-  const std::string_view first = firstPart(name);
-  for (const PassDesc& pass : from.desc->passes)  // the path may be what is misspelt, and so the name
-    if (pass.include && !pass.include->graph && (pass.include->as == first || from.resources.contains(first)))
+    if (const auto& unread = scope->desc->unread; std::ranges::find(unread, leaf) != unread.end())
       return true;
   return false;
-}
-
-bool mayBeUnread(const Scope& from, std::string_view name) {
-  return from.broken || isUnread(from, name);
-}
-
-bool isUnincluded(Model& model, Scope& scope, std::string_view name, const Place& place, const NamedBy& by) {
-  const std::string_view first = firstPart(name);
-  if (first.size() == name.size() || isPicturePath(name) || scope.includes.contains(first) ||
-      scope.resources.contains(first) || scope.passes.contains(first))
-    return false;
-  model.incomplete = true;
-  if (!model.unknown.emplace(&scope, first).second || failedInclude(scope)) return true;
-  std::string hint = hintForResource(model, scope, name, by);
-  if (hint.empty())
-    hint = fmt::format("include a file as that, {{ \"include\": \"{0}.json\", \"as\": \"{0}\" }}", first);
-  report(model, Code::unknownResource, place,
-         fmt::format("{} {} the unknown resource '{}': nothing is included as '{}'", by.user, by.verb, name,
-                     first),
-         {.hint = std::move(hint), .resource = std::string(name), .pass = std::string(by.pass)});
-  return true;
 }
 
 // ---- variables ----
 
 Variable findVariableFrom(Scope& from, std::string_view name) {
   for (Scope* scope = &from; scope; scope = scope->parent) {
+    if (const auto own = scope->variables.find(name); own != scope->variables.end()) return own->second;
     Scope* at = scope;
-    std::string_view rest = name;
-    while (true) {
-      if (const auto found = at->variables.find(rest); found != at->variables.end()) return found->second;
-      const std::size_t dot = rest.find('.');
-      if (dot == std::string_view::npos) break;
-      const auto child = at->includes.find(rest.substr(0, dot));
+    for (std::string_view rest = name; rest.find('.') != std::string_view::npos;) {
+      const auto child = at->includes.find(firstPart(rest));
       if (child == at->includes.end()) break;
       at = child->second;
-      rest = rest.substr(dot + 1);
+      rest.remove_prefix(rest.find('.') + 1);
+      if (const auto found = at->variables.find(rest); found != at->variables.end()) return found->second;
     }
   }
   return {};
@@ -538,26 +448,31 @@ std::uint32_t findPassParameter(const Scope& scope, const std::string& pass, con
 
 // ---- what expressions depend on ----
 
-bool checkExpr(Model& model, Scope& scope, const Expr& expr, bool dynamicAllowed,
+void checkExpr(Model& model, Scope& scope, const Expr& expr, bool dynamicAllowed,
                std::span<const RangeDesc> repeat) {
-  if (!expr.present() || expr.isConstant()) return true;
-  const std::size_t before = model.diagnostics.errorCount();
+  if (!expr.present() || expr.isConstant()) return;
   Names names(model, scope, dynamicAllowed);
   for (const RangeDesc& range : repeat) names.indices.push_back({range.index, 0});
   expr.check(names, model.diagnostics);
   for (const auto& [fact, name] : expr.facts()) {
-    if (findEntity(model, scope, name, false) != kNone || findEntity(model, scope, name, true) != kNone)
-      continue;
-    if (fact == Fact::has && findAskedPass(scope, name).desc) continue;
+    if (findAsked(model, scope, name) != kNone) continue;
+    const bool orPass = fact == Fact::has, import = name.starts_with('@');
+    if (orPass && findAskedPass(scope, name).first) continue;
     const std::size_t known = model.diagnostics.errorCount();
-    NamedBy by = kAsksOf;
-    by.orPass = fact == Fact::has;
-    const bool import = name.starts_with("@");
-    RefDesc asked{.place = expr.place(), .name = name.substr(import ? 1 : 0), .import = import};
-    findEntityOrReport(model, scope, asked, by);
+    const RefDesc asked{.place = expr.place(), .name = name.substr(import ? 1 : 0), .import = import};
+    findOrReport(model, scope, asked, "an expression asks of", {}, orPass);
     if (model.diagnostics.errorCount() > known) model.unknown.emplace(&scope, name);
   }
-  return model.diagnostics.errorCount() == before;
+}
+
+bool countsElements(Model& model, Scope& scope, const Expr& expr) {
+  const auto counts = [](const auto& fact) { return fact.first == Fact::count || fact.first == Fact::has; };
+  return expr.present() && (std::ranges::any_of(expr.facts(), counts) ||
+                            anyVariable(model, scope, expr, [&](const Variable& used) {
+                              if (used.kind != Variable::Kind::let) return false;
+                              const Let& let = model.lets[used.index];
+                              return countsElements(model, *let.scope, let.desc->expr);
+                            }));
 }
 
 bool isDynamic(Model& model, Scope& scope, const Expr& expr) {
@@ -574,47 +489,15 @@ bool isLive(Model& model, Scope& scope, const Expr& expr) {
   });
 }
 
-void findLiveLets(Model& model) {
-  spread(model, &Let::live, [&](const Let& let) { return isLive(model, *let.scope, let.desc->expr); });
-}
-
 void markStructural(Model& model, Scope& scope, const Expr& expr) {
-  std::vector<Let*> lets;  // still to be followed
-  const auto mark = [&](const Variable& used) {
+  anyVariable(model, scope, expr, [&](const Variable& used) {
     if (used.kind == Variable::Kind::parameter) model.parameters[used.index].structural = true;
-    if (used.kind == Variable::Kind::let && !std::exchange(model.lets[used.index].structural, true))
-      lets.push_back(&model.lets[used.index]);
+    if (used.kind == Variable::Kind::let && !std::exchange(model.lets[used.index].structural, true)) {
+      const Let& let = model.lets[used.index];
+      markStructural(model, *let.scope, let.desc->expr);
+    }
     return false;
-  };
-  anyVariable(model, scope, expr, mark);
-  while (!lets.empty()) {
-    Let& let = *lets.back();
-    lets.pop_back();
-    anyVariable(model, *let.scope, let.desc->expr, mark);
-  }
-}
-
-void markStructural(Model& model, Scope& scope, const RefDesc& ref) {
-  visitRef(
-      ref, [&](const Expr& expr) { markStructural(model, scope, expr); }, [](const RefDesc&) {});
-}
-
-bool countsElements(Model& model, Scope& scope, const Expr& expr) {
-  std::vector<std::pair<Scope*, const Expr*>> open{{&scope, &expr}};
-  std::set<std::uint32_t> seen;  // lets
-  while (!open.empty()) {
-    const auto [from, each] = open.back();
-    open.pop_back();
-    if (!each->present()) continue;
-    for (const auto& [fact, name] : each->facts())
-      if (fact == Fact::count || fact == Fact::has) return true;
-    anyVariable(model, *from, *each, [&](const Variable& used) {
-      if (used.kind == Variable::Kind::let && seen.insert(used.index).second)
-        open.emplace_back(model.lets[used.index].scope, &model.lets[used.index].desc->expr);
-      return false;
-    });
-  }
-  return false;
+  });
 }
 
 }  // namespace weft::graph::expansion

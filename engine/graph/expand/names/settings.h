@@ -1,5 +1,5 @@
 // What a person asked of a graph beside its files: the screen, values of parameters, disabled passes. Plain data; what a
-// name means is found when the graph is expanded (apply_settings.h). Also whether a parameter takes a value.
+// name means is found when the graph is expanded (names.h). Also whether a parameter takes a value.
 #pragma once
 
 #include <cstdint>

@@ -1,10 +1,9 @@
-#include "engine/graph/expand/names/versions.h"
-
+// Declared in names.h.
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "engine/graph/expand/names/resources.h"
+#include "engine/graph/expand/names/names.h"
 #include "engine/graph/subresource.h"
 
 namespace weft::graph::expansion {

@@ -1,9 +1,12 @@
-// The commands that list what can be chosen: params, presets, types, schema.
+// The commands that print what the compiled plan knows, plan, explain and params; and what a graph may name: presets, types,
+// schema.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -18,12 +21,68 @@
 #include "engine/runtime/imports/registry.h"
 #include "engine/text/files/text_file.h"
 #include "engine/text/json/dom.h"
+#include "engine/text/json/layout.h"
 
 namespace weft::app {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+struct PlanOptions : Options {
+  std::string format = "text";
+  bool explain = false;
+};
+
+std::string viewOf(const graph::Plan& plan, const PlanOptions& options) {
+  if (options.format == "dot") return graph::dumpDot(plan);
+  if (options.format == "json") return graph::dumpJson(plan, options.explain);
+  if (options.format == "expanded")
+    return text::layoutJson(graph::graphFileOf(plan),
+                            {.packed = {"set"}, .starts = {"read", "write", "modify"}});
+  return graph::dumpText(plan, options.explain);
+}
+
+int runPlan(PlanOptions& options) {
+  text::Diagnostics diagnostics;
+  if (const auto plan = planOf(options, diagnostics)) print(viewOf(*plan, options));
+  return report(diagnostics);
+}
+
+// The section of docs/errors.md of a code such as "W053"; "" where there is none.
+std::string sectionOfCode(std::string code) {
+  std::ranges::transform(code, code.begin(), [](unsigned char c) { return std::toupper(c); });
+  std::ifstream page(dataFolder() + "/docs/errors.md");
+  std::string section;
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("## ") && !section.empty()) break;
+    if (line.starts_with("## " + code + ":"))
+      section = line.substr(3) + "\n";
+    else if (!section.empty() && !line.starts_with("```"))
+      section += line + "\n";
+  }
+  while (section.ends_with("\n\n")) section.pop_back();
+  return section;
+}
+
+struct ExplainOptions : Options {
+  std::string name;
+};
+
+int runExplain(ExplainOptions& options) {
+  if (options.name.empty()) {
+    if (const std::string section = sectionOfCode(options.graph); !section.empty()) return print(section), 0;
+    printError("explain: give a graph and a name, or a code such as W053\n");
+    return 2;
+  }
+  text::Diagnostics diagnostics;
+  if (const auto plan = planOf(options, diagnostics))
+    if (const auto text = graph::describe(*plan, options.name, diagnostics)) print(*text);
+  return report(diagnostics);
+}
+
+// ---- params, presets ----
+
 std::string nameOf(graph::ParameterDesc::Type type) {
   return std::string(graph::kParameterTypes[static_cast<std::size_t>(type)]);
 }
@@ -121,11 +180,6 @@ int runPresets(ListOptions& options) {
   return report(diagnostics);
 }
 
-int runSchema(Options&) {
-  print(graph::kGraphSchema);
-  return 0;
-}
-
 // What a graph may name, from the registry itself.
 int runTypes(Options&) {
   const graph::Registry registry = runtime::makeRegistry({}, {});
@@ -154,6 +208,28 @@ int runTypes(Options&) {
 
 }  // namespace
 
+void addPlan(CommandLine& line) {
+  const auto [plan, options] =
+      line.add("plan", "print the compiled plan: order, barriers, storage, bytes", runPlan);
+  options.addGraph(plan);
+  addChoice(
+      plan, "--format", options.format,
+      "text, json, dot for Graphviz, or expanded: a graph file without includes, repeats and conditions "
+      "that gives the same plan",
+      {"text", "json", "dot", "expanded"});
+  plan.add_flag("--explain", options.explain, "say why: passes, barrier bits, shared storage");
+}
+
+void addExplain(CommandLine& line) {
+  const auto [command, options] = line.add(
+      "explain",
+      "say what is known of one pass, resource or parameter: order, storage, barriers, readers; or, with "
+      "a code such as W053 alone, what it means",
+      runExplain);
+  options.addGraph(command);
+  command.add_option("name", options.name, "any unique suffix of its name");
+}
+
 void addParams(CommandLine& line) {
   const auto [command, options] =
       line.add("params", "list the parameters of a graph: name, type, value, range, label", runParams);
@@ -169,7 +245,8 @@ void addPresets(CommandLine& line) {
 }
 
 void addSchema(CommandLine& line) {
-  line.add("schema", "print the JSON Schema of graph files", runSchema);
+  line.add<Options>("schema", "print the JSON Schema of graph files",
+                    [](Options&) { return print(graph::kGraphSchema), 0; });
 }
 
 void addTypes(CommandLine& line) {

@@ -1,23 +1,20 @@
-// Light probes: a grid of points, each with the light that spheres throw back to it, as irradiance in spherical harmonics
-// up to band 2. In units of the environment: a sphere's diffuse color, albedo * (1 - metallic), is its radiance, as it is
-// under an environment of radiance 1; whoever reads a probe multiplies by the environment, so that a black one gives nothing.
-// Spheres hide neither each other nor the sky. Pure functions; shaders/spheres/probes/bake.comp.glsl computes the same on a GPU.
+// What shaders/spheres/probes/bake.comp.glsl computes, on the CPU and in the plainest way: the reference of the tests of light probes.
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+#include <vector>
 
 #include "engine/scene/scene.h"
 
 namespace weft::scene {
 
 // Real spherical harmonics up to band 2, and what of them a cap of constant radiance has in closed form. Order of the nine:
-// Y00, Y1-1 (y), Y10 (z), Y11 (x), Y2-2 (xy), Y2-1 (yz), Y20 (3zz - 1), Y21 (xz), Y22 (xx - yy), as in Ramamoorthi and
-// Hanrahan, "An Efficient Representation for Irradiance Environment Maps", SIGGRAPH 2001. shaders/gi/sh.glsl has the same.
+// Y00, Y1-1 (y), Y10 (z), Y11 (x), Y2-2 (xy), Y2-1 (yz), Y20 (3zz - 1), Y21 (xz), Y22 (xx - yy), as
+// shaders/gi/sh.glsl has them.
 constexpr std::size_t kShCount = 9;
 constexpr float kPi = 3.14159265358979f;
 
@@ -69,10 +66,8 @@ struct Probe {
   glm::vec4 sh[kShCount];
 };
 
-// Replaces `out`, which has grid.size() elements. Adds the spheres up in their order, whatever the grid, on at most `threads`
-// threads (0: as many as the machine has), with the same bytes on any number. Linear in pairs of a sphere and a probe within its
-// reach. False, with anything in `out`, once `canceled` is set.
-bool computeProbes(const ProbeGrid& grid, const ProbeRules& rules, std::span<const Instance> spheres,
-                   std::span<Probe> out, const std::atomic<bool>* canceled = nullptr, int threads = 1);
+// Adds the spheres up in their order: grid.size() probes.
+std::vector<Probe> computeProbes(const ProbeGrid& grid, const ProbeRules& rules,
+                                 std::span<const Instance> spheres);
 
 }  // namespace weft::scene

@@ -1,15 +1,15 @@
-#include "app/bench/bench.h"
+// weft bench: what frames and edits cost, as JSON. Times depend on the machine and are not judged.
 
 #include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <limits>
 
+#include "app/commands/commands.h"
 #include "app/live/live_graph.h"
 #include "app/output/standard_streams.h"
-#include "app/session/device_session.h"
 #include "app/session/session.h"
-#include "engine/graph/read/read.h"
+#include "engine/graph/language/suffix.h"
 
 namespace weft::app {
 
@@ -158,21 +158,15 @@ std::optional<Json> benchEdits(const Options& options, text::Diagnostics& diagno
 // ---- frames ----
 
 // The named effects, as far as the graph has parameters that end in these names.
-graph::Settings settingsWith(const Options& options, const graph::GraphDesc& desc, bool software,
+graph::Settings settingsWith(const Options& options, const graph::FlatGraph& graph, bool software,
                              std::string_view variant) {
   graph::Settings settings = settingsOf(options, software);
-  if (variant == "default") return settings;
-  std::vector<std::string> names;
-  const auto collect = [&](const auto& self, const graph::GraphDesc& each) -> void {
-    for (const graph::ParameterDesc& parameter : each.parameters) names.push_back(parameter.name);
-    for (const graph::PassDesc& pass : each.passes)
-      if (pass.include && pass.include->graph) self(self, *pass.include->graph);
-  };
-  collect(collect, desc);
-  for (const std::string_view effect : {"bloom", "dof", "auto_exposure", "motion_blur", "fxaa"})
-    if (std::ranges::find(names, effect) != names.end())
-      settings.sets.emplace_back(std::string(effect),
-                                 variant == "all" || effect == "fxaa" ? "true" : "false");
+  for (const char* effect : {"bloom", "dof", "auto_exposure", "motion_blur", "fxaa"})
+    if (variant != "default" && std::ranges::any_of(graph.parameters, [&](const graph::ParameterSpec& each) {
+          return graph::hasSuffix(each.path, effect);
+        }))
+      settings.sets.emplace_back(effect,
+                                 variant == "all" || effect == std::string_view("fxaa") ? "true" : "false");
   return settings;
 }
 
@@ -184,9 +178,10 @@ std::optional<Json> benchFrame(const Options& options, text::Diagnostics& diagno
   auto world = loadWorld(options, diagnostics);
   if (!world || diagnostics.hasErrors()) return std::nullopt;
   auto session = openDevice(options, diagnostics);
-  const auto desc = session ? graph::readGraph(options.graph, diagnostics) : nullptr;
-  if (!desc || diagnostics.hasErrors()) return std::nullopt;
+  if (!session) return std::nullopt;
   const bool software = session->context->device().software;
+  const auto whole = makePlan(options, world->facts(), software, diagnostics);
+  if (!whole) return std::nullopt;
   const auto frameOf = [&](runtime::Renderer& renderer, std::uint32_t frame) {
     renderer.frame(*world, runtime::headlessFrame(*world, frame, 60), diagnostics);
   };
@@ -201,7 +196,7 @@ std::optional<Json> benchFrame(const Options& options, text::Diagnostics& diagno
   std::vector<Cost> costs;
   for (const char* variant : {"plain", "default", "all"}) {
     runtime::Renderer renderer(*session->context, options.graph, uncached);
-    if (!renderer.load(settingsWith(options, *desc, software, variant), *world, diagnostics))
+    if (!renderer.load(settingsWith(options, *whole->graph, software, variant), *world, diagnostics))
       return std::nullopt;
     std::uint32_t frame = 0;
     const auto next = [&] { frameOf(renderer, frame++); };

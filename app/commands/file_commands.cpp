@@ -1,0 +1,249 @@
+// The commands that write files of text: format lays graphs out, new begins a pass, import makes a graph of another program's
+// pipeline.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <initializer_list>
+#include <memory>
+#include <utility>
+
+#include "app/commands/commands.h"
+#include "app/import/import.h"
+#include "app/output/output_files.h"
+#include "app/output/standard_streams.h"
+#include "app/session/session.h"
+#include "engine/assets/images/image.h"
+#include "engine/graph/language/names.h"
+#include "engine/graph/read/read.h"
+#include "engine/text/files/file.h"
+#include "engine/text/files/file_access.h"
+#include "engine/text/files/text_file.h"
+#include "engine/text/json/dom.h"
+#include "engine/text/json/edit.h"
+#include "engine/text/json/layout.h"
+#include "engine/text/printable.h"
+
+namespace weft::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// `path` as a file in `folder` names it. Neither need exist.
+std::string seenFrom(const std::string& folder, const std::string& path) {
+  std::error_code failed;
+  const fs::path beside = fs::relative(path, folder, failed);
+  return (failed || beside.empty() ? fs::absolute(path) : beside).generic_string();
+}
+
+// ---- format ----
+
+void formatFile(const std::string& path, bool checkOnly, text::Diagnostics& diagnostics) {
+  const auto text = text::readTextFile(path, diagnostics);
+  const auto file = std::make_shared<const std::string>(path);
+  const std::size_t before = diagnostics.errorCount();
+  if (text) text::parseJson(*text, file, diagnostics);
+  if (!text || diagnostics.errorCount() > before) return;
+  const std::string laid =
+      text::layoutJson(*text, {.packed = {"set"}, .starts = {"read", "write", "modify"}});
+  if (laid == *text) return;
+  if (checkOnly) {
+    const auto same = std::ranges::mismatch(*text, laid).in1;
+    const auto line = static_cast<std::uint32_t>(1 + std::count(text->begin(), same, '\n'));
+    diagnostics
+        .error(text::Code::laidOutDifferently, {file, line, 1},
+               "the file is not laid out as `weft format` does it")
+        .hint = "weft format " + path;
+  } else if (text::writeFile(path, laid, diagnostics)) {
+    print(text::printable(path) + "\n");
+  }
+}
+
+struct FormatOptions {
+  std::vector<std::string> files;
+  bool checkOnly = false;
+};
+
+int runFormat(FormatOptions& options) {
+  text::Diagnostics diagnostics;
+  for (const std::string& file : options.files) formatFile(file, options.checkOnly, diagnostics);
+  return report(diagnostics);
+}
+
+// ---- new ----
+
+constexpr std::size_t kLongestName = 64;
+
+// Where the new pass goes: behind the last stanza, and the texture that is shown.
+struct Anchor {
+  std::string after, texture;
+};
+
+std::optional<Anchor> findAnchor(const std::string& graphFile, const std::string& name,
+                                 text::Diagnostics& diagnostics) {
+  const auto desc = graph::readGraph(graphFile, diagnostics);
+  if (!desc || diagnostics.hasErrors()) return std::nullopt;
+  const text::Place place = {std::make_shared<const std::string>(graphFile), 1, 1};
+  for (const graph::PassDesc& pass : desc->passes)
+    if (pass.name == name) {
+      diagnostics
+          .error(text::Code::duplicateName, pass.namePlace, fmt::format("the graph has a pass '{}'", name))
+          .hint = fmt::format("give the new pass another name, such as 'my_{}'", name);
+      return std::nullopt;
+    }
+  const auto& present = desc->present;
+  const bool whole =
+      present && !present->mip && !present->layer && !present->face && !present->element && !present->import;
+  if (whole && !desc->passes.empty()) return Anchor{desc->passes.back().name, present->name};
+  text::Diagnostic& d =
+      diagnostics.error(text::Code::presentsNothing, present ? present->place : place,
+                        "the graph presents no whole texture of its own that a pass could change");
+  d.expected = "\"present\": \"<texture>\" and a pass";
+  if (present) d.found = present->text;
+  return std::nullopt;
+}
+
+// Writes the bundled template `file` to `path`, with words in it replaced.
+bool writeFrom(const std::string& file, const std::string& path,
+               std::initializer_list<std::pair<std::string_view, std::string>> words,
+               text::Diagnostics& diagnostics) {
+  auto text = text::readTextFile(dataFolder() + "/app/commands/" + file, diagnostics);
+  if (!text) return false;
+  for (const auto& [word, replacement] : words)
+    for (std::size_t at = 0; (at = text->find(word, at)) != std::string::npos; at += replacement.size())
+      text->replace(at, word.size(), replacement);
+  return makeFolderOf(path, diagnostics) && text::writeFile(path, *text, diagnostics);
+}
+
+struct NewOptions {
+  std::string what, name, graph, folder;
+};
+
+int runNew(NewOptions& options) {
+  text::Diagnostics diagnostics;
+  if (options.graph.empty()) options.graph = dataFolder() + "/graphs/glow.json";
+  const std::string& name = options.name;
+  if (!graph::isIdent(name) || name[0] == '_' || name.size() > kLongestName || graph::isReservedWord(name)) {
+    diagnostics
+        .error(text::Code::notAName, text::placeOfOption("new pass " + name),
+               fmt::format("\"{}\" cannot name a pass", name))
+        .expected =
+        fmt::format("a letter, then letters, digits and '_', {} at most, and none of the words {}",
+                    kLongestName, fmt::join(graph::kReservedWords, ", "));
+    return report(diagnostics);
+  }
+  const auto anchor = findAnchor(options.graph, name, diagnostics);
+  if (!anchor) return report(diagnostics);
+  const fs::path folder = options.folder.empty() ? "." : options.folder;
+  const std::string graphFile = (folder / (name + ".json")).lexically_normal().string();
+  const std::string shaderFile =
+      (folder / "shaders" / name / (name + ".frag.glsl")).lexically_normal().string();
+  const OutputFile outputs[] = {{"-o", graphFile, OutputFile::Over::nothing},
+                                {"-o", shaderFile, OutputFile::Over::nothing}};
+  if (checkDistinct(outputs, {}, diagnostics) &&
+      writeFrom("new_pass.json", graphFile,
+                {{"%NAME%", name},
+                 {"%AFTER%", anchor->after},
+                 {"%TEXTURE%", anchor->texture},
+                 {"\"%BASE%\"", text::quoteJson(seenFrom(folder.string(), options.graph))}},
+                diagnostics) &&
+      writeFrom("new_pass.frag.glsl", shaderFile, {{"%NAME%", name}}, diagnostics)) {
+    const std::string graph = text::printable(graphFile);
+    print(fmt::format("{}\n{}\nweft render {} -o {}.png\n", graph, text::printable(shaderFile), graph, name));
+  }
+  return report(diagnostics);
+}
+
+// ---- import ----
+
+struct ImportOptions {
+  std::string file;                 // of another program
+  std::string folder;               // where the graph goes
+  std::string name;                 // of the graph; empty: that of the file
+  std::vector<std::string> images;  // NAME=FILE of pictures that the file reads
+  bool overwrite = false;
+};
+
+// Writes all files, up to the first that cannot be written.
+bool writeAll(const ImportOptions& options, const importing::Converted& made,
+              text::Diagnostics& diagnostics) {
+  const auto pathOf = [&](const auto& file) { return (fs::path(options.folder) / file.path).string(); };
+  const auto over = options.overwrite ? OutputFile::Over::file : OutputFile::Over::nothing;
+  std::vector<OutputFile> outputs;
+  for (const auto& text : made.texts) outputs.push_back({"-o", pathOf(text), over});
+  for (const auto& image : made.images) outputs.push_back({"-o", pathOf(image), over});
+  const auto writeText = [&](const auto& text) {
+    return makeFolderOf(pathOf(text), diagnostics) && text::writeFile(pathOf(text), text.text, diagnostics);
+  };
+  const auto writeImage = [&](const auto& image) {
+    return makeFolderOf(pathOf(image), diagnostics) &&
+           (image.bytes.empty()
+                ? assets::saveExr(pathOf(image), {image.width, image.height, 4, image.floats}, diagnostics)
+                : assets::savePng8(pathOf(image), image.width, image.height, 4, image.bytes, diagnostics));
+  };
+  return checkDistinct(outputs, {}, diagnostics) && std::ranges::all_of(made.texts, writeText) &&
+         std::ranges::all_of(made.images, writeImage);
+}
+
+int runImport(ImportOptions& options) {
+  text::Diagnostics diagnostics;
+  if (!options.name.empty() && (!graph::isIdent(options.name) || options.name.size() > 60)) {
+    auto& d = diagnostics.error(text::Code::notAName, text::placeOfOption("--name"),
+                                fmt::format("\"{}\" cannot name a graph", options.name));
+    d.expected = "at most 60 letters, digits and '_', not beginning with a digit";
+    return report(diagnostics);
+  }
+  // The .vs beside the file is part of what the command line names, unless it is a link to elsewhere or no file at all.
+  const std::string vertex = importing::vertexFileOf(options.file);
+  std::error_code ignored;
+  if (fs::is_regular_file(fs::symlink_status(vertex, ignored))) text::chooseFile(vertex);
+  importing::ConvertOptions wanted{.name = options.name};
+  const std::string parent = fs::path(options.file).parent_path().string();
+  wanted.sourceFolder = seenFrom(options.folder, parent.empty() ? "." : parent);
+  for (const std::string& image : options.images) {
+    const std::size_t at = image.find('=');
+    wanted.images.emplace_back(image.substr(0, at), seenFrom(options.folder, image.substr(at + 1)));
+  }
+  const auto made = importing::convertFile(options.file, wanted, diagnostics);
+  if (made && writeAll(options, *made, diagnostics))
+    print(text::printable((fs::path(options.folder) / made->graph).string()) + "\n");
+  return report(diagnostics);
+}
+
+}  // namespace
+
+void addFormat(CommandLine& line) {
+  const auto [command, options] =
+      line.add("format", "format graph files, overlays and presets in place; comments are kept", runFormat);
+  addPath(command, "file", options.files, "JSON files")->required();
+  command.add_flag("--check", options.checkOnly,
+                   "write nothing; exit 1 and name the first line that differs");
+}
+
+void addNew(CommandLine& line) {
+  const auto [command, options] = line.add(
+      "new", "write a graph with a new pass behind an existing graph, and its shader, commented", runNew);
+  addChoice(command, "what", options.what, "what to write: pass", {"pass"})->required();
+  command.add_option("name", options.name, "name of the pass: letters, digits and _")->required();
+  addPath(command, "--graph", options.graph, "the graph to extend (default: the bundled graphs/glow.json)");
+  addPath(command, "-o,--output", options.folder, "folder to write into (default: here)", "FOLDER");
+  command.footer("Example: weft new pass tint -o out/tint");
+}
+
+void addImport(CommandLine& line) {
+  const auto [command, options] = line.add(
+      "import", "make a graph and its shaders of an ISF file (.fs) or a user shader of mpv (.glsl, .hook)",
+      runImport);
+  addPath(command, "file", options.file, "the file; a .vs beside a .fs is read, too")->required();
+  addPath(command, "-o,--output", options.folder, "folder to write into; made where it is missing", "FOLDER")
+      ->required();
+  command.add_option("--image", options.images, "a picture for an input of the file; repeatable")
+      ->check(CLI::Validator(checkSet, "NAME=FILE"));
+  command.add_option("--name", options.name, "name of the graph (default: that of the file)");
+  command.add_flag("--overwrite", options.overwrite, "replace files that are there");
+  command.footer("Example: weft import glow.fs -o glow --image inputImage=photo.png");
+}
+
+}  // namespace weft::app

@@ -1,0 +1,122 @@
+// What a window loads beside its frames: its scene and its environment. Nothing here waits for the disk, a decoder or the GPU.
+// (Going on to another environment lists the folder: names only.)
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/assets/environments/environment_map.h"
+#include "engine/assets/loading/loader.h"
+#include "engine/imports/environment/environment.h"
+#include "engine/scene/files/scene_file.h"
+
+namespace weft::app {
+
+// What is on its way.
+struct LoadStatus {
+  std::string name;   // of the file, without folders
+  const char* stage;  // "reading"
+  float done = 0;     // 0 to 1
+};
+
+// The scene of a window: the file that is followed, and its loading beside the frames. Models are read, decoded and converted
+// on a loader thread. What arrived stays until the files change again, so that it can be tried with one graph after another.
+class LiveScene {
+ public:
+  // `files`: of the scene that is shown.
+  LiveScene(std::string path, scene::SceneChoice choice, std::vector<std::string> files);
+
+  const std::string& path() const { return path_; }
+  std::string name() const;  // without folders
+  // Everything that was read or should have been, also after errors: what to watch.
+  const std::vector<std::string>& files() const { return files_; }
+
+  // To be called when the files have changed since they were read: what arrived, or is on its way, is out of date.
+  void outdate();
+  bool outdated() const { return outdated_; }
+  // What is in the files is shown.
+  void settle();
+
+  // Whether what is in the files may take long to read: a scene with models. Others are there sooner than a frame.
+  bool slow();
+  // Reads the scene at once: for when there is nothing to keep showing, or reading is not slow.
+  void readNow();
+  // Begins to read the scene beside the frames. Even when it is read at once, only arrived() takes it.
+  void request();
+  // Whether what is in the files has arrived; else it is on its way from now on. Never waits.
+  bool arrived();
+  bool ready() const { return arrived_ != nullptr; }
+  bool loading() const { return loading_; }
+  // How many times that was begun beside the frames.
+  std::uint64_t reads() const { return reads_; }
+  // What arrived, with what is to be said of it; null after errors.
+  const scene::Scene* scene(text::Diagnostics& diagnostics) const;
+
+  std::optional<LoadStatus> status() const;
+
+ private:
+  // What the loader makes, also after errors.
+  struct Loaded {
+    std::optional<scene::Scene> scene;
+    std::vector<std::string> files;
+  };
+  void take(std::shared_ptr<const Loaded> loaded, text::Diagnostics diagnostics);
+
+  std::string path_;
+  scene::SceneChoice choice_;
+  std::vector<std::string> files_;
+  bool outdated_ = false;
+  std::optional<bool> slow_;  // as the files are; empty: nobody asked
+  bool loading_ = false;
+  std::uint64_t reads_ = 0;
+  std::shared_ptr<const Loaded> arrived_;  // null: not yet
+  text::Diagnostics said_;                 // while it was read
+  assets::Loader loader_;
+};
+
+// The file that `--environment` means: itself, or of a folder the first that can be read, in the order of
+// names. Empty after an error (W150): there is none. A path that does not exist is left to whoever loads it.
+std::optional<std::string> firstEnvironment(const std::string& fileOrFolder, text::Diagnostics& diagnostics);
+
+// The environment of a window: the file that is shown, the one on its way, and the others of its folder. Loads on the loader
+// thread and sends to the GPU a portion per frame. A failed load changes nothing but what is said.
+class LiveEnvironment {
+ public:
+  using Map = imports::EnvironmentTextures::Map;
+
+  // `path` is already shown.
+  void assume(std::string path) { wanted_ = shown_ = std::move(path); }
+  // Loads `path`, instead of whatever is on its way.
+  void request(std::string path);
+  // The one `by` files after the last one asked for, in the order of names,
+  // round and round. False when there is no other.
+  bool step(int by);
+
+  // Once per frame: something came of the last request. A map is whole on the GPU and to be taken into use at once; null: it
+  // failed, and `diagnostics` says why.
+  std::optional<Map> poll(imports::EnvironmentTextures& textures, text::Diagnostics& diagnostics);
+
+  // What is on its way.
+  std::optional<LoadStatus> status() const;
+
+  // To watch: the file that is shown and the one last asked for; empty names for none.
+  const std::string& shown() const { return shown_; }
+  const std::string& wanted() const { return wanted_; }
+
+ private:
+  std::string shown_, wanted_;
+  bool loading_ = false;
+  Map incoming_;            // decoded, being sent
+  text::Diagnostics said_;  // while it was decoded
+  float sent_ = 0;
+  assets::Loader loader_{[](const std::string& path, text::Diagnostics& diagnostics,
+                            const assets::LoadObserver& observer) -> std::shared_ptr<const void> {
+    auto map = assets::loadEnvironmentMap(path, diagnostics, observer);
+    return map ? std::make_shared<const assets::EnvironmentMap>(std::move(*map)) : nullptr;
+  }};
+};
+
+}  // namespace weft::app

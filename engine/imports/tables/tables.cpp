@@ -1,0 +1,213 @@
+// The imports that are tables of the scene: spheres and meshes of draw lists, and joints, vertex colors, materials and ground.
+#include <array>
+#include <span>
+
+#include "engine/imports/builtin.h"
+#include "engine/imports/material_textures.h"
+#include "engine/imports/scene_tables.h"
+
+namespace weft::imports {
+
+namespace {
+
+using graph::ImportFacts;
+using graph::ImportKind;
+using graph::ImportType;
+
+class SpheresProvider : public Provider {
+ public:
+  static constexpr scene::DrawList kList = scene::DrawList::spheres;
+  BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
+    return frame.tables.spheres(kList, layout, diagnostics);
+  }
+  std::uint64_t generation(const Frame& frame) override { return frame.tables.generation(kList); }
+  bool isStill(const World& world) const override { return !scene::isMoving(world.scene(), kList); }
+};
+
+class Spheres : public ImportOf<SpheresProvider> {
+ public:
+  ImportType reflect() const override {
+    return {.name = "spheres",
+            .kind = ImportKind::buffer,
+            .doc = "The instances of the draw list `spheres`, in the layout of scene/instances.glsl.",
+            .columns = tell(sphereColumns())};
+  }
+  ImportFacts facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const override {
+    return {.exists = true, .count = world.countOf("spheres")};
+  }
+};
+
+class MeshesProvider : public Provider {
+ public:
+  explicit MeshesProvider(const graph::ImportRequest& request) : list_(drawListOf(request)) {}
+  BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
+    return frame.tables.meshes(list_, layout, diagnostics);
+  }
+  std::uint64_t generation(const Frame& frame) override { return frame.tables.meshFrame().generation(list_); }
+  bool isStill(const World& world) const override { return !scene::isMoving(world.scene()); }
+
+ private:
+  scene::DrawList list_;
+};
+
+class Meshes : public ImportOf<MeshesProvider> {
+ public:
+  ImportType reflect() const override {
+    return {
+        .name = "meshes",
+        .kind = ImportKind::buffer,
+        .doc =
+            "The meshes of a draw list, one row each, as a draw of them has in its block `instances`. Not "
+            "there when there are none.",
+        .arguments = {drawListArgument(scene::DrawList::opaque)},
+        .columns = tell(meshColumns())};
+  }
+  ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) const override {
+    const double count = world.meshesOf(request.at("list").symbol);
+    return {.exists = count > 0, .count = count};
+  }
+};
+
+// The others. `Table` has functions without an object: reflect() without the columns, columns(), facts(world), rows(frame), and,
+// where the table changes with more than the scene, generation(frame) and isStill(world).
+template <class Table>
+class TableProvider : public Provider {
+ public:
+  BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
+    const auto rows = [&] { return Table::rows(frame); };
+    return table_.get(layout, generation(frame), rows, diagnostics);
+  }
+  std::uint64_t generation(const Frame& frame) override { return Table::generation(frame); }
+  bool isStill(const World& world) const override { return Table::isStill(world); }
+
+ private:
+  RowTable<typename Table::Row> table_{Table::reflect().name, Table::columns()};
+};
+
+template <class Table>
+class TableImport : public ImportOf<TableProvider<Table>> {
+ public:
+  ImportType reflect() const override {
+    ImportType type = Table::reflect();
+    type.kind = ImportKind::buffer;
+    type.columns = tell(Table::columns());
+    return type;
+  }
+  ImportFacts facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const override {
+    return Table::facts(world);
+  }
+};
+
+template <class Of>
+struct SceneTable {
+  using Row = Of;
+  static std::uint64_t generation(const Frame& frame) { return frame.world.sceneGeneration(); }
+  static bool isStill(const World&) { return true; }
+};
+
+struct Joints : SceneTable<scene::Joint> {
+  static ImportType reflect() {
+    return {.name = "joints",
+            .doc =
+                "Of the joints of skinned meshes: bind pose to world, so that a vertex is the mean of its "
+                "joints' matrices, by weight, times its position."};
+  }
+  static Columns<Row> columns() {
+    return {column<Row, &Row::now>("now", "bind pose to world"),
+            column<Row, &Row::previous>("previous", "of the frame before")};
+  }
+  static ImportFacts facts(const WorldFacts& world) {
+    return {.exists = world.skins > 0, .count = static_cast<double>(world.skins)};
+  }
+  static std::span<const Row> rows(const Frame& frame) { return frame.tables.meshFrame().joints(); }
+  static std::uint64_t generation(const Frame& frame) { return frame.tables.meshFrame().jointsGeneration(); }
+  static bool isStill(const World& world) { return world.scene().skins.size() == 0; }
+};
+
+struct VertexColors : SceneTable<glm::vec4> {
+  static ImportType reflect() {
+    return {.name = "vertex_colors",
+            .doc =
+                "A row for each vertex of the scene's meshes, which a vertex shader of geometry `mesh` finds "
+                "by gl_VertexID. It exists where a mesh has vertex colors; those of the others are white."};
+  }
+  static Columns<Row> columns() {
+    return {column<Row, std::identity{}>("color", "linear; a factor of the material's albedo and alpha")};
+  }
+  static ImportFacts facts(const WorldFacts& world) {
+    return {.exists = world.coloredVertices > 0, .count = static_cast<double>(world.coloredVertices)};
+  }
+  static std::span<const Row> rows(const Frame& frame) {
+    const scene::MeshData* data = frame.world.scene().meshData.get();
+    return data ? std::span(data->colors) : std::span<const Row>();
+  }
+};
+
+// A mesh's row says which one it has.
+struct Materials : SceneTable<scene::Material> {
+  static ImportType reflect() {
+    return {.name = "materials",
+            .doc = "The scene's materials, one row each; shaders/scene/materials.glsl reads them."};
+  }
+  static Columns<Row> columns() {
+    return {
+        column<Row, &Row::albedo>("albedo", "linear; factor of its map; F0 of a metal"),
+        column<Row, &Row::metallic>("metallic", "factor of its map"),
+        column<Row, &Row::emissive>("emissive", "radiance, scene-referred; factor of its map"),
+        column<Row, &Row::roughness>("roughness", "perceptual; factor of its map"),
+        column<Row, &Row::specular>("specular", "Blinn–Phong: linear"),
+        column<Row, &Row::shininess>("shininess", "Blinn–Phong: exponent"),
+        column<Row, &Row::alpha>("alpha", "factor of the map's"),
+        column<Row, &Row::alphaCutoff>("alpha_cutoff", "over 0: holes where alpha is below"),
+        column<Row, &Row::normalScale>("normal_scale", "of the map's x and y"),
+        column<Row, &Row::occlusionStrength>("occlusion_strength", "0 to 1"),
+        column<Row, &Row::albedoMap>("albedo_map", "array << 16 | layer of @material_maps; 0xffffffff: none"),
+        column<Row, &Row::normalMap>("normal_map", "tangent space"),
+        column<Row, &Row::metallicRoughnessMap>("metallic_roughness_map", "metallic in b, roughness in g"),
+        column<Row, &Row::occlusionMap>("occlusion_map", "in r"),
+        column<Row, &Row::emissiveMap>("emissive_map", ""),
+        column<Row, &Row::blinnPhong>("blinn_phong", "1: specular and shininess are what the file has"),
+        column<Row, &Row::doubleSided>("double_sided", "0 or 1")};
+  }
+  static ImportFacts facts(const WorldFacts& world) {
+    return {.exists = true, .count = static_cast<double>(world.materials)};
+  }
+  static std::vector<Row> rows(const Frame& frame) {
+    const scene::Scene& scene = frame.world.scene();
+    const std::vector<std::uint32_t> maps = mapsOf(batchTextures(scene), scene.textures.size());
+    std::vector<Row> rows(scene.materials.rows().begin(), scene.materials.rows().end());
+    for (Row& row : rows)
+      for (std::uint32_t* map : row.maps()) *map = *map == assets::kNoRow ? kNoMap : maps[*map];
+    return rows;
+  }
+};
+
+struct Ground : SceneTable<scene::Ground> {
+  static ImportType reflect() {
+    return {.name = "ground", .doc = "The plane that the scene stands on: one row."};
+  }
+  static Columns<Row> columns() {
+    return {column<Row, &Row::height>("height", "world Y"),
+            column<Row, [](const Row& row) { return row.albedo.value_or(glm::vec3(0)); }>(
+                "albedo", "linear, of its surface"),
+            column<Row, [](const Row& row) { return row.albedo ? row.radius : 0.0f; }>(
+                "radius", "of its surface; 0: it has none and shows the environment")};
+  }
+  static ImportFacts facts(const WorldFacts& world) {
+    return {.exists = world.ground, .count = world.ground ? 1.0 : 0.0};
+  }
+  static auto rows(const Frame& frame) { return std::array{frame.world.scene().ground.value_or(Row{})}; }
+};
+
+}  // namespace
+
+void addTables(graph::PlugIns<Import>& imports) {
+  imports.add(std::make_unique<Spheres>());
+  imports.add(std::make_unique<Meshes>());
+  imports.add(std::make_unique<TableImport<Materials>>());
+  imports.add(std::make_unique<TableImport<Joints>>());
+  imports.add(std::make_unique<TableImport<VertexColors>>());
+  imports.add(std::make_unique<TableImport<Ground>>());
+}
+
+}  // namespace weft::imports
