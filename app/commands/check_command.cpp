@@ -73,10 +73,7 @@ class ShaderCheck {
       if (type.shader == graph::ShaderShape::none) continue;
       const auto request = runtime::programRequestOf(*plan.graph, plan, step.pass, type);
       if (!variants.insert(keyOf(request)).second) continue;
-      if (session_)
-        checkCompiled(plan, step.pass, request, said);
-      else
-        checkDeclared(plan, step.pass, request, said);
+      checkVariant(plan, step.pass, request, said);
     }
     // A warning about a shader's text is the same in all its variants.
     for (text::Diagnostic each : said.items()) {
@@ -102,17 +99,16 @@ class ShaderCheck {
     return !failed_;
   }
 
-  void checkCompiled(const graph::Plan& plan, std::uint32_t pass, const gl::ProgramRequest& request,
-                     text::Diagnostics& said) {
-    const auto variant = session_->renderer.device().programs.get(request, said);
-    if (!variant) return;
-    const runtime::LinkedProgram linked{variant->program.reflection(), session_->context->device().limits};
-    if (runtime::checkProgram(plan, pass, variant->stages, variant->defines, &linked, said))
-      runtime::warnOfConditions(request.pass, variant->stages, variant->defines, said);
-  }
-
-  void checkDeclared(const graph::Plan& plan, std::uint32_t pass, const gl::ProgramRequest& request,
-                     text::Diagnostics& said) {
+  void checkVariant(const graph::Plan& plan, std::uint32_t pass, const gl::ProgramRequest& request,
+                    text::Diagnostics& said) {
+    if (session_) {
+      const auto variant = session_->renderer.device().programs.get(request, said);
+      if (!variant) return;
+      const runtime::LinkedProgram linked{variant->program.reflection(), session_->context->device().limits};
+      if (runtime::checkProgram(plan, pass, variant->stages, variant->defines, &linked, said))
+        runtime::warnOfConditions(request.pass, variant->stages, variant->defines, said);
+      return;
+    }
     std::vector<gl::StageSource> stages;
     for (const gl::ProgramRequest::Stage& stage : request.stages) {
       if (!stage.text.empty()) continue;
