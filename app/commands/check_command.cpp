@@ -84,6 +84,26 @@ class ShaderCheck {
     files.insert(sources.touched().begin(), sources.touched().end());
   }
 
+  // Reads the shader files of a graph that is wrong and so has no variants: a misspelt path is told together with the
+  // graph's own mistakes.
+  void checkFiles(const graph::GraphDesc& desc, text::Diagnostics& diagnostics) {
+    for (const graph::PassDesc& pass : desc.passes) {
+      if (pass.include && pass.include->graph) checkFiles(*pass.include->graph, diagnostics);
+      const passes::PassType* type = pass.shader.empty() ? nullptr : types_.find(pass.type);
+      if (!type) continue;
+      std::vector<std::string> stages{pass.shader, pass.vertexShader};
+      if (type->reflect().shader == graph::ShaderShape::draw && pass.vertexShader.empty())
+        stages = {pass.shader + ".vert.glsl", pass.shader + ".frag.glsl"};
+      if (pass.shader.ends_with(".glsl") && stages[0] != pass.shader) continue;  // of one stage (W067)
+      for (const std::string& file : stages)
+        if (!file.empty()) sources_.load(file, diagnostics, pass.shaderPlace);
+    }
+    files.insert(sources_.touched().begin(), sources_.touched().end());
+  }
+  void setRoots(const std::vector<std::string>& graphFiles) {
+    sources_.setRoots(runtime::shaderRootsOf(graphFiles, dataFolder()));
+  }
+
   std::set<std::string> files;     // that were read or looked for
   std::set<std::string> variants;  // by what they are made of
   text::Diagnostics
@@ -147,9 +167,14 @@ Checked checkOnce(const CheckOptions& options) {
   if (checked.plan) checked.shaders.check(*checked.plan, "", diagnostics);
   const bool vary = checked.plan && !diagnostics.hasErrors() && (options.matrix || options.allVariants);
   text::Diagnostics again;
-  const auto desc = vary || (options.watch && !checked.plan)
-                        ? graph::readGraph(options.graph, options.presets, again)
-                        : nullptr;
+  // Beyond a limit nothing that follows can be trusted, and there may be very much of it.
+  const bool over = diagnostics.contains(text::Code::limitExceeded);
+  const auto desc =
+      vary || !(checked.plan || over) ? graph::readGraph(options.graph, options.presets, again) : nullptr;
+  if (desc && !checked.plan) {
+    checked.shaders.setRoots(desc->files);
+    checked.shaders.checkFiles(*desc, diagnostics);
+  }
   if (vary) {
     graph::MatrixOptions wanted{.pairs = options.matrix};
     if (options.allVariants)
