@@ -164,7 +164,7 @@ struct PassParameterDesc {
 struct IncludeDesc {
   std::string file;  // as written, relative to the including file
   Place filePlace;
-  std::string as;     // prefix; never empty after reading
+  std::string as;  // prefix; never empty after reading
   std::vector<std::pair<std::string, RefDesc>> binds;
   std::vector<Place> bindPlaces;                  // parallel: of the keys
   std::shared_ptr<const struct GraphDesc> graph;  // null when it could not be read

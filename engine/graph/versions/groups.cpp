@@ -54,31 +54,27 @@ Groups formGroups(const FlatGraph& graph, const std::function<bool(std::uint32_t
   joinWriters();
   // A time-sliced group takes in who writes what it writes, the `on_change` passes whose results it reads, and other
   // time-sliced groups that read an import it reads, until nothing is left to join.
+  std::vector<std::uint32_t> maker(graph.resources.size(), kNone);  // a pass; of an import, one that reads it
+  for (const std::uint32_t p : members)
+    if (graph.passes[p].cadence == Cadence::on_change)
+      eachWrite(p, [&](const FlatUse& use) { maker[use.resource] = p; });
   const auto sliced = [&](std::uint32_t p) { return graph.passes[p].slices > 1; };
   for (bool changed = std::ranges::any_of(members, sliced); changed;) {
     changed = false;
     std::vector<std::uint8_t> slicedRoot(graph.passes.size(), 0);
     for (const std::uint32_t p : members)
       if (sliced(p)) slicedRoot[rootOf(parents, p)] = 1;
-    std::vector<std::uint32_t> reader(graph.resources.size(), kNone);  // a pass of a time-sliced group
     for (const std::uint32_t p : members) {
       if (slicedRoot[rootOf(parents, p)] == 0) continue;
       for (const std::uint32_t u : graph.usesOf(p)) {
         const FlatUse& use = graph.uses[u];
-        if (use.access == Access::read && use.history == 0 && reader[use.resource] == kNone)
-          reader[use.resource] = p;
-        else if (use.access == Access::read && use.history == 0 &&
-                 graph.resources[use.resource].import != kNone)
-          changed |= join(reader[use.resource], p);
+        const bool imported = graph.resources[use.resource].import != kNone;
+        if (use.access == Access::read && use.history == 0 && (imported || maker[use.resource] != kNone))
+          changed |= join(maker[use.resource], p);
         if (use.access != Access::read && isAttached(u))
           changed |= std::exchange(joint[use.resource], std::uint8_t{1}) == 0;
       }
     }
-    for (const std::uint32_t p : members)
-      if (graph.passes[p].cadence == Cadence::on_change)
-        eachWrite(p, [&](const FlatUse& use) {
-          if (reader[use.resource] != kNone) changed |= join(reader[use.resource], p);
-        });
     if (changed) joinWriters();
   }
 

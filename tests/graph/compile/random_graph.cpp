@@ -124,7 +124,7 @@ class Generator {
     constexpr Cadence cadences[] = {Cadence::once, Cadence::on_change};
     b_.pass("p" + std::to_string(p), cadences_ && chance(35) ? cadences[pick(2)] : Cadence::always);
     FlatPass& pass = b_.graph.passes.back();
-    if (pass.cadence != Cadence::always && slices_ && chance(40))
+    if (pass.cadence != Cadence::always && slices_ && chance(20))
       pass.slices = static_cast<std::uint32_t>(2 + pick(3));
     if (chance(8)) b_.sideEffect();
     // As a type that makes mip levels by whatever the driver likes.

@@ -63,17 +63,16 @@ TEST_CASE("on_change that means always is told, and what changes at times is not
   for (const char* const read : {"made", "made@-1", "file"}) CHECK(warningsOf("", "", read).empty());
 }
 
-TEST_CASE("a once pass of a group that runs again, and one that is culled, are not judged") {
+TEST_CASE("a once pass that runs again with another writer, and one that is culled, are not judged") {
   const auto countOf = [](const char* besides, const char* present) {
     const Expanded expanded = expandText(fmt::format(
-        R"J({{ "resources": {{ "made": {{ "texture": "rgba8", "size": 8 }}, "one": {{ "texture": "rgba8", "size": 8 }},
-      "other": {{ "texture": "rgba8", "size": 8 }}, "both": {{ "texture": "rgba8", "size": 8 }} }}, "passes": [
+        R"J({{ "resources": {{ "made": {{ "texture": "rgba8", "size": 8 }}, "one": {{ "texture": "rgba8", "size": 8, "mips": 2 }}, "both": {{ "texture": "rgba8", "size": 8 }} }}, "passes": [
       {{ "name": "make", "type": "fullscreen", "shader": "a.frag.glsl", "write": {{ "result": "made" }} }},
-      {{ "name": "take", "type": "fullscreen", "shader": "a.frag.glsl", "update": "once", "group": "g",
-        "read": {{ "source": "made" }}, "write": {{ "result": "one" }} }},
-      {{ "name": "beside", "type": "fullscreen", "shader": "a.frag.glsl", "update": "{}", "group": "g",
-        "write": {{ "result": "other" }} }},
-      {{ "name": "show", "type": "fullscreen", "shader": "a.frag.glsl", "read": {{ "a": "one", "b": "other" }},
+      {{ "name": "take", "type": "fullscreen", "shader": "a.frag.glsl", "update": "once",
+        "read": {{ "source": "made" }}, "write": {{ "result": "one.mip[0]" }} }},
+      {{ "name": "beside", "type": "fullscreen", "shader": "a.frag.glsl", "update": "{}",
+        "write": {{ "result": "one.mip[1]" }} }},
+      {{ "name": "show", "type": "fullscreen", "shader": "a.frag.glsl", "read": {{ "a": "one" }},
         "write": {{ "result": "both" }} }} ], "present": "{}" }})J",
         besides, present));
     REQUIRE_MESSAGE(expanded.graph, expanded.text());

@@ -238,7 +238,7 @@ TEST_CASE("slices: what could never end, what another writes too, and types that
       R"J({ "name": "one", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", "slices": 2,
         "write": { "r": "a.mip[0]" } },
       { "name": "between", "type": "fullscreen", "shader": "a.frag.glsl", "update": "CADENCE", "read": { "src": "a.mip[0]" }, "write": { "r": "c" } },
-      { "name": "two", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", "slices": 2, "read": { "src": "c" }, "write": { "r": "b" } })J";
+      { "name": "two", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", "slices": 2, "read": { "src": "c", "made": "a.mip[0]" }, "write": { "r": "b" } })J";
   const auto with = [&](const std::string& in) {
     return std::string(group).replace(group.find("CADENCE"), 7, in);
   };
