@@ -338,8 +338,8 @@ std::optional<Counts> evaluateCounts(Names& names, const Expr& expr, std::span<c
   const std::uint64_t bound = bounds[counts.size - 1];
   for (std::size_t i = 0; i < counts.size; ++i) {
     const double count = value.v[i];
-    const bool low = count < 0 || (count < 1 && expr.isConstant()) ||
-                     (count == 0 && !countsElements(names.model(), names.scope(), expr));
+    const bool mayBeNone = bounds.size() == 1 || countsElements(names.model(), names.scope(), expr);
+    const bool low = count < 0 || (expr.isConstant() ? count < 1 : count == 0 && !mayBeNone);
     if (!std::isfinite(count) || low || count > static_cast<double>(bound)) {
       return refuse(
           names, Code::numberOutOfRange, expr, what + " is out of its range", fmt::format("1 to {}", bound),

@@ -112,7 +112,7 @@ std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::i
                                           std::int64_t low, std::int64_t high, const char* what,
                                           bool floors = false);
 // A number, or a list of up to as many as there are bounds, floored, each from 1 to the bound for so many numbers. 0 is a
-// mistake, but for the count of an empty list; what is computed between 0 and 1 is 1. An absent expression is a mistake.
+// mistake, but for the count of an empty list and the computed size of a buffer; what is computed between 0 and 1 is 1.
 struct Counts {
   std::size_t size = 1;
   std::array<std::uint64_t, 3> each{1, 1, 1};
