@@ -73,10 +73,7 @@ class ShaderCheck {
       if (type.shader == graph::ShaderShape::none) continue;
       const auto request = runtime::programRequestOf(*plan.graph, plan, step.pass, type);
       if (!variants.insert(keyOf(request)).second) continue;
-      if (session_)
-        checkCompiled(plan, step.pass, request, said);
-      else
-        checkDeclared(plan, step.pass, request, said);
+      checkVariant(plan, step.pass, request, said);
     }
     // A warning about a shader's text is the same in all its variants.
     for (text::Diagnostic each : said.items()) {
@@ -85,6 +82,26 @@ class ShaderCheck {
       diagnostics.add(std::move(each));
     }
     files.insert(sources.touched().begin(), sources.touched().end());
+  }
+
+  // Reads the shader files of a graph that is wrong and so has no variants: a misspelt path is told together with the
+  // graph's own mistakes.
+  void checkFiles(const graph::GraphDesc& desc, text::Diagnostics& diagnostics) {
+    for (const graph::PassDesc& pass : desc.passes) {
+      if (pass.include && pass.include->graph) checkFiles(*pass.include->graph, diagnostics);
+      const passes::PassType* type = pass.shader.empty() ? nullptr : types_.find(pass.type);
+      if (!type) continue;
+      std::vector<std::string> stages{pass.shader, pass.vertexShader};
+      if (type->reflect().shader == graph::ShaderShape::draw && pass.vertexShader.empty())
+        stages = {pass.shader + ".vert.glsl", pass.shader + ".frag.glsl"};
+      if (pass.shader.ends_with(".glsl") && stages[0] != pass.shader) continue;  // of one stage (W067)
+      for (const std::string& file : stages)
+        if (!file.empty()) sources_.load(file, diagnostics, pass.shaderPlace);
+    }
+    files.insert(sources_.touched().begin(), sources_.touched().end());
+  }
+  void setRoots(const std::vector<std::string>& graphFiles) {
+    sources_.setRoots(runtime::shaderRootsOf(graphFiles, dataFolder()));
   }
 
   std::set<std::string> files;     // that were read or looked for
@@ -102,17 +119,16 @@ class ShaderCheck {
     return !failed_;
   }
 
-  void checkCompiled(const graph::Plan& plan, std::uint32_t pass, const gl::ProgramRequest& request,
-                     text::Diagnostics& said) {
-    const auto variant = session_->renderer.device().programs.get(request, said);
-    if (!variant) return;
-    const runtime::LinkedProgram linked{variant->program.reflection(), session_->context->device().limits};
-    if (runtime::checkProgram(plan, pass, variant->stages, variant->defines, &linked, said))
-      runtime::warnOfConditions(request.pass, variant->stages, variant->defines, said);
-  }
-
-  void checkDeclared(const graph::Plan& plan, std::uint32_t pass, const gl::ProgramRequest& request,
-                     text::Diagnostics& said) {
+  void checkVariant(const graph::Plan& plan, std::uint32_t pass, const gl::ProgramRequest& request,
+                    text::Diagnostics& said) {
+    if (session_) {
+      const auto variant = session_->renderer.device().programs.get(request, said);
+      if (!variant) return;
+      const runtime::LinkedProgram linked{variant->program.reflection(), session_->context->device().limits};
+      if (runtime::checkProgram(plan, pass, variant->stages, variant->defines, &linked, said))
+        runtime::warnOfConditions(request.pass, variant->stages, variant->defines, said);
+      return;
+    }
     std::vector<gl::StageSource> stages;
     for (const gl::ProgramRequest::Stage& stage : request.stages) {
       if (!stage.text.empty()) continue;
@@ -151,9 +167,14 @@ Checked checkOnce(const CheckOptions& options) {
   if (checked.plan) checked.shaders.check(*checked.plan, "", diagnostics);
   const bool vary = checked.plan && !diagnostics.hasErrors() && (options.matrix || options.allVariants);
   text::Diagnostics again;
-  const auto desc = vary || (options.watch && !checked.plan)
-                        ? graph::readGraph(options.graph, options.presets, again)
-                        : nullptr;
+  // Beyond a limit nothing that follows can be trusted, and there may be very much of it.
+  const bool over = diagnostics.contains(text::Code::limitExceeded);
+  const auto desc =
+      vary || !(checked.plan || over) ? graph::readGraph(options.graph, options.presets, again) : nullptr;
+  if (desc && !checked.plan) {
+    checked.shaders.setRoots(desc->files);
+    checked.shaders.checkFiles(*desc, diagnostics);
+  }
   if (vary) {
     graph::MatrixOptions wanted{.pairs = options.matrix};
     if (options.allVariants)

@@ -42,9 +42,9 @@ struct FrameRun {
   double firstSeconds = 0;  // of the first frame
 };
 
-bool isBuffer(const graph::FlatGraph& graph, const runtime::CaptureItem& item) {
+const graph::FlatResource& resourceOf(const graph::FlatGraph& graph, const runtime::CaptureItem& item) {
   const auto at = std::ranges::find(graph.resourceNames, item.target.resource) - graph.resourceNames.begin();
-  return graph.resources[static_cast<std::size_t>(at)].kind == graph::ResourceKind::buffer;
+  return graph.resources[static_cast<std::size_t>(at)];
 }
 
 // Runs the frames up to options.lastFrame and writes those from options.firstFrame on. Frames before them run too when one of
@@ -136,7 +136,7 @@ void findParts(const RenderOptions& options, const graph::Plan& plan, FrameRun& 
     const auto item = runtime::captureItemOf(plan, options.kept[i], diagnostics);
     if (!item) continue;
     run.parts[i].item = *item;
-    if (isBuffer(*plan.graph, *item))
+    if (resourceOf(*plan.graph, *item).kind == graph::ResourceKind::buffer)
       refuseOutput(run.parts[i].files[0],
                    fmt::format("'{}' is a buffer and no picture", options.kept[i].name),
                    "weft dump writes the bytes of buffers", diagnostics);
@@ -210,9 +210,7 @@ std::string plainWord(std::string name) {
 
 // "007_glow_down-1.mip1.layer0": steps sort as they ran.
 std::string fileNameOf(const runtime::CaptureItem& item, const graph::Plan& plan) {
-  const graph::FlatGraph& graph = *plan.graph;
-  const auto at = std::ranges::find(graph.resourceNames, item.target.resource) - graph.resourceNames.begin();
-  const graph::FlatResource& resource = graph.resources[static_cast<std::size_t>(at)];
+  const graph::FlatResource& resource = resourceOf(*plan.graph, item);
   std::string name =
       fmt::format("{:03}_{}_{}", item.step, plainWord(item.target.resource), plainWord(item.target.pass));
   if (resource.mips > 1) name += fmt::format(".mip{}", item.target.mip);
@@ -234,8 +232,8 @@ std::vector<Part> matchingParts(const DumpOptions& options, const graph::Plan& p
   std::vector<Part> parts;
   for (const runtime::CaptureItem& item : runtime::captureItems(plan, options.patterns)) {
     const std::string stem = options.folder + "/" + fileNameOf(item, plan);
-    std::vector<std::string> files{stem + ".bin"};
-    if (!isBuffer(*plan.graph, item)) files = {stem + ".png", stem + ".exr"};
+    std::vector<std::string> files{stem + ".png", stem + ".exr"};
+    if (resourceOf(*plan.graph, item).kind == graph::ResourceKind::buffer) files = {stem + ".bin"};
     parts.push_back({item.target.resource, std::move(files), item});
   }
   return parts;

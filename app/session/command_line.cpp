@@ -30,23 +30,17 @@ const std::map<std::string, std::vector<std::string>> kOldNames{{"dot", {"plan",
 // What every command takes.
 void addCommon(CLI::App& command) {
   const auto confine = [](const std::string& folder) { return text::confineTo(folder).value_or(""); };
-  const auto limit = [](const std::string& text) -> std::string {
-    std::uint32_t times = 0;
-    if (!takeCount(text, times).empty() || times < 1 || times > text::kMaxRaise)
-      return fmt::format("expected a whole number from 1 to {}, found '{}'", text::kMaxRaise, text);
-    text::raiseLimits(times);
-    return "";
-  };
-  const auto ignore = [](const std::vector<std::string>&) {};  // the checks take them
+  const auto ignore = [](const std::vector<std::string>&) {};  // the check takes them
   command
       .add_option_function<std::vector<std::string>>(
           "--confine", ignore,
           "read only below this folder and those named on the command line, whatever files name; repeatable")
       ->check(CLI::Validator(confine, "FOLDER"));
   command
-      .add_option_function<std::vector<std::string>>(
-          "--limit", ignore, "make the limits of docs/limits.md this many times as large")
-      ->check(CLI::Validator(limit, "N"));
+      .add_option_function<std::uint32_t>(
+          "--limit", [](std::uint32_t times) { text::raiseLimits(times); },
+          "make the limits of docs/limits.md this many times as large")
+      ->check(CLI::Range(1u, static_cast<unsigned>(text::kMaxRaise)));
 }
 
 // The first word that neither the program nor the chosen command knows, with the nearest that it does; "" when there is none. CLI11

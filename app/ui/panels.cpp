@@ -154,27 +154,20 @@ void Panels::arrange() {
   }
   const bool narrow = screen.x < 88 * em && !others.empty();
   const float side = std::min(narrow ? screen.x * 0.42f : 29 * em, screen.x * 0.45f);
-  float left = gap, right = screen.x - gap;
-  if (narrow) {
-    const bool both = open_[kParameters] && open_[kPasses];
-    const float each = both ? (height - gap) / 2 : height;
-    places_[kParameters] = {gap, top, side, each};
-    places_[kPasses] = {gap, both ? top + each + gap : top, side, each};
-    if (open_[kParameters] || open_[kPasses]) left += side + gap;
-  } else {
-    places_[kParameters] = {gap, top, side, height};
-    places_[kPasses] = {right - side, top, side, height};
-    if (open_[kParameters]) left += side + gap;
-    if (open_[kPasses]) right -= side + gap;
-  }
+  const bool below = narrow && open_[kParameters] && open_[kPasses];  // the passes, below the parameters
+  const float each = below ? (height - gap) / 2 : height;
+  places_[kParameters] = {gap, top, side, each};
+  places_[kPasses] = {narrow ? gap : screen.x - gap - side, below ? top + each + gap : top, side, each};
+  const float left = open_[kParameters] || (narrow && open_[kPasses]) ? side + 2 * gap : gap;
+  const float right = screen.x - (open_[kPasses] && !narrow ? side + 2 * gap : gap);
   float shares = 0, y = top;
   const auto shareOf = [](Panel panel) { return panel == kInspector ? 2.0f : 1.0f; };
   for (const Panel panel : others) shares += shareOf(panel);
   const float room = height - gap * (static_cast<float>(others.size()) - 1);
   for (const Panel panel : others) {
-    const float each = room * shareOf(panel) / shares;
-    places_[panel] = {left, y, right - left, each};
-    y += each + gap;
+    const float share = room * shareOf(panel) / shares;
+    places_[panel] = {left, y, right - left, share};
+    y += share + gap;
   }
 }
 

@@ -134,7 +134,7 @@ class Panels {
   bool arrange_ = true;           // places are to be taken in this frame
   ImGuiTextFilter filter_;        // of the parameters
   std::string said_;              // what the menu did last
-  bool gpuStack_ = true;          // profiler: stack GPU times, else CPU times
+  int stacked_ = 0;               // profiler: 0 GPU times, 1 CPU times
 };
 
 }  // namespace weft::app::ui

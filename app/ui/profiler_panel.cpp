@@ -60,9 +60,9 @@ void Panels::drawProfiler() {
   const auto& history = profiler_.history();
   const bool measure = measureBox();
   ImGui::SameLine();
-  int kind = gpuStack_ ? 0 : 1;
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 5);
-  if (ImGui::Combo("##kind", &kind, "GPU\0CPU\0")) gpuStack_ = kind == 0;
+  ImGui::Combo("##kind", &stacked_, "GPU\0CPU\0");
+  const bool gpu = stacked_ == 0;
   if (history.empty()) return;
   const runtime::FrameProfile& last = history.back();
   ImGui::TextDisabled(
@@ -81,7 +81,7 @@ void Panels::drawProfiler() {
   draw.AddRectFilled(corner, {corner.x + area.x, corner.y + area.y}, IM_COL32(20, 20, 24, 255));
   // A few frames that took much longer (the first, a reload) may stand out of the picture.
   std::vector<double> totals;
-  for (const auto& profile : history) totals.push_back(std::max(profile.ms, totalOf(profile, gpuStack_)));
+  for (const auto& profile : history) totals.push_back(std::max(profile.ms, totalOf(profile, gpu)));
   std::ranges::sort(totals);
   const double highest = std::max(1e-3, totals[(totals.size() - 1) * 19 / 20] * 1.25);
   const float bar = area.x / 240.0f;
@@ -95,7 +95,7 @@ void Panels::drawProfiler() {
     draw.AddRectFilled({left, level(profile.ms)}, {right, corner.y + area.y}, IM_COL32(60, 60, 68, 255));
     double sum = 0;
     for (std::size_t step = 0; step < profile.passes.size() && step < profile.names->size(); ++step) {
-      const double time = timeOf(profile.passes[step], gpuStack_);
+      const double time = timeOf(profile.passes[step], gpu);
       if (time <= 0) continue;
       draw.AddRectFilled({left, level(sum + time)}, {right, level(sum)}, colorOf((*profile.names)[step]));
       sum += time;
@@ -111,7 +111,7 @@ void Panels::drawProfiler() {
   if (!beginTable("means", {"mean of the last 30 frames", "GPU ms", "CPU ms"}, 0,
                   ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg))
     return;
-  for (const auto& [name, mean] : meansOf(history, gpuStack_)) {
+  for (const auto& [name, mean] : meansOf(history, gpu)) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::PushStyleColor(ImGuiCol_Text, colorOf(name));

@@ -8,11 +8,9 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <chrono>
 #include <cmath>
-#include <span>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -111,8 +109,8 @@ void Viewer::addActions() {
               {"previous_environment", [this] { live_.stepEnvironment(-1); }},
               {"vsync", [this] { glfwSwapInterval((vsync_ = !vsync_) ? 1 : 0); }},
               {"idle", [this] { idle_ = !idle_; }},
-              {"render_scale_down", [this] { scaleRendering(-1); }},
-              {"render_scale_up", [this] { scaleRendering(1); }},
+              {"render_scale_down", [this] { renderScale_ = std::max(renderScale_ - 0.25, 0.25); }},
+              {"render_scale_up", [this] { renderScale_ = std::min(renderScale_ + 0.25, 2.0); }},
               {"record", [this] { toggleRecording(); }},
               {"write_back", [this] { panels_.writeBack(diagnostics_); }},
               {"screenshot", [this] { screenshot_ = ".png"; }},
@@ -148,17 +146,6 @@ void Viewer::toggleFlight() {
   const bool fly = rig_.mode() != CameraRig::Mode::fly;
   rig_.setMode(fly ? CameraRig::Mode::fly : CameraRig::Mode::orbit);
   input_.capture(fly);
-}
-
-void Viewer::scaleRendering(int steps) {
-  static constexpr std::array kScales = {0.25, 0.5, 0.75, 1.0, 1.5, 2.0};
-  if (steps > 0) {
-    const auto next = std::ranges::upper_bound(kScales, renderScale_);
-    if (next != kScales.end()) renderScale_ = *next;
-  } else {
-    const auto here = std::ranges::lower_bound(kScales, renderScale_);
-    if (here != kScales.begin()) renderScale_ = *(here - 1);
-  }
 }
 
 void Viewer::toggleRecording() {

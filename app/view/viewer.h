@@ -55,7 +55,6 @@ class Viewer {
   const scene::Camera* sceneCamera() const;
   void lookThrough(std::size_t camera);
   void toggleFlight();
-  void scaleRendering(int steps);
   void toggleRecording();
 
   void waitForEvents();

@@ -8,7 +8,8 @@
     docs/gallery/gallery.py --weft WEFT ... as above, by the program WEFT in place of ./run
     docs/gallery/gallery.py --old           render everything in a temporary folder and name the pictures that look different now
     docs/gallery/gallery.py --check WEFT    write nothing: the pages must be those that gallery.json makes, every picture must be there and made by
-                                            its command, and every command but those of presets, with a smaller size, must change the picture
+                                            its command, and every command but those of presets, with a smaller size and the computed sky, must
+                                            change the picture
 
 An entry: `name`; `graph`, where it is not the one of `all`; `effect`, its title; `off` and `on`, arguments for `weft render`; `both`, arguments of both;
 `says`, what to see; `crop`, [x, y, width, height], where it is too fine to be seen in the whole picture: this part alone, enlarged to the whole size.
@@ -201,7 +202,8 @@ def check_effects(weft):
             for side in SIDES:
                 line = arguments(entry, side)
                 if line not in made:
-                    run(weft, command_of(entry, side), {"--size": GALLERY["check_size"], "-o": drawn})
+                    command = command_of(entry, side).replace(f" --environment {GALLERY['environment']}", "")
+                    run(weft, command, {"--size": GALLERY["check_size"], "-o": drawn})
                     made[line] = read_png(drawn)[1]
                 pair.append(made[line])
             off, on = pair

@@ -269,6 +269,13 @@ struct FlatGraph {
     return std::views::iota(passes[pass].firstUse, passes[pass].firstUse + passes[pass].useCount);
   }
 
+  // Calls f(use, source) for each pass that wrote some of what a use of `pass` sees.
+  template <class F>
+  void forEachSource(std::uint32_t pass, F&& f) const {
+    for (const std::uint32_t u : usesOf(pass))
+      links.forEachWriter(links.seen[u], [&](std::uint32_t writer) { f(u, links.passOf[writer]); });
+  }
+
   BorderColor borderOf(const SlotSpec& slot) const {
     return slot.border == kNone ? BorderColor{} : borders[slot.border];
   }

@@ -44,7 +44,7 @@ CTEST = "ctest"  # comes with cmake
 WEFT = BINARY / "app/weft"
 FENCE = re.compile(r"^```([^\n`]*)\n(.*?)^```[ ]*$", re.M | re.S)
 LANGUAGES = {"sh", "json", "glsl", "cpp", "cmake", "text"}
-DATA = ("graphs", "shaders", "materials", "scenes", "docs", "tests")
+DATA = ("graphs", "shaders", "materials", "scenes", "docs", "tests", "app/commands")
 
 RUN = """#!/usr/bin/env bash
 case "${{1:-}}" in

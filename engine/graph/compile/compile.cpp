@@ -1,10 +1,13 @@
 #include "engine/graph/compile/compile.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "engine/graph/compile/steps.h"
 #include "engine/graph/versions/groups.h"
 #include "engine/graph/versions/live.h"
+#include "engine/text/limits.h"
 
 namespace weft::graph {
 
@@ -61,12 +64,10 @@ Plan compileFor(std::shared_ptr<const FlatGraph> graph, const CompileOptions& op
   plan.graph = std::move(graph);
   indexCells(g, scratch);
   Liveness live = findLive(g);
+  plan.groups = formGroups(g, live);
   scratch.livePass = std::move(live.pass);
   plan.attached = std::move(live.use);
   steps::orderPasses(g, options, plan, scratch);
-  plan.groups = formGroups(
-      g, [&](std::uint32_t p) { return plan.stepOf[p] != kNone; },
-      [&](std::uint32_t u) { return plan.attached[u] != 0; });
   steps::findLifetimes(g, plan, scratch);
   steps::placeStorage(g, options.share, plan, scratch);
   if (scratch.anyStore) steps::placeBarriers(g, plan, scratch, reasons);
@@ -83,6 +84,31 @@ std::vector<BarrierReason> explainBarriers(const Plan& plan) {
   std::vector<BarrierReason> reasons;
   compileFor(plan.graph, plan.options, &reasons);
   return reasons;
+}
+
+bool checkMemory(const Plan& plan, text::Diagnostics& diagnostics) {
+  const std::uint64_t most = text::raised(kMaxTextureBytes);
+  if (plan.bytesAllocated <= most) return true;
+  const FlatGraph& graph = *plan.graph;
+  const auto bytesOf = [&](std::uint32_t r) {
+    const bool own = !isImported(graph.resources[r]) && plan.firstStep[r] != kNone;
+    return own ? graph.resources[r].bytes * plan.copiesOf(r) : 0;
+  };
+  std::uint32_t largest = 0;
+  for (std::uint32_t r = 1; r < graph.resources.size(); ++r)
+    if (bytesOf(r) > bytesOf(largest)) largest = r;
+  text::Diagnostic& d =
+      diagnostics.error(text::Code::texturesTooLarge,
+                        largest < graph.resourcePlaces.size() ? graph.resourcePlaces[largest] : text::Place{},
+                        fmt::format("the textures and buffers of '{}' need {} bytes, more than they may",
+                                    graph.name, plan.bytesAllocated));
+  d.resource = graph.resourceNames[largest];
+  d.expected = fmt::format("at most {} bytes", most);
+  d.found = fmt::format("the largest is '{}', {} bytes", d.resource, bytesOf(largest));
+  d.hint = "make them smaller or keep less history";
+  if (const std::string raise = text::hintToRaise(kMaxTextureBytes, plan.bytesAllocated); !raise.empty())
+    d.hint += "; " + raise;
+  return false;
 }
 
 }  // namespace weft::graph

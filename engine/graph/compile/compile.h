@@ -2,6 +2,7 @@
 // nothing can fail any more.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -35,6 +36,21 @@ struct BarrierReason {
 
 // The reason of every bit of a plan, in order of bits and steps. Compiles the plan's graph again.
 std::vector<BarrierReason> explainBarriers(const Plan& plan);
+
+// An edge between passes, for random orders and for people; the declared order needs none. One edge per pair and resource, per
+// kind, per sub-resource of one FlatResource. History orders nothing; resources that only share storage order nothing.
+struct Dependency {
+  enum class Type : std::uint8_t { read_after_write, write_after_read, write_after_write };
+  std::uint32_t from = 0, to = 0;  // passes; `from` runs first
+  std::uint32_t resource = 0;
+  Type type = Type::read_after_write;
+  friend auto operator<=>(const Dependency&, const Dependency&) = default;
+};
+
+// In declared order of `to`, then of `from`: between live passes, by the uses that are `attached`; over every pass and use,
+// culled ones too, without it.
+std::vector<Dependency> dependencies(const FlatGraph& graph,
+                                     const std::vector<std::uint8_t>* attached = nullptr);
 
 constexpr std::uint64_t kMaxTextureBytes = 4ull << 30;  // of all textures and buffers of one plan
 

@@ -1,7 +1,7 @@
-#include "engine/graph/compile/dependencies.h"
-
+// The edges between passes. Declared in compile.h.
 #include <algorithm>
 
+#include "engine/graph/compile/compile.h"
 #include "engine/graph/subresource.h"
 
 namespace weft::graph {

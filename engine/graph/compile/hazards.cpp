@@ -3,7 +3,6 @@
 #include <bit>
 #include <limits>
 #include <map>
-#include <type_traits>
 
 #include "engine/graph/compile/barrier_rules.h"
 #include "engine/graph/compile/steps.h"
@@ -14,46 +13,35 @@ namespace {
 
 using Scratch = CompileScratch;
 
-// What is kept of an access is a `Stamp`: its position, in 32 bits; or, to explain the plan, in 64 bits that also say who it is
-// (Access64).
-template <class Stamp>
-constexpr Stamp kNever = std::numeric_limits<Stamp>::min();
+constexpr Access64 kNever = std::numeric_limits<Access64>::min();
 
-template <class Stamp>
-Stamp stampOf(std::int32_t position, std::uint32_t who) {
-  if constexpr (std::is_same_v<Stamp, Access64>)
-    return Access64{position} << 32 | who;
-  else
-    return position;
+Access64 stampOf(std::int32_t position, std::uint32_t who) {
+  return Access64{position} << 32 | who;
 }
-template <class Stamp>
-std::int32_t positionOf(Stamp stamp) {
-  return static_cast<std::int32_t>(std::is_same_v<Stamp, Access64> ? std::int64_t{stamp} >> 32 : stamp);
+std::int32_t positionOf(Access64 stamp) {
+  return static_cast<std::int32_t>(stamp >> 32);
 }
-template <class Stamp>
-Stamp back(Stamp stamp, std::int32_t by) {
-  return stamp == kNever<Stamp> ? stamp : stamp - stampOf<Stamp>(by, 0);
+Access64 back(Access64 stamp, std::int32_t by) {
+  return stamp == kNever ? stamp : stamp - stampOf(by, 0);
 }
 
 // The last store, and the last access of any kind.
-template <class Stamp>
 struct Cell {
-  Stamp store = kNever<Stamp>, access = kNever<Stamp>;
+  Access64 store = kNever, access = kNever;
 };
 
 // A value per byte of the arena, as ranges of equal values.
-template <class Stamp>
 class RangeMap {
  public:
-  RangeMap() { values_[0] = kNever<Stamp>; }
-  void paint(std::uint64_t from, std::uint64_t to, Stamp value) {
+  RangeMap() { values_[0] = kNever; }
+  void paint(std::uint64_t from, std::uint64_t to, Access64 value) {
     split(to);
     const auto first = split(from);
     values_.erase(std::next(first), values_.lower_bound(to));
     first->second = value;
   }
-  Stamp latest(std::uint64_t from, std::uint64_t to) const {
-    Stamp value = kNever<Stamp>;
+  Access64 latest(std::uint64_t from, std::uint64_t to) const {
+    Access64 value = kNever;
     for (auto it = std::prev(values_.upper_bound(from)); it != values_.end() && it->first < to; ++it)
       value = std::max(value, it->second);
     return value;
@@ -63,11 +51,11 @@ class RangeMap {
   }
 
  private:
-  typename std::map<std::uint64_t, Stamp>::iterator split(std::uint64_t at) {
+  std::map<std::uint64_t, Access64>::iterator split(std::uint64_t at) {
     const auto it = std::prev(values_.upper_bound(at));
     return it->first == at ? it : values_.emplace_hint(std::next(it), at, it->second);
   }
-  std::map<std::uint64_t, Stamp> values_;
+  std::map<std::uint64_t, Access64> values_;
 };
 
 // How a resource's accesses are followed.
@@ -89,7 +77,6 @@ struct Track {
   Mode mode = Mode::ignored;
 };
 
-template <class Stamp>
 class Collector {
  public:
   Collector(const FlatGraph& graph, const Plan& plan, const Scratch& scratch, HazardIntervals& hazards,
@@ -158,17 +145,16 @@ class Collector {
   // the current copy was the oldest, and was last stored to a whole rotation ago. What a time-sliced group writes
   // may have, or may not.
   void advanceFrame() {
-    std::vector<Cell<Stamp>> ended;
+    std::vector<Cell> ended;
     if (!histories_.empty()) ended = cells_;
-    for (Cell<Stamp>& cell : cells_) cell = {back(cell.store, circle_), back(cell.access, circle_)};
+    for (Cell& cell : cells_) cell = {back(cell.store, circle_), back(cell.access, circle_)};
     for (const std::uint32_t r : histories_) {
       const std::int32_t rotation = tracks_[r].group == kNone ? (tracks_[r].depth + 1) * circle_ : circle_;
       const std::uint32_t count = cellsOf(r);
       for (std::uint32_t i = 0; i < count; ++i) {
-        Cell<Stamp>& current = cells_[tracks_[r].base + i];
-        Cell<Stamp>& oldest = cells_[tracks_[r].base + count + i];
-        const Cell<Stamp> wasCurrent = ended[tracks_[r].base + i],
-                          wasOldest = ended[tracks_[r].base + count + i];
+        Cell& current = cells_[tracks_[r].base + i];
+        Cell& oldest = cells_[tracks_[r].base + count + i];
+        const Cell wasCurrent = ended[tracks_[r].base + i], wasOldest = ended[tracks_[r].base + count + i];
         current.store = back(wasCurrent.store, rotation);
         current.access = std::max(back(wasCurrent.access, rotation), back(wasOldest.access, circle_));
         oldest.store = wasCurrent.store;  // in its own frame: reads of x@-n subtract n frames
@@ -231,7 +217,7 @@ class Collector {
   void need(const FlatUse& use, std::uint32_t who, std::uint16_t bits, bool store) {
     const Track track = tracks_[use.resource];
     who_ = who;
-    const auto from = [&](const Cell<Stamp>& cell) { require(bits, store ? cell.access : cell.store); };
+    const auto from = [&](const Cell& cell) { require(bits, store ? cell.access : cell.store); };
     switch (track.mode) {
       case Mode::ignored:
         return;
@@ -260,8 +246,8 @@ class Collector {
     const auto age = static_cast<std::int32_t>(ageOf(use, track));
     const std::uint32_t base = tracks_[use.resource].base, count = cellsOf(use.resource);
     const auto visit = [&](std::uint32_t s) {
-      const Cell<Stamp>& current = cells_[base + s];
-      const Stamp stored = cells_[base + count + s].store;
+      const Cell& current = cells_[base + s];
+      const Access64 stored = cells_[base + count + s].store;
       if (age > 0) {
         require(bits, back(stored, age * circle_));
       } else if (store) {
@@ -280,8 +266,8 @@ class Collector {
       forEachSubresource(use, r, visit);
   }
 
-  void require(std::uint16_t bits, Stamp from) {
-    if (from == kNever<Stamp>) return;
+  void require(std::uint16_t bits, Access64 from) {
+    if (from == kNever) return;
     for (unsigned rest = bits; rest != 0; rest &= rest - 1) {
       const auto bit = static_cast<std::size_t>(std::countr_zero(rest));
       if ((due_ >> bit & 1u) == 0 || from > latest_[bit].from) latest_[bit] = {from, who_};
@@ -296,16 +282,15 @@ class Collector {
       const auto bit = static_cast<std::size_t>(std::countr_zero(rest));
       const std::int32_t lo = positionOf(latest_[bit].from), hi = lo > 2 * t ? 2 * t + 1 : 2 * t;
       hazards_[bit].push_back({std::max(lo, hi + 1 - circle_), hi});
-      if constexpr (std::is_same_v<Stamp, Access64>)
-        (*causes_)[bit].push_back({latest_[bit].from, latest_[bit].to});
+      if (causes_) (*causes_)[bit].push_back(latest_[bit]);
     }
     due_ = 0;
   }
 
   void mark(const FlatUse& use, std::uint32_t who, bool store, std::int32_t position) {
     const Track track = tracks_[use.resource];
-    const Stamp access = stampOf<Stamp>(position, who);
-    const auto set = [&](Cell<Stamp>& cell) {
+    const Access64 access = stampOf(position, who);
+    const auto set = [&](Cell& cell) {
       cell.access = access;
       if (store) cell.store = access;
     };
@@ -356,7 +341,7 @@ class Collector {
       if (tracks_[r].mode != Mode::arena) continue;
       const std::uint64_t from = plan_.bufferOffsetOf[r],
                           to = from + std::max<std::uint64_t>(1, graph_.resources[r].bytes);
-      const Cell<Stamp>& cell = cells_[tracks_[r].base];
+      const Cell& cell = cells_[tracks_[r].base];
       accessMap_.paint(from, to, cell.access);
       if (positionOf(cell.store) > 2 * static_cast<std::int32_t>(plan_.firstStep[r]))
         storeMap_.paint(from, to, cell.store);
@@ -370,29 +355,22 @@ class Collector {
   HazardCauses* const causes_;
   const std::int32_t end_, circle_;
   std::vector<Track> tracks_;
-  std::vector<Cell<Stamp>> cells_;
+  std::vector<Cell> cells_;
   std::vector<std::uint32_t> histories_;
-  RangeMap<Stamp> storeMap_, accessMap_;
+  RangeMap storeMap_, accessMap_;
   bool anyArena_ = false;
   std::size_t birth_ = 0;
-  std::uint32_t group_ = kNone;  // of the step that is walked over
-  std::uint32_t who_ = 0;        // of the use that is looked at
-  std::uint16_t due_ = 0;        // bits that the step requires
-  struct Latest {
-    Stamp from = 0;
-    std::uint32_t to = 0;
-  };
-  std::array<Latest, kBarrierBitCount> latest_{};  // per bit that is due
+  std::uint32_t group_ = kNone;                         // of the step that is walked over
+  std::uint32_t who_ = 0;                               // of the use that is looked at
+  std::uint16_t due_ = 0;                               // bits that the step requires
+  std::array<HazardCause, kBarrierBitCount> latest_{};  // per bit that is due
 };
 
 }  // namespace
 
 void collectHazards(const FlatGraph& graph, const Plan& plan, const CompileScratch& scratch,
                     HazardIntervals& hazards, HazardCauses* causes) {
-  if (causes)
-    Collector<Access64>(graph, plan, scratch, hazards, causes).run();
-  else
-    Collector<std::int32_t>(graph, plan, scratch, hazards, nullptr).run();
+  Collector(graph, plan, scratch, hazards, causes).run();
 }
 
 }  // namespace weft::graph

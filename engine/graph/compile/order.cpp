@@ -2,7 +2,6 @@
 // dependency edges: any pass whose predecessors have run may come next.
 #include <algorithm>
 
-#include "engine/graph/compile/dependencies.h"
 #include "engine/graph/compile/steps.h"
 #include "engine/text/hash.h"
 

@@ -3,11 +3,10 @@
 // one is made, so their number is the greatest number alive at once (interval graphs are perfect; greedy
 // coloring by start is optimal). Declared in steps.h.
 #include <algorithm>
+#include <array>
 #include <map>
-#include <unordered_map>
 
 #include "engine/graph/compile/steps.h"
-#include "engine/text/hash.h"
 
 namespace weft::graph::steps {
 
@@ -18,28 +17,17 @@ constexpr std::uint64_t kAlignment = 256;
 
 // Two textures share a class when each can be a view of the other: ARB_texture_view compatible formats, equal
 // sizes, and targets of one family (2D, arrays and cubes are; 3D and multisample stand alone).
-struct ClassKey {
-  std::uint64_t size = 0;   // width, height
-  std::uint64_t shape = 0;  // depth, layers, mips
-  std::uint64_t kind = 0;   // samples, family, view class
-  friend bool operator==(const ClassKey&, const ClassKey&) = default;
-};
-
-std::uint64_t familyOf(Target target) {
-  return target == Target::texture_3d ? 1 : target == Target::texture_2d_multisample ? 2 : 0;
-}
+using ClassKey =
+    std::array<std::uint64_t, 3>;  // width, height; depth, layers, mips; samples, family, view class
 
 ClassKey keyOf(const FlatResource& r) {
+  const std::uint64_t family = r.target == Target::texture_3d               ? 1
+                               : r.target == Target::texture_2d_multisample ? 2
+                                                                            : 0;
   return {std::uint64_t{r.width} << 32 | r.height,
           std::uint64_t{r.depth} << 32 | std::uint64_t{r.layers} << 16 | r.mips,
-          std::uint64_t{r.samples} << 32 | familyOf(r.target) << 16 | infoOf(r.format).viewClass};
+          std::uint64_t{r.samples} << 32 | family << 16 | infoOf(r.format).viewClass};
 }
-
-struct ClassHash {
-  std::size_t operator()(const ClassKey& key) const {
-    return text::hashCombine(text::hashCombine(key.size, key.shape), key.kind);
-  }
-};
 
 // Free ranges by offset; best fit, lowest offset among equals; the arena grows at its end.
 class Arena {
@@ -217,7 +205,7 @@ class Placer {
   const bool share_;
   Plan& plan_;
   Scratch& scratch_;
-  std::unordered_map<ClassKey, std::uint32_t, ClassHash> table_;  // into classes_
+  std::map<ClassKey, std::uint32_t> table_;  // into classes_
   Arena arena_;
   std::vector<ClassState> classes_;
   std::vector<std::uint32_t> nextFree_, classOf_;  // per storage

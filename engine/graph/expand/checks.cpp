@@ -110,44 +110,30 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
 
 namespace {
 
-struct Attachment {
-  std::uint32_t width = 1, height = 1, layers = 1, samples = 1;
-  friend bool operator==(const Attachment&, const Attachment&) = default;
-};
-
-std::string textOf(const Attachment& a, const SlotWork& work) {
-  return fmt::format("'{}' of {}x{}, {} layers, {} samples", work.slot->ref.text, a.width, a.height, a.layers,
-                     a.samples);
-}
-
 bool checkAttachments(const SlotContext& context, const std::vector<SlotWork>& slots) {
   const SlotWork* first = nullptr;
-  Attachment all;
+  std::string all;  // what the first one is
   int colors = 0;
   for (const SlotWork& work : slots) {
     if (!work.isConnected() && work.state != SlotWork::State::missing) continue;
     if (work.entity == kNone || (work.use.kind != Kind::color && work.use.kind != Kind::depth)) continue;
-    const Entity& entity = context.model.entities[work.entity];
-    const FlatResource& shape = entity.shape;
+    const FlatResource& shape = context.model.entities[work.entity].shape;
+    const SlotDesc& slot = *work.slot;
     if (work.use.kind == Kind::color) ++colors;
     const auto side = [&](std::uint32_t texels) { return std::max(1u, texels >> work.use.mip); };
-    const Attachment here{side(shape.width), side(shape.height),
-                          shape.target == Target::texture_3d ? side(shape.depth) : work.use.layers,
-                          shape.samples};
-    if (work.use.mips > 1)
-      return context.report(Code::attachmentsDiffer, work.slot->ref.place,
-                            fmt::format("attaches {} levels of '{}' at once", work.use.mips, entity.name),
-                            {.expected = fmt::format("one level, '{}.mip[0]'", work.slot->ref.name),
-                             .hint = "name one, or repeat the pass over the levels"});
-    if (!first) {
-      first = &work;
-      all = here;
-    }
-    if (here != all)
+    const std::string here =
+        fmt::format("{}x{}, {} layers, {} samples, {} levels", side(shape.width), side(shape.height),
+                    shape.target == Target::texture_3d ? side(shape.depth) : work.use.layers, shape.samples,
+                    work.use.mips);
+    if (!first) all = here;
+    if (!first) first = &work;
+    if (work.use.mips > 1 || here != all)
       return context.report(
-          Code::attachmentsDiffer, work.slot->ref.place,
-          fmt::format("has attachments '{}' and '{}' that differ", first->slot->name, work.slot->name),
-          {.expected = "as " + textOf(all, *first), .found = textOf(here, work), .resource = entity.name});
+          Code::attachmentsDiffer, slot.ref.place,
+          fmt::format("attaches '{}' ({}) beside '{}' ({})", slot.ref.text, here, first->slot->ref.text, all),
+          {.expected = "one level of each, and one size, layer count and sample count",
+           .hint =
+               fmt::format("name a level, '{}.mip[0]', or repeat the pass over the levels", slot.ref.name)});
   }
   return colors <= 8 ||
          context.report(Code::attachmentsDiffer, slots[0].slot->place,
@@ -156,23 +142,18 @@ bool checkAttachments(const SlotContext& context, const std::vector<SlotWork>& s
 
 // `a` writes or modifies. False after a report.
 bool checkTogether(const SlotContext& context, const SlotWork& a, const SlotWork& b, bool feedback) {
-  const std::string& name = context.model.entities[b.entity].name;
-  const bool modifies = a.use.access == Access::modify;
-  if (b.use.access != Access::read)
-    return &b < &a || context.report(Code::writtenTwice, b.slot->ref.place,
-                                     fmt::format("writes '{}' by slot '{}' and by slot '{}'",
-                                                 b.slot->ref.text, a.slot->name, b.slot->name),
-                                     {.hint = "one pass writes a sub-resource once", .resource = name});
-  if (b.use.history > 0 || (modifies ? feedback : a.whole)) return true;
+  const bool modifies = a.use.access == Access::modify, twice = b.use.access != Access::read;
+  if (twice ? &b < &a : b.use.history > 0 || (modifies ? feedback : a.whole)) return true;
   return context.report(
-      Code::readAndWritten, b.slot->ref.place,
-      fmt::format("reads '{}' and {} '{}' at the same time", b.slot->ref.text,
-                  modifies ? "modifies" : "writes", a.slot->ref.text),
-      {.hint = !modifies ? "write another level or layer, or read and write the whole resource"
-               : a.whole && b.whole
-                   ? "say \"write\" instead of \"modify\", or \"feedback\": true, to read its own texel only"
-                   : "\"feedback\": true lets a pass read its own texel of what it modifies",
-       .resource = name});
+      twice ? Code::writtenTwice : Code::readAndWritten, b.slot->ref.place,
+      fmt::format("{} '{}' by slot '{}' and {} '{}' by slot '{}' at the same time",
+                  twice ? "writes" : "reads", b.slot->ref.text, b.slot->name,
+                  modifies ? "modifies" : "writes", a.slot->ref.text, a.slot->name),
+      {.hint = twice ? "one pass writes a sub-resource once"
+               : modifies
+                   ? "say \"feedback\": true to read its own texel only, or \"write\" instead of \"modify\""
+                   : "write another level or layer, or read and write the whole resource",
+       .resource = context.model.entities[b.entity].name});
 }
 
 // The two slots of a pass type without a shader, blit or mipmap: what GL would refuse, or would do in part.

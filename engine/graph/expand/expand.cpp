@@ -24,19 +24,15 @@ std::optional<FlatUse> resolveFinal(Model& model, Scope& scope, const RefDesc& r
   Names names(model, scope);
   const SlotDesc slot{.name = name, .place = ref.place, .access = Access::read, .ref = ref};
   const SlotContext context{model, names, nullptr, user, {}};
-  if (ref.wordsSize > 0) {
-    context.report(Code::badKind, ref.place, fmt::format("reads '{}', and no shader samples it", ref.text),
-                   {.found = ref.text, .hint = fmt::format("leave '{}' out", ref.words())});
-    return std::nullopt;
-  }
-  const SlotWork work = resolveSlot(context, slot, kNone);
-  if (!work.isConnected()) return std::nullopt;
-  if (work.array) {
-    context.report(Code::badKind, ref.place, fmt::format("reads '{}', which is an array", ref.text),
-                   {.expected = fmt::format("one element, '{}[0]'", ref.name)});
-    return std::nullopt;
-  }
+  const SlotWork work = ref.wordsSize > 0 ? SlotWork() : resolveSlot(context, slot, kNone);
+  if (work.array || ref.wordsSize > 0)
+    context.report(
+        Code::badKind, ref.place, fmt::format("reads '{}', which is more than a name or an array", ref.text),
+        {.expected =
+             fmt::format("a texture or buffer that no shader samples: '{0}', or '{0}[0]'", ref.name)});
+  if (work.array || !work.isConnected()) return std::nullopt;
   FlatUse use = work.use;
+  use.kind = Kind::copy;
   use.resource = currentResource(model, work.entity, work.firstElement);
   return use;
 }
@@ -50,59 +46,52 @@ void resolvePresent(Model& model) {
   if (!use) return;
   if (!ref.mip || !ref.mip->range) use->mips = 1;  // a span is kept whole; what is shown is its first level
   use->layers = 1;
-  use->kind = Kind::copy;
   model.graph.present = *use;  // also what cannot be shown: its writers are no mistake
   const FlatResource& resource = model.graph.resources[use->resource];
-  const bool depth = !isBuffer(resource) && isDepth(resource.format);
-  if (model.diagnostics.errorCount() == before && (isBuffer(resource) || depth || use->history > 0))
+  if (model.diagnostics.errorCount() == before &&
+      (isBuffer(resource) || isDepth(resource.format) || use->history > 0))
     report(model, Code::badKind, ref.place,
            fmt::format("present shows '{}', which is no color texture", ref.text),
            {.expected = "a color texture of this frame",
-            .hint = depth ? fmt::format("to look at it: weft render --present {}", ref.text) : ""});
-}
-
-// What the runtime can bring to the CPU every frame.
-bool checkOutput(Model& model, const OutputDesc& output, const std::string& name, const FlatUse& use) {
-  const FlatResource& resource = model.graph.resources[use.resource];
-  const std::uint64_t bytes = isImported(resource) ? 0 : outputBytesOf(use, resource);
-  if (!isImported(resource) && resource.samples == 1 && bytes <= kMaxOutputBytes) return true;
-  return report(
-      model, Code::badOutput, output.ref.place,
-      fmt::format("output '{}' cannot read back '{}'", name, output.ref.text),
-      {.expected = fmt::format("a buffer or plain texture of this graph, at most {} bytes (4 for each "
-                               "channel of a texel)",
-                               kMaxOutputBytes),
-       .found = bytes > 0 ? fmt::format("{} bytes", bytes) : "",
-       .hint = "read back a small level (x.mip[n]) or a buffer that a pass sums up into"});
-}
-
-// A version zero alone is nothing to read back.
-bool isWritten(Model& model, const OutputDesc& output, const std::string& name, const FlatUse& use) {
-  if (use.history > 0) return true;
-  std::uint32_t missing = kNone;
-  model.versions.forEachRun(use, [&](std::uint32_t writer, std::uint32_t first, std::uint32_t) {
-    if (writer == kNone) missing = first;
-    return missing == kNone;
-  });
-  if (missing == kNone) return true;
-  if (output.ref.optional) return false;
-  const std::string part = subresourceText(model.graph.resources[use.resource], missing);
-  return report(model, Code::nobodyWrites, output.ref.place,
-                fmt::format("output '{}' reads {}'{}', which no pass writes", name,
-                            part.empty() ? "" : part + " of ", model.graph.resourceNames[use.resource]),
-                {.found = output.ref.text,
-                 .hint = "end the reference with '?' to leave the output out when nothing writes it"});
+            .hint = fmt::format("to look at it: weft render --present {}", ref.text)});
 }
 
 void resolveOutputs(Model& model) {
   for (Scope& scope : model.scopes)
     for (const OutputDesc& output : scope.desc->outputs) {
       const std::string name = scope.prefix + output.name;
-      auto use = resolveFinal(model, scope, output.ref, fmt::format("output '{}'", name), name);
-      if (!use || !checkOutput(model, output, name, *use) || !isWritten(model, output, name, *use)) continue;
-      use->kind = Kind::copy;
-      model.graph.outputs.push_back(*use);
-      model.graph.outputNames.push_back(name);
+      const RefDesc& ref = output.ref;
+      const auto use = resolveFinal(model, scope, ref, fmt::format("output '{}'", name), name);
+      if (!use) continue;
+      // What the runtime can bring to the CPU every frame.
+      const FlatResource& resource = model.graph.resources[use->resource];
+      const std::uint64_t bytes = isImported(resource) ? 0 : outputBytesOf(*use, resource);
+      if (isImported(resource) || resource.samples != 1 || bytes > kMaxOutputBytes) {
+        report(
+            model, Code::badOutput, ref.place,
+            fmt::format("output '{}' cannot read back '{}'", name, ref.text),
+            {.expected = fmt::format("a buffer or plain texture of this graph, at most {} bytes (4 for each "
+                                     "channel of a texel)",
+                                     kMaxOutputBytes),
+             .found = bytes > 0 ? fmt::format("{} bytes", bytes) : "",
+             .hint = "read back a small level (x.mip[n]) or a buffer that a pass sums up into"});
+        continue;
+      }
+      // A version zero alone is nothing to read back.
+      bool written = true;
+      if (use->history == 0)
+        model.versions.forEachRun(*use, [&](std::uint32_t writer, std::uint32_t, std::uint32_t) {
+          written = written && writer != kNone;
+          return written;
+        });
+      if (written) {
+        model.graph.outputs.push_back(*use);
+        model.graph.outputNames.push_back(name);
+      } else if (!ref.optional) {
+        report(model, Code::nobodyWrites, ref.place,
+               fmt::format("output '{}' reads '{}', of which no pass writes a part", name, ref.text),
+               {.hint = "end the reference with '?' to leave the output out when nothing writes it"});
+      }
     }
 }
 
@@ -135,9 +124,9 @@ void addResets(Model& model, const Entity& entity, HistorySpec& spec) {
 void resolveHistories(Model& model) {
   FlatGraph& graph = model.graph;
   std::vector<std::uint8_t> read(model.entities.size(), 0);  // a history that nobody reads is none
-  for (const Model::HistoryUse& use : model.historyUses) {
-    graph.uses[use.use].resource = currentResource(model, use.entity, use.element);
-    read[use.entity] = 1;
+  for (const auto& [use, entity, element] : model.historyUses) {
+    graph.uses[use].resource = currentResource(model, entity, element);
+    read[entity] = 1;
   }
   for (std::uint32_t index = 0; index < model.entities.size(); ++index) {
     Entity& entity = model.entities[index];
@@ -156,35 +145,27 @@ void resolveHistories(Model& model) {
   }
 }
 
-// What is in the place of an import that is not there: it is shown until the import, once it is there, is published.
-void nameStandIns(Model& model) {
-  for (const Entity& list : model.entities)
-    for (const std::uint32_t candidate : list.candidates) {
-      const std::uint32_t import = candidate == kNone ? kNone : model.entities[candidate].import;
-      if (import == kNone || model.graph.imports[import].kind != ImportKind::texture) continue;
-      for (const std::uint32_t other : list.candidates)
-        if (other != kNone && model.entities[other].kind == ResourceDesc::Kind::texture)
-          model.graph.imports[import].standIns.push_back(model.entities[other].name);
-    }
-}
-
-// Names that are no resources and no imports of their own.
+// Names that are no resources and no imports of their own; and what is in the place of an import that is not there: it is shown
+// until the import, once it is there, is published.
 void nameAliases(Model& model) {
   for (const Entity& entity : model.entities) {
     if (!entity.desc) continue;
     AliasSpec alias{.name = entity.name, .place = entity.desc->place};
-    if (entity.kind == ResourceDesc::Kind::alternatives) {
-      for (std::size_t i = 0; i < entity.candidates.size(); ++i) {
-        if (entity.candidates[i] == kNone) continue;
-        alias.texts.push_back(entity.desc->alternatives[i].text);
-        alias.targets.push_back(model.entities[entity.candidates[i]].name);
-      }
-    } else if (entity.kind == ResourceDesc::Kind::input && entity.bound != kNone) {
-      alias.targets.push_back(model.entities[entity.bound].name);
-    } else if (entity.kind == ResourceDesc::Kind::import && entity.import != kNone) {
-      const std::string& first = model.graph.imports[entity.import].name;
-      if (first != entity.name) alias.targets.push_back(first);
+    for (std::size_t i = 0; i < entity.candidates.size(); ++i) {
+      if (entity.candidates[i] == kNone) continue;
+      const Entity& candidate = model.entities[entity.candidates[i]];
+      alias.texts.push_back(entity.desc->alternatives[i].text);
+      alias.targets.push_back(candidate.name);
+      if (candidate.import == kNone || model.graph.imports[candidate.import].kind != ImportKind::texture)
+        continue;
+      for (const std::uint32_t other : entity.candidates)
+        if (other != kNone && model.entities[other].kind == ResourceDesc::Kind::texture)
+          model.graph.imports[candidate.import].standIns.push_back(model.entities[other].name);
     }
+    if (entity.kind == ResourceDesc::Kind::input && entity.bound != kNone)
+      alias.targets.push_back(model.entities[entity.bound].name);
+    if (entity.import != kNone && model.graph.imports[entity.import].name != entity.name)
+      alias.targets.push_back(model.graph.imports[entity.import].name);
     if (!alias.targets.empty()) model.graph.aliases.push_back(std::move(alias));
   }
 }
@@ -289,7 +270,6 @@ void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred) {
   settleCopies(model.graph);
   model.versions.finish();
   inferComparisons(model);
-  nameStandIns(model);
   nameAliases(model);
   for (const Parameter& parameter : model.parameters)
     model.graph.parameters.push_back({*parameter.desc, parameter.path, parameter.value, parameter.origin,
@@ -319,7 +299,7 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
     // An import's arguments are checked here; so is an input of the root, which nobody may read.
     if (kind == ResourceDesc::Kind::input)
       findEntity(model, *model.entities[i].scope, model.entities[i].desc->name, false);
-    else if (kind != ResourceDesc::Kind::alternatives)
+    else if (model.entities[i].desc && kind != ResourceDesc::Kind::alternatives)
       ensureShape(model, i);
   }
   takeInputHistories(model);
@@ -327,11 +307,11 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
   if (!isOver(model)) expandPasses(model, deferred);
   if (!isOver(model)) finishGraph(model, deferred);
   // What is only missing because of a mistake is no second one.
-  const bool whole = !diagnostics.hasErrors() && !model.stopped;
-  if (whole && !own.hasErrors()) keepPicks(model.graph, settings.kept, own);
-  if (whole && !own.hasErrors()) reportMissingReads(model);
-  if (whole && !own.hasErrors()) checkSlices(model);
-  if (whole && !own.hasErrors()) {
+  const auto isSound = [&] { return !diagnostics.hasErrors() && !own.hasErrors(); };
+  if (isSound()) keepPicks(model.graph, settings.kept, own);
+  if (isSound()) reportMissingReads(model);
+  if (isSound()) checkSlices(model);
+  if (isSound()) {
     warnUnread(model);
     warnUnused(model);
     warnCadence(model);

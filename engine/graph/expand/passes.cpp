@@ -94,8 +94,12 @@ class PassWalk {
   void walkStanza(Scope& scope, const PassDesc& desc, const std::string& why) {
     StanzaWalk stanza{scope, desc,         findPassType(model_.registry, desc.type), scope.prefix + desc.name,
                       why,   slotsOf(desc)};
-    stanza.sound = checkStanza(model_, scope, desc, stanza.type, stanza.declared);
+    if (stanza.slots > text::raised(kMaxSlotsOfPass))
+      return stopAt(model_, desc.place, fmt::format("pass '{}' has too many slots", stanza.declared),
+                    kMaxSlotsOfPass, "slots, parameters and defines of one pass");
     Names names(model_, scope);
+    user_ = fmt::format("pass '{}'", stanza.declared);
+    stanza.sound = checkStanza({model_, names, stanza.type, user_, stanza.declared}, desc);
     if (stanza.type) repeat(stanza, names);
   }
 

@@ -1,6 +1,6 @@
 // From stanzas to passes of the FlatGraph: the walk over all passes in declared order (passes.cpp), the slots of an instance
-// (slots.cpp), what is checked of stanzas, uses and passes (checks.cpp, stanza.cpp), and what the executor needs besides
-// (spec.cpp). Missing versions are only recorded; judge.h decides which are errors.
+// (slots.cpp), what is checked of uses and passes (checks.cpp), of stanzas, and what the executor needs besides (spec.cpp).
+// Missing versions are only recorded; judge.h decides which are errors.
 #pragma once
 
 #include <array>
@@ -13,7 +13,8 @@ namespace weft::graph::expansion {
 
 // Of a graph, each instance of a repeat counted; `--limit` raises them.
 constexpr std::uint64_t kMaxPasses = 4096;
-// Slots, parameters and defines of all passes, and the versions that they read.
+// Slots, parameters and defines of a pass; of all passes, and the versions that they read.
+constexpr std::uint64_t kMaxSlotsOfPass = 1024;
 constexpr std::uint64_t kMaxSlots = std::uint64_t{1} << 18;
 
 // A uniform or "instances" that contains age() or live parameters: it is folded when all versions are known.
@@ -28,18 +29,13 @@ struct DeferredUniform {
 // Fills passes, uses, slots, specs and disabled.
 void expandPasses(Model& model, std::vector<DeferredUniform>& deferred);
 
-// What is checked once per stanza: type, keys, slots of fixed types, draw list, geometry, cadence, expressions in branches not
-// taken. (That slots, parameters and defines share one namespace is the reader's.)
-bool checkStanza(Model& model, Scope& scope, const PassDesc& desc, const PassType* type,
-                 const std::string& declared);
-
 // ---- slots ----
 
-// Selectors with numbers in place of expressions; ends left open are filled in when the shape is known.
+// Selectors with numbers in place of expressions; an end left open is filled in when the shape is known.
 struct Selection {
   struct Span {
     std::int64_t first = 0, last = 0;
-    bool openFirst = false, openLast = false;
+    bool openLast = false;
     Place place;
   };
   enum Part : std::uint8_t { level, layer, face, element };
@@ -110,6 +106,9 @@ SlotWork resolveFirst(const SlotContext& context, const SlotWork& work, std::uin
 
 // ---- checks: they report mistakes and change nothing ----
 
+// What is checked once per stanza: type, keys, slots of fixed types, draw list, geometry, cadence, expressions in branches not
+// taken. (That slots, parameters and defines share one namespace is the reader's.)
+bool checkStanza(const SlotContext& context, const PassDesc& desc);
 bool isInteger(Format format);
 const PassType* findPassType(const Registry& registry, std::string_view name);
 // Not an attachment of a draw: of that only what its geometry covers is drawn.

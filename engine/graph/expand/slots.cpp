@@ -33,8 +33,7 @@ bool addSelection(const SlotContext& context, Names& names, const RefDesc& ref, 
     if (into.parts[i])
       return context.report(Code::badSelector, ref.place, fmt::format("selects twice in '{}'", ref.text),
                             {.hint = "the list of alternatives selects this already", .resource = ref.name});
-    into.parts[i] = {*first, said.range ? *last : *first, said.range && !said.first.present(),
-                     said.range && !said.last.present(),
+    into.parts[i] = {*first, said.range ? *last : *first, said.range && !said.last.present(),
                      said.first.present() ? said.first.place() : said.last.place()};
   }
   return true;
@@ -49,7 +48,7 @@ struct Range {
 // removed by the clamp to the size. nullopt: it is not there.
 std::optional<Range> closeSpan(const Selection::Span& said, std::int64_t count, std::int64_t written,
                                bool ranges) {
-  const std::int64_t first = said.openFirst ? 0 : said.first;
+  const std::int64_t first = said.first;
   std::int64_t last = said.openLast ? count - 1 : said.last;
   const bool clamped = first >= 0 && first < written && last >= first && last < written;
   if (clamped) last = std::min(last, count - 1);
@@ -179,14 +178,11 @@ const char* verbOf(Access access) {
 
 bool isWritable(const SlotContext& context, const SlotDesc& slot, std::uint32_t found) {
   const Entity& entity = context.model.entities[found];
-  const char* const why = slot.ref.history > 0                              ? "an earlier publication"
-                          : entity.kind == ResourceDesc::Kind::import       ? "an import"
-                          : entity.kind == ResourceDesc::Kind::alternatives ? "a list of alternatives"
-                                                                            : nullptr;
-  return !why ||
+  const bool own = entity.kind == ResourceDesc::Kind::texture || entity.kind == ResourceDesc::Kind::buffer;
+  return (own && slot.ref.history == 0) ||
          context.report(Code::notWritable, slot.ref.place,
-                        fmt::format("{} '{}', which is {} and cannot be written", verbOf(slot.access),
-                                    slot.ref.text, why),
+                        fmt::format("{} '{}', which is an import, a list or an earlier publication",
+                                    verbOf(slot.access), slot.ref.text),
                         {.hint = "write a texture or buffer of the graph's own", .resource = entity.name});
 }
 

@@ -3,6 +3,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -11,7 +13,6 @@
 #include "engine/graph/print/explain.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/subresource.h"
-#include "engine/text/printable.h"
 
 namespace weft::graph {
 
@@ -28,47 +29,44 @@ std::string placeText(const Place& place) {
 
 std::string importText(const ImportSpec& import) {
   constexpr const char* kKinds[] = {"texture", "buffer", "view", "list", "event"};
-  if (import.columns.empty())
-    return fmt::format("{} @{}{}", kKinds[static_cast<std::size_t>(import.kind)], import.request.type,
-                       import.kind == ImportKind::list ? fmt::format(", {} entries", import.count) : "");
-  std::vector<std::string> columns;
-  for (const TableColumn& column : import.columns)
-    columns.push_back(fmt::format("{} {}", column.type, column.name));
-  return fmt::format("table @{}, {} row{} of {}", import.request.type, import.count,
-                     import.count == 1 ? "" : "s", fmt::join(columns, ", "));
+  const bool rows = import.kind == ImportKind::list || !import.columns.empty();
+  return fmt::format("{} @{}{}", kKinds[static_cast<std::size_t>(import.kind)], import.request.type,
+                     rows ? fmt::format(", {} entries", import.count) : "");
 }
 
 class Describer {
  public:
-  explicit Describer(const Plan& plan) : plan_(plan), graph_(*plan.graph), explainer_(plan) {}
+  explicit Describer(const Plan& plan) : plan_(plan), graph_(*plan.graph), explainer_(plan) {
+    const auto know = [&](const std::set<std::string>& names, const std::function<void()>& tell) {
+      for (const std::string& name : names) things_.emplace(name, tell);
+    };
+    for (std::uint32_t p = 0; p < graph_.passes.size(); ++p)
+      know({graph_.specs[p].declared, graph_.specs[p].name}, [this, p] { addPass(p); });
+    for (const DisabledPass& disabled : graph_.disabled)
+      know({disabled.name, declaredName(disabled.name)},
+           [this, &disabled] { line(0, "pass {}: disabled, {}", disabled.name, disabled.why); });
+    for (std::uint32_t r = 0; r < graph_.resources.size(); ++r)
+      know({graph_.resourceNames[r], declaredName(graph_.resourceNames[r])}, [this, r] { addResource(r); });
+    for (std::uint32_t i = 0; i < graph_.imports.size(); ++i)
+      if (elementOf(graph_.imports[i].request) == 0)
+        know({graph_.imports[i].name}, [this, i] { addImport(i); });
+    for (const AliasSpec& alias : graph_.aliases) know({alias.name}, [this, &alias] { addAlias(alias); });
+    for (std::uint32_t i = 0; i < graph_.parameters.size(); ++i)
+      know({graph_.parameters[i].path}, [this, i] { addParameter(i); });
+  }
 
   std::vector<std::string> names() const {
-    std::set<std::string> all;
-    for (const PassSpec& spec : graph_.specs) all.insert({spec.declared, spec.name});
-    for (const DisabledPass& disabled : graph_.disabled) all.insert(disabled.name);
-    for (const std::string& name : graph_.resourceNames) all.insert({declaredName(name), name});
-    for (const ImportSpec& import : graph_.imports) all.insert(import.name);
-    for (const AliasSpec& alias : graph_.aliases) all.insert(alias.name);
-    for (const ParameterSpec& parameter : graph_.parameters) all.insert(parameter.path);
-    return {all.begin(), all.end()};
+    std::vector<std::string> all;
+    for (auto at = things_.begin(); at != things_.end(); at = things_.upper_bound(at->first))
+      all.push_back(at->first);
+    return all;
   }
 
   // Adds everything that has this name, each name once.
   void add(const std::string& name) {
     if (!told_.insert(name).second) return;
-    for (std::uint32_t pass = 0; pass < graph_.passes.size(); ++pass)
-      if (graph_.specs[pass].name == name || graph_.specs[pass].declared == name) addPass(pass);
-    for (const DisabledPass& disabled : graph_.disabled)
-      if (disabled.name == name || declaredName(disabled.name) == name)
-        line(0, "pass {}: disabled, {}", disabled.name, disabled.why);
-    for (std::uint32_t r = 0; r < graph_.resources.size(); ++r)
-      if (graph_.resourceNames[r] == name || declaredName(graph_.resourceNames[r]) == name) addResource(r);
-    for (std::uint32_t i = 0; i < graph_.imports.size(); ++i)
-      if (graph_.imports[i].name == name && elementOf(graph_.imports[i].request) == 0) addImport(i);
-    for (const AliasSpec& alias : graph_.aliases)
-      if (alias.name == name) addAlias(alias);
-    for (std::uint32_t i = 0; i < graph_.parameters.size(); ++i)
-      if (graph_.parameters[i].path == name) addParameter(i);
+    const auto [first, last] = things_.equal_range(name);
+    std::for_each(first, last, [](const auto& thing) { thing.second(); });
   }
 
   // Whether the pass, called so without an index, has a slot, parameter or define of the name. Adds what it does with it.
@@ -89,8 +87,7 @@ class Describer {
  private:
   template <class... Args>
   void line(std::size_t depth, fmt::format_string<Args...> format, Args&&... args) {
-    text_ += std::string(2 * depth, ' ') + text::printable(fmt::format(format, std::forward<Args>(args)...)) +
-             "\n";
+    addLine(text_, depth, format, std::forward<Args>(args)...);
   }
 
   // Imports that no pass reads as a resource (views, events, lists that only expressions ask of), and those that the first
@@ -179,9 +176,9 @@ class Describer {
     std::vector<std::string> makers;
     graph_.links.forEachWriter(graph_.links.seen[use], [&](std::uint32_t writer) {
       const std::uint32_t by = graph_.links.passOf[writer];
-      if (by == pass && graph_.uses[use].history == 0) return;
-      if (std::ranges::find(makers, graph_.passNames[by]) == makers.end())
-        makers.push_back(graph_.passNames[by]);
+      const std::string& name = graph_.passNames[by];
+      if ((by != pass || graph_.uses[use].history > 0) && std::ranges::find(makers, name) == makers.end())
+        makers.push_back(name);
     });
     return makers.empty() ? "" : fmt::format(", made by '{}'", fmt::join(makers, "', '"));
   }
@@ -234,6 +231,7 @@ class Describer {
   const Plan& plan_;
   const FlatGraph& graph_;
   Explainer explainer_;
+  std::multimap<std::string, std::function<void()>> things_;  // what adds them, by name
   std::string text_;
   std::set<std::string> told_;
 };
@@ -252,19 +250,15 @@ std::optional<std::string> describe(const Plan& plan, std::string_view name, tex
     describer.add(matches.empty() ? declared->name : names[matches[0]]);
     return describer.text();
   }
-  const text::Where place = text::placeOfOption("");
-  if (matches.empty()) {
-    text::Diagnostic& d = diagnostics.error(
-        text::Code::unknownPass, place, fmt::format("no pass, resource or parameter is called '{}'", name));
-    d.expected = "a name of the expanded graph, or the end of one behind a dot";
-    d.hint = suffixHint(name, names);
-    return std::nullopt;
-  }
-  text::Diagnostic& d =
-      diagnostics.error(text::Code::ambiguousName, place, fmt::format("'{}' may mean several", name));
+  const bool several = !matches.empty();
+  text::Diagnostic& d = diagnostics.error(
+      several ? text::Code::ambiguousName : text::Code::unknownPass, text::placeOfOption(""),
+      several ? fmt::format("'{}' may mean several", name)
+              : fmt::format("no pass, resource or parameter is called '{}'", name));
+  d.hint = several ? fmt::format("write more of the name, such as '{}'", names[matches[0]])
+                   : suffixHint(name, names);
   for (std::size_t i = 0; i < std::min<std::size_t>(matches.size(), 8); ++i)
     d.found += (i ? ", " : "") + names[matches[i]];
-  d.hint = fmt::format("write more of the name, such as '{}'", names[matches[0]]);
   return std::nullopt;
 }
 

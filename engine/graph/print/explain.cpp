@@ -16,10 +16,11 @@ std::span<const FlatUse> usesOf(const FlatGraph& graph, std::uint32_t pass) {
   return std::span(graph.uses).subspan(graph.passes[pass].firstUse, graph.passes[pass].useCount);
 }
 
+// "step 3", "steps 2..end"
 std::string stepsText(const Plan& plan, std::uint32_t r) {
-  const std::string steps = lifetimeText(plan, r);
-  return plan.firstStep[r] == plan.lastStep[r] ? "step " + steps.substr(steps.find("..") + 2)
-                                               : "steps " + steps;
+  const std::uint32_t first = plan.firstStep[r], last = plan.lastStep[r];
+  const std::string end = last == plan.steps.size() ? "end" : fmt::to_string(last);
+  return first == last ? "step " + end : fmt::format("steps {}..{}", first, end);
 }
 
 // Whether two transient resources are in the same memory.
@@ -69,51 +70,6 @@ std::string shapeText(const FlatResource& r) {
   if (r.mips > 1) text += fmt::format(", {} levels", r.mips);
   if (r.samples > 1) text += fmt::format(", {} samples", r.samples);
   return isImported(r) ? text : fmt::format("{}, {} bytes", text, r.bytes);
-}
-
-std::string lifetimeText(const Plan& plan, std::uint32_t r) {
-  const std::uint32_t last = plan.lastStep[r];
-  return fmt::format("{}..{}", plan.firstStep[r], last == plan.steps.size() ? "end" : fmt::to_string(last));
-}
-
-std::vector<std::string> barrierNames(std::uint16_t mask) {
-  std::vector<std::string> names;
-  for (int i = 0; i < kBarrierBitCount; ++i)
-    if ((mask >> i & 1) != 0) names.emplace_back(barrierName(static_cast<BarrierBit>(1 << i)));
-  return names;
-}
-
-std::string barrierText(std::uint16_t mask) {
-  return fmt::format("{}", fmt::join(barrierNames(mask), " "));
-}
-
-std::vector<std::string> slotNames(const FlatGraph& graph) {
-  std::vector<std::string> names(graph.uses.size());
-  for (const SlotSpec& slot : graph.slots) {
-    for (std::uint32_t i = 0; i < slot.useCount && slot.firstUse + i < names.size(); ++i)
-      names[slot.firstUse + i] = slot.array ? fmt::format("{}[{}]", slot.name, i) : slot.name;
-    if (slot.firstValue != kNone) names[slot.firstValue] = slot.name + " (first)";
-  }
-  return names;
-}
-
-FramebufferText framebufferOf(const Plan& plan, std::uint32_t pass) {
-  FramebufferText framebuffer;
-  const FlatGraph& graph = *plan.graph;
-  std::uint32_t u = graph.passes[pass].firstUse;
-  for (const FlatUse& use : usesOf(graph, pass)) {
-    if (plan.attached[u++] == 0 || (use.kind != Kind::color && use.kind != Kind::depth)) continue;
-    const FlatResource& r = graph.resources[use.resource];
-    if (framebuffer.empty()) {
-      framebuffer.width = std::max(1u, r.width >> use.mip);
-      framebuffer.height = std::max(1u, r.height >> use.mip);
-    }
-    if (use.kind == Kind::color)
-      framebuffer.color.push_back(textOf(graph, use));
-    else
-      framebuffer.depth = textOf(graph, use);
-  }
-  return framebuffer;
 }
 
 const char* nameOf(Target target) {

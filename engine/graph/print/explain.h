@@ -3,13 +3,16 @@
 // plans.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/graph/compile/compile.h"
-#include "engine/graph/compile/dependencies.h"
 #include "engine/graph/plan.h"
+#include "engine/text/printable.h"
 
 namespace weft::graph {
 
@@ -40,23 +43,14 @@ std::string textOf(const FlatGraph& graph, const FlatUse& use);
 std::string spanText(const char* part, std::uint32_t first, std::uint32_t count);
 // "texture rgba16f 64x64, 3 levels, 32768 bytes"
 std::string shapeText(const FlatResource& resource);
-// "2..5", "2..end": the steps in which it is alive
-std::string lifetimeText(const Plan& plan, std::uint32_t resource);
-std::vector<std::string> barrierNames(std::uint16_t mask);
-std::string barrierText(std::uint16_t mask);  // "texture_fetch image_access"
-// Slot name per use; "" where the graph has none.
-std::vector<std::string> slotNames(const FlatGraph& graph);
-
-// The attachments that a pass's live uses make.
-struct FramebufferText {
-  std::uint32_t width = 0, height = 0;
-  std::vector<std::string> color;  // as textOf(use), in slot order
-  std::string depth;               // or ""
-  bool empty() const { return color.empty() && depth.empty(); }
-};
-FramebufferText framebufferOf(const Plan& plan, std::uint32_t pass);
-
 const char* nameOf(Target target);
 const char* nameOf(Cadence cadence);
+
+// Adds a line, two spaces further in per `depth`, and nothing that a terminal obeys.
+template <class... Args>
+void addLine(std::string& text, std::size_t depth, fmt::format_string<Args...> format, Args&&... args) {
+  text +=
+      std::string(2 * depth, ' ') + text::printable(fmt::format(format, std::forward<Args>(args)...)) + '\n';
+}
 
 }  // namespace weft::graph

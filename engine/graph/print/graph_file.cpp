@@ -1,5 +1,6 @@
 // A plan as a graph file. Declared in print.h.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -237,8 +238,7 @@ class FileWriter {
       defines[define.name] = Json::parse(define.text, nullptr, false);
     for (const UniformSpec& uniform : spec.uniforms) {
       const bool timed = uniform.dynamic.present() && uniform.dynamic.dynamic();
-      Json value = timed ? Json(expressionText(uniform.dynamic)) : jsonOf(uniform.value);
-      parameters[uniform.name] = std::move(value);
+      parameters[uniform.name] = timed ? Json(expressionText(uniform.dynamic)) : jsonOf(uniform.value);
     }
     if (!parameters.is_null()) json["parameters"] = std::move(parameters);
     if (!defines.is_null()) json["defines"] = std::move(defines);
@@ -249,11 +249,8 @@ class FileWriter {
       const SlotSpec& slot = graph_.slots[spec.firstSlot + i];
       if (slot.useCount == 0) continue;
       std::string text = textOf(graph_.uses[slot.firstUse], slot.array) + " as " + nameOf(slot.kind);
-      if (slot.sampler.compare)
-        text +=
-            slot.sampler.function
-                ? fmt::format(" compare({})", kCompareNames[static_cast<std::size_t>(*slot.sampler.function)])
-                : " compare";
+      if (slot.sampler.function)
+        text += fmt::format(" compare({})", kCompareNames[static_cast<std::size_t>(*slot.sampler.function)]);
       else if (slot.sampler.linear)
         text += " linear";
       const BorderColor color = graph_.borderOf(slot);
@@ -269,10 +266,9 @@ class FileWriter {
     if (spec.threadsPlace.line > 0) json["threads"] = {spec.threads[0], spec.threads[1], spec.threads[2]};
     if (!spec.list.empty()) json["list"] = spec.list;
     if (!spec.geometry.empty()) {
-      std::string arguments;
-      for (const double argument : spec.geometryArguments)
-        arguments += fmt::format("{}{}", arguments.empty() ? "" : ", ", argument);
-      json["geometry"] = arguments.empty() ? spec.geometry : fmt::format("{}({})", spec.geometry, arguments);
+      json["geometry"] = spec.geometry;
+      if (!spec.geometryArguments.empty())
+        json["geometry"] = fmt::format("{}({})", spec.geometry, fmt::join(spec.geometryArguments, ", "));
       if (spec.list.empty())
         json["instances"] =
             spec.timedInstances.present() ? Json(expressionText(spec.timedInstances)) : Json(spec.instances);

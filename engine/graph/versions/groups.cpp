@@ -14,23 +14,22 @@ std::uint32_t rootOf(std::vector<std::uint32_t>& parents, std::uint32_t i) {
 
 }  // namespace
 
-Groups formGroups(const FlatGraph& graph, const std::function<bool(std::uint32_t pass)>& isLive,
-                  const std::function<bool(std::uint32_t use)>& isAttached) {
+Groups formGroups(const FlatGraph& graph, const Liveness& live) {
   Groups groups;
   std::vector<std::uint32_t> members;  // live passes that are not always
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
-    if (graph.passes[p].cadence != Cadence::always && isLive(p)) members.push_back(p);
+    if (graph.passes[p].cadence != Cadence::always && live.pass[p] != 0) members.push_back(p);
   if (members.empty()) return groups;
 
   std::vector<std::uint8_t> joint(graph.resources.size(), 0);
   for (std::size_t r = 0; r < joint.size(); ++r) joint[r] = graph.resources[r].history > 0;
   const auto eachWrite = [&](std::uint32_t p, auto&& visit) {
     for (const std::uint32_t u : graph.usesOf(p))
-      if (graph.uses[u].access != Access::read && isAttached(u)) visit(graph.uses[u]);
+      if (graph.uses[u].access != Access::read && live.use[u] != 0) visit(graph.uses[u]);
   };
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
     const FlatPass& pass = graph.passes[p];
-    if (!isLive(p)) continue;
+    if (live.pass[p] == 0) continue;
     const bool together = pass.cadence != Cadence::always && pass.slices != 1;
     eachWrite(p, [&](const FlatUse& use) {
       if (use.access == Access::modify || together) joint[use.resource] = 1;
@@ -71,7 +70,7 @@ Groups formGroups(const FlatGraph& graph, const std::function<bool(std::uint32_t
         const bool imported = graph.resources[use.resource].import != kNone;
         if (use.access == Access::read && use.history == 0 && (imported || maker[use.resource] != kNone))
           changed |= join(maker[use.resource], p);
-        if (use.access != Access::read && isAttached(u))
+        if (use.access != Access::read && live.use[u] != 0)
           changed |= std::exchange(joint[use.resource], std::uint8_t{1}) == 0;
       }
     }

@@ -4,15 +4,12 @@
 // time-sliced groups that read an import it reads.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-
 #include "engine/graph/plan.h"
+#include "engine/graph/versions/live.h"
 
 namespace weft::graph {
 
-// Counts only passes that `isLive` accepts and writes that `isAttached` accepts.
-Groups formGroups(const FlatGraph& graph, const std::function<bool(std::uint32_t pass)>& isLive,
-                  const std::function<bool(std::uint32_t use)>& isAttached);
+// Of the live passes, by the writes that are live.
+Groups formGroups(const FlatGraph& graph, const Liveness& live);
 
 }  // namespace weft::graph

@@ -197,8 +197,8 @@ class Generator {
   // What a time-sliced group writes must not be written by passes of other groups (W077): a pass that does joins the
   // group. False when no pass is left that does.
   bool joinAlwaysWriters() {
-    const auto every = [](std::uint32_t) { return true; };
-    const Groups groups = formGroups(b_.graph, every, every);
+    const Groups groups = formGroups(b_.graph, {std::vector<std::uint8_t>(b_.graph.passes.size(), 1),
+                                                std::vector<std::uint8_t>(b_.graph.uses.size(), 1)});
     bool any = false;
     for (FlatPass& pass : b_.graph.passes)
       for (std::uint32_t u = pass.firstUse;

@@ -144,7 +144,7 @@ TEST_CASE("has() of a pass is whether nothing disables all of it by name") {
   CHECK(expandText(other).names() == "first");
   other = text;
   other.replace(other.find("has(b)"), 6, "has(c)");
-  CHECK(expandText(other).has(Code::unknownResource));
+  CHECK(expandText(other).has(Code::unknownVariable));
 }
 
 TEST_CASE("has() of a pass of an included file is whether nothing disables it or the include") {
@@ -167,7 +167,7 @@ TEST_CASE("has() of a pass of an included file is whether nothing disables it or
     REQUIRE_MESSAGE(desc, e.text());
     e.graph = expandGraph(*desc, testRegistry(), disabled.empty() ? Settings{} : with({}, {disabled}),
                           e.diagnostics);
-    return e.has(Code::unknownResource) ? "unknown" : e.names();
+    return e.has(Code::unknownVariable) ? "unknown" : e.names();
   };
   CHECK(names("has(mid.in.p)", "") == "with mid.in.p end");
   CHECK(names("has(mid.in.p)", "mid.in.p") == "end");

@@ -119,8 +119,8 @@ void checkWayBack(Model& model, const Groups& groups, std::uint32_t group) {
 
 void checkSlices(Model& model) {
   const FlatGraph& graph = model.graph;
-  const auto every = [](std::uint32_t) { return true; };
-  const Groups groups = formGroups(graph, every, every);
+  const Groups groups = formGroups(graph, {std::vector<std::uint8_t>(graph.passes.size(), 1),
+                                           std::vector<std::uint8_t>(graph.uses.size(), 1)});
   if (groups.ofResource.empty()) return;
   std::vector<std::uint32_t> alwaysWriter(graph.resources.size(), kNone);
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p)

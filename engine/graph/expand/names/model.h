@@ -1,8 +1,8 @@
-// The working tables of one expansion: scopes of included files, their parameters and lets, and entities (declared
-// resources and imports). They are plain data, live while expandGraph runs and point into the GraphDesc; each file of
-// engine/graph/expand does one job on them.
+// The working tables of one expansion: scopes of included files, their parameters and lets, and entities (declared resources
+// and imports). They are plain data, live while expandGraph runs and point into the GraphDesc.
 #pragma once
 
+#include <array>
 #include <deque>
 #include <map>
 #include <optional>
@@ -62,7 +62,7 @@ struct Let {
   bool structural = false;
 };
 
-// The versions of one texture or buffer (one array element of it) while passes are walked in declared order.
+// The versions of one array element of a texture or buffer while passes are walked in declared order.
 struct Element {
   std::uint32_t resource = kNone;  // the current FlatResource; Model::versions knows who wrote it
   std::uint32_t count = 0;         // FlatResources made so far
@@ -71,7 +71,7 @@ struct Element {
 
 struct Entity {
   ResourceDesc::Kind kind = ResourceDesc::Kind::texture;
-  const ResourceDesc* desc = nullptr;  // null: an import named only by @x
+  const ResourceDesc* desc = nullptr;  // null: one of Model::imports
   Scope* scope = nullptr;              // where it is declared
   std::string name;                    // "ibl.brdf", "@environment"
   // Of what it is by its kind: the shape, what is bound to the input, or what the list names.
@@ -181,27 +181,24 @@ struct Model {
   std::deque<Parameter> parameters{};
   std::deque<Let> lets{};
   std::deque<Entity> entities{};
-  std::size_t sets = 0;                                                 // values in "set", of all files
-  std::map<std::string, std::uint32_t, std::less<>> implicitImports{};  // "environment" of @environment
-  std::vector<std::uint32_t> importResource{};                // per import: its FlatResource or kNone
+  std::size_t sets = 0;                         // values in "set", of all files
+  KnownNames<std::uint32_t> imports{};          // by type: with its defaults, named only by @type
+  std::vector<std::uint32_t> importResource{};  // per import: its FlatResource or kNone
   KnownNames<std::vector<std::uint32_t>> parametersByLeaf{};  // all of one name, in any file, in their order
   std::unordered_map<std::string, std::vector<DisableRule>> disables{};  // by declared name
   std::vector<WriteRecord> writes{};
   std::vector<WouldUse> would{};  // by position
   std::vector<MissingRead> missing{};
   std::vector<EmptyRepeat> emptied{};
-  struct HistoryUse {
-    std::uint32_t use, entity, element;
-  };
-  std::vector<HistoryUse> historyUses{};    // their resource is the last one, known at the end
+  std::vector<std::array<std::uint32_t, 3>>
+      historyUses{};                        // use, entity, element: of the last resource, known at the end
   std::vector<std::uint32_t> positionOf{};  // per pass of the FlatGraph
   struct ElementOf {
     std::uint32_t entity, element;
   };
   std::vector<ElementOf> elementOf{};  // per FlatResource
-  // Names that were reported as unknown, where one report is enough: what expressions ask of, and the first part of
-  // `name.…` in a file that includes nothing under that name.
-  std::set<std::pair<const Scope*, std::string>> unknown{};
+  // What names of `name.…` begin with where the file includes nothing under it: one report is enough.
+  std::set<std::pair<const Scope*, std::string>> unincluded{};
   std::deque<std::string>
       misspelt{};           // names that expressions use of parameters whose declaration is misspelt
   bool incomplete = false;  // the reader left something out for its mistakes
@@ -213,8 +210,7 @@ struct Model {
   bool stopped = false;                   // a bound was exceeded and reported: nothing more is expanded
 };
 
-// True when nothing more is worth expanding.
-bool isOver(const Model& model);
+bool isOver(const Model& model);  // nothing more is worth expanding
 // W201: more than a bound allows, of `counts`. Ends the expansion.
 void stopAt(Model& model, const Where& place, std::string message, std::uint64_t bound, const char* counts);
 

@@ -1,6 +1,6 @@
 #include "engine/graph/expand/names/name_uses.h"
 
-#include <algorithm>
+#include <map>
 #include <tuple>
 
 #include "engine/graph/desc_walk.h"
@@ -15,9 +15,9 @@ namespace {
 
 using UseOf = NameUse::Kind;
 
-auto nameOrderOf(const Place& place) {
-  return std::tuple(place.file ? std::string_view(*place.file) : std::string_view(), place.line,
-                    place.column);
+using NamePlace = std::tuple<std::string, std::uint32_t, std::uint32_t>;
+NamePlace orderOf(const Place& place) {
+  return {place.file ? *place.file : "", place.line, place.column};
 }
 
 Place placeAfter(Place place, std::size_t bytes) {
@@ -35,30 +35,27 @@ class NameFinder {
 
   std::vector<NameUse> run() {
     for (Scope& scope : model_.scopes) addFile(scope);
-    const auto before = [](const NameUse& a, const NameUse& b) {
-      return nameOrderOf(a.place) < nameOrderOf(b.place);
-    };
-    std::ranges::stable_sort(uses_, before);
-    const auto same = [](const NameUse& a, const NameUse& b) {
-      return nameOrderOf(a.place) == nameOrderOf(b.place);
-    };
-    uses_.erase(std::unique(uses_.begin(), uses_.end(), same), uses_.end());
     // What an overlay writes anew is declared below it all the same.
-    for (NameUse& use : uses_)
-      if (use.declared.file)
-        for (const NamedDesc& named : model_.desc.named)
-          if (nameOrderOf(insideOf(named.place)) == nameOrderOf(use.declared))
-            use.declared = insideOf(named.declared);
-    return std::move(uses_);
+    std::map<NamePlace, Place> below;
+    for (const NamedDesc& named : model_.desc.named)
+      below[orderOf(insideOf(named.place))] = insideOf(named.declared);
+    std::vector<NameUse> all;
+    for (auto& [at, use] : uses_) {
+      if (const auto own = below.find(orderOf(use.declared)); own != below.end()) use.declared = own->second;
+      all.push_back(std::move(use));
+    }
+    return all;
   }
 
  private:
-  void add(UseOf kind, std::string_view name, std::string full, Place place, Place declared) {
+  void add(UseOf kind, std::string_view name, std::string full, const Place& place, Place declared) {
     if (place.file)
-      uses_.push_back({kind, std::string(name), std::move(full), std::move(place), std::move(declared)});
+      uses_.try_emplace(orderOf(place),
+                        NameUse{kind, std::string(name), std::move(full), place, std::move(declared)});
   }
-  void declare(UseOf kind, const std::string& name, std::string full, const Place& quote) {
-    add(kind, name, std::move(full), insideOf(quote), insideOf(quote));
+  template <class Thing>
+  void declare(UseOf kind, const std::string& prefix, const Thing& thing) {
+    add(kind, thing.name, prefix + thing.name, insideOf(thing.place), insideOf(thing.place));
   }
 
   static Place placeOf(const PassDesc& pass) {
@@ -69,27 +66,21 @@ class NameFinder {
   void addFile(Scope& scope) {
     const GraphDesc& desc = *scope.desc;
     for (const NamedDesc& named : desc.named) addNamed(scope, named);
-    for (const ParameterDesc& each : desc.parameters)
-      declare(UseOf::variable, each.name, scope.prefix + each.name, each.place);
-    for (const NamedExpr& each : desc.lets)
-      declare(UseOf::variable, each.name, scope.prefix + each.name, each.place);
-    for (const ResourceDesc& each : desc.resources)
-      declare(UseOf::resource, each.name, scope.prefix + each.name, each.place);
+    for (const ParameterDesc& each : desc.parameters) declare(UseOf::variable, scope.prefix, each);
+    for (const NamedExpr& each : desc.lets) declare(UseOf::variable, scope.prefix, each);
+    for (const ResourceDesc& each : desc.resources) declare(UseOf::resource, scope.prefix, each);
     for (const SetDesc& set : desc.sets) addVariable(scope, set.name, insideOf(set.place));
     for (const PassDesc& pass : desc.passes) addPass(scope, pass);
-    visitMentions(
-        desc,
-        [&](const Expr& expr) {
-          if (expr.present()) addNode(scope, *expr.root());
-        },
-        [&](const RefDesc& ref) { addRef(scope, ref); });
+    const auto onExpr = [&](const Expr& expr) {
+      if (expr.present()) addNode(scope, *expr.root());
+    };
+    visitMentions(desc, onExpr, [&](const RefDesc& ref) { addRef(scope, ref); });
   }
 
   void addPass(Scope& scope, const PassDesc& pass) {
-    add(UseOf::pass, pass.name, scope.prefix + pass.name, placeOf(pass), placeOf(pass));
+    addTo(scope, pass, placeOf(pass));
     for (const PassParameterDesc& each : pass.parameters)
-      if (each.declared)
-        declare(UseOf::variable, each.name, scope.prefix + pass.name + "." + each.name, each.declared->place);
+      if (each.declared) declare(UseOf::variable, scope.prefix + pass.name + ".", *each.declared);
     if (const auto like = scope.passes.find(pass.like); like != scope.passes.end())
       addTo(scope, *like->second, insideOf(pass.likePlace));
     const auto child = pass.include ? scope.includes.find(pass.name) : scope.includes.end();
@@ -187,7 +178,7 @@ class NameFinder {
   }
 
   Model& model_;
-  std::vector<NameUse> uses_;
+  std::map<NamePlace, NameUse> uses_;
 };
 
 }  // namespace

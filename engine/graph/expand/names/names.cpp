@@ -120,8 +120,8 @@ std::optional<Value> Names::variable(std::string_view name) {
     return Value{};
   }
   Let& let = model_.lets[found.index];
-  if (!let.dynamic || (!dynamicAllowed_ && let.state == Progress::active)) return letValue(model_, let);
-  if (dynamicAllowed_) return Value::number(1);
+  if (!let.dynamic || (!checking && let.state == Progress::active)) return letValue(model_, let);
+  if (checking) return Value::number(1);
   if (!model_.stopped)
     report(model_, Code::badTime, let.desc->place,
            fmt::format("'${}' contains age() and changes from frame to frame, but its value is needed before "
@@ -172,10 +172,7 @@ std::optional<Value> Names::fact(Fact fact, std::string_view resource, const Pla
       if (const auto [pass, in] = findAskedPass(scope_, resource); pass)
         return Value::boolean(isLeft(scope_, model_, *pass, *in));
     // Its declaration, or the input that has nothing behind it, was reported where it stands.
-    const bool reported =
-        isUnread(scope_, resource) || scope_.resources.contains(resource) ||
-        model_.unknown.contains({&scope_, std::string(resource)}) ||
-        model_.unknown.contains({&scope_, std::string(resource.substr(0, resource.find('.')))});
+    const bool reported = isUnread(scope_, resource) || scope_.resources.contains(resource);
     return reported ? std::optional(Value{}) : std::nullopt;
   }
   if (fact == Fact::age) return std::nullopt;  // known when the frame runs
@@ -222,16 +219,15 @@ std::optional<Value> Names::factOfShape(Fact fact, std::uint32_t target, std::ui
 
 std::vector<std::string> Names::choicesOf(std::string_view variable) {
   Scope* scope = &scope_;
-  std::string_view name = variable;
-  for (int hops = 0; hops < 32; ++hops) {  // a let that only renames a choice parameter has its choices
-    const Variable found = findVariable(model_, *scope, name);
+  for (std::size_t hops = 0; hops <= model_.lets.size();
+       ++hops) {  // a let may only rename a choice parameter
+    const Variable found = findVariable(model_, *scope, variable);
     if (found.kind == Variable::Kind::parameter) return model_.parameters[found.index].desc->choices;
-    if (found.kind != Variable::Kind::let) return {};
-    const Let& let = model_.lets[found.index];
-    const std::string* const only = onlyVariableOf(let.desc->expr);
+    const Let* const let = found.kind == Variable::Kind::let ? &model_.lets[found.index] : nullptr;
+    const std::string* const only = let ? onlyVariableOf(let->desc->expr) : nullptr;
     if (!only) return {};
-    name = *only;
-    scope = let.scope;
+    variable = *only;
+    scope = let->scope;
   }
   return {};
 }
@@ -242,6 +238,7 @@ std::vector<std::string> Names::candidates(NameKind kind) {
   if (kind == NameKind::fact_argument) {
     names = resourceNames(model_, scope_);
     for (const ImportType& type : model_.registry.imports) names.push_back(type.name);
+    for (const auto& [pass, stanza] : scope_.passes) names.emplace_back(pass);  // has()
     return names;
   }
   for (Scope* scope = &scope_; scope; scope = scope->parent)
@@ -249,6 +246,7 @@ std::vector<std::string> Names::candidates(NameKind kind) {
   for (const Parameter& parameter : model_.parameters)
     if (parameter.path.starts_with(scope_.prefix)) names.push_back(parameter.desc->name);
   std::ranges::sort(names);
+  names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
 }
 
@@ -340,8 +338,8 @@ std::optional<Counts> evaluateCounts(Names& names, const Expr& expr, std::span<c
   const std::uint64_t bound = bounds[counts.size - 1];
   for (std::size_t i = 0; i < counts.size; ++i) {
     const double count = value.v[i];
-    const bool low = count < 0 || (count < 1 && expr.isConstant()) ||
-                     (count == 0 && !countsElements(names.model(), names.scope(), expr));
+    const bool mayBeNone = bounds.size() == 1 || countsElements(names.model(), names.scope(), expr);
+    const bool low = count < 0 || (expr.isConstant() ? count < 1 : count == 0 && !mayBeNone);
     if (!std::isfinite(count) || low || count > static_cast<double>(bound)) {
       return refuse(
           names, Code::numberOutOfRange, expr, what + " is out of its range", fmt::format("1 to {}", bound),

@@ -56,9 +56,6 @@ Variable findVariableFrom(Scope& scope, std::string_view name);
 // dotted name ends in it.
 std::vector<std::uint32_t> parametersMeant(const Model& model, std::string_view prefix,
                                            std::string_view name);
-// The parameter that a pass of the scope's own file declares; kNone when it was left out.
-std::uint32_t findPassParameter(const Scope& scope, const std::string& pass, const std::string& name);
-
 // Marks every parameter that `expr` depends on, directly or through lets, as structural.
 void markStructural(Model& model, Scope& scope, const Expr& expr);
 // True when the expression contains age(), perhaps through a let.
@@ -69,8 +66,7 @@ bool isLive(Model& model, Scope& scope, const Expr& expr);
 bool countsElements(Model& model, Scope& scope, const Expr& expr);
 // Checks the names (variables, choices, resources) in all branches, also in those that are not taken.
 // `repeat`: of the pass, whose indices are bare.
-void checkExpr(Model& model, Scope& scope, const Expr& expr, bool dynamicAllowed = false,
-               std::span<const RangeDesc> repeat = {});
+void checkExpr(Model& model, Scope& scope, const Expr& expr, std::span<const RangeDesc> repeat = {});
 
 // ---- values (names.cpp) ----
 
@@ -81,13 +77,13 @@ class Names final : public EvalScope {
     std::string_view name;
     double value;
   };
-  Names(Model& model, Scope& scope, bool dynamicAllowed = false)
-      : model_(model), scope_(scope), dynamicAllowed_(dynamicAllowed) {}
+  Names(Model& model, Scope& scope) : model_(model), scope_(scope) {}
 
   std::vector<Index> indices;  // of the pass instance
   // Live parameters and the lets over them stay leaves of what is folded, and nothing new is looked at: what
   // would need that, or fails, sets `failed`.
   bool live = false, failed = false;
+  bool checking = false;  // a let with age() answers 1 instead of an error
 
   std::optional<Value> variable(std::string_view name) override;
   std::optional<Value> index(std::string_view name) override;
@@ -107,7 +103,6 @@ class Names final : public EvalScope {
 
   Model& model_;
   Scope& scope_;
-  bool dynamicAllowed_;  // a let with age() answers 1 instead of an error (checks of uniforms)
 };
 
 // Evaluation with the expected type held: nullopt after a report, which calls it `what`. An absent expression yields `absent`.
@@ -117,7 +112,7 @@ std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::i
                                           std::int64_t low, std::int64_t high, const char* what,
                                           bool floors = false);
 // A number, or a list of up to as many as there are bounds, floored, each from 1 to the bound for so many numbers. 0 is a
-// mistake, but for the count of an empty list; what is computed between 0 and 1 is 1. An absent expression is a mistake.
+// mistake, but for the count of an empty list and the computed size of a buffer; what is computed between 0 and 1 is 1.
 struct Counts {
   std::size_t size = 1;
   std::array<std::uint64_t, 3> each{1, 1, 1};
@@ -138,7 +133,7 @@ const ImportType* findImportType(const Registry& registry, std::string_view name
 // What else an unknown import may mean: what Weft calls it, the nearest of its types, or all of them.
 std::string hintForImport(const Registry& registry, std::string_view name);
 
-// ---- versions (versions.cpp): which FlatResource an entity is at this point of the declared order. A whole rewrite makes
+// ---- versions (resources.cpp): which FlatResource an entity is at this point of the declared order. A whole rewrite makes
 // another ("hdr#2"). Who wrote what is the VersionWalk's (engine/graph/versions/version_walk.h) ----
 
 // The current FlatResource of an element, made when there is none yet. The shape must be ensured.

@@ -1,14 +1,13 @@
-// Shapes of textures, buffers and imports. Declared in names.h.
+// Shapes of textures, buffers and imports, and their versions. Declared in names.h.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <set>
 
 #include "engine/graph/expand/names/names.h"
-#include "engine/graph/language/expr_node.h"
+#include "engine/graph/subresource.h"
 #include "engine/text/nearest.h"
 #include "engine/text/words/foreign_words.h"
 
@@ -32,35 +31,24 @@ std::string hintForImport(const Registry& registry, std::string_view name) {
 
 namespace {
 
-// What an argument takes; "" when `value` is that.
-std::string expectedOf(const ImportArgument& argument, const Value& value) {
-  const Value& initial = argument.initial;
-  if (!argument.choices.empty())
-    return value.type == Value::Type::symbol &&
-                   std::ranges::find(argument.choices, value.symbol) != argument.choices.end()
-               ? ""
-               : fmt::format("one of {}", fmt::join(argument.choices, ", "));
-  if (initial.type == Value::Type::none) return "";
-  if (initial.isNumeric()) return value.isNumeric() ? "" : "a number";
-  if (initial.type == value.type && initial.count == value.count) return "";
-  return initial.type == Value::Type::list ? fmt::format("a list of {}", initial.count) : "a word";
-}
-
 bool checkArgument(Model& model, const Entity& entity, const ImportArgument& argument, const NamedExpr& given,
                    const Value& value) {
-  const auto& lists = model.registry.drawLists;
-  if (argument.drawList && value.type == Value::Type::symbol &&
-      std::ranges::find(lists, value.symbol) == lists.end())
-    return report(model, Code::unknownDrawList, given.expr.place(),
-                  fmt::format("import '{}' names the unknown draw list '{}'", entity.name, value.symbol),
-                  {.hint = text::nearestHint(value.symbol, lists)});
-  std::string expected = expectedOf(argument, value);
-  return expected.empty() ||
-         report(model, Code::badImportArgument, given.expr.place(),
-                fmt::format("import '{}': argument '{}' does not fit", entity.name, argument.name),
-                {.expected = std::move(expected),
-                 .found = toText(value),
-                 .hint = text::nearestHint(value.symbol, argument.choices)});
+  const Value& initial = argument.initial;
+  const auto& words = argument.drawList ? model.registry.drawLists : argument.choices;
+  const bool numeric = initial.isNumeric(), word = value.type == Value::Type::symbol;
+  const bool fits = !words.empty() ? word && std::ranges::find(words, value.symbol) != words.end()
+                    : numeric      ? value.isNumeric()
+                    : initial.type == Value::Type::none
+                        ? true
+                        : initial.type == value.type && initial.count == value.count;
+  return fits || report(model, word && argument.drawList ? Code::unknownDrawList : Code::badImportArgument,
+                        given.expr.place(),
+                        fmt::format("import '{}': argument '{}' does not fit", entity.name, argument.name),
+                        {.expected = !words.empty() ? fmt::format("one of {}", fmt::join(words, ", "))
+                                     : numeric      ? "a number"
+                                                    : fmt::format("a value like {}", toText(initial)),
+                         .found = toText(value),
+                         .hint = text::nearestHint(value.symbol, words)});
 }
 
 // Fills in what is asked for, with the defaults of what is not given. False after a report.
@@ -149,26 +137,25 @@ void takeFacts(Model& model, Entity& entity, const ImportType& type, const Impor
 // default of a parameter, or the argument itself. The problem's own place when it has a line, or nobody wrote it.
 Where placeAtArgument(Model& model, Scope& scope, const std::vector<NamedExpr>& arguments,
                       const text::Diagnostic& problem) {
-  Where place = problem.place;
-  if (!place.file || place.line != 0) return place;
-  Where ofSequence;  // of which the file may be a picture
+  if (!problem.place.file || problem.place.line != 0) return problem.place;
   for (const NamedExpr& argument : arguments) {
     Names names(model, scope);
     text::Diagnostics said;  // by whoever evaluated it for the import
     const Value value = argument.expr.evaluate(names, said);
-    if (value.type != Value::Type::symbol) continue;
-    const bool named = value.symbol == *problem.place.file;
-    if (named) place = argument.expr.place();
-    for (const std::string& name : argument.expr.variables()) {
-      const Variable variable = findVariable(model, scope, name);
-      if (variable.kind != Variable::Kind::parameter) continue;
-      const Parameter& parameter = model.parameters[variable.index];
-      if (parameter.value != value || !isKnown(parameter.valuePlace)) continue;
-      if (named) place = parameter.valuePlace;
-      if (parameter.desc->type == ParameterDesc::Type::file) ofSequence = parameter.valuePlace;
-    }
+    const bool named = value.type == Value::Type::symbol && value.symbol == *problem.place.file;
+    Where place = named ? Where(argument.expr.place()) : Where();
+    for (const std::string& name : argument.expr.variables())
+      if (const Variable variable = findVariable(model, scope, name);
+          variable.kind == Variable::Kind::parameter) {
+        const Parameter& parameter = model.parameters[variable.index];
+        const bool file =
+            parameter.desc->type == ParameterDesc::Type::file;  // perhaps of a sequence with that picture
+        if (parameter.value == value && (named || file) && isKnown(parameter.valuePlace))
+          place = parameter.valuePlace;
+      }
+    if (isKnown(place)) return place;
   }
-  return place.file && place.line == 0 && isKnown(ofSequence) ? ofSequence : place;
+  return problem.place;
 }
 
 bool evaluateImport(Model& model, Entity& entity) {
@@ -211,16 +198,6 @@ Value evaluateTexel(Names& names, const Expr& expr, const std::string& name, con
   return {};
 }
 
-bool rangeError(Model& model, const Entity& entity, const Expr& expr, const char* what, std::string expected,
-                double found, std::string hint = {}) {
-  return report(model, Code::numberOutOfRange, expr.place(),
-                fmt::format("the {} of '{}' is out of its range", what, entity.name),
-                {.expected = std::move(expected),
-                 .found = toText(Value::number(found)),
-                 .hint = std::move(hint),
-                 .resource = entity.name});
-}
-
 bool evaluateSize(Names& names, Entity& entity) {
   constexpr std::uint64_t kBounds[] = {kMaxSize, kMaxSize, kMaxSize3d};
   const auto size =
@@ -245,7 +222,8 @@ bool decideTarget(Model& model, Entity& entity) {
     bool broken;
     const Place& place;
     const char *what, *expected;
-  } kRules[] = {
+    Code code = Code::contradictoryTexture;
+  } rules[] = {
       {!desc.view.empty() && volume != (desc.view == "3d"), desc.viewPlace,
        "has a view that does not fit its size", "a size of 3 numbers for a 3d texture, of 2 for the others"},
       {volume && layered, desc.layers.place(), "has layers and is 3d", "a size of 3 numbers, or layers"},
@@ -256,16 +234,16 @@ bool decideTarget(Model& model, Entity& entity) {
       {several && (volume || layered || cube || desc.view == "2d_array"), desc.samples.place(),
        "has several samples and is not plain 2d", "no layers, cube or 3d"},
       {several && (desc.fullMips || shape.mips > 1), desc.samples.place(),
-       "has several samples and several levels", "\"mips\": 1"}};
-  for (const auto& [broken, place, what, expected] : kRules)
+       "has several samples and several levels", "\"mips\": 1"},
+      {(shape.samples & (shape.samples - 1)) != 0, desc.samples.place(),
+       "has a number of samples out of its range", "1, 2, 4, 8, 16 or 32", Code::numberOutOfRange},
+      {cube && shape.layers * 6u > kMaxLayers, desc.layers.place(), "has too many cubes",
+       "at most 341 layers", Code::numberOutOfRange}};
+  for (const auto& [broken, place, what, expected, code] : rules)
     if (broken)
-      return report(model, Code::contradictoryTexture, place,
-                    fmt::format("texture '{}' {}", entity.name, what),
+      return report(model, code, place, fmt::format("texture '{}' {}", entity.name, what),
                     {.expected = expected, .resource = entity.name});
   if (several) shape.target = Target::texture_2d_multisample;
-  if (cube && shape.layers * 6u > kMaxLayers)
-    return rangeError(model, entity, desc.layers, "number of layers",
-                      fmt::format("0 to {} cubes", kMaxLayers / 6), shape.layers);
   if (cube) {
     shape.target = desc.view == "cube" ? Target::texture_cube : Target::texture_cube_array;
     shape.layers = static_cast<std::uint16_t>(shape.layers * 6);
@@ -298,9 +276,6 @@ bool evaluateTexture(Model& model, Names& names, Entity& entity) {
   const auto layers = evaluateWhole(names, desc.layers, 1, 0, kMaxLayers, "the number of layers", true);
   const auto samples = evaluateWhole(names, desc.samples, 1, 1, 32, "the number of samples");
   if (!mips || !layers || !samples) return false;
-  if ((*samples & (*samples - 1)) != 0)
-    return rangeError(model, entity, desc.samples, "number of samples", "1, 2, 4, 8, 16 or 32",
-                      static_cast<double>(*samples));
   if (!good) return false;
   shape.samples = static_cast<std::uint8_t>(*samples);
   shape.layers = static_cast<std::uint16_t>(std::max<std::int64_t>(1, *layers));
@@ -371,18 +346,15 @@ bool ensureShape(Model& model, std::uint32_t index) {
 
 namespace {
 
-// `input` wants `depth` publications of what is bound to it; of a list, of each that it may mean. `seen`: each counts once.
-void deepen(Model& model, std::uint32_t target, std::uint32_t input, std::uint32_t depth,
-            std::set<std::uint32_t>& seen) {
-  if (!seen.insert(target).second) return;
+// `input` wants `depth` publications of what is bound to it; of a list, of each that it may mean.
+void deepen(Model& model, std::uint32_t target, std::uint32_t input, std::uint32_t depth) {
   Entity& entity = model.entities[target];
-  if (entity.kind == ResourceDesc::Kind::alternatives) {
-    for (std::size_t i = 0; i < entity.candidates.size(); ++i)
-      if (entity.candidates[i] != kNone && entity.desc->alternatives[i].history == 0)
-        deepen(model, entity.candidates[i], input, depth, seen);
+  for (std::size_t i = 0; i < entity.candidates.size(); ++i)
+    if (entity.candidates[i] != kNone && entity.desc->alternatives[i].history == 0)
+      deepen(model, entity.candidates[i], input, depth);
+  const bool own = entity.kind == ResourceDesc::Kind::texture || entity.kind == ResourceDesc::Kind::buffer;
+  if (!own || std::ranges::find(entity.inputs, input) != entity.inputs.end() || !ensureShape(model, target))
     return;
-  }
-  if (entity.kind == ResourceDesc::Kind::import || !ensureShape(model, target)) return;
   entity.depth = std::max(entity.depth, depth);
   entity.inputs.push_back(input);
   const Entity& wish = model.entities[input];
@@ -394,15 +366,14 @@ void deepen(Model& model, std::uint32_t target, std::uint32_t input, std::uint32
 
 void takeInputHistories(Model& model) {
   for (std::uint32_t i = 0; i < model.entities.size(); ++i) {
-    Entity& entity = model.entities[i];
+    const Entity& entity = model.entities[i];
     if (entity.kind != ResourceDesc::Kind::input || !entity.desc->history.present() || entity.bound == kNone)
       continue;
     Names names(model, *entity.scope);
     const auto depth = evaluateWhole(names, entity.desc->history, 0, 0, kMaxHistory, "the history");
-    std::set<std::uint32_t> seen;
     const auto wanted =
-        static_cast<std::uint32_t>(depth.value_or(kMaxHistory));  // what was reported is long enough
-    if (wanted > 0) deepen(model, entity.bound, i, wanted, seen);
+        static_cast<std::uint32_t>(depth.value_or(kMaxHistory));  // long enough after a report
+    if (wanted > 0) deepen(model, entity.bound, i, wanted);
   }
 }
 
@@ -429,6 +400,118 @@ std::uint32_t staticTarget(Model& model, std::uint32_t index, std::uint32_t* mip
   }
   entity.state = before;
   return result;
+}
+
+// ---- versions ----
+
+namespace {
+
+std::uint32_t addResource(Model& model, std::uint32_t index, std::uint32_t element, bool covers = true) {
+  Entity& entity = model.entities[index];
+  Element& e = entity.elements[element];
+  const auto resource = static_cast<std::uint32_t>(model.graph.resources.size());
+  ++e.count;
+  model.graph.resources.push_back(entity.shape);
+  model.elementOf.push_back({index, element});
+  model.graph.resourceNames.push_back(entity.name +
+                                      (entity.arrayCount > 0 ? fmt::format("[{}]", element) : "") +
+                                      (e.count > 1 ? fmt::format("#{}", e.count) : ""));
+  model.graph.resourcePlaces.push_back(entity.desc ? entity.desc->place : Place{});
+  // Only the first FlatResource has a version zero; the others begin with a write, which mostly covers them.
+  if (e.count > 1 && covers) model.graph.resources.back().hasClear = false;
+  if (model.graph.resources.back().hasClear) model.graph.clears.push_back({resource, entity.clear});
+  e.resource = resource;
+  return resource;
+}
+
+}  // namespace
+
+std::uint32_t currentResource(Model& model, std::uint32_t index, std::uint32_t element) {
+  Entity& entity = model.entities[index];
+  if (entity.kind == ResourceDesc::Kind::import) {
+    const std::uint32_t import = entity.import + element;
+    if (model.importResource[import] == kNone) {
+      const std::uint32_t resource = addResource(model, index, element);
+      model.graph.resources[resource].import = import;
+      model.importResource[import] = resource;
+    }
+    return model.importResource[import];
+  }
+  const std::uint32_t current = entity.elements[element].resource;
+  return current != kNone ? current : addResource(model, index, element);
+}
+
+VersionCheck checkVersion(const Model& model, std::uint32_t index, std::uint32_t element,
+                          const FlatUse& rect) {
+  const Entity& entity = model.entities[index];
+  if (entity.kind == ResourceDesc::Kind::import) return {entity.exists || entity.fallback, entity.exists, 0};
+  VersionCheck check;
+  const auto see = [&](std::uint32_t writer, std::uint32_t first) {
+    if (writer != kNone) {
+      check.real = true;
+    } else if (!entity.shape.hasClear) {
+      check.complete = false;
+      check.missing = first;
+    }
+    return check.complete;
+  };
+  FlatUse use = rect;
+  use.resource = entity.elements[element].resource;
+  if (use.resource != kNone)
+    model.versions.forEachRun(
+        use, [&](std::uint32_t writer, std::uint32_t first, std::uint32_t) { return see(writer, first); });
+  else
+    forEachSubresource(use, entity.shape, [&](std::uint32_t first) {
+      see(kNone, first);
+      return false;
+    });
+  return check;
+}
+
+void addUse(Model& model, std::uint32_t index, std::uint32_t element, const FlatUse& use,
+            std::uint32_t pass) {
+  Entity& entity = model.entities[index];
+  VersionLinks& links = model.graph.links;
+  const auto at = static_cast<std::uint32_t>(model.graph.uses.size());
+  model.graph.uses.push_back(use);
+  const bool sees = use.history == 0 && use.access != Access::write;
+  if (use.history > 0) model.historyUses.push_back({at, index, element});
+  if (sees) model.graph.uses[at].resource = currentResource(model, index, element);
+  model.versions.see(at, pass);
+  if (!sees || entity.kind == ResourceDesc::Kind::import) return;
+  links.forEachRun(links.seen[at], [&](std::uint32_t writer, std::uint32_t) {
+    if (writer == kNone) entity.elements[element].zeroUsed = true;
+  });
+}
+
+std::uint32_t resourceToWrite(Model& model, std::uint32_t index, std::uint32_t element, bool whole,
+                              bool covers) {
+  Element& e = model.entities[index].elements[element];
+  const bool used = e.zeroUsed || (e.resource != kNone && model.versions.isWritten(e.resource));
+  if (!whole || !used) return currentResource(model, index, element);
+  const std::uint32_t last = e.resource, next = addResource(model, index, element, covers);
+  e.zeroUsed = false;
+  if (last != kNone) model.versions.replace(last, next);
+  return next;
+}
+
+void wouldUse(Model& model, WouldUse use) {
+  if (use.entity != kNone && model.entities[use.entity].kind == ResourceDesc::Kind::import) return;
+  use.position = model.position;
+  use.slot = model.slot;
+  model.would.push_back(use);
+}
+
+void wouldUse(Model& model, std::uint32_t index, Access access, int history) {
+  const Entity& entity = model.entities[index];
+  for (std::size_t i = 0; i < entity.candidates.size(); ++i)
+    if (entity.candidates[i] != kNone)
+      wouldUse(model, entity.candidates[i], access, history + entity.desc->alternatives[i].history);
+  const bool own = entity.kind == ResourceDesc::Kind::texture || entity.kind == ResourceDesc::Kind::buffer;
+  if (!own || entity.state != Progress::done) return;
+  FlatUse whole = wholeUse(0, entity.shape, Kind::copy, access);
+  whole.history = static_cast<std::uint8_t>(history);
+  wouldUse(model, {.entity = index, .elementCount = std::max(1u, entity.arrayCount), .rect = whole});
 }
 
 }  // namespace weft::graph::expansion

@@ -135,8 +135,7 @@ void followList(Model& model, std::uint32_t index, std::uint64_t& count) {
 }
 
 void linkAlternatives(Model& model) {
-  for (std::uint32_t i = 0; i < model.entities.size(); ++i) {  // imports may be added
-    Entity& entity = model.entities[i];
+  for (Entity& entity : model.entities) {
     if (entity.kind != ResourceDesc::Kind::alternatives) continue;
     for (const RefDesc& ref : entity.desc->alternatives) {
       if (isOver(model)) return;
@@ -198,6 +197,10 @@ void buildScopes(Model& model) {
   root.desc = &model.desc;
   buildScope(model, root);
   if (model.stopped) return;
+  for (const ImportType& type : model.registry.imports) {
+    model.imports.emplace(type.name, static_cast<std::uint32_t>(model.entities.size()));
+    model.entities.push_back({.kind = ResourceDesc::Kind::import, .scope = &root, .name = "@" + type.name});
+  }
   reportToInclude(model);
   spread(model, &Let::dynamic, [](const Let& let) { return let.desc->expr.dynamic(); });
   markAllStructural(model);
@@ -207,13 +210,6 @@ void buildScopes(Model& model) {
 // ---- resources ----
 
 namespace {
-
-const RefDesc* bindOf(const Entity& input) {
-  if (!input.scope->parent) return nullptr;
-  const auto& binds = input.scope->stanza->include->binds;
-  const auto bind = std::ranges::find(binds, input.desc->name, &std::pair<std::string, RefDesc>::first);
-  return bind == binds.end() ? nullptr : &bind->second;
-}
 
 // Whether it may be bound to an input for a buffer or for a texture. An unknown import is reported where it stands.
 bool fitsInput(const Model& model, const Entity& bound, bool wantsBuffer) {
@@ -230,7 +226,10 @@ bool fitsInput(const Model& model, const Entity& bound, bool wantsBuffer) {
 std::uint32_t boundTo(Model& model, Entity& input, std::uint32_t index) {
   Scope* const parent = input.scope->parent;
   const std::string& name = input.desc->name;
-  const RefDesc* const bind = bindOf(input);
+  const RefDesc* bind = nullptr;
+  if (parent)
+    for (const auto& [own, ref] : input.scope->stanza->include->binds)
+      if (own == name) bind = &ref;
   const std::uint32_t target = bind     ? findEntityOrReport(model, *parent, *bind, "\"bind\" names")
                                : parent ? findEntity(model, *parent, name, false)
                                         : kNone;
@@ -273,18 +272,12 @@ std::uint32_t followInput(Model& model, std::uint32_t index) {
 }
 
 // An import declared under `name` here or in an enclosing file, else one of that type with its defaults.
-std::uint32_t findImport(Model& model, Scope& from, std::string_view name) {
-  for (Scope* scope = &from; scope; scope = scope->parent)
+std::uint32_t findImport(const Model& model, const Scope& from, std::string_view name) {
+  for (const Scope* scope = &from; scope; scope = scope->parent)
     if (const auto found = scope->resources.find(name); found != scope->resources.end())
       if (model.entities[found->second].kind == ResourceDesc::Kind::import) return found->second;
-  if (const auto found = model.implicitImports.find(name); found != model.implicitImports.end())
-    return found->second;
-  if (!findImportType(model.registry, name)) return kNone;
-  const auto index = static_cast<std::uint32_t>(model.entities.size());
-  model.entities.push_back(
-      {.kind = ResourceDesc::Kind::import, .scope = &model.scopes[0], .name = "@" + std::string(name)});
-  model.implicitImports.emplace(std::string(name), index);
-  return index;
+  const auto type = model.imports.find(name);
+  return type == model.imports.end() ? kNone : type->second;
 }
 
 std::string_view firstPart(std::string_view name) {
@@ -294,14 +287,12 @@ std::string_view firstPart(std::string_view name) {
 }  // namespace
 
 Scope& scopeOf(Scope& scope, std::string_view& name) {
-  Scope* at = &scope;
-  for (auto child = at->includes.find(firstPart(name));
-       name.find('.') != std::string_view::npos && child != at->includes.end();
-       child = at->includes.find(firstPart(name))) {
-    at = child->second;
-    name.remove_prefix(name.find('.') + 1);
-  }
-  return *at;
+  const std::size_t dot = name.find('.');
+  const auto child =
+      dot == std::string_view::npos ? scope.includes.end() : scope.includes.find(name.substr(0, dot));
+  if (child == scope.includes.end()) return scope;
+  name.remove_prefix(dot + 1);
+  return scopeOf(*child->second, name);
 }
 
 std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool import) {
@@ -325,7 +316,7 @@ std::vector<std::string> resourceNames(const Model& model, const Scope& scope) {
 namespace {
 
 // The fix for a resource that is not there.
-std::string hintForResource(const Model& model, const Scope& scope, std::string_view name, bool orPass) {
+std::string hintForResource(const Model& model, const Scope& scope, std::string_view name) {
   // A whole name in its own file.
   if (!scope.prefix.empty() && name.starts_with(scope.prefix)) name.remove_prefix(scope.prefix.size());
   if (findImportType(model.registry, name)) return fmt::format("did you mean the import '@{}'?", name);
@@ -334,14 +325,13 @@ std::string hintForResource(const Model& model, const Scope& scope, std::string_
       return fmt::format(
           "the including file has it: declare \"{}\": {{ \"input\": \"texture\" }} in the file of the pass",
           name.substr(name.rfind('.') + 1));
-  std::vector<std::string> names = resourceNames(model, scope);
-  for (const auto& [pass, stanza] : scope.passes)
-    if (orPass) names.emplace_back(pass);
-  return suffixHint(name, names);
+  return suffixHint(name, resourceNames(model, scope));
 }
 
-std::uint32_t findOrReport(Model& model, Scope& scope, const RefDesc& ref, std::string_view who,
-                           std::string_view pass, bool orPass) {
+}  // namespace
+
+std::uint32_t findEntityOrReport(Model& model, Scope& scope, const RefDesc& ref, std::string_view who,
+                                 std::string_view pass) {
   const std::string& name = ref.name;
   const bool import = ref.import, own = scope.resources.contains(name);
   const std::size_t before = model.diagnostics.errorCount();
@@ -349,14 +339,14 @@ std::uint32_t findOrReport(Model& model, Scope& scope, const RefDesc& ref, std::
   if (found != kNone || isOver(model) || model.diagnostics.errorCount() > before) return found;
   // Its declaration was reported, or it is an input with nothing behind it, which was.
   if (isUnread(scope, name) || (!import && own)) return kNone;
-  std::string hint = !import ? hintForResource(model, scope, name, orPass)
+  std::string hint = !import ? hintForResource(model, scope, name)
                      : own   ? fmt::format("'{}' is a resource of this graph: write it without the @", name)
                              : hintForImport(model.registry, name);
   // A file that is not included is one mistake, however many of its names are used.
   const std::string first(firstPart(name));
   if (!import && first.size() < name.size() && !scope.includes.contains(first) &&
       !scope.resources.contains(first) && !scope.passes.contains(first)) {
-    if (!model.unknown.emplace(&scope, first).second) return kNone;
+    if (!model.unincluded.emplace(&scope, first).second) return kNone;
     if (hint.empty())
       hint = fmt::format("include a file as that: {{ \"include\": …, \"as\": \"{}\" }}", first);
   }
@@ -365,13 +355,6 @@ std::uint32_t findOrReport(Model& model, Scope& scope, const RefDesc& ref, std::
          fmt::format("{} the unknown {} '{}'", who, import ? "import" : "resource", written),
          {.hint = std::move(hint), .resource = written, .pass = std::string(pass)});
   return kNone;
-}
-
-}  // namespace
-
-std::uint32_t findEntityOrReport(Model& model, Scope& scope, const RefDesc& ref, std::string_view who,
-                                 std::string_view pass) {
-  return findOrReport(model, scope, ref, who, pass, false);
 }
 
 std::uint32_t findAsked(Model& model, Scope& scope, std::string_view name) {
@@ -440,29 +423,14 @@ Variable findVariable(Model& model, Scope& from, std::string_view name) {
   return found;
 }
 
-std::uint32_t findPassParameter(const Scope& scope, const std::string& pass, const std::string& name) {
-  const auto found = scope.variables.find(pass + "." + name);
-  const bool known = found != scope.variables.end() && found->second.kind == Variable::Kind::parameter;
-  return known ? found->second.index : kNone;
-}
-
 // ---- what expressions depend on ----
 
-void checkExpr(Model& model, Scope& scope, const Expr& expr, bool dynamicAllowed,
-               std::span<const RangeDesc> repeat) {
+void checkExpr(Model& model, Scope& scope, const Expr& expr, std::span<const RangeDesc> repeat) {
   if (!expr.present() || expr.isConstant()) return;
-  Names names(model, scope, dynamicAllowed);
+  Names names(model, scope);
+  names.checking = true;
   for (const RangeDesc& range : repeat) names.indices.push_back({range.index, 0});
   expr.check(names, model.diagnostics);
-  for (const auto& [fact, name] : expr.facts()) {
-    if (findAsked(model, scope, name) != kNone) continue;
-    const bool orPass = fact == Fact::has, import = name.starts_with('@');
-    if (orPass && findAskedPass(scope, name).first) continue;
-    const std::size_t known = model.diagnostics.errorCount();
-    const RefDesc asked{.place = expr.place(), .name = name.substr(import ? 1 : 0), .import = import};
-    findOrReport(model, scope, asked, "an expression asks of", {}, orPass);
-    if (model.diagnostics.errorCount() > known) model.unknown.emplace(&scope, name);
-  }
 }
 
 bool countsElements(Model& model, Scope& scope, const Expr& expr) {

@@ -81,70 +81,57 @@ std::string expectedOf(const ParameterDesc& desc) {
                     : fmt::format("a list of {}, each {}, such as {}", count, range, toText(desc.initial));
 }
 
-// Who says a name that is not written whole: where a message about it stands, and what it begins with.
-struct SaidBy {
-  Where place;
-  std::string before{};  // "the value 9 set here for exposure: " of a panel, which has no place
-};
-template <class Said>  // Setting or Disable
-SaidBy saidBy(const Said& said) {
-  const std::string source = sourceOf(said);
-  if (said.origin == Origin::command_line) return {text::placeOfOption(source)};
-  return {Where{}, source + ": "};
+template <class Said>  // Setting or Disable; a panel has no place
+Where placeOf(const Said& said) {
+  return said.origin == Origin::command_line ? text::placeOfOption(sourceOf(said)) : Where();
 }
 
 void reportAmbiguous(Model& model, const std::vector<std::string>& meant, std::string_view wanted,
-                     std::string_view noun, const SaidBy& by) {
-  report(model, Code::ambiguousName, by.place,
-         fmt::format("{}'{}' may mean several {}", by.before, wanted, noun),
+                     std::string_view noun, const Where& by) {
+  report(model, Code::ambiguousName, by, fmt::format("'{}' may mean several {}", wanted, noun),
          {.found = fmt::format("{}", fmt::join(meant, ", ")),
           .hint = fmt::format("write more of the name, such as '{}'", meant[0])});
-}
-
-// Whether `value` fits a parameter: its type, its choices, its range.
-bool checkParameterValue(Model& model, const Parameter& parameter, const Value& value, const SaidBy& by) {
-  const ParameterDesc& desc = *parameter.desc;
-  const bool fits = fitsType(desc, value);
-  if (fits && fitsRange(desc, value)) return true;
-  std::string expected = expectedOf(desc);
-  if (desc.place.file)
-    expected += fmt::format(", as {}:{}:{} says", *desc.place.file, desc.place.line, desc.place.column);
-  const std::string text = value.type == Value::Type::symbol ? value.symbol : toText(value);
-  return report(model, fits ? Code::numberOutOfRange : Code::badParameterValue, by.place,
-                fmt::format("{}parameter '{}': '{}' is {}", by.before, parameter.path, text,
-                            fits ? "out of its range" : "not a value for it"),
-                {.expected = std::move(expected), .hint = text::nearestHint(text, desc.choices)});
 }
 
 // Gives the parameter of `scope`, or of a file that it includes, whose name ends in `wanted` a value; to one that is a file
 // `path`, if there is one. Null after a report.
 Parameter* applySet(Model& model, const Scope& scope, const std::string& wanted, const Value& value,
-                    const std::optional<std::string>& path, const SaidBy& by) {
+                    const std::optional<std::string>& path, const Where& by) {
   const std::vector<std::uint32_t> found = parametersMeant(model, scope.prefix, wanted);
-  std::vector<std::string> names;
-  for (std::uint32_t i = 0; i < model.parameters.size(); ++i)
-    if (const std::string& full = model.parameters[i].path;
-        full.starts_with(scope.prefix) && (found.empty() || std::ranges::find(found, i) != found.end()))
-      names.push_back(full.substr(scope.prefix.size()));
-  if (found.empty()) {
-    if (isUnread(scope, wanted)) return nullptr;
-    std::string hint = suffixHint(wanted, names);
-    if (hint.empty())
-      hint = fmt::format("'weft params {}' lists what there is", model.scopes.front().desc->path);
-    report(model, Code::unknownParameter, by.place,
-           fmt::format("{}no parameter is called '{}'", by.before, wanted), {.hint = std::move(hint)});
-    return nullptr;
-  }
-  if (found.size() > 1) {
-    reportAmbiguous(model, names, wanted, "parameters", by);
+  if (found.size() != 1) {
+    if (found.empty() && isUnread(scope, wanted)) return nullptr;
+    std::vector<std::string> names;
+    for (std::uint32_t i = 0; i < model.parameters.size(); ++i)
+      if (const std::string& full = model.parameters[i].path;
+          full.starts_with(scope.prefix) && (found.empty() || std::ranges::find(found, i) != found.end()))
+        names.push_back(full.substr(scope.prefix.size()));
+    if (found.empty())
+      report(model, Code::unknownParameter, by, fmt::format("no parameter is called '{}'", wanted),
+             {.expected =
+                  fmt::format("one of those that 'weft params {}' lists", model.scopes.front().desc->path),
+              .hint = suffixHint(wanted, names)});
+    else
+      reportAmbiguous(model, names, wanted, "parameters", by);
     return nullptr;
   }
   Parameter& parameter = model.parameters[found[0]];
-  const Value taken = parameter.desc->type == Type::file && path ? Value::text(*path) : value;
-  if (!checkParameterValue(model, parameter, taken, by)) return nullptr;
-  parameter.value = taken;
-  parameter.valuePlace = by.place;
-  return &parameter;
+  const ParameterDesc& desc = *parameter.desc;
+  const Value taken = desc.type == Type::file && path ? Value::text(*path) : value;
+  const bool fits = fitsType(desc, taken);
+  if (fits && fitsRange(desc, taken)) {
+    parameter.value = taken;
+    parameter.valuePlace = by;
+    return &parameter;
+  }
+  std::string expected = expectedOf(desc);
+  if (desc.place.file)
+    expected += fmt::format(", as {}:{}:{} says", *desc.place.file, desc.place.line, desc.place.column);
+  const std::string text = taken.type == Value::Type::symbol ? taken.symbol : toText(taken);
+  report(model, fits ? Code::numberOutOfRange : Code::badParameterValue, by,
+         fmt::format("parameter '{}': '{}' is {}", parameter.path, text,
+                     fits ? "out of its range" : "not a value for it"),
+         {.expected = std::move(expected), .hint = text::nearestHint(text, desc.choices)});
+  return nullptr;
 }
 
 }  // namespace
@@ -154,36 +141,33 @@ void applySetting(Model& model, const Setting& set) {
   std::optional<std::string> path;
   if (set.origin == Origin::command_line) path = set.text;
   if (Parameter* const parameter =
-          applySet(model, model.scopes.front(), set.name, set.value, path, saidBy(set)))
+          applySet(model, model.scopes.front(), set.name, set.value, path, placeOf(set)))
     parameter->origin = set.origin;
 }
 
 void applyDisable(Model& model, const Disable& disable) {
   const std::string& wanted = disable.name;
   const std::string source = sourceOf(disable);
-  const SaidBy by = saidBy(disable);
+  const Where by = placeOf(disable);
   const std::string declared = wanted.substr(0, wanted.find('['));
-  struct Candidate {
-    Scope* scope;  // an include; null: a pass
-    const PassDesc* stanza;
-  };
   std::vector<std::string> names;
-  std::vector<Candidate> candidates;
+  std::vector<std::pair<Scope*, const PassDesc*>>
+      candidates;  // without a scope it is a pass, else an include
   for (Scope& scope : model.scopes) {
     if (scope.parent && declared == wanted) {
       names.push_back(scope.prefix.substr(0, scope.prefix.size() - 1));
-      candidates.push_back({&scope, scope.stanza});
+      candidates.emplace_back(&scope, scope.stanza);
     }
     for (const PassDesc& pass : scope.desc->passes)
       if (!pass.include) {
         names.push_back(scope.prefix + pass.name);
-        candidates.push_back({nullptr, &pass});
+        candidates.emplace_back(nullptr, &pass);
       }
   }
   const std::vector<std::size_t> found = suffixMatches(names, declared);
   // When a file is included twice, both stanzas are meant.
   const auto isSame = [&](std::size_t i) {
-    return text::isSamePlace(candidates[i].stanza->place, candidates[found[0]].stanza->place);
+    return text::isSamePlace(candidates[i].second->place, candidates[found[0]].second->place);
   };
   if (!std::ranges::all_of(found, isSame)) {
     std::vector<std::string> meant;
@@ -191,18 +175,17 @@ void applyDisable(Model& model, const Disable& disable) {
     return reportAmbiguous(model, meant, wanted, "passes", by);
   }
   for (const std::size_t i : found)
-    if (candidates[i].scope)
-      candidates[i].scope->disabledBy = source;
+    if (candidates[i].first)
+      candidates[i].first->disabledBy = source;
     else
       model.disables[names[i]].push_back(
           {source, declared == wanted ? "" : names[i] + wanted.substr(declared.size())});
   if (!found.empty() || isUnread(model.scopes.front(), declared)) return;
   if (!parametersMeant(model, "", wanted).empty())
-    report(model, Code::parameterNotPass, by.place,
-           fmt::format("{}'{}' is a parameter, not a pass", by.before, wanted),
+    report(model, Code::parameterNotPass, by, fmt::format("'{}' is a parameter, not a pass", wanted),
            {.hint = fmt::format("--set {}=VALUE", wanted)});
   else
-    report(model, Code::unknownPass, by.place, fmt::format("{}no pass is called '{}'", by.before, wanted),
+    report(model, Code::unknownPass, by, fmt::format("no pass is called '{}'", wanted),
            {.hint = suffixHint(declared, names)});
 }
 
@@ -219,7 +202,7 @@ void applySettings(Model& model) {
       if (isOver(model)) return;
       std::optional<std::string> path;
       if (set.value.type == Value::Type::symbol) path = text::besideFile(set.place, set.value.symbol);
-      Parameter* const parameter = applySet(model, *scope, set.name, set.value, path, {set.place});
+      Parameter* const parameter = applySet(model, *scope, set.name, set.value, path, set.place);
       if (!parameter) continue;
       parameter->origin = set.origin;
       if (set.valuePlace.file) parameter->valuePlace = set.valuePlace;
