@@ -1,4 +1,4 @@
-// The value at a JSON pointer (RFC 6901), for tests that name values by it.
+// JSON pointers (RFC 6901), for tests that name values by them.
 #pragma once
 
 #include <charconv>
@@ -29,6 +29,11 @@ inline const JsonValue* findPointer(const JsonValue& root, std::string_view poin
     at = at->find(key);
   }
   return at;
+}
+
+// The pointer to where a diagnostic about this text is.
+inline std::string pointerTo(std::string_view json, const text::Diagnostic& d) {
+  return text::pointerAt(text::parseJsonTree(json).root, text::offsetOf(json, d.place.inFile()));
 }
 
 }  // namespace weft::test

@@ -7,7 +7,7 @@
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
 #include "app/trials/report_page.h"
-#include "engine/text/counted.h"
+#include "engine/text/printable.h"
 
 namespace weft::app {
 

@@ -12,17 +12,15 @@
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
 #include "engine/graph/compile/compile.h"
-#include "engine/graph/language/enough.h"
 #include "engine/graph/read/read.h"
 #include "engine/graph/survey/matrix.h"
 #include "engine/passes/pass_registry.h"
 #include "engine/runtime/imports/registry.h"
 #include "engine/runtime/prepare/program_check.h"
 #include "engine/runtime/prepare/program_request.h"
-#include "engine/text/counted.h"
 #include "engine/text/files/file_watcher.h"
+#include "engine/text/json/report.h"
 #include "engine/text/printable.h"
-#include "engine/text/report.h"
 
 namespace weft::app {
 
@@ -67,7 +65,7 @@ class ShaderCheck {
     sources.setRoots(runtime::shaderRootsOf(plan.graph->files, dataFolder()));
     text::Diagnostics said;
     for (const graph::Step& step : plan.steps) {
-      if (graph::enoughErrors(said)) break;
+      if (text::enoughErrors(said)) break;
       const graph::PassSpec& spec = plan.graph->specs[step.pass];
       const graph::PassType type = types_.find(spec.type)->reflect();
       if (type.shader == graph::ShaderShape::none) continue;

@@ -18,8 +18,6 @@
 #include "engine/graph/language/names.h"
 #include "engine/graph/read/read.h"
 #include "engine/text/files/file.h"
-#include "engine/text/files/file_access.h"
-#include "engine/text/files/text_file.h"
 #include "engine/text/json/dom.h"
 #include "engine/text/json/edit.h"
 #include "engine/text/json/layout.h"
@@ -46,8 +44,7 @@ void formatFile(const std::string& path, bool checkOnly, text::Diagnostics& diag
   const std::size_t before = diagnostics.errorCount();
   if (text) text::parseJson(*text, file, diagnostics);
   if (!text || diagnostics.errorCount() > before) return;
-  const std::string laid =
-      text::layoutJson(*text, {.packed = {"set"}, .starts = {"read", "write", "modify"}});
+  const std::string laid = text::layoutJson(*text);
   if (laid == *text) return;
   if (checkOnly) {
     const auto same = std::ranges::mismatch(*text, laid).in1;

@@ -19,7 +19,7 @@
 #include "engine/graph/print/print.h"
 #include "engine/graph/read/read.h"
 #include "engine/runtime/imports/registry.h"
-#include "engine/text/files/text_file.h"
+#include "engine/text/files/file.h"
 #include "engine/text/json/dom.h"
 #include "engine/text/json/layout.h"
 
@@ -37,9 +37,7 @@ struct PlanOptions : Options {
 std::string viewOf(const graph::Plan& plan, const PlanOptions& options) {
   if (options.format == "dot") return graph::dumpDot(plan);
   if (options.format == "json") return graph::dumpJson(plan, options.explain);
-  if (options.format == "expanded")
-    return text::layoutJson(graph::graphFileOf(plan),
-                            {.packed = {"set"}, .starts = {"read", "write", "modify"}});
+  if (options.format == "expanded") return text::layoutJson(graph::graphFileOf(plan));
   return graph::dumpText(plan, options.explain);
 }
 

@@ -11,7 +11,6 @@
 #include "app/session/session.h"
 #include "app/trials/case_run.h"
 #include "app/trials/report_page.h"
-#include "engine/text/counted.h"
 #include "engine/text/files/file.h"
 #include "engine/text/printable.h"
 

@@ -4,7 +4,7 @@
 
 #include "app/import/isf.h"
 #include "app/import/text.h"
-#include "engine/text/files/text_file.h"
+#include "engine/text/files/file.h"
 
 namespace weft::importing {
 

@@ -230,7 +230,6 @@ std::optional<IsfHeader> readIsfHeader(std::string_view text, const std::shared_
       json.begin(), json.begin() + static_cast<std::ptrdiff_t>(comment->first),
       [](char c) { return c != '\n'; }, ' ');
   const std::size_t errors = diagnostics.errorCount();
-  const text::PointerScope pointers(*file, json, diagnostics);
   const auto root = text::parseJson(json, file, diagnostics);
   if (!root) return std::nullopt;
   if (!root->is(JsonType::object)) {

@@ -18,12 +18,7 @@ namespace weft::importing {
 namespace {
 
 using text::Place;
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && text::isSpace(text.front())) text.remove_prefix(1);
-  while (!text.empty() && text::isSpace(text.back())) text.remove_suffix(1);
-  return text;
-}
+using text::trimmed;
 
 // Of the numbers of a header: how many, and which.
 struct NumberRule {

@@ -129,8 +129,7 @@ Json numberOf(double number, bool real) {
 }
 
 std::string graphText(const Json& graph) {
-  return text::layoutJson(graph.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n",
-                          {.packed = {"set"}, .starts = {"read", "write", "modify"}});
+  return text::layoutJson(graph.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace weft::importing

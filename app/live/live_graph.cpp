@@ -11,7 +11,7 @@
 #include "engine/graph/language/suffix.h"
 #include "engine/imports/environment/environment.h"
 #include "engine/scene/files/scene_file.h"
-#include "engine/text/files/file_access.h"
+#include "engine/text/files/file.h"
 
 namespace weft::app {
 

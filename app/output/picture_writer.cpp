@@ -9,7 +9,6 @@
 
 #include "app/output/output_files.h"
 #include "app/output/standard_streams.h"
-#include "engine/text/counted.h"
 #include "engine/text/files/file.h"
 #include "engine/text/printable.h"
 

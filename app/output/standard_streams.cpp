@@ -69,7 +69,7 @@ void printError(std::string_view text) {
 }
 
 std::string dumpJson(const nlohmann::ordered_json& json, int indent) {
-  return text::printableJson(json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  return json.dump(indent, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 int finishStreams(int exitCode) {

@@ -8,7 +8,7 @@
 
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
-#include "engine/text/files/file_access.h"
+#include "engine/text/files/file.h"
 #include "engine/text/limits.h"
 #include "engine/text/nearest.h"
 #include "engine/text/printable.h"

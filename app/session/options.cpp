@@ -6,7 +6,7 @@
 #include <charconv>
 
 #include "app/session/session.h"
-#include "engine/text/files/file_access.h"
+#include "engine/text/files/file.h"
 
 namespace weft::app {
 

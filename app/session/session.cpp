@@ -12,8 +12,8 @@
 #include "engine/graph/read/read.h"
 #include "engine/runtime/imports/registry.h"
 #include "engine/scene/files/scene_file.h"
-#include "engine/text/files/file_access.h"
-#include "engine/text/message_choice.h"
+#include "engine/text/files/file.h"
+#include "engine/text/json/report.h"
 
 namespace weft::app {
 

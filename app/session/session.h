@@ -20,7 +20,7 @@
 #include "engine/runtime/imports/imports.h"
 #include "engine/scene/files/scene_file.h"
 #include "engine/text/diagnostic.h"
-#include "engine/text/files/data_folder.h"
+#include "engine/text/files/file.h"
 
 namespace weft::app {
 
@@ -60,7 +60,7 @@ std::shared_ptr<const graph::Plan> planOf(const Options& options, text::Diagnost
 bool isWrong(const Options& options, const runtime::WorldFacts& facts, text::Diagnostics& diagnostics);
 
 // Prints the diagnostics to standard error, with or without notes. Of very many it prints only some
-// (engine/text/message_choice.h). Returns 1 when there is an error among them, else 0.
+// (engine/text/json/report.h). Returns 1 when there is an error among them, else 0.
 int report(text::Diagnostics& diagnostics, bool notes = true);
 
 // ---- on a device ----

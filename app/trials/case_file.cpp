@@ -8,7 +8,6 @@
 
 #include "app/session/session.h"
 #include "engine/text/files/file.h"
-#include "engine/text/files/text_file.h"
 #include "engine/text/json/fields.h"
 
 namespace weft::app {
@@ -43,7 +42,6 @@ class CaseReader {
     const auto read = text::readTextFile(*file_, diagnostics_);
     if (!read) return;
     text_ = *read;
-    const text::PointerScope pointers(*file_, text_, diagnostics_);
     const auto document = text::parseJson(text_, file_, diagnostics_);
     if (!document) return;
     JsonFields fields(*document, "the file of cases", Code::outOfRange, diagnostics_);
@@ -108,8 +106,7 @@ class CaseReader {
                                       {"materials", &options.materials},
                                       {"mask", &test.mask}})
       if (const JsonValue* value = fields.find(key); value && !value->is(JsonValue::Type::null))
-        if (const auto path = fields.text(key))
-          *target = std::filesystem::path(besideFile(value->place, *path)).lexically_normal().string();
+        if (const auto path = fields.text(key)) *target = besideFile(value->place, *path);
     if (const auto camera = fields.text("camera")) options.camera = *camera;
     if (const auto fps = fields.number("fps", kRate)) options.fps = *fps;
     take(fields, "size",

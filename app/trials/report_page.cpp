@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "engine/assets/images/image.h"
-#include "engine/text/counted.h"
+#include "engine/text/printable.h"
 
 namespace weft::app {
 

@@ -6,7 +6,7 @@
 
 #include "app/output/picture_writer.h"
 #include "app/session/session.h"
-#include "engine/text/counted.h"
+#include "engine/text/printable.h"
 
 namespace weft::app {
 

@@ -19,9 +19,8 @@
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
 #include "app/view/key_bindings.h"
-#include "engine/text/counted.h"
 #include "engine/text/hash.h"
-#include "engine/text/message_choice.h"
+#include "engine/text/json/report.h"
 #include "engine/text/printable.h"
 
 namespace weft::app {

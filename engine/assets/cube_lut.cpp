@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <memory>
 #include <span>
 
-#include "engine/text/files/text_file.h"
+#include "engine/text/chars.h"
+#include "engine/text/files/file.h"
 
 namespace weft::assets {
 
@@ -31,8 +30,9 @@ Words splitWords(std::string_view line) {
 template <class T>
 bool readNumber(std::string_view word, T& out) {
   if (word.starts_with('+')) word.remove_prefix(1);
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), out);
-  return error == std::errc() && end == word.data() + word.size() && std::isfinite(static_cast<double>(out));
+  const auto number = text::numberIn<T>(word);
+  out = number.value_or(out);
+  return number.has_value();
 }
 
 struct Problem {

@@ -8,8 +8,6 @@
 
 #include "engine/glsl/interface.h"
 #include "engine/text/files/file.h"
-#include "engine/text/files/file_access.h"
-#include "engine/text/files/file_overlay.h"
 #include "engine/text/hash.h"
 #include "engine/text/limits.h"
 #include "engine/text/nearest.h"

@@ -69,7 +69,7 @@ class SourceLoader {
   explicit SourceLoader(std::vector<std::string> roots) : roots_(std::move(roots)) {}
 
   // The stage file `path`, below the first root that has it, else as the path says. "../" and absolute paths may lead
-  // out of the roots (W200 where reading is confined: engine/text/files/file_access.h). `place` is that of the path in
+  // out of the roots (W200 where reading is confined: engine/text/files/file.h). `place` is that of the path in
   // the graph file, for the message when the file cannot be read (W100). Problems inside (W101 include not found,
   // W102 include cycle, W103 malformed include, W106 #version) are reported all at once and give null. A file is
   // expanded again only when the size or the time of a file that took part has changed.

@@ -55,6 +55,10 @@ std::string nameOf(Code code) {
   return fmt::format("W{:03}", static_cast<unsigned>(code));
 }
 
+const char* nameOf(Severity severity) {
+  return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "note";
+}
+
 std::string format(const Diagnostic& d) {
   std::string out;
   if (const auto& option = d.place.option) {
@@ -67,10 +71,7 @@ std::string format(const Diagnostic& d) {
     if (d.place.line > 0 && d.place.column > 0) out += fmt::format(":{}", d.place.column);
     out += ": ";
   }
-  const char* severity = d.severity == Severity::error     ? "error"
-                         : d.severity == Severity::warning ? "warning"
-                                                           : "note";
-  out += fmt::format("{}[{}]: {}", severity, nameOf(d.code), printedText(d.message));
+  out += fmt::format("{}[{}]: {}", nameOf(d.severity), nameOf(d.code), printedText(d.message));
   const auto line = [&](const char* label, const std::string& text) {
     if (!text.empty()) out += fmt::format("\n    {}: {}", label, printedText(text));
   };

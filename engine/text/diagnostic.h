@@ -1,7 +1,6 @@
 // Author mistakes as values: what is wrong, where, what was expected, what was found, and what would fix it.
 // Functions that read what a person wrote take a Diagnostics&, report everything they find and return an empty
 // optional (or false) when the result cannot be used. Nothing here throws, aborts or prints.
-// Does not: decide exit codes, color a terminal, or know rooms above text.
 #pragma once
 
 #include <cstdint>
@@ -48,6 +47,7 @@ bool isKnown(const Where& where);
 Where placeOfOption(std::string option);
 
 enum class Severity : std::uint8_t { note, warning, error };
+const char* nameOf(Severity severity);  // "note", "warning", "error"
 
 struct Diagnostic {
   Severity severity = Severity::error;
@@ -55,7 +55,7 @@ struct Diagnostic {
   std::string
       message;  // one sentence, no full stop, names the thing: "pass 'fxaa' reads unknown resource 'ldrr'"
   Where place;
-  std::string pointer{};   // JSON pointer of the value, e.g. "/passes/3/read/source"; may be empty
+  std::string pointer{};   // JSON pointer of the value where its place does not say it: in a binary file
   std::string pass{};      // full instance name of the pass concerned, or empty
   std::string resource{};  // the resource concerned, or empty
   std::string expected{};  // "a number from 0 to 8"

@@ -1,6 +1,5 @@
-// The nearest name to a misspelt one, for "did you mean" hints. The work has bounds, because files may be hostile
-// or mistaken: names longer than kLongestName have no nearest name, and a run has a budget for comparing (about a
-// second's work).
+// The nearest name to a misspelt one, for "did you mean" hints. The work has bounds, because files may be hostile or
+// mistaken: a name of more than kLongestName bytes has no nearest one, and only the first 1,000 candidates are compared.
 #pragma once
 
 #include <cstdint>
@@ -11,24 +10,18 @@
 
 namespace weft::text {
 
-constexpr std::size_t kLongestName = 256;  // bytes
+constexpr std::size_t kLongestName = 128;
 
-// Damerau-Levenshtein distance (adjacent swaps count 1), case-insensitive.
-std::size_t editDistance(std::string_view a, std::string_view b);
-// The same where it is at most `limit`, else any number above it; takes time of the shorter length times the
-// limit.
+// Damerau-Levenshtein distance (adjacent swaps count 1), case-insensitive. Any number above `limit` where it is more; takes
+// time of the length times the limit.
 std::size_t editDistance(std::string_view a, std::string_view b, std::size_t limit);
 
 // The candidate with the smallest edit distance to `name`, or "" when none is within a third of its length
-// (at least 2). Of names of fewer than 6 letters two edits are too far, unless the first letter is the same.
+// (at least 2, at most 8). Of names of fewer than 6 letters two edits are too far, unless the first letter is the same.
 std::string nearestName(std::string_view name, std::span<const std::string> candidates);
 
 // "did you mean 'x'?" (or 'y', at most three, when they are as near), or "known: a, b, c" when nothing is
 // near and the list is short, or "".
 std::string nearestHint(std::string_view name, std::span<const std::string> candidates);
-
-// For how many names no nearest one was looked for since the last call, because the budget was spent. A call
-// begins a new budget.
-std::size_t takeUncompared();
 
 }  // namespace weft::text

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "engine/text/files/file_access.h"
+#include "engine/text/files/file.h"
 #include "tests/temporary_folder.h"
 
 using namespace weft::glsl;

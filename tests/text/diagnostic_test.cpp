@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "engine/text/report.h"
+#include "engine/text/json/report.h"
 
 using namespace weft::text;
 
@@ -58,17 +58,6 @@ TEST_CASE("the place of an option is no file: in text, in JSON and in SARIF") {
   const auto& results = sarif["runs"][0]["results"];
   CHECK_FALSE(results[2].contains("locations"));
   CHECK(results[3]["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] == "a.json");
-}
-
-TEST_CASE("a text longer than a screen is cut between two characters, and says so") {
-  Diagnostics all;
-  Diagnostic& d = all.error(Code::badExpression, at(1, 1), "short");
-  std::string words = "aaaa";
-  for (int i = 0; i < 71; ++i) words += " aaaa";  // 359 bytes
-  d.found = words;
-  for (int i = 0; i < 100; ++i) d.found += "é";
-  const std::string text = format(all.items()[0]);
-  CHECK(text == "a.json:1:1: error[W020]: short\n    found: " + words + "… (559 bytes in all)");
 }
 
 TEST_CASE("warnings are no errors; sorting drops repeats and keeps the count right") {

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "engine/text/files/data_folder.h"
+#include "engine/text/files/file.h"
 #include "engine/text/words/foreign_words.h"
 #include "engine/text/words/glsl_words.h"
 
@@ -87,9 +87,10 @@ TEST_CASE("texture formats of other APIs become the one that is meant") {
       {"FloatType", "rgba32f"},
       {"DepthStencilFormat", "depth24_stencil8"},
   };
-  for (const auto& [theirs, ours] : kFormats) CHECK_MESSAGE(formatMeantBy(theirs) == ours, theirs);
+  for (const auto& [theirs, ours] : kFormats)
+    CHECK_MESSAGE(hintForForeign(Foreign::format, theirs) == ours, theirs);
   for (const char* none : {"", "colour", "rgba12", "texture", "bc7"})
-    CHECK_MESSAGE(formatMeantBy(none).empty(), none);
+    CHECK_MESSAGE(hintForForeign(Foreign::format, none).empty(), none);
 }
 
 TEST_CASE("words that GLSL keeps for itself") {

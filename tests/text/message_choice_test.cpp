@@ -1,10 +1,7 @@
-#include "engine/text/message_choice.h"
-
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
+#include "engine/text/json/report.h"
 #include "engine/text/limits.h"
-#include "engine/text/nearest.h"
 
 using namespace weft::text;
 
@@ -43,30 +40,22 @@ TEST_CASE("beyond it errors stay before warnings, from the first place on, and t
   const Diagnostic& last = chosen.items().back();
   CHECK(last.code == Code::messagesLeftOut);
   CHECK(last.severity == Severity::note);
-  CHECK(last.message == "907 further messages are left out: 400 errors, 500 warnings, 7 notes");
+  CHECK(last.message == "further messages are left out: 400 errors, 500 warnings, 7 notes");
   CHECK(last.hint == "correct these first, or raise the limits with --limit 2, if that is meant");
   CHECK(chooseMessages(all, false).items().back().message ==
-        "900 further messages are left out: 400 errors, 500 warnings, 0 notes");
+        "further messages are left out: 400 errors, 500 warnings, 0 notes");
 
   raiseLimits(10);
   const Diagnostics most = chooseMessages(all);
   raiseLimits(1);
   CHECK(most.size() == 1001);
-  CHECK(most.items().back().message == "7 further messages are left out: 0 errors, 0 warnings, 7 notes");
+  CHECK(most.items().back().message == "further messages are left out: 0 errors, 0 warnings, 7 notes");
   CHECK(most.items()[0].severity == Severity::warning);  // in the order of places again
 }
 
-TEST_CASE("names that were too many to be compared are reported once") {
-  takeUncompared();
-  std::vector<std::string> names;
-  for (int i = 0; i < 2000; ++i) names.push_back(fmt::format("{:0>100}{:0>100}", i * 7919, i * 104729));
-  for (int i = 0; i < 2000; ++i) nearestHint(fmt::format("{:x>200}", i), names);
+TEST_CASE("a thousand errors end the search, and the note says so") {
   Diagnostics all;
-  all.error(Code::unknownResource, at(1), "unknown");
-  const Diagnostics chosen = chooseMessages(all);
-  REQUIRE(chosen.size() == 2);
-  CHECK(chosen.items()[1].code == Code::messagesLeftOut);
-  CHECK(chosen.items()[1].message.find("unknown names are without a hint") != std::string::npos);
-  CHECK(chooseMessages(all).size() == 1);
-  CHECK(nearestName("scne", std::vector<std::string>{"scene"}) == "scene");  // a new budget
+  for (std::uint32_t i = 1; i <= 1000; ++i) all.error(Code::unknownKey, at(i), "error");
+  CHECK(chooseMessages(all).items().back().message ==
+        "further messages are left out: 900 errors, 0 warnings, 0 notes; no more were looked for");
 }

@@ -2,9 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <nlohmann/json.hpp>
-
-#include "engine/text/counted.h"
 #include "engine/text/diagnostic.h"
 
 using namespace weft::text;
@@ -30,19 +27,14 @@ TEST_CASE("bytes that are no UTF-8 are shown one by one") {
   CHECK(printable("\xf5\x80\x80\x80") == "\\xf5\\x80\\x80\\x80");
 }
 
-TEST_CASE("a word of ten million bytes is cut, and what follows it is printed") {
-  const std::string long10(10'485'760, 'x');
-  const std::string text = shortened("unknown key \"" + long10 + " in a pass");
-  CHECK(text == "unknown key \"" + std::string(199, 'x') + "… (10485761 bytes) in a pass");
-  CHECK(shortened(std::string(256, 'x')) == std::string(256, 'x'));
-  std::string words;
-  for (int i = 0; i < 200; ++i) words += "word ";
-  CHECK(shortened(words).ends_with("… (1000 bytes in all)"));
-  CHECK(shortened(words).size() < 400);
-  const std::string most = words.substr(0, 395) + "words";
-  CHECK(shortened(most) == most);
-  CHECK(shortened(most + "!").ends_with("… (401 bytes in all)"));
-  std::string umlauts(300, '\xc3');
+TEST_CASE("of ten million bytes the beginning and the end are printed") {
+  const std::string text = shortened("unknown key \"" + std::string(10'485'760, 'x') + "\" in a pass");
+  CHECK(text.starts_with("unknown key \"xxx"));
+  CHECK(text.find("… (10485784 bytes) …") != std::string::npos);
+  CHECK(text.ends_with("xxx\" in a pass"));
+  CHECK(text.size() < 400);
+  CHECK(shortened(std::string(400, 'x')) == std::string(400, 'x'));
+  std::string umlauts(600, '\xc3');
   for (std::size_t i = 1; i < umlauts.size(); i += 2) umlauts[i] = '\xa4';
   CHECK(printable(shortened("a" + umlauts)).find("\\x") == std::string::npos);  // cut between characters
 }
@@ -61,13 +53,6 @@ TEST_CASE("no field of a diagnostic can forge another one") {
   CHECK(text.find("\n    pass: x\\nother.json:1:1: error[W001]: forged\\x1b[A\\u{202e}\n") !=
         std::string::npos);
   CHECK(text.starts_with("x\\nother.json"));
-}
-
-TEST_CASE("JSON for a terminal means what it meant") {
-  const nlohmann::json value{{"label \x1b\x7f", "\u009b31m \u202e \xc3\xa4\n"}};
-  const std::string text = printableJson(value.dump(2));
-  CHECK(nlohmann::json::parse(text) == value);
-  for (const char* raw : {"\x1b", "\x7f", "\u009b", "\u202e"}) CHECK(text.find(raw) == std::string::npos);
 }
 
 TEST_CASE("one thing and several") {

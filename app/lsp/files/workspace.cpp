@@ -12,8 +12,7 @@
 #include "engine/runtime/imports/registry.h"
 #include "engine/runtime/prepare/program_check.h"
 #include "engine/runtime/prepare/program_request.h"
-#include "engine/text/files/file_access.h"
-#include "engine/text/nearest.h"
+#include "engine/text/files/file.h"
 
 namespace weft::app::lsp {
 
@@ -135,7 +134,6 @@ bool Workspace::isPreset(const std::string& path) const {
 void Workspace::read(const std::string& path, Graph& graph) {
   const auto isSame = [&](const auto& known) { return texts_.of(known.first) == known.second; };
   if (!graph.readTexts.empty() && std::ranges::all_of(graph.readTexts, isSame)) return;
-  text::takeUncompared();  // a new budget for nearest names
   graph.readSaid.clear();
   graph.read = graph::readGraph(path, graph.readSaid);
   graph.readTexts = {{path, texts_.of(path)}};
@@ -235,7 +233,6 @@ std::set<std::string> Workspace::refresh(const std::set<std::string>& changed) {
 }
 
 void Workspace::check(const std::string& path, Graph& graph) {
-  text::takeUncompared();
   graph.said.clear();
   graph.current = false;
   graph.files.clear();

@@ -1,10 +1,10 @@
 #include "app/lsp/text/positions.h"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 
-#include "engine/text/report.h"
+#include "engine/text/files/file.h"
+#include "engine/text/json/report.h"
 
 namespace weft::app::lsp {
 
@@ -64,9 +64,7 @@ Json toJson(const LineMap& map, const Range& range) {
 }
 
 std::string pathKey(const std::string& path) {
-  std::error_code ec;
-  const std::filesystem::path absolute = std::filesystem::absolute(path, ec);
-  return (ec ? std::filesystem::path(path) : absolute).lexically_normal().string();
+  return text::absolutePath(path);
 }
 
 std::string pathOfUri(std::string_view uri) {
@@ -75,19 +73,7 @@ std::string pathOfUri(std::string_view uri) {
   const std::size_t slash = uri.find('/');  // the path begins behind the host, which is taken for this one
   if (slash == std::string_view::npos) return "";
   uri.remove_prefix(slash);
-  std::string path;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    unsigned value = 0;
-    if (uri[i] == '%' && i + 2 < uri.size()) {
-      const auto [end, error] = std::from_chars(uri.data() + i + 1, uri.data() + i + 3, value, 16);
-      if (error == std::errc{} && end == uri.data() + i + 3) {
-        path += static_cast<char>(value);
-        i += 2;
-        continue;
-      }
-    }
-    path += uri[i];
-  }
+  const std::string path = text::unescapeUri(uri);
   if (path.find('\0') != std::string::npos) return "";
   return std::filesystem::path(path).lexically_normal().string();
 }

@@ -4,8 +4,7 @@
 #include <filesystem>
 
 #include "engine/glsl/tokens.h"
-#include "engine/text/files/file_overlay.h"
-#include "engine/text/files/text_file.h"
+#include "engine/text/files/file.h"
 
 namespace weft::app::lsp {
 

@@ -1,5 +1,5 @@
 // The texts that the server works on: those that the editor has open, as the editor has them, and files on disk. Open texts are
-// overlays (engine/text/files/file_overlay.h), so that all of Weft reads them. Outlines are made when they are first asked for.
+// overlays (engine/text/files/file.h), so that all of Weft reads them. Outlines are made when they are first asked for.
 // Paths are absolute.
 #pragma once
 

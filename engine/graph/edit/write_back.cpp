@@ -19,15 +19,10 @@ namespace {
 using text::Code;
 using text::Diagnostics;
 
-std::filesystem::path wholePath(const std::filesystem::path& path) {
-  std::error_code ignored;
-  return std::filesystem::absolute(path, ignored).lexically_normal();
-}
-
 // Paths are the same when they lead to one file.
 bool sameValue(const ParameterDesc& desc, const Value& x, const Value& y) {
   if (desc.type != ParameterDesc::Type::file || x.symbol.empty() || y.symbol.empty()) return x == y;
-  return wholePath(x.symbol) == wholePath(y.symbol);
+  return text::absolutePath(x.symbol) == text::absolutePath(y.symbol);
 }
 
 bool sameParameters(const FlatGraph& a, const FlatGraph& b) {
@@ -207,7 +202,9 @@ std::vector<TextEdit> editsOfParameter(const GraphDesc& desc, std::span<const st
     Value value = wanted.value;
     if (found.desc->type != ParameterDesc::Type::file || value.symbol.empty()) return value;
     if (std::filesystem::path(value.symbol).is_absolute()) return value;
-    value.symbol = wholePath(value.symbol).lexically_relative(wholePath(path).parent_path()).string();
+    const std::filesystem::path whole = text::absolutePath(value.symbol);
+    value.symbol =
+        whole.lexically_relative(std::filesystem::path(text::absolutePath(path)).parent_path()).string();
     return value;
   };
   const auto put = [&](const Place& place) {

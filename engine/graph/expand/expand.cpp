@@ -7,10 +7,10 @@
 
 #include "engine/graph/expand/judge/judge.h"
 #include "engine/graph/expand/passes.h"
-#include "engine/graph/language/enough.h"
 #include "engine/graph/pick/pick.h"
 #include "engine/graph/subresource.h"
 #include "engine/text/json/dom.h"
+#include "engine/text/json/report.h"
 
 namespace weft::graph {
 
@@ -316,7 +316,6 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
     warnUnused(model);
     warnCadence(model);
   }
-  for (const auto& [path, text] : desc.texts) text::PointerScope(path, *text, own);
   own.sortByPlace();
   diagnostics.append(own);
   if (diagnostics.hasErrors()) return nullptr;

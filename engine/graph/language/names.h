@@ -13,15 +13,10 @@ using text::isDigit;
 using text::isIdentChar;
 using text::isIdentStart;
 using text::isSpace;
+using text::trimmed;
 
 constexpr bool isIdent(std::string_view text) {
   return !text.empty() && isIdentStart(text[0]) && std::all_of(text.begin(), text.end(), isIdentChar);
-}
-
-constexpr std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && isSpace(text.front())) text.remove_prefix(1);
-  while (!text.empty() && isSpace(text.back())) text.remove_suffix(1);
-  return text;
 }
 
 // 0..3 for x y z w, else -1.

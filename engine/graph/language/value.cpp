@@ -30,11 +30,7 @@ std::string toText(const Value& value) {
 }
 
 std::optional<double> parseNumber(std::string_view text) {
-  text = trimmed(text);
-  double x = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(x)) return std::nullopt;
-  return x;
+  return text::numberIn<double>(trimmed(text));
 }
 
 const char* whyNoNumber(std::string_view text) {

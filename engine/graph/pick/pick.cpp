@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <regex>
 #include <unordered_set>
 
 #include "engine/graph/language/suffix.h"
+#include "engine/text/chars.h"
 #include "engine/text/nearest.h"
 
 namespace weft::graph {
@@ -15,13 +15,6 @@ namespace weft::graph {
 namespace {
 
 using text::Code;
-
-// A whole number; nothing when it is too large.
-std::optional<std::uint32_t> wholeOf(std::string_view digits) {
-  std::uint32_t number = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  return error == std::errc() ? std::optional(number) : std::nullopt;
-}
 
 text::Diagnostic& reportPick(text::Diagnostics& diagnostics, Code code, const Pick& pick,
                              std::string message) {
@@ -124,7 +117,7 @@ std::optional<Pick> parsePick(std::string_view text) {
   Pick pick{.text = whole, .name = found[1], .pass = found[5]};
   for (const auto& [group, out] : {std::pair(2, &pick.version), std::pair(4, &pick.history)}) {
     if (!found[group].matched) continue;
-    const auto number = wholeOf(found[group].str());
+    const auto number = text::numberIn<std::uint32_t>(found[group].str());
     if (!number || *number == 0) return std::nullopt;
     *out = *number;
   }
@@ -133,7 +126,7 @@ std::optional<Pick> parsePick(std::string_view text) {
   const std::string selectors = found[3];
   for (std::sregex_iterator each(selectors.begin(), selectors.end(), kSelector), end; each != end; ++each) {
     const std::string word = (*each)[1];
-    const auto number = wholeOf((*each)[2].str());
+    const auto number = text::numberIn<std::uint32_t>((*each)[2].str());
     pick.stencil = pick.stencil || word == "stencil";
     if (word == "stencil") continue;
     if (!number || (word == "face" && *number > 5) || (word == "layer" && *number > 0xffff))

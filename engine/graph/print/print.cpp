@@ -263,8 +263,7 @@ void addBuffer(std::string& text, const Json& data, const Json& buffer) {
 }  // namespace
 
 std::string dumpJson(const Plan& plan, bool explain) {
-  return text::printableJson(dataOf(plan, explain).dump(2, ' ', false, Json::error_handler_t::replace)) +
-         "\n";
+  return dataOf(plan, explain).dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 
 std::string dumpText(const Plan& plan, bool explain) {

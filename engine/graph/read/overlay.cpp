@@ -9,8 +9,7 @@
 #include "engine/graph/read/merge.h"
 #include "engine/graph/read/misspelt.h"
 #include "engine/graph/read/read_context.h"
-#include "engine/text/files/file_access.h"
-#include "engine/text/files/text_file.h"
+#include "engine/text/files/file.h"
 #include "engine/text/limits.h"
 
 namespace weft::graph {

@@ -26,8 +26,6 @@ class GraphReader {
   GraphReader(Diagnostics& diagnostics, const FileTexts& given)
       : diagnostics_(diagnostics), loader_(diagnostics, given) {}
 
-  const FileTexts& texts() const { return loader_.texts(); }
-
   std::shared_ptr<const GraphDesc> readWith(const std::string& path, std::span<const std::string> presets) {
     std::shared_ptr<const Source> source = loader_.file(path, {});
     for (const std::string& preset : presets)
@@ -231,7 +229,6 @@ std::shared_ptr<const GraphDesc> readGraph(const std::string& path, std::span<co
   Diagnostics said;
   GraphReader reader(said, given);
   std::shared_ptr<const GraphDesc> graph = reader.readWith(path, presets);
-  for (const auto& [file, text] : reader.texts()) text::PointerScope(file, *text, said);
   said.sortByPlace();  // in the order of the text, whatever order the reader looked at things
   diagnostics.append(said);
   return graph;

@@ -9,9 +9,9 @@
 #include <unordered_map>
 
 #include "engine/graph/desc.h"
-#include "engine/graph/language/enough.h"
 #include "engine/graph/language/keys.h"
 #include "engine/text/json/dom.h"
+#include "engine/text/json/report.h"
 #include "engine/text/limits.h"
 #include "engine/text/words/foreign_words.h"
 
@@ -69,7 +69,7 @@ class ReadContext {
   // For the parsers of strings, which know no pass: adopt() what they said into a fresh Diagnostics.
   void adopt(const text::Diagnostics& said);
 
-  // False once there are enough errors (enough.h): further ones are not kept.
+  // False once there are enough errors: further ones are not kept.
   bool goesOn() const { return !enoughErrors(diagnostics_); }
 
  private:

@@ -8,17 +8,14 @@
 #include <memory>
 #include <string_view>
 
-#include "engine/text/files/file_access.h"
+#include "engine/text/chars.h"
+#include "engine/text/files/file.h"
 
 namespace weft::imports {
 
 namespace {
 
 constexpr std::size_t kMaxDigits = 9;  // of a number
-
-bool isDigit(char c) {
-  return c >= '0' && c <= '9';
-}
 
 // The number in `name`, which is `before`, digits, `after`.
 std::optional<std::uint32_t> numberIn(std::string_view name, std::string_view before, std::string_view after,
@@ -28,7 +25,7 @@ std::optional<std::uint32_t> numberIn(std::string_view name, std::string_view be
   const std::string_view text = name.substr(before.size(), name.size() - before.size() - after.size());
   // 00012 is no name of number 12 in four digits, and neither is 12.
   if (text.size() < digits || text.size() > kMaxDigits || (text.size() > digits && text[0] == '0') ||
-      !std::ranges::all_of(text, isDigit))
+      !std::ranges::all_of(text, text::isDigit))
     return std::nullopt;
   std::uint32_t number = 0;
   std::from_chars(text.data(), text.data() + text.size(), number);
@@ -54,7 +51,7 @@ std::optional<SequencePattern> sequencePatternOf(const std::string& file) {
   for (std::size_t first = file.find('%', name); first != std::string::npos;
        first = file.find('%', first + 1)) {
     std::size_t end = first + 1, width = 0;
-    while (end < file.size() && isDigit(file[end]) && end - first <= 2)
+    while (end < file.size() && text::isDigit(file[end]) && end - first <= 2)
       width = width * 10 + static_cast<std::size_t>(file[end++] - '0');
     if (end < file.size() && file[end] == 'd') return made(first, end + 1, width);
   }

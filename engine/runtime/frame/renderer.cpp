@@ -11,7 +11,7 @@
 #include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/gl_state.h"
 #include "engine/runtime/storage/formats.h"
-#include "engine/text/files/file_access.h"
+#include "engine/text/files/file.h"
 
 namespace weft::runtime {
 

@@ -15,7 +15,7 @@
 #include "engine/scene/files/reading.h"
 #include "engine/scene/frame/mesh_frame.h"
 #include "engine/scene/models/add_model.h"
-#include "engine/text/files/text_file.h"
+#include "engine/text/files/file.h"
 #include "engine/text/nearest.h"
 
 namespace weft::scene {
@@ -78,7 +78,6 @@ class Reader {
 
   std::optional<Scene> read(std::string_view text) {
     const std::size_t errorsBefore = diagnostics_.errorCount();
-    const text::PointerScope pointers(name_, text, diagnostics_);
     const auto root = text::parseJson(text, std::make_shared<const std::string>(name_), diagnostics_);
     if (!root) return {};
     for (const char* key : {"passes", "extends"})
@@ -515,7 +514,6 @@ class Reader {
 std::optional<std::vector<Material>> readMaterialLibrary(std::string_view text, const std::string& name,
                                                          Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
-  const text::PointerScope pointers(name, text, diagnostics);
   const auto root = text::parseJson(text, std::make_shared<const std::string>(name), diagnostics);
   if (!root || !text::expectType(*root, "a material library", JsonValue::Type::array, diagnostics)) return {};
   std::vector<Material> materials;

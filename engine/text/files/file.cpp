@@ -1,52 +1,103 @@
 #include "engine/text/files/file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <memory>
+#include <map>
+#include <mutex>
 #include <vector>
 
-#include "engine/text/files/file_access.h"
-#include "engine/text/files/file_overlay.h"
+#include "data_places.h"
+#include "engine/text/limits.h"
 #include "engine/text/nearest.h"
 
 namespace weft::text {
 
+namespace fs = std::filesystem;
+
 namespace {
 
-struct FileCloser {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using FilePtr = std::unique_ptr<std::FILE, FileCloser>;
+constexpr int kMaxLinks = 40;  // on one path; as Linux
 
 // A pipe may be read, an endless one must not fill the memory.
 constexpr std::size_t kMaxBytes = std::size_t{4} << 30;
 
-// The first folder that is not there, or the file of the nearest name.
-std::string hintForMissing(const std::filesystem::path& path) {
+struct Access {
+  std::mutex mutex;
+  bool confined = false;
+  std::vector<std::string> named;     // as the person wrote them
+  std::vector<std::string> folders;   // real paths
+  std::map<std::string, int> chosen;  // by absolute path: how often it may be a pipe
+  std::map<std::string, Overlay> overlays;
+  std::uint64_t overlaid = 0;  // in the life of the process
+};
+
+Access& access() {
+  static Access all;
+  return all;
+}
+
+// Where an absolute path leads, all links followed, whether or not something is there.
+std::string realOf(const fs::path& path, int links = 0) {
   std::error_code ec;
-  if (path == "-") return "name a file; standard input is /dev/stdin";
-  if (!path.has_filename() && std::filesystem::is_regular_file(path.parent_path(), ec))
-    return fmt::format("it is a file: write '{}'", path.parent_path().string());
-  const std::filesystem::path folder = path.parent_path().empty() ? "." : path.parent_path();
-  if (!std::filesystem::is_directory(folder, ec)) {
-    std::filesystem::path missing = folder;
-    while (missing.has_relative_path() && !missing.parent_path().empty() &&
-           !std::filesystem::exists(missing.parent_path(), ec))
-      missing = missing.parent_path();
-    return fmt::format("check the path: there is no folder '{}'", missing.string());
-  }
+  if (fs::path real = fs::canonical(path, ec); !ec) return real.string();
+  if (fs::is_symlink(fs::symlink_status(path, ec)) && links < kMaxLinks)
+    return realOf(path.parent_path() / fs::read_symlink(path, ec), links + 1);
+  if (path == path.parent_path()) return path.string();
+  return (fs::path(realOf(path.parent_path(), links)) / path.filename()).lexically_normal().string();
+}
+
+// `path` is `folder` or below it.
+bool isBelow(const std::string& path, const std::string& folder) {
+  if (folder == "/" || path == folder) return true;
+  return path.size() > folder.size() && path.starts_with(folder) && path[folder.size()] == '/';
+}
+
+void addFolder(Access& all, const std::string& folder) {
+  std::string real = realOf(absolutePath(folder));
+  if (std::ranges::find(all.folders, real) == all.folders.end()) all.folders.push_back(std::move(real));
+}
+
+bool isInside(const Access& all, const std::string& real) {
+  return std::ranges::any_of(all.folders, [&](const std::string& folder) { return isBelow(real, folder); });
+}
+
+// Whether no link on the way of an absolute path below a folder lies outside of the folders: not even that one leads back in is told.
+bool staysInside(const Access& all, const fs::path& path, int& links) {
+  if (std::ranges::find(all.folders, realOf(path)) != all.folders.end()) return true;
+  if (path == path.parent_path() || !staysInside(all, path.parent_path(), links)) return false;
+  std::error_code ec;
+  const fs::path parent = realOf(path.parent_path()), here = parent / path.filename();
+  if (!fs::is_symlink(fs::symlink_status(here, ec))) return true;
+  return ++links > kMaxLinks ||  // it cannot be opened
+         staysInside(all, (parent / fs::read_symlink(here, ec)).lexically_normal(), links);
+}
+
+bool isInside(const Access& all, const std::string& absolute, const std::string& real) {
+  int links = 0;
+  return isInside(all, real) && staysInside(all, absolute, links);
+}
+
+// The folder that is not there, or the file of the nearest name.
+std::string hintForMissing(const fs::path& path) {
   constexpr std::size_t kMaxNames = 5000;
+  std::error_code ec;
+  if (path.has_parent_path() && !fs::is_directory(path.parent_path(), ec))
+    return fmt::format("check the path: there is no folder '{}'", path.parent_path().string());
   std::vector<std::string> names;
-  for (auto entry = std::filesystem::directory_iterator(folder, ec);
-       !ec && entry != std::filesystem::directory_iterator() && names.size() < kMaxNames; entry.increment(ec))
+  for (auto entry = fs::directory_iterator(path.has_parent_path() ? path.parent_path() : ".", ec);
+       !ec && entry != fs::directory_iterator() && names.size() < kMaxNames; entry.increment(ec))
     names.push_back(entry->path().filename().string());
   std::ranges::sort(names);
   const std::string near = nearestName(path.filename().string(), names);
@@ -54,11 +105,11 @@ std::string hintForMissing(const std::filesystem::path& path) {
                       : fmt::format("did you mean '{}'?", (path.parent_path() / near).string());
 }
 
-// Where the bytes of a file stand until they are whole and it is renamed, also where its name is as long as a name may be.
+// Where the bytes of a file are until they are whole and it is renamed, also where its name is as long as a name may be.
 std::string temporaryBeside(const std::string& path) {
   constexpr std::size_t kLongest = 255;  // bytes, of most file systems
   static std::atomic<unsigned> made = 0;
-  const std::filesystem::path beside = fmt::format("{}.{}.tmp", path, ::getpid());
+  const fs::path beside = fmt::format("{}.{}.tmp", path, ::getpid());
   if (beside.filename().string().size() <= kLongest) return beside.string();
   return (beside.parent_path() / fmt::format(".weft.{}.{}.tmp", ::getpid(), ++made)).string();
 }
@@ -70,82 +121,163 @@ bool hasMore(int descriptor) {
   return ::poll(&one, 1, kMilliseconds) > 0;
 }
 
+// Closes what it holds.
+class Descriptor {
+ public:
+  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
+  ~Descriptor() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  explicit operator bool() const { return descriptor_ >= 0; }
+  int get() const { return descriptor_; }
+
+ private:
+  const int descriptor_;
+};
+
+// What is opened for reading, or why not.
+struct Opened {
+  int descriptor = -1;      // does not block; closed by whoever reads
+  bool endless = false;     // a pipe, whose end is known when it comes
+  std::uint64_t bytes = 0;  // of a regular file
+  bool outside = false;
+  std::string why, hint;
+};
+
+Opened openFile(const std::string& path) {
+  if (path.empty()) return {.why = "the name is empty", .hint = "name a file"};
+  bool mayBePipe = false, wasChosen = false, free = true;
+  const std::string absolute = absolutePath(path);
+  Access& all = access();
+  {
+    const std::lock_guard lock(all.mutex);
+    const auto chosen = all.chosen.find(absolute);
+    wasChosen = chosen != all.chosen.end();
+    mayBePipe = wasChosen && chosen->second > 0;
+    if (mayBePipe) --chosen->second;
+    free = !all.confined || wasChosen;
+  }
+  // Looked at before it is opened: opening a device can do something by itself. A handle reads nothing and does nothing.
+  const Descriptor handle(::open(free ? path.c_str() : absolute.c_str(), O_PATH | O_CLOEXEC));
+  int error = errno;
+  const std::string behind = fmt::format("/proc/self/fd/{}", handle.get());
+  if (!free) {
+    std::error_code ec;
+    const std::string real = handle ? fs::read_symlink(behind, ec).string() : realOf(absolute);
+    const std::lock_guard lock(all.mutex);
+    if (!isInside(all, absolute, real)) return {.outside = true};
+  }
+  struct stat status {};
+  int descriptor = -1;
+  if (handle && ::fstat(handle.get(), &status) == 0) {
+    const bool pipe = S_ISFIFO(status.st_mode);
+    if (S_ISDIR(status.st_mode)) return {.why = "it is a directory", .hint = "name a file inside it"};
+    if (pipe && wasChosen && !mayBePipe)
+      return {.why = "it is a pipe, which can be read only once",
+              .hint = "name a file, to have it read again"};
+    if (pipe && !mayBePipe)
+      return {.why = "it is a pipe", .hint = "name a file; only a path on the command line may be a pipe"};
+    if (!pipe && !S_ISREG(status.st_mode))
+      return {.why = S_ISSOCK(status.st_mode) ? "it is a socket" : "it is a device", .hint = "name a file"};
+    // What was looked at is what is opened, whatever has the name by now.
+    descriptor = ::open(behind.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    error = errno;
+  }
+  if (descriptor < 0 && (error == ENOENT || error == ENOTDIR))
+    return {.why = "no such file", .hint = hintForMissing(path)};
+  if (descriptor < 0) return {.why = std::strerror(error)};
+  const bool regular = S_ISREG(status.st_mode);
+  return {.descriptor = descriptor,
+          .endless = !regular,
+          .bytes = regular ? static_cast<std::uint64_t>(status.st_size) : 0};
+}
+
+// `place`, or the file itself.
+Where placeOr(const Place& place, const std::string& path) {
+  return isKnown(place) ? place : Place{std::make_shared<const std::string>(path)};
+}
+
 }  // namespace
+
+std::string absolutePath(const std::string& path) {
+  std::error_code ec;
+  const fs::path absolute = fs::absolute(path, ec);
+  std::string text = (ec ? fs::path(path) : absolute).lexically_normal().string();
+  while (text.size() > 1 && text.back() == '/') text.pop_back();
+  return text;
+}
 
 std::string besideFile(const Place& place, const std::string& path) {
   if (path.empty() || !place.file) return path;
-  return (std::filesystem::path(*place.file).parent_path() / path).lexically_normal().string();
+  return (fs::path(*place.file).parent_path() / path).lexically_normal().string();
 }
 
-std::optional<std::string> readFile(const std::string& path, Diagnostics& diagnostics, Code code,
-                                    const Place& place) {
-  return readFile(path, diagnostics, code, place, {});
+std::string dataFolder() {
+  if (const char* folder = std::getenv("WEFT_DATA")) return folder;
+  std::error_code ignored;
+  if (fs::is_directory(WEFT_DATA_SOURCE, ignored)) return WEFT_DATA_SOURCE;
+  return WEFT_DATA_INSTALLED;
 }
 
 std::optional<std::string> readFile(const std::string& path, Diagnostics& diagnostics, Code code,
                                     const Place& place, const ReadProgress& goOn) {
   const auto fail = [&](std::string_view reason, const std::string& hint) {
-    Place where = place;
-    if (!isKnown(where)) where.file = std::make_shared<const std::string>(path);
-    diagnostics.error(code, where, fmt::format("cannot read '{}': {}", path, reason)).hint = hint;
+    diagnostics.error(code, placeOr(place, path), fmt::format("cannot read '{}': {}", path, reason)).hint =
+        hint;
     return std::nullopt;
   };
-  if (const std::optional<Overlay> unsaved = overlayOf(path)) {
-    if (!mayRead(path)) {
-      reportOutside(path, diagnostics, place);
-      return std::nullopt;
-    }
+  const std::optional<Overlay> unsaved = overlayOf(path);
+  const Opened opened = unsaved ? Opened{.outside = !mayRead(path)} : openFile(path);
+  if (opened.outside) {
+    reportOutside(path, diagnostics, place);
+    return std::nullopt;
+  }
+  if (unsaved) {
     if (goOn && !goOn(unsaved->text->size(), unsaved->text->size())) return std::nullopt;
     return *unsaved->text;
   }
-  const OpenedFile opened = openFile(path);
-  switch (opened.state) {
-    case OpenedFile::State::open:
-      break;
-    case OpenedFile::State::outside:
-      reportOutside(path, diagnostics, place);
-      return std::nullopt;
-    case OpenedFile::State::missing:
-      if (path.empty()) return fail("the name is empty", "name a file");
-      return fail("no such file", hintForMissing(path));
-    case OpenedFile::State::directory:
-      return fail("it is a directory", "name a file inside it");
-    case OpenedFile::State::device:
-      return fail("it is a device", "name a file");
-    case OpenedFile::State::pipe:
-      return fail("it is a pipe", "name a file; only a path on the command line may be a pipe");
-    case OpenedFile::State::pipe_again:
-      return fail("it is a pipe, which can be read only once", "name a file, to have it read again");
-    case OpenedFile::State::socket:
-      return fail("it is a socket", "name a file");
-    case OpenedFile::State::unreadable:
-      return fail(std::strerror(opened.error), "");
-  }
-  const FilePtr file(::fdopen(opened.descriptor, "rb"));
-  if (!file) {
-    ::close(opened.descriptor);
-    return fail(std::strerror(ENOMEM), "");
-  }
-  if (opened.bytes > kMaxBytes) {
-    if (goOn && !goOn(0, opened.bytes)) return std::nullopt;
-    return fail("it is larger than 4 GiB", "name a smaller file");
-  }
+  const Descriptor file(opened.descriptor);
+  if (!file) return fail(opened.why, opened.hint);
   std::string bytes;
   char chunk[65536];
-  // Not fread: bytes of a slow pipe are reported as they come.
-  for (;;) {
-    if (opened.endless && !hasMore(opened.descriptor)) {
+  // Bytes of a slow pipe are reported as they come.
+  for (std::uint64_t size = opened.bytes;;) {
+    if (size > kMaxBytes && goOn && !goOn(bytes.size(), size)) return std::nullopt;
+    if (size > kMaxBytes) return fail("it is larger than 4 GiB", "name a smaller file");
+    if (opened.endless && !hasMore(file.get())) {
       if (goOn && !goOn(bytes.size(), 0)) return std::nullopt;
       continue;
     }
-    const ssize_t got = ::read(opened.descriptor, chunk, sizeof chunk);
+    const ssize_t got = ::read(file.get(), chunk, sizeof chunk);
     if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
     if (got < 0) return fail(std::strerror(errno), "");
-    if (got == 0) break;
+    if (got == 0) return bytes;
     bytes.append(chunk, static_cast<std::size_t>(got));
     if (goOn && !goOn(bytes.size(), opened.bytes)) return std::nullopt;
-    if (bytes.size() > kMaxBytes) return fail("it is larger than 4 GiB", "name a smaller file");
+    size = std::max<std::uint64_t>(size, bytes.size());
   }
+}
+
+void reportTooLarge(const Place& place, std::uint64_t bytes, Diagnostics& diagnostics) {
+  reportLimit(diagnostics, place, "the file is too large", kMaxTextBytes, "bytes of one JSON or .cube file",
+              bytes)
+      .found = fmt::format("{} bytes", bytes);
+}
+
+std::optional<std::string> readTextFile(const std::string& path, Diagnostics& diagnostics, Code code,
+                                        const Place& place) {
+  const std::uint64_t most = raised(kMaxTextBytes);
+  bool tooLarge = false;
+  std::uint64_t found = 0;  // of a pipe: so far
+  const auto within = [&](std::uint64_t bytes, std::uint64_t total) {
+    found = std::max(bytes, total);
+    tooLarge = found > most;
+    return !tooLarge;
+  };
+  std::optional<std::string> bytes = readFile(path, diagnostics, code, place, within);
+  if (tooLarge) reportTooLarge({std::make_shared<const std::string>(path), 0, 0}, found, diagnostics);
   return bytes;
 }
 
@@ -159,31 +291,111 @@ bool writeFile(const std::string& path, std::span<const char> bytes, Diagnostics
     return false;
   };
   std::error_code ec;
-  if (std::filesystem::is_directory(path, ec)) return fail("it is a directory");
+  if (fs::is_directory(path, ec)) return fail("it is a directory");
   // Behind a link stands the file that is meant.
-  const auto canonical = std::filesystem::canonical(path, ec);
+  const auto canonical = fs::canonical(path, ec);
   const std::string target = ec ? path : canonical.string();
-  const auto before = std::filesystem::status(target, ec);
+  const auto before = fs::status(target, ec);
   // A device or a pipe is written to, not replaced.
-  const bool special = std::filesystem::exists(before) && !std::filesystem::is_regular_file(before);
+  const bool special = fs::exists(before) && !fs::is_regular_file(before);
   const std::string temporary = special ? target : temporaryBeside(target);
-  FilePtr file(std::fopen(temporary.c_str(), "wb"));
+  std::FILE* file = std::fopen(temporary.c_str(), "wb");
   if (!file) return fail(std::strerror(errno));
   const bool written =
-      std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size() && std::fflush(file.get()) == 0;
+      std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() && std::fflush(file) == 0;
   const int error = errno;
-  file.reset();
+  std::fclose(file);
   ec.clear();
-  if (written && std::filesystem::is_regular_file(before))
-    std::filesystem::permissions(temporary, before.permissions(), ec);
+  if (written && fs::is_regular_file(before)) fs::permissions(temporary, before.permissions(), ec);
   ec.clear();
-  if (written && !special) std::filesystem::rename(temporary, target, ec);
+  if (written && !special) fs::rename(temporary, target, ec);
   if (!written || ec) {
     std::error_code ignored;
-    if (!special) std::filesystem::remove(temporary, ignored);
+    if (!special) fs::remove(temporary, ignored);
     return fail(written ? ec.message() : std::strerror(error));
   }
   return true;
+}
+
+void chooseFile(const std::string& path) {
+  if (path.empty()) return;
+  Access& all = access();
+  const std::lock_guard lock(all.mutex);
+  const std::string written = absolutePath(path);
+  ++all.chosen[written];
+  std::error_code ec;
+  if (fs::is_directory(written, ec)) addFolder(all, written);
+}
+
+std::optional<std::string> confineTo(const std::string& folder) {
+  std::error_code ec;
+  if (!fs::is_directory(folder, ec))
+    return fmt::format("expected a folder, found '{}', which is none", folder);
+  Access& all = access();
+  const std::lock_guard lock(all.mutex);
+  all.confined = true;
+  all.named.push_back(folder);
+  addFolder(all, folder);
+  return std::nullopt;
+}
+
+void allowFolder(const std::string& folder) {
+  if (folder.empty()) return;
+  Access& all = access();
+  const std::lock_guard lock(all.mutex);
+  addFolder(all, folder);
+}
+
+bool mayRead(const std::string& path) {
+  Access& all = access();
+  const std::lock_guard lock(all.mutex);
+  if (!all.confined) return true;
+  const std::string absolute = absolutePath(path);
+  return all.chosen.contains(absolute) || isInside(all, absolute, realOf(absolute));
+}
+
+void reportOutside(const std::string& path, Diagnostics& diagnostics, const Place& place) {
+  std::vector<std::string> folders;
+  {
+    Access& all = access();
+    const std::lock_guard lock(all.mutex);
+    for (const std::string& each : all.named) folders.push_back(fmt::format("'{}'", each));
+  }
+  Diagnostic& d =
+      diagnostics.error(Code::outsideConfinement, placeOr(place, path),
+                        fmt::format("'{}' leads out of the folders that this run is confined to", path));
+  d.expected = fmt::format("a path that stays, with links followed, in {} or in Weft's own data",
+                           fmt::join(folders, ", "));
+  d.hint = "move the file into one of them, or allow its folder with --confine FOLDER";
+}
+
+void resetFileAccess() {
+  Access& all = access();
+  const std::lock_guard lock(all.mutex);
+  all.confined = false;
+  all.named.clear();
+  all.folders.clear();
+  all.chosen.clear();
+}
+
+void overlayFile(const std::string& path, std::string text) {
+  Access& all = access();
+  const std::lock_guard lock(all.mutex);
+  all.overlays[absolutePath(path)] = {std::make_shared<const std::string>(std::move(text)), ++all.overlaid};
+}
+
+void dropOverlay(const std::string& path) {
+  Access& all = access();
+  const std::lock_guard lock(all.mutex);
+  all.overlays.erase(absolutePath(path));
+}
+
+std::optional<Overlay> overlayOf(const std::string& path) {
+  Access& all = access();
+  const std::lock_guard lock(all.mutex);
+  if (all.overlays.empty()) return std::nullopt;
+  const auto found = all.overlays.find(absolutePath(path));
+  return found == all.overlays.end() ? std::nullopt : std::optional(found->second);
 }
 
 }  // namespace weft::text

@@ -11,6 +11,8 @@
 #include <memory>
 #include <utility>
 
+#include "engine/text/files/file.h"
+
 namespace weft::text {
 
 namespace fs = std::filesystem;
@@ -20,12 +22,6 @@ namespace {
 // IN_CREATE: links and folders; a file that is made and written ends with IN_CLOSE_WRITE.
 constexpr std::uint32_t kEvents = IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE | IN_DELETE | IN_MOVED_FROM |
                                   IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR;
-
-std::string watchedPath(const std::string& path) {
-  std::error_code ec;
-  const fs::path absolute = fs::absolute(path, ec);
-  return (ec ? fs::path(path) : absolute).lexically_normal().string();
-}
 
 bool holdsSomething(const std::string& path) {
   std::error_code ec;
@@ -58,62 +54,47 @@ void FileWatcher::arm() {
   folders_.clear();
   watched_.clear();
   awaited_.clear();
-  std::map<int, std::vector<std::string>> failed;
   for (const std::string& file : files_) {
-    const std::string absolute = watchedPath(file);
-    int error = armFile(absolute, file);
+    const std::string absolute = absolutePath(file);
+    armFile(absolute, file);
     std::error_code ec;
     if (const fs::path real = fs::canonical(absolute, ec); !ec && real.string() != absolute)
-      error = std::max(error, armFile(real.string(), file));
-    if (error != 0) failed[error].push_back(file);
+      armFile(real.string(), file);
   }
-  for (const auto& [error, files] : failed) tell(error, files);
   for (const auto& [watch, names] : before)
     if (!folders_.contains(watch)) ::inotify_rm_watch(descriptor_, watch);
 }
 
-int FileWatcher::armFile(const std::string& absolute, const std::string& given) {
-  if (descriptor_ < 0) return error_;
+void FileWatcher::armFile(const std::string& absolute, const std::string& given) {
+  if (descriptor_ < 0) return tell(error_, given);
   watched_[absolute].insert(given);
   fs::path folder = fs::path(absolute).parent_path();
   for (;;) {
     const int watch = ::inotify_add_watch(descriptor_, folder.c_str(), kEvents);
     if (watch >= 0) {
       folders_[watch].insert(folder.string());
-      return 0;
+      return;
     }
     const bool missing = errno == ENOENT || errno == ENOTDIR;
-    if (!missing || folder == folder.parent_path()) return errno;
+    if (!missing || folder == folder.parent_path()) return tell(errno, given);
     awaited_.insert(folder.string());
     folder = folder.parent_path();
   }
 }
 
-void FileWatcher::tell(int error, const std::vector<std::string>& files) {
-  if (!told_.insert(error).second) return;
-  Diagnostic d{.severity = Severity::note,
-               .code = Code::filesNotWatched,
-               .message = fmt::format("changes of '{}'{} are not seen", files.front(),
-                                      files.size() == 1 ? "" : fmt::format(" and {} more", files.size() - 1)),
-               .place = {std::make_shared<const std::string>(files.front())}};
-  d.found = fmt::format("{}: {}", descriptor_ < 0 ? "no inotify instance" : "no inotify watch for its folder",
-                        std::strerror(error));
-  d.hint = error == EACCES ? "give yourself the right to read the folder"
-                           : fmt::format(
-                                 "end other programs that watch files, or raise fs.inotify.max_user_{} with "
-                                 "sysctl",
-                                 descriptor_ < 0 ? "instances" : "watches");
-  notices_.add(std::move(d));
+void FileWatcher::tell(int error, const std::string& file) {
+  if (std::exchange(told_, true)) return;
+  Diagnostic& d = notices_.add({.severity = Severity::note,
+                                .code = Code::filesNotWatched,
+                                .message = fmt::format("changes of '{}' are not seen", file),
+                                .place = {std::make_shared<const std::string>(file)}});
+  d.found = fmt::format("inotify: {}", std::strerror(error));
+  d.hint =
+      "make its folder readable, or raise fs.inotify.max_user_watches and max_user_instances with sysctl";
 }
 
 Diagnostics FileWatcher::takeNotices() {
   return std::exchange(notices_, {});
-}
-
-void FileWatcher::note(const std::string& path, bool created) {
-  const auto found = watched_.find(path);
-  if (found == watched_.end() || (created && !holdsSomething(path))) return;
-  changed_.insert(found->second.begin(), found->second.end());
 }
 
 std::vector<std::string> FileWatcher::poll() {
@@ -136,7 +117,9 @@ std::vector<std::string> FileWatcher::poll() {
       for (const std::string& each : folder->second) {
         const std::string path = (fs::path(each) / name).string();
         again |= awaited_.contains(path);
-        note(path, (event.mask & IN_CREATE) != 0);
+        const auto found = watched_.find(path);
+        if (found != watched_.end() && (!(event.mask & IN_CREATE) || holdsSomething(path)))
+          changed_.insert(found->second.begin(), found->second.end());
       }
     }
   }

@@ -33,19 +33,17 @@ class FileWatcher {
   // The names, as given to watch(), of the files that changed; each once, sorted. Never blocks.
   std::vector<std::string> poll();
 
-  // What is not watched, and why (W205), as notes; each reason once in the life of this.
+  // A file that is not watched, and why (W205), as a note; once in the life of this.
   Diagnostics takeNotices();
 
  private:
   void arm();
-  // 0, or why not (errno).
-  int armFile(const std::string& absolute, const std::string& given);
-  void tell(int error, const std::vector<std::string>& files);
-  void note(const std::string& path, bool created);
+  void armFile(const std::string& absolute, const std::string& given);
+  void tell(int error, const std::string& file);
 
   int descriptor_ = -1;
-  int error_ = 0;       // why there is no descriptor
-  std::set<int> told_;  // errors
+  int error_ = 0;  // why there is no descriptor
+  bool told_ = false;
   Diagnostics notices_;
   std::vector<std::string> files_;                // as given
   std::map<int, std::set<std::string>> folders_;  // by watch descriptor; more than one name through links

@@ -83,21 +83,6 @@ std::size_t offsetOf(std::string_view text, const Place& place);
 const JsonValue& valueAt(const JsonValue& root, std::size_t at);
 std::string pointerAt(const JsonValue& root, std::size_t at);
 
-// Gives each diagnostic about this text that is reported while it lives, and has none, the pointer of its place.
-class PointerScope {
- public:
-  PointerScope(const std::string& file, std::string_view text, Diagnostics& diagnostics)
-      : file_(file), text_(text), diagnostics_(diagnostics) {}
-  ~PointerScope();
-  PointerScope(const PointerScope&) = delete;
-  PointerScope& operator=(const PointerScope&) = delete;
-
- private:
-  const std::string file_;
-  const std::string_view text_;
-  Diagnostics& diagnostics_;
-};
-
 // "an object", "a string": for "expected" and "found".
 const char* nameOf(JsonValue::Type type);
 // "the number 3", "the string \"high\"", "an object": what stands in the file, shortened.

@@ -6,8 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "engine/text/chars.h"
-
 namespace weft::text {
 
 namespace {
@@ -35,49 +33,34 @@ JsonEdit::JsonEdit(std::string_view text) : text_(text), tree_(parseJsonTree(tex
   good_ = parseJson(text, nullptr, said) && !said.hasErrors();
 }
 
-std::size_t JsonEdit::skipBlank(std::size_t at) const {
-  for (;;) {
-    const std::size_t end = tree_.behindComment(at);
-    if (end == at && (at >= text_.size() || !isSpace(text_[at]))) return at;
-    at = std::max(end, at + 1);
-  }
-}
-
-std::size_t JsonEdit::restOfLine(std::size_t at) const {
-  std::size_t end = at;
-  while (end < text_.size() && text_[end] != '\n') {
-    const std::size_t comment = tree_.behindComment(end);
-    if (comment == end && !isSpace(text_[end])) return at;
-    if (text_.substr(end, comment - end).find('\n') != std::string_view::npos) return at;
-    end = std::max(comment, end + 1);
-  }
-  if (end == text_.size()) return at;
-  return end > at && text_[end - 1] == '\r' ? end - 1 : end;
-}
-
 std::string JsonEdit::putBehind(const std::vector<ByteRange>& elements, std::size_t index,
                                 const std::string& added) const {
   const auto ownLine = [&](const ByteRange& e) { return beginsLine(text_, e.begin); };
   const bool lines = std::all_of(elements.begin(), elements.end(), ownLine);
   const ByteRange& before = elements[index];
-  const bool last = index + 1 == elements.size();
   std::string out(text_);
-  if (!lines) {
-    out.insert(before.end, ", " + added);
-    return out;
-  }
+  if (!lines) return out.insert(before.end, ", " + added);
   const std::string newline = text_.find("\r\n") != std::string_view::npos ? "\r\n" : "\n";
   const std::string line = newline + std::string(indentOf(text_, before.begin)) + added;
-  // A comment behind the element stays with it.
-  const std::size_t comma = last ? before.end : skipBlank(before.end) + 1;
-  const std::size_t end = restOfLine(comma);
-  if (end == comma && text_[end] != '\n' && text_[end] != '\r') {
-    out.insert(before.end, "," + line);
-  } else {
-    out.insert(end, last ? line : line + ",");
-    if (last) out.insert(before.end, ",");
+  // Behind the element, its comma and the comments in its line, which stay with it.
+  std::size_t end = before.end;
+  bool comma = false;
+  for (;;) {
+    const char c = end < text_.size() ? text_[end] : '\0';
+    const std::size_t comment = tree_.behindComment(end);
+    if (comment > end && text_.substr(end, comment - end).find('\n') == std::string_view::npos)
+      end = comment;
+    else if (c == ' ' || c == '\t' || (c == ',' && !comma))
+      ++end;
+    else
+      break;
+    comma = comma || c == ',';
   }
-  return out;
+  const bool last = index + 1 == elements.size();
+  if (end == text_.size() || (text_[end] != '\n' && text_[end] != '\r') || comma == last)
+    return out.insert(before.end, "," + line);
+  out.insert(end, last ? line : line + ",");
+  return last ? out.insert(before.end, ",") : out;
 }
 
 std::string JsonEdit::withValue(const JsonValue& value, std::string_view json) const {

@@ -33,10 +33,6 @@ class JsonEdit {
   std::string withItem(const JsonValue& array, std::string_view json) const;
 
  private:
-  // Behind white space and comments.
-  std::size_t skipBlank(std::size_t at) const;
-  // From `at` only blanks and comments until the line ends: that end (before "\r\n" or "\n"), else `at`.
-  std::size_t restOfLine(std::size_t at) const;
   // `added` behind element `index` of the elements of a container, of which there is one at least.
   std::string putBehind(const std::vector<ByteRange>& elements, std::size_t index,
                         const std::string& added) const;

@@ -12,14 +12,10 @@ namespace weft::text {
 namespace {
 
 std::string describeRange(const NumberRange& range) {
-  const char* noun = range.whole ? "a whole number" : "a number";
-  const bool low = std::isfinite(range.min), high = std::isfinite(range.max);
-  if (low && high)
-    return fmt::format("{} {} {} {} {}", noun, range.aboveMin ? "over" : "from", range.min,
-                       range.aboveMin ? "up to" : "to", range.max);
-  if (low) return fmt::format("{} {} {}", noun, range.aboveMin ? "over" : "of at least", range.min);
-  if (high) return fmt::format("{} of at most {}", noun, range.max);
-  return noun;
+  std::string text = range.whole ? "a whole number" : "a number";
+  if (std::isfinite(range.min)) text += fmt::format(" {} {}", range.aboveMin ? "over" : "from", range.min);
+  if (std::isfinite(range.max)) text += fmt::format(" up to {}", range.max);
+  return text;
 }
 
 Diagnostic& reportType(const JsonValue& value, std::string_view name, Diagnostics& diagnostics,
@@ -58,8 +54,7 @@ std::optional<std::array<double, 3>> readTriple(const JsonValue& value, std::str
                                                 const NumberRange& range, Code rangeCode,
                                                 Diagnostics& diagnostics) {
   if (!value.is(JsonValue::Type::array) || value.items.size() != 3) {
-    Diagnostic& d = reportType(value, name, diagnostics, "an array of three numbers");
-    if (value.is(JsonValue::Type::array)) d.found = fmt::format("an array of {}", value.items.size());
+    reportType(value, name, diagnostics, "an array of three numbers");
     return {};
   }
   std::array<double, 3> numbers{};
@@ -90,13 +85,18 @@ JsonFields::JsonFields(const JsonValue& object, std::string what, Code rangeCode
   expectType(object, what_, JsonValue::Type::object, diagnostics);
 }
 
-std::string JsonFields::nameOfMember(std::string_view key) const {
+std::string JsonFields::nameOf(std::string_view key) const {
   return fmt::format("'{}' of {}", key, what_);
 }
 
 const JsonValue* JsonFields::find(std::string_view key) {
-  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
+  if (std::ranges::find(known_, key) == known_.end()) known_.emplace_back(key);
   return object_.find(key);
+}
+
+const JsonValue* JsonFields::find(std::string_view key, JsonValue::Type type) {
+  const JsonValue* value = find(key);
+  return value && expectType(*value, nameOf(key), type, diagnostics_) ? value : nullptr;
 }
 
 void JsonFields::require(std::initializer_list<std::string_view> keys) {
@@ -111,43 +111,27 @@ void JsonFields::require(std::initializer_list<std::string_view> keys) {
 
 std::optional<double> JsonFields::number(std::string_view key, const NumberRange& range) {
   const JsonValue* value = find(key);
-  if (!value) return {};
-  return readNumber(*value, nameOfMember(key), range, rangeCode_, diagnostics_);
-}
-
-std::optional<bool> JsonFields::boolean(std::string_view key) {
-  const JsonValue* value = find(key);
-  if (!value || !expectType(*value, nameOfMember(key), JsonValue::Type::boolean, diagnostics_)) return {};
-  return value->flag;
-}
-
-std::optional<std::string> JsonFields::text(std::string_view key) {
-  const JsonValue* value = find(key);
-  if (!value) return {};
-  return readText(*value, nameOfMember(key), diagnostics_);
+  return value ? readNumber(*value, nameOf(key), range, rangeCode_, diagnostics_) : std::nullopt;
 }
 
 std::optional<std::array<double, 3>> JsonFields::triple(std::string_view key, const NumberRange& range) {
   const JsonValue* value = find(key);
-  if (!value) return {};
-  return readTriple(*value, nameOfMember(key), range, rangeCode_, diagnostics_);
+  return value ? readTriple(*value, nameOf(key), range, rangeCode_, diagnostics_) : std::nullopt;
 }
 
-const JsonValue* JsonFields::object(std::string_view key) {
-  const JsonValue* value = find(key);
-  return value && expectType(*value, nameOfMember(key), JsonValue::Type::object, diagnostics_) ? value
-                                                                                               : nullptr;
+std::optional<bool> JsonFields::boolean(std::string_view key) {
+  const JsonValue* value = find(key, JsonValue::Type::boolean);
+  return value ? std::optional(value->flag) : std::nullopt;
 }
 
-const JsonValue* JsonFields::array(std::string_view key) {
-  const JsonValue* value = find(key);
-  return value && expectType(*value, nameOfMember(key), JsonValue::Type::array, diagnostics_) ? value
-                                                                                              : nullptr;
+std::optional<std::string> JsonFields::text(std::string_view key) {
+  const JsonValue* value = find(key, JsonValue::Type::string);
+  return value ? std::optional(value->text) : std::nullopt;
 }
 
 void JsonFields::finish() {
   for (const JsonMember& member : object_.members) {
-    if (std::find(known_.begin(), known_.end(), member.key) != known_.end()) continue;
+    if (std::ranges::find(known_, member.key) != known_.end()) continue;
     Diagnostic& d = diagnostics_.error(Code::unknownKey, member.place,
                                        fmt::format("{} has no key '{}'", what_, member.key));
     d.hint = nearestHint(member.key, known_);

@@ -1,6 +1,6 @@
 // Reads the members of a JSON object by key. A key that was asked for is known; finish() reports all other keys as
 // W004, with the nearest known name. An absent key yields nothing. A wrong value is reported (W003, or the range
-// code given to the constructor) and yields nothing, too. Does not: hold defaults, or know what the keys mean.
+// code given to the constructor) and yields nothing, too.
 #pragma once
 
 #include <array>
@@ -46,18 +46,19 @@ class JsonFields {
   void require(std::initializer_list<std::string_view> keys);
 
   std::optional<double> number(std::string_view key, const NumberRange& range = {});
+  std::optional<std::array<double, 3>> triple(std::string_view key, const NumberRange& range = {});
   std::optional<bool> boolean(std::string_view key);
   std::optional<std::string> text(std::string_view key);
-  std::optional<std::array<double, 3>> triple(std::string_view key, const NumberRange& range = {});
   // A member that must be an object or an array, or null.
-  const JsonValue* object(std::string_view key);
-  const JsonValue* array(std::string_view key);
+  const JsonValue* object(std::string_view key) { return find(key, JsonValue::Type::object); }
+  const JsonValue* array(std::string_view key) { return find(key, JsonValue::Type::array); }
 
   // Reports every key that was not asked for. "$schema" is always known.
   void finish();
 
  private:
-  std::string nameOfMember(std::string_view key) const;
+  const JsonValue* find(std::string_view key, JsonValue::Type type);
+  std::string nameOf(std::string_view key) const;
 
   const JsonValue& object_;
   std::string what_;

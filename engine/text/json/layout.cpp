@@ -14,6 +14,8 @@ constexpr int kColumns = 120;
 constexpr int kStep = 2;
 // Names of one table are padded to the longest, unless that is so much longer than the shortest.
 constexpr int kMaxPadding = 12;
+// The member of the document whose numbers and words share lines.
+constexpr std::string_view kPacked = "\"set\": ";
 
 struct Comment {
   std::string_view text;  // with its slashes, without a line end
@@ -29,25 +31,25 @@ struct Item;
 struct Node {
   enum class Kind : unsigned char { scalar, object, array };
   Kind kind = Kind::scalar;
-  std::string_view text;          // of a scalar
+  std::string line;               // all of it on one line; empty when it cannot be
   std::vector<Item> items;        // of an object or an array
   std::vector<Comment> dangling;  // in front of the closing bracket
-  int width = 0;                  // on one line; kBroken: it cannot be
-  bool commented = false;         // inside
   bool isContainer() const { return kind != Kind::scalar; }
 };
 
 // A member of an object or an item of an array.
 struct Item {
   std::vector<Comment> leading;  // in front of it
-  std::string_view key;          // with its quotes; empty in an array
+  std::string key;               // with its quotes and the colon, "\"name\": "; empty in an array
   Node value;
   std::vector<Comment> trailing;  // behind it, on its last line
   bool blankBefore = false;       // between the leading comments, or what is before, and the key or value
-  int width = 0;                  // as that of a node, with key and comments
+  std::string line;               // as that of a node, with key and comments
 };
 
-constexpr int kBroken = 1'000'000;
+bool endsLine(const Item& item) {
+  return std::ranges::any_of(item.trailing, &Comment::endsLine);
+}
 
 struct Document {
   std::vector<Comment> before, after;
@@ -113,11 +115,11 @@ class Arranger {
       out.kind = value.is(JsonValue::Type::object) ? Node::Kind::object : Node::Kind::array;
       at_ = value.begin + 1;
       items(value, out);
+      out.line = lineOf(out);
     } else {
-      out.text = text_.substr(value.begin, value.end - value.begin);
+      out.line = text_.substr(value.begin, value.end - value.begin);
     }
     at_ = value.end;
-    measure(out);
     return out;
   }
 
@@ -129,13 +131,14 @@ class Arranger {
       item.leading = std::move(leading);
       item.blankBefore = blank;
       if (member) {
-        item.key = text_.substr(member->begin, member->end - member->begin);
+        item.key = std::string(text_.substr(member->begin, member->end - member->begin)) + ": ";
         bool ignored = false;
         for (at_ = member->end; at_ < child.begin; ++at_)  // around the colon
           for (const Comment& each : comments(ignored)) item.leading.push_back(each);
       }
       item.value = node(child);
       leading = behind(item, blank);
+      item.line = lineOf(item);
     };
     for (const JsonMember& member : value.members) add(&member, member.value);
     for (const JsonValue& each : value.items) add(nullptr, each);
@@ -165,7 +168,7 @@ class Arranger {
       } else if (atComment()) {
         const bool ended = !item.trailing.empty() && item.trailing.back().endsLine();
         Comment found = comment();
-        const bool own = next.empty() && lines == 0 && !ended && (!comma || restIsComments());
+        const bool own = next.empty() && lines == 0 && !ended && (!comma || found.toLineEnd());
         const int after = skipSpace();
         found.blankBefore = !own && lines > 1;
         (own ? item.trailing : next).push_back(found);
@@ -178,43 +181,27 @@ class Arranger {
     return next;
   }
 
-  // Up to the end of the line.
-  bool restIsComments() const {
-    for (std::size_t at = at_; at < text_.size() && text_[at] != '\n';) {
-      const std::size_t end = tree_.behindComment(at);
-      if (end == at && !isSpace(text_[at])) return false;
-      if (text_.substr(at, 2) == "//") return true;
-      at = std::max(end, at + 1);
-    }
-    return true;
+  static std::string lineOf(const Item& item) {
+    if (item.value.line.empty() || std::ranges::any_of(item.leading, &Comment::endsLine) || endsLine(item))
+      return {};
+    std::string line;
+    for (const Comment& each : item.leading) (line += each.text) += ' ';
+    line += item.key + item.value.line;
+    for (const Comment& each : item.trailing) (line += ' ') += each.text;
+    return line;
   }
 
-  static int add(int a, int b) { return std::min(a + b, kBroken); }
-
-  static int widthOn(const std::vector<Comment>& comments) {
-    int width = 0;
-    for (const Comment& each : comments)
-      width = add(width, each.endsLine() ? kBroken : widthOf(each.text) + 1);
-    return width;
-  }
-
-  static void measure(Node& node) {
-    if (!node.isContainer()) {
-      node.width = widthOf(node.text);
-      return;
-    }
+  static std::string lineOf(const Node& node) {
+    if (!node.dangling.empty()) return {};
     const bool object = node.kind == Node::Kind::object;
-    node.width = node.items.empty() ? 2 : object ? 4 : 2;
-    if (!node.dangling.empty()) node.width = kBroken;
-    node.commented = !node.dangling.empty() || std::ranges::any_of(node.items, [](const Item& item) {
-      return !item.leading.empty() || !item.trailing.empty() || item.value.commented;
-    });
-    for (Item& item : node.items) {
-      const int before = add(widthOn(item.leading), item.key.empty() ? 0 : widthOf(item.key) + 2);
-      item.width = add(add(before, item.value.width), widthOn(item.trailing));
-      node.width = add(node.width, item.width);
+    if (node.items.empty()) return object ? "{}" : "[]";
+    std::string line = object ? "{ " : "[";
+    for (const Item& item : node.items) {
+      if (item.line.empty()) return {};
+      if (&item != &node.items.front()) line += ", ";
+      line += item.line;
     }
-    if (node.items.size() > 1) node.width = add(node.width, 2 * (static_cast<int>(node.items.size()) - 1));
+    return line + (object ? " }" : "]");
   }
 
   const std::string_view text_;
@@ -236,18 +223,13 @@ bool holdsContainers(const Node& node) {
   return std::ranges::any_of(node.items, [](const Item& item) { return item.value.isContainer(); });
 }
 
-bool endsLine(const Item& item) {
-  return std::ranges::any_of(item.trailing, &Comment::endsLine);
-}
-
-bool isOneOf(const std::vector<std::string_view>& names, std::string_view key) {
-  return key.size() > 2 && std::ranges::find(names, key.substr(1, key.size() - 2)) != names.end();
+// The first of these in an object of several lines begins a line.
+bool starts(const Item& item) {
+  return item.key == "\"read\": " || item.key == "\"write\": " || item.key == "\"modify\": ";
 }
 
 class Writer {
  public:
-  explicit Writer(const LayoutRules& rules) : rules_(rules) {}
-
   std::string write(const Document& document) {
     for (const Comment& each : document.before) ownLine(each, 0);
     if (document.blankBefore && !document.before.empty()) out_ += '\n';
@@ -263,7 +245,7 @@ class Writer {
     int depth;             // 0: the document
     int indent;            // column of what is around it
     int tail;              // characters that follow on its last line
-    std::string_view key;  // of the member, with its quotes
+    std::string_view key;  // of the member, as that of an item
   };
 
   // ---- text ----
@@ -288,35 +270,6 @@ class Writer {
     newLine();
   }
 
-  // ---- one line ----
-
-  void flat(const Node& node) {
-    if (!node.isContainer()) {
-      out_ += node.text;
-      return;
-    }
-    const bool object = node.kind == Node::Kind::object, empty = node.items.empty();
-    out_ += object ? '{' : '[';
-    if (object && !empty) out_ += ' ';
-    for (std::size_t i = 0; i < node.items.size(); ++i) {
-      if (i > 0) out_ += ", ";
-      flat(node.items[i]);
-    }
-    if (object && !empty) out_ += ' ';
-    out_ += object ? '}' : ']';
-  }
-
-  void key(const Item& item) {
-    if (!item.key.empty()) (out_ += item.key) += ": ";
-  }
-
-  void flat(const Item& item) {
-    for (const Comment& each : item.leading) (out_ += each.text) += ' ';
-    key(item);
-    flat(item.value);
-    for (const Comment& each : item.trailing) (out_ += ' ') += each.text;
-  }
-
   // ---- several lines ----
 
   // A section of the document that holds several entries with keys of their own has a line for each.
@@ -333,20 +286,18 @@ class Writer {
 
   void value(const Node& node, const Place& place) {
     const bool broken = isTable(node, place) || isGrouped(node, place);
-    if (!broken && node.width < kBroken && column() + node.width + place.tail <= kColumns) return flat(node);
-    if (!node.isContainer())
-      flat(node);
+    if (!node.isContainer() ||
+        (!broken && !node.line.empty() && column() + widthOf(node.line) + place.tail <= kColumns))
+      out_ += node.line;
     else if (place.depth <= 1 || node.items.empty())
       block(node, place);
-    else if (node.kind == Node::Kind::object && !place.key.empty() && holdsObjects(node))
-      openBlock(node, place);
     else
-      hanging(node, place);
+      hanging(node, place, node.kind == Node::Kind::object && !place.key.empty() && holdsObjects(node));
   }
 
   // Each entry on a line of its own; the closing bracket too.
   void block(const Node& node, const Place& place) {
-    const bool object = node.kind == Node::Kind::object, packs = !object || isOneOf(rules_.packed, place.key);
+    const bool object = node.kind == Node::Kind::object, packs = !object || place.key == kPacked;
     const int indent = place.indent + kStep;
     out_ += object ? '{' : '[';
     newLine();
@@ -357,17 +308,16 @@ class Writer {
       if (i > 0 && packs && mayFollow(node.items[i - 1], item, last)) {
         out_.back() = ' ';  // was the line end
       } else {
-        if (startsBlank(item) && i > 0) newLine();
-        leadingLines(item, indent, last);
+        for (const Comment& each : item.leading) ownLine(each, indent);
+        if (item.blankBefore) newLine();
         out_.append(static_cast<std::size_t>(indent), ' ');
       }
       if (place.depth == 1 && !(object && packs) && (i == 0 || startsBlank(item)))
         pad = paddingOf(std::span(node.items).subspan(i));
-      entry(item, {.depth = place.depth + 1, .indent = indent, .tail = last ? 0 : 1, .key = item.key}, pad);
-      if (movesUp(item, indent, last))
-        comma(last);
-      else
-        trailing(item, last);
+      out_ += item.key;
+      if (!item.key.empty()) out_.append(static_cast<std::size_t>(std::max(pad - widthOf(item.key), 0)), ' ');
+      value(item.value, {.depth = place.depth + 1, .indent = indent, .tail = last ? 0 : 1, .key = item.key});
+      trailing(item, last);
       newLine();
     }
     for (const Comment& each : node.dangling) ownLine(each, indent);
@@ -378,40 +328,14 @@ class Writer {
   // Whether the item goes on the line that was just ended, which holds one like it.
   bool mayFollow(const Item& before, const Item& item, bool last) const {
     const auto isPlain = [](const Item& each) {
-      return each.width <= kColumns && !holdsContainers(each.value) && each.value.kind != Node::Kind::object;
+      return !each.line.empty() && !holdsContainers(each.value) && each.value.kind != Node::Kind::object;
     };
     if (!isPlain(before) || !isPlain(item) || endsLine(before) || !item.leading.empty() || startsBlank(item))
       return false;
-    const std::size_t end = out_.size() - 1;
-    return widthOf(std::string_view(out_).substr(out_.rfind('\n', end - 1) + 1)) - 1 + 1 + item.width +
+    const std::size_t end = out_.size() - 1;  // the line end, where a blank would be
+    return widthOf(std::string_view(out_).substr(out_.rfind('\n', end - 1) + 1)) + widthOf(item.line) +
                (last ? 0 : 1) <=
            kColumns;
-  }
-
-  // A comment for which the line of its entry is too short stands in front of it.
-  static bool movesUp(const Item& item, int indent, bool last) {
-    if (item.trailing.size() != 1 || !item.trailing.back().toLineEnd() || item.value.commented) return false;
-    const int entry =
-        indent + (item.key.empty() ? 0 : widthOf(item.key) + 2) + item.value.width + (last ? 0 : 1);
-    return entry <= kColumns && entry + 1 + widthOf(item.trailing.back().text) > kColumns;
-  }
-
-  void leadingLines(const Item& item, int indent, bool last) {
-    for (std::size_t i = 0; i < item.leading.size(); ++i) {
-      Comment each = item.leading[i];
-      if (i == 0) each.blankBefore = false;
-      ownLine(each, indent);
-    }
-    if (item.blankBefore && !item.leading.empty()) newLine();
-    if (movesUp(item, indent, last)) ownLine({item.trailing.back().text, false}, indent);
-  }
-
-  // The key, padded to a column of the table, and the value.
-  void entry(const Item& item, const Place& place, int pad) {
-    key(item);
-    if (pad > 0 && !item.key.empty())
-      out_.append(static_cast<std::size_t>(std::max(pad - widthOf(item.key), 0)), ' ');
-    value(item.value, place);
   }
 
   // The width of the longest key in the rows up to the next blank line, where some values are objects or
@@ -428,13 +352,17 @@ class Writer {
     return table && longest - shortest <= kMaxPadding ? longest : 0;
   }
 
-  // The first entry behind the bracket, the others below it, as many to a line as there is room for.
-  void hanging(const Node& node, const Place& place) {
+  // The first entry behind the bracket, the others below it, as many to a line as there is room for. Objects of `rows` have lines
+  // of their own below the key, and the closing bracket behind the last.
+  void hanging(const Node& node, const Place& place, bool rows) {
     const bool object = node.kind == Node::Kind::object;
-    const int bracket = column(), indent = bracket + (object ? kStep : 1);
-    out_ += object ? "{ " : "[";
+    const int bracket = rows ? place.indent : column(), indent = bracket + (object ? kStep : 1);
+    out_ += !object ? "[" : rows ? "{" : "{ ";
+    if (rows) newLine(indent);
     fill(node, {.depth = place.depth, .indent = indent, .tail = place.tail + (object ? 2 : 1), .key = {}},
-         place.key.empty() && object ? Fill::stanza : Fill::packed);
+         rows                          ? Fill::rows
+         : place.key.empty() && object ? Fill::stanza
+                                       : Fill::packed);
     if (!node.dangling.empty() || (!node.items.empty() && endsLine(node.items.back()))) {
       newLine();
       for (const Comment& each : node.dangling) ownLine(each, indent);
@@ -443,22 +371,6 @@ class Writer {
       out_ += ' ';
     }
     out_ += object ? '}' : ']';
-  }
-
-  // Objects of their own lines below the key; the closing bracket behind the last.
-  void openBlock(const Node& node, const Place& place) {
-    const int indent = place.indent + kStep;
-    out_ += '{';
-    newLine(indent);
-    fill(node, {.depth = place.depth, .indent = indent, .tail = place.tail + 2, .key = {}}, Fill::rows);
-    if (!node.dangling.empty() || endsLine(node.items.back())) {
-      newLine();
-      for (const Comment& each : node.dangling) ownLine(each, indent);
-      out_.append(static_cast<std::size_t>(place.indent), ' ');
-    } else {
-      out_ += ' ';
-    }
-    out_ += '}';
   }
 
   // packed: as many entries to a line as there is room for. stanza: likewise, but with a line end in front of
@@ -474,16 +386,16 @@ class Writer {
       const Item& item = node.items[i];
       const bool last = i + 1 == node.items.size(), object = item.value.kind == Node::Kind::object;
       const int tail = last ? place.tail : 1;
-      const bool fits = item.width < kBroken &&
+      const bool fits = !item.line.empty() &&
                         !isGrouped(item.value, {.depth = place.depth + 1, .indent = 0, .tail = 0, .key = {}});
       bool fresh = i == 0;
       if (i > 0) {
         const bool blank = grouped && startsBlank(item);
         const bool ownLines = std::ranges::any_of(item.leading, &Comment::endsLine);
-        const bool start = !started && isOneOf(rules_.starts, item.key);
+        const bool start = !started && starts(item);
         const bool row = object && (how == Fill::rows || head);
         fresh = alone || blank || ownLines || row || start || !fits ||
-                column() + 1 + item.width + tail > kColumns;
+                column() + 1 + widthOf(item.line) + tail > kColumns;
         if (blank) newLine();
         if (fresh)
           newLine(place.indent);
@@ -491,7 +403,7 @@ class Writer {
           out_ += ' ';
       }
       head = head && !object;
-      started = started || isOneOf(rules_.starts, item.key);
+      started = started || starts(item);
       for (const Comment& each : item.leading) {
         out_ += each.text;
         if (each.endsLine())
@@ -500,7 +412,7 @@ class Writer {
           out_ += ' ';
       }
       const int before = static_cast<int>(out_.size());
-      key(item);
+      out_ += item.key;
       value(item.value, {.depth = place.depth + 1, .indent = place.indent, .tail = tail, .key = item.key});
       const bool lines = std::string_view(out_).substr(static_cast<std::size_t>(before)).find('\n') !=
                          std::string_view::npos;
@@ -509,33 +421,28 @@ class Writer {
     }
   }
 
-  void comma(bool last) {
-    if (!last) out_ += ',';
-  }
-
   // What would swallow the comma stands behind it.
   void trailing(const Item& item, bool last) {
     for (const Comment& each : item.trailing)
       if (!each.toLineEnd()) (out_ += ' ') += each.text;
-    comma(last);
+    if (!last) out_ += ',';
     for (const Comment& each : item.trailing)
       if (each.toLineEnd()) (out_ += ' ') += each.text;
   }
 
-  const LayoutRules& rules_;
   std::string out_;
 };
 
 }  // namespace
 
-std::string layoutJson(std::string_view text, const LayoutRules& rules) {
+std::string layoutJson(std::string_view text) {
   const bool marked = text.starts_with(kByteOrderMark);
   if (marked) text.remove_prefix(kByteOrderMark.size());
   const std::size_t end = text.find('\n');
   const bool carriage = end != std::string_view::npos && end > 0 && text[end - 1] == '\r';
   std::string plain(text);
   std::erase(plain, '\r');
-  const std::string laid = Writer(rules).write(Arranger(plain).run());
+  const std::string laid = Writer().write(Arranger(plain).run());
   std::string out(marked ? kByteOrderMark : "");
   for (const char c : laid) {
     if (c == '\n' && carriage) out += '\r';

@@ -6,80 +6,57 @@
 #include <unordered_map>
 
 #include "engine/text/chars.h"
-#include "engine/text/files/data_folder.h"
+#include "engine/text/files/file.h"
 
 namespace weft::text {
 
 namespace {
 
-using Words = std::unordered_map<std::string, ForeignWord>;  // by theirs
-
-// By kind. In the file, what is to be written comes first, and then all words that mean it. Of a key of ours that is meant,
-// hints follow, "" where its name alone says all, and then the words.
-const std::unordered_map<std::string, Words>& foreignTable() {
+// By kind and their word, "pass_key/inputs". In the file, what is to be written comes first, and then all words that mean it. Of
+// a key of ours that is meant, hints follow, "" where its name alone says all, and then the words.
+const ForeignWord& findForeign(const std::string& kind, const std::string& word) {
   static const auto table = [] {
-    std::unordered_map<std::string, Words> kinds;
+    std::unordered_map<std::string, ForeignWord> all;
     std::ifstream file(dataFolder() + "/engine/text/words/foreign.json");
     const auto json = nlohmann::json::parse(file, nullptr, false);
-    if (!json.is_object()) return kinds;
-    for (const auto& [kind, rows] : json.items())
+    if (!json.is_object()) return all;
+    for (const auto& [group, rows] : json.items())
       for (const auto& [ours, words] : rows.items()) {
-        if (words.is_array())
-          for (const auto& theirs : words)
-            kinds[kind].emplace(theirs.get<std::string>(), ForeignWord{ours, "", false});
-        else
-          for (const auto& [hint, list] : words.items())
-            for (const auto& theirs : list)
-              kinds[kind].emplace(
-                  theirs.get<std::string>(),
-                  ForeignWord{hint.empty() ? "write \"" + ours + '"' : hint, ours, hint.empty()});
+        const bool plain = words.is_array();
+        const nlohmann::json hints = plain ? nlohmann::json{{ours, words}} : words;
+        for (const auto& [hint, list] : hints.items())
+          for (const auto& theirs : list)
+            all.emplace(
+                group + "/" + theirs.get<std::string>(),
+                ForeignWord{hint.empty() ? "write \"" + ours + '"' : hint, plain ? "" : ours, hint.empty()});
       }
-    return kinds;
+    return all;
   }();
-  return table;
-}
-
-const ForeignWord& findForeign(const char* kind, const std::string& word) {
   static const ForeignWord none;
-  const auto words = foreignTable().find(kind);
-  if (words == foreignTable().end()) return none;
-  const auto found = words->second.find(word);
-  return found == words->second.end() ? none : found->second;
-}
-
-void dropPrefix(std::string& text, std::initializer_list<std::string_view> prefixes) {
-  for (const std::string_view prefix : prefixes)
-    if (text.starts_with(prefix)) text.erase(0, prefix.size());
-}
-
-bool isSeparator(char c) {
-  return c == '_' || c == '-' || c == ' ';
+  const auto found = table.find(kind + "/" + word);
+  return found == table.end() ? none : found->second;
 }
 
 }  // namespace
 
 const ForeignWord& findForeignWord(Foreign where, std::string_view word) {
-  static constexpr const char* kKinds[] = {
-      "graph_key", "pass_key",   "texture_key", "state_key",   "state_word",      "value_key", "value_type",
-      "sampling",  "expression", "value",       "import_type", "import_argument", "pass_type", "shader_name"};
+  static constexpr const char* kKinds[] = {"graph_key",  "pass_key",    "texture_key", "state_key",
+                                           "state_word", "value_key",   "value_type",  "sampling",
+                                           "expression", "value",       "import_type", "import_argument",
+                                           "pass_type",  "shader_name", "format"};
   std::string wanted =
       where == Foreign::shader_name ? std::string(word) : lowered(word);  // GLSL tells cases apart
   if (where == Foreign::value_type)
     wanted.resize(std::min(wanted.find('('), wanted.size()));  // "Range(0, 1)"
-  if (where == Foreign::state_word) {
-    dropPrefix(wanted, {"gl_", "vk_compare_op_", "vk_", "d3d11_comparison_", "d3d12_comparison_func_",
-                        "comparison_", "compare_", "mtlcomparefunction", "comparefunction"});
-    std::erase_if(wanted, isSeparator);
+  if (where == Foreign::state_word || where == Foreign::format) {
+    for (const std::string_view prefix :
+         {"gl_", "vk_format_", "vk_compare_op_", "vk_", "dxgi_format_", "d3d11_comparison_",
+          "d3d12_comparison_func_", "comparison_", "compare_", "mtlcomparefunction", "comparefunction",
+          "mtlpixelformat", "pixelformat.", "format_", "pf_", "three."})
+      if (wanted.starts_with(prefix)) wanted.erase(0, prefix.size());
+    std::erase_if(wanted, [](char c) { return c == '_' || c == '-' || c == ' '; });
   }
   return findForeign(kKinds[static_cast<std::size_t>(where)], wanted);
-}
-
-std::string formatMeantBy(std::string_view word) {
-  std::string text = lowered(word);
-  dropPrefix(text, {"dxgi_format_", "vk_format_", "gl_", "mtlpixelformat", "pixelformat.", "format_", "pf_",
-                    "three."});
-  std::erase_if(text, isSeparator);
-  return findForeign("format", text).hint;
 }
 
 }  // namespace weft::text

@@ -24,6 +24,7 @@ enum class Foreign : std::uint8_t {
   import_argument,  // of an import that reads a file: "url"
   pass_type,        // of a pass: "raster"
   shader_name,      // in GLSL: "saturate", "gl_FragColor"
+  format,           // of a texture: "R16G16B16A16_FLOAT"; the hint is ours, or the nearest that Weft has
 };
 
 // What is to be written instead of a word. All is empty of a word that nobody knows.
@@ -36,9 +37,5 @@ const ForeignWord& findForeignWord(Foreign where, std::string_view word);
 inline std::string hintForForeign(Foreign where, std::string_view word) {
   return findForeignWord(where, word).hint;
 }
-
-// The texture format that another API's name for it means ("R16G16B16A16_FLOAT": "rgba16f"), or "". One that Weft does not
-// have becomes the nearest that it has: three channels become four.
-std::string formatMeantBy(std::string_view word);
 
 }  // namespace weft::text

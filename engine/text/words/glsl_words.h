@@ -1,5 +1,5 @@
-// Words that GLSL 4.5 keeps for itself, so that what a graph names does not hide them. Does not: know the words of versions
-// before, which foreign_words.h translates.
+// Words that GLSL 4.5 keeps for itself, so that what a graph names does not hide them. foreign_words.h translates those of
+// versions before.
 #pragma once
 
 #include <span>

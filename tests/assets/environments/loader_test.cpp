@@ -13,7 +13,7 @@
 
 #include "engine/assets/environments/environment_map.h"
 #include "engine/assets/images/half.h"
-#include "engine/text/files/file_access.h"
+#include "engine/text/files/file.h"
 #include "tests/assets/images/save_hdr.h"
 #include "tests/load_image.h"
 #include "tests/temporary_folder.h"

@@ -4,7 +4,7 @@
 #include <sys/stat.h>
 
 #include "engine/assets/models/model_file.h"
-#include "engine/text/files/file_access.h"
+#include "engine/text/files/file.h"
 #include "tests/assets/models/failure.h"
 #include "tests/assets/models/gltf_maker.h"
 #include "tests/temporary_folder.h"

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "engine/graph/language/keys.h"
+#include "tests/json_pointer.h"
 
 using namespace weft::graph;
 using weft::text::Code;
@@ -31,7 +32,7 @@ std::string wrong(const std::string& text) {
   std::string out;
   for (const auto& d : diagnostics.items())
     out += (out.empty() ? "" : "; ") + nameOf(d.code) + " " + std::to_string(d.place.line) + ":" +
-           std::to_string(d.place.column) + " " + d.pointer;
+           std::to_string(d.place.column) + " " + weft::test::pointerTo(text, d);
   return out;
 }
 

@@ -1,8 +1,6 @@
 // What readFile() opens and what it refuses: pipes, sockets and devices; folders that reading is confined to.
 // The links, `..` and absolute paths here are the ways out that were thought of; each is tried with and
 // without a file behind it, and the answer is the same.
-#include "engine/text/files/file_access.h"
-
 #include <doctest/doctest.h>
 #include <sys/socket.h>
 #include <sys/stat.h>

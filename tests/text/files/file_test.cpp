@@ -23,20 +23,6 @@ TEST_CASE("a missing file, a directory and an unwritable place are told apart") 
   CHECK(all.items()[2].code == Code::outputNotWritten);
 }
 
-TEST_CASE("the hint for a missing file tells a slash too many and a dash from a wrong path") {
-  const TemporaryFolder folder;
-  const std::string path = folder.write("a.json", "{}");
-  for (const auto& [wrong, hint] : {std::pair(path + "/", "write '" + path + "'"),
-                                    std::pair(path + "/b", std::string("there is no folder")),
-                                    std::pair(std::string("-"), std::string("/dev/stdin"))}) {
-    CAPTURE(wrong);
-    Diagnostics all;
-    CHECK_FALSE(readFile(wrong, all));
-    REQUIRE(all.size() == 1);
-    CHECK_MESSAGE(all.items()[0].hint.find(hint) != std::string::npos, all.items()[0].hint);
-  }
-}
-
 TEST_CASE("a name may be as long as the file system takes it") {
   const TemporaryFolder folder;
   const std::string longest(255, 'n');

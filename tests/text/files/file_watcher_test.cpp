@@ -129,7 +129,7 @@ TEST_CASE("what is not watched is said once") {
   REQUIRE(said.size() == 1);
   CHECK(said.items()[0].code == weft::text::Code::filesNotWatched);
   CHECK(said.items()[0].severity == weft::text::Severity::note);
-  CHECK(said.items()[0].found.starts_with("no inotify instance: "));
+  CHECK(said.items()[0].found == "inotify: Too many open files");
   watcher.watch({a});
   CHECK(watcher.takeNotices().empty());
 }

@@ -14,10 +14,8 @@ using namespace weft::text;
 
 namespace {
 
-const LayoutRules kRules{.packed = {"set"}, .starts = {"read", "write", "modify"}};
-
 std::string layout(std::string_view text) {
-  return layoutJson(text, kRules);
+  return layoutJson(text);
 }
 
 bool isGood(const std::string& text) {
@@ -173,16 +171,6 @@ TEST_CASE("layout: comments stay beside what they are about, blank lines between
 }
 // after all
 )");
-}
-
-TEST_CASE("layout: a comment that is too far to the right stands in front of its row") {
-  const std::string about = "// " + std::string(60, 'x');
-  const std::string laid = checked(
-      R"({ "resources": { "one": { "texture": "rgba16f", "size": "screen", "clear": [0, 0, 0, 1] }, )" +
-      about + "\n\"two\": { \"buffer\": 4 } } }");
-  CHECK(laid == "{\n  \"resources\": {\n    " + about +
-                    "\n    \"one\": { \"texture\": \"rgba16f\", \"size\": \"screen\", \"clear\": [0, 0, 0, "
-                    "1] },\n    \"two\": { \"buffer\": 4 }\n  }\n}\n");
 }
 
 TEST_CASE("layout: numbers and strings as they are written, line ends and a byte order mark too") {

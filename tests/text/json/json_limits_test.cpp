@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "engine/text/files/text_file.h"
+#include "engine/text/files/file.h"
 #include "engine/text/json/dom.h"
 #include "engine/text/limits.h"
 #include "tests/temporary_folder.h"

@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <filesystem>
 #include <memory>
 
 #include "engine/text/files/file.h"
-#include "engine/text/files/file_access.h"
+#include "engine/text/json/report.h"
 #include "engine/text/limits.h"
 
 namespace weft::assets {
@@ -19,19 +18,6 @@ using text::Code;
 using text::Place;
 
 namespace {
-
-std::string unescape(const std::string& uri) {
-  std::string out;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    unsigned value = 0;
-    const char* const digits = uri.data() + i + 1;
-    const bool escape = uri[i] == '%' && i + 2 < uri.size() &&
-                        std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2;
-    out.push_back(escape ? static_cast<char>(value) : uri[i]);
-    if (escape) i += 2;
-  }
-  return out;
-}
 
 // RFC 3986, 3.1; also "C:" of Windows.
 bool hasScheme(const std::string& name) {
@@ -79,7 +65,7 @@ std::string ModelFiles::resolve(const std::string& name) const {
 
 std::optional<std::string> ModelFiles::readBeside(const std::string& uri, const Place& place, Code code,
                                                   bool escaped, text::Severity severity) {
-  const std::string name = escaped ? unescape(uri) : uri;
+  const std::string name = escaped ? text::unescapeUri(uri) : uri;
   const std::string target = resolve(name);
   if (target.empty()) {
     text::Diagnostic& d =

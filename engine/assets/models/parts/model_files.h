@@ -1,6 +1,6 @@
 // What a model reads: its own file and those beside it. One door for glTF, OBJ, FBX and Assimp, so that a model never
 // reads anything outside its folder, whatever it names, and never more than kMaxModelBytes in all. The rest of what
-// holds for files (pipes, --confine) is engine/text/files/file_access.h.
+// holds for files (pipes, --confine) is engine/text/files/file.h.
 #pragma once
 
 #include <cstdint>

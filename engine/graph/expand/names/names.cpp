@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "engine/graph/desc_walk.h"
-#include "engine/graph/language/enough.h"
 #include "engine/graph/language/expr_node.h"
 #include "engine/graph/subresource.h"
+#include "engine/text/json/report.h"
 #include "engine/text/limits.h"
 #include "engine/text/nearest.h"
 

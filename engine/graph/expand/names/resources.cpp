@@ -257,7 +257,7 @@ bool evaluateFormat(Model& model, Entity& entity) {
   const ResourceDesc& desc = *entity.desc;
   const auto format = findFormat(desc.format);
   if (format) entity.shape.format = *format;
-  const std::string meant = format ? "" : text::formatMeantBy(desc.format);
+  const std::string meant = format ? "" : text::hintForForeign(text::Foreign::format, desc.format);
   return format ||
          report(model, Code::unknownFormat, desc.formatPlace,
                 fmt::format("texture '{}' has the unknown format '{}'", entity.name, desc.format),

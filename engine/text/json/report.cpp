@@ -1,12 +1,17 @@
-#include "engine/text/report.h"
+#include "engine/text/json/report.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <charconv>
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "engine/text/files/file.h"
+#include "engine/text/json/dom.h"
+#include "engine/text/limits.h"
 #include "engine/text/printable.h"
 
 namespace weft::text {
@@ -15,12 +20,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* wordFor(Severity severity) {
-  return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "note";
-}
-
 std::string dumped(const Json& json, int indent) {
-  return printableJson(json.dump(indent, ' ', false, Json::error_handler_t::replace));
+  return json.dump(indent, ' ', true, Json::error_handler_t::replace);
 }
 
 Json locationOf(const Place& place) {
@@ -47,6 +48,44 @@ std::string wholeMessage(const Diagnostic& d) {
 
 }  // namespace
 
+bool enoughErrors(const Diagnostics& diagnostics) {
+  return diagnostics.errorCount() >= std::max<std::uint64_t>(1000, raised(kMaxMessages));
+}
+
+Diagnostics chooseMessages(const Diagnostics& all, bool notes) {
+  Diagnostics sorted = all;
+  sorted.sortByPlace();
+  std::array<std::size_t, 3> there{}, room{};  // by severity
+  for (const Diagnostic& each : sorted.items())
+    if (notes || each.severity != Severity::note) ++there[static_cast<std::size_t>(each.severity)];
+  std::size_t left = raised(kMaxMessages);
+  for (std::size_t i = there.size(); i-- > 0;) {
+    room[i] = std::min(there[i], left);
+    left -= room[i];
+    there[i] -= room[i];
+  }
+  Diagnostics chosen;
+  for (const Diagnostic& each : sorted.items())
+    if (std::size_t& seats = room[static_cast<std::size_t>(each.severity)]; seats > 0) {
+      --seats;
+      chosen.add(each);
+    }
+  const auto& [noteCount, warningCount, errorCount] = there;
+  const bool stopped = enoughErrors(all);
+  if (stopped || noteCount + warningCount + errorCount > 0) {
+    Diagnostic& d = chosen.add(
+        {.severity = Severity::note,
+         .code = Code::messagesLeftOut,
+         .message = fmt::format("further messages are left out: {}, {}, {}{}", counted(errorCount, "error"),
+                                counted(warningCount, "warning"), counted(noteCount, "note"),
+                                stopped ? "; no more were looked for" : ""),
+         .place = {}});
+    const std::string raise = hintToRaise(kMaxMessages);
+    d.hint = raise.empty() ? "correct these first" : "correct these first, or " + raise;
+  }
+  return chosen;
+}
+
 std::string uriOf(std::string_view path) {
   std::string uri = path.starts_with('/') ? "file://" : "";
   for (const char c : path) {
@@ -57,10 +96,34 @@ std::string uriOf(std::string_view path) {
   return uri;
 }
 
+std::string unescapeUri(std::string_view uri) {
+  std::string out;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    unsigned value = 0;
+    const char* const digits = uri.data() + i + 1;
+    const bool escape = uri[i] == '%' && i + 2 < uri.size() &&
+                        std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2;
+    out.push_back(escape ? static_cast<char>(value) : uri[i]);
+    if (escape) i += 2;
+  }
+  return out;
+}
+
 std::string diagnosticsJson(const Diagnostics& diagnostics, int indent) {
   Json all = Json::array();
+  std::string file, text;  // of the last pointer
+  JsonTree tree;
+  const auto pointerOf = [&](const Diagnostic& d) {
+    if (!d.pointer.empty() || d.place.line == 0 || !d.place.file || !d.place.file->ends_with(".json"))
+      return d.pointer;
+    if (Diagnostics unsaid; file != *d.place.file) {
+      text = readTextFile(file = *d.place.file, unsaid).value_or("");
+      tree = parseJsonTree(text);
+    }
+    return pointerAt(tree.root, offsetOf(text, d.place.inFile()));
+  };
   for (const Diagnostic& d : diagnostics.items()) {
-    Json each{{"severity", wordFor(d.severity)},
+    Json each{{"severity", nameOf(d.severity)},
               {"code", nameOf(d.code)},
               {"title", titleOf(d.code)},
               {"message", d.message}};
@@ -68,7 +131,7 @@ std::string diagnosticsJson(const Diagnostics& diagnostics, int indent) {
     if (d.place.option) each["option"] = *d.place.option;
     if (d.place.line > 0) each["line"] = d.place.line;
     if (d.place.line > 0 && d.place.column > 0) each["column"] = d.place.column;
-    for (const auto& [key, value] : {std::pair<const char*, const std::string&>{"pointer", d.pointer},
+    for (const auto& [key, value] : {std::pair<const char*, std::string>{"pointer", pointerOf(d)},
                                      {"pass", d.pass},
                                      {"resource", d.resource},
                                      {"expected", d.expected},
@@ -92,7 +155,7 @@ std::string diagnosticsSarif(const Diagnostics& diagnostics, std::string_view ve
   for (const Diagnostic& d : diagnostics.items()) {
     Json result{{"ruleId", nameOf(d.code)},
                 {"ruleIndex", std::ranges::find(codes, d.code) - codes.begin()},
-                {"level", wordFor(d.severity)},
+                {"level", nameOf(d.severity)},
                 {"message", {{"text", wholeMessage(d)}}}};
     // An option of the command line is no artifact.
     if (d.place.file && !d.place.file->empty())
