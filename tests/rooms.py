@@ -49,7 +49,7 @@ SUB_ROOMS = {
         "models/parts": {".", "images", "loading"},
         "models/gltf": {".", "models/parts"},
         "models/assimp": {".", "models/parts"},
-        "models": {".", "loading", "models/parts", "models/gltf", "models/assimp"},
+        "models": {".", "images", "loading", "models/parts", "models/gltf", "models/assimp"},
     },
     "scene": {".": set(), "frame": {"."}, "models": {".", "frame"}, "files": {".", "frame", "models"}},
     "gl": {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
 namespace weft::scene {
@@ -50,20 +51,10 @@ bool isMoving(const Camera& camera) {
 }
 
 glm::dmat4 viewMatrix(const CameraPose& pose) {
-  const glm::dvec3 back = glm::normalize(pose.position - pose.target);
-  glm::dvec3 up(0, 1, 0);
-  if (std::abs(back.y) > 1 - 1e-12) up = {0, 0, back.y > 0 ? -1 : 1};
-  const glm::dvec3 right = glm::normalize(glm::cross(up, back));
-  const glm::dvec3 above = glm::cross(back, right);
-  glm::dmat4 view(1);
-  for (int i = 0; i < 3; ++i) {
-    view[i][0] = right[i];
-    view[i][1] = above[i];
-    view[i][2] = back[i];
-  }
-  view[3] = {-glm::dot(right, pose.position), -glm::dot(above, pose.position), -glm::dot(back, pose.position),
-             1};
-  return view;
+  const double back = glm::normalize(pose.position - pose.target).y;
+  const bool vertical = std::abs(back) > 1 - 1e-12;
+  return glm::lookAt(pose.position, pose.target,
+                     vertical ? glm::dvec3(0, 0, back > 0 ? -1 : 1) : glm::dvec3(0, 1, 0));
 }
 
 // Upchurch and Desbrun, "Tightening the Precision of Perspective Rendering", 2012: reversed, far plane at

@@ -28,24 +28,17 @@ void sortElements(std::vector<SortElement>& elements, std::vector<SortElement>& 
   }
 }
 
-float viewDepth(const glm::mat4& view, glm::vec3 center) {
-  return -(((view[0].z * center.x + view[1].z * center.y) + view[2].z * center.z) + view[3].z);
-}
-
 float powerOf(glm::vec3 eye, glm::vec3 center, float radius) {
   const glm::vec3 to = center - eye;
   return ((to.x * to.x + to.y * to.y) + to.z * to.z) - radius * radius;
 }
 
-void drawOrder(std::span<const Instance> instances, const ViewData& view, SortBy by,
-               std::vector<SortElement>& out, std::vector<SortElement>& scratch) {
+void drawOrder(std::span<const Instance> instances, glm::vec3 eye, std::vector<SortElement>& out,
+               std::vector<SortElement>& scratch) {
   out.resize(instances.size());
-  for (std::size_t i = 0; i < instances.size(); ++i) {
-    const Instance& instance = instances[i];
-    const float far = by == SortBy::power ? powerOf(view.eye, instance.center, instance.radius)
-                                          : viewDepth(view.view, instance.center);
-    out[i] = {depthKey(far), static_cast<std::uint32_t>(i)};
-  }
+  for (std::size_t i = 0; i < instances.size(); ++i)
+    out[i] = {depthKey(powerOf(eye, instances[i].center, instances[i].radius)),
+              static_cast<std::uint32_t>(i)};
   sortElements(out, scratch);
 }
 

@@ -1,10 +1,9 @@
 // Back-to-front draw order on the CPU, and the contract it shares with shaders/spheres/sort/order.glsl.
 //
-// What is compared, d, in float, in exactly this order without fused operations (`precise` in GLSL):
-//   power: d = ((x * x + y * y) + z * z) - r * r, with (x, y, z) = center - eye: the squared length of a tangent from the eye.
-//     Of two spheres that do not meet, the one with the greater power is never before the other: the plane in which both powers
-//     are equal lies between them, and the eye is on the nearer one's side of it (Aurenhammer, "Power diagrams", SIAM J. Comput. 1987).
-//   depth: d = -(((V[0].z * x + V[1].z * y) + V[2].z * z) + V[3].z), -z of its center in view space
+// What is compared, d, in float, in exactly this order without fused operations (`precise` in GLSL), is the power of the eye:
+//   d = ((x * x + y * y) + z * z) - r * r, with (x, y, z) = center - eye: the squared length of a tangent from the eye.
+// Of two spheres that do not meet, the one with the greater power is never before the other: the plane in which both powers
+// are equal lies between them, and the eye is on the nearer one's side of it (Aurenhammer, "Power diagrams", SIAM J. Comput. 1987).
 // Key, a uint, of *descending* d (farthest first when sorted ascending):
 //   d is NaN  -> 0xffffffff (last);     d == 0 -> d = +0 (so that -0 equals +0)
 //   b = floatBitsToUint(d);   u = (b & 0x80000000) != 0 ? ~b : b | 0x80000000;   key = ~u
@@ -18,7 +17,6 @@
 #include <span>
 #include <vector>
 
-#include "engine/scene/camera.h"
 #include "engine/scene/scene.h"
 
 namespace weft::scene {
@@ -33,17 +31,14 @@ constexpr std::uint32_t depthKey(float depth) {
   const std::uint32_t bits = depth == 0 ? 0u : std::bit_cast<std::uint32_t>(depth);
   return ~((bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u);
 }
-float viewDepth(const glm::mat4& view, glm::vec3 center);
 float powerOf(glm::vec3 eye, glm::vec3 center, float radius);
-
-enum class SortBy : std::uint8_t { power, depth };
 
 // Sorts by (key, index) ascending; `elements` must come with ascending indices, because only the keys are compared. `scratch` is
 // working memory, reused from call to call.
 void sortElements(std::vector<SortElement>& elements, std::vector<SortElement>& scratch);
 
 // Replaces `out` by the elements of the instances, sorted.
-void drawOrder(std::span<const Instance> instances, const ViewData& view, SortBy by,
-               std::vector<SortElement>& out, std::vector<SortElement>& scratch);
+void drawOrder(std::span<const Instance> instances, glm::vec3 eye, std::vector<SortElement>& out,
+               std::vector<SortElement>& scratch);
 
 }  // namespace weft::scene

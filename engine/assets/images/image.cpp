@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -29,20 +30,11 @@ Place placeOf(const std::string& name) {
   return {std::make_shared<const std::string>(name)};
 }
 
-std::string extensionOf(const std::string& name) {
-  const std::size_t dot = name.find_last_of('.');
-  const std::size_t slash = name.find_last_of('/');
-  if (dot == std::string::npos || (slash != std::string::npos && dot < slash)) return "";
-  std::string extension = name.substr(dot);
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
-}
-
 void reportUnknownKind(Diagnostics& diagnostics, const std::string& name, std::string expected) {
   text::Diagnostic& d = diagnostics.error(Code::unknownImageKind, placeOf(name),
                                           fmt::format("'{}' is no kind of image that is known", name));
   d.expected = std::move(expected);
-  d.found = extensionOf(name).empty() ? "no extension" : extensionOf(name);
+  d.found = lowerExtension(name).empty() ? "no extension" : lowerExtension(name);
 }
 
 // Solid angle of a texel of row `y` of an equirectangular map, in units of one at the equator.
@@ -100,8 +92,14 @@ ImageF widenToRgba(ImageF image) {
   return wide;
 }
 
+std::string lowerExtension(const std::string& name) {
+  std::string extension = std::filesystem::path(name).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
 ImageKind kindOfName(const std::string& name) {
-  const std::string extension = extensionOf(name);
+  const std::string extension = lowerExtension(name);
   if (extension == ".hdr") return ImageKind::hdr;
   if (extension == ".exr") return ImageKind::exr;
   if (extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".tga")

@@ -2,27 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 
+#include "engine/assets/images/image_codecs.h"
 #include "engine/assets/models/assimp/assimp_model.h"
 #include "engine/assets/models/gltf/gltf.h"
 #include "engine/assets/models/parts/mesh_builder.h"
 #include "engine/assets/models/parts/model_files.h"
 
 namespace weft::assets {
-
-namespace {
-
-std::string lowerExtension(const std::string& name) {
-  std::string extension = std::filesystem::path(name).extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
-}  // namespace
 
 bool isModelName(const std::string& name) {
   const std::string extension = lowerExtension(name);

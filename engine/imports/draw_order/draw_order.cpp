@@ -10,18 +10,13 @@ namespace weft::imports {
 
 namespace {
 
-using graph::Value;
-
 class DrawOrderProvider : public Provider {
  public:
-  explicit DrawOrderProvider(const graph::ImportRequest& request)
-      : list_(drawListOf(request)),
-        by_(request.at("by").symbol == "depth" ? scene::SortBy::depth : scene::SortBy::power) {}
+  explicit DrawOrderProvider(const graph::ImportRequest& request) : list_(drawListOf(request)) {}
 
   BufferRef buffer(const Frame& frame, const RowLayout&, text::Diagnostics& diagnostics) override {
     if (const std::uint64_t now = generation(frame); sorted_ != now) {
-      const scene::ViewData& view = frame.camera.view(frame, 1, 1);
-      scene::drawOrder(frame.tables.rows(list_), view, by_, elements_, scratch_);
+      scene::drawOrder(frame.tables.rows(list_), frame.camera.view(frame, 1, 1).eye, elements_, scratch_);
       if (elements_.empty()) elements_.emplace_back();
       if (!sendTo(buffer_, std::as_bytes(std::span(elements_)), "draw order", false, diagnostics)) return {};
       sorted_ = now;
@@ -38,7 +33,6 @@ class DrawOrderProvider : public Provider {
 
  private:
   scene::DrawList list_;
-  scene::SortBy by_;
   gl::Buffer buffer_;
   std::uint64_t generation_ = 0, rows_ = 0, camera_ = 0;
   std::uint64_t sorted_ = 0;  // the generation that the buffer holds
@@ -51,13 +45,11 @@ class DrawOrder : public ImportOf<DrawOrderProvider> {
     return {
         .name = "draw_order",
         .kind = graph::ImportKind::buffer,
-        .doc = "uvec2(key, index) per instance of `list`, back to front, sorted on the CPU every frame.",
-        .arguments = {
-            drawListArgument(),
-            argument("by", Value::text("power"),
-                     "what is compared: power, the squared distance from the eye less the squared radius, "
-                     "right for all spheres that do not meet; depth, of the centers along the view axis",
-                     {"power", "depth"})}};
+        .doc =
+            "uvec2(key, index) per instance of `list`, back to front, sorted on the CPU every frame by the "
+            "squared distance from the eye less the squared radius, which is right for all spheres that "
+            "do not meet.",
+        .arguments = {drawListArgument()}};
   }
 
   graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,

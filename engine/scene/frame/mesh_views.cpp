@@ -93,7 +93,7 @@ void MeshViews::sort(const MeshFrame& frame, MeshView& view, bool many) {
   forRanges(many, view.keys_.size(), kMinKeys, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
       const std::uint32_t row = view.visible_[i];
-      view.keys_[i] = {depthKey(viewDepth(view.wish_.view, boxes[row].center())), row};
+      view.keys_[i] = {depthKey(-(view.wish_.view * glm::vec4(boxes[row].center(), 1)).z), row};
     }
   });
   sortElements(view.keys_, view.scratch_);
