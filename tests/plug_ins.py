@@ -23,14 +23,14 @@ OTHER_MEANINGS = {
     ("engine/scene/files/scene_file.cpp", "ground"): "a key of scene files",
     ("engine/imports/mesh_draws.cpp", "joints"): "an attribute of vertices",
     ("engine/passes/draw/geometry.cpp", "position"): "an attribute of vertices",
-    ("engine/graph/read/overlay_apply.cpp", "name"): "a key of passes",
+    ("engine/graph/read/read.cpp", "name"): "a key of graphs",
     ("engine/graph/read/overlay.cpp", "name"): "a key of graphs",
-    ("engine/graph/read/misspelt.cpp", "name"): "a key of passes",
     ("engine/text/words/glsl_words.cpp", "image"): "how types of GLSL begin",
     ("engine/glsl/interface.cpp", "image"): "how types of GLSL begin",
     ("engine/gl/programs/glsl_type.cpp", "image"): "how types of GLSL begin",
     ("engine/graph/subresource.h", "image"): "a kind of use",
-    ("engine/graph/read/read_resource.cpp", "file"): "a rule of the language: arguments of this name, and of names that end so, hold paths",
+    ("engine/graph/read/read_parts.cpp", "mips"): "a key of textures",
+    ("engine/graph/read/read_parts.cpp", "file"): "a rule of the language: arguments of this name, and of names that end so, hold paths",
 }
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 ARGUMENT = re.compile(r'\bargument\("(\w+)"')

@@ -251,12 +251,11 @@ struct GraphDesc {
   std::vector<OutputDesc> outputs;
   std::vector<SetDesc> sets;  // in order: the last wins
   std::vector<RemovedPass> removed;
-  std::vector<NamedDesc> named;     // by overlays
-  std::vector<std::string> unread;  // names declared in this file that were reported as wrong and left out:
-                                    // a use of one is no second error
-  std::vector<std::string> files;   // this file, what it extends, its presets, and all of every file
-                                    // included below it, for watching
-  FileTexts texts;                  // of the graph that was asked for: all these files; included ones: some
+  std::vector<NamedDesc> named;  // by overlays
+  std::vector<std::string>
+      unread;                      // declared names that were reported and left out: a use is no second error
+  std::vector<std::string> files;  // this file, what it extends, its presets and all that is below, to watch
+  FileTexts texts;                 // of the graph that was asked for: all these files; included ones: some
   std::string top;  // the overlay or preset that lies over all others; "" when nothing lies over this file
 };
 

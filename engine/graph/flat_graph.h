@@ -40,9 +40,8 @@ struct FlatResource {
   std::uint32_t width = 1, height = 1, depth = 1;
   std::uint64_t bytes = 0;   // of one copy, all levels and layers; history multiplies by n + 1
   std::uint8_t history = 0;  // depth n: n + 1 copies, persistent
-  bool hasClear =
-      false;  // has a version zero: the first use of a sub-resource in a frame finds it cleared, also
-              // when it is a `write` (which then need not cover everything)
+  // Has a version zero: the first use of a sub-resource in a frame finds it cleared; a `write` then need not cover everything.
+  bool hasClear = false;
   std::uint32_t import = kNone;  // index into FlatGraph::imports
   friend bool operator==(const FlatResource&, const FlatResource&) = default;
 };
@@ -137,9 +136,9 @@ struct SlotSpec {
 struct UniformSpec {
   std::string name;
   Value value;  // with the present parameters; age() counts as 0
-  Expr
-      dynamic;  // absent: the value never changes while the plan runs. Else the folded expression, in which age()
-                // (by FlatResource index) and live parameters (by index into FlatGraph::parameters) are left
+  // Absent: the value never changes while the plan runs. Else the folded expression, in which age() (by FlatResource index)
+  // and live parameters (by index into FlatGraph::parameters) are left.
+  Expr dynamic;
   std::string path;  // full name of the parameter behind it ("post.dof.aperture"), or empty
   Place place;
   bool constant = false;  // written as a number or a list
@@ -214,9 +213,8 @@ struct ParameterSpec {
   Value value;                          // after --set
   Origin origin = Origin::declaration;  // of the value
   Where valuePlace;                     // where it was written; nowhere when a panel set it
-  bool structural =
-      false;  // a size, condition, define, repeat, state or import depends on it: a change makes
-              // another plan. Otherwise it is live: a change writes bytes of uniforms
+  // A size, condition, define, repeat, state or import depends on it: a change makes another plan, not other uniforms.
+  bool structural = false;
 };
 
 struct HistorySpec {  // per FlatResource with history > 0

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "engine/graph/flat_graph.h"
-#include "engine/graph/language/barrier_bit.h"
 
 namespace weft::graph {
 
@@ -23,8 +22,7 @@ struct Step {
   std::uint32_t pass = 0;  // index into FlatGraph::passes
   std::uint16_t barriers = 0;
   std::uint16_t barriersAfterClears = 0;
-  std::uint32_t firstClear = 0,
-                clearCount = 0;  // into Plan::clears: version zero of what this step touches first
+  std::uint32_t firstClear = 0, clearCount = 0;  // into Plan::clears: version zero of what it touches first
 };
 
 struct ClearOp {
@@ -54,8 +52,7 @@ struct Storage {
 struct Groups {
   std::vector<std::uint32_t> ofPass;  // per pass; kNone: alone, always or culled. Empty: there are no groups
   std::vector<std::uint8_t> sliced;   // per group: 1 when it is time-sliced
-  std::vector<std::uint32_t>
-      ofResource;  // per resource: the time-sliced group that writes it, or kNone. Empty: no group is time-sliced
+  std::vector<std::uint32_t> ofResource;  // per resource: the time-sliced group that writes it. May be empty
   std::uint32_t groupOf(std::uint32_t pass) const { return ofPass.empty() ? kNone : ofPass[pass]; }
   std::uint32_t slicedWriterOf(std::uint32_t resource) const {
     return ofResource.empty() ? kNone : ofResource[resource];
@@ -74,14 +71,11 @@ struct Plan {
   CompileOptions options;
   std::vector<Step> steps;  // execution order
   std::vector<ClearOp> clears;
-  std::vector<std::uint32_t> stepOf;   // per pass: index into steps, kNone when culled
-  std::vector<std::uint8_t> attached;  // per use: 1 when the use is live (a dead output is not attached)
-  std::vector<std::uint8_t>
-      outputLive;  // per output: 1 when its final version is made; 0: nothing to read back
-  std::vector<std::uint32_t>
-      storageOf;  // per resource: index into storages, kNone for buffers, imports, dead
-  std::vector<std::uint64_t>
-      bufferOffsetOf;  // per resource: offset in the transient arena; kNoOffset otherwise
+  std::vector<std::uint32_t> stepOf;     // per pass: index into steps, kNone when culled
+  std::vector<std::uint8_t> attached;    // per use: 1 when the use is live (a dead output is not attached)
+  std::vector<std::uint8_t> outputLive;  // per output: 1 when its final version is made, to be read back
+  std::vector<std::uint32_t> storageOf;  // per resource: into storages, kNone for buffers, imports, dead
+  std::vector<std::uint64_t> bufferOffsetOf;  // per resource: in the transient arena, else kNoOffset
   // Per resource: the first step that touches it (writes or clears it) and the last. steps.size() stands for present or
   // read-back after the last step, kNone for a dead resource. The storage of a transient holds nothing before firstStep
   // and is invalidated there.
@@ -91,8 +85,7 @@ struct Plan {
   Groups groups;
   std::uint64_t arenaBytes = 0;     // transient buffers, packed by offset (alignment 256)
   std::uint16_t finalBarriers = 0;  // before the picture is presented and outputs are read back
-  std::uint64_t bytesDeclared =
-      0;  // all transient and persistent resources of live passes, each with storage of its own
+  std::uint64_t bytesDeclared = 0;  // all resources of live passes, each with storage of its own
   std::uint64_t bytesAllocated = 0;
   std::uint64_t bytesLowerBound = 0;  // sum over classes of the greatest number alive at once
   std::uint64_t bytesBound = 0;       // sum over steps of the bytes a pass touches

@@ -2,6 +2,9 @@
 // plain data, so that a graph can be checked without a device.
 #pragma once
 
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -9,11 +12,32 @@
 #include <vector>
 
 #include "engine/graph/desc.h"
-#include "engine/graph/language/barrier_bit.h"
 #include "engine/graph/language/format.h"
 #include "engine/text/diagnostic.h"
 
 namespace weft::graph {
+
+// One bit per glMemoryBarrier bit that a plan can need (OpenGL 4.5 core, 7.12.2). Which access needs which is
+// compile/barrier_rules.h; the runtime maps them to GL enums.
+enum BarrierBit : std::uint16_t {
+  kBarrierVertex = 1 << 0,         // VERTEX_ATTRIB_ARRAY
+  kBarrierIndex = 1 << 1,          // ELEMENT_ARRAY
+  kBarrierUniform = 1 << 2,        // UNIFORM
+  kBarrierTexture = 1 << 3,        // TEXTURE_FETCH
+  kBarrierImage = 1 << 4,          // SHADER_IMAGE_ACCESS
+  kBarrierCommand = 1 << 5,        // COMMAND
+  kBarrierTextureUpdate = 1 << 6,  // TEXTURE_UPDATE: clears and sub-image writes
+  kBarrierBufferUpdate = 1 << 7,   // BUFFER_UPDATE: buffer clears and copies
+  kBarrierFramebuffer = 1 << 8,    // FRAMEBUFFER: attachments, blits, read-back of textures
+  kBarrierStorage = 1 << 9,        // SHADER_STORAGE
+};
+constexpr int kBarrierBitCount = 10;
+constexpr const char* barrierName(BarrierBit bit) {
+  constexpr std::array<const char*, kBarrierBitCount> kNames = {
+      "vertex",  "index",          "uniform",       "texture_fetch", "image_access",
+      "command", "texture_update", "buffer_update", "framebuffer",   "shader_storage"};
+  return kNames[static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(bit)))];
+}
 
 enum class ShaderShape : std::uint8_t { none, fragment, compute, draw };
 
@@ -67,15 +91,14 @@ struct ImportType {
   std::vector<TableColumn> columns{};  // of buffers: rows, laid out as the reading shader's block says
   std::uint32_t array = 0;  // of textures: this many in one slot, as resources with "array"; see elementOf()
   bool views = false;       // of buffers: its elements are views as well: @lamps[l].face[f]
-  bool everyPass =
-      false;  // of views: declared under the type's name, it is the view of every pass that names none
+  bool everyPass = false;   // of views: one under the type's name is that of every pass that names none
 };
 
 // An import with its arguments evaluated. Two requests with equal type and arguments are one import.
 struct ImportRequest {
   std::string type;
-  std::vector<std::pair<std::string, Value>>
-      arguments;  // in the order of ImportType::arguments, defaults filled in
+  // In the order of ImportType::arguments, defaults filled in.
+  std::vector<std::pair<std::string, Value>> arguments;
   const Value& at(std::string_view argument) const;  // one that the type has
   friend bool operator==(const ImportRequest&, const ImportRequest&) = default;
 };
@@ -86,9 +109,8 @@ std::uint32_t elementOf(const ImportRequest& request);
 
 // What is known of an import before anything runs.
 struct ImportFacts {
-  bool exists = false;  // false: has() is 0, `?` slots lose it, alternatives skip it
-  bool fallback =
-      false;  // the runtime has a stand-in, which reads without `?` accept as they accept a version zero
+  bool exists = false;           // false: has() is 0, `?` slots lose it, alternatives skip it
+  bool fallback = false;         // the runtime has a stand-in: reads need no `?`
   Format format = Format::none;  // textures
   std::uint32_t width = 1, height = 1, depth = 1, layers = 1, mips = 1;
   bool layered = false;                      // an array texture, also with one layer
@@ -108,8 +130,7 @@ struct GeometryArgument {
 struct GeometryType {
   std::string name;
   std::vector<GeometryArgument> arguments;
-  bool meshes =
-      false;  // draws the meshes of a draw list, each with its own vertices, instead of one shape per sphere
+  bool meshes = false;  // draws the meshes of a draw list, each with its own vertices
 };
 
 struct Registry {

@@ -4,14 +4,22 @@
 
 namespace weft::graph {
 
-std::uint64_t bytesOf(const FlatUse& use, const FlatResource& r) {
-  if (isWhole(use, r)) return r.bytes;
-  const std::uint64_t texel = std::uint64_t{infoOf(r.format).bytes} * r.samples;
+namespace {
+
+// Texels of all levels and layers of the part that `use` covers.
+std::uint64_t texelsOf(const FlatUse& use, const FlatResource& r) {
   std::uint64_t total = 0;
   for (std::uint32_t mip = use.mip; mip < std::uint32_t{use.mip} + use.mips; ++mip)
     total += std::uint64_t{std::max(1u, r.width >> mip)} * std::max(1u, r.height >> mip) *
-             (r.target == Target::texture_3d ? std::max(1u, r.depth >> mip) : 1u) * texel;
-  total *= use.layers;
+             (r.target == Target::texture_3d ? std::max(1u, r.depth >> mip) : 1u);
+  return total * use.layers;
+}
+
+}  // namespace
+
+std::uint64_t bytesOf(const FlatUse& use, const FlatResource& r) {
+  if (isWhole(use, r)) return r.bytes;
+  const std::uint64_t total = texelsOf(use, r) * infoOf(r.format).bytes * r.samples;
   return planesOf(r) == 2 && (use.planes & 3) != 3 ? total / 2 : total;
 }
 
@@ -20,12 +28,7 @@ std::uint32_t outputChannelsOf(const FlatResource& r) {
 }
 
 std::uint64_t outputBytesOf(const FlatUse& use, const FlatResource& r) {
-  if (isBuffer(r)) return r.bytes;
-  std::uint64_t texels = 0;
-  for (std::uint32_t mip = use.mip; mip < std::uint32_t{use.mip} + use.mips; ++mip)
-    texels += std::uint64_t{std::max(1u, r.width >> mip)} * std::max(1u, r.height >> mip) *
-              (r.target == Target::texture_3d ? std::max(1u, r.depth >> mip) : 1u);
-  return texels * use.layers * outputChannelsOf(r) * 4;
+  return isBuffer(r) ? r.bytes : texelsOf(use, r) * outputChannelsOf(r) * 4;
 }
 
 std::string subresourceText(const FlatResource& r, std::uint32_t index) {

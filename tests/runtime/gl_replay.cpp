@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "engine/graph/language/barrier_bit.h"
+#include "engine/graph/registry.h"
 
 namespace weft::runtime::test {
 

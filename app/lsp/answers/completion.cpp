@@ -12,7 +12,6 @@
 #include "engine/graph/language/format.h"
 #include "engine/graph/language/keys.h"
 #include "engine/graph/language/names.h"
-#include "engine/graph/read/merge.h"
 #include "engine/graph/read/overlay.h"
 #include "engine/graph/read/ref_parse.h"
 #include "engine/graph/subresource.h"

@@ -6,7 +6,7 @@
 #include "app/lsp/answers/features.h"
 #include "engine/graph/language/format.h"
 #include "engine/graph/print/print.h"
-#include "engine/graph/read/merge.h"
+#include "engine/graph/read/overlay.h"
 
 namespace weft::app::lsp {
 

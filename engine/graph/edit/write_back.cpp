@@ -25,32 +25,26 @@ bool sameValue(const ParameterDesc& desc, const Value& x, const Value& y) {
   return text::absolutePath(x.symbol) == text::absolutePath(y.symbol);
 }
 
-bool sameParameters(const FlatGraph& a, const FlatGraph& b) {
-  const auto same = [](const ParameterSpec& x, const ParameterSpec& y) {
+// Whether two graphs run alike: parameters, passes that run and those that are disabled, whatever disables them, and what they use.
+bool sameGraph(const FlatGraph& a, const FlatGraph& b) {
+  const auto parameter = [](const ParameterSpec& x, const ParameterSpec& y) {
     return x.path == y.path && sameValue(x.desc, x.value, y.value) && x.desc.type == y.desc.type;
   };
-  return std::ranges::equal(a.parameters, b.parameters, same);
-}
-
-// Whether two graphs run alike: parameters, passes that run and those that are disabled, whatever disables them, and what they use.
-bool samePasses(const FlatGraph& a, const FlatGraph& b) {
-  const auto names = [](const FlatGraph& graph) {
+  const auto uniform = [](const UniformSpec& x, const UniformSpec& y) {
+    return x.name == y.name && x.value == y.value;
+  };
+  const auto spec = [&](const PassSpec& x, const PassSpec& y) {
+    return x.name == y.name && x.defines == y.defines && std::ranges::equal(x.uniforms, y.uniforms, uniform);
+  };
+  const auto disabled = [](const FlatGraph& graph) {
     std::set<std::string_view> all;
     for (const DisabledPass& pass : graph.disabled) all.insert(pass.name);
     return all;
   };
-  return a.passNames == b.passNames && names(a) == names(b);
-}
-bool sameGraph(const FlatGraph& a, const FlatGraph& b) {
-  const auto sameUniform = [](const UniformSpec& x, const UniformSpec& y) {
-    return x.name == y.name && x.value == y.value;
-  };
-  const auto sameSpec = [&](const PassSpec& x, const PassSpec& y) {
-    return x.name == y.name && std::ranges::equal(x.uniforms, y.uniforms, sameUniform) &&
-           x.defines == y.defines;
-  };
-  return sameParameters(a, b) && samePasses(a, b) && std::ranges::equal(a.specs, b.specs, sameSpec) &&
-         a.resourceNames == b.resourceNames && a.resources == b.resources && a.uses.size() == b.uses.size();
+  return std::ranges::equal(a.parameters, b.parameters, parameter) &&
+         std::ranges::equal(a.specs, b.specs, spec) && a.passNames == b.passNames &&
+         disabled(a) == disabled(b) && a.resourceNames == b.resourceNames && a.resources == b.resources &&
+         a.uses.size() == b.uses.size();
 }
 
 using text::JsonEdit;
@@ -94,13 +88,14 @@ DeclaredParameter findDeclared(const GraphDesc& desc, const std::string& path) {
   DeclaredParameter found;
   Chain whole = {{"", &desc}};
   eachFile(whole, [&](const Chain& chain) {
-    const auto [prefix, file] = chain.back();
-    for (const ParameterDesc& parameter : file->parameters)
+    const auto look = [&](const ParameterDesc& parameter, const std::string& prefix) {
       if (prefix + parameter.name == path) found = {chain, &parameter};
+    };
+    const auto& [prefix, file] = chain.back();
+    for (const ParameterDesc& parameter : file->parameters) look(parameter, prefix);
     for (const PassDesc& pass : file->passes)
       for (const PassParameterDesc& parameter : pass.parameters)
-        if (parameter.declared && prefix + pass.name + "." + parameter.name == path)
-          found = {chain, &*parameter.declared};
+        if (parameter.declared) look(*parameter.declared, prefix + pass.name + ".");
   });
   return found;
 }
@@ -152,14 +147,11 @@ std::optional<std::string> putInSet(const std::string& text, const std::string& 
                          after);
 }
 
-// The file that changes belong into when the graph is laid over others: the last preset, or the graph's own
-// when it extends another; else nothing.
-std::optional<std::string> overlayOf(const GraphDesc& desc, std::span<const std::string> presets,
-                                     const FileTexts& texts) {
+// The file that changes go into when the graph is laid over others: the last preset, or the graph's own when it extends
+// another; else nothing.
+std::optional<std::string> overlayOf(const GraphDesc& desc, std::span<const std::string> presets) {
   if (!presets.empty()) return presets.back();
-  const auto own = texts.find(desc.path);
-  const bool extends = own != texts.end() && JsonEdit(*own->second).root().find("extends");
-  return extends ? std::optional(desc.path) : std::nullopt;
+  return !desc.top.empty() && desc.top == desc.path ? std::optional(desc.path) : std::nullopt;
 }
 
 // The key of a pass or include behind which "enabled" is looked for.
@@ -217,7 +209,7 @@ std::vector<TextEdit> editsOfParameter(const GraphDesc& desc, std::span<const st
     addEdit(edits, texts, path, [&](const std::string& text) { return putInSet(text, name, valueIn(path)); });
   };
   if (deciding) put(deciding->valuePlace);
-  if (const auto overlay = overlayOf(desc, presets, texts)) putSet(*overlay);
+  if (const auto overlay = overlayOf(desc, presets)) putSet(*overlay);
   put(found.desc->initialPlace);
   putSet(desc.path);
   return edits;
@@ -227,7 +219,7 @@ std::vector<TextEdit> editsOfParameter(const GraphDesc& desc, std::span<const st
 std::vector<TextEdit> editsOfPass(const GraphDesc& desc, std::span<const std::string> presets,
                                   const FileTexts& texts, const std::string& name) {
   std::vector<TextEdit> edits;
-  if (const auto overlay = overlayOf(desc, presets, texts))
+  if (const auto overlay = overlayOf(desc, presets))
     addEdit(edits, texts, *overlay, [&](const std::string& text) -> std::optional<std::string> {
       const JsonEdit edit(text);
       if (!edit) return std::nullopt;

@@ -32,26 +32,29 @@ class EvalScope {
  public:
   enum class NameKind : std::uint8_t { variable, fact_argument, builtin };
   virtual ~EvalScope() = default;
-  virtual std::optional<Value> variable(
-      std::string_view name) = 0;  // $name or $pass.parameter, also `let` names
-  virtual std::optional<Value> index(std::string_view name) = 0;    // a bare repeat index
-  virtual std::optional<Value> builtin(std::string_view name) = 0;  // "screen", "device.software"
-  virtual std::optional<Value> fact(Fact fact, std::string_view resource, const text::Place& place) = 0;
+  // $name or $pass.parameter, also `let` names; a bare repeat index; "screen", "device.software"; size(resource).
+  virtual std::optional<Value> variable(std::string_view) { return std::nullopt; }
+  virtual std::optional<Value> index(std::string_view) { return std::nullopt; }
+  virtual std::optional<Value> builtin(std::string_view) { return std::nullopt; }
+  virtual std::optional<Value> fact(Fact, std::string_view /*resource*/, const text::Place&) {
+    return std::nullopt;
+  }
   // The choices of a choice parameter, or empty: `$draw == bilboard` is then an error with the nearest
   // choice.
-  virtual std::vector<std::string> choicesOf(std::string_view variable) = 0;
-  virtual std::vector<std::string> candidates(NameKind kind) = 0;
+  virtual std::vector<std::string> choicesOf(std::string_view /*variable*/) { return {}; }
+  virtual std::vector<std::string> candidates(NameKind) { return {}; }
   // A key by which a folded age() finds its resource at run time; nullopt for an unknown resource.
-  virtual std::optional<std::uint32_t> ageKey(std::string_view resource) = 0;
+  virtual std::optional<std::uint32_t> ageKey(std::string_view /*resource*/) { return std::nullopt; }
   // A `let` that changes without another plan (it contains age() or a live parameter, perhaps through another
   // `let`), already folded in the scope it stands in; null for every other name. fold() asks this before
   // variable() and puts the tree in its place.
-  virtual const Expr* folded([[maybe_unused]] std::string_view variable) { return nullptr; }
+  virtual const Expr* folded(std::string_view /*variable*/) { return nullptr; }
   // A key by which a folded expression finds the value of a live parameter; nullopt for every other name,
   // which is folded to its value.
-  virtual std::optional<std::uint32_t> parameterKey([[maybe_unused]] std::string_view variable) {
-    return std::nullopt;
-  }
+  virtual std::optional<std::uint32_t> parameterKey(std::string_view /*variable*/) { return std::nullopt; }
+  // What folded expressions ask by these keys: seconds since a publication, the value of a live parameter.
+  virtual double age(std::uint32_t) { return 0; }
+  virtual Value parameter(std::uint32_t) { return {}; }
 };
 
 // Shapes and types are the same at every age; an age that no formula singles out shows them.
@@ -101,8 +104,9 @@ class Expr {
   Expr fold(EvalScope& scope, text::Diagnostics& diagnostics) const;
   // Evaluates a folded expression; no heap allocation for numbers and lists. `age` gives seconds since
   // publication, which may be infinite; `parameters` the values by their keys. Type none (all components 0)
-  // when the result has none, such as a division by zero.
-  Value evaluateFolded(const AgeFunction& age, std::span<const Value> parameters = {}) const;
+  // when the result has none, such as a division by zero; then an error, where `diagnostics` are given.
+  Value evaluateFolded(const AgeFunction& age, std::span<const Value> parameters = {},
+                       text::Diagnostics* diagnostics = nullptr) const;
 
   const ExprNode* root() const { return root_.get(); }
 
@@ -117,9 +121,5 @@ class Expr {
 inline const std::vector<std::string>& variablesOf(const Expr& expr) {
   return expr.variables();
 }
-
-// What to write for a size in another format's spelling: "50%", "1920x1080", "512px", and for a number
-// with a unit or a color of the web; "" for anything else.
-std::string hintForSize(std::string_view text);
 
 }  // namespace weft::graph

@@ -105,10 +105,4 @@ const std::string* onlyVariableOf(const Expr& expr);
 // The trees of Expr::parse; null after an error.
 ExprPtr parseExprTree(std::string_view text, const text::Place& place, text::Diagnostics& diagnostics);
 
-// The value of a tree, or type none after an error. The first form is for expansion; the second is for folded trees, while
-// frames run.
-Value evaluateNode(const ExprNode& node, EvalScope& scope, text::Diagnostics& diagnostics);
-Value evaluateNode(const ExprNode& node, const AgeFunction& age, std::span<const Value> parameters,
-                   text::Diagnostics* diagnostics);
-
 }  // namespace weft::graph

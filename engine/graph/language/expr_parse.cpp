@@ -39,19 +39,7 @@ constexpr Spelling kSpellings[] = {
     {R"((.*)\.width)", "a size has .x and .y: write '$1.x'"},
     {R"((.*)\.height)", "a size has .x and .y: write '$1.y'"}};
 
-// What "scene.width" and the like of other languages is called here, or "".
-std::string hintForMember(std::string_view name, std::string_view member) {
-  for (const std::string_view theirs : {"size", "width", "height", "mips", "levels", "count", "length"})
-    if (member == theirs)
-      return fmt::format("ask size({0}), mips({0}) or count({0}); a size has .x and .y", name);
-  if (isReservedWord(member))
-    return fmt::format("values know the whole of it: size({0}) is that of level 0, mips({0}) says how many",
-                       name);
-  return text::hintForForeign(text::Foreign::value, fmt::format("{}.{}", name, member));
-}
-
-}  // namespace
-
+// What to write for a value in another format's spelling: "50%", "1920x1080", "512px", a color of the web; "" for anything else.
 std::string hintForSize(std::string_view text) {
   constexpr std::size_t kLongest = 80;  // a longer text is no slip of this kind
   if (text.size() > kLongest) return {};
@@ -61,8 +49,6 @@ std::string hintForSize(std::string_view text) {
       return found.format(hint);
   return {};
 }
-
-namespace {
 
 // ---- tokens: numbers, identifiers, operators ----
 
@@ -332,7 +318,7 @@ class Parser {
       }
       if (isReservedWord(next.text))
         return fail(next, fmt::format("'.{}' selects a sub-resource, where a name is expected", next.text),
-                    hintForMember(name, next.text)),
+                    fmt::format("values know the whole of it: size({0}), mips({0})", name)),
                false;
       advance();
       name += '.';
@@ -369,7 +355,8 @@ class Parser {
     const ExprOp function = findOp(word.text, ExprOp::minimum, ExprOp::abs);
     const OpInfo info = infoOf(function);
     if (function == ExprOp::constant) {
-      std::vector<std::string> known = {"size", "mips", "count", "has", "age"};
+      std::vector<std::string> known;
+      for (const Fact fact : kFacts) known.emplace_back(nameOf(fact));
       for (auto op = ExprOp::minimum; op <= ExprOp::abs; op = static_cast<ExprOp>(static_cast<int>(op) + 1))
         known.emplace_back(infoOf(op).spelling);
       auto& d = diagnostics_.error(text::Code::badFunctionCall, placeOf(word),
@@ -419,11 +406,14 @@ class Parser {
     }
     if (node->op == ExprOp::identifier && at(".")) {
       const Token next = peek();
-      std::string meant = hintForMember(word.text, next.text);
-      if (meant.empty())
-        meant = fmt::format("'${}.{}' for a parameter, or size() of a resource", word.text, next.text);
+      std::string hint =
+          text::hintForForeign(text::Foreign::value, fmt::format("{}.{}", word.text, next.text));
+      if (hint.empty())
+        hint =
+            fmt::format("ask size({0}), mips({0}) or count({0}), with .x and .y; '${0}.{1}' is a parameter",
+                        word.text, next.text);
       if (next.kind == Token::Kind::identifier && componentIndex(next.text) < 0)
-        return fail(word, fmt::format("'{}.{}' is no value", word.text, next.text), std::move(meant));
+        return fail(word, fmt::format("'{}.{}' is no value", word.text, next.text), std::move(hint));
     }
     return node;
   }

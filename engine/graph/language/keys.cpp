@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <deque>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
+
+#include "engine/text/json/dom.h"
 
 namespace weft::graph {
 
@@ -23,42 +25,77 @@ std::vector<std::string_view> textsOf(const Json& list) {
   return texts;
 }
 
-// The words of a value: those of its type, or its examples.
-std::span<const std::string_view> wordsOf(const Json& shape) {
-  static std::deque<std::vector<std::string_view>> kept;
-  if (const auto type = shape.find("$ref"); type != shape.end())
-    return wordsOf(schema().at(Json::json_pointer(type->get<std::string>().substr(1))));
+unsigned typesOf(const Json& types) {
+  constexpr std::string_view kTypes[] = {"null", "boolean", "number", "string", "array", "object"};
+  if (types.is_string()) return 1u << (std::ranges::find(kTypes, types.get<std::string>()) - kTypes);
+  unsigned all = 0;
+  for (const Json& type : types) all |= typesOf(type);
+  return all;
+}
+
+const Shape& shapeOfJson(const Json& json);
+
+void addKeys(Shape& shape, const Json& object) {
+  const Json none = Json::array();
+  for (const auto& [key, value] : object.at("properties").items()) {
+    const Shape& of = shapeOfJson(value);
+    shape.keys.push_back({key, value.at("description").get_ref<const std::string&>(), false, of.words, &of});
+  }
+  for (const Json& key : object.value("required", none))
+    std::ranges::find(shape.keys, key.get<std::string>(), &KeySpec::key)->required = true;
+}
+
+Shape makeShape(const Json& json) {
+  static std::deque<std::vector<std::string_view>> words;
+  Shape shape;
+  if (json.contains("type")) shape.types = typesOf(json["type"]);
+  if (json.contains("properties")) addKeys(shape, json);
+  if (const auto others = json.find("additionalProperties"); others != json.end() && others->is_object())
+    shape.others = &shapeOfJson(*others);
+  if (json.contains("items")) shape.items = &shapeOfJson(json["items"]);
+  shape.minItems = json.value("minItems", shape.minItems);
+  shape.maxItems = json.value("maxItems", shape.maxItems);
+  if (json.contains("anyOf"))
+    for (const Json& each : json["anyOf"]) shape.anyOf.push_back(&shapeOfJson(each));
   for (const char* key : {"enum", "examples"})
-    if (const auto words = shape.find(key); words != shape.end()) return kept.emplace_back(textsOf(*words));
-  return {};
+    if (json.contains(key)) {
+      shape.words = words.emplace_back(textsOf(json[key]));
+      shape.open = key == std::string_view("examples");
+    }
+  if (json.contains("enum") || json.contains("const")) shape.types = typesOf("string");
+  return shape;
 }
 
-std::vector<KeySpec> keysIn(const Json& object) {
-  std::vector<KeySpec> keys;
-  std::vector<std::string_view> required;
-  if (const auto list = object.find("required"); list != object.end()) required = textsOf(*list);
-  for (const auto& [key, shape] : object.at("properties").items())
-    keys.push_back({key, shape.at("description").get_ref<const std::string&>(),
-                    std::ranges::find(required, key) != required.end(), wordsOf(shape)});
-  return keys;
+// The shapes live as long as the program.
+const Shape& shapeOfJson(const Json& json) {
+  static std::map<const Json*, Shape> known;
+  if (const auto type = json.find("$ref"); type != json.end())
+    return shapeOf(
+        std::string_view(type->get_ref<const std::string&>()).substr(std::string_view("#/$defs/").size()));
+  const auto [at, fresh] = known.try_emplace(&json);
+  if (fresh) at->second = makeShape(json);
+  return at->second;
 }
 
-// The keys of one kind of objects, as long as the program lives.
-std::span<const KeySpec> keysOf(const char* kind) {
-  static std::deque<std::vector<KeySpec>> kept;
-  return kept.emplace_back(keysIn(schema().at("$defs").at(kind)));
-}
-
-std::span<const KeySpec> keysOfGraph() {
-  static std::vector<KeySpec> keys = keysIn(schema());
-  for (const std::string_view key : textsOf(schema().at("then").at("required")))
-    std::ranges::find(keys, key, &KeySpec::key)->required = true;
-  return keys;
+// Of a file that changes no other.
+const Shape& shapeOfGraph() {
+  static const Shape whole = [] {
+    Shape shape = shapeOfJson(schema());
+    const Json& then = schema().at("then");
+    const auto required = textsOf(then.at("required"));
+    for (KeySpec& spec : shape.keys) {
+      const std::string key(spec.key);
+      if (then.at("properties").contains(key)) spec.shape = &shapeOfJson(then["properties"][key]);
+      spec.required = std::ranges::find(required, key) != required.end();
+    }
+    return shape;
+  }();
+  return whole;
 }
 
 // What a stanza of an overlay may say that no pass and no include says.
 std::span<const KeySpec> keysOfPlaces() {
-  static std::vector<KeySpec> keys = keysIn(schema().at("$defs").at("passChange"));
+  static std::vector<KeySpec> keys = shapeOf("passChange").keys;
   for (const auto others : {kPassKeys, kIncludeKeys})
     for (const KeySpec& other : others)
       std::erase_if(keys, [&](const KeySpec& each) { return each.key == other.key; });
@@ -67,16 +104,29 @@ std::span<const KeySpec> keysOfPlaces() {
 
 }  // namespace
 
-const std::span<const KeySpec> kGraphKeys = keysOfGraph();
-const std::span<const KeySpec> kParameterKeys = keysOf("parameter");
-const std::span<const KeySpec> kTextureKeys = keysOf("texture");
-const std::span<const KeySpec> kBufferKeys = keysOf("buffer");
-const std::span<const KeySpec> kImportKeys = keysOf("import");
-const std::span<const KeySpec> kInputKeys = keysOf("input");
-const std::span<const KeySpec> kPassKeys = keysOf("pass");
-const std::span<const KeySpec> kIncludeKeys = keysOf("include");
-const std::span<const KeySpec> kShaderKeys = keysOf("shaders");
-const std::span<const KeySpec> kStateKeys = keysOf("state");
+const Shape& shapeOf(std::string_view kind) {
+  static std::map<std::string, Shape, std::less<>> known;
+  const auto [at, fresh] = known.try_emplace(std::string(kind));
+  if (fresh) {
+    const Json& json = schema().at("$defs").at(at->first);
+    at->second = makeShape(json);
+    at->second.kind = at->first;
+    if (const auto doc = json.find("description"); doc != json.end())
+      at->second.doc = doc->get_ref<const std::string&>();
+  }
+  return at->second;
+}
+
+const std::span<const KeySpec> kGraphKeys = shapeOfGraph().keys;
+const std::span<const KeySpec> kParameterKeys = shapeOf("parameter").keys;
+const std::span<const KeySpec> kTextureKeys = shapeOf("texture").keys;
+const std::span<const KeySpec> kBufferKeys = shapeOf("buffer").keys;
+const std::span<const KeySpec> kImportKeys = shapeOf("import").keys;
+const std::span<const KeySpec> kInputKeys = shapeOf("input").keys;
+const std::span<const KeySpec> kPassKeys = shapeOf("pass").keys;
+const std::span<const KeySpec> kIncludeKeys = shapeOf("include").keys;
+const std::span<const KeySpec> kShaderKeys = shapeOf("shaders").keys;
+const std::span<const KeySpec> kStateKeys = shapeOf("state").keys;
 const std::span<const KeySpec> kPlaceKeys = keysOfPlaces();
 
 }  // namespace weft::graph

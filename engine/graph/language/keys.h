@@ -6,14 +6,13 @@
 #include <array>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace weft::graph {
 
 constexpr std::array<std::string_view, 8> kParameterTypes = {"bool", "int",  "float",  "vec2",
                                                              "vec3", "vec4", "choice", "file"};
-constexpr std::array<std::string_view, 5> kViewWords = {"2d", "2d_array", "cube", "cube_array", "3d"};
 constexpr std::array<std::string_view, 3> kUpdateWords = {"always", "on_change", "once"};
-constexpr std::array<std::string_view, 2> kInputWords = {"texture", "buffer"};
 
 constexpr std::array<std::string_view, 7> kBlendWords = {"none",     "add", "alpha", "premultiplied",
                                                          "multiply", "min", "max"};
@@ -26,11 +25,29 @@ constexpr std::array<std::string_view, 2> kPolygonWords = {"fill", "line"};
 // The text of the schema (draft 2020-12).
 extern const char* const kGraphSchema;
 
+struct Shape;
+
 struct KeySpec {
   std::string_view key, doc;
   bool required = false;
   std::span<const std::string_view> words = {};  // that it may be, where these are few
+  const Shape* shape = nullptr;
 };
+
+// What the schema says of a value.
+struct Shape {
+  std::string_view kind, doc;  // "texture" and what it is, of a named definition
+  unsigned types = 0;          // a bit for each JsonValue::Type that it may be; 0: any
+  std::vector<KeySpec> keys;
+  const Shape* others = nullptr;  // the values of all other keys; null: there are none
+  const Shape* items = nullptr;   // of an array
+  std::size_t minItems = 0, maxItems = ~std::size_t{0};
+  std::vector<const Shape*> anyOf;
+  std::span<const std::string_view> words = {};  // that it may be, or, with `open`, that are examples
+  bool open = true;
+};
+// Of a definition of the schema: "resource".
+const Shape& shapeOf(std::string_view kind);
 
 extern const std::span<const KeySpec> kGraphKeys;
 extern const std::span<const KeySpec> kParameterKeys;

@@ -33,14 +33,6 @@ std::optional<double> parseNumber(std::string_view text) {
   return text::numberIn<double>(trimmed(text));
 }
 
-const char* whyNoNumber(std::string_view text) {
-  double x = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-  if (text.empty() || end != text.data() + text.size()) return nullptr;
-  if (error == std::errc::result_out_of_range) return "beyond what a number can hold";
-  return error == std::errc{} && !std::isfinite(x) ? "not a finite number" : nullptr;
-}
-
 Value parseValue(std::string_view text) {
   text = trimmed(text);
   if (text == "true" || text == "false") return Value::boolean(text == "true");

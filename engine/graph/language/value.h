@@ -34,7 +34,5 @@ std::string toText(const Value& value);
 Value parseValue(std::string_view text);
 // A finite number, perhaps with blanks around it; else nothing.
 std::optional<double> parseNumber(std::string_view text);
-// What is wrong with a word that looks like a number and is none ("nan", "inf", "1e999"); null for any other word.
-const char* whyNoNumber(std::string_view text);
 
 }  // namespace weft::graph

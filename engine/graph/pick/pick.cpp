@@ -75,31 +75,26 @@ std::uint32_t findVersion(const FlatGraph& graph, const Pick& pick, text::Diagno
 }
 
 bool checkParts(const FlatResource& resource, const Pick& pick, text::Diagnostics& diagnostics) {
-  const auto within = [&](const char* what, std::uint32_t value, std::uint32_t count, Code code) {
-    if (value < count) return true;
-    auto& d = reportPick(diagnostics, code, pick, fmt::format("'{}' has no {} {}", pick.name, what, value));
-    d.expected = count == 1 ? fmt::format("only {} 0", what) : fmt::format("{} 0 to {}", what, count - 1);
+  const auto refuse = [&](Code code, const std::string& what, std::string expected) {
+    reportPick(diagnostics, code, pick, fmt::format("'{}' has no {}", pick.name, what)).expected =
+        std::move(expected);
     return false;
   };
   const std::uint32_t slices = resource.target == Target::texture_3d
                                    ? std::max(1u, resource.depth >> std::min<std::uint32_t>(pick.mip, 31))
                                    : resource.layers;
-  if (!within("level", pick.mip, resource.mips, Code::missingSubresource) ||
-      !within("layer", pick.layer, slices, Code::missingSubresource))
-    return false;
-  if (pick.history > resource.history) {
-    auto& d = reportPick(diagnostics, Code::noHistory, pick,
-                         fmt::format("'{}' keeps {} of its publications", pick.name,
-                                     resource.history == 0 ? "none" : std::to_string(resource.history)));
-    d.hint = fmt::format("write \"history\": {} into its declaration", pick.history);
-    return false;
-  }
-  if (pick.stencil && !hasStencil(resource.format)) {
-    reportPick(diagnostics, Code::badSelector, pick, fmt::format("'{}' has no stencil", pick.name)).found =
-        infoOf(resource.format).name;
-    return false;
-  }
-  return true;
+  if (pick.mip >= resource.mips)
+    return refuse(Code::missingSubresource, fmt::format("level {}", pick.mip),
+                  fmt::format("level 0 to {}", resource.mips - 1));
+  if (pick.layer >= slices)
+    return refuse(Code::missingSubresource, fmt::format("layer {}", pick.layer),
+                  fmt::format("layer 0 to {}", slices - 1));
+  if (pick.history > resource.history)
+    return refuse(Code::noHistory, fmt::format("publication @-{}", pick.history),
+                  fmt::format("at most @-{}; \"history\": {} in its declaration keeps more", resource.history,
+                              pick.history));
+  return !pick.stencil || hasStencil(resource.format) ||
+         refuse(Code::badSelector, "stencil", "a resource with a format that has one");
 }
 
 }  // namespace

@@ -4,20 +4,568 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <optional>
+#include <unordered_map>
 #include <utility>
 
-#include "engine/graph/read/merge.h"
-#include "engine/graph/read/misspelt.h"
+#include "engine/graph/language/suffix.h"
 #include "engine/graph/read/read_context.h"
+#include "engine/graph/read/shape.h"
 #include "engine/text/files/file.h"
 #include "engine/text/limits.h"
+#include "engine/text/nearest.h"
 
 namespace weft::graph {
 
 using text::Code;
 using Type = JsonValue::Type;
 
+// ---- trees ----
+
+JsonMember* memberOf(JsonValue& object, std::string_view key) {
+  const auto found = std::ranges::find(object.members, key, &JsonMember::key);
+  return found == object.members.end() ? nullptr : &*found;
+}
+
+std::string_view kindOf(const JsonValue& resource) {
+  if (!resource.is(Type::object)) return "alternatives";
+  for (const std::string_view kind : {"texture", "buffer", "import", "input"})
+    if (const JsonValue* value = resource.find(kind); value && !value->is(Type::null)) return kind;
+  return "";
+}
+
 namespace {
+
+// The value and all that is in it.
+std::uint64_t valuesOf(const JsonValue& value) {
+  std::uint64_t count = 1;
+  for (const JsonValue& item : value.items) count += valuesOf(item);
+  for (const JsonMember& member : value.members) count += valuesOf(member.value);
+  return count;
+}
+
+// The value that a stanza is called by; null when it has none.
+const JsonValue* calledBy(const JsonValue& stanza) {
+  for (const char* key : {"name", "as", "include"})
+    if (const JsonValue* named = stanza.find(key)) return named;
+  return nullptr;
+}
+
+// Objects merge, null takes a member away, anything else replaces what is there.
+struct Merge {
+  bool keepsNull = false;   // null stays where nothing is there
+  bool takesPlace = false;  // a merged object has the place of the one that is laid over it
+  std::function<void(const JsonMember& over)> nothingThere{};  // for null to take away
+
+  void run(JsonValue& into, const JsonMember& over) const {
+    JsonMember* there = memberOf(into, over.key);
+    if (over.value.is(Type::null) && !keepsNull) {
+      if (there)
+        into.members.erase(into.members.begin() + (there - into.members.data()));
+      else
+        nothingThere(over);
+      return;
+    }
+    if (!there) there = &into.members.emplace_back(over.key, over.place);
+    if (!over.value.is(Type::object)) {
+      *there = over;
+      return;
+    }
+    if (!there->value.is(Type::object)) {
+      *there = over;
+      there->value.members.clear();
+    }
+    if (takesPlace) {
+      there->place = over.place;
+      there->value.place = over.value.place;
+    }
+    for (const JsonMember& member : over.value.members) run(there->value, member);
+  }
+};
+
+void reportNothing(ReadContext& said, const JsonMember& null) {
+  said.error(Code::nothingToChange, null.place,
+             fmt::format("null takes \"{}\" away, which is not there", null.key))
+      .hint = "leave it out";
+}
+
+// `other` with `stanza` over it.
+JsonValue mergeLike(const JsonValue& other, const JsonValue& stanza, const JsonValue& like,
+                    ReadContext& said) {
+  JsonValue made = other;
+  made.place = stanza.place;
+  // A parameter is declared once: who is like its pass takes the value.
+  if (JsonMember* parameters = memberOf(made, "parameters"))
+    for (JsonMember& member : parameters->value.members)
+      if (member.value.is(Type::object)) {
+        member.value = like;
+        member.value.text = fmt::format("${}.{}", like.text, member.key);
+      }
+  // With another shader, a slot, parameter or define of the other that does not fit is a mistake of this pass, at its "like".
+  if (stanza.find("shader"))
+    for (const char* group : {"read", "write", "modify", "parameters", "defines"})
+      if (JsonMember* names = memberOf(made, group))
+        for (JsonMember& member : names->value.members) member.place = like.place;
+  const Merge merge{.takesPlace = true, .nothingThere = [&](const JsonMember& over) {
+                      // One of an overlay may be about what the stanza itself says.
+                      if (over.place.file == stanza.place.file) reportNothing(said, over);
+                    }};
+  for (const JsonMember& member : stanza.members) merge.run(made, member);
+  return made;
+}
+
+}  // namespace
+
+std::string includePrefix(const JsonValue& stanza) {
+  const JsonValue *as = stanza.find("as"), *include = stanza.find("include");
+  return as ? as->text : include ? std::filesystem::path(include->text).stem().string() : std::string();
+}
+
+std::string stanzaName(const JsonValue& stanza) {
+  const JsonValue* name = stanza.find("name");
+  return name ? name->text : includePrefix(stanza);
+}
+
+void writeOut(std::vector<JsonValue>& stanzas, text::Diagnostics& diagnostics) {
+  ReadContext said(diagnostics);
+  std::unordered_map<std::string, const JsonValue*> above;  // written out, by name
+  std::vector<std::string> names;
+  std::uint64_t values = 0;
+  for (JsonValue& stanza : stanzas) {
+    if (!stanza.is(Type::object) || stanza.find("include")) continue;
+    said.pass = stanzaName(stanza);
+    if (const JsonValue* like = stanza.find("like")) {
+      const auto found = above.find(like->text);
+      std::optional<JsonValue> whole;
+      if (said.expect(*like, Type::string, "\"like\"") && found == above.end()) {
+        auto& d = said.error(
+            Code::likeNothing, *like,
+            fmt::format("no pass above has the name '{}', which '{}' is like", like->text, said.pass));
+        d.expected = "the name of a pass above it in this file";
+        d.hint = text::nearestHint(like->text, names);
+      } else if (found != above.end() && found->second->is(Type::object)) {
+        values += valuesOf(*found->second);
+        if (values > text::raised(text::kMaxValues)) {
+          text::reportLimit(diagnostics, like->place, "passes that are like others hold too many values",
+                            text::kMaxValues, "values");
+          for (JsonValue& each : stanzas) each.type = Type::absent;
+          return;
+        }
+        whole = mergeLike(*found->second, stanza, *like, said);
+      }
+      if (whole)
+        stanza = *std::move(whole);
+      else
+        stanza.type = Type::absent;
+    }
+    if (!said.pass.empty() && above.try_emplace(said.pass, &stanza).second) names.push_back(said.pass);
+  }
+}
+
+// ---- one overlay, laid over a source and the files that it includes ----
+
+namespace {
+
+using text::Diagnostic;
+
+constexpr std::uint64_t kMaxChanges = 16'384;  // values of one overlay: each is looked for in what is below
+
+// Where a whole name leads.
+struct Spot {
+  std::vector<std::string> below;  // the prefixes of the includes that it begins with, from the source down
+  std::string own;                 // what is left of the name, in the file at their end
+  std::optional<std::size_t> index =
+      {};               // there, among the members of the section or the stanzas of "passes"
+  Place declared = {};  // of its name there
+};
+
+const JsonValue* sectionOf(const Source& source, std::string_view section) {
+  const JsonValue* found = source.root.find(section);
+  return found && found->is(section == "passes" ? Type::array : Type::object) ? found : nullptr;
+}
+
+// The stanza without "before", "after" and "remove", called `name` in its own file; without a name when that is "".
+JsonValue withoutPlace(JsonValue stanza, std::string_view name) {
+  std::erase_if(stanza.members, [&](const JsonMember& member) {
+    return member.key == "before" || member.key == "after" || member.key == "remove" ||
+           (name.empty() && (member.key == "name" || member.key == "as"));
+  });
+  for (JsonMember& member : stanza.members)
+    if (member.key == "name" || member.key == "as") member.value.text = name;
+  return stanza;
+}
+
+// What a pass stanza writes and modifies: the names of the resources.
+std::vector<std::string> writtenBy(const JsonValue& stanza) {
+  std::vector<std::string> names;
+  for (const char* key : {"write", "modify"})
+    for (const JsonMember& slot : membersIn(stanza, key)) {
+      std::string name = slot.value.text.substr(0, slot.value.text.find_first_of(" [@"));
+      for (const std::string_view part : {".mip", ".layer", ".face", ".stencil"})
+        if (name.ends_with(part)) name.resize(name.size() - part.size());
+      names.push_back(std::move(name));
+    }
+  return names;
+}
+
+// Whether an entry that is not there yet declares something, instead of changing it.
+bool declares(std::string_view section, const JsonMember& entry) {
+  if (entry.value.is(Type::null)) return false;
+  if (section == "resources") return !kindOf(entry.value).empty();
+  if (section == "let" || !entry.value.is(Type::object)) return true;
+  const JsonValue* initial = entry.value.find("default");
+  return initial && (!initial->is(Type::string) || entry.value.find("choices") || entry.value.find("type"));
+}
+
+class Applier {
+ public:
+  Applier(SourceLoader& loader, Source& target, text::Diagnostics& diagnostics)
+      : loader_(loader), target_(target), said_(diagnostics) {}
+
+  // Passes first: other sections may reach into what the overlay includes.
+  void run(const JsonValue& overlay, bool preset) {
+    if (const std::uint64_t values = valuesOf(overlay); values > text::raised(kMaxChanges)) {
+      said_.error(Code::limitExceeded, overlay, "the overlay changes too much").hint =
+          text::hintToRaise(kMaxChanges, values);
+      return;
+    }
+    if (const JsonValue* passes = overlay.find("passes");
+        passes && said_.expect(*passes, Type::array, "\"passes\""))
+      for (const JsonValue& stanza : passes->items)
+        if (!stopped()) applyStanza(stanza);
+    for (const JsonMember& member : overlay.members) {
+      if (stopped()) return;
+      const JsonValue& value = member.value;
+      const bool section = member.key == "parameters" || member.key == "let" || member.key == "resources";
+      if (member.key == "extends" || member.key == "passes" ||
+          (preset && (member.key == "name" || member.key == "description")))
+        continue;
+      if (member.key == "set") {
+        if (said_.expect(value, Type::object, "\"set\""))
+          for (const JsonMember& each : value.members)
+            target_.sets.push_back({each, preset ? Origin::preset : Origin::overlay});
+      } else if (section && value.is(Type::object)) {
+        for (const JsonMember& entry : value.members)
+          if (!stopped()) applyEntry(member, entry);
+      } else {
+        merge(target_.root, member);
+      }
+    }
+  }
+
+ private:
+  bool stopped() const { return tooMuch_ || !said_.goesOn(); }
+
+  // In a pass that is like another, null stays, for the keys of the other.
+  void merge(JsonValue& into, const JsonMember& over, bool keepsNull = false) {
+    Merge{.keepsNull = keepsNull, .nothingThere = [&](const JsonMember& null) { reportNothing(said_, null); }}
+        .run(into, over);
+  }
+
+  // ---- what is below ----
+
+  // The file behind an include, as it is changed so far; null for another stanza, and for a circle, which is the reader's to
+  // report.
+  std::shared_ptr<const Source> fileOf(const Source& source, const JsonValue& stanza) const {
+    const JsonValue* include = stanza.find("include");
+    if (!include || !include->is(Type::string)) return nullptr;
+    if (const auto changed = source.changed.find(includePrefix(stanza)); changed != source.changed.end())
+      return changed->second;
+    const std::string path = pathBeside(*include);
+    return loader_.isOpen(identityOf(path)) ? nullptr : loader_.file(path, include->place);
+  }
+  std::shared_ptr<const Source> includedBy(const Source& source, std::string_view prefix) const {
+    if (const JsonValue* passes = sectionOf(source, "passes"))
+      for (const JsonValue& stanza : passes->items)
+        if (stanza.find("include") && includePrefix(stanza) == prefix) return fileOf(source, stanza);
+    return nullptr;
+  }
+
+  Spot locate(std::string_view section, std::string_view name) const {
+    Spot spot{{}, std::string(name)};
+    std::shared_ptr<const Source> kept;
+    const Source* at = &target_;
+    for (std::size_t dot = 0; (dot = spot.own.find('.')) != std::string::npos;) {
+      const std::string prefix = spot.own.substr(0, dot);
+      kept = includedBy(*at, prefix);
+      if (!kept) return spot;
+      at = kept.get();
+      spot.own.erase(0, dot + 1);
+      spot.below.push_back(prefix);
+    }
+    const JsonValue* own = spot.own.empty() ? nullptr : sectionOf(*at, section);
+    if (!own) return spot;
+    const auto member = std::ranges::find(own->members, spot.own, &JsonMember::key);
+    const auto stanza = std::ranges::find(own->items, spot.own, stanzaName);
+    if (member != own->members.end()) {
+      spot.index = member - own->members.begin();
+      spot.declared = member->place;
+    } else if (stanza != own->items.end()) {
+      spot.index = stanza - own->items.begin();
+      spot.declared = calledBy(*stanza)->place;
+    }
+    return spot;
+  }
+
+  // As locate(); what is there is also noted as named by the overlay at `place`.
+  Spot find(std::string_view section, std::string_view name, const Place& place) {
+    Spot spot = locate(section, name);
+    if (spot.index) target_.named.push_back({std::string(name), place, spot.declared});
+    return spot;
+  }
+
+  // "like" names a pass of the same file, which an overlay calls by its whole name or as that file does.
+  JsonValue withLike(JsonValue stanza, const std::vector<std::string>& below) const {
+    if (JsonMember* like = memberOf(stanza, "like"))
+      if (Spot other = locate("passes", like->value.text); other.below == below)
+        like->value.text = std::move(other.own);
+    return stanza;
+  }
+
+  // Adds every name in a section of a source and of all that it includes, its own first, without inputs: for hints. Looks at
+  // `files` at most; too many, and circles, are the reader's to report.
+  void addNames(const Source& source, std::string_view section, const std::string& prefix, std::size_t& files,
+                std::vector<std::string>& names) const {
+    if (const JsonValue* own = sectionOf(source, section)) {
+      for (const JsonMember& member : own->members)
+        if (!member.value.find("input")) names.push_back(prefix + member.key);
+      for (const JsonValue& stanza : own->items)
+        if (const std::string name = stanzaName(stanza); !name.empty()) names.push_back(prefix + name);
+    }
+    const bool deep = std::ranges::count(prefix, '.') >= 8;
+    if (const JsonValue* passes = deep ? nullptr : sectionOf(source, "passes"))
+      for (const JsonValue& stanza : passes->items)
+        if (const auto child = files > 0 ? fileOf(source, stanza) : nullptr)
+          addNames(*child, section, prefix + includePrefix(stanza) + ".", --files, names);
+  }
+
+  // What was meant by a name that is not there.
+  struct Meant {
+    std::vector<std::string> whole;  // the names that end in it, the shortest first
+    std::string near, hint;
+  };
+  Meant meantBy(std::string_view wanted, std::string_view section) const {
+    std::vector<std::string> names;
+    std::size_t files = kMaxIncludes;
+    addNames(target_, section, "", files, names);
+    Meant meant{.whole = {}, .near = text::nearestName(wanted, names), .hint = suffixHint(wanted, names)};
+    for (const std::size_t i : suffixMatches(names, wanted)) meant.whole.push_back(names[i]);
+    std::ranges::stable_sort(meant.whole, {}, &std::string::size);
+    if (meant.whole.empty()) return meant;
+    meant.near = meant.whole[0];
+    meant.hint = fmt::format("write the whole name, '{}'", meant.near) +
+                 (meant.whole.size() > 1 ? fmt::format(" or '{}'", meant.whole[1]) : "");
+    return meant;
+  }
+
+  // The file at the end of the prefixes, to be changed: a copy, kept beside its include. Null after a report.
+  Source* open(const std::vector<std::string>& below, const Place& place) {
+    Source* at = &target_;
+    for (const std::string& prefix : below) {
+      const std::shared_ptr<const Source> child = includedBy(*at, prefix);
+      std::shared_ptr<Source>& kept = at->changed[prefix];
+      if (!own_.contains(child.get())) {
+        tooMuch_ = !loader_.mayCopy(*child, place);
+        kept = std::make_shared<Source>(*child);
+        own_.insert(kept.get());
+      }
+      at = kept.get();
+    }
+    return tooMuch_ ? nullptr : at;
+  }
+
+  // ---- parameters, lets, resources ----
+
+  void applyEntry(const JsonMember& section, JsonMember entry) {
+    said_.resource = section.key == "resources" ? entry.key : "";
+    const std::string whole = entry.key;
+    const Spot spot = find(section.key, whole, entry.place);
+    const bool fresh = !spot.index && declares(section.key, entry) && spot.own.find('.') == std::string::npos;
+    if (!spot.index && !fresh) {
+      const std::string hint = meantBy(whole, section.key).hint;
+      said_
+          .error(Code::nothingToChange, entry.place,
+                 fmt::format("'{}' of \"{}\" is not there to be {}", whole, section.key,
+                             entry.value.is(Type::null) ? "removed" : "changed"))
+          .hint = hint.empty() ? "write all of it to declare a new one" : hint;
+    } else if (Source* source = open(spot.below, entry.place)) {
+      entry.key = spot.own;  // "bloom.glow" is "glow" in its own file
+      JsonMember* there = memberOf(source->root, section.key);
+      if (!there) {
+        there = &source->root.members.emplace_back(section);
+        there->value.members.clear();
+      }
+      if (fresh && there->value.is(Type::object))
+        there->value.members.push_back(entry);
+      else if (!fresh &&
+               (section.key != "resources" || mayMerge(there->value.members[*spot.index].value, entry)))
+        merge(there->value, entry);
+    }
+    said_.resource.clear();
+  }
+
+  // False after a report: the entry makes another kind of resource of what is there.
+  bool mayMerge(const JsonValue& there, const JsonMember& entry) {
+    if (entry.value.is(Type::null)) return true;
+    const std::string_view before = kindOf(there), over = kindOf(entry.value);
+    const JsonValue* dropped = entry.value.find(before);
+    const bool changes = there.is(Type::object) && entry.value.is(Type::object)
+                             ? !over.empty() && over != before && !(dropped && dropped->is(Type::null))
+                             : over.empty();
+    if (!changes) return true;
+    Diagnostic& d = said_.error(Code::kindsDoNotMerge, entry.place,
+                                fmt::format("resource '{}' cannot be merged with what is there", entry.key));
+    d.expected = before == "alternatives" ? "a reference or a list of references, or a whole resource"
+                                          : fmt::format("keys of \"{0}\", or \"{0}\": null", before);
+    d.found = over.empty() ? describe(entry.value) : fmt::format("\"{}\"", over);
+    return false;
+  }
+
+  // ---- passes ----
+
+  void applyStanza(const JsonValue& stanza) {
+    if (!said_.expect(stanza, Type::object, "a pass")) return;
+    if (!sectionOf(target_, "passes")) return;  // the reader says what is wrong with the base
+    said_.pass = stanzaName(stanza);
+    const JsonValue* before = stanza.find("before");
+    const JsonValue* after = stanza.find("after");
+    const JsonValue* remove = stanza.find("remove");
+    if (before && after)
+      said_.error(Code::keysExclude, stanza.place, "a pass cannot stand both \"before\" and \"after\" others")
+          .hint = "keep one of them";
+    else if (remove && !remove->is(Type::boolean))
+      said_.expect(*remove, Type::boolean, "\"remove\"");
+    else if (const JsonValue* anchor = before ? before : after)
+      putAt(stanza, *anchor, after != nullptr);
+    else
+      change(stanza, remove && remove->flag);
+    said_.pass.clear();
+  }
+
+  std::vector<JsonValue>& passesOf(Source& source) { return memberOf(source.root, "passes")->value.items; }
+
+  // A new pass, or one that moves.
+  void putAt(const JsonValue& stanza, const JsonValue& anchor, bool after) {
+    if (!said_.expect(anchor, Type::string, after ? "\"after\"" : "\"before\"")) return;
+    Spot beside = find("passes", anchor.text, anchor.place);
+    if (!beside.index) {
+      const Meant meant = meantBy(anchor.text, "passes");
+      Diagnostic& d = said_.error(Code::passWithoutPlace, anchor.place,
+                                  fmt::format("pass '{}' stands {} '{}', which is not there", said_.pass,
+                                              after ? "after" : "before", anchor.text));
+      d.expected = "the name of a pass, or the prefix of an include";
+      d.hint = meant.hint;
+      // Where it was probably meant, else at the end, so that what stands beside it is no second mistake.
+      if (!meant.near.empty()) beside = locate("passes", meant.near);
+    }
+    const JsonValue* named = calledBy(stanza);
+    const Spot moved = find("passes", said_.pass, named ? named->place : stanza.place);
+    const std::string own = moved.below == beside.below ? moved.own : said_.pass;
+    if (!mayStand(stanza, anchor, beside, moved, own)) return;
+    Source* source = open(beside.index ? beside.below : std::vector<std::string>(), anchor.place);
+    if (!source) return;
+    std::vector<JsonValue>& items = passesOf(*source);
+    std::size_t at = beside.index ? *beside.index + (after ? 1 : 0) : items.size();
+    JsonValue placed = withLike(withoutPlace(stanza, own), beside.below);
+    if (beside.index && moved.index) {
+      const auto there = items.begin() + static_cast<std::ptrdiff_t>(*moved.index);
+      if (!mergeStanza(*source, *there, stanza, beside.below)) return;
+      placed = std::move(*there);
+      items.erase(there);
+      if (*moved.index < at) --at;
+    }
+    items.insert(items.begin() + static_cast<std::ptrdiff_t>(at), std::move(placed));
+  }
+
+  // Whether the pass can stand beside the anchor, in whose file it is then called `own`; false after a report.
+  bool mayStand(const JsonValue& stanza, const JsonValue& anchor, const Spot& beside, const Spot& moved,
+                std::string_view own) {
+    const JsonValue* named = stanza.find("name");
+    const auto refuse = [&](const JsonValue& at, std::string message, std::string hint) {
+      said_.error(Code::passWithoutPlace, at.place, std::move(message)).hint = std::move(hint);
+      return false;
+    };
+    if (beside.index && moved.index && beside.below == moved.below)
+      return *beside.index != *moved.index ||
+             refuse(anchor, fmt::format("pass '{}' stands beside itself", said_.pass), "name another pass");
+    if (beside.index && (moved.index || own.find('.') != std::string_view::npos)) {
+      std::string whole;
+      for (const std::string& prefix : beside.below) whole += prefix + ".";
+      return refuse(named ? *named : stanza,
+                    fmt::format("pass '{}' cannot stand beside '{}', which is in another file", said_.pass,
+                                anchor.text),
+                    moved.index
+                        ? "name a pass of its own file, or remove it and write a new one here"
+                        : fmt::format("call it '{}{}'", whole, said_.pass.substr(said_.pass.rfind('.') + 1)));
+    }
+    return stanza.find("type") || stanza.find("include") || stanza.find("like") ||
+           refuse(named ? *named : stanza, fmt::format("pass '{}' is not there to be moved", said_.pass),
+                  meantBy(said_.pass, "passes").hint);
+  }
+
+  void change(const JsonValue& stanza, bool remove) {
+    const JsonValue* named = calledBy(stanza);
+    const Place place = named ? named->place : stanza.place;
+    const Spot spot = find("passes", said_.pass, place);
+    if (!spot.index) {
+      const Meant meant = meantBy(said_.pass, "passes");
+      Diagnostic& d = said_.error(remove ? Code::nothingToChange : Code::passWithoutPlace, place,
+                                  fmt::format("pass '{}' is not there to be {}", said_.pass,
+                                              remove ? "removed" : "changed, and a new one needs a place"));
+      if (!remove) d.expected = "the name of a pass, or \"before\" or \"after\" one";
+      d.hint = meant.hint;
+      if (!remove && (stanza.find("type") || stanza.find("include")) && meant.whole.empty())
+        passesOf(target_).push_back(withoutPlace(stanza, said_.pass));
+      return;
+    }
+    Source* source = open(spot.below, place);
+    if (!source) return;
+    std::vector<JsonValue>& items = passesOf(*source);
+    JsonValue& there = items[*spot.index];
+    if (!remove) {
+      mergeStanza(*source, there, stanza, spot.below);
+      return;
+    }
+    source->removed.push_back({stanzaName(there), place, writtenBy(there)});
+    source->changed.erase(stanzaName(there));
+    items.erase(items.begin() + static_cast<std::ptrdiff_t>(*spot.index));
+  }
+
+  // False after a report.
+  bool mergeStanza(Source& source, JsonValue& there, const JsonValue& stanza,
+                   const std::vector<std::string>& below) {
+    const bool include = there.find("include") != nullptr;
+    if (const JsonValue* culprit = stanza.find(include ? "type" : "include")) {
+      Diagnostic& d = said_.error(Code::kindsDoNotMerge, culprit->place,
+                                  fmt::format("'{}' cannot be merged with what is there", said_.pass));
+      d.expected = include ? "keys of an include" : "keys of a pass";
+      d.hint = "remove the one, and give the other a name of its own";
+      return false;
+    }
+    if (include && stanza.find("include")) {
+      // Another file under the same prefix.
+      source.changed.erase(includePrefix(there));
+      if (!there.find("as")) {
+        JsonMember as{"as", there.place, *there.find("include")};
+        as.value.text = includePrefix(there);
+        there.members.push_back(std::move(as));
+      }
+    }
+    const JsonValue over = withLike(withoutPlace(stanza, ""), below);
+    const bool keepsNull = there.find("like") != nullptr;
+    for (const JsonMember& member : over.members) merge(there, member, keepsNull);
+    return true;
+  }
+
+  SourceLoader& loader_;
+  Source& target_;
+  ReadContext said_;             // with the pass or resource that is being applied
+  std::set<const Source*> own_;  // copies that only this overlay has seen
+  bool tooMuch_ = false;         // reported; nothing more is applied
+};
+
+// ---- files ----
 
 // Takes the keys of stanzas in overlays away, which mean nothing where there is nothing to lay them over.
 void dropOverlayKeys(JsonValue& root, text::Diagnostics& diagnostics) {
@@ -106,6 +654,7 @@ bool SourceLoader::mayCopy(const Source& source, const text::Place& place) {
   return false;
 }
 
+// A file without "extends" is a graph; one with it is what it extends, with the others of the list and itself laid over that.
 std::shared_ptr<const Source> SourceLoader::complete(JsonValue root, const std::string& path) {
   Source source{.path = path, .identity = identityOf(path), .files = {path}};
   const JsonValue* set = root.find("set");
@@ -124,33 +673,26 @@ std::shared_ptr<const Source> SourceLoader::complete(JsonValue root, const std::
     }
     dropOverlayKeys(root, diagnostics_);
     source.values = valuesOf(root);
-    if (!mayCopy(source, root.place)) return nullptr;
     source.root = std::move(root);
-    return std::make_shared<const Source>(std::move(source));
+    return mayCopy(source, source.root.place) ? std::make_shared<const Source>(std::move(source)) : nullptr;
   }
   const std::vector<const JsonValue*> below = namesIn(*extends, diagnostics_);
-  if (below.empty()) return nullptr;
   open_.emplace_back(source.identity, path);
   const std::shared_ptr<const Source> base =
-      mayExtend(*below[0]) ? file(pathBeside(*below[0]), below[0]->place) : nullptr;
-  bool good = base && mayCopy(*base, extends->place);
+      !below.empty() && mayExtend(*below[0]) ? file(pathBeside(*below[0]), below[0]->place) : nullptr;
+  bool good = base != nullptr;
   if (good) {
-    const std::string identity = source.identity;
     source = *base;
-    source.path = source.top = path;
-    source.identity = identity;
-    source.files.insert(source.files.begin(), path);
+    source.path = path;
+    source.identity = identityOf(path);
     for (std::size_t i = 1; i < below.size(); ++i)
-      good = layOver(source, pathBeside(*below[i]), below[i], false) && good;
-    source.top = path;
-    if (source.root.is(Type::object)) {
-      source.root.place = root.place;
-      std::erase_if(source.root.members, [](const JsonMember& member) {  // of the base
-        return member.key == "name" || member.key == "description";
-      });
-      applyOverlay(*this, root, false, source, diagnostics_);
-    }
-    source.values = valuesOf(source.root);
+      good = layFile(source, pathBeside(*below[i]), below[i], false) && good;
+    std::erase_if(source.root.members, [](const JsonMember& member) {  // of the base
+      return member.key == "name" || member.key == "description";
+    });
+    good = good && lay(source, root, path, false);
+    source.root.place = root.place;
+    std::ranges::rotate(source.files, source.files.end() - 1);  // itself first
   }
   open_.pop_back();
   return good ? std::make_shared<const Source>(std::move(source)) : nullptr;
@@ -158,75 +700,64 @@ std::shared_ptr<const Source> SourceLoader::complete(JsonValue root, const std::
 
 bool SourceLoader::mayExtend(const JsonValue& written) {
   const std::string below = pathBeside(written), identity = identityOf(below);
-  if (open_.size() > kMaxInRow) {
-    auto& limit = diagnostics_.error(Code::limitExceeded, written.place,
-                                     "overlays extend each other in too long a row");
-    limit.expected = fmt::format("at most {}", kMaxInRow);
-    limit.found = fmt::format("'{}', one more", below);
-    return false;
-  }
-  if (!isOpen(identity)) return true;
-  auto& d = diagnostics_.error(Code::extendsItself, written.place, fmt::format("'{}' extends itself", below));
-  bool again = false;
-  for (const auto& [openIdentity, openPath] : open_) {
-    again = again || openIdentity == identity;
-    if (again) d.found += openPath + " -> ";
-  }
+  const bool circle = isOpen(identity);
+  if (!circle && open_.size() <= kMaxInRow) return true;
+  auto& d = diagnostics_.error(
+      circle ? Code::extendsItself : Code::limitExceeded, written.place,
+      circle ? fmt::format("'{}' extends itself", below) : "overlays extend each other in too long a row");
+  if (!circle) d.expected = fmt::format("at most {}", kMaxInRow);
+  const auto again = std::ranges::find(open_, identity, &std::pair<std::string, std::string>::first);
+  for (auto each = again; each != open_.end(); ++each) d.found += each->second + " -> ";
   d.found += below;
   d.hint = "one of these must not extend the next";
   return false;
 }
 
 bool SourceLoader::isOpen(const std::string& identity) const {
-  return std::ranges::any_of(open_, [&](const auto& file) { return file.first == identity; });
+  return std::ranges::find(open_, identity, &std::pair<std::string, std::string>::first) != open_.end();
 }
 
 std::shared_ptr<const Source> SourceLoader::withPreset(const Source& source, const std::string& path) {
   Source made = source;
-  if (!layOver(made, path, nullptr, true)) return nullptr;
-  made.values = valuesOf(made.root);
-  return std::make_shared<const Source>(std::move(made));
+  return layFile(made, path, nullptr, true) ? std::make_shared<const Source>(std::move(made)) : nullptr;
 }
 
-bool SourceLoader::layOver(Source& made, const std::string& path, const JsonValue* written, bool preset) {
-  const std::string own = identityOf(path);
-  if (written && (broken_.contains(own) || !mayExtend(*written))) {
-    broken_.insert(own);
-    return false;
-  }
+bool SourceLoader::layFile(Source& made, const std::string& path, const JsonValue* written, bool preset) {
+  if (written && !mayExtend(*written)) return false;
   const std::optional<JsonValue> root = parse(path, written ? written->place : text::Place{}, true);
-  const JsonValue* extends = root ? root->find("extends") : nullptr;
-  bool good = root && ReadContext(diagnostics_).expect(*root, Type::object, "a preset");
-  if (good && written && !extends && isWholeGraph(*root)) {
+  if (!root || !ReadContext(diagnostics_).expect(*root, Type::object, "a preset")) return false;
+  if (written && !root->find("extends") && isWholeGraph(*root)) {
     auto& d =
         diagnostics_.error(Code::overlayOutOfPlace, written->place,
                            fmt::format("'{}' is a graph of its own, which nothing can be laid under", path));
     d.expected = fmt::format("an overlay on '{}', or a preset", made.path);
     d.hint = "a file extends one graph, the first of its list; give the others as includes";
-    good = false;
+    return false;
   }
-  open_.emplace_back(own, path);
-  if (good && extends) {
+  open_.emplace_back(identityOf(path), path);
+  bool good = true;
+  if (const JsonValue* extends = root->find("extends")) {
     const std::vector<const JsonValue*> below = namesIn(*extends, diagnostics_);
     good = !below.empty();
     for (const JsonValue* each : below) {
       const std::string file = pathBeside(*each), identity = identityOf(file);
-      const bool there = std::ranges::any_of(
-          made.files, [&](const std::string& known) { return identityOf(known) == identity; });
+      const bool there = std::ranges::find(made.files, identity, identityOf) != made.files.end();
       if (there && !isOpen(identity)) continue;  // it is below already
-      good = layOver(made, file, each, preset) && good;
+      good = layFile(made, file, each, preset) && good;
     }
   }
-  good = good && mayCopy(made, root->place);
-  if (good) {
-    made.files.push_back(path);
-    made.top = path;
-    if (made.root.is(Type::object)) applyOverlay(*this, *root, preset, made, diagnostics_);
-  } else if (written) {
-    broken_.insert(own);
-  }
+  good = good && lay(made, *root, path, preset);
   open_.pop_back();
   return good;
+}
+
+bool SourceLoader::lay(Source& made, const JsonValue& root, const std::string& path, bool preset) {
+  if (!mayCopy(made, root.place)) return false;
+  made.files.push_back(path);
+  made.top = path;
+  if (made.root.is(Type::object)) Applier(*this, made, diagnostics_).run(root, preset);
+  made.values = valuesOf(made.root);
+  return true;
 }
 
 }  // namespace weft::graph

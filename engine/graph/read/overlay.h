@@ -1,12 +1,13 @@
-// Lays overlays over graph files, as JSON, before they are read as graphs: a file over the one that it `extends`, and
-// presets over the result. Every value keeps the file, line and column at which it was written. An overlay may change an
-// included file, whose names it gives whole; the changed copy is kept beside the include.
+// Lays overlays over graph files, as JSON, before they are read as graphs: a file over the one that it `extends`, presets over
+// the result, and a pass over the one that it is `like`. Every value keeps the file, line and column at which it was
+// written. An overlay may change an included file, whose names it gives whole; the changed copy is kept beside the include.
 #pragma once
 
 #include <map>
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/graph/desc.h"
@@ -28,12 +29,12 @@ struct Source {
     text::JsonMember member;
     Origin origin = Origin::file;
   };
-  std::vector<Set> sets;             // of "set", in the order they apply: the last wins
-  std::vector<RemovedPass> removed;  // by overlays
-  std::vector<NamedDesc> named;      // by overlays
-  std::string top;                   // as GraphDesc::top
-  std::map<std::string, std::shared_ptr<const Source>> changed;  // by prefix: includes reached into
-  std::size_t values = 0;                                        // of root: what a copy costs
+  std::vector<Set> sets;                                   // of "set", in the order they apply: the last wins
+  std::vector<RemovedPass> removed;                        // by overlays
+  std::vector<NamedDesc> named;                            // by overlays
+  std::string top;                                         // as GraphDesc::top
+  std::map<std::string, std::shared_ptr<Source>> changed;  // by prefix: includes reached into
+  std::size_t values = 0;                                  // of root: what a copy costs
 };
 
 // The path behind "include" or "extends": relative to the folder of the file it is written in.
@@ -62,21 +63,30 @@ class SourceLoader {
   std::shared_ptr<const Source> complete(text::JsonValue root, const std::string& path);
   // False after a report. `written`: an entry of "extends".
   bool mayExtend(const text::JsonValue& written);
-  // Lays the overlay in `path`, and first those that it extends, over `made`. `written`: what names it; null: the command line.
-  bool layOver(Source& made, const std::string& path, const text::JsonValue* written, bool preset);
+  // Lays an overlay over `made`, a file after those that it extends. `written`: what names it; null: the command line.
+  bool layFile(Source& made, const std::string& path, const text::JsonValue* written, bool preset);
+  bool lay(Source& made, const text::JsonValue& root, const std::string& path, bool preset);
 
   text::Diagnostics& diagnostics_;
   const FileTexts& given_;
   FileTexts texts_;
-  std::set<std::string> broken_;  // identities of overlays that failed: what is wrong with them is said once
   std::map<std::string, std::shared_ptr<const Source>> known_;  // by identity; null for files that failed
   std::vector<std::pair<std::string, std::string>> open_;       // identity and path of such overlays
   std::uint64_t values_ = 0;                                    // of all files and copies so far
   bool tooMany_ = false;
 };
 
-// Changes `target` as `overlay` says, and reports what does not fit (overlay_apply.cpp). A preset keeps the name of the graph.
-void applyOverlay(SourceLoader& loader, const text::JsonValue& overlay, bool preset, Source& target,
-                  text::Diagnostics& diagnostics);
+// The member of that key, or null.
+text::JsonMember* memberOf(text::JsonValue& object, std::string_view key);
+// "texture", "buffer", "import" or "input"; "alternatives" for what is no object; "" for an object without a kind.
+std::string_view kindOf(const text::JsonValue& resource);
+// What an include stanza is called: "as", else the file's name without its ending. "" when it says neither.
+std::string includePrefix(const text::JsonValue& stanza);
+// Name of a pass stanza, else the prefix of an include (which an overlay may also call by "name"). "" when it has none.
+std::string stanzaName(const text::JsonValue& stanza);
+
+// Writes out each of the stanzas of one file that is "like" one above it: all keys of the other, with its own laid over them.
+// A parameter that the other declares is shared. After a report a stanza becomes `absent`.
+void writeOut(std::vector<text::JsonValue>& stanzas, text::Diagnostics& diagnostics);
 
 }  // namespace weft::graph

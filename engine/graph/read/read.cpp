@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <deque>
 #include <filesystem>
 #include <map>
 #include <utility>
 
-#include "engine/graph/read/merge.h"
-#include "engine/graph/read/misspelt.h"
 #include "engine/graph/read/overlay.h"
 #include "engine/graph/read/read_context.h"
+#include "engine/graph/read/shape.h"
 
 namespace weft::graph {
 
@@ -60,9 +58,12 @@ class GraphReader {
   }
 
   std::shared_ptr<const GraphDesc> readRoot(const Source& source) {
-    const JsonValue& root = source.root;
     ReadContext context(diagnostics_);
-    if (!context.expect(root, Type::object, "a graph") || isOtherFile(root, context)) return nullptr;
+    if (!context.expect(source.root, Type::object, "a graph") || isOtherFile(source.root, context))
+      return nullptr;
+    JsonValue root = source.root;
+    if (JsonMember* passes = memberOf(root, "passes")) writeOut(passes->value.items, diagnostics_);
+    checkShape(root, diagnostics_);
     auto graph = std::make_shared<GraphDesc>();
     graph->path = source.path;
     graph->place = root.place;
@@ -70,20 +71,16 @@ class GraphReader {
     graph->removed = source.removed;
     graph->named = source.named;
     graph->top = source.top;
-    checkKeys(root, diagnostics_);
-    context.text(root, "$schema");
-    context.text(root, "description");
-    graph->name = context.text(root, "name");
+    graph->name = textIn(root, "name");
     if (graph->name.empty()) graph->name = std::filesystem::path(source.path).stem().string();
     readVariables(context, root, *graph);
-    for (const JsonMember& member : context.members(root, "resources")) {
+    for (const JsonMember& member : membersIn(root, "resources")) {
       if (!context.goesOn()) break;
       if (std::optional<ResourceDesc> resource = readResource(context, member))
         graph->resources.push_back(*std::move(resource));
       else
         graph->unread.push_back(member.key);
     }
-    context.members(root, "set");
     for (const auto& [member, origin] : source.sets) {
       if (std::optional<Value> value = valueOf(member.value))
         graph->sets.push_back({member.key, origin, member.place, member.value.place, *std::move(value)});
@@ -91,11 +88,11 @@ class GraphReader {
         context.wrongType(member.value, fmt::format("the value of '{}'", member.key),
                           "a number, true or false, a word, a path, or a list of two to four numbers");
     }
-    readPasses(context, source, *graph);
+    readPasses(context, source, root, *graph);
     graph->present = context.ref(root, "present");
-    for (const JsonMember& member : context.members(root, "outputs")) {
+    for (const JsonMember& member : membersIn(root, "outputs")) {
       const bool named = context.checkName(member.key, member.place, {"an output"});
-      std::optional<RefDesc> ref = context.refOf(member.value, fmt::format("the output '{}'", member.key));
+      std::optional<RefDesc> ref = context.refOf(member.value);
       if (named && ref) graph->outputs.push_back({member.key, *std::move(ref)});
     }
     mendNames(*graph, diagnostics_);
@@ -105,30 +102,31 @@ class GraphReader {
 
   // A file without any key of a graph, such as a scene: one report says what it lacks and who may take it.
   static bool isOtherFile(const JsonValue& root, ReadContext& context) {
-    for (const char* own :
-         {"passes", "resources", "parameters", "let", "set", "extends", "present", "outputs"})
-      if (root.find(own)) return false;
-    auto& d = context.error(Code::missingKey, root, "this file has no \"passes\": it is not a graph");
-    d.expected = "a graph, with \"passes\"";
-    d.hint = fmt::format("add \"passes\": [ … ]; a scene goes with a graph: weft check GRAPH --scene {}",
-                         root.place.file ? *root.place.file : "FILE");
+    const auto own = [](const JsonMember& member) {
+      return member.key != "name" && member.key != "description" && member.key != "$schema" &&
+             std::ranges::find(kGraphKeys, member.key, &KeySpec::key) != kGraphKeys.end();
+    };
+    if (std::ranges::any_of(root.members, own)) return false;
+    context.error(Code::missingKey, root, "this file has no \"passes\": it is not a graph").hint =
+        fmt::format("add \"passes\": [ … ]; a scene goes with a graph: weft check GRAPH --scene {}",
+                    root.place.file ? *root.place.file : "FILE");
     return true;
   }
 
   // Parameters and lets share the names behind '$'.
   static void readVariables(ReadContext& context, const JsonValue& root, GraphDesc& graph) {
     ReadContext::Seen seen;
-    for (const JsonMember& member : context.members(root, "parameters")) {
+    for (const JsonMember& member : membersIn(root, "parameters")) {
       seen.emplace(member.key, member.place);
       if (std::optional<ParameterDesc> parameter = readParameter(context, member))
         graph.parameters.push_back(*std::move(parameter));
       else
         graph.unread.push_back(member.key);
     }
-    for (const JsonMember& member : context.members(root, "let")) {
+    for (const JsonMember& member : membersIn(root, "let")) {
       bool good = context.checkName(member.key, member.place, {"a \"let\""});
       good = context.checkFresh(seen, member.key, member.place, "the variable") && good;
-      Expr expr = context.exprOf(member.value, fmt::format("the \"let\" '{}'", member.key));
+      Expr expr = context.exprOf(member.value);
       if (good && expr.present())
         graph.lets.push_back({member.key, member.place, std::move(expr)});
       else
@@ -136,24 +134,20 @@ class GraphReader {
     }
   }
 
-  void readPasses(ReadContext& context, const Source& source, GraphDesc& graph) {
-    const JsonValue* passes = source.root.find("passes");
-    if (!passes || !context.expect(*passes, Type::array, "\"passes\"",
-                                   "write a list, each with its name: \"passes\": [ { \"name\": … }, … ]"))
-      return;
+  void readPasses(ReadContext& context, const Source& source, const JsonValue& root, GraphDesc& graph) {
+    const JsonValue* passes = valueIn(root, "passes");
     ReadContext::Seen seen;
-    std::deque<JsonValue> made;
-    const std::vector<const JsonValue*> stanzas = writeOut(passes->items, made, diagnostics_);
-    for (std::size_t i = 0; i < stanzas.size() && context.goesOn(); ++i) {
-      std::optional<PassDesc> pass = stanzas[i] ? readPass(context, *stanzas[i]) : std::nullopt;
-      const JsonValue* name = passes->items[i].find("name");
+    for (std::size_t i = 0; passes && i < passes->items.size() && context.goesOn(); ++i) {
+      const JsonValue& stanza = passes->items[i];
+      std::optional<PassDesc> pass = readPass(context, stanza);
+      const JsonValue* name = source.root.find("passes")->items[i].find("name");
       if (name && name->is(Type::string) && (!pass || (!pass->include && pass->name != name->text)))
         graph.unread.push_back(name->text);
       if (!pass) continue;
       context.pass = pass->name;
       context.checkFresh(seen, pass->name, pass->namePlace, "pass");
       context.pass.clear();
-      if (pass->include) follow(*stanzas[i]->find("include"), *pass->include, source, graph);
+      if (pass->include) follow(*stanza.find("include"), *pass->include, source, graph);
       graph.passes.push_back(*std::move(pass));
     }
   }
@@ -171,15 +165,15 @@ class GraphReader {
       d.hint = "remove one of these includes";
       return;
     }
-    if (isTooDeep(open_.size() + 1, stanza)) return;
+    if (exceeds(kMaxInRow, "files in a row", open_.size() + 1, stanza)) return;
     const auto changed = source.changed.find(include.as);
     Weighed below =
         changed != source.changed.end() ? readSource(*changed->second) : readBelow(path, stanza.place);
     if (tooMuch_) return;
     // A file that was read before may stand deeper here.
-    if (isTooDeep(open_.size() + below.depth, stanza) ||
-        exceeds(kMaxIncludes, "files", weight_.files + below.files, stanza) ||
-        exceeds(text::kMaxValues, "values", weight_.values + below.values, stanza))
+    if (exceeds(kMaxInRow, "files in a row", open_.size() + below.depth, stanza) ||
+        exceeds(text::raised(kMaxIncludes), "files", weight_.files + below.files, stanza) ||
+        exceeds(text::raised(text::kMaxValues), "values", weight_.values + below.values, stanza))
       return;
     weight_.files += below.files;
     weight_.values += below.values;
@@ -189,29 +183,21 @@ class GraphReader {
   }
 
   // True after a report; then no further include is followed, and the graph is not expanded.
-  bool isTooDeep(std::size_t count, const JsonValue& stanza) {
-    if (count <= kMaxInRow) return false;
-    tooMuch_ = true;
-    auto& d =
-        diagnostics_.error(Code::limitExceeded, stanza.place, "files include each other in too long a row");
-    d.expected = fmt::format("at most {}", kMaxInRow);
-    d.found = fmt::format("{} with '{}'", count, stanza.text);
-    return true;
-  }
   bool exceeds(std::uint64_t bound, const char* counts, std::uint64_t count, const JsonValue& stanza) {
-    if (count <= text::raised(bound)) return false;
+    if (count <= bound) return false;
     tooMuch_ = true;
-    text::reportLimit(diagnostics_, stanza.place, fmt::format("the graph includes too many {}", counts),
-                      bound, counts, count)
-        .found = fmt::format("{} with '{}'", count, stanza.text);
+    auto& d = diagnostics_.error(Code::limitExceeded, stanza.place,
+                                 fmt::format("the graph includes too many {}", counts));
+    d.expected = fmt::format("at most {}", bound);
+    d.found = fmt::format("{} with '{}'", count, stanza.text);
+    if (bound != kMaxInRow) d.hint = text::hintToRaise(bound / text::limitsRaised(), count);
     return true;
   }
 
   static void addFiles(const IncludeDesc& include, const std::string& path, GraphDesc& graph) {
     std::vector<std::string> below = include.graph ? include.graph->files : std::vector<std::string>{path};
     for (std::string& file : below)
-      if (std::find(graph.files.begin(), graph.files.end(), file) == graph.files.end())
-        graph.files.push_back(std::move(file));
+      if (std::ranges::find(graph.files, file) == graph.files.end()) graph.files.push_back(std::move(file));
   }
 
   Diagnostics& diagnostics_;

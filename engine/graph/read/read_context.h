@@ -1,5 +1,5 @@
-// What the readers of parameters, resources and passes share: checked access to JSON values, with diagnostics that know the pass
-// and the resource at hand. An absent key yields the absent value silently; checkKeys (misspelt.h) reports missing keys.
+// What the readers of parameters, resources and passes share: diagnostics that know the pass and the resource at hand, and values
+// of a tree that fits the schema (shape.h). What is absent was reported there, or may be: it yields the absent value silently.
 #pragma once
 
 #include <optional>
@@ -49,22 +49,11 @@ class ReadContext {
   using Seen = std::unordered_map<std::string, Place>;
   bool checkFresh(Seen& seen, const std::string& name, const Place& place, std::string_view what);
 
-  // The value of a key of an object.
-  std::string text(const JsonValue& object, std::string_view key);
-  bool flag(const JsonValue& object, std::string_view key);
-  std::optional<double> number(const JsonValue& object, std::string_view key);
-  // One of `words`, or Code::unknownWord with the nearest.
-  std::optional<std::string> word(const JsonValue& object, std::string_view key,
-                                  std::span<const std::string_view> words);
+  // The value of a key, or of a value: a number, a boolean, a list of 1 to 4, or an expression. Absent for what is absent.
   Expr expr(const JsonValue& object, std::string_view key);
+  Expr exprOf(const JsonValue& value);
   std::optional<RefDesc> ref(const JsonValue& object, std::string_view key);
-  const std::vector<JsonMember>& members(const JsonValue& object, std::string_view key);
-
-  // A number, a boolean, a list of 1 to 4, or an expression.
-  Expr exprOf(const JsonValue& value, std::string_view what);
-  std::optional<RefDesc> refOf(const JsonValue& value, std::string_view what);
-  // The strings of a list, or a single one.
-  std::vector<const JsonValue*> strings(const JsonValue* value, std::string_view what);
+  std::optional<RefDesc> refOf(const JsonValue& value);
 
   // For the parsers of strings, which know no pass: adopt() what they said into a fresh Diagnostics.
   void adopt(const text::Diagnostics& said);
@@ -80,7 +69,14 @@ class ReadContext {
 // "an array of 3", "the number 7".
 std::string foundText(const JsonValue& value);
 
-// The parts, by what stands in the file; each takes a value of any type and reports what does not fit.
+// The value of a key; null when it is not there or does not fit.
+const JsonValue* valueIn(const JsonValue& object, std::string_view key);
+// Its text, its members or its strings (one, or those of a list); empty when it is not there.
+std::string textIn(const JsonValue& object, std::string_view key);
+const std::vector<JsonMember>& membersIn(const JsonValue& object, std::string_view key);
+std::span<const JsonValue> stringsOf(const JsonValue& value);
+
+// The parts of a file that fits the schema. What cannot be used is reported, and nothing comes back.
 std::optional<ParameterDesc> readParameter(ReadContext& context, const JsonMember& member);
 // A number, a boolean, a word or path, a list of two to four numbers; nothing, without a report, for anything else.
 std::optional<Value> valueOf(const JsonValue& value);

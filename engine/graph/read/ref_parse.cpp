@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <utility>
 
 #include "engine/graph/language/names.h"
 #include "engine/graph/subresource.h"
@@ -37,13 +38,8 @@ std::size_t findOutside(string_view text, std::size_t from, std::size_t end, str
 
 // The offset of the bracket that closes the one at `open`, or npos.
 std::size_t closingBracket(string_view text, std::size_t open) {
-  int depth = 0;
-  for (std::size_t i = open; i < text.size(); ++i) {
-    if (text[i] == '[' || text[i] == '(') ++depth;
-    if (text[i] == ']' || text[i] == ')')
-      if (--depth == 0) return i;
-  }
-  return string_view::npos;
+  const std::size_t close = findOutside(text, open + 1, text.size(), text[open] == '[' ? "]" : ")");
+  return close < text.size() ? close : string_view::npos;
 }
 
 // "0, 0, 0, 1", or one number for all four.
@@ -70,35 +66,34 @@ class RefParser {
   }
 
   std::optional<RefDesc> run() {
-    while (!text_.empty() && isSpace(text_.back())) text_.remove_suffix(1);
-    if (!text_.empty() && text_.back() == '?') {
+    dropSpaceBehind();
+    if (text_.ends_with('?')) {
       ref_.optional = true;
       text_.remove_suffix(1);
-      while (!text_.empty() && isSpace(text_.back())) text_.remove_suffix(1);
+      dropSpaceBehind();
     }
     skipSpace();
     ref_.place = shifted(place_, at_);
-    if (text_.empty())
-      return fail(0, "the reference is empty", "name a resource, such as \"hdr\" or \"@environment\""),
-             std::nullopt;
-    if (parseName() && parseSelectors() && parseHistory() && parseWords() && parseCondition())
-      return std::move(ref_);
-    return std::nullopt;
+    return parseName() && parseSelectors() && parseHistory() && parseWords() && parseCondition()
+               ? std::optional(std::move(ref_))
+               : std::nullopt;
   }
 
  private:
-  bool fail(std::size_t offset, std::string message, std::string hint = {}) {
+  bool fail(std::size_t offset, std::string message, std::string hint) {
     auto& d = diagnostics_.error(Code::badReference, shifted(place_, offset), std::move(message));
     d.found = fmt::format("\"{}\"", whole_);
     d.hint = std::move(hint);
     return false;
   }
 
+  void dropSpaceBehind() {
+    while (!text_.empty() && isSpace(text_.back())) text_.remove_suffix(1);
+  }
   void skipSpace() {
     while (at_ < text_.size() && isSpace(text_[at_])) ++at_;
   }
-  bool ended() const { return at_ >= text_.size(); }
-  char here() const { return ended() ? '\0' : text_[at_]; }
+  char here() const { return at_ < text_.size() ? text_[at_] : '\0'; }
 
   string_view peekWord(std::size_t from) const {
     std::size_t end = from;
@@ -107,28 +102,24 @@ class RefParser {
     return text_.substr(from, end - from);
   }
 
-  // A whole character at `from`, for messages.
-  string_view character(std::size_t from) const {
-    std::size_t end = from + 1;
+  // What is at hand, for messages: a word, a whole character, or the end.
+  std::string found() const {
+    if (at_ >= text_.size()) return "the end";
+    std::size_t end = at_ + std::max<std::size_t>(peekWord(at_).size(), 1);
     while (end < text_.size() && (static_cast<unsigned char>(text_[end]) & 0xC0) == 0x80) ++end;
-    return text_.substr(from, end - from);
+    return fmt::format("'{}'", text_.substr(at_, end - at_));
   }
 
   bool parseName() {
-    if (here() == '@') {
-      ref_.import = true;
-      ++at_;
-    }
+    ref_.import = here() == '@';
+    if (ref_.import) ++at_;
     while (true) {
       const string_view word = peekWord(at_);
       if (word.empty())
-        return fail(at_,
-                    ended() ? "the reference ends where a name is expected"
-                            : fmt::format("'{}' where a name is expected", character(at_)),
-                    here() == '?' ? "'?' stands at the very end"
-                    : here() == '$'
+        return fail(at_, fmt::format("{} where a name is expected", found()),
+                    here() == '$'
                         ? "resources have no '$'; a choice is a list in \"resources\": [\"a if $x\", \"b\"]"
-                        : "names are letters, digits and '_', joined by '.'");
+                        : "names are letters, digits and '_', joined by '.'; '?' stands at the very end");
       if (isReservedWord(word))
         return fail(at_, fmt::format("'{}' may not stand in a name", word),
                     "it selects a sub-resource, as in \"glow.mip[0]\"");
@@ -148,7 +139,7 @@ class RefParser {
   // The offset of the bracket that closes the one at at_; 0 after a report, also of empty brackets. Moves behind it.
   std::size_t closeBracket() {
     const std::size_t close = closingBracket(text_, at_), from = at_ + 1;
-    if (close == string_view::npos || text_[close] != ']')
+    if (close == string_view::npos)
       return fail(at_, "the '[' that opens here is never closed", "close it with ']'"), 0;
     at_ = close + 1;
     if (trimmed(text_.substr(from, close - from)).empty())
@@ -172,37 +163,29 @@ class RefParser {
     span.emplace();
     const std::size_t dots = findOutside(text_, from, end, "..");
     span->range = dots < end;
-    const bool first = side(from, dots, span->first);
-    return (!span->range || side(dots + 2, end, span->last)) && first;
+    return side(from, dots, span->first) && (!span->range || side(dots + 2, end, span->last));
   }
 
   bool parseSelectors() {
-    while (!ended()) {
+    while (here() == '[' || here() == '.') {
       const std::size_t start = at_;
       if (here() == '[') {
         if (ref_.element) return fail(at_, "a second '[…]'", "an array has one dimension");
         const std::size_t end = closeBracket();
-        if (end == 0) return false;
-        ref_.element = parseInner(start + 1, end);
+        if (end > 0) ref_.element = parseInner(start + 1, end);
         if (!ref_.element) return false;
         continue;
       }
-      if (here() != '.') return true;
       const string_view word = peekWord(at_ + 1);
       at_ += 1 + word.size();
-      if (word == "stencil") {
-        if (ref_.stencil) return fail(start, "'.stencil' stands twice", "select it once");
-        ref_.stencil = true;
-        continue;
-      }
+      if (word == "stencil" && !std::exchange(ref_.stencil, true)) continue;
       std::optional<SpanDesc>* span = word == "mip"     ? &ref_.mip
                                       : word == "layer" ? &ref_.layer
                                       : word == "face"  ? &ref_.face
                                                         : nullptr;
-      if (!span) {
-        static const std::vector<std::string> kSelectors = {"mip", "layer", "face", "stencil"};
-        return fail(start, fmt::format("'.{}' selects nothing", word), text::nearestHint(word, kSelectors));
-      }
+      if (!span)
+        return fail(start, fmt::format("'.{}' selects nothing, or is said twice", word),
+                    text::nearestHint(word, std::vector<std::string>{"mip", "layer", "face", "stencil"}));
       if (!parseSpan(*span, word, start)) return false;
     }
     return true;
@@ -213,8 +196,8 @@ class RefParser {
     if (here() != '@') return true;
     const std::size_t start = at_;
     if (text_.substr(at_).starts_with("@-") && at_ + 2 < text_.size() && isDigit(text_[at_ + 2])) {
-      const char* first = text_.data() + at_ + 2;
-      const auto [end, error] = std::from_chars(first, text_.data() + text_.size(), ref_.history);
+      const auto [end, error] =
+          std::from_chars(text_.data() + at_ + 2, text_.data() + text_.size(), ref_.history);
       at_ = static_cast<std::size_t>(end - text_.data());
       if (error == std::errc() && ref_.history > 0) return true;
     }
@@ -229,123 +212,89 @@ class RefParser {
     if (peekWord(at_) != "as") return true;
     const std::size_t start = at_;
     at_ += 2;
-    if (!takeWords()) return false;
+    for (bool any = false;; any = true) {
+      skipSpace();
+      const string_view word = peekWord(at_);
+      if ((word.empty() || word == "if") && !any)
+        return fail(at_, "'as' without a word",
+                    "say a kind or a filter, such as 'as depth' or 'as linear wrap'");
+      if (word.empty() || word == "if") break;
+      if (!takeWord(word, at_)) return false;
+    }
+    if (ref_.sampler.compare) ref_.sampler.linear = ref_.sampler.linear || !filtered_;
     ref_.wordsAt = static_cast<std::uint32_t>(start);
     ref_.wordsSize = static_cast<std::uint32_t>(text_.find_last_not_of(" \t\r\n", at_ - 1) + 1 - start);
     return true;
   }
 
-  bool takeWords() {
-    for (bool any = false;; any = true) {
-      skipSpace();
-      wordAt_ = at_;
-      const string_view word = peekWord(at_);
-      if (word.empty() || word == "if") {
-        if (ref_.sampler.compare) ref_.sampler.linear = filter_ != "nearest";
-        return any || fail(at_, "'as' without a word",
-                           "say a kind or a filter, such as 'as depth' or 'as linear wrap'");
-      }
-      at_ += word.size();
-      if (!takeWord(word)) return false;
-      const bool samples = !filter_.empty() || !wrapping_.empty() || ref_.sampler.compare;
-      if (samples && ref_.kind && *ref_.kind != Kind::sampled)
-        return fail(wordAt_, "filters belong to sampled textures only", "drop the kind or the filter");
-    }
+  bool takeWord(string_view word, std::size_t wordAt) {
+    const auto sampler =
+        static_cast<std::size_t>(std::ranges::find(kSamplerWords, word) - kSamplerWords.begin());
+    const auto kind = static_cast<std::size_t>(std::ranges::find(kKindNames, word) - kKindNames.begin());
+    const bool isKind = kind < kKindNames.size();
+    if (!isKind && sampler == kSamplerWords.size()) return failWord(word, wordAt);
+    at_ += word.size();
+    const bool filters = sampler < 2, wraps = sampler >= 2 && sampler < 6;
+    bool& taken = isKind ? hasKind_ : filters ? filtered_ : wraps ? wrapped_ : ref_.sampler.compare;
+    if (std::exchange(taken, true))
+      return fail(wordAt, fmt::format("'{}' repeats or contradicts an earlier word", word),
+                  "keep one of them");
+    if (isKind) ref_.kind = static_cast<Kind>(kind);
+    if (filters) ref_.sampler.linear = word == "linear";
+    if (wraps) ref_.sampler.wrap = static_cast<Wrap>(sampler - 2);
+    if ((word == "border" || word == "compare") && !takeArguments(word, wordAt)) return false;
+    if (ref_.kind && *ref_.kind != Kind::sampled && (filtered_ || wrapped_ || ref_.sampler.compare))
+      return fail(wordAt, "filters belong to sampled textures only", "drop the kind or the filter");
+    return true;
   }
 
-  bool takeWord(string_view word) {
-    constexpr std::array<string_view, 4> kWraps = {"clamp", "wrap", "mirror", "border"};
-    if (word == "linear" || word == "nearest") {
-      ref_.sampler.linear = word == "linear";
-      return takeOnce(word, filter_);
-    }
-    if (const auto wrap = std::ranges::find(kWraps, word); wrap != kWraps.end()) {
-      ref_.sampler.wrap = static_cast<Wrap>(wrap - kWraps.begin());
-      return takeOnce(word, wrapping_) && (word != "border" || takeColor());
-    }
-    if (word == "compare") {
-      ref_.sampler.compare = true;
-      return takeOnce(word, compare_) && takeFunction();
-    }
-    if (const auto kind = std::ranges::find(kKindNames, word); kind != kKindNames.end()) {
-      if (ref_.kind) return fail(wordAt_, fmt::format("a second kind, '{}'", word), "a use has one kind");
-      ref_.kind = static_cast<Kind>(kind - kKindNames.begin());
-      return true;
-    }
+  bool failWord(string_view word, std::size_t wordAt) {
     std::vector<std::string> known(kKindNames.begin(), kKindNames.end());
     known.insert(known.end(), kSamplerWords.begin(), kSamplerWords.end());
     std::string hint = text::hintForForeign(text::Foreign::sampling, word);
     if (hint.empty()) hint = text::nearestHint(word, known);
-    if (hint.empty())
-      hint = fmt::format("kinds are {}, filters are {}", fmt::join(kKindNames, " "),
-                         fmt::join(kSamplerWords, " "));
-    return fail(wordAt_, fmt::format("unknown word '{}' after 'as'", word), std::move(hint));
+    if (hint.empty()) hint = fmt::format("known: {}", fmt::join(known, " "));
+    return fail(wordAt, fmt::format("unknown word '{}' after 'as'", word), std::move(hint));
   }
 
-  // Takes a word where only one of several may stand.
-  bool takeOnce(string_view word, string_view& earlier) {
-    if (!earlier.empty())
-      return fail(
-          wordAt_,
-          fmt::format("'{}' {}", word, earlier == word ? "stands twice" : "contradicts an earlier word"),
-          "keep one of them");
-    earlier = word;
-    return true;
-  }
-
-  // What stands between the parentheses right behind a word; nothing when there are none. False after a mistake.
-  bool takeArguments(std::optional<string_view>& arguments) {
+  // What stands between parentheses right behind a word, of which there need be none: `border(0, 0, 0, 1)`, `compare(greater)`.
+  bool takeArguments(string_view word, std::size_t wordAt) {
     if (here() != '(') return true;
     const std::size_t from = at_ + 1, end = text_.find(')', from);
     if (end == string_view::npos)
       return fail(at_, "the '(' that opens here is never closed", "close it with ')'");
     at_ = end + 1;
-    arguments = text_.substr(from, end - from);
-    return true;
-  }
-
-  // `border`, `border(1)`, `border(0, 0, 0, 1)`.
-  bool takeColor() {
-    std::optional<string_view> list;
-    if (!takeArguments(list)) return false;
-    const std::optional<BorderColor> color = list ? parseColor(*list) : ref_.border;
-    if (!color)
-      return fail(wordAt_, fmt::format("'{}' is no color of a border", text_.substr(wordAt_, at_ - wordAt_)),
+    const string_view argument = trimmed(text_.substr(from, end - from));
+    if (word == "border") {
+      const std::optional<BorderColor> color = parseColor(argument);
+      if (color) ref_.border = *color;
+      return color ||
+             fail(wordAt, fmt::format("'{}' is no color of a border", text_.substr(wordAt, at_ - wordAt)),
                   "write four numbers, 'border(0, 0, 0, 1)', or one for all channels, 'border(1)'");
-    ref_.border = *color;
-    return true;
-  }
-
-  // `compare`, `compare(greater)`.
-  bool takeFunction() {
-    std::optional<string_view> argument;
-    if (!takeArguments(argument)) return false;
-    if (!argument) return true;
-    const string_view word = trimmed(*argument);
-    const auto found = std::ranges::find(kCompareNames, word);
-    if (found == kCompareNames.end()) {
-      std::string hint = text::hintForForeign(text::Foreign::state_word, word);
-      if (hint.empty())
-        hint = text::nearestHint(word, std::vector<std::string>(kCompareNames.begin(), kCompareNames.end()));
-      return fail(wordAt_, fmt::format("'{}' is no comparison", text_.substr(wordAt_, at_ - wordAt_)),
-                  std::move(hint));
     }
-    ref_.sampler.function = static_cast<Compare>(found - kCompareNames.begin());
-    return true;
+    const auto found = std::ranges::find(kCompareNames, argument);
+    if (found != kCompareNames.end()) {
+      ref_.sampler.function = static_cast<Compare>(found - kCompareNames.begin());
+      return true;
+    }
+    std::string hint = text::hintForForeign(text::Foreign::state_word, argument);
+    if (hint.empty())
+      hint =
+          text::nearestHint(argument, std::vector<std::string>(kCompareNames.begin(), kCompareNames.end()));
+    return fail(wordAt, fmt::format("'{}' is no comparison", text_.substr(wordAt, at_ - wordAt)),
+                std::move(hint));
   }
 
   bool parseCondition() {
     skipSpace();
-    if (ended()) return true;
+    if (at_ >= text_.size()) return true;
     const string_view word = peekWord(at_);
     if (word != "if") {
-      std::string hint = "a reference is: name, selectors, @-n, 'as' words, 'if' condition, '?'";
-      if (here() == '?') hint = "'?' stands at the very end";
-      if (here() == '.') hint = "selectors stand right behind the name";
-      if (std::ranges::find(kSamplerWords, word) != kSamplerWords.end() ||
-          std::ranges::find(kKindNames, word) != kKindNames.end())
-        hint = fmt::format("write 'as {}'", word);
-      return fail(at_, fmt::format("unexpected '{}'", word.empty() ? character(at_) : word), hint);
+      const bool sampling = std::ranges::find(kSamplerWords, word) != kSamplerWords.end() ||
+                            std::ranges::find(kKindNames, word) != kKindNames.end();
+      return fail(at_, fmt::format("unexpected {}", found()),
+                  sampling ? fmt::format("write 'as {}'", word)
+                           : "a reference is: name, selectors, @-n, 'as' words, 'if' condition, '?'");
     }
     at_ += 2;
     if (trimmed(text_.substr(at_)).empty())
@@ -358,8 +307,8 @@ class RefParser {
   string_view whole_, text_;  // as written; without the trailing '?' and spaces
   Place place_;
   text::Diagnostics& diagnostics_;
-  std::size_t at_ = 0, wordAt_ = 0;          // at hand; where its word after `as` begins
-  string_view filter_, wrapping_, compare_;  // the words that said so
+  std::size_t at_ = 0;
+  bool filtered_ = false, wrapped_ = false, hasKind_ = false;  // words said so
   RefDesc ref_;
 };
 

@@ -13,8 +13,8 @@
 
 namespace weft::graph {
 
-// The words that may follow `as`, besides kKindNames (subresource.h).
-constexpr std::array<std::string_view, 7> kSamplerWords = {"linear", "nearest", "wrap",   "clamp",
+// The words that may follow `as`, besides kKindNames (subresource.h): two filters, those of Wrap in its order, a comparison.
+constexpr std::array<std::string_view, 7> kSamplerWords = {"linear", "nearest", "clamp",  "wrap",
                                                            "mirror", "border",  "compare"};
 
 // `text` stands at `place`. Empty after Code::badReference, or Code::badExpression inside an index or a condition; stops at the

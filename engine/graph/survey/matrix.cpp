@@ -28,91 +28,17 @@ bool namesLost(const text::Diagnostic& d) {
           d.code == Code::culledUnread);
 }
 
-class Trial {
- public:
-  Trial(const GraphDesc& desc, const Registry& registry, const Settings& settings,
-        const MatrixOptions& options)
-      : desc_(desc), registry_(registry), settings_(settings), options_(options) {}
-
-  Matrix run() {
-    const std::shared_ptr<const FlatGraph> base = expand({});
-    if (!base) return std::move(matrix_);
-    const std::vector<std::string> passes = passesOf(*base);
-    matrix_.passes = passes.size();
-    std::vector<std::string> dispensable;
-    for (const std::string& pass : passes)
-      if (tryDisables({pass})) dispensable.push_back(pass);
-    for (std::size_t i = 0; options_.pairs && i < dispensable.size(); ++i)
-      for (std::size_t k = i + 1; k < dispensable.size(); ++k) {
-        ++matrix_.pairs;
-        tryDisables({dispensable[i], dispensable[k]});
-      }
-    for (const ParameterSpec& parameter : base->parameters)
-      for (const std::string& value : valuesOf(parameter.desc)) {
-        ++matrix_.values;
-        Variation variation{.disables = {}, .parameter = parameter.path, .value = value};
-        if (!expand(variation)) matrix_.broken.push_back({std::move(variation), std::move(said_)});
-      }
-    return std::move(matrix_);
-  }
-
- private:
-  static std::vector<std::string> passesOf(const FlatGraph& graph) {
-    std::vector<std::string> names;
-    std::set<std::string_view> seen;
-    for (const PassSpec& spec : graph.specs)
-      if (seen.insert(spec.declared).second) names.push_back(spec.declared);
-    return names;
-  }
-
-  // What a person can choose: words and switches, and the ends of a range.
-  static std::vector<std::string> valuesOf(const ParameterDesc& desc) {
-    using Kind = ParameterDesc::Type;
-    if (desc.type == Kind::choice) return desc.choices;
-    if (desc.type == Kind::boolean) return {"false", "true"};
-    std::vector<std::string> values;
-    if (desc.type != Kind::number && desc.type != Kind::integer) return values;
-    for (const std::optional<double>& end : {desc.min, desc.max})
-      if (end) values.push_back(toText(Value::number(*end)));
-    return values;
-  }
-
-  std::shared_ptr<const FlatGraph> expand(const Variation& variation) {
-    Settings settings = settings_;
-    for (const std::string& pass : variation.disables) settings.disables.emplace_back(pass);
-    if (!variation.parameter.empty()) settings.sets.emplace_back(variation.parameter, variation.value);
-    text::Diagnostics said;
-    auto graph = expandGraph(desc_, registry_, settings, said);
-    said_.clear();
-    text::Diagnostics lost;
-    for (const text::Diagnostic& d : said.items())
-      if (d.severity == text::Severity::error)
-        said_.add(d);
-      else if (namesLost(d) && told_.insert(fmt::format("{} {}", d.pass, d.resource)).second)
-        lost.add(d);
-    const bool changed = !variation.disables.empty() || !variation.parameter.empty();
-    if (graph && changed && !lost.empty()) matrix_.lost.push_back({variation, std::move(lost)});
-    if (graph && options_.visit) options_.visit(variation, graph);
-    return graph;
-  }
-
-  // Whether the graph does without the passes.
-  bool tryDisables(std::vector<std::string> passes) {
-    Variation variation{.disables = std::move(passes), .parameter = {}, .value = {}};
-    if (expand(variation)) return true;
-    const bool told = std::ranges::all_of(said_.items(), namesDisabled);
-    (told ? matrix_.needed : matrix_.broken).push_back({std::move(variation), std::move(said_)});
-    return false;
-  }
-
-  const GraphDesc& desc_;
-  const Registry& registry_;
-  const Settings& settings_;
-  const MatrixOptions& options_;
-  Matrix matrix_;
-  text::Diagnostics said_;
-  std::set<std::string> told_;  // passes and resources that were warned of
-};
+// What a person can choose: words and switches, and the ends of a range.
+std::vector<std::string> choicesOf(const ParameterDesc& desc) {
+  using Kind = ParameterDesc::Type;
+  if (desc.type == Kind::choice) return desc.choices;
+  if (desc.type == Kind::boolean) return {"false", "true"};
+  std::vector<std::string> values;
+  if (desc.type != Kind::number && desc.type != Kind::integer) return values;
+  for (const std::optional<double>& end : {desc.min, desc.max})
+    if (end) values.push_back(toText(Value::number(*end)));
+  return values;
+}
 
 }  // namespace
 
@@ -125,7 +51,55 @@ std::string Variation::text() const {
 
 Matrix tryMatrix(const GraphDesc& desc, const Registry& registry, const Settings& settings,
                  const MatrixOptions& options) {
-  return Trial(desc, registry, settings, options).run();
+  Matrix matrix;
+  text::Diagnostics errors;    // of the last variation
+  std::set<std::string> told;  // passes and resources that were warned of
+  const auto expand = [&](const Variation& variation) {
+    Settings varied = settings;
+    for (const std::string& pass : variation.disables) varied.disables.emplace_back(pass);
+    if (!variation.parameter.empty()) varied.sets.emplace_back(variation.parameter, variation.value);
+    text::Diagnostics said, lost;
+    auto graph = expandGraph(desc, registry, varied, said);
+    errors.clear();
+    for (const text::Diagnostic& d : said.items())
+      if (d.severity == text::Severity::error)
+        errors.add(d);
+      else if (namesLost(d) && told.insert(fmt::format("{} {}", d.pass, d.resource)).second)
+        lost.add(d);
+    const bool changed = !variation.disables.empty() || !variation.parameter.empty();
+    if (graph && changed && !lost.empty()) matrix.lost.push_back({variation, std::move(lost)});
+    if (graph && options.visit) options.visit(variation, graph);
+    return graph;
+  };
+  // Whether the graph does without the passes.
+  const auto tryDisables = [&](std::vector<std::string> passes) {
+    Variation variation{.disables = std::move(passes), .parameter = {}, .value = {}};
+    if (expand(variation)) return true;
+    const bool known = std::ranges::all_of(errors.items(), namesDisabled);
+    (known ? matrix.needed : matrix.broken).push_back({std::move(variation), std::move(errors)});
+    return false;
+  };
+  const std::shared_ptr<const FlatGraph> base = expand({});
+  if (!base) return matrix;
+  std::set<std::string_view> seen;
+  std::vector<std::string> dispensable;
+  for (const PassSpec& spec : base->specs) {
+    if (!seen.insert(spec.declared).second) continue;
+    ++matrix.passes;
+    if (tryDisables({spec.declared})) dispensable.push_back(spec.declared);
+  }
+  for (std::size_t i = 0; options.pairs && i < dispensable.size(); ++i)
+    for (std::size_t k = i + 1; k < dispensable.size(); ++k) {
+      ++matrix.pairs;
+      tryDisables({dispensable[i], dispensable[k]});
+    }
+  for (const ParameterSpec& parameter : base->parameters)
+    for (const std::string& value : choicesOf(parameter.desc)) {
+      ++matrix.values;
+      Variation variation{.disables = {}, .parameter = parameter.path, .value = value};
+      if (!expand(variation)) matrix.broken.push_back({std::move(variation), std::move(errors)});
+    }
+  return matrix;
 }
 
 }  // namespace weft::graph

@@ -78,15 +78,13 @@ TEST_CASE("a mistake at midnight: expressions in the words of other languages") 
   checkOne(size, "\"rgba8\", \"size\": \"scene.width/2\"", badExpression, "is no value", "size(scene)");
   checkOne(bytes, "\"uint[256]\"", badExpression, "is no value", "write 256*4");
   checkOne(enabled, "\"enabled\": \"$tone == 'hard'\"", badExpression, "unexpected '''", "without quotes");
-  checkOne("\"blend\": \"none\"", "\"blend\": [\"src_alpha\", \"one\"]", badState,
-           "unknown value for the state", "'alpha' is src_alpha");
+  checkOne("\"blend\": \"none\"", "\"blend\": [\"src_alpha\", \"one\"]", wrongType,
+           "\"blend\" has the wrong type", "premultiplied");
   checkOne("\"blend\": \"none\"", "\"blend\": { \"src\": \"one\", \"dst\": \"one\" }", badState,
            "blends 'src'", "'alpha' is src_alpha");
   checkOne(bytes, "\"4 * 2^8\"", badExpression, "unexpected '^'", "there is no power");
-  checkOne(bytes, "\"size(scene.mip[0])\"", badExpression, "'.mip' selects",
-           "size(scene) is that of level 0");
-  checkOne(bytes, "\"scene.mip[0]\"", badExpression, "'scene.mip' is no value",
-           "size(scene) is that of level 0");
+  checkOne(bytes, "\"size(scene.mip[0])\"", badExpression, "'.mip' selects", "size(scene)");
+  checkOne(bytes, "\"scene.mip[0]\"", badExpression, "'scene.mip' is no value", "size(scene)");
   checkOne(bytes, "\"camera.position.x\"", badExpression, "is no value", "has 'camera_position'");
   checkOne(enabled, "\"enabled\": \"on\"", wrongValueType, "is no condition", "write true");
   checkOne(enabled, "\"enabled\": \"${bloom}\"", badExpression, "'$' stands without a name",
@@ -124,20 +122,19 @@ TEST_CASE(
     "a mistake at midnight: declarations in the form of another engine, and nothing follows from them") {
   using enum text::Code;
   checkOne("\"texture\": \"rgba8\"", "\"texture\": { \"format\": \"rgba8\" }", wrongType,
-           "\"texture\" has the wrong type", "write the format here");
+           "\"texture\" has the wrong type", "texel format");
   checkOne("\"buffer\": \"4*256\"", "\"buffer\": { \"bytes\": 1024 }", wrongType,
            "\"buffer\" has the wrong type", "");
   checkOne("\"mips\": 4", "\"mips\": true", wrongValueType, "the number of mips", "\"full\"");
   checkOne("\"mips\": 4", "\"mips\": \"all\"", wrongValueType, "the number of mips", "\"full\"");
   checkOne("\"history\": 1, \"first\": 0", "\"first\": 0", keysExclude, "keeps no history", "\"history\": 1");
-  checkOne("\"default\": 0.9", "\"default\": \"#ffffff\"", missingKey, "a string as its default",
-           "a color is a list of numbers");
-  checkOne("\"default\": \"soft\"", "\"default\": \"Soft\"", notAChoice, "not one of its choices",
+  checkOne("\"default\": 0.9", "\"default\": \"#ffffff\"", missingKey, "a string as its default", "");
+  checkOne("\"default\": \"soft\"", "\"default\": \"Soft\"", notAChoice, "not one of the choices",
            "\"soft\"");
   checkOne("\"name\": \"paint\", \"type\": \"fullscreen\"", "\"name\": \"paint\"", missingKey,
            "lacks the key \"type\"", "fullscreen");
-  checkOne("\"repeat\": { \"i\": [1, 3] }", "\"repeat\": { \"i\": 3 }", wrongType, "the range of 'i'",
-           "\"i\": [0, 2]");
+  checkOne("\"repeat\": { \"i\": [1, 3] }", "\"repeat\": { \"i\": 3 }", wrongType, "\"i\" has the wrong type",
+           "");
   checkOne("\"repeat\": { \"i\": [1, 3] }", "\"repeat\": { \"i\": [1, \"glow.mips - 1\"] }", badExpression,
            "is no value", "mips(glow)");
   checkOne("{ \"radiance\": \"scene\" }", "{ \"radiance\": \"@environment\" }", notWritable,

@@ -72,9 +72,7 @@ TEST_CASE("the words of the schema are those of the program") {
     CHECK(words == Json(std::vector<std::string>(std::begin(own), std::end(own))));
   };
   fits(defs.at("format").at("enum"), formatNames());
-  fits(defs.at("view").at("enum"), kViewWords);
   fits(defs.at("parameterType").at("enum"), kParameterTypes);
-  fits(defs.at("input").at("properties").at("input").at("enum"), kInputWords);
   fits(defs.at("pass").at("properties").at("update").at("enum"), kUpdateWords);
   const Json& state = defs.at("state").at("properties");
   fits(state.at("blend").at("examples"), kBlendWords);

@@ -107,17 +107,11 @@ TEST_CASE("a key that is near one that is there already, or near none, is only r
 
 TEST_CASE("a repeat of a wrong form gives one error, whatever uses its index") {
   Folder folder;
-  const std::pair<const char*, const char*> kForms[] = {
-      {"7", "name the index: \"repeat\": { \"i\": [first, last] }"},
-      {"[0, 3]", "name the index: \"repeat\": { \"i\": [first, last] }"},
-      {"{ \"i\": 4 }", "for 4 times, write \"i\": [0, 3]"},
-  };
-  for (const auto& [form, hint] : kForms) {
+  for (const char* form : {"7", "[0, 3]", "{ \"i\": 4 }", "{ \"i\": [0] }", "{ \"i\": [0, null] }"}) {
     const std::string text = withKey(kWholeGraph, "{ \"i\": [0, 3] }", form);
     const Expanded expanded = expandFile(folder.write("g.json", text));
     REQUIRE_MESSAGE(expanded.diagnostics.size() == 1, form << "\n" << expanded.text());
     CHECK(expanded.diagnostics.items()[0].code == text::Code::wrongType);
-    CHECK(expanded.diagnostics.items()[0].hint == hint);
   }
 }
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <set>
 
-#include "engine/graph/language/barrier_bit.h"
+#include "engine/graph/registry.h"
 #include "tests/runtime/gl_recorder.h"
 #include "tests/runtime/gl_replay.h"
 #include "tests/runtime/stage.h"

@@ -1,0 +1,515 @@
+// Parameters, resources, passes and includes. Declared in read_context.h.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "engine/graph/language/names.h"
+#include "engine/graph/read/overlay.h"
+#include "engine/graph/read/read_context.h"
+#include "engine/graph/read/ref_parse.h"
+#include "engine/graph/subresource.h"
+#include "engine/text/files/file.h"
+#include "engine/text/nearest.h"
+
+namespace weft::graph {
+
+using text::Code;
+using Type = JsonValue::Type;
+
+// ---- parameters: type, default, range, choices ----
+
+namespace {
+
+using ValueKind = ParameterDesc::Type;
+
+struct ParameterKind {
+  Type json;          // of the default
+  std::size_t count;  // of an array
+  bool numeric;
+};
+// In the order of ParameterDesc::Type, and so of kParameterTypes.
+constexpr ParameterKind kParameterKinds[] = {
+    {Type::boolean, 0, false}, {Type::number, 0, true}, {Type::number, 0, true},  {Type::array, 2, true},
+    {Type::array, 3, true},    {Type::array, 4, true},  {Type::string, 0, false}, {Type::string, 0, false}};
+
+std::string typeName(ValueKind kind) {
+  return std::string(kParameterTypes[static_cast<std::size_t>(kind)]);
+}
+
+std::vector<std::string> readChoices(ReadContext& context, const JsonValue& object) {
+  std::vector<std::string> words;
+  ReadContext::Seen seen;
+  if (const JsonValue* choices = valueIn(object, "choices"))
+    for (const JsonValue& choice : choices->items)
+      if (context.checkName(choice.text, choice.place, {"a choice"}) &&
+          context.checkFresh(seen, choice.text, choice.place, "choice"))
+        words.push_back(choice.text);
+  return words;
+}
+
+// The type that is written, else the one the default shows.
+std::optional<ValueKind> findKind(ReadContext& context, const JsonValue& object, const JsonValue& initial) {
+  if (object.find("type")) {
+    const auto found = std::ranges::find(kParameterTypes, textIn(object, "type"));
+    if (found == kParameterTypes.end()) return std::nullopt;
+    return static_cast<ValueKind>(found - kParameterTypes.begin());
+  }
+  if (initial.is(Type::boolean)) return ValueKind::boolean;
+  if (initial.is(Type::number)) {
+    const bool whole = std::ranges::all_of(object.members, [](const JsonMember& member) {
+      return !member.value.is(Type::number) || member.value.whole;
+    });
+    return whole ? ValueKind::integer : ValueKind::number;
+  }
+  if (initial.is(Type::array))
+    return static_cast<ValueKind>(static_cast<std::size_t>(ValueKind::vec2) + initial.items.size() - 2);
+  if (object.find("choices")) return ValueKind::choice;
+  context.error(Code::missingKey, object, "a parameter has a string as its default, but no \"choices\"")
+      .hint = parseValue(initial.text).type == Value::Type::symbol
+                  ? "list the \"choices\", or say \"type\": \"file\""
+                  : fmt::format("write {}, without quotes", initial.text);
+  return std::nullopt;
+}
+
+// The default of a parameter whose type and choices are known. False after a report, unless another value can be taken.
+bool readDefault(ReadContext& context, const JsonValue& object, const JsonValue& initial,
+                 ParameterDesc& out) {
+  const ParameterKind& kind = kParameterKinds[static_cast<std::size_t>(out.type)];
+  const std::optional<Value> value = valueOf(initial);
+  if (!value || !initial.is(kind.json) || initial.items.size() != kind.count ||
+      (out.type == ValueKind::integer && initial.number != std::floor(initial.number))) {
+    auto& d = context.error(Code::wrongType, initial,
+                            fmt::format("the default does not fit the type \"{}\"", typeName(out.type)));
+    d.expected = kind.count > 0 ? fmt::format("a list of {} numbers", kind.count) : nameOf(kind.json);
+    if (out.type == ValueKind::integer) d.expected = "a whole number";
+    d.found = foundText(initial);
+    return false;
+  }
+  out.initialPlace = initial.place;
+  out.initial = *value;
+  if (out.type == ValueKind::file)
+    out.initial = Value::text(text::besideFile(initial.textPlace(), initial.text));
+  if (out.type != ValueKind::choice) return true;
+  if (!object.find("choices")) {
+    context.error(Code::missingKey, object, "a choice without \"choices\"").hint = "list the words it may be";
+    return false;
+  }
+  if (out.choices.empty() || std::ranges::find(out.choices, initial.text) != out.choices.end()) return true;
+  auto& d = context.error(Code::notAChoice, initial,
+                          fmt::format("the default '{}' is not one of the choices", initial.text));
+  d.expected = fmt::format("{}", fmt::join(out.choices, ", "));
+  if (const std::string nearest = text::nearestName(initial.text, out.choices); !nearest.empty())
+    d.hint = fmt::format("did you mean \"{}\"?", nearest);
+  out.initial = Value::text(out.choices[0]);  // expressions that it stands in have no mistake of their own
+  return true;
+}
+
+void checkRange(ReadContext& context, const JsonValue& object, const JsonValue& initial,
+                const ParameterDesc& out) {
+  const auto report = [&](const JsonValue& at, std::string message, std::string expected) {
+    auto& d = context.error(Code::outOfRange, at, std::move(message));
+    d.expected = std::move(expected);
+    d.found = foundText(at);
+  };
+  if (out.min && out.max && *out.min > *out.max)
+    return report(*object.find("min"), "the range is empty", fmt::format("at most \"max\", {}", *out.max));
+  if (out.step && *out.step <= 0)
+    report(*object.find("step"), "the step is not above zero", "a number above zero");
+  for (std::size_t i = 0; i < out.initial.count; ++i)
+    if ((out.min && out.initial.v[i] < *out.min) || (out.max && out.initial.v[i] > *out.max))
+      report(initial.is(Type::array) ? initial.items[i] : initial, "the default is out of its range",
+             fmt::format("a number{}{}", out.min ? fmt::format(" from {}", *out.min) : "",
+                         out.max ? fmt::format(" up to {}", *out.max) : ""));
+}
+
+std::optional<double> numberIn(const JsonValue& object, std::string_view key) {
+  const JsonValue* value = valueIn(object, key);
+  return value ? std::optional(value->number) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<ParameterDesc> readParameter(ReadContext& context, const JsonMember& member) {
+  const JsonValue& object = member.value;
+  ParameterDesc out;
+  out.name = member.key;
+  out.place = member.place;
+  const bool named = context.checkName(member.key, member.place, {"a parameter"});
+  out.label = textIn(object, "label");
+  out.doc = textIn(object, "doc");
+  if (const JsonValue* define = valueIn(object, "define")) out.define = define->flag;
+  out.min = numberIn(object, "min");
+  out.max = numberIn(object, "max");
+  out.step = numberIn(object, "step");
+  out.choices = readChoices(context, object);
+  const JsonValue* initial = valueIn(object, "default");
+  const std::optional<ValueKind> kind = initial ? findKind(context, object, *initial) : std::nullopt;
+  if (!kind) return std::nullopt;
+  out.type = *kind;
+  if (!readDefault(context, object, *initial, out)) return std::nullopt;
+  const bool numeric = kParameterKinds[static_cast<std::size_t>(*kind)].numeric;
+  if (numeric) checkRange(context, object, *initial, out);
+  // Keys that say nothing about a parameter of this type.
+  for (const std::string_view key : {"min", "max", "step", "choices"})
+    if (const JsonValue* value = object.find(key);
+        value && !(key == "choices" ? *kind == ValueKind::choice : numeric))
+      context
+          .error(Code::keysExclude, *value,
+                 fmt::format("\"{}\" does not go with the type \"{}\"", key, typeName(*kind)))
+          .hint = "remove the key, or change the type";
+  return named ? std::optional(std::move(out)) : std::nullopt;
+}
+
+std::optional<Value> valueOf(const JsonValue& value) {
+  if (value.is(Type::number)) return Value::number(value.number);
+  if (value.is(Type::boolean)) return Value::boolean(value.flag);
+  if (value.is(Type::string)) return Value::text(value.text);
+  Value list;
+  if (value.items.size() < 2 || value.items.size() > list.v.size()) return std::nullopt;
+  list.type = Value::Type::list;
+  for (const JsonValue& item : value.items) {
+    if (!item.is(Type::number)) return std::nullopt;
+    list.v[list.count++] = item.number;
+  }
+  return list;
+}
+
+// ---- resources: textures, buffers, imports, inputs, alternatives ----
+
+namespace {
+
+constexpr std::pair<std::string_view, Expr ResourceDesc::*> kResourceValues[] = {
+    {"size", &ResourceDesc::size},   {"mips", &ResourceDesc::mips},       {"layers", &ResourceDesc::layers},
+    {"array", &ResourceDesc::array}, {"samples", &ResourceDesc::samples}, {"buffer", &ResourceDesc::bytes},
+    {"clear", &ResourceDesc::clear}, {"history", &ResourceDesc::history}};
+
+// A string that is a path, and no expression: of an argument that holds a path, unless it begins with '$', and "photo.png" under
+// another key. Whoever knows the arguments says what is wrong with that.
+bool isPath(std::string_view key, std::string_view text) {
+  constexpr std::string_view kEndings[] = {".png", ".jpg", ".jpeg", ".exr", ".hdr", ".cube",
+                                           ".tga", ".bmp", ".gltf", ".glb", ".obj", ".json"};
+  if (key == "file" || key.ends_with("_file")) return !text.starts_with('$');
+  return text.find('$') == std::string_view::npos &&
+         std::ranges::any_of(kEndings, [&](std::string_view ending) { return text.ends_with(ending); });
+}
+
+void readImport(ReadContext& context, const JsonValue& value, ImportDesc& out) {
+  out.type = textIn(value, "import");
+  for (const auto& member : value.members) {
+    if (member.key == "import") continue;
+    const bool named = context.checkName(member.key, member.place, {"an argument"});
+    const JsonValue& given = member.value;
+    Expr expr =
+        given.is(Type::string) && isPath(member.key, given.text)
+            ? Expr::constant(Value::text(text::besideFile(given.textPlace(), given.text)), given.textPlace())
+            : context.exprOf(given);
+    if (named && expr.present()) out.arguments.push_back({member.key, member.place, std::move(expr)});
+  }
+}
+
+// A value, or what to read in its place.
+void readFirst(ReadContext& context, const JsonValue& first, ResourceDesc& out) {
+  if (!first.is(Type::string) || !looksLikeRef(first.text)) {
+    out.first = context.exprOf(first);
+    return;
+  }
+  out.firstRef = context.refOf(first);
+  if (!out.firstRef ||
+      (!out.firstRef->kind && out.firstRef->sampler == Sampler{} && out.firstRef->history == 0))
+    return;
+  context.error(Code::badReference, first, fmt::format("\"first\" of '{}' is more than a name", out.name))
+      .hint = "leave out '@-n' and the words after 'as': it is read as the slot that reads the history says";
+  out.firstRef.reset();
+}
+
+void readHistory(ReadContext& context, const JsonValue& value, ResourceDesc& out) {
+  if (const JsonValue* first = valueIn(value, "first")) readFirst(context, *first, out);
+  if (const JsonValue* reset = valueIn(value, "reset"))
+    for (const JsonValue& item : stringsOf(*reset)) {
+      if (!looksLikeRef(item.text)) {
+        if (Expr expr = context.exprOf(item); expr.present()) out.resetValues.push_back(std::move(expr));
+      } else if (std::optional<RefDesc> ref = context.refOf(item)) {
+        out.resetRefs.push_back(*std::move(ref));
+      }
+    }
+  for (const char* key : {"first", "reset"})
+    if (const JsonValue* found = value.find(key); found && !value.find("history")) {
+      context
+          .error(Code::keysExclude, *found,
+                 fmt::format("\"{}\" of '{}', which keeps no history", key, out.name))
+          .hint = "add \"history\": 1, or remove the key";
+      out.history =
+          Expr::constant(Value::number(1), found->place);  // what reads it has no mistake of its own
+    }
+}
+
+// "full", and what other engines call it, which is reported.
+bool readFullMips(ReadContext& context, const JsonValue& mips) {
+  constexpr std::string_view kAll[] = {"all", "auto", "max", "complete", "true"};
+  const bool meant = mips.is(Type::string) ? std::ranges::find(kAll, mips.text) != std::end(kAll)
+                                           : mips.is(Type::boolean) && mips.flag;
+  if (meant)
+    context.error(Code::wrongValueType, mips, "the number of mips is no number").hint =
+        "write \"full\" for all levels";
+  return meant || mips.text == "full";
+}
+
+bool readResourceInto(ReadContext& context, const JsonValue& value, ResourceDesc& out) {
+  using Kind = ResourceDesc::Kind;
+  const std::string_view kind = kindOf(value);
+  if (kind == "alternatives") {
+    out.kind = Kind::alternatives;
+    for (const JsonValue& item : stringsOf(value))
+      if (std::optional<RefDesc> ref = context.refOf(item)) out.alternatives.push_back(*std::move(ref));
+    return !out.alternatives.empty();
+  }
+  if (kind == "import") {
+    out.kind = Kind::import;
+    readImport(context, value, out.import);
+    return !out.import.type.empty();
+  }
+  out.kind = kind == "texture" ? Kind::texture : kind == "buffer" ? Kind::buffer : Kind::input;
+  if (const JsonValue* mips = valueIn(value, "mips")) out.fullMips = readFullMips(context, *mips);
+  for (const auto& [key, member] : kResourceValues)
+    if (key != "mips" || !out.fullMips) out.*member = context.expr(value, key);
+  readHistory(context, value, out);
+  out.format = textIn(value, "texture");
+  if (const JsonValue* format = value.find("texture")) out.formatPlace = format->place;
+  out.view = textIn(value, "view");
+  if (out.view == "2d") out.view.clear();
+  if (const JsonValue* view = value.find("view")) out.viewPlace = view->place;
+  out.input = textIn(value, "input");
+  if (const JsonValue* optional = valueIn(value, "optional")) out.optional = optional->flag;
+  if (kind == "buffer") return out.bytes.present();
+  return kind == "input" ? !out.input.empty() : !out.format.empty() && out.size.present();
+}
+
+}  // namespace
+
+std::optional<ResourceDesc> readResource(ReadContext& context, const JsonMember& member) {
+  context.resource = member.key;
+  ResourceDesc out;
+  out.name = member.key;
+  out.place = member.place;
+  const bool named = context.checkName(member.key, member.place, {"a resource"});
+  const bool good = !member.value.is(Type::absent) && readResourceInto(context, member.value, out);
+  context.resource.clear();
+  return named && good ? std::optional(std::move(out)) : std::nullopt;
+}
+
+// ---- passes and includes ----
+
+namespace {
+
+// Slots, parameters and defines of a pass are spelled alike in its shader.
+constexpr const char* kSharedName = "the slot, parameter or define";
+
+constexpr std::uint64_t kMaxIndices = 8;  // of one repeat
+
+struct TextKey {
+  std::string_view key;
+  std::string PassDesc::*text;
+  Place PassDesc::*place;
+};
+constexpr TextKey kPassTexts[] = {{"name", &PassDesc::name, &PassDesc::namePlace},
+                                  {"like", &PassDesc::like, &PassDesc::likePlace},
+                                  {"type", &PassDesc::type, &PassDesc::typePlace},
+                                  {"shader", &PassDesc::shader, &PassDesc::shaderPlace},
+                                  {"list", &PassDesc::list, &PassDesc::listPlace},
+                                  {"geometry", &PassDesc::geometry, &PassDesc::geometryPlace}};
+constexpr std::pair<std::string_view, Expr PassDesc::*> kPassValues[] = {{"enabled", &PassDesc::enabled},
+                                                                         {"slices", &PassDesc::slices},
+                                                                         {"threads", &PassDesc::threads},
+                                                                         {"instances", &PassDesc::instances}};
+constexpr std::pair<std::string_view, bool PassDesc::*> kPassFlags[] = {
+    {"feedback", &PassDesc::feedback}, {"side_effect", &PassDesc::sideEffect}};
+
+void readInclude(ReadContext& context, const JsonValue& value, PassDesc& out) {
+  IncludeDesc& include = out.include.emplace();
+  const JsonValue& file = *value.find("include");
+  const JsonValue* as = value.find("as");
+  include.file = file.text;
+  include.filePlace = file.place;
+  out.enabled = context.expr(value, "enabled");
+  for (const JsonMember& member : membersIn(value, "bind")) {
+    const bool named = context.checkName(member.key, member.place, {"an input"});
+    std::optional<RefDesc> ref = context.refOf(member.value);
+    if (!named || !ref) continue;
+    include.binds.emplace_back(member.key, *std::move(ref));
+    include.bindPlaces.push_back(member.place);
+  }
+  if (include.file.empty() && file.is(Type::string))
+    context.error(Code::notAName, file, "an include without a path").hint =
+        "write the path of a graph, from this file's folder";
+  if (include.file.empty()) return;
+  out.namePlace = as ? as->place : file.place;
+  include.as = as ? as->text : std::filesystem::path(include.file).stem().string();
+  if ((as && !as->is(Type::string)) ||
+      !context.checkName(include.as, out.namePlace, {as ? "an include" : "an include: say \"as\": \"name\""}))
+    include.as = "include";
+  out.name = include.as;
+}
+
+// False when the repeat gives no index, or not from where to where: what the pass says with it is not looked at.
+bool readRanges(ReadContext& context, const JsonValue& ranges, ReadContext::Seen& seen, PassDesc& out) {
+  bool all = !ranges.is(Type::absent);
+  if (all && ranges.members.empty())
+    context.error(Code::missingKey, ranges, "\"repeat\" without an index").hint = "write { \"i\": [0, 3] }";
+  for (const JsonMember& member : ranges.members) {
+    if (seen.size() == text::raised(kMaxIndices)) {
+      auto& d = context.error(Code::limitExceeded, member.value,
+                              "\"repeat\" has more indices than a pass can have");
+      d.expected = fmt::format("at most {} indices of one repeat", text::raised(kMaxIndices));
+      d.hint = text::hintToRaise(kMaxIndices);
+      return false;
+    }
+    bool good = context.checkName(member.key, member.place, {"an index"});
+    good = context.checkFresh(seen, member.key, member.place, "index") && good;
+    RangeDesc range{member.key, member.place, {}, {}, {}};
+    Expr* const bounds[] = {&range.first, &range.last, &range.step};
+    for (std::size_t i = 0; i < member.value.items.size(); ++i) {
+      *bounds[i] = context.exprOf(member.value.items[i]);
+      good = good && bounds[i]->present();
+    }
+    good = good && !member.value.is(Type::absent);
+    all = all && good;
+    if (good) out.repeat.push_back(std::move(range));
+  }
+  return all;
+}
+
+bool readRepeat(ReadContext& context, const JsonValue* repeat, PassDesc& out) {
+  ReadContext::Seen seen;
+  if (!repeat || !repeat->is(Type::array)) return !repeat || readRanges(context, *repeat, seen, out);
+  bool all = true;
+  for (const JsonValue& ranges : repeat->items) all = readRanges(context, ranges, seen, out) && all;
+  return all;
+}
+
+void readSlots(ReadContext& context, const JsonValue& slots, Access access, ReadContext::Seen& names,
+               PassDesc& out) {
+  for (const JsonMember& slot : slots.members) {
+    bool good = context.checkName(slot.key, slot.place, {"a slot", true});
+    good = context.checkFresh(names, slot.key, slot.place, kSharedName) && good;
+    std::optional<RefDesc> ref = context.refOf(slot.value);
+    // Only a part may be missing, at some size.
+    if (ref && ref->optional && access == Access::write && !ref->mip && !ref->layer && !ref->face &&
+        !ref->element)
+      context
+          .error(Code::badReference, slot.value,
+                 fmt::format("the slot '{}' has a '?' in \"write\"", slot.key))
+          .hint =
+          "leave the '?' out: what a pass writes is always there, and costs nothing where nobody reads it";
+    if (good && ref) out.slots.push_back({slot.key, slot.place, access, *std::move(ref)});
+  }
+}
+
+void readParameters(ReadContext& context, const JsonValue& value, ReadContext::Seen& names, PassDesc& out) {
+  for (const JsonMember& member : membersIn(value, "parameters")) {
+    PassParameterDesc parameter{member.key, member.place, {}, {}};
+    bool good = context.checkFresh(names, member.key, member.place, kSharedName);
+    if (member.value.is(Type::object)) {
+      parameter.declared = readParameter(context, member);
+    } else {
+      good = context.checkName(member.key, member.place, {"a parameter", true, false, true}) && good;
+      parameter.value = context.exprOf(member.value);
+    }
+    if (good && (parameter.declared || parameter.value.present()))
+      out.parameters.push_back(std::move(parameter));
+  }
+  for (const JsonMember& member : membersIn(value, "defines")) {
+    bool good = context.checkName(member.key, member.place, {"a define", true, true});
+    good = context.checkFresh(names, member.key, member.place, kSharedName) && good;
+    Expr expr = context.exprOf(member.value);
+    if (good && expr.present()) out.defines.push_back({member.key, member.place, std::move(expr)});
+  }
+}
+
+void readState(ReadContext& context, const JsonValue& value, PassDesc& out) {
+  const auto add = [&](std::string name, const JsonMember& member) {
+    // A word of another API is often no expression: ">=".
+    const std::string hint =
+        isIdent(member.value.text) ? "" : text::hintForForeign(text::Foreign::state_word, member.value.text);
+    if (!hint.empty()) {
+      context.error(Code::badState, member.value, fmt::format("unknown value for the state '{}'", name))
+          .hint = hint;
+      return;
+    }
+    if (Expr expr = context.exprOf(member.value); expr.present())
+      out.state.push_back({std::move(name), member.place, std::move(expr)});
+  };
+  for (const JsonMember& member : membersIn(value, "state")) {
+    if (std::ranges::find(kStateKeys, member.key, &KeySpec::key) == kStateKeys.end()) continue;
+    if (!member.value.is(Type::object)) add(member.key, member);
+    for (const JsonMember& slot : member.value.members) add("blend." + slot.key, slot);
+  }
+}
+
+void readGeometry(ReadContext& context, const JsonValue& value, PassDesc& out) {
+  const JsonValue* geometry = valueIn(value, "geometry");
+  if (!geometry) return;
+  text::Diagnostics said;
+  std::optional<CallText> call = parseCallText(geometry->text, geometry->textPlace(), said);
+  context.adopt(said);
+  out.geometry = call ? std::move(call->name) : "";
+  if (call) out.geometryArguments = std::move(call->arguments);
+}
+
+// False when the pass cannot be used.
+bool readPassInto(ReadContext& context, const JsonValue& value, PassDesc& out) {
+  for (const TextKey& each : kPassTexts)
+    if (const JsonValue* found = value.find(each.key)) {
+      out.*each.text = found->text;
+      out.*each.place = found->place;
+    }
+  // The rest of a stanza whose name cannot be one is checked too. Nothing refers to passes by slots, so no second mistake comes
+  // of another name.
+  if (const JsonValue* name = valueIn(value, "name");
+      name && !context.checkName(out.name, name->place, {"a pass"})) {
+    out.name.insert(0, "_");
+    for (char& c : out.name)
+      if (!isIdentChar(c)) c = '_';
+  }
+  if (const JsonValue* shaders = valueIn(value, "shader"); shaders && shaders->is(Type::object)) {
+    out.vertexShader = textIn(*shaders, "vertex");
+    out.shader = textIn(*shaders, "fragment");
+  }
+  if (const std::string update = textIn(value, "update"); !update.empty())
+    out.cadence = static_cast<Cadence>(std::ranges::find(kUpdateWords, update) - kUpdateWords.begin());
+  for (const auto& [key, flag] : kPassFlags)
+    if (const JsonValue* found = valueIn(value, key)) out.*flag = found->flag;
+  for (const auto& [key, member] : kPassValues) out.*member = context.expr(value, key);
+  out.view = context.ref(value, "view");
+  readGeometry(context, value, out);
+  const bool indexed = readRepeat(context, value.find("repeat"), out);
+  ReadContext::Seen names;                        // slots, parameters and defines share one namespace
+  for (const JsonMember& member : value.members)  // in file order
+    for (const Access access : {Access::read, Access::write, Access::modify})
+      if (member.key == nameOf(access)) readSlots(context, member.value, access, names, out);
+  readParameters(context, value, names, out);
+  readState(context, value, out);
+  return indexed && !out.name.empty() && value.find("type");
+}
+
+}  // namespace
+
+std::optional<PassDesc> readPass(ReadContext& context, const JsonValue& value) {
+  PassDesc out;
+  out.place = value.place;
+  context.pass = textIn(value, "name").substr(0, text::kMaxNameBytes);
+  bool good = !value.is(Type::absent);
+  if (good && value.find("include")) {
+    readInclude(context, value, out);
+    good = !out.name.empty();
+  } else if (good) {
+    good = readPassInto(context, value, out);
+  }
+  context.pass.clear();
+  return good ? std::optional(std::move(out)) : std::nullopt;
+}
+
+}  // namespace weft::graph

@@ -1,0 +1,278 @@
+#include "engine/graph/read/shape.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/graph/desc_walk.h"
+#include "engine/graph/read/overlay.h"
+#include "engine/graph/read/read_context.h"
+#include "engine/text/nearest.h"
+
+namespace weft::graph {
+
+namespace {
+
+using text::Code;
+using text::Foreign;
+using Type = JsonValue::Type;
+using KeyLists = std::initializer_list<std::span<const KeySpec>>;
+
+constexpr std::array<KeySpec, 4> kKinds{{{"texture", ""}, {"buffer", ""}, {"import", ""}, {"input", ""}}};
+
+// Which words of other programs are looked up for the keys of an object.
+std::optional<Foreign> foreignOf(const Shape& shape) {
+  if (shape.kind == "pass") return Foreign::pass_key;
+  if (shape.kind == "parameter") return Foreign::value_key;
+  if (shape.kind == "texture") return Foreign::texture_key;
+  return shape.kind == "state" ? std::optional(Foreign::state_key) : std::nullopt;
+}
+
+bool takes(const Shape& shape, Type type) {
+  return shape.types == 0 || (shape.types >> static_cast<unsigned>(type) & 1) != 0;
+}
+
+// What of a choice of shapes fits the type of a value: the last whose first key it has, else the first. Null when none does.
+const Shape* branchFor(const Shape& shape, const JsonValue& value) {
+  if (shape.anyOf.empty()) return takes(shape, value.type) ? &shape : nullptr;
+  const Shape* found = nullptr;
+  for (const Shape* each : shape.anyOf)
+    if (const Shape* branch = branchFor(*each, value);
+        branch && (!found || (!branch->keys.empty() && value.find(branch->keys[0].key))))
+      found = branch;
+  return found;
+}
+
+std::string expectedText(const Shape& shape) {
+  std::vector<std::string> all;
+  if (!shape.anyOf.empty() && !shape.kind.empty() && !shape.doc.empty()) return std::string(shape.doc);
+  for (const Shape* each : shape.anyOf) all.push_back(expectedText(*each));
+  for (unsigned type = 0; shape.anyOf.empty() && type <= static_cast<unsigned>(Type::object); ++type)
+    if (shape.types >> type & 1) all.emplace_back(nameOf(static_cast<Type>(type)));
+  if (shape.minItems > 0 && !all.empty()) all.back() += fmt::format(" of at least {}", shape.minItems);
+  return fmt::format("{}", fmt::join(all, " or "));
+}
+
+class ShapeCheck {
+ public:
+  // `mends`: keys of one file are mended; else a whole graph is checked.
+  ShapeCheck(bool mends, bool overlay, text::Diagnostics& diagnostics)
+      : mends_(mends), overlay_(overlay), said_(diagnostics) {}
+
+  void run(JsonValue& root) {
+    checkKeys(root, {kGraphKeys}, "graph", Foreign::graph_key);
+    overlay_ = overlay_ || root.find("extends");
+    for (JsonMember& section : root.members) {
+      const auto spec = std::ranges::find(kGraphKeys, section.key, &KeySpec::key);
+      if (spec == kGraphKeys.end()) continue;
+      if (section.key == "passes" && section.value.is(Type::array)) {
+        for (JsonValue& stanza : section.value.items) checkPass(stanza);
+      } else if (section.key == "resources" && section.value.is(Type::object)) {
+        for (JsonMember& member : section.value.members) checkResource(member);
+      } else {
+        checkValue(section.value, *spec->shape, section.key, spec->doc);
+      }
+    }
+  }
+
+ private:
+  void checkResource(JsonMember& member) {
+    JsonValue& value = member.value;
+    said_.resource = member.key;
+    if (mends_ && kindOf(value).empty()) checkKeys(value, {kKinds}, member.key);
+    const auto kinds =
+        std::ranges::count_if(kKinds, [&](const KeySpec& kind) { return value.find(kind.key) != nullptr; });
+    if (!value.is(Type::object) || kinds == 1) {
+      checkValue(value, shapeOf("resource"), member.key, "a resource");
+    } else if (!mends_) {
+      said_
+          .error(kinds == 0 ? Code::missingKey : Code::keysExclude, value,
+                 fmt::format("the resource '{}' {}", member.key,
+                             kinds == 0 ? "does not say what it is" : "is of two kinds at once"))
+          .hint = "say one of \"texture\", \"buffer\", \"import\" and \"input\"";
+      drop(value);
+    }
+    said_.resource.clear();
+  }
+
+  void checkPass(JsonValue& stanza) {
+    if (stanza.is(Type::absent)) return;
+    said_.pass = stanzaName(stanza);
+    const auto says = [&](const char* key) { return stanza.find(key) != nullptr; };
+    if (mends_ && !says("include") && !says("type") && !says("like") && !says("shader"))
+      checkKeys(stanza, {std::span(kIncludeKeys).first(1)}, "include");
+    const Shape& shape = shapeOf(says("include") ? "include" : "pass");
+    if (stanza.is(Type::object))
+      checkObject(stanza, shape, shape.kind, overlay_ ? kPlaceKeys : std::span<const KeySpec>());
+    else
+      checkValue(stanza, shape, shape.kind, shape.doc);
+    said_.pass.clear();
+  }
+
+  static void drop(JsonValue& value) {
+    value.type = Type::absent;
+    value.items.clear();
+    value.members.clear();
+  }
+
+  // False after a report. `doc` is what the schema says of the key.
+  bool checkValue(JsonValue& value, const Shape& shape, std::string_view key, std::string_view doc,
+                  bool item = false) {
+    const Shape* branch = branchFor(shape, value);
+    bool good = branch && value.items.size() <= branch->maxItems &&
+                (!value.is(Type::array) || value.items.size() >= branch->minItems);
+    if (!good && mends_) return false;
+    if (!good)
+      said_.wrongType(value, fmt::format("{}\"{}\"", item ? "an item of " : "", key), expectedText(shape))
+          .hint = doc.empty() ? "" : fmt::format("\"{}\": {}", key, doc);
+    if (good && branch->items)
+      for (JsonValue& each : value.items) good = good && checkValue(each, *branch->items, key, doc, true);
+    if (good && value.is(Type::string) && !branch->open && !mends_) good = checkWord(value, *branch, key);
+    if (good && value.is(Type::object)) checkObject(value, *branch, key);
+    if (!good && !mends_) drop(value);
+    return good;
+  }
+
+  bool checkWord(JsonValue& value, const Shape& shape, std::string_view key) {
+    // Formats are told from those of other programs where they are looked up.
+    if (shape.kind == "format" || std::ranges::find(shape.words, value.text) != shape.words.end())
+      return true;
+    auto& d =
+        said_.error(Code::unknownWord, value, fmt::format("unknown word \"{}\" for \"{}\"", value.text, key));
+    d.expected = fmt::format("{}", fmt::join(shape.words, ", "));
+    if (shape.kind == "parameterType") d.hint = text::hintForForeign(text::Foreign::value_type, value.text);
+    const std::string nearest =
+        text::nearestName(value.text, std::vector<std::string>(shape.words.begin(), shape.words.end()));
+    if (!d.hint.empty() || nearest.empty()) return false;
+    d.hint = fmt::format("did you mean \"{}\"?", nearest);
+    value.text = nearest;
+    return true;
+  }
+
+  void checkObject(JsonValue& object, const Shape& shape, std::string_view what,
+                   std::span<const KeySpec> more = {}) {
+    if (!shape.keys.empty() && !shape.others) checkKeys(object, {shape.keys, more}, what, foreignOf(shape));
+    for (JsonMember& member : object.members) {
+      if (!said_.goesOn()) return;
+      const auto spec = std::ranges::find(shape.keys, member.key, &KeySpec::key);
+      if (spec != shape.keys.end())
+        checkValue(member.value, *spec->shape, member.key, spec->doc);
+      else if (shape.others)
+        checkValue(member.value, *shape.others, member.key, shape.others->doc);
+    }
+  }
+
+  void checkKeys(JsonValue& object, KeyLists lists, std::string_view what,
+                 std::optional<Foreign> foreign = {}) {
+    if (!object.is(Type::object)) return;
+    const auto isKnown = [&](std::string_view key) {
+      return std::ranges::any_of(
+          lists, [&](const auto& keys) { return std::ranges::find(keys, key, &KeySpec::key) != keys.end(); });
+    };
+    std::vector<std::string> known, meant;
+    for (JsonMember& member : object.members) {
+      if (isKnown(member.key)) continue;
+      if (!said_.goesOn()) return;
+      known.clear();
+      for (const std::span<const KeySpec> keys : lists)
+        for (const KeySpec& spec : keys) known.emplace_back(spec.key);
+      const bool ofState = foreign == Foreign::pass_key &&
+                           std::ranges::find(kStateKeys, member.key, &KeySpec::key) != kStateKeys.end();
+      // A word of another program first.
+      const text::ForeignWord theirs =
+          foreign && !ofState ? text::findForeignWord(*foreign, member.key) : text::ForeignWord();
+      const std::string nearest = theirs.hint.empty() ? text::nearestName(member.key, known) : theirs.key;
+      const bool sure =
+          !ofState && !nearest.empty() && !object.find(nearest) &&
+          (theirs.hint.empty() ? text::editDistance(member.key, nearest, 2) <= 1 : theirs.isOnlyKey);
+      if (mends_ && !sure) continue;
+      said_.error(Code::unknownKey, member.place, fmt::format("unknown key \"{}\" in '{}'", member.key, what))
+          .hint = ofState ? fmt::format("it is a key of \"state\": {{ \"{}\": … }}", member.key)
+                  : !theirs.hint.empty() ? theirs.hint
+                  : nearest.empty()      ? fmt::format("known: {}", fmt::join(known, ", "))
+                                         : fmt::format("did you mean \"{}\"?", nearest);
+      meant.push_back(nearest);
+      if (mends_) member.key = nearest;
+    }
+    if (mends_) return;
+    for (const std::span<const KeySpec> keys : lists)
+      for (const KeySpec& spec : keys)
+        if (spec.required && !object.find(spec.key) && std::ranges::find(meant, spec.key) == meant.end())
+          said_
+              .error(Code::missingKey, object.place, fmt::format("'{}' lacks the key \"{}\"", what, spec.key))
+              .hint = fmt::format("\"{}\": {}", spec.key, spec.doc);
+  }
+
+  bool mends_, overlay_;
+  ReadContext said_;
+};
+
+}  // namespace
+
+void mendKeys(JsonValue& root, bool preset, text::Diagnostics& diagnostics) {
+  ShapeCheck(true, preset, diagnostics).run(root);
+}
+
+void checkShape(JsonValue& root, text::Diagnostics& diagnostics) {
+  ShapeCheck(false, false, diagnostics).run(root);
+}
+
+void mendNames(GraphDesc& desc, text::Diagnostics& diagnostics) {
+  constexpr std::size_t kShortest = 3;                // shorter names are near to each other by chance
+  constexpr std::size_t kMaxUnknown = 64;             // with more, the mistake is another one
+  std::map<std::string, int, std::less<>> mentioned;  // how often, by the first part of a name
+  const auto mention = [&](std::string_view name, int times) {
+    mentioned[std::string(name.substr(0, name.find('.')))] += times;
+  };
+  const auto addExpr = [&](const Expr& expr) {
+    for (const auto& [fact, name] : expr.facts())
+      if (!name.starts_with('@') &&
+          (fact != Fact::has || std::ranges::find(desc.passes, name, &PassDesc::name) == desc.passes.end()))
+        mention(name, 1);
+  };
+  const auto addRef = [&](const RefDesc& ref) { mention(ref.name, ref.import ? 0 : 1); };
+  visitMentions(desc, addExpr, addRef);
+  std::vector<std::string_view> there(desc.unread.begin(), desc.unread.end());
+  for (const ResourceDesc& resource : desc.resources) there.push_back(resource.name);
+  for (const PassDesc& pass : desc.passes) {
+    if (!pass.include) continue;
+    there.push_back(pass.name);
+    const auto& binds = pass.include->binds;
+    for (const auto& [input, ref] : binds) addRef(ref);
+    if (!pass.include->graph) continue;
+    // An input that is not bound takes the resource of its name.
+    for (const ResourceDesc& input : pass.include->graph->resources)
+      if (input.kind == ResourceDesc::Kind::input &&
+          std::ranges::none_of(binds, [&](const auto& bind) { return bind.first == input.name; }))
+        mention(input.name, input.optional ? 0 : 1);
+  }
+  std::vector<std::string> unknown;  // in the order of the alphabet
+  for (const auto& [name, count] : mentioned)
+    if (count > 1 && name.size() >= kShortest && std::ranges::find(there, name) == there.end())
+      unknown.push_back(name);
+  if (unknown.size() > kMaxUnknown) return;
+  for (ResourceDesc& resource : desc.resources) {
+    if (resource.name.size() < kShortest || mentioned.contains(resource.name)) continue;
+    const auto meant = std::ranges::find_if(
+        unknown, [&](const std::string& name) { return text::editDistance(name, resource.name, 1) <= 1; });
+    if (meant == unknown.end()) continue;
+    auto& d =
+        diagnostics.error(Code::unknownResource, resource.place,
+                          fmt::format("nothing names the resource '{}', and the resource '{}' is not there",
+                                      resource.name, *meant));
+    d.resource = resource.name;
+    d.hint = fmt::format("did you mean '{}'?", *meant);
+    resource.name = *meant;
+    unknown.erase(meant);
+  }
+}
+
+}  // namespace weft::graph
