@@ -68,19 +68,4 @@ class IsfNames {
   std::set<std::string, std::less<>> used_;
 };
 
-struct IsfShader {
-  std::vector<ConvertedText> texts;
-  std::string fragment, vertex;  // paths below shaders/; `vertex` is empty without one
-  // Images that the shader reads, by their names in the file, and those of them that it passes to functions other than those
-  // of ISF, so that they must always be there.
-  std::set<std::string, std::less<>> read, needed;
-  bool usesDate = false;
-};
-std::optional<IsfShader> translateIsfShader(const IsfSource& source, const ConvertOptions& options,
-                                            const IsfHeader& header, const IsfNames& names,
-                                            text::Diagnostics& diagnostics);
-
-// The slot of what the shader draws.
-constexpr const char* kIsfOutput = "isf_FragColor";
-
 }  // namespace weft::importing
