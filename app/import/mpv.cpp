@@ -9,6 +9,7 @@
 #include <memory>
 #include <sstream>
 
+#include "app/import/import.h"
 #include "app/import/text.h"
 #include "engine/assets/images/half.h"
 #include "engine/graph/language/names.h"

@@ -167,14 +167,14 @@ class Server {
   void settle() {
     if (changed_.empty()) return;
     workspace_.check();
-    std::map<std::string, std::vector<text::Diagnostic>> said = workspace_.diagnostics();
+    std::map<std::string, text::Diagnostics> said = workspace_.diagnostics();
     for (const std::string& path : changed_) said[path];
     for (const auto& [path, shown] : published_) said[path];
     for (const auto& [path, diagnostics] : said) {
       const std::shared_ptr<const Text> text = texts_.of(path);
       const Text nothing(path, "");
       Json list = Json::array();
-      for (const text::Diagnostic& each : diagnostics)
+      for (const text::Diagnostic& each : diagnostics.items())
         list.push_back(diagnosticJson(each, text ? *text : nothing));
       const auto opened = texts_.opened().find(path);
       const bool fresh = opened != texts_.opened().end() && changed_.contains(path);

@@ -177,7 +177,7 @@ void Workspace::check() {
 void Workspace::check(const std::string& path, Graph& graph) {
   text::takeUncompared();
   graph.current = false;
-  if (isPreset(path)) {
+  if (graph.readSaid.hasErrors() && isPreset(path)) {
     text::parseJson(texts_.of(path)->bytes(), std::make_shared<const std::string>(path), graph.said);
     return;
   }
@@ -190,7 +190,6 @@ void Workspace::check(const std::string& path, Graph& graph) {
     graph.current = graph::checkMemory(*graph.plan, graph.said);
     checkShaders(graph, *graph.plan);
   }
-  graph.said.sortByPlace();
 }
 
 // Checks the shaders by what they declare.
@@ -216,17 +215,12 @@ void Workspace::checkShaders(Graph& graph, const graph::Plan& plan) {
   }
 }
 
-std::map<std::string, std::vector<text::Diagnostic>> Workspace::diagnostics() const {
-  std::map<std::string, std::vector<text::Diagnostic>> found;
+std::map<std::string, text::Diagnostics> Workspace::diagnostics() const {
+  std::map<std::string, text::Diagnostics> found;
   for (const auto& [root, graph] : graphs_)
-    for (const text::Diagnostic& each : graph.said.items()) {
-      auto& there = found[each.place.file && each.place.line > 0 ? pathKey(*each.place.file) : root];
-      const bool known = std::ranges::any_of(there, [&](const text::Diagnostic& other) {
-        return other.code == each.code && other.message == each.message &&
-               other.place.line == each.place.line && other.place.column == each.place.column;
-      });
-      if (!known) there.push_back(each);
-    }
+    for (const text::Diagnostic& each : graph.said.items())
+      found[each.place.file && each.place.line > 0 ? pathKey(*each.place.file) : root].add(each);
+  for (auto& [path, said] : found) said.sortByPlace();
   return found;
 }
 

@@ -87,7 +87,7 @@ class Workspace {
   // Checks the open graphs that no other open graph includes or extends, and all that include each other in a circle.
   void check();
   // What the last check() said of each file, each message once.
-  std::map<std::string, std::vector<text::Diagnostic>> diagnostics() const;
+  std::map<std::string, text::Diagnostics> diagnostics() const;
 
   // Reads what has changed of the graphs that are open or in the folders. To be called before each request.
   void readAll();
