@@ -1,13 +1,21 @@
-// An ISF file: its shaders, translated in place to GLSL 4.5, and what Weft puts before them; then its graph. Declared in import.h.
-#include "app/import/isf.h"
-
+// An ISF file: its JSON header with places in the file, its shaders, translated in place to GLSL 4.5 with what Weft puts before them, and
+// its graph. Declared in import.h.
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <map>
+#include <memory>
+#include <set>
 
+#include "app/import/import.h"
+#include "app/import/text.h"
 #include "engine/graph/language/expr.h"
 #include "engine/graph/language/names.h"
 #include "engine/text/chars.h"
+#include "engine/text/json/fields.h"
+#include "engine/text/nearest.h"
+#include "engine/text/words/glsl_words.h"
 #include "import_glsl.h"
 
 namespace weft::importing {
@@ -15,17 +23,303 @@ namespace weft::importing {
 namespace {
 
 using text::Code;
+using text::Diagnostics;
+using text::JsonValue;
+using text::Place;
+using JsonType = JsonValue::Type;
+
+struct IsfInput {
+  enum class Type : std::uint8_t { boolean, event, integer, number, point, color, image };
+  std::string name;  // as the shader knows it
+  Type type = Type::number;
+  std::string label;
+  std::vector<double> initial, min, max;  // as many numbers as the type has; empty: not said
+  std::vector<double> values;             // of an integer
+  std::vector<std::string> labels;        // as many as values, or none
+};
+
+struct IsfPass {
+  PlacedText target;  // "": the picture
+  bool persistent = false, floats = false;
+  PlacedText width, height;  // expressions; "": that of the picture
+  bool isScaled() const { return !width.text.empty() || !height.text.empty(); }
+};
+
+struct IsfImported {
+  std::string name;
+  PlacedText path;
+};
+
+struct IsfHeader {
+  std::string description, credit;
+  std::vector<IsfInput> inputs;
+  std::vector<IsfPass> passes;  // at least one
+  std::vector<IsfImported> imported;
+};
+
+// Words of GLSL 4.5 that GLSL 1.20 and GLSL ES 1.00 leave to the author.
+constexpr std::array<std::string_view, 19> kNewWords{
+    "sample",   "buffer",    "shared",     "patch",    "precise",      "coherent", "restrict",
+    "readonly", "writeonly", "subroutine", "centroid", "smooth",       "resource", "flat",
+    "filter",   "partition", "active",     "common",   "noperspective"};
+
 using InputType = IsfInput::Type;
+
+// In the order of IsfInput::Type.
+const std::array<std::string, 7> kTypes{"bool", "event", "long", "float", "point2D", "color", "image"};
+constexpr std::array<std::string_view, 6> kOtherTypes{"audio",   "audioFFT", "cube",
+                                                      "point3D", "text",     "audioFloatHistogram"};
+
+// What the translated shader declares by itself, and the name of the screen in expressions.
+constexpr std::array<std::string_view, 16> kDeclared{
+    "View", "time",       "delta_time", "frame",     "uv",         "TIME",   "TIMEDELTA",         "DATE",
+    "date", "FRAMEINDEX", "RENDERSIZE", "PASSINDEX", "Parameters", "screen", "isf_FragNormCoord", "viewport"};
+
+// Where the text between the marks of the first comment of /* */ begins and ends, where nothing but spaces and comments of // is
+// before it.
+std::optional<std::pair<std::size_t, std::size_t>> firstComment(std::string_view text) {
+  std::size_t at = text.starts_with(text::kByteOrderMark) ? 3 : 0;
+  while (at < text.size() && (text::isSpace(text[at]) || text.substr(at, 2) == "//"))
+    at = text::isSpace(text[at]) ? at + 1 : std::min(text.find('\n', at), text.size());
+  const std::size_t end = text.substr(at, 2) == "/*" ? text.find("*/", at + 2) : text.npos;
+  return end == text.npos ? std::nullopt : std::optional(std::pair(at + 2, end));
+}
+
+class HeaderReader {
+ public:
+  explicit HeaderReader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  IsfHeader read(const JsonValue& root) {
+    out_.description = textOf(root, "DESCRIPTION");
+    out_.credit = textOf(root, "CREDIT");
+    for (const JsonValue& input : listOf(root, "INPUTS")) readInput(input);
+    for (const JsonValue& pass : listOf(root, "PASSES")) readPass(pass);
+    for (const JsonValue& name : listOf(root, "PERSISTENT_BUFFERS"))  // of version 1
+      for (IsfPass& pass : out_.passes)
+        if (pass.target.text == name.text) pass.persistent = true;
+    if (const JsonValue* imported = root.find("IMPORTED"); imported && imported->is(JsonType::object))
+      for (const text::JsonMember& member : imported->members) readImported(member.key, member.value);
+    else
+      for (const JsonValue& each : listOf(root, "IMPORTED")) readImported(textOf(each, "NAME"), each);
+    if (out_.passes.empty()) out_.passes.emplace_back().target.place = root.place;
+    return std::move(out_);
+  }
+
+ private:
+  void fail(Code code, const Place& place, std::string message, std::string hint) {
+    refuse(diagnostics_, code, place, std::move(message), std::move(hint));
+  }
+
+  bool expect(const JsonValue& value, std::string_view name, JsonType type) {
+    return text::expectType(value, name, type, diagnostics_);
+  }
+
+  // The member, unless it is null.
+  static const JsonValue* valueOf(const JsonValue& object, std::string_view key) {
+    const JsonValue* value = object.find(key);
+    return value && !value->is(JsonType::null) ? value : nullptr;
+  }
+
+  static std::string textOf(const JsonValue& object, std::string_view key) {
+    const JsonValue* value = object.find(key);
+    return value && value->is(JsonType::string) ? value->text : std::string();
+  }
+
+  // ISF files write true, 1 and "true".
+  bool flagOf(const JsonValue& object, std::string_view key) {
+    const JsonValue* value = valueOf(object, key);
+    if (!value) return false;
+    if (value->is(JsonType::number)) return value->number != 0;
+    if (value->is(JsonType::string)) return value->text == "true" || value->text == "1";
+    return expect(*value, key, JsonType::boolean) && value->flag;
+  }
+
+  std::span<const JsonValue> listOf(const JsonValue& object, std::string_view key) {
+    const JsonValue* value = valueOf(object, key);
+    if (!value || !expect(*value, key, JsonType::array)) return {};
+    return value->items;
+  }
+
+  bool checkName(const Place& place, std::string_view name, std::string_view what) {
+    const bool word = text::isGlslWord(name) && !contains(kNewWords, name);
+    if (!graph::isIdent(name) || word || name.size() > 64 || name.find("__") != name.npos) {
+      fail(Code::notAName, place, fmt::format("\"{}\" cannot name {}", name, what),
+           "use letters, digits and '_', not beginning with a digit, and no word of GLSL");
+      return false;
+    }
+    const auto [before, fresh] = places_.emplace(name, place);
+    if (!fresh)
+      fail(Code::duplicateName, place, fmt::format("two things have the name '{}'", name),
+           fmt::format("rename one; the first is at {}:{}", before->second.line, before->second.column));
+    return fresh;
+  }
+
+  // A number, a boolean, or a list of numbers.
+  std::vector<double> numbersOf(const JsonValue& object, std::string_view key, InputType type) {
+    const std::size_t count = type == InputType::point ? 2 : type == InputType::color ? 4 : 1;
+    const JsonValue* value = valueOf(object, key);
+    std::vector<double> numbers;
+    if (!value) return numbers;
+    if (value->is(JsonType::boolean)) numbers.push_back(value->flag ? 1 : 0);
+    if (value->is(JsonType::number)) numbers.push_back(value->number);
+    for (const JsonValue& item : value->items)
+      if (item.is(JsonType::number)) numbers.push_back(item.number);
+    if (count == 4 && numbers.size() == 3) numbers.push_back(1);  // an opaque color
+    const bool all = std::ranges::all_of(numbers, [](double x) { return std::abs(x) <= 3e38; });
+    if (numbers.size() == count && all) return numbers;
+    fail(Code::wrongType, value->place, fmt::format("{} has the wrong type", key),
+         count == 1 ? "write a number or a boolean" : fmt::format("write a list of {} numbers", count));
+    return {};
+  }
+
+  void checkWhole(double x, const Place& place) {
+    if (x != std::floor(x) || std::abs(x) > 2147483647.0)
+      fail(Code::outOfRange, place, "the value of a long is no whole number of 32 bits",
+           "write a whole number, or the TYPE float");
+  }
+
+  void readInput(const JsonValue& value) {
+    if (!expect(value, "an input", JsonType::object)) return;
+    text::JsonFields fields(value, "an input", Code::outOfRange, diagnostics_);
+    fields.require({"NAME", "TYPE"});
+    const auto name = fields.text("NAME"), type = fields.text("TYPE");
+    if (!name || !type) return;
+    const Place& place = fields.find("TYPE")->place;
+    const auto found = std::ranges::find(kTypes, *type);
+    if (contains(kOtherTypes, *type))
+      return fail(Code::isfNotMapped, place,
+                  fmt::format("an input of the type \"{}\" has no counterpart in Weft", *type),
+                  "make it an image, or remove it from the file and from the shader");
+    if (found == kTypes.end())
+      return fail(Code::unknownWord, place, fmt::format("unknown type of input \"{}\"", *type),
+                  text::nearestHint(*type, kTypes));
+    if (!checkName(fields.find("NAME")->place, *name, "an input")) return;
+    IsfInput input{.name = *name,
+                   .type = static_cast<InputType>(found - kTypes.begin()),
+                   .label = textOf(value, "LABEL")};
+    if (input.type != InputType::image) input.initial = numbersOf(value, "DEFAULT", input.type);
+    if (input.type >= InputType::integer && input.type != InputType::image) {
+      input.min = numbersOf(value, "MIN", input.type);
+      input.max = numbersOf(value, "MAX", input.type);
+    }
+    if (input.type == InputType::integer) readValues(value, input);
+    out_.inputs.push_back(std::move(input));
+  }
+
+  void readValues(const JsonValue& value, IsfInput& input) {
+    for (const double x : input.initial) checkWhole(x, value.find("DEFAULT")->place);
+    for (const JsonValue& each : listOf(value, "VALUES")) {
+      if (!expect(each, "one of VALUES", JsonType::number)) return;
+      checkWhole(each.number, each.place);
+      input.values.push_back(each.number);
+    }
+    for (const JsonValue& each : listOf(value, "LABELS"))
+      input.labels.push_back(each.is(JsonType::number) ? fmt::format("{}", each.number) : each.text);
+    if (input.labels.size() != input.values.size()) input.labels.clear();
+  }
+
+  PlacedText sizeOf(const JsonValue& pass, std::string_view key) {
+    const JsonValue* size = valueOf(pass, key);
+    if (size && size->is(JsonType::number)) return {fmt::format("{}", size->number), size->place};
+    if (!size || !expect(*size, key, JsonType::string)) return {};
+    return {size->text, size->textPlace()};
+  }
+
+  void readPass(const JsonValue& value) {
+    if (!expect(value, "a pass", JsonType::object)) return;
+    IsfPass pass{.target = {"", value.place},
+                 .persistent = flagOf(value, "PERSISTENT"),
+                 .floats = flagOf(value, "FLOAT"),
+                 .width = sizeOf(value, "WIDTH"),
+                 .height = sizeOf(value, "HEIGHT")};
+    const JsonValue* target = valueOf(value, "TARGET");
+    if (target && expect(*target, "TARGET", JsonType::string)) {
+      pass.target = {target->text, target->place};
+      const bool again = std::ranges::any_of(
+          out_.passes, [&](const IsfPass& other) { return other.target.text == target->text; });
+      if (!target->text.empty() && !again) checkName(target->place, target->text, "a target");
+    }
+    out_.passes.push_back(std::move(pass));
+  }
+
+  void readImported(const std::string& name, const JsonValue& value) {
+    if (!expect(value, "an imported picture", JsonType::object)) return;
+    const JsonValue* path = value.find("PATH");
+    if (!path || !path->is(JsonType::string))
+      fail(Code::isfNotMapped, (path ? *path : value).place,
+           fmt::format("the imported picture '{}' has no PATH of one file", name),
+           "a cube map has no counterpart; name one picture: \"PATH\": \"picture.png\"");
+    else if (checkName(value.place, name, "an imported picture"))
+      out_.imported.push_back({name, {path->text, path->textPlace()}});
+  }
+
+  Diagnostics& diagnostics_;
+  IsfHeader out_;
+  std::map<std::string, Place, std::less<>> places_;  // of names
+};
+
+// Mistakes of form are W002 to W013 and W220; what Weft has no counterpart for is W221.
+std::optional<IsfHeader> readIsfHeader(std::string_view text, const std::shared_ptr<const std::string>& file,
+                                       Diagnostics& diagnostics) {
+  const auto comment = firstComment(text);
+  if (!comment) {
+    refuse(diagnostics, Code::notIsf, {file, 1, 1}, "the file has no ISF header",
+           "begin it with /*{ … }*/: see https://docs.isf.video");
+    return std::nullopt;
+  }
+  // Blanks for all that is before, so that places are those of the file.
+  std::string json(text.substr(0, comment->second));
+  std::replace_if(
+      json.begin(), json.begin() + static_cast<std::ptrdiff_t>(comment->first),
+      [](char c) { return c != '\n'; }, ' ');
+  const std::size_t errors = diagnostics.errorCount();
+  const text::PointerScope pointers(*file, json, diagnostics);
+  const auto root = text::parseJson(json, file, diagnostics);
+  if (!root) return std::nullopt;
+  if (!root->is(JsonType::object)) {
+    refuse(diagnostics, Code::notIsf, root->place, "the first comment is no ISF header",
+           "write the header as /*{ … }*/");
+    return std::nullopt;
+  }
+  IsfHeader header = HeaderReader(diagnostics).read(*root);
+  return diagnostics.errorCount() > errors ? std::nullopt : std::optional(std::move(header));
+}
+
+// What the things of an ISF file are called in the graph and in the shader. Names that Weft or GLSL 4.5 keep for themselves get
+// a '_' behind them.
+class IsfNames {
+ public:
+  explicit IsfNames(const IsfHeader& header) {
+    const auto add = [&](const std::string& name) {
+      const bool kept = graph::isReservedWord(name) || contains(kDeclared, name) || text::isGlslWord(name);
+      if (!name.empty() && !names_.contains(name)) names_[name] = fresh(kept ? name + "_" : name);
+    };
+    for (const IsfInput& input : header.inputs) add(input.name);
+    for (const IsfImported& imported : header.imported) add(imported.name);
+    for (const IsfPass& pass : header.passes) add(pass.target.text);
+  }
+  const std::string& of(std::string_view name) const { return names_.find(name)->second; }
+  const std::map<std::string, std::string, std::less<>>& all() const { return names_; }
+  // A name for something of the graph alone, that nothing else has.
+  std::string fresh(std::string_view wanted) {
+    std::string name;  // GLSL keeps names with two underscores in a row
+    for (const char c : wanted)
+      if (c != '_' || !name.ends_with('_')) name += c;
+    return freshName(used_, name);
+  }
+
+ private:
+  std::map<std::string, std::string, std::less<>> names_;
+  std::set<std::string, std::less<>> used_;
+};
 
 // The slot of what the shader draws.
 constexpr const char* kIsfOutput = "isf_FragColor";
 
 struct IsfShader {
   std::vector<ConvertedText> texts;
-  std::string fragment, vertex;  // paths below shaders/; `vertex` is empty without one
-  // Images that the shader reads, by their names in the file, and those of them that it passes to functions other than those
-  // of ISF, so that they must always be there.
-  std::set<std::string, std::less<>> read, needed;
+  std::string fragment, vertex;             // paths below shaders/; `vertex` is empty without one
+  std::set<std::string, std::less<>> read;  // images, by their names in the file
   bool usesDate = false;
 };
 
@@ -45,24 +339,8 @@ std::string newNameOf(std::string_view name) {
   return {};
 }
 
-constexpr std::array<std::string_view, 5> kImageFunctions{"IMG_PIXEL", "IMG_NORM_PIXEL", "IMG_THIS_PIXEL",
-                                                          "IMG_THIS_NORM_PIXEL", "IMG_SIZE"};
 constexpr std::array<std::string_view, 6> kVariables{"TIME", "RENDERSIZE", "PASSINDEX",
                                                      "DATE", "TIMEDELTA",  "FRAMEINDEX"};
-
-// What players declare beside an image: its name between '_' and the suffix, and what that is here. A whole picture is one texture
-// that stands upright. The last two are of the fragment stage.
-struct ImageFact {
-  std::string_view suffix, text;  // {0} is the image
-  bool varying = false;
-};
-constexpr std::array<ImageFact, 5> kImageFacts{{
-    {"_imgSize", "IMG_SIZE({0})"},
-    {"_imgRect", "vec4(0.0, 0.0, 1.0, 1.0)"},
-    {"_flip", "false"},
-    {"_normTexCoord", "isf_FragNormCoord", true},
-    {"_texCoord", "(isf_FragNormCoord * RENDERSIZE / IMG_SIZE({0}))", true},
-}};
 
 // In the order of IsfInput::Type.
 constexpr const char* kGlslTypes[] = {"bool", "bool", "int", "float", "vec2", "vec4"};
@@ -122,56 +400,23 @@ class ShaderTranslator {
       if (!text.isName(i)) continue;
       hasMain = hasMain || tokens[i].is("main");
       out_.usesDate |= tokens[i].is("DATE");
-      if (contains(images_, tokens[i].text)) noteImage(text, i);
-      if (!translateFact(text, i, isVertex)) modernize(text, i, isVertex);
+      for (const std::string& image : images_)
+        if (tokens[i].is(image) || isBeside(tokens[i].text, image)) out_.read.insert(image);
+      modernize(text, i, isVertex);
     }
     if (!hasMain)
       refuse(diagnostics_, Code::notIsf, {file_, 1, 1}, "the file has no function main",
              "write void main() { … } behind the header");
-    text.renameTaken({"uv", "viewport", "time", "delta_time", "frame", "Parameters", "isf_Nothing"});
+    text.renameTaken({"uv", "viewport", "time", "delta_time", "frame", "Parameters"});
     for (const auto& [from, to] : names_.all())
       if (from != to) text.rename(from, to);
     dropDeclarations(text);
     return text.changed();
   }
 
-  // Which images the shader reads, and whether as an argument of a function or of `texture`.
-  void noteImage(const GlslText& text, std::size_t i) {
-    const auto textAt = [&](std::size_t at) {
-      return at < text.tokens().size() ? text.tokens()[at].text : std::string_view();
-    };
-    const std::string_view name = textAt(i), before = textAt(i - 1), behind = textAt(i + 1);
-    const std::string_view function = before == "(" ? textAt(i - 2) : std::string_view();
-    out_.read.emplace(name);
-    // A variable of that name, such as `vec4 lastRow = IMG_PIXEL(lastRow, …)`, is not the image.
-    const bool argument = (before == "(" || before == ",") && (behind == "," || behind == ")");
-    if ((function.starts_with("texture") || argument) && !contains(kImageFunctions, function))
-      out_.needed.emplace(name);
-  }
-
-  // The image and the fact that a name such as _inputImage_imgSize means.
-  std::pair<const std::string*, const ImageFact*> factOf(std::string_view name) const {
-    if (!name.starts_with('_')) return {};
-    for (const ImageFact& fact : kImageFacts)
-      if (name.ends_with(fact.suffix)) {
-        const auto image = std::ranges::find(images_, name.substr(1, name.size() - 1 - fact.suffix.size()));
-        if (image != images_.end()) return {&*image, &fact};
-      }
-    return {};
-  }
-
-  bool translateFact(GlslText& text, std::size_t i, bool isVertex) {
-    const glsl::Token& token = text.tokens()[i];
-    const auto [image, fact] = factOf(token.text);
-    if (!image) return false;
-    if (fact->varying && isVertex) {
-      fail(token, fmt::format("the vertex shader uses '{}'", token.text),
-           "only the fragment shader has it: work it out from isf_FragNormCoord");
-    } else {
-      out_.read.insert(*image);
-      text.replace(i, i, fmt::format(fmt::runtime(fact->text), names_.of(*image)));
-    }
-    return true;
+  // Of names such as _inputImage_imgSize, which players declare beside an image (glsl/isf_slot.glsl).
+  static bool isBeside(std::string_view name, const std::string& image) {
+    return name.starts_with("_" + image + "_");
   }
 
   // Older GLSL as GLSL 4.5.
@@ -209,7 +454,10 @@ class ShaderTranslator {
         if (!text.isName(at) || std::string_view(",;[=").find(tokens[at + 1].text) == std::string_view::npos)
           continue;
         const std::string_view name = tokens[at].text;
-        if (names_.all().contains(name) || factOf(name).first || contains(kVariables, name)) continue;
+        const auto isKnown = [&](const std::string& image) { return isBeside(name, image); };
+        if (names_.all().contains(name) || contains(kVariables, name) ||
+            std::ranges::any_of(images_, isKnown))
+          continue;
         known = false;
         fail(tokens[at], fmt::format("the shader has a uniform '{}' that is no input", name),
              "add it to INPUTS of the header");
@@ -231,11 +479,7 @@ class ShaderTranslator {
     std::string slots;
     for (const std::string& image : images_)
       if (out_.read.contains(image))
-        slots += fmt::format(
-            fmt::runtime(out_.needed.contains(image) ? "uniform sampler2D {0};\n"
-                                                     : "#ifdef {1}\nuniform sampler2D {0};\n#else\n"
-                                                       "const isf_Nothing {0} = isf_Nothing(0);\n#endif\n"),
-            names_.of(image), presenceDefineOf(names_.of(image)));
+        slots += fillTemplate(templates::isf_slot, {{"@IMAGE@", names_.of(image)}, {"@NAME@", image}});
     return fillTemplate(templates::isf,
                         {{"@NAME@", name}, {"@PARAMETERS@\n", parameters}, {"@SLOTS@\n", slots}});
   }
@@ -287,7 +531,7 @@ class IsfGraphWriter {
  private:
   struct Target {
     IsfPass size;  // as the first pass that names it says
-    bool persistent = false, floats = false, cleared = false;
+    bool persistent = false, floats = false;
     bool written = false;  // by a pass before the one that is looked at
   };
 
@@ -371,15 +615,16 @@ class IsfGraphWriter {
     const std::string& label = input.label.empty() ? input.name : input.label;
     parameters_[name] = {{"type", "file"}, {"default", file}, {"label", label + ": a picture"}};
     resources_[name] = {{"import", "image"}, {"file", "$" + name}};
-    if (!shader_.needed.contains(input.name)) return;
-    // A function takes it, so that something must be there.
-    if (nothing_.empty()) {
-      nothing_ = names_.fresh("no_picture");
-      resources_[nothing_] = {{"texture", "rgba8"}, {"size", 1}, {"clear", kClear}};
-    }
-    const std::string chosen = names_.fresh(name + "_or_none");
-    resources_[chosen] = Json::array({name, nothing_});
-    chosen_[input.name] = chosen;
+    if (!shader_.read.contains(input.name)) return;
+    chosen_[input.name] = names_.fresh(name + "_or_none");
+    resources_[chosen_[input.name]] = Json::array({name, nothing()});
+  }
+
+  // The resource that is read where there is no picture: transparent black.
+  const std::string& nothing() {
+    if (nothing_.empty()) nothing_ = names_.fresh("no_picture");
+    resources_[nothing_] = {{"texture", "rgba8"}, {"size", "screen"}, {"clear", kClear}};
+    return nothing_;
   }
 
   void addImported(const IsfImported& imported) {
@@ -389,29 +634,22 @@ class IsfGraphWriter {
     resources_[names_.of(imported.name)] = {{"import", "image"}, {"file", path}};
   }
 
-  Json textureOf(bool floats, Json size, bool cleared) const {
+  Json textureOf(bool floats, Json size) const {
     Json texture = {{"texture", floats ? "rgba32f" : "rgba8"}, {"size", std::move(size)}};
-    if (cleared || !shader_.vertex.empty()) texture["clear"] = kClear;
+    if (!shader_.vertex.empty()) texture["clear"] = kClear;
     return texture;
   }
 
   void findTargets() {
-    // What nothing has written when it must be there is cleared.
     for (const IsfPass& pass : header_.passes) {
       if (pass.target.text.empty()) continue;
       Target& target = targets_.try_emplace(pass.target.text, Target{.size = pass}).first->second;
       target.persistent |= pass.persistent;
       target.floats |= pass.floats;
     }
-    std::set<std::string_view> written;
-    for (const IsfPass& pass : header_.passes) {
-      for (auto& [name, target] : targets_)
-        target.cleared |= shader_.needed.contains(name) && !target.persistent && !written.contains(name);
-      written.insert(pass.target.text);
-    }
     const IsfPass& last = header_.passes.back();
     for (const auto& [name, target] : targets_) {
-      Json texture = textureOf(target.floats, sizeOf(target.size), target.cleared);
+      Json texture = textureOf(target.floats, sizeOf(target.size));
       if (target.persistent && shader_.read.contains(name)) texture["history"] = 1;
       resources_[names_.of(name)] = texture;
       if (name == last.target.text) shown_ = target.floats || last.isScaled() || target.size.isScaled();
@@ -419,7 +657,7 @@ class IsfGraphWriter {
     if (!last.target.text.empty() && !shown_)
       picture_ = names_.of(last.target.text);
     else
-      resources_[picture_] = textureOf(false, "screen", false);
+      resources_[picture_] = textureOf(false, "screen");
   }
 
   // The text for the name behind a '$' in a size.
@@ -471,22 +709,17 @@ class IsfGraphWriter {
     return Json::array({sizeOf(pass.width, "screen.x"), sizeOf(pass.height, "screen.y")});
   }
 
-  Json readsOf() const {
+  Json readsOf() {
     Json reads = Json::object();
     const auto add = [&](const std::string& name, const std::string& from) {
-      if (shader_.read.contains(name)) reads[names_.of(name)] = from;
+      reads[names_.of(name)] = from + " as linear";
     };
-    for (const IsfInput& input : header_.inputs) {
-      if (input.type != InputType::image) continue;
-      const auto chosen = chosen_.find(input.name);
-      add(input.name,
-          chosen == chosen_.end() ? names_.of(input.name) + " as linear ?" : chosen->second + " as linear");
-    }
+    for (const auto& [name, chosen] : chosen_) add(name, chosen);
     for (const IsfImported& imported : header_.imported)
-      add(imported.name, names_.of(imported.name) + " as linear");
+      if (shader_.read.contains(imported.name)) add(imported.name, names_.of(imported.name));
     for (const auto& [name, target] : targets_)
-      if (target.written || target.cleared || target.persistent)
-        add(name, names_.of(name) + (target.written || target.cleared ? "" : "@-1") + " as linear");
+      if (shader_.read.contains(name))
+        add(name, target.written ? names_.of(name) : target.persistent ? names_.of(name) + "@-1" : nothing());
     return reads;
   }
 

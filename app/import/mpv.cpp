@@ -230,17 +230,6 @@ class MpvReader {
     fail(header.place, fmt::format("//!{} has wrong numbers", header.word), expected);
     return {};
   }
-  std::optional<double> numberOf(const Header& header) {
-    const std::vector<double> numbers = numbersOf(header, {}, "write one number");
-    return numbers.empty() ? std::nullopt : std::optional(numbers[0]);
-  }
-  bool isWord(const Header& header, const char* on, const char* off) {
-    if (header.rest.text != on && header.rest.text != off)
-      fail(header.rest.place, fmt::format("//!{} has an unknown word", header.word),
-           fmt::format("write {} or {}", on, off));
-    return header.rest.text == on;
-  }
-
   void readHook() {
     MpvHook hook{.place = placeOf(at_)};
     const Block block = readBlock(
@@ -288,8 +277,8 @@ class MpvReader {
     for (const Header& header : block.headers) {
       if (header.word == "TEXTURE") texture.name = header.rest.text;
       if (header.word == "FORMAT") texture.format = header.rest.text;
-      if (header.word == "FILTER") texture.linear = isWord(header, "LINEAR", "NEAREST");
-      if (header.word == "BORDER") texture.repeat = isWord(header, "REPEAT", "CLAMP");
+      if (header.word == "FILTER") texture.linear = header.rest.text != "NEAREST";
+      if (header.word == "BORDER") texture.repeat = header.rest.text == "REPEAT";
       if (header.word == "SIZE")
         texture.size = numbersOf(header, {.max = 3, .whole = true, .low = 1, .high = 16384},
                                  "one to three whole numbers from 1 to 16384");
@@ -309,8 +298,9 @@ class MpvReader {
     for (const Header& header : block.headers) {
       if (header.word == "PARAM") parameter.name = header.rest.text;
       if (header.word == "DESC") parameter.description = header.rest.text;
-      if (header.word == "MINIMUM") parameter.min = numberOf(header);
-      if (header.word == "MAXIMUM") parameter.max = numberOf(header);
+      if (header.word == "MINIMUM" || header.word == "MAXIMUM")
+        for (const double x : numbersOf(header, {}, "write one number"))
+          (header.word == "MINIMUM" ? parameter.min : parameter.max) = x;
       if (header.word != "TYPE") continue;
       typePlace = header.place;
       // How often it may change ("DYNAMIC float") means nothing here.
@@ -377,6 +367,14 @@ std::set<std::string, std::less<>> namesMentioned(const std::string& text) {
         names.emplace(token.text.substr(0, token.text.size() - ending.size()));
   }
   return names;
+}
+
+// What a shader of Weft is compiled with where the slot has something: HAS_HOOKED_RAW.
+std::string presenceDefineOf(std::string_view slot) {
+  std::string text = "HAS_" + std::string(slot);
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
 }
 
 class MpvWriter {

@@ -186,10 +186,6 @@ std::string_view Text::statementOf(const glsl::Declaration& declaration) const {
   return std::string_view(bytes_).substr(begin, std::max(begin, end + declaration.end.is(";")) - begin);
 }
 
-Texts::~Texts() {
-  for (const auto& [path, version] : opened_) text::dropOverlay(path);
-}
-
 void Texts::open(const std::string& path, std::string text, std::int64_t version) {
   opened_[path] = version;
   text::overlayFile(path, text);

@@ -93,7 +93,6 @@ class Text {
 
 class Texts {
  public:
-  ~Texts();
   void open(const std::string& path, std::string text, std::int64_t version);
   void close(const std::string& path);
   // Versions by path.

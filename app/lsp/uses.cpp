@@ -80,29 +80,6 @@ void usesOfKey(const Workspace& workspace, Uses& uses, Program program) {
     }
 }
 
-// An input that an include does not bind takes the resource of its own name. Another name for one of the two parts them.
-std::string problemOfInputs(const Graph& graph, const Uses& uses) {
-  std::string problem;
-  const auto has = [&](const graph::GraphDesc& desc) {
-    return std::ranges::any_of(uses.locations,
-                               [&](const Location& each) { return each.path == pathKey(desc.path); });
-  };
-  eachPass(*graph.desc, "",
-           [&](const graph::PassDesc& pass, const std::string&, const graph::GraphDesc& desc) {
-             if (!pass.include || !pass.include->graph || (!has(desc) && !has(*pass.include->graph))) return;
-             const auto isName = [&](const auto& bind) { return bind.first == uses.name; };
-             for (const graph::ResourceDesc& resource : pass.include->graph->resources)
-               if (resource.kind == graph::ResourceDesc::Kind::input && resource.name == uses.name &&
-                   std::ranges::none_of(pass.include->binds, isName))
-                 problem = fmt::format(
-                     "the include '{0}' in {1} gives '{2}' to the input of the same name: write \"bind\": {{ "
-                     "\"{2}\": "
-                     "\"{2}\" }} there first",
-                     pass.name, desc.path, uses.name);
-           });
-  return problem;
-}
-
 // Why what is used cannot have this name, or "".
 std::string problemOf(const Workspace& workspace, const Uses& uses, const std::string& name) {
   if (!graph::isIdent(name) || graph::isReservedWord(name) || (uses.ofShader && name.starts_with("gl_")))
@@ -125,8 +102,6 @@ std::string problemOf(const Workspace& workspace, const Uses& uses, const std::s
           std::ranges::any_of(uses.locations,
                               [&](const Location& each) { return each.path == *use.place.file; }))
         return fmt::format("'{}' is declared already in {}", name, *use.place.file);
-    if (uses.kind != Kind::resource) continue;
-    if (std::string problem = problemOfInputs(*graph, uses); !problem.empty()) return problem;
   }
   for (const Program& program : uses.programs) {
     for (const Location& key : keysNamed(workspace, program, name))

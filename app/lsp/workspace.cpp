@@ -1,6 +1,7 @@
 #include "app/lsp/workspace.h"
 
 #include <filesystem>
+#include <functional>
 
 #include "app/session/session.h"
 #include "engine/graph/compile/compile.h"
@@ -40,6 +41,15 @@ std::vector<ShaderKey> keysOf(const graph::PassDesc& pass) {
   return keys;
 }
 
+// Calls f(pass, prefix) for the passes and includes of a graph and of all that it includes.
+void eachPass(const graph::GraphDesc& desc, const std::string& prefix,
+              const std::function<void(const graph::PassDesc&, const std::string&)>& f) {
+  for (const graph::PassDesc& pass : desc.passes) {
+    f(pass, prefix);
+    if (pass.include && pass.include->graph) eachPass(*pass.include->graph, prefix + pass.name + ".", f);
+  }
+}
+
 }  // namespace
 
 std::set<std::string> jsonFilesBelow(const std::string& folder) {
@@ -58,13 +68,6 @@ std::set<std::string> jsonFilesBelow(const std::string& folder) {
       found.insert(pathKey(entry->path().string()));
   }
   return found;
-}
-
-void eachPass(const graph::GraphDesc& desc, const std::string& prefix, const SeePass& f) {
-  for (const graph::PassDesc& pass : desc.passes) {
-    f(pass, prefix, desc);
-    if (pass.include && pass.include->graph) eachPass(*pass.include->graph, prefix + pass.name + ".", f);
-  }
 }
 
 Workspace::Workspace(const Options& options, const Texts& texts)
@@ -129,7 +132,7 @@ void Workspace::readAll() {
     if (graph.named != graph.desc) graph.uses = graph::findNameUses(*graph.desc, registry_);
     graph.named = graph.desc;
     graph.shaderFolders = runtime::shaderRootsOf(graph.desc->files, dataFolder());
-    eachPass(*graph.desc, "", [&](const graph::PassDesc& pass, const std::string&, const graph::GraphDesc&) {
+    eachPass(*graph.desc, "", [&](const graph::PassDesc& pass, const std::string&) {
       if (pass.include && pass.include->graph) included.insert(pathKey(pass.include->graph->path));
     });
   }
@@ -251,10 +254,9 @@ std::vector<std::string> Workspace::shaderFiles(const std::string& shader, const
 
 std::vector<Program> Workspace::passesOf(const Graph& graph) const {
   std::vector<Program> passes;
-  eachPass(*graph.desc, "",
-           [&](const graph::PassDesc& pass, const std::string& prefix, const graph::GraphDesc&) {
-             if (!pass.include) passes.push_back({&graph, &pass, prefix + pass.name, keysOf(pass)});
-           });
+  eachPass(*graph.desc, "", [&](const graph::PassDesc& pass, const std::string& prefix) {
+    if (!pass.include) passes.push_back({&graph, &pass, prefix + pass.name, keysOf(pass)});
+  });
   return passes;
 }
 

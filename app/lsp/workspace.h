@@ -4,7 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -66,10 +65,6 @@ struct Program {
   std::vector<std::string> files{};
   bool has(const std::string& file) const { return std::ranges::find(files, file) != files.end(); }
 };
-
-// Calls f(pass, prefix, file) for the passes and includes of a graph and of all that it includes.
-using SeePass = std::function<void(const graph::PassDesc&, const std::string&, const graph::GraphDesc&)>;
-void eachPass(const graph::GraphDesc& desc, const std::string& prefix, const SeePass& f);
 
 // At most 20,000 files are looked at.
 std::set<std::string> jsonFilesBelow(const std::string& folder);
