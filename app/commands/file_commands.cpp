@@ -139,8 +139,8 @@ int runNew(NewOptions& options) {
       (folder / "shaders" / name / (name + ".frag.glsl")).lexically_normal().string();
   const OutputFile outputs[] = {{"-o", graphFile, OutputFile::Over::nothing},
                                 {"-o", shaderFile, OutputFile::Over::nothing}};
-  if (checkDistinct(outputs, {}, diagnostics) &&
-      writeFrom("new_pass.json", graphFile,
+  if (!checkDistinct(outputs, {}, diagnostics)) return report(diagnostics);
+  if (writeFrom("new_pass.json", graphFile,
                 {{"%NAME%", name},
                  {"%AFTER%", anchor->after},
                  {"%TEXTURE%", anchor->texture},
@@ -149,6 +149,9 @@ int runNew(NewOptions& options) {
       writeFrom("new_pass.frag.glsl", shaderFile, {{"%NAME%", name}}, diagnostics)) {
     const std::string graph = text::printable(graphFile);
     print(fmt::format("{}\n{}\nweft render {} -o {}.png\n", graph, text::printable(shaderFile), graph, name));
+  } else {
+    std::error_code ignored;
+    for (const OutputFile& output : outputs) fs::remove(output.pattern, ignored);
   }
   return report(diagnostics);
 }
@@ -163,7 +166,7 @@ struct ImportOptions {
   bool overwrite = false;
 };
 
-// Writes all files, up to the first that cannot be written.
+// Writes all files, or none; files that were there before are replaced one by one.
 bool writeAll(const ImportOptions& options, const importing::Converted& made,
               text::Diagnostics& diagnostics) {
   const auto pathOf = [&](const auto& file) { return (fs::path(options.folder) / file.path).string(); };
@@ -180,8 +183,13 @@ bool writeAll(const ImportOptions& options, const importing::Converted& made,
                 ? assets::saveExr(pathOf(image), {image.width, image.height, 4, image.floats}, diagnostics)
                 : assets::savePng8(pathOf(image), image.width, image.height, 4, image.bytes, diagnostics));
   };
-  return checkDistinct(outputs, {}, diagnostics) && std::ranges::all_of(made.texts, writeText) &&
-         std::ranges::all_of(made.images, writeImage);
+  if (!checkDistinct(outputs, {}, diagnostics)) return false;
+  const bool good =
+      std::ranges::all_of(made.texts, writeText) && std::ranges::all_of(made.images, writeImage);
+  std::error_code ignored;
+  for (const OutputFile& output : outputs)
+    if (!good && !options.overwrite) fs::remove(output.pattern, ignored);
+  return good;
 }
 
 int runImport(ImportOptions& options) {

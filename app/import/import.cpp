@@ -2,7 +2,6 @@
 
 #include <filesystem>
 
-#include "app/import/isf.h"
 #include "app/import/text.h"
 #include "engine/text/files/file.h"
 

@@ -112,13 +112,6 @@ std::string fillTemplate(std::string text,
   return text;
 }
 
-std::string presenceDefineOf(std::string_view slot) {
-  std::string text = "HAS_" + std::string(slot);
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
-}
-
 std::string parameterBlockOf(const std::string& members) {
   return members.empty() ? "" : "layout(std140) uniform Parameters {\n" + members + "};\n";
 }

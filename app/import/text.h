@@ -68,8 +68,6 @@ std::string freshName(std::set<std::string, std::less<>>& used, const std::strin
 // `text` with every NAME of `words` replaced by its value; for the templates in app/import/glsl.
 std::string fillTemplate(std::string text,
                          std::initializer_list<std::pair<std::string_view, std::string_view>> words);
-// What a shader of Weft is compiled with where the slot has something: HAS_INPUTIMAGE.
-std::string presenceDefineOf(std::string_view slot);
 // The block of a shader's uniforms; nothing without `members`.
 std::string parameterBlockOf(const std::string& members);
 

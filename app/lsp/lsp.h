@@ -5,7 +5,7 @@
 
 namespace weft::app {
 
-// 0 after "shutdown" and "exit"; 1 when the input ended before.
+// 0 after "shutdown" and "exit"; 1 when the input ended before, or is none of the protocol.
 int runLsp(const Options& options);
 
 }  // namespace weft::app

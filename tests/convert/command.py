@@ -94,14 +94,14 @@ def main():
         assert missing.code == 1 and missing.codes() == ["W001"], missing.err
         wrong = run(WEFT, "import", "tests/convert/isf/negative.fs", "-o", top / "none", "--image", "imputImage=x.png")
         assert wrong.code == 1 and wrong.codes() == ["W044"] and "inputImage" in wrong.err, wrong.err
-        # A full disk is said, and leaves no half file. The files are of 500 to 3000 bytes.
+        # A full disk is said, and leaves no file. The files are of 500 to 3000 bytes.
         def limited():
             resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
 
         full = run(WEFT, "import", "tests/convert/isf/corners.fs", "-o", top / "full/deep", preexec_fn=limited)
         assert full.code == 1 and full.codes() == ["W180"] and "File too large" in full.err and ".weft" not in full.err, full.err
         before = {name: (out / name).read_bytes() for name in files_in(out)}
-        assert all((top / "full/deep" / name).read_bytes() == before[name] for name in files_in(top / "full/deep")), files_in(top / "full/deep")
+        assert not files_in(top / "full/deep"), files_in(top / "full/deep")
         # A link still leads to its file, which keeps its permissions; a pipe is not waited for.
         (top / "far.json").write_text("mine")
         (top / "far.json").chmod(0o640)

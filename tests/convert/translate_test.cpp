@@ -71,28 +71,18 @@ TEST_CASE("version 1 and uniforms that the header declares anyway") {
 TEST_CASE("what players declare beside an image is there, for inputs and targets and no other name") {
   const std::string header =
       R"({"INPUTS": [{"NAME": "face", "TYPE": "image"}], "PASSES": [{"TARGET": "t"}, {}]})";
-  CHECK(
-      fragmentOf("uniform vec2 _face_imgSize;\nvoid main() { vec2 _u_imgSize = _face_imgSize / _t_imgSize;\n"
-                 "  gl_FragColor = _face_flip ? _face_imgRect : vec4(_face_normTexCoord + a._face_flip, "
-                 "_u_imgSize); }\n",
-                 header) ==
-      "\nvoid main() { vec2 _u_imgSize = IMG_SIZE(face_) / IMG_SIZE(t);\n"
-      "  isf_FragColor = false ? vec4(0.0, 0.0, 1.0, 1.0) : vec4(isf_FragNormCoord + a._face_flip, "
-      "_u_imgSize); }\n");
-  // An image of which only the size is read is a slot all the same, and known where there is no picture.
-  CHECK(has(graphOf(R"({"INPUTS": [{"NAME": "a", "TYPE": "image"}]})",
-                    "void main() { gl_FragColor = vec4(_a_imgSize, 0.0, 1.0); }\n"),
-            R"("read": { "a": "a as linear ?" })"));
-  const std::string_view fragment =
-      R"(/*{"INPUTS": [{"NAME": "a", "TYPE": "image"}]}*/ void main() { gl_FragColor = IMG_THIS_PIXEL(a); })";
+  CHECK(fragmentOf("uniform vec2 _face_imgSize;\nvoid main() { gl_FragColor = vec4(_face_imgSize / "
+                   "_t_imgSize, 0, 0); }\n",
+                   header) == "\nvoid main() { isf_FragColor = vec4(_face_imgSize / _t_imgSize, 0, 0); }\n");
+  // An image of which only the size is read is a slot all the same.
   text::Diagnostics diagnostics;
-  CHECK(convertIsfText(fragment, diagnostics,
-                       "void main() { isf_vertShaderInit(); gl_Position.xy /= _a_imgSize; }"));
-  CHECK(diagnostics.size() == 0);
-  CHECK_FALSE(convertIsfText(fragment, diagnostics,
-                             "void main() { isf_vertShaderInit();\n gl_Position.xy += _a_texCoord; }"));
-  REQUIRE(codesOf(diagnostics) == "W224 ");
-  CHECK(diagnostics.items()[0].place.line == 2);
+  const std::string_view fragment =
+      R"(/*{"INPUTS": [{"NAME": "face", "TYPE": "image"}]}*/ void main() { gl_FragColor = vec4(_face_imgSize, 0.0, 1.0); })";
+  const auto converted = convertIsfText(
+      fragment, diagnostics, "void main() { isf_vertShaderInit(); gl_Position.xy /= _face_imgSize; }");
+  REQUIRE_MESSAGE(converted, diagnostics.text());
+  CHECK(has(partOf(*converted, "isf.glsl"),
+            "uniform sampler2D face_;\n#define _face_imgSize IMG_SIZE(face_)\n"));
 }
 
 TEST_CASE("sizes become expressions") {
@@ -115,21 +105,17 @@ TEST_CASE("what a pass reads is what was drawn before it, in this frame or in th
   CHECK(has(graph, R"("a": "a@-1 as linear")"));
   CHECK(has(graph, R"("a": "a as linear", "b": "b as linear")"));
   CHECK(has(graph, R"("history": 1)"));
-  // An image that goes to a function must be there: it is cleared before the first pass draws it.
+  // What nothing has drawn yet is transparent black.
   CHECK(has(
-      graphOf(
-          R"({"PASSES": [{"TARGET": "b"}, {}]})",
-          "vec4 f(sampler2D s) { return texture2D(s, vec2(0.5)); }\nvoid main() { gl_FragColor = f(b); }\n"),
-      R"("clear": [0, 0, 0, 0])"));
+      graphOf(R"({"PASSES": [{"TARGET": "b"}, {}]})", "void main() { gl_FragColor = IMG_THIS_PIXEL(b); }\n"),
+      R"("b": "no_picture as linear")"));
 }
 
-TEST_CASE("an image that a function takes has something in its place where no picture is given") {
-  const std::string graph =
-      graphOf(R"({"INPUTS": [{"NAME": "a", "TYPE": "image"}, {"NAME": "b", "TYPE": "image"}]})",
-              "vec4 f(sampler2D s) { return texture2D(s, vec2(0.5)); }\nvoid main() { gl_FragColor = f(a) + "
-              "IMG_THIS_PIXEL(b); }\n");
+TEST_CASE("an image has something in its place where no picture is given") {
+  const std::string graph = graphOf(R"({"INPUTS": [{"NAME": "a", "TYPE": "image"}]})",
+                                    "void main() { gl_FragColor = IMG_THIS_PIXEL(a); }\n");
   CHECK(has(graph, R"("a_or_none":  ["a", "no_picture"])"));
-  CHECK(has(graph, R"("read": { "a": "a_or_none as linear", "b": "b as linear ?" })"));
+  CHECK(has(graph, R"("read": { "a": "a_or_none as linear" })"));
 }
 
 TEST_CASE("labels become words, and their numbers reach the shader") {

@@ -25,12 +25,4 @@ vec4 VVSAMPLER_2DBYNORM(sampler2D image, vec4 rect, vec2 size, bool flip, vec2 p
   return VVSAMPLER_2DBYPIXEL(image, rect, size, flip, place * size);
 }
 
-// What has no picture yet is black and transparent.
-struct isf_Nothing { int nothing; };
-vec4 IMG_NORM_PIXEL(isf_Nothing image, vec2 place) { return vec4(0.0); }
-vec4 IMG_PIXEL(isf_Nothing image, vec2 pixel) { return vec4(0.0); }
-vec4 IMG_THIS_PIXEL(isf_Nothing image) { return vec4(0.0); }
-vec4 IMG_THIS_NORM_PIXEL(isf_Nothing image) { return vec4(0.0); }
-vec2 IMG_SIZE(isf_Nothing image) { return viewport; }
-
 @SLOTS@

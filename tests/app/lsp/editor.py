@@ -17,9 +17,12 @@ def place(text):
     return {"line": int(line), "character": int(character)}
 
 
-def range_of(text):
-    start, end = text.split("-")
-    return {"start": place(start), "end": place(end)}
+def offset_of(text, where):
+    """Of LINE:CHARACTER in a text; characters in UTF-16."""
+    line, character = map(int, where.split(":"))
+    lines = text.splitlines(keepends=True)[:line + 1]
+    last = lines[line].encode("utf-16-le")[:2 * character].decode("utf-16-le") if line < len(lines) else ""
+    return sum(map(len, lines[:line])) + len(last)
 
 
 class Editor:
@@ -27,7 +30,7 @@ class Editor:
 
     def __init__(self, weft, folder):
         count_run()
-        self.folder, self.number, self.versions, self.published = folder, 0, {}, {}
+        self.folder, self.number, self.versions, self.texts, self.published = folder, 0, {}, {}, {}
         self.process = subprocess.Popen([weft, "lsp"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=folder)
 
     def uri(self, name):
@@ -70,13 +73,18 @@ class Editor:
 
     def open(self, name, text=None):
         self.versions[name] = 1
-        text = (self.folder / name).read_text() if text is None else text
+        text = self.texts[name] = (self.folder / name).read_text() if text is None else text
         self.tell("textDocument/didOpen", {"textDocument": {"uri": self.uri(name), "languageId": "json", "version": 1, "text": text}})
 
     def change(self, name, edits):
+        """Edits are (RANGE or None for the whole, new text); the server gets the whole text."""
+        text = self.texts[name]
+        for where, new in edits:
+            begin, end = (offset_of(text, each) for each in where.split("-")) if where else (0, len(text))
+            text = text[:begin] + new + text[end:]
+        self.texts[name] = text
         self.versions[name] += 1
-        self.tell("textDocument/didChange", {"textDocument": {"uri": self.uri(name), "version": self.versions[name]},
-                                             "contentChanges": [{"range": range_of(r), "text": t} if r else {"text": t} for r, t in edits]})
+        self.tell("textDocument/didChange", {"textDocument": {"uri": self.uri(name), "version": self.versions[name]}, "contentChanges": [{"text": text}]})
 
     def settle(self, name):
         """Answers come after what was published before."""

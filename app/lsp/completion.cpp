@@ -1,0 +1,351 @@
+// What may be written at the cursor: keys and words by the schema of the format, names of graphs and of their shaders. Declared in
+// answers.h.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/lsp/answers.h"
+#include "engine/graph/language/keys.h"
+#include "engine/graph/read/ref_parse.h"
+#include "engine/graph/subresource.h"
+#include "engine/runtime/prepare/program_request.h"
+#include "engine/text/chars.h"
+
+namespace weft::app::lsp {
+
+namespace {
+
+using Type = JsonValue::Type;
+using Kind = graph::NameUse::Kind;
+namespace fs = std::filesystem;
+
+// ---- the schema ----
+
+const Json& schema() {
+  static const Json parsed = Json::parse(graph::kGraphSchema);
+  return parsed;
+}
+
+// What a value may be.
+using Shapes = std::vector<const Json*>;
+
+void addShape(const Json& shape, Shapes& out) {
+  out.push_back(&shape);
+  if (const auto other = shape.find("$ref"); other != shape.end())
+    addShape(schema().at(Json::json_pointer(other->get<std::string>().substr(1))), out);
+  if (const auto any = shape.find("anyOf"); any != shape.end())
+    for (const Json& each : *any) addShape(each, out);
+}
+
+bool areShapes(const Shapes& shapes, const char* kind) {
+  return std::ranges::find(shapes, &schema().at("$defs").at(kind)) != shapes.end();
+}
+
+// Of the innermost value around a spot.
+Shapes shapesAt(const Spot& spot) {
+  Shapes shapes{&schema()};
+  // A graph has less in it than an overlay.
+  if (!spot.values[0]->find("extends") && !spot.values[0]->find("set"))
+    shapes.insert(shapes.begin(), &schema().at("then"));
+  for (const std::string_view step : spot.keys) {
+    const std::string key(step);
+    Shapes inner;
+    for (const Json* shape : shapes)
+      if (inner.empty() && shape->contains("properties") && shape->at("properties").contains(key))
+        addShape(shape->at("properties").at(key), inner);
+    for (const char* others : {"additionalProperties", "items"})
+      for (const Json* shape : inner.empty() ? shapes : Shapes())
+        if (shape->contains(others) && shape->at(others).is_object() && (key == "[]") == (*others == 'i'))
+          addShape(shape->at(others), inner);
+    shapes = std::move(inner);
+  }
+  return shapes;
+}
+
+// Whether an object may become of this shape.
+bool fits(const Json& shape, const JsonValue& object, const JsonMember* typed) {
+  const Json& keys = shape.at("properties");
+  const bool others = shape.contains("additionalProperties") && shape.at("additionalProperties").is_object();
+  return std::ranges::all_of(object.members, [&](const JsonMember& member) {
+    return &member == typed || keys.contains(member.key) ||
+           (others && object.find(shape.at("required").at(0).get_ref<const std::string&>()));
+  });
+}
+
+// ---- completion ----
+
+// Kinds of items of the protocol.
+enum class ItemKind {
+  function = 3,
+  field = 5,
+  variable = 6,
+  module = 9,
+  property = 10,
+  value = 12,
+  keyword = 14,
+  file = 17
+};
+
+class Completer {
+ public:
+  Completer(const Workspace& workspace, const Text& text, std::size_t offset)
+      : workspace_(workspace), text_(text), offset_(offset), registry_(workspace.registry()) {}
+
+  Json inJson() {
+    spot_ = spotAt(text_.json(), offset_);
+    if (spot_.inComment) return nullptr;
+    const JsonValue& node = spot_.value();
+    Range range{offset_, offset_};
+    if (spot_.key || node.is(Type::object)) {
+      keys();
+      if (spot_.key) range = inside(*spot_.key);
+      return finish(range, spot_.key ? "" : "\"");
+    }
+    const bool string = node.is(Type::string);
+    fragment_ = string ? inside(node) : node.is(Type::array) || node.is(Type::absent) ? range : rangeOf(node);
+    if (!spot_.keys.empty()) value();
+    return finish(fragment_, string ? "" : "\"");
+  }
+
+  // Offers the slots, parameters and defines of the shader's passes, and HAS_… of slots and parameters.
+  Json inGlsl() {
+    const GlslWord* const word = text_.wordAt(offset_);
+    for (const Program& program : workspace_.programs())
+      for (const ShaderKey& key : program.keys) {
+        if (!program.has(text_.path())) break;
+        add(key.name, ItemKind::field, fmt::format("{} of pass '{}'", key.kind, program.name));
+        if (key.kind != std::string_view("define"))
+          add(runtime::presenceDefineOf(key.name), ItemKind::keyword, "1 where the pass has it");
+      }
+    return finish(word ? word->range : Range{offset_, offset_}, "");
+  }
+
+ private:
+  struct Item {
+    std::string label;
+    ItemKind kind;
+    std::string detail;
+  };
+  void add(std::string label, ItemKind kind, std::string detail = {}) {
+    if (std::ranges::find(items_, label, &Item::label) == items_.end())
+      items_.push_back({std::move(label), kind, std::move(detail)});
+  }
+  template <class Words>
+  void addWords(const Words& words) {
+    for (const auto& word : words) add(std::string(word), ItemKind::keyword);
+  }
+  template <class Types>
+  void addTypes(const Types& types, const char* before = "") {
+    for (const auto& type : types) add(before + type.name, ItemKind::module, type.doc);
+  }
+  void drop(const JsonValue& object) {
+    for (const JsonMember& member : object.members)
+      if (&member != spot_.key)
+        std::erase_if(items_, [&](const Item& item) { return item.label == member.key; });
+  }
+
+  Json finish(const Range& range, const char* quote) const {
+    const Json place = text_.toJson(range);
+    Json list = Json::array();
+    for (const Item& item : items_)
+      list.push_back({{"label", item.label},
+                      {"kind", static_cast<int>(item.kind)},
+                      {"detail", item.detail},
+                      {"textEdit", {{"range", place}, {"newText", quote + item.label + quote}}}});
+    return {{"isIncomplete", false}, {"items", std::move(list)}};
+  }
+
+  void keys() {
+    using enum glsl::Role;
+    for (KeyDoc& key : keysAt(registry_, spot_))
+      add(std::move(key.key), ItemKind::property, std::move(key.doc));
+    const JsonValue* const stanza = spot_.stanza();
+    const std::string_view group = spot_.keys.empty() ? "" : spot_.keys.back();
+    if (spot_.keys.size() == 1 && group == "set") names(Kind::variable);
+    if (stanza && spot_.keys.size() == 3) {
+      if (group == "read") slots(*stanza, {sampler, image, uniform_block, storage_block});
+      if (group == "write" || group == "modify") slots(*stanza, {output, image, storage_block});
+      if (group == "parameters") shaderNames(*stanza, {member});
+      if (group == "bind") inputs(*stanza);
+    }
+    drop(spot_.value());
+  }
+
+  void slots(const JsonValue& stanza, std::initializer_list<glsl::Role> roles) {
+    const auto type = std::ranges::find(registry_.passTypes, textOf(stanza, "type"), &graph::PassType::name);
+    if (type != registry_.passTypes.end())
+      for (const graph::FixedSlot& slot : type->fixedSlots) add(slot.name, ItemKind::field, slot.doc);
+    shaderNames(stanza, roles);
+    for (const char* group : {"read", "write", "modify"})
+      if (const JsonValue* slots = stanza.find(group)) drop(*slots);
+  }
+
+  // The files of the program of a stanza, which may take it from another.
+  std::vector<std::string> shaderFilesOf(const JsonValue& stanza) const {
+    if (const JsonValue* const shader = stanza.find("shader")) {
+      const bool pair = shader->is(Type::object);
+      return workspace_.shaderFiles(pair ? std::string(textOf(*shader, "fragment")) : shader->text,
+                                    pair ? std::string(textOf(*shader, "vertex")) : "",
+                                    workspace_.shaderFolders(text_));
+    }
+    for (const Graph* graph : workspace_.graphsOf(text_.path()))
+      for (const Program& program : workspace_.passesOf(*graph))
+        if (program.name == textOf(stanza, "like") || program.name == textOf(stanza, "name"))
+          return workspace_.filesOf(program);
+    return {};
+  }
+
+  // Offers the names of these kinds that the program of a pass declares.
+  void shaderNames(const JsonValue& stanza, std::initializer_list<glsl::Role> roles) {
+    // Blocks that the engine itself gives to shaders.
+    constexpr std::string_view kOwn[] = {"View", "Parameters", "Slice", "instances"};
+    for (const std::string& path : shaderFilesOf(stanza))
+      if (const auto text = workspace_.texts().of(path))
+        for (const glsl::Declaration& each : text->glsl().declarations)
+          if (std::ranges::find(roles, each.role) != roles.end() &&
+              std::ranges::find(kOwn, each.name) == std::end(kOwn) &&
+              (each.role != glsl::Role::member || each.owner == "Parameters"))
+            add(std::string(each.name), ItemKind::field, std::string(text->statementOf(each)));
+  }
+
+  void inputs(const JsonValue& stanza) {
+    const auto text = workspace_.texts().of(pathBeside(text_.path(), textOf(stanza, "include")));
+    if (const JsonValue* resources = text ? text->json().root.find("resources") : nullptr)
+      for (const JsonMember& resource : resources->members)
+        if (resource.value.find("input")) add(resource.key, ItemKind::variable);
+  }
+
+  // Names of the graphs that have this file, as it calls them, and what it declares now.
+  void names(Kind kind) {
+    const JsonValue& root = text_.json().root;
+    for (const char* section : {"resources", "parameters", "let"})
+      if (const JsonValue* found = root.find(section); found && (*section == 'r') == (kind == Kind::resource))
+        for (const JsonMember& each : found->members)
+          if (kind != Kind::pass) add(each.key, ItemKind::variable);
+    for (const Graph* graph : workspace_.graphsOf(text_.path()))
+      for (const graph::NameUse& use : graph->uses) {
+        // Of a graph that includes this file, what it declares itself: an expression here may use its parameters.
+        const bool own = graph->desc->path == text_.path();
+        if (use.kind != kind || use.full.starts_with('@')) continue;
+        if (own || (kind == Kind::variable && *use.place.file == graph->desc->path))
+          add(use.full, ItemKind::variable);
+      }
+  }
+
+  // ---- values ----
+
+  void value() {
+    const auto& way = spot_.keys;
+    const bool item = way.back() == "[]", pass = spot_.stanza() && way.size() > 2;
+    const std::string_view key = item && way.size() > 1 ? way[way.size() - 2] : way.back();
+    const Shapes shapes = shapesAt(spot_);
+    for (const Json* shape : shapes)
+      for (const char* words : {"enum", "examples"})
+        if (shape->contains(words)) addWords(shape->at(words));
+    if (way[0] == "extends" || (pass && key == "include")) files();
+    if (pass && key == "type") addTypes(registry_.passTypes);
+    if (pass && way[2] == "shader") shaders(key);
+    if (pass && key == "geometry")
+      for (const graph::GeometryType& type : registry_.geometries) add(type.name, ItemKind::value);
+    if (pass && (key == "like" || key == "before" || key == "after")) names(Kind::pass);
+    if (key == "list") addWords(registry_.drawLists);
+    if (key == "import") addTypes(registry_.imports);
+    for (const graph::ImportType& type : registry_.imports)
+      if (type.name == textOf(*spot_.values[spot_.values.size() - 2], "import"))
+        for (const graph::ImportArgument& argument : type.arguments)
+          if (argument.name == key) addWords(argument.choices);
+    const bool refers = areShapes(shapes, "reference") || areShapes(shapes, "resets") || key == "first";
+    if (refers || areShapes(shapes, "value")) mention(refers);
+  }
+
+  // A reference or an expression, of which a part is typed at the cursor.
+  void mention(bool refers) {
+    const std::string_view all = text_.bytes();
+    const Range whole = fragment_;
+    std::size_t& begin = fragment_.begin;
+    const auto isPart = [&](std::size_t at) { return text::isIdentChar(all[at]) || all[at] == '.'; };
+    for (begin = offset_; begin > whole.begin && isPart(begin - 1); --begin) {
+    }
+    for (fragment_.end = offset_; fragment_.end < whole.end && text::isIdentChar(all[fragment_.end]);)
+      ++fragment_.end;
+    const std::string_view before = all.substr(whole.begin, begin - whole.begin);
+    if (before.ends_with('$')) return names(Kind::variable);
+    if (before.ends_with('@')) --begin;
+    const bool condition = before.find(" if ") != before.npos;
+    if (refers && !condition && before.find(" as ") != before.npos) {
+      addWords(graph::kKindNames);
+      addWords(graph::kSamplerWords);
+      return addWords(graph::kCompareNames);
+    }
+    names(Kind::resource);
+    addTypes(registry_.imports, "@");
+    if (!refers || condition)
+      addWords(std::initializer_list<const char*>{"size", "mips", "count", "has", "age", "min", "max",
+                                                  "floor", "ceil", "abs", "pow2ceil", "log2ceil", "screen",
+                                                  "device.software", "true", "false"});
+  }
+
+  void files() {
+    const fs::path folder = fs::path(text_.path()).parent_path();
+    for (const std::string& path : jsonFilesBelow(folder.string()))
+      if (path != text_.path()) add(fs::path(path).lexically_relative(folder).string(), ItemKind::file);
+  }
+
+  // Those with the ending that the type of the pass asks for; of a draw the stems of two.
+  void shaders(std::string_view key) {
+    const auto type =
+        std::ranges::find(registry_.passTypes, textOf(*spot_.stanza(), "type"), &graph::PassType::name);
+    if (type == registry_.passTypes.end()) return;
+    const bool compute = type->shader == graph::ShaderShape::compute;
+    const bool stem = type->shader == graph::ShaderShape::draw && key == "shader";
+    const std::string ending = key == "vertex" ? ".vert.glsl" : compute ? ".comp.glsl" : ".frag.glsl";
+    const std::vector<std::string> all = glsl::shadersBelow(workspace_.shaderFolders(text_));
+    for (const std::string& path : all) {
+      const std::string both = path.substr(0, path.size() - std::min(path.size(), ending.size()));
+      if (path.ends_with(ending) && (!stem || std::ranges::binary_search(all, both + ".vert.glsl")))
+        add(stem ? both : path, ItemKind::file);
+    }
+  }
+
+  const Workspace& workspace_;
+  const Text& text_;
+  const std::size_t offset_;
+  const graph::Registry& registry_;
+  Spot spot_;
+  std::vector<Item> items_;
+  Range fragment_;  // what the choice replaces
+};
+
+}  // namespace
+
+std::vector<KeyDoc> keysAt(const graph::Registry& registry, const Spot& spot) {
+  const JsonValue& object = spot.value();
+  std::vector<KeyDoc> keys;
+  for (const Json* shape : shapesAt(spot))
+    if (shape->contains("properties") && (spot.keys.empty() || fits(*shape, object, spot.key)))
+      for (const auto& [key, about] : shape->at("properties").items())
+        if (about.contains("description")) keys.push_back({key, about.at("description").get<std::string>()});
+  for (const graph::ImportType& type : registry.imports)
+    if (type.name == textOf(object, "import"))
+      for (const graph::ImportArgument& argument : type.arguments)
+        keys.push_back({argument.name, argument.doc});
+  // What only other types of passes take.
+  const auto type = std::ranges::find(registry.passTypes, textOf(object, "type"), &graph::PassType::name);
+  if (spot.stanza() == &object && type != registry.passTypes.end())
+    std::erase_if(keys, [&](const KeyDoc& key) {
+      const auto takes = [&](const graph::PassType& each) {
+        return std::ranges::find(each.keys, key.key) != each.keys.end();
+      };
+      return key.key == "shader" ? type->shader == graph::ShaderShape::none
+                                 : !takes(*type) && std::ranges::any_of(registry.passTypes, takes);
+    });
+  return keys;
+}
+
+Json completionAt(const Workspace& workspace, const Text& text, std::size_t offset) {
+  Completer completer(workspace, text, offset);
+  return text.isJson() ? completer.inJson() : completer.inGlsl();
+}
+
+}  // namespace weft::app::lsp

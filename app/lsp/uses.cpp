@@ -1,0 +1,245 @@
+// Definitions, uses and renaming. Declared in answers.h.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/lsp/answers.h"
+#include "engine/graph/language/names.h"
+#include "engine/runtime/prepare/program_request.h"
+#include "engine/text/json/report.h"
+
+namespace weft::app::lsp {
+
+namespace {
+
+using Kind = graph::NameUse::Kind;
+
+bool isAt(const text::Place& place, const text::Place& begin, const std::string& name) {
+  return begin.file && place.line == begin.line && place.column >= begin.column &&
+         place.column <= begin.column + name.size() && *place.file == pathKey(*begin.file);
+}
+
+// The keys of a pass by which it knows `name` of its shader.
+std::vector<Location> keysNamed(const Workspace& workspace, const Program& program, std::string_view name) {
+  std::vector<Location> keys;
+  for (const ShaderKey& key : program.keys)
+    if (key.name == name)
+      if (const auto location = workspace.locate(key.place, name)) keys.push_back(*location);
+  return keys;
+}
+
+// Adds every use of what is declared at `declared`.
+void usesInGraphs(const Workspace& workspace, Uses& uses, const Location& declared) {
+  for (const Graph* graph : workspace.graphs())
+    for (const graph::NameUse& use : graph->uses)
+      if (use.name == uses.name && workspace.locate(use.declared, "") == declared)
+        if (const auto location = workspace.locate(use.place, uses.name)) uses.locations.insert(*location);
+}
+
+// Adds every word `name` in the files of a slot's programs. A renamed program is consistent only with all of them, and so is
+// every other program that has one of these files; so the set of files grows until it has the files of all such programs.
+void usesInShaders(const Workspace& workspace, Uses& uses, std::set<std::string> files) {
+  const std::string presence = runtime::presenceDefineOf(uses.name);
+  const auto eachMention = [&](const std::string& path, auto&& f) {
+    if (const auto text = workspace.texts().of(path))
+      for (const GlslWord& word : text->words())
+        if (word.text == uses.name || word.text == presence) f(word);
+  };
+  std::vector<Program> others = workspace.programs();
+  for (bool grows = true; grows;) {
+    const auto found = std::ranges::partition(others, [&](const Program& program) {
+      return std::ranges::none_of(program.files,
+                                  [&](const std::string& file) { return files.contains(file); });
+    });
+    grows = !found.empty();
+    for (Program& program : found) {
+      for (const std::string& path : program.files)
+        eachMention(path, [&](const GlslWord&) { files.insert(path); });
+      for (const Location& key : keysNamed(workspace, program, uses.name)) uses.locations.insert(key);
+      uses.programs.push_back(std::move(program));
+    }
+    others.erase(found.begin(), found.end());
+  }
+  for (const std::string& path : files)
+    eachMention(path, [&](const GlslWord& word) {
+      (word.text == presence ? uses.presence : uses.locations).insert({path, word.range});
+    });
+}
+
+// Of a name that a pass shares with its shader; $pass.name is a use of it, too.
+void usesOfKey(const Workspace& workspace, Uses& uses, Program program) {
+  uses.found = uses.ofShader = true;
+  if (const auto declared = workspace.findInShaders(workspace.filesOf(program), uses.name))
+    usesInShaders(workspace, uses, {declared->path});
+  else
+    uses.programs = {std::move(program)};
+  for (const Program& each : uses.programs)
+    for (const Location& key : keysNamed(workspace, each, uses.name)) {
+      uses.locations.insert(key);
+      usesInGraphs(workspace, uses, key);
+    }
+}
+
+// Why what is used cannot have this name, or "".
+std::string problemOf(const Workspace& workspace, const Uses& uses, const std::string& name) {
+  if (!graph::isIdent(name) || graph::isReservedWord(name) || (uses.ofShader && name.starts_with("gl_")))
+    return fmt::format(
+        "'{}' is no name: letters, digits and '_', not gl_ before it, and not mip, layer, face, stencil, x, "
+        "y, z, w",
+        name);
+  for (const Location& each : uses.locations) {
+    const auto file = workspace.texts().of(each.path);
+    if (!file || (!workspace.texts().isOpen(each.path) && !workspace.isInFolders(each.path)))
+      return fmt::format("'{}' uses it, too, and lies outside the folders of the editor", each.path);
+    if (file->bytes().compare(each.range.begin, uses.name.size(), uses.name) != 0)
+      return fmt::format("'{}' stands in the path of an include in {}: give the include an \"as\"", uses.name,
+                         each.path);
+  }
+  for (const Graph* graph : workspace.graphs()) {
+    if (uses.ofShader) break;
+    for (const graph::NameUse& use : graph->uses)
+      if (use.name == name && use.kind == uses.kind && text::isSamePlace(use.place, use.declared) &&
+          std::ranges::any_of(uses.locations,
+                              [&](const Location& each) { return each.path == *use.place.file; }))
+        return fmt::format("'{}' is declared already in {}", name, *use.place.file);
+  }
+  for (const Program& program : uses.programs) {
+    for (const Location& key : keysNamed(workspace, program, name))
+      return fmt::format("a pass in {} has '{}' already", key.path, name);
+    for (const std::string& path : program.files)
+      if (const auto text = workspace.texts().of(path))
+        for (const GlslWord& word : text->words())
+          if (word.text == name || (word.member && word.text == uses.name))
+            return fmt::format("'{}' is there already in {}, or '{}' is a member, behind a dot", name, path,
+                               uses.name);
+  }
+  return "";
+}
+
+}  // namespace
+
+Named namedAt(const Workspace& workspace, const Text& text, std::size_t offset) {
+  Named named;
+  const text::Place place = text.placeOf(offset);
+  const auto take = [&](const Graph& graph, const text::Place& begin, const std::string& name) {
+    const auto here = isAt(place, begin, name) ? workspace.locate(begin, name) : std::nullopt;
+    if (here) named.here = here->range;
+    if (here) named.graph = &graph;
+    return here.has_value();
+  };
+  for (const Graph* graph : workspace.graphs()) {
+    if (!graph->texts.contains(text.path())) continue;
+    for (Program& program : workspace.passesOf(*graph))
+      for (const ShaderKey& key : program.keys)
+        if (take(*graph, key.place, key.name)) {
+          named.key = key.name;
+          named.program = std::move(program);
+          return named;
+        }
+    for (const graph::NameUse& use : graph->uses)
+      if (take(*graph, use.place, use.name)) named.use = &use;
+    if (named.use) return named;
+  }
+  return named;
+}
+
+std::optional<Location> fileAt(const Workspace& workspace, const Text& text, std::size_t offset) {
+  const Spot spot = spotAt(text.json(), offset);
+  const std::vector<std::string_view>& way = spot.keys;
+  if (spot.key || !spot.value().is(JsonValue::Type::string) || way.empty()) return std::nullopt;
+  const std::string& named = spot.value().text;
+  if (way[0] == "extends" || (way[0] == "passes" && way.back() == "include")) {
+    std::string path = pathBeside(text.path(), named);
+    return workspace.texts().of(path) ? std::optional(Location{std::move(path), {}}) : std::nullopt;
+  }
+  if (spot.stanza() && way.size() > 2 && way[2] == "shader")
+    for (const std::string& shader : {named, named + ".frag.glsl"})
+      if (const auto path = workspace.sources(workspace.shaderFolders(text)).locate(shader))
+        return Location{pathKey(*path), {}};
+  return std::nullopt;
+}
+
+std::set<Location> definitionsAt(const Workspace& workspace, const Text& text, std::size_t offset) {
+  std::set<Location> found;
+  const auto add = [&](const std::optional<Location>& location, std::size_t bytes = 0) {
+    if (location) found.insert({location->path, {location->range.begin, location->range.end + bytes}});
+  };
+  if (text.isJson()) {
+    const Named named = namedAt(workspace, text, offset);
+    if (named.program) add(workspace.findInShaders(workspace.filesOf(*named.program), named.key));
+    if (named.use) add(workspace.locate(named.use->declared, ""), named.use->name.size());
+    if (!named.graph) add(fileAt(workspace, text, offset));
+    return found;
+  }
+  const std::vector<std::string> files =
+      workspace.shaderFiles(text.path(), "", workspace.shaderFolders(text));
+  const GlslWord* const word = text.wordAt(offset);
+  if (!word) {  // perhaps the path of an include
+    const std::string_view all = text.bytes();
+    const std::size_t begin = all.rfind('"', offset) + 1, end = all.find('"', offset);
+    for (const std::string& path : files)
+      if (begin > 0 && end != all.npos && begin < end && path.ends_with(all.substr(begin, end - begin)))
+        add(Location{path, {}});
+    return found;
+  }
+  const Uses uses = usesAt(workspace, text, offset);
+  for (const Program& program : uses.programs)
+    if (uses.found && program.has(text.path()))
+      for (const Location& key : keysNamed(workspace, program, uses.name)) add(key);
+  if (found.empty()) add(workspace.findInShaders(files, word->text));
+  return found;
+}
+
+Uses usesAt(const Workspace& workspace, const Text& text, std::size_t offset) {
+  Uses uses;
+  if (!text.isJson()) {
+    const GlslWord* const word = text.wordAt(offset);
+    if (!word || word->member) return uses;
+    uses.ofShader = true;
+    uses.name = std::string(word->text);
+    usesInShaders(workspace, uses, {text.path()});
+    uses.found = std::ranges::any_of(
+        uses.programs, [&](const Program& each) { return !keysNamed(workspace, each, uses.name).empty(); });
+    return uses;
+  }
+  Named named = namedAt(workspace, text, offset);
+  if (!named.graph) return uses;
+  uses.name = named.program ? named.key : named.use->name;
+  std::optional<Location> declared;
+  if (named.use) {
+    declared = workspace.locate(named.use->declared, "");
+    if (!declared) return uses;
+    // A parameter that a pass declares is a name of its shader, too.
+    if (const auto file = workspace.texts().of(declared->path); file && named.use->kind == Kind::variable)
+      if (Named key = namedAt(workspace, *file, declared->range.begin); key.key == uses.name)
+        named.program = std::move(key.program);
+  }
+  if (named.program) {
+    usesOfKey(workspace, uses, *std::move(named.program));
+    return uses;
+  }
+  uses.found = true;
+  uses.kind = named.use->kind;
+  usesInGraphs(workspace, uses, *declared);
+  declared->range.end += uses.name.size();
+  uses.locations.insert(*declared);
+  return uses;
+}
+
+Renamed renameAt(const Workspace& workspace, const Text& text, std::size_t offset, const std::string& name) {
+  const Uses uses = usesAt(workspace, text, offset);
+  if (!uses.found) return {nullptr, "nothing here can be renamed"};
+  if (name == uses.name) return {{{"changes", Json::object()}}, ""};
+  if (std::string problem = problemOf(workspace, uses, name); !problem.empty()) return {nullptr, problem};
+  Json changes = Json::object();
+  const auto edit = [&](const std::set<Location>& locations, const std::string& with) {
+    for (const Location& each : locations)
+      changes[text::uriOf(each.path)].push_back(
+          {{"range", workspace.texts().of(each.path)->toJson(each.range)}, {"newText", with}});
+  };
+  edit(uses.locations, name);
+  edit(uses.presence, runtime::presenceDefineOf(name));
+  return {{{"changes", std::move(changes)}}, ""};
+}
+
+}  // namespace weft::app::lsp
