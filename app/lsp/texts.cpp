@@ -153,7 +153,7 @@ const GlslWord* Text::wordAt(std::size_t offset) const {
 }
 
 const glsl::Interface& Text::glsl() const {
-  if (!glsl_) glsl_ = glsl::readAllBranches(bytes_);
+  if (!glsl_) glsl_ = glsl::readInterface(bytes_, {}, glsl::Branches::all);
   return *glsl_;
 }
 
