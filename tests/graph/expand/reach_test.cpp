@@ -60,7 +60,7 @@ TEST_CASE("what a pass that runs draws, and another throws away") {
   const Expanded e = tell({pass("ground", R"J("write": { "r": "hdr", "g": "glow" })J"), kSky, kShow});
   REQUIRE_MESSAGE(e.diagnostics.size() == 1, e.text());
   CHECK(e.of(text::Code::culledOverwritten).message ==
-        "what pass 'ground' writes to 'hdr' is lost: 'sky' overwrites it before anybody reads it");
+        "what pass 'ground' writes to 'hdr' is lost: 'sky' overwrites 'hdr' before anybody reads it");
 }
 
 TEST_CASE("what feeds only what is switched off is no mistake, by whatever it is switched off") {

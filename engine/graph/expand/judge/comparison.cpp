@@ -42,55 +42,48 @@ struct DepthTests {
   }
 };
 
-// False after an error.
-bool inferComparison(Model& model, std::uint32_t pass, SlotSpec& slot) {
+void inferComparison(Model& model, std::uint32_t pass, SlotSpec& slot) {
   const FlatGraph& graph = model.graph;
   DepthTests tests;
   for (std::uint32_t u = slot.firstUse; u < slot.firstUse + slot.useCount; ++u)
     tests.add(graph, graph.links.seen[u]);
   const std::uint32_t resource = graph.uses[slot.firstUse].resource;
-  if (tests.other == kNone && tests.found.size() == 1) {
-    slot.sampler.function = *tests.found.begin();
-    return true;
-  }
-  if (tests.other == kNone && tests.found.empty() && graph.resources[resource].hasClear) {
-    // Nothing was drawn into it: everything is nearer than what it was cleared to.
-    const auto clear = std::ranges::find(graph.clears, resource, &ClearSpec::resource);
-    const bool far = clear != graph.clears.end() && clear->value.v[0] > 0.5;
-    slot.sampler.function = far ? Compare::less : Compare::greater;
-    return true;
-  }
-  const std::string why = tests.found.size() > 1 ? "passes with different depth tests draw it"
-                          : tests.other != kNone ? fmt::format("pass '{}' writes it without one that orders",
-                                                               graph.passNames[tests.other])
-                                                 : "no depth test made it";
   const std::string& name = graph.resourceNames[resource];
-  auto& d =
-      model.diagnostics.error(Code::badKind, slot.place,
-                              fmt::format("pass '{}': slot '{}' compares with '{}', and nothing says how: {}",
-                                          graph.passNames[pass], slot.name, name, why));
-  d.pass = graph.passNames[pass];
-  d.resource = name;
-  d.expected = "the comparison that a lookup passes: less, less_equal, greater, greater_equal, …";
-  d.hint =
-      "write 'compare(greater)' where nearer is greater, as in every view here; 'compare(less)' where nearer "
-      "is less";
-  return false;
+  const auto clear = std::ranges::find(graph.clears, resource, &ClearSpec::resource);
+  std::string why = "no depth test made it";
+  if (tests.other != kNone) {
+    why = fmt::format("pass '{}' writes it without one that orders", graph.passNames[tests.other]);
+  } else if (tests.found.size() > 1) {
+    why = "passes with different depth tests draw it";
+  } else if (!tests.found.empty()) {
+    slot.sampler.function = *tests.found.begin();
+    return;
+  } else if (clear !=
+             graph.clears.end()) {  // nothing was drawn: everything is nearer than what it was cleared to
+    slot.sampler.function = clear->value.v[0] > 0.5 ? Compare::less : Compare::greater;
+    return;
+  }
+  report(
+      model, Code::badKind, slot.place,
+      fmt::format("pass '{}': slot '{}' compares with '{}', and nothing says how: {}", graph.passNames[pass],
+                  slot.name, name, why),
+      {.expected = "the comparison that a lookup passes: less, less_equal, greater, greater_equal, …",
+       .hint =
+           "write 'compare(greater)' where nearer is greater, as in every view here; 'compare(less)' where "
+           "nearer is less",
+       .resource = name,
+       .pass = graph.passNames[pass]});
 }
 
 }  // namespace
 
 void inferComparisons(Model& model) {
-  FlatGraph& graph = model.graph;
-  std::set<std::string_view> reported;  // stanzas: the other repeats say the same
-  for (std::uint32_t pass = 0; pass < graph.specs.size(); ++pass) {
-    const PassSpec& spec = graph.specs[pass];
-    for (std::uint32_t i = spec.firstSlot; i < spec.firstSlot + spec.slotCount; ++i) {
-      SlotSpec& slot = graph.slots[i];
-      if (!slot.sampler.compare || slot.sampler.function || slot.useCount == 0) continue;
-      if (!reported.contains(spec.declared) && !inferComparison(model, pass, slot))
-        reported.insert(spec.declared);
-    }
+  for (std::uint32_t pass = 0; pass < model.graph.specs.size(); ++pass) {
+    const PassSpec& spec = model.graph.specs[pass];
+    for (std::uint32_t i = spec.firstSlot; i < spec.firstSlot + spec.slotCount; ++i)
+      if (SlotSpec& slot = model.graph.slots[i];
+          slot.sampler.compare && !slot.sampler.function && slot.useCount > 0)
+        inferComparison(model, pass, slot);
   }
 }
 

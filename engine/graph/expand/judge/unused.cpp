@@ -3,15 +3,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <map>
 #include <set>
 #include <string_view>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "engine/graph/desc_walk.h"
 #include "engine/graph/expand/judge/judge.h"
 #include "engine/graph/expand/names/names.h"
 #include "engine/graph/language/expr_node.h"
-#include "engine/text/nearest.h"
 
 namespace weft::graph::expansion {
 
@@ -58,118 +58,101 @@ class Mentions {
   struct Parts {
     Selected level, layer, element;
   };
-  std::set<const void*> variables;  // parameters and lets
-  std::set<std::string> below;      // last parts of names that are looked for in included files
-  std::set<const ResourceDesc*> named, lookedBackAt;
-  std::map<const ResourceDesc*, Parts> parts;
+  std::unordered_set<const void*> named, lookedBackAt;  // parameters, lets and resources; resources
+  std::set<std::string_view> below;  // last parts of names that are looked for in included files
+  std::unordered_map<const ResourceDesc*, Parts> parts;
 
-  explicit Mentions(Model& model) : model_(model) {
+  explicit Mentions(Model& model) : model_(model), walked_(model.entities.size(), 0) {
     for (Scope& scope : model_.scopes) {
-      const auto addExpr = [&](const Expr& expr) { add(scope, expr); };
+      const auto addExpr = [&](const Expr& expr) {
+        if (expr.present()) add(scope, *expr.root());
+      };
       const auto addRef = [&](const RefDesc& ref) { add(scope, ref); };
       visitMentions(*scope.desc, addExpr, addRef);
       for (const PassDesc& pass : scope.desc->passes)
         if (pass.include)
-          for (const auto& [input, ref] : pass.include->binds) {
-            addExpr(ref.condition);
-            addRef(ref);
-          }
+          for (const auto& [input, ref] : pass.include->binds) visitRef(ref, addExpr, addRef);
     }
   }
 
  private:
-  void add(Scope& scope, const Expr& expr) {
-    if (!expr.present() || expr.isConstant()) return;
-    for (const auto& [fact, name] : expr.facts()) nameOne(scope, name, false, false);
-    for (const std::string& name : variablesOf(expr)) {
-      const Variable found = findVariableFrom(scope, name);
+  void add(Scope& scope, const ExprNode& node) {
+    if (node.op == ExprOp::fact) {
+      add(find(scope, node.name, false), false);
+    } else if (node.op == ExprOp::variable) {
+      const Variable found = findVariableFrom(scope, node.name);
       if (found.kind == Variable::Kind::parameter)
-        variables.insert(model_.parameters[found.index].desc);
+        named.insert(model_.parameters[found.index].desc);
       else if (found.kind == Variable::Kind::let)
-        variables.insert(model_.lets[found.index].desc);
+        named.insert(model_.lets[found.index].desc);
       else
-        below.insert(name.substr(name.rfind('.') + 1));
+        below.insert(std::string_view(node.name).substr(node.name.rfind('.') + 1));
     }
+    for (const ExprPtr& child : node.children) add(scope, *child);
   }
 
   void add(Scope& scope, const RefDesc& ref) {
-    nameOne(scope, ref.name, ref.import, ref.history > 0);
-    const std::uint32_t found = ref.import ? kNone : findEntity(model_, scope, ref.name, false);
-    if (found == kNone || !model_.entities[found].desc) return;
+    const std::uint32_t found = add(find(scope, ref.name, ref.import), ref.history > 0);
+    if (found == kNone || ref.import) return;
     Parts& selected = parts[model_.entities[found].desc];
     selected.level.add(ref.mip);
     selected.layer.add(ref.layer);
     selected.element.add(ref.element ? &*ref.element : nullptr, ref.element ? &*ref.element : nullptr);
   }
 
-  // As findEntity() does, but with everything on the way: an input, and what is bound to it.
-  void nameOne(Scope& scope, std::string_view name, bool import, bool back) {
-    if (!name.empty() && name[0] == '@') return nameOne(scope, name.substr(1), true, back);
-    for (Scope* at = &scope; at; at = import ? at->parent : nullptr)
+  // What a name means as it is written: an input is itself. kNone for what no file declares.
+  std::uint32_t find(const Scope& scope, std::string_view name, bool import) const {
+    if (name.starts_with('@')) return find(scope, name.substr(1), true);
+    for (const Scope* at = &scope; at; at = import ? at->parent : nullptr)
       if (const auto found = at->resources.find(name); found != at->resources.end())
         if (!import || model_.entities[found->second].kind == ResourceDesc::Kind::import)
-          return nameEntity(found->second, back);
+          return found->second;
     const std::size_t dot = name.find('.');
-    if (dot == std::string_view::npos) return;
-    if (const auto child = scope.includes.find(name.substr(0, dot)); child != scope.includes.end())
-      nameOne(*child->second, name.substr(dot + 1), false, back);
+    if (dot == std::string_view::npos) return kNone;
+    const auto child = scope.includes.find(name.substr(0, dot));
+    return child == scope.includes.end() ? kNone : find(*child->second, name.substr(dot + 1), false);
   }
 
-  void nameEntity(std::uint32_t index, bool back) {
-    if (!walked_.insert({index, back}).second) return;
-    const ResourceDesc& resource = *model_.entities[index].desc;
-    Scope& scope = *model_.entities[index].scope;
-    named.insert(&resource);
-    if (back) lookedBackAt.insert(&resource);
-    if (back)
-      for (const RefDesc& ref : resource.alternatives) nameOne(scope, ref.name, ref.import, true);
-    if (resource.kind != ResourceDesc::Kind::input || !scope.parent) return;
-    const auto& binds = scope.stanza->include->binds;
-    const auto bound = std::ranges::find(binds, resource.name, &std::pair<std::string, RefDesc>::first);
-    if (bound == binds.end())
-      nameOne(*scope.parent, resource.name, false, back);
-    else
-      nameOne(*scope.parent, bound->second.name, bound->second.import, back);
+  // An input, and all that is bound to it, the last of which is returned; of what is looked back at also what the list may mean.
+  std::uint32_t add(std::uint32_t index, bool back) {
+    if (index == kNone || !model_.entities[index].desc) return kNone;
+    const Entity& entity = model_.entities[index];
+    const std::uint8_t flags = back ? 3 : 1;
+    if ((walked_[index] & flags) != flags) {
+      walked_[index] |= flags;
+      named.insert(entity.desc);
+      if (back) lookedBackAt.insert(entity.desc);
+      for (const RefDesc& ref : entity.desc->alternatives)
+        if (back) add(find(*entity.scope, ref.name, ref.import), true);
+    }
+    Scope* const parent = entity.scope->parent;
+    if (entity.desc->kind != ResourceDesc::Kind::input || !parent) return index;
+    const auto& binds = entity.scope->stanza->include->binds;
+    const auto bound = std::ranges::find(binds, entity.desc->name, &std::pair<std::string, RefDesc>::first);
+    return add(bound == binds.end() ? find(*parent, entity.desc->name, false)
+                                    : find(*parent, bound->second.name, bound->second.import),
+               back);
   }
 
   Model& model_;
-  std::set<std::pair<std::uint32_t, bool>> walked_;  // entities, and whether for an earlier frame
+  std::vector<std::uint8_t> walked_;  // per entity: 1 named, 2 looked back at
 };
 
 // ---- parameters and lets ----
 
-// What the author of a parameter that nothing reads has probably meant.
-std::string hintFor(const Model& model, const Scope& scope, const ParameterDesc& unread) {
-  const std::string& name = unread.name;
-  for (const PassDesc& pass : scope.desc->passes)
-    if (std::ranges::find(pass.parameters, name, &PassParameterDesc::name) != pass.parameters.end())
-      return fmt::format("pass '{}' has a '{}' of its own: write \"{}\": \"${}\" there", pass.name, name,
-                         name, name);
-  for (const std::uint32_t index : model.parametersByLeaf.find(name)->second)
-    if (const std::string& path = model.parameters[index].path;
-        model.parameters[index].desc != &unread && path.starts_with(scope.prefix))
-      return fmt::format(
-          "there is another, '{0}': give it this value by \"set\": {{ \"{0}\": … }}, and remove this one",
-          path.substr(scope.prefix.size()));
-  return fmt::format(
-      "write '${0}' where its value is meant, such as \"parameters\": {{ \"{0}\": \"${0}\" }} of a pass, or "
-      "remove it",
-      name);
-}
-
 void warnOfVariables(Model& model, const Scope& scope, const Mentions& mentions) {
-  // What a stanza that is switched off for now reads is not unread.
-  for (const PassDesc& pass : scope.desc->passes)
-    if (pass.enabled.present() && pass.enabled.isConstant() && pass.enabled.text() == "false") return;
   for (const ParameterDesc& parameter : scope.desc->parameters)
-    if (!mentions.variables.contains(&parameter) && !mentions.below.contains(parameter.name) &&
+    if (!mentions.named.contains(&parameter) && !mentions.below.contains(parameter.name) &&
         isOnTop(scope, parameter.place))
       warnAt(model, parameter.place,
              fmt::format("the parameter '{0}' changes nothing: no expression reads '${0}'", parameter.name),
-             hintFor(model, scope, parameter));
+             fmt::format(
+                 "write '${0}' where its value is meant, such as \"parameters\": {{ \"{0}\": \"${0}\" }} "
+                 "of a pass, or remove it",
+                 parameter.name));
   if (scope.parent) return;  // an including file may want a let
   for (const NamedExpr& let : scope.desc->lets)
-    if (!mentions.variables.contains(&let) && isOnTop(scope, let.place))
+    if (!mentions.named.contains(&let) && isOnTop(scope, let.place))
       warnAt(model, let.place,
              fmt::format("the \"let\" '{0}' changes nothing: no expression reads '${0}'", let.name),
              fmt::format("write '${}' where its value is meant, or remove it", let.name));
@@ -223,31 +206,28 @@ void warnOfParts(Model& model, const Entity& entity, const Mentions::Parts& part
              entity.name);
 }
 
-// The stanza of a pass that is always there, or null: nothing in the files leaves it out.
-const PassDesc* findUnconditional(const Model& model, const std::string& declared) {
-  for (const Scope& scope : model.scopes) {
-    if (!declared.starts_with(scope.prefix)) continue;
-    const auto found = scope.passes.find(std::string_view(declared).substr(scope.prefix.size()));
-    if (found == scope.passes.end()) continue;
-    bool conditional = found->second->enabled.present() || !found->second->repeat.empty();
-    for (const Scope* outer = &scope; outer->stanza; outer = outer->parent)
-      conditional = conditional || outer->stanza->enabled.present();
-    return conditional ? nullptr : found->second;
-  }
-  return nullptr;
+// A stanza that nothing in the files leaves out, without an `if` at what it writes.
+bool isUnconditional(const Scope& scope, const PassDesc& pass) {
+  bool conditional = pass.enabled.present() || !pass.repeat.empty();
+  for (const Scope* outer = &scope; outer->stanza; outer = outer->parent)
+    conditional = conditional || outer->stanza->enabled.present();
+  return !conditional && std::ranges::none_of(pass.slots, [](const SlotDesc& slot) {
+    return slot.access != Access::read && slot.ref.condition.present();
+  });
 }
 
 // The pass that always writes all of it before anybody reads the list, or null.
 const PassDesc* alwaysWrites(const Model& model, std::uint32_t candidate, const Entity& list) {
   for (const WriteRecord& write : model.writes) {
-    if (write.entity != candidate || write.pass == kNone || !write.whole || list.firstRead == kNone ||
-        write.position >= list.firstRead)
+    if (write.entity != candidate || write.pass == kNone || !write.whole ||
+        write.position >= list.firstRead || list.firstRead == kNone)
       continue;
-    const PassDesc* pass = findUnconditional(model, model.graph.specs[write.pass].declared);
-    if (pass && std::ranges::none_of(pass->slots, [](const SlotDesc& slot) {
-          return slot.access != Access::read && slot.ref.condition.present();
-        }))
-      return pass;
+    const std::string& name = model.graph.specs[write.pass].declared;
+    for (const Scope& scope : model.scopes) {
+      if (!name.starts_with(scope.prefix)) continue;
+      const auto pass = scope.passes.find(std::string_view(name).substr(scope.prefix.size()));
+      if (pass != scope.passes.end() && isUnconditional(scope, *pass->second)) return pass->second;
+    }
   }
   return nullptr;
 }
@@ -259,8 +239,7 @@ void warnOfList(Model& model, const Entity& list) {
     if (refs[i].condition.present() || refs[i].history > 0 || list.candidates[i] == kNone) continue;
     const auto later = std::find_if(refs.begin() + static_cast<std::ptrdiff_t>(i) + 1, refs.end(),
                                     [](const RefDesc& ref) { return ref.condition.present(); });
-    if (later == refs.end()) return;
-    const PassDesc* pass = alwaysWrites(model, list.candidates[i], list);
+    const PassDesc* pass = later == refs.end() ? nullptr : alwaysWrites(model, list.candidates[i], list);
     if (!pass) continue;
     warnAt(model, later->place,
            fmt::format("'{}' never means '{}': '{}' stands before it, and pass '{}' always writes that",
@@ -301,24 +280,18 @@ void warnOfSceneLists(Model& model) {
 void warnUnused(Model& model) {
   const Mentions mentions(model);
   warnOfSceneLists(model);
-  std::set<const void*> judged;  // a file that is included twice says it once
   for (const Scope& scope : model.scopes) {
-    if (!judged.insert(scope.desc).second) continue;
     warnOfVariables(model, scope, mentions);
     for (const ResourceDesc& resource : scope.desc->resources)
       if (isOnTop(scope, resource.place)) warnOfResource(model, scope, resource, mentions);
   }
   for (const Entity& entity : model.entities) {
     if (!entity.desc || !isOnTop(*entity.scope, entity.desc->place)) continue;
-    const ResourceDesc::Kind kind = entity.kind;
-    if (kind == ResourceDesc::Kind::alternatives) {
-      if (!entity.candidates.empty() && judged.insert(entity.desc).second) warnOfList(model, entity);
-    } else if ((kind == ResourceDesc::Kind::texture || kind == ResourceDesc::Kind::buffer) &&
-               entity.state == Progress::done) {
-      const auto parts = mentions.parts.find(entity.desc);
-      if (parts != mentions.parts.end() && judged.insert(entity.desc).second)
-        warnOfParts(model, entity, parts->second);
-    }
+    const auto parts = mentions.parts.find(entity.desc);
+    if (entity.kind == ResourceDesc::Kind::alternatives)
+      warnOfList(model, entity);
+    else if (parts != mentions.parts.end() && entity.kind <= ResourceDesc::Kind::buffer)
+      warnOfParts(model, entity, parts->second);
   }
 }
 
