@@ -723,20 +723,24 @@ std::shared_ptr<const Source> SourceLoader::withPreset(const Source& source, con
 }
 
 bool SourceLoader::layFile(Source& made, const std::string& path, const JsonValue* written, bool preset) {
-  if (written && !mayExtend(*written)) return false;
+  const std::string own = identityOf(path);
+  if (written && (broken_.contains(own) || !mayExtend(*written))) {
+    broken_.insert(own);
+    return false;
+  }
   const std::optional<JsonValue> root = parse(path, written ? written->place : text::Place{}, true);
-  if (!root || !ReadContext(diagnostics_).expect(*root, Type::object, "a preset")) return false;
-  if (written && !root->find("extends") && isWholeGraph(*root)) {
+  bool good = root && ReadContext(diagnostics_).expect(*root, Type::object, "a preset");
+  const JsonValue* extends = good ? root->find("extends") : nullptr;
+  if (good && written && !extends && isWholeGraph(*root)) {
     auto& d =
         diagnostics_.error(Code::overlayOutOfPlace, written->place,
                            fmt::format("'{}' is a graph of its own, which nothing can be laid under", path));
     d.expected = fmt::format("an overlay on '{}', or a preset", made.path);
     d.hint = "a file extends one graph, the first of its list; give the others as includes";
-    return false;
+    good = false;
   }
-  open_.emplace_back(identityOf(path), path);
-  bool good = true;
-  if (const JsonValue* extends = root->find("extends")) {
+  open_.emplace_back(own, path);
+  if (extends) {
     const std::vector<const JsonValue*> below = namesIn(*extends, diagnostics_);
     good = !below.empty();
     for (const JsonValue* each : below) {
@@ -748,6 +752,7 @@ bool SourceLoader::layFile(Source& made, const std::string& path, const JsonValu
   }
   good = good && lay(made, *root, path, preset);
   open_.pop_back();
+  if (!good) broken_.insert(own);
   return good;
 }
 

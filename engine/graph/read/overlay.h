@@ -70,6 +70,7 @@ class SourceLoader {
   text::Diagnostics& diagnostics_;
   const FileTexts& given_;
   FileTexts texts_;
+  std::set<std::string> broken_;  // identities of overlays that failed: they are not looked at again
   std::map<std::string, std::shared_ptr<const Source>> known_;  // by identity; null for files that failed
   std::vector<std::pair<std::string, std::string>> open_;       // identity and path of such overlays
   std::uint64_t values_ = 0;                                    // of all files and copies so far

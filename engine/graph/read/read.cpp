@@ -188,7 +188,7 @@ class GraphReader {
     tooMuch_ = true;
     auto& d = diagnostics_.error(Code::limitExceeded, stanza.place,
                                  fmt::format("the graph includes too many {}", counts));
-    d.expected = fmt::format("at most {}", bound);
+    d.expected = fmt::format("at most {} {}", bound, counts);
     d.found = fmt::format("{} with '{}'", count, stanza.text);
     if (bound != kMaxInRow) d.hint = text::hintToRaise(bound / text::limitsRaised(), count);
     return true;

@@ -72,7 +72,12 @@ bool ReadContext::checkName(std::string_view name, const Place& place, const Nam
                   fmt::format("\"{:.60}\" cannot name {}{}", name, named.noun, why));
   d.expected = fmt::format("letters, digits and '_', not beginning with a digit, {} at most; reserved are {}",
                            text::kMaxNameBytes, fmt::join(kReservedWords, ", "));
-  if (!why.empty()) d.hint = "choose another here and in the shader";
+  if (tooLong) {
+    d.expected = fmt::format("at most {} bytes", text::kMaxNameBytes);
+    d.found = fmt::format("{} bytes", name.size());
+  } else if (!why.empty()) {
+    d.hint = "choose another here and in the shader";
+  }
   return false;
 }
 

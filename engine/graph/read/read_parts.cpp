@@ -361,8 +361,9 @@ bool readRanges(ReadContext& context, const JsonValue& ranges, ReadContext::Seen
     context.error(Code::missingKey, ranges, "\"repeat\" without an index").hint = "write { \"i\": [0, 3] }";
   for (const JsonMember& member : ranges.members) {
     if (seen.size() == text::raised(kMaxIndices)) {
-      auto& d = context.error(Code::limitExceeded, member.value,
-                              "\"repeat\" has more indices than a pass can have");
+      auto& d = context.error(
+          Code::limitExceeded, member.value,
+          fmt::format("\"repeat\" has more indices than a pass can have, '{}' is one too many", member.key));
       d.expected = fmt::format("at most {} indices of one repeat", text::raised(kMaxIndices));
       d.hint = text::hintToRaise(kMaxIndices);
       return false;
