@@ -238,6 +238,11 @@ class IncludeExpander {
       text::reportOutside(*outside, diagnostics_, place);
       return std::nullopt;
     }
+    for (const std::string& path : candidates)
+      if (fs::exists(path, ec)) {  // and is no regular file: readFile() says what it is
+        text::readFile(path, diagnostics_, Code::missingShaderInclude, place);
+        return std::nullopt;
+      }
     text::Diagnostic& error = diagnostics_.error(Code::missingShaderInclude, place,
                                                  fmt::format("included file '{}' not found", name));
     error.expected =

@@ -271,6 +271,12 @@ std::optional<Program> Program::compile(std::span<const StageSource> stages,
 }
 
 std::optional<Program> Program::load(const ProgramBinary& binary, bool compute, std::string_view label) {
+  // An unknown format would be GL_INVALID_ENUM: ask first.
+  GLint count = 0;
+  glGetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &count);
+  std::vector<GLint> formats(static_cast<std::size_t>(std::max(0, count)));
+  if (count > 0) glGetIntegerv(GL_PROGRAM_BINARY_FORMATS, formats.data());
+  if (std::ranges::find(formats, static_cast<GLint>(binary.format)) == formats.end()) return std::nullopt;
   Program program(glCreateProgram());
   labelObject(GL_PROGRAM, program.id_, label);
   glProgramBinary(program.id_, binary.format, binary.bytes.data(), static_cast<GLsizei>(binary.bytes.size()));

@@ -304,12 +304,12 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
   }
   takeInputHistories(model);
   std::vector<DeferredUniform> deferred;
+  const bool whole = !diagnostics.hasErrors() && !own.hasErrors();
   if (!isOver(model)) expandPasses(model, deferred);
   if (!isOver(model)) finishGraph(model, deferred);
-  // What is only missing because of a mistake is no second one.
   const auto isSound = [&] { return !diagnostics.hasErrors() && !own.hasErrors(); };
   if (isSound()) keepPicks(model.graph, settings.kept, own);
-  if (isSound()) reportMissingReads(model);
+  if (whole && !isOver(model) && !model.leftOut.contains(kNone)) reportMissingReads(model);
   if (isSound()) checkSlices(model);
   if (isSound()) {
     warnUnread(model);

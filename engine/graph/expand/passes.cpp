@@ -99,8 +99,20 @@ class PassWalk {
                     kMaxSlotsOfPass, "slots, parameters and defines of one pass");
     Names names(model_, scope);
     user_ = fmt::format("pass '{}'", stanza.declared);
+    const std::size_t errors = model_.diagnostics.errorCount();
     stanza.sound = checkStanza({model_, names, stanza.type, user_, stanza.declared}, desc);
     if (stanza.type) repeat(stanza, names);
+    if (model_.diagnostics.errorCount() > errors) leaveOut(scope, desc);
+  }
+
+  void leaveOut(Scope& scope, const PassDesc& desc) {
+    for (const SlotDesc& slot : desc.slots) {
+      if (slot.access == Access::read) continue;
+      const std::uint32_t found = findEntity(model_, scope, slot.ref.name, slot.ref.import);
+      const bool known = found != kNone && model_.entities[found].kind != ResourceDesc::Kind::import &&
+                         model_.entities[found].kind != ResourceDesc::Kind::alternatives;
+      model_.leftOut.insert(known ? found : kNone);
+    }
   }
 
   // Whether `more` passes may follow; reports otherwise.

@@ -29,9 +29,14 @@ std::string placeText(const Place& place) {
 
 std::string importText(const ImportSpec& import) {
   constexpr const char* kKinds[] = {"texture", "buffer", "view", "list", "event"};
-  const bool rows = import.kind == ImportKind::list || !import.columns.empty();
-  return fmt::format("{} @{}{}", kKinds[static_cast<std::size_t>(import.kind)], import.request.type,
-                     rows ? fmt::format(", {} entries", import.count) : "");
+  if (import.columns.empty())
+    return fmt::format("{} @{}{}", kKinds[static_cast<std::size_t>(import.kind)], import.request.type,
+                       import.kind == ImportKind::list ? fmt::format(", {} entries", import.count) : "");
+  std::vector<std::string> columns;
+  for (const TableColumn& column : import.columns)
+    columns.push_back(fmt::format("{} {}", column.type, column.name));
+  return fmt::format("table @{}, {} row{} of {}", import.request.type, import.count,
+                     import.count == 1 ? "" : "s", fmt::join(columns, ", "));
 }
 
 class Describer {

@@ -283,6 +283,9 @@ void reportMissingReads(Model& model) {
   int searches = 0;
   for (std::size_t i = 0; i < writers.size(); ++i) {
     const MissingRead& missing = model.missing[i];
+    if (std::ranges::any_of(missing.wanted,
+                            [&](const auto& each) { return model.leftOut.contains(each.entity); }))
+      continue;  // its writer has other mistakes
     std::string cycle;
     if (missing.pass != kNone && writers[i].enabledLater && ++searches <= kMaxSearches)
       cycle = cycleOf(model.graph, wouldRead, missing.pass, writers[i].enabledLater->pass);

@@ -202,6 +202,8 @@ struct Model {
   std::deque<std::string>
       misspelt{};           // names that expressions use of parameters whose declaration is misspelt
   bool incomplete = false;  // the reader left something out for its mistakes
+  // What passes with mistakes would write: entities; kNone when nobody knows. Whoever misses it makes no second mistake.
+  std::set<std::uint32_t> leftOut{};
   bool toInclude =
       false;  // the file that was opened has inputs: it is to be included, and its own names are not all
   std::uint32_t position = 0;             // of the instance being expanded
