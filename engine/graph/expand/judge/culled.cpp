@@ -195,7 +195,7 @@ std::pair<std::string, std::string> entriesOf(const std::string& a, const std::s
 
 // Adds "; WORD 'a', 'b' and 12 more" to a message: as many names as fit.
 void addNames(std::string& message, const char* word, const std::vector<std::string_view>& names) {
-  constexpr std::size_t kMaxBytes = 340;
+  constexpr std::size_t kMaxBytes = 520;
   std::size_t count = 0;
   for (; count < names.size() && message.size() + names[count].size() < kMaxBytes; ++count)
     message += fmt::format("{}'{}'", count == 0 ? fmt::format("; {} ", word) : ", ", names[count]);
