@@ -6,6 +6,7 @@ Per pass: everything connected, then each optional input, each output and each p
 ones left out together, and each value of each define (all combinations where they are few; a number has one, `max(…, 1)` stands for 1 and 2). Needs
 glslangValidator; exits 77 (skipped) without it.
 """
+import functools
 import itertools
 import json
 import math
@@ -137,8 +138,11 @@ def combinations(choices):
     return found
 
 
-def source_of(path, defines, roots):
-    return ["#version 450 core", *(f"#define {k} {v}" for k, v in defines.items()), *expand(path, roots)]
+@functools.cache
+def body_of(path, roots):
+    """The expanded text, and the words in it: a define that is none of them changes nothing."""
+    lines = expand(path, roots)
+    return lines, set(re.findall(r"\w+", "\n".join(lines)))
 
 
 def validate(jobs):
@@ -171,7 +175,7 @@ def main():
     done, problems, used, jobs, constants = set(), [], set(), [], constants_of(graphs)
     with tempfile.TemporaryDirectory() as temporary:
         for graph in graphs:
-            roots = shader_folders(graph)
+            roots = tuple(shader_folders(graph))
             for stanza, desc in passes_of(graph):
                 name, where = stanza["shader"], f"{graph.relative_to(TOP)}: pass {stanza['name']}"
                 names = list(name.values()) if isinstance(name, dict) else [name]
@@ -188,15 +192,17 @@ def main():
                         problems.append(f"{where}: {one}: no stage in the name")
                         continue
                     for defines in variants(stanza, desc, constants):
+                        try:
+                            lines, words = body_of(path, roots)
+                        except ValueError as reason:
+                            problems.append(f"{where}: {reason}")
+                            break
+                        defines = {name: value for name, value in defines.items() if name in words}
                         key = (path, tuple(sorted(defines.items())))
                         if key in done:
                             continue
                         done.add(key)
-                        try:
-                            text = source_of(path, defines, roots)
-                        except ValueError as reason:
-                            problems.append(f"{where}: {reason}")
-                            continue
+                        text = ["#version 450 core", *(f"#define {name} {value}" for name, value in defines.items()), *lines]
                         file = pathlib.Path(temporary) / f"{len(jobs)}.{stage}"
                         file.write_text("\n".join(text) + "\n")
                         jobs.append((file, text, f"{where}: {path.relative_to(TOP)} with {defines}"))

@@ -124,7 +124,7 @@ class ShaderCheck {
       if (!variant) return;
       const runtime::LinkedProgram linked{variant->program.reflection(), session_->context->device().limits};
       if (runtime::checkProgram(plan, pass, variant->stages, variant->defines, &linked, said))
-        runtime::warnOfConditions(request.pass, variant->stages, variant->defines, said);
+        runtime::warnOfConditions(plan.graph->specs[pass], variant->stages, variant->defines, said);
       return;
     }
     std::vector<gl::StageSource> stages;
@@ -137,7 +137,7 @@ class ShaderCheck {
       return;
     }
     runtime::checkProgram(plan, pass, stages, request.defines, nullptr, said);
-    runtime::warnOfConditions(request.pass, stages, request.defines, said);
+    runtime::warnOfConditions(plan.graph->specs[pass], stages, request.defines, said);
   }
 
   const CheckOptions& options_;

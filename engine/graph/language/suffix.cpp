@@ -32,8 +32,12 @@ std::string commonSuffix(std::string_view a, std::string_view b) {
 }
 
 std::string suffixHint(std::string_view wanted, std::span<const std::string> names) {
+  std::vector<std::string> ends(names.begin(), names.end());  // with what they end in
+  for (const std::string& name : names)
+    for (std::size_t dot = name.find('.'); dot != std::string::npos; dot = name.find('.', dot + 1))
+      ends.push_back(name.substr(dot + 1));
   const std::vector<std::size_t> ending = suffixMatches(names, wanted);
-  if (const std::string near = ending.empty() ? text::nearestName(wanted, names) : names[ending[0]];
+  if (const std::string near = ending.empty() ? text::nearestName(wanted, ends) : names[ending[0]];
       !near.empty())
     return fmt::format("did you mean '{}'?", near);
   // A suffix is whole parts between dots; part of a part may be what was meant.
@@ -45,9 +49,7 @@ std::string suffixHint(std::string_view wanted, std::span<const std::string> nam
       ++many;
     }
   if (many > 0) return fmt::format("names that hold it: {}", holding);
-  std::vector<std::string> leaves;
-  for (const std::string& name : names) leaves.push_back(name.substr(name.rfind('.') + 1));
-  return text::nearestHint(wanted, leaves);
+  return text::nearestHint(wanted, ends);
 }
 
 }  // namespace weft::graph

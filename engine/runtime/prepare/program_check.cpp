@@ -628,7 +628,7 @@ bool checkProgram(const Plan& plan, std::uint32_t pass, std::span<const gl::Stag
   return Checker(plan, pass, stages, defines, linked, diagnostics).run();
 }
 
-void warnOfConditions(const std::string& pass, std::span<const gl::StageSource> stages,
+void warnOfConditions(const graph::PassSpec& pass, std::span<const gl::StageSource> stages,
                       std::span<const glsl::Define> defines, text::Diagnostics& diagnostics) {
   std::vector<std::string> names;
   for (const glsl::Define& define : defines) names.push_back(define.name);
@@ -641,7 +641,7 @@ void warnOfConditions(const std::string& pass, std::span<const gl::StageSource> 
           }))
         return;
       text::Diagnostic& d = diagnostics.warning(Code::undeclaredShaderInput, place, message);
-      d.pass = pass;
+      d.pass = pass.name;
       d.hint = std::move(hint);
     };
     std::set<std::string_view> seen;
@@ -672,6 +672,29 @@ void warnOfConditions(const std::string& pass, std::span<const gl::StageSource> 
       if (std::ranges::find(conditions.tested, word.text, &glsl::Token::text) == conditions.tested.end())
         look(word, true);
     for (const glsl::Token& word : conditions.tested) look(word, false);
+  }
+  std::set<std::string, std::less<>> words;
+  for (const gl::StageSource& stage : stages)
+    for (const glsl::Token& token : glsl::splitTokens(stage.source->text)) words.emplace(token.text);
+  for (const graph::DefineSpec& define : pass.defines) {
+    // A choice stands for its words, NAME_CHOICE.
+    const auto isPartOf = [](std::string_view word, std::string_view name) {
+      return word.starts_with(name) && (word.size() == name.size() || word[name.size()] == '_');
+    };
+    if (std::ranges::any_of(words, [&](const auto& word) { return isPartOf(word, define.name); }) ||
+        std::ranges::any_of(pass.defines, [&](const auto& other) {
+          return other.name != define.name && isPartOf(define.name, other.name);
+        }))
+      continue;
+    const std::string message =
+        fmt::format("pass '{}' defines '{}', which its shaders do not have", pass.declared, define.name);
+    if (std::ranges::find(diagnostics.items(), message, &text::Diagnostic::message) !=
+        diagnostics.items().end())
+      continue;  // of repeats of one pass the first is warned of
+    text::Diagnostic& d = diagnostics.warning(Code::undeclaredShaderInput, pass.place, message);
+    d.pass = pass.name;
+    const std::string near = text::nearestName(define.name, std::vector(words.begin(), words.end()));
+    d.hint = near.empty() ? "remove it" : fmt::format("did you mean '{}'?", near);
   }
 }
 

@@ -199,7 +199,11 @@ class Parser {
                  "a comma, a quote or a bracket is missing before it, in " + openContainer());
     else
       unexpected(object ? "a key in double quotes" : "a value",
-                 "no comma may follow the last; keys are strings");
+                 now() == '\'' || now() == '\xE2' ? "write it in double quotes, \"like this\""
+                 : now() == '#'                   ? "a comment begins with //"
+                 : now() == '{' || now() == '['
+                     ? "a quote or a bracket is missing before it, in " + openContainer()
+                     : "no comma may follow the last; keys are strings");
   }
 
   void member(JsonValue& object, std::unordered_map<std::string, std::size_t>& keys) {
