@@ -631,6 +631,7 @@ bool checkProgram(const Plan& plan, std::uint32_t pass, std::span<const gl::Stag
 void warnOfConditions(const graph::PassSpec& pass, std::span<const gl::StageSource> stages,
                       std::span<const glsl::Define> defines, text::Diagnostics& diagnostics) {
   std::vector<std::string> names;
+  std::set<std::string> told;
   for (const glsl::Define& define : defines) names.push_back(define.name);
   for (const gl::StageSource& stage : stages) {
     const glsl::Conditions conditions = glsl::conditionsOf(stage.source->text);
@@ -665,36 +666,36 @@ void warnOfConditions(const graph::PassSpec& pass, std::span<const gl::StageSour
       const std::string meant = other != names.end() ? *other
                                 : valued             ? text::nearestName(word.text, names)
                                                      : "";
-      if (!meant.empty())
-        warn(word, fmt::format("nothing defines '{}'", word.text), fmt::format("did you mean '{}'?", meant));
+      if (meant.empty()) return;
+      told.insert(meant);
+      warn(word, fmt::format("nothing defines '{}'", word.text), fmt::format("did you mean '{}'?", meant));
     };
     for (const glsl::Token& word : conditions.valued)
       if (std::ranges::find(conditions.tested, word.text, &glsl::Token::text) == conditions.tested.end())
         look(word, true);
     for (const glsl::Token& word : conditions.tested) look(word, false);
   }
-  std::set<std::string, std::less<>> words;
-  for (const gl::StageSource& stage : stages)
+  // A define that is nearly a word of the preprocessor, which nobody else gives.
+  std::set<std::string, std::less<>> words, asked;
+  for (const gl::StageSource& stage : stages) {
+    const glsl::Conditions conditions = glsl::conditionsOf(stage.source->text);
+    for (const auto* list : {&conditions.valued, &conditions.tested})
+      for (const glsl::Token& word : *list) asked.emplace(word.text);
     for (const glsl::Token& token : glsl::splitTokens(stage.source->text)) words.emplace(token.text);
+  }
+  for (const std::string& name : names) asked.erase(name);
   for (const graph::DefineSpec& define : pass.defines) {
-    // A choice stands for its words, NAME_CHOICE.
-    const auto isPartOf = [](std::string_view word, std::string_view name) {
-      return word.starts_with(name) && (word.size() == name.size() || word[name.size()] == '_');
-    };
-    if (std::ranges::any_of(words, [&](const auto& word) { return isPartOf(word, define.name); }) ||
-        std::ranges::any_of(pass.defines, [&](const auto& other) {
-          return other.name != define.name && isPartOf(define.name, other.name);
-        }))
-      continue;
+    const std::string near = words.contains(define.name) || told.contains(define.name)
+                                 ? ""
+                                 : text::nearestName(define.name, std::vector(asked.begin(), asked.end()));
     const std::string message =
         fmt::format("pass '{}' defines '{}', which its shaders do not have", pass.declared, define.name);
-    if (std::ranges::find(diagnostics.items(), message, &text::Diagnostic::message) !=
-        diagnostics.items().end())
-      continue;  // of repeats of one pass the first is warned of
+    if (near.empty() || std::ranges::find(diagnostics.items(), message, &text::Diagnostic::message) !=
+                            diagnostics.items().end())  // said of another repeat
+      continue;
     text::Diagnostic& d = diagnostics.warning(Code::undeclaredShaderInput, pass.place, message);
     d.pass = pass.name;
-    const std::string near = text::nearestName(define.name, std::vector(words.begin(), words.end()));
-    d.hint = near.empty() ? "remove it" : fmt::format("did you mean '{}'?", near);
+    d.hint = fmt::format("did you mean '{}'?", near);
   }
 }
 

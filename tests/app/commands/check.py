@@ -172,16 +172,17 @@ void main() {
 
 
 def check_silent_words(weft, report):
-    """What a shader ignores of its pass: an output that it never writes, and a define that is 0 and asked for by #ifdef."""
+    """What a shader ignores of its pass: an output that it never writes, a define that is 0 and asked for by #ifdef, and one that it does not have."""
     with temporary_folder() as name:
         folder = pathlib.Path(name)
         (folder / "shaders").mkdir()
-        for text, said in ((QUIET, []), (LOUD, ["W181", "W187"])):
-            (folder / "g.json").write_text(SILENT)
+        for text, define, said in ((QUIET, "SHINY", []), (LOUD, "SHINY", ["W181", "W187"]), (QUIET, "SHINI", ["W187"])):
+            (folder / "g.json").write_text(SILENT.replace('"SHINY"', f'"{define}"'))
             (folder / "shaders/p.frag.glsl").write_text(text)
             for options in (["--no-shaders"], ["--no-shaders", "--all"]):
                 done = run(weft, "check", folder / "g.json", *options)
                 report.check(done.code == 0 and sorted(done.codes("warning")) == said, f"{said} {options}: {done.code}\n{done.err}")
+        report.check("did you mean 'SHINY'?" in done.err, done.err)
 
 
 def check_scene_lists(weft, report):
