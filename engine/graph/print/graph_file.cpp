@@ -77,7 +77,7 @@ class FileWriter {
       FlatUse shown = graph_.present;  // the first level goes without saying
       if (const FlatResource& r = graph_.resources[shown.resource]; shown.mip == 0 && shown.mips == 1)
         shown.mips = r.mips;
-      file["present"] = textOf(shown, false);
+      file["present"] = textOf(shown, false, graph_.present.mips > 1);
     }
     for (std::size_t i = 0; i < graph_.outputs.size(); ++i)
       if (plan_.outputLive[i] != 0)
@@ -104,14 +104,15 @@ class FileWriter {
   // The resource is to be declared.
   void use(std::uint32_t resource) { used_[resource] = 1; }
 
-  std::string textOf(const FlatUse& use, bool wholeArray) const {
+  // `span`: also levels that are all there are.
+  std::string textOf(const FlatUse& use, bool wholeArray, bool span = false) const {
     const FlatResource& r = graph_.resources[use.resource];
     const ElementName name = elementName(graph_.resourceNames[use.resource]);
     std::string text = name.array;
     if (!wholeArray && !name.index.empty()) text += "[" + name.index + "]";
     if (!isBuffer(r)) {
       const bool cube = isCube(r);
-      if (use.mips < r.mips) text += spanText("mip", use.mip, use.mips);
+      if (use.mips < r.mips || span) text += spanText("mip", use.mip, use.mips);
       if (use.layers < r.layers && !cube) text += spanText("layer", use.layer, use.layers);
       if (use.layers < r.layers && cube) {
         if (r.layers > 6) text += spanText("layer", use.layer / 6, std::max(1, use.layers / 6));
