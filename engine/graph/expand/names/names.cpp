@@ -77,27 +77,32 @@ std::optional<Value> letValue(Model& model, Let& let) {
 
 // What a name that nothing has stands for when it is the declaration of a parameter or let, an edit away, that is misspelt:
 // nothing reads it under its own name, and more than one expression asks for `name`. That is one mistake, at the declaration.
-Variable declarationMeant(Model& model, Scope& from, std::string_view name) {
-  const auto near = std::ranges::find_if(from.variables, [&](const auto& each) {
-    return each.first.find('.') == std::string_view::npos && text::editDistance(each.first, name, 1) <= 1;
-  });
-  if (near == from.variables.end()) return {};
-  const auto [declared, meant] = *near;
-  int asked = 0, read = 0;
-  const auto see = [&](const Expr& expr) {
-    if (!expr.present()) return;
-    asked += static_cast<int>(std::ranges::count(variablesOf(expr), name));
-    read += static_cast<int>(std::ranges::count(variablesOf(expr), declared));
-  };
-  visitMentions(*from.desc, see, [](const RefDesc&) {});
-  if (read > 0 || asked < 2) return {};
-  const bool let = meant.kind == Variable::Kind::let;
-  report(model, Code::unknownVariable,
-         let ? model.lets[meant.index].desc->place : model.parameters[meant.index].desc->place,
-         fmt::format("nothing reads '${}', and {} expressions ask for '${}'", declared, asked, name),
-         {.hint = fmt::format("did you mean '{}'?", name)});
-  from.variables.try_emplace(model.misspelt.emplace_back(name), meant);
-  return meant;
+// Those of included files ask, too.
+Variable declarationMeant(Model& model, Scope& user, std::string_view name) {
+  for (Scope* from = &user; from; from = from->parent) {
+    const auto near = std::ranges::find_if(from->variables, [&](const auto& each) {
+      return each.first.find('.') == std::string_view::npos && text::editDistance(each.first, name, 1) <= 1;
+    });
+    if (near == from->variables.end()) continue;
+    const auto [declared, meant] = *near;
+    int asked = 0, read = 0;
+    const auto see = [&](const Expr& expr) {
+      if (!expr.present()) return;
+      asked += static_cast<int>(std::ranges::count(variablesOf(expr), name));
+      read += static_cast<int>(std::ranges::count(variablesOf(expr), declared));
+    };
+    for (const Scope& scope : model.scopes)
+      if (scope.prefix.starts_with(from->prefix)) visitMentions(*scope.desc, see, [](const RefDesc&) {});
+    if (read > 0 || asked < 2) continue;
+    const bool let = meant.kind == Variable::Kind::let;
+    report(model, Code::unknownVariable,
+           let ? model.lets[meant.index].desc->place : model.parameters[meant.index].desc->place,
+           fmt::format("nothing reads '${}', and {} expressions ask for '${}'", declared, asked, name),
+           {.hint = fmt::format("did you mean '{}'?", name)});
+    from->variables.try_emplace(model.misspelt.emplace_back(name), meant);
+    return meant;
+  }
+  return {};
 }
 
 }  // namespace
