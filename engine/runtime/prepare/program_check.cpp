@@ -631,7 +631,7 @@ bool checkProgram(const Plan& plan, std::uint32_t pass, std::span<const gl::Stag
 void warnOfConditions(const graph::PassSpec& pass, std::span<const gl::StageSource> stages,
                       std::span<const glsl::Define> defines, text::Diagnostics& diagnostics) {
   std::vector<std::string> names;
-  std::set<std::string> told;
+  std::set<std::string, std::less<>> told, words, asked;  // `asked`: by an #if or #ifdef
   for (const glsl::Define& define : defines) names.push_back(define.name);
   for (const gl::StageSource& stage : stages) {
     const glsl::Conditions conditions = glsl::conditionsOf(stage.source->text);
@@ -674,15 +674,11 @@ void warnOfConditions(const graph::PassSpec& pass, std::span<const gl::StageSour
       if (std::ranges::find(conditions.tested, word.text, &glsl::Token::text) == conditions.tested.end())
         look(word, true);
     for (const glsl::Token& word : conditions.tested) look(word, false);
-  }
-  // A define that is nearly a word of the preprocessor, which nobody else gives.
-  std::set<std::string, std::less<>> words, asked;
-  for (const gl::StageSource& stage : stages) {
-    const glsl::Conditions conditions = glsl::conditionsOf(stage.source->text);
     for (const auto* list : {&conditions.valued, &conditions.tested})
       for (const glsl::Token& word : *list) asked.emplace(word.text);
     for (const glsl::Token& token : glsl::splitTokens(stage.source->text)) words.emplace(token.text);
   }
+  // A define that is nearly a word of the preprocessor, which nobody else gives.
   for (const std::string& name : names) asked.erase(name);
   for (const graph::DefineSpec& define : pass.defines) {
     const std::string near = words.contains(define.name) || told.contains(define.name)
