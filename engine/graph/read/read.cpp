@@ -95,7 +95,6 @@ class GraphReader {
       std::optional<RefDesc> ref = context.refOf(member.value);
       if (named && ref) graph->outputs.push_back({member.key, *std::move(ref)});
     }
-    mendNames(*graph, diagnostics_);
     graph->texts = loader_.texts();
     return graph;
   }

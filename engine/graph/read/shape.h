@@ -1,5 +1,5 @@
-// Trees of JSON against the schema of graphs (keys.h), and names that are misspelt where they are declared. What is one slip away
-// from a key, a word or a name is reported and then read as that, so that nothing else is said of what is missing because of it.
+// Trees of JSON against the schema of graphs (keys.h). What is one slip away from a key or a word is reported and then read as
+// that, so that nothing else is said of what is missing because of it.
 #pragma once
 
 #include "engine/graph/desc.h"
@@ -14,8 +14,5 @@ void mendKeys(text::JsonValue& root, bool preset, text::Diagnostics& diagnostics
 // Of a whole graph: Code::wrongType, unknownKey, missingKey, unknownWord and keysExclude. What does not fit becomes
 // `absent`, at its place: the readers take the rest as it is.
 void checkShape(text::JsonValue& root, text::Diagnostics& diagnostics);
-
-// A resource that nothing names, while what is named more than once is not there and one slip away, gets that name.
-void mendNames(GraphDesc& desc, text::Diagnostics& diagnostics);
 
 }  // namespace weft::graph

@@ -199,9 +199,9 @@ struct Model {
   std::vector<ElementOf> elementOf{};  // per FlatResource
   // What names of `name.…` begin with where the file includes nothing under it: one report is enough.
   std::set<std::pair<const Scope*, std::string>> unincluded{};
-  std::deque<std::string>
-      misspelt{};           // names that expressions use of parameters whose declaration is misspelt
-  bool incomplete = false;  // the reader left something out for its mistakes
+  std::deque<std::string> misspelt{};  // names that files use of what is declared under a misspelt one
+  bool mended = false;                 // mendDeclarations() was called
+  bool incomplete = false;             // the reader left something out for its mistakes
   // What passes with mistakes would write: entities; kNone when nobody knows. Whoever misses it makes no second mistake.
   std::set<std::uint32_t> leftOut{};
   bool toInclude =

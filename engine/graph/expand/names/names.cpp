@@ -77,13 +77,17 @@ std::optional<Value> letValue(Model& model, Let& let) {
 
 // What a name that nothing has stands for when it is the declaration of a parameter or let, an edit away, that is misspelt:
 // nothing reads it under its own name, and more than one expression asks for `name`. That is one mistake, at the declaration.
-// Those of included files ask, too.
+// Files ask for what they declare, what those declare that include them, and what those declare that they include.
 Variable declarationMeant(Model& model, Scope& user, std::string_view name) {
-  for (Scope* from = &user; from; from = from->parent) {
-    const auto near = std::ranges::find_if(from->variables, [&](const auto& each) {
+  const auto sees = [](const Scope& a, const Scope& b) {
+    return a.prefix.starts_with(b.prefix) || b.prefix.starts_with(a.prefix);
+  };
+  for (Scope& from : model.scopes) {
+    if (!sees(from, user)) continue;
+    const auto near = std::ranges::find_if(from.variables, [&](const auto& each) {
       return each.first.find('.') == std::string_view::npos && text::editDistance(each.first, name, 1) <= 1;
     });
-    if (near == from->variables.end()) continue;
+    if (near == from.variables.end()) continue;
     const auto [declared, meant] = *near;
     int asked = 0, read = 0;
     const auto see = [&](const Expr& expr) {
@@ -92,14 +96,16 @@ Variable declarationMeant(Model& model, Scope& user, std::string_view name) {
       read += static_cast<int>(std::ranges::count(variablesOf(expr), declared));
     };
     for (const Scope& scope : model.scopes)
-      if (scope.prefix.starts_with(from->prefix)) visitMentions(*scope.desc, see, [](const RefDesc&) {});
+      if (sees(scope, from)) visitMentions(*scope.desc, see, [](const RefDesc&) {});
     if (read > 0 || asked < 2) continue;
     const bool let = meant.kind == Variable::Kind::let;
     report(model, Code::unknownVariable,
            let ? model.lets[meant.index].desc->place : model.parameters[meant.index].desc->place,
            fmt::format("nothing reads '${}', and {} expressions ask for '${}'", declared, asked, name),
            {.hint = fmt::format("did you mean '{}'?", name)});
-    from->variables.try_emplace(model.misspelt.emplace_back(name), meant);
+    // In the file of the declaration, and where it is found from below.
+    from.variables.try_emplace(model.misspelt.emplace_back(name), meant);
+    for (Scope* outer = from.parent; outer; outer = outer->parent) outer->below[std::string(name)] = meant;
     return meant;
   }
   return {};
@@ -176,6 +182,7 @@ std::optional<Value> Names::fact(Fact fact, std::string_view resource, const Pla
     if (fact == Fact::has)
       if (const auto [pass, in] = findAskedPass(scope_, resource); pass)
         return Value::boolean(isLeft(scope_, model_, *pass, *in));
+    if (mendDeclarations(model_)) return this->fact(fact, resource, place);
     // Its declaration, or the input that has nothing behind it, was reported where it stands.
     const bool reported = isUnread(scope_, resource) || scope_.resources.contains(resource);
     return reported ? std::optional(Value{}) : std::nullopt;

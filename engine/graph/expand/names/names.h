@@ -37,7 +37,10 @@ std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool
 // The same, but reports W040 or W043, with the nearest name. `who`: "pass 'blur' reads"; `pass`: "blur".
 std::uint32_t findEntityOrReport(Model& model, Scope& scope, const RefDesc& ref, std::string_view who,
                                  std::string_view pass = {});
-// The same for the name that a fact asks of; it may be that of a pass.
+// A resource that nothing names, while what is named more than once is not there and one slip away, is one mistake, at the
+// declaration: it is reported, and found by that name, too. True when it was done now: then a name may be found after all.
+bool mendDeclarations(Model& model);
+// As findEntity(), for the name that a fact asks of; it may be that of a pass.
 std::uint32_t findAsked(Model& model, Scope& scope, std::string_view name);
 // What has(name) is about where no resource has the name: a pass of the scope's own file, or `include.pass` of one included
 // below, and the scope whose file declares it. Null: there is none.

@@ -230,9 +230,11 @@ std::uint32_t boundTo(Model& model, Entity& input, std::uint32_t index) {
   if (parent)
     for (const auto& [own, ref] : input.scope->stanza->include->binds)
       if (own == name) bind = &ref;
-  const std::uint32_t target = bind     ? findEntityOrReport(model, *parent, *bind, "\"bind\" names")
-                               : parent ? findEntity(model, *parent, name, false)
-                                        : kNone;
+  std::uint32_t target = bind     ? findEntityOrReport(model, *parent, *bind, "\"bind\" names")
+                         : parent ? findEntity(model, *parent, name, false)
+                                  : kNone;
+  if (target == kNone && !bind && parent && !input.desc->optional && mendDeclarations(model))
+    target = findEntity(model, *parent, name, false);
   if (target != kNone) {
     const Entity& bound = model.entities[target];
     if (fitsInput(model, bound, input.desc->input == "buffer")) return target;
@@ -315,6 +317,68 @@ std::vector<std::string> resourceNames(const Model& model, const Scope& scope) {
 
 namespace {
 
+// How often files ask for a resource, by the scope that should have it and the first part of its name there. Who can do without,
+// asks 0 times.
+using Mentions = std::map<std::pair<const Scope*, std::string>, int>;
+
+Mentions mentionsOf(Model& model) {
+  Mentions mentions;
+  const auto mention = [&](Scope& from, std::string_view name, int times) {
+    const Scope& in = scopeOf(from, name);
+    mentions[{&in, std::string(firstPart(name))}] += times;
+  };
+  for (Scope& scope : model.scopes) {
+    const auto addRef = [&](const RefDesc& ref) { mention(scope, ref.name, ref.import ? 0 : 1); };
+    const auto addExpr = [&](const Expr& expr) {
+      for (const auto& [fact, name] : expr.facts())
+        if (!name.starts_with('@') && (fact != Fact::has || !findAskedPass(scope, name).first))
+          mention(scope, name, 1);
+    };
+    visitMentions(*scope.desc, addExpr, addRef);
+    if (!scope.parent) continue;
+    const auto& binds = scope.stanza->include->binds;
+    for (const auto& [input, ref] : binds) mention(*scope.parent, ref.name, ref.import ? 0 : 1);
+    for (const ResourceDesc& input : scope.desc->resources)
+      if (input.kind == ResourceDesc::Kind::input &&
+          std::ranges::none_of(binds, [&](const auto& bind) { return bind.first == input.name; }))
+        mention(*scope.parent, input.name, input.optional ? 0 : 1);
+  }
+  return mentions;
+}
+
+}  // namespace
+
+bool mendDeclarations(Model& model) {
+  constexpr std::size_t kShortest = 3;  // shorter names are near to each other by chance
+  if (std::exchange(model.mended, true)) return false;
+  const Mentions mentions = mentionsOf(model);
+  for (Scope& scope : model.scopes) {
+    std::vector<std::string> unknown;  // in the order of the alphabet
+    for (auto at = mentions.lower_bound({&scope, ""}); at != mentions.end() && at->first.first == &scope;
+         ++at)
+      if (const std::string& name = at->first.second;
+          at->second > 1 && name.size() >= kShortest && !scope.resources.contains(name) &&
+          !scope.includes.contains(name) && !isUnread(scope, name))
+        unknown.push_back(name);
+    for (const ResourceDesc& resource : scope.desc->resources) {
+      if (isOver(model)) return true;
+      if (mentions.contains({&scope, resource.name})) continue;
+      const auto meant = std::ranges::find_if(
+          unknown, [&](const std::string& name) { return text::editDistance(name, resource.name, 1) <= 1; });
+      if (meant == unknown.end()) continue;
+      report(model, Code::unknownResource, resource.place,
+             fmt::format("nothing names the resource '{}', and the resource '{}' is not there", resource.name,
+                         *meant),
+             {.hint = fmt::format("did you mean '{}'?", *meant), .resource = resource.name});
+      scope.resources.try_emplace(model.misspelt.emplace_back(*meant), scope.resources.at(resource.name));
+      unknown.erase(meant);
+    }
+  }
+  return true;
+}
+
+namespace {
+
 // The fix for a resource that is not there.
 std::string hintForResource(const Model& model, const Scope& scope, std::string_view name) {
   // A whole name in its own file.
@@ -337,6 +401,7 @@ std::uint32_t findEntityOrReport(Model& model, Scope& scope, const RefDesc& ref,
   const std::size_t before = model.diagnostics.errorCount();
   const std::uint32_t found = findEntity(model, scope, name, import);
   if (found != kNone || isOver(model) || model.diagnostics.errorCount() > before) return found;
+  if (!import && mendDeclarations(model)) return findEntityOrReport(model, scope, ref, who, pass);
   // Its declaration was reported, or it is an input with nothing behind it, which was.
   if (isUnread(scope, name) || (!import && own)) return kNone;
   std::string hint = !import ? hintForResource(model, scope, name)
