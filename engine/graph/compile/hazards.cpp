@@ -13,35 +13,39 @@ namespace {
 
 using Scratch = CompileScratch;
 
-constexpr Access64 kNever = std::numeric_limits<Access64>::min();
+// A stamp of an access is its position, and where causes are asked for an Access64, which takes a tenth more time.
+template <class Stamp>
+constexpr Stamp kNever = std::numeric_limits<Stamp>::min();
+template <class Stamp>
+constexpr unsigned kPositionShift = 8 * sizeof(Stamp) - 32;
 
-Access64 stampOf(std::int32_t position, std::uint32_t who) {
-  return Access64{position} << 32 | who;
+template <class Stamp>
+Stamp stampOf(std::int32_t position, std::uint32_t who) {
+  const Stamp stamp = Stamp{position} << kPositionShift<Stamp>;
+  return kPositionShift<Stamp> == 0 ? stamp : stamp | who;
 }
-std::int32_t positionOf(Access64 stamp) {
-  return static_cast<std::int32_t>(stamp >> 32);
+template <class Stamp>
+std::int32_t positionOf(Stamp stamp) {
+  return static_cast<std::int32_t>(stamp >> kPositionShift<Stamp>);
 }
-Access64 back(Access64 stamp, std::int32_t by) {
-  return stamp == kNever ? stamp : stamp - stampOf(by, 0);
+template <class Stamp>
+Stamp back(Stamp stamp, std::int32_t by) {
+  return stamp == kNever<Stamp> ? stamp : stamp - stampOf<Stamp>(by, 0);
 }
-
-// The last store, and the last access of any kind.
-struct Cell {
-  Access64 store = kNever, access = kNever;
-};
 
 // A value per byte of the arena, as ranges of equal values.
+template <class Stamp>
 class RangeMap {
  public:
-  RangeMap() { values_[0] = kNever; }
-  void paint(std::uint64_t from, std::uint64_t to, Access64 value) {
+  RangeMap() { values_[0] = kNever<Stamp>; }
+  void paint(std::uint64_t from, std::uint64_t to, Stamp value) {
     split(to);
     const auto first = split(from);
     values_.erase(std::next(first), values_.lower_bound(to));
     first->second = value;
   }
-  Access64 latest(std::uint64_t from, std::uint64_t to) const {
-    Access64 value = kNever;
+  Stamp latest(std::uint64_t from, std::uint64_t to) const {
+    Stamp value = kNever<Stamp>;
     for (auto it = std::prev(values_.upper_bound(from)); it != values_.end() && it->first < to; ++it)
       value = std::max(value, it->second);
     return value;
@@ -51,11 +55,11 @@ class RangeMap {
   }
 
  private:
-  std::map<std::uint64_t, Access64>::iterator split(std::uint64_t at) {
+  std::map<std::uint64_t, Stamp>::iterator split(std::uint64_t at) {
     const auto it = std::prev(values_.upper_bound(at));
     return it->first == at ? it : values_.emplace_hint(std::next(it), at, it->second);
   }
-  std::map<std::uint64_t, Access64> values_;
+  std::map<std::uint64_t, Stamp> values_;
 };
 
 // How a resource's accesses are followed.
@@ -77,7 +81,17 @@ struct Track {
   Mode mode = Mode::ignored;
 };
 
+template <class Stamp>
 class Collector {
+  // The last store, and the last access of any kind.
+  struct Cell {
+    Stamp store = kNever<Stamp>, access = kNever<Stamp>;
+  };
+  struct Cause {
+    Stamp from{};
+    std::uint32_t to = 0;
+  };
+
  public:
   Collector(const FlatGraph& graph, const Plan& plan, const Scratch& scratch, HazardIntervals& hazards,
             HazardCauses* causes)
@@ -247,7 +261,7 @@ class Collector {
     const std::uint32_t base = tracks_[use.resource].base, count = cellsOf(use.resource);
     const auto visit = [&](std::uint32_t s) {
       const Cell& current = cells_[base + s];
-      const Access64 stored = cells_[base + count + s].store;
+      const Stamp stored = cells_[base + count + s].store;
       if (age > 0) {
         require(bits, back(stored, age * circle_));
       } else if (store) {
@@ -266,8 +280,8 @@ class Collector {
       forEachSubresource(use, r, visit);
   }
 
-  void require(std::uint16_t bits, Access64 from) {
-    if (from == kNever) return;
+  void require(std::uint16_t bits, Stamp from) {
+    if (from == kNever<Stamp>) return;
     for (unsigned rest = bits; rest != 0; rest &= rest - 1) {
       const auto bit = static_cast<std::size_t>(std::countr_zero(rest));
       if ((due_ >> bit & 1u) == 0 || from > latest_[bit].from) latest_[bit] = {from, who_};
@@ -282,14 +296,14 @@ class Collector {
       const auto bit = static_cast<std::size_t>(std::countr_zero(rest));
       const std::int32_t lo = positionOf(latest_[bit].from), hi = lo > 2 * t ? 2 * t + 1 : 2 * t;
       hazards_[bit].push_back({std::max(lo, hi + 1 - circle_), hi});
-      if (causes_) (*causes_)[bit].push_back(latest_[bit]);
+      if (causes_) (*causes_)[bit].push_back({latest_[bit].from, latest_[bit].to});
     }
     due_ = 0;
   }
 
   void mark(const FlatUse& use, std::uint32_t who, bool store, std::int32_t position) {
     const Track track = tracks_[use.resource];
-    const Access64 access = stampOf(position, who);
+    const Stamp access = stampOf<Stamp>(position, who);
     const auto set = [&](Cell& cell) {
       cell.access = access;
       if (store) cell.store = access;
@@ -357,20 +371,23 @@ class Collector {
   std::vector<Track> tracks_;
   std::vector<Cell> cells_;
   std::vector<std::uint32_t> histories_;
-  RangeMap storeMap_, accessMap_;
+  RangeMap<Stamp> storeMap_, accessMap_;
   bool anyArena_ = false;
   std::size_t birth_ = 0;
-  std::uint32_t group_ = kNone;                         // of the step that is walked over
-  std::uint32_t who_ = 0;                               // of the use that is looked at
-  std::uint16_t due_ = 0;                               // bits that the step requires
-  std::array<HazardCause, kBarrierBitCount> latest_{};  // per bit that is due
+  std::uint32_t group_ = kNone;                   // of the step that is walked over
+  std::uint32_t who_ = 0;                         // of the use that is looked at
+  std::uint16_t due_ = 0;                         // bits that the step requires
+  std::array<Cause, kBarrierBitCount> latest_{};  // per bit that is due
 };
 
 }  // namespace
 
 void collectHazards(const FlatGraph& graph, const Plan& plan, const CompileScratch& scratch,
                     HazardIntervals& hazards, HazardCauses* causes) {
-  Collector(graph, plan, scratch, hazards, causes).run();
+  if (causes)
+    Collector<Access64>(graph, plan, scratch, hazards, causes).run();
+  else
+    Collector<std::int32_t>(graph, plan, scratch, hazards, nullptr).run();
 }
 
 }  // namespace weft::graph

@@ -74,6 +74,7 @@ std::uint64_t alignedBytes(const FlatResource& r) {
 }
 
 struct ClassState {
+  ClassKey key;
   std::uint32_t freeHead = kNone;
   std::uint32_t alive = 0, peak = 0;
   std::uint64_t bytes = 0;
@@ -143,13 +144,18 @@ class Placer {
     }
   }
 
+  // The map has all classes, `recent_` by a hash the last ones: most textures of a graph are of a few.
+  std::uint32_t findClass(const FlatResource& r) {
+    const ClassKey key = keyOf(r);
+    std::uint32_t& recent = recent_[((key[0] ^ key[1] << 7 ^ key[2]) * 0x9e3779b97f4a7c15u) >> 58];
+    if (recent < classes_.size() && classes_[recent].key == key) return recent;
+    recent = table_.try_emplace(key, static_cast<std::uint32_t>(classes_.size())).first->second;
+    if (recent == classes_.size()) classes_.push_back({.key = key, .bytes = r.bytes});
+    return recent;
+  }
+
   void takeTexture(std::uint32_t index, const FlatResource& r) {
-    const auto found =
-        table_.try_emplace(keyOf(r), static_cast<std::uint32_t>(classes_.size())).first->second;
-    if (found == classes_.size()) {
-      classes_.emplace_back();
-      classes_.back().bytes = r.bytes;
-    }
+    const std::uint32_t found = findClass(r);
     ClassState& state = classes_[found];
     if (++state.alive > state.peak) state.peak = state.alive;
     if (state.freeHead == kNone) {
@@ -206,6 +212,7 @@ class Placer {
   Plan& plan_;
   Scratch& scratch_;
   std::map<ClassKey, std::uint32_t> table_;  // into classes_
+  std::array<std::uint32_t, 64> recent_{};
   Arena arena_;
   std::vector<ClassState> classes_;
   std::vector<std::uint32_t> nextFree_, classOf_;  // per storage

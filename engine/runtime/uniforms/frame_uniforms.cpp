@@ -26,7 +26,10 @@ double trialAge(std::uint32_t) {
 
 FrameUniforms::FrameUniforms(const graph::Plan& plan, Imports& imports, std::uint32_t alignment)
     : plan_(plan), imports_(imports), alignment_(alignment) {
-  for (const graph::ParameterSpec& parameter : plan.graph->parameters) parameters_.push_back(parameter.value);
+  for (const graph::ParameterSpec& parameter : plan.graph->parameters) {
+    indexOf_.emplace(parameter.path, parameters_.size());
+    parameters_.push_back(parameter.value);
+  }
 }
 
 bool FrameUniforms::layOut(std::span<PreparedPass> passes, text::Diagnostics& diagnostics) {
@@ -107,11 +110,10 @@ void FrameUniforms::setSlices(PreparedPass& pass, const SliceRange& range) {
 }
 
 bool FrameUniforms::set(std::string_view path, const graph::Value& value) {
-  const auto& all = plan_.graph->parameters;
-  const auto index =
-      static_cast<std::size_t>(std::ranges::find(all, path, &graph::ParameterSpec::path) - all.begin());
-  if (index == all.size()) return false;
-  const graph::ParameterSpec& parameter = all[index];
+  const auto found = indexOf_.find(path);
+  if (found == indexOf_.end()) return false;
+  const std::size_t index = found->second;
+  const graph::ParameterSpec& parameter = plan_.graph->parameters[index];
   if (parameter.structural || !graph::takesValue(parameter.desc, value)) return false;
   graph::Value& mine = parameters_[index];
   graph::Value before = std::exchange(mine, value);

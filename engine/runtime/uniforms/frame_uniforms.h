@@ -8,6 +8,7 @@
 #include <functional>
 #include <span>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "engine/graph/plan.h"
@@ -65,8 +66,9 @@ class FrameUniforms {
   gl::Buffer buffer_;
   bool changed_ = true;
   std::vector<graph::Value> parameters_;
-  std::vector<std::vector<Reader>> readersOf_;  // per parameter
-  std::vector<graph::Value> results_;           // scratch of set()
+  std::unordered_map<std::string_view, std::size_t> indexOf_;  // of a parameter, by its path in the plan
+  std::vector<std::vector<Reader>> readersOf_;                 // per parameter
+  std::vector<graph::Value> results_;                          // scratch of set()
 };
 
 }  // namespace weft::runtime
