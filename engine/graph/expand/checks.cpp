@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "engine/graph/expand/passes.h"
 
@@ -112,7 +113,11 @@ namespace {
 
 bool checkAttachments(const SlotContext& context, const std::vector<SlotWork>& slots) {
   const SlotWork* first = nullptr;
-  std::string all;  // what the first one is
+  std::array<std::uint32_t, 5> all{};  // what the first one is
+  const auto textOf = [](const std::array<std::uint32_t, 5>& size) {
+    return fmt::format("{}x{}, {} layers, {} samples, {} levels", size[0], size[1], size[2], size[3],
+                       size[4]);
+  };
   int colors = 0;
   for (const SlotWork& work : slots) {
     if (!work.isConnected() && work.state != SlotWork::State::missing) continue;
@@ -121,16 +126,17 @@ bool checkAttachments(const SlotContext& context, const std::vector<SlotWork>& s
     const SlotDesc& slot = *work.slot;
     if (work.use.kind == Kind::color) ++colors;
     const auto side = [&](std::uint32_t texels) { return std::max(1u, texels >> work.use.mip); };
-    const std::string here =
-        fmt::format("{}x{}, {} layers, {} samples, {} levels", side(shape.width), side(shape.height),
-                    shape.target == Target::texture_3d ? side(shape.depth) : work.use.layers, shape.samples,
-                    work.use.mips);
+    const std::array<std::uint32_t, 5> here = {
+        side(shape.width), side(shape.height),
+        shape.target == Target::texture_3d ? side(shape.depth) : work.use.layers, shape.samples,
+        work.use.mips};
     if (!first) all = here;
     if (!first) first = &work;
     if (work.use.mips > 1 || here != all)
       return context.report(
           Code::attachmentsDiffer, slot.ref.place,
-          fmt::format("attaches '{}' ({}) beside '{}' ({})", slot.ref.text, here, first->slot->ref.text, all),
+          fmt::format("attaches '{}' ({}) beside '{}' ({})", slot.ref.text, textOf(here),
+                      first->slot->ref.text, textOf(all)),
           {.expected = "one level of each, and one size, layer count and sample count",
            .hint =
                fmt::format("name a level, '{}.mip[0]', or repeat the pass over the levels", slot.ref.name)});

@@ -108,7 +108,7 @@ void addResets(Model& model, const Entity& entity, HistorySpec& spec) {
               .hint = fmt::format("write '{}{}'", ref.import ? "@" : "", ref.name),
               .resource = entity.name});
     const auto holds = evaluateCondition(names, ref.condition, true, "the condition of a reset");
-    const std::uint32_t found = findEntityOrReport(model, *entity.scope, ref, "\"reset\" names");
+    const std::uint32_t found = findEntityOrReport(model, *entity.scope, ref, "\"reset\"", "names");
     if (found == kNone || !holds || !*holds) continue;
     // An import that has nothing now may have something later.
     const std::uint32_t target =

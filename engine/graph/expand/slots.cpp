@@ -307,9 +307,8 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
   SlotWork failed;
   failed.slot = &slot;
   failed.use.access = slot.access;
-  const std::uint32_t found =
-      findEntityOrReport(context.model, context.names.scope(), ref,
-                         fmt::format("{} {}", context.user, verbOf(slot.access)), context.pass);
+  const std::uint32_t found = findEntityOrReport(context.model, context.names.scope(), ref, context.user,
+                                                 verbOf(slot.access), context.pass);
   if (found == kNone || (slot.access != Access::read && !isWritable(context, slot, found))) return failed;
   const auto holds = evaluateCondition(context.names, ref.condition, true, "the condition of a slot");
   if (!holds) return failed;

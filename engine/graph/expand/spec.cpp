@@ -215,7 +215,7 @@ void resolveView(const SlotContext& context, const PassDesc& desc, PassSpec& spe
   }
   const RefDesc& ref = *desc.view;
   const std::uint32_t found =
-      findEntityOrReport(model, scope, ref, context.user + " is seen from", context.pass);
+      findEntityOrReport(model, scope, ref, context.user, "is seen from", context.pass);
   if (found == kNone || !ensureShape(model, found)) return;
   const Entity& entity = model.entities[found];
   const ImportSpec* import = entity.import == kNone ? nullptr : &model.graph.imports[entity.import];

@@ -34,9 +34,9 @@ void applyDisable(Model& model, const Disable& disable);
 // The entity that a name stands for; an input stands for what is bound to it. kNone when there is none (which is not
 // reported), or when nothing is bound to an input (which is reported once).
 std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool import);
-// The same, but reports W040 or W043, with the nearest name. `who`: "pass 'blur' reads"; `pass`: "blur".
+// The same, but reports W040 or W043, with the nearest name. `who`: "pass 'blur'"; `verb`: "reads"; `pass`: "blur".
 std::uint32_t findEntityOrReport(Model& model, Scope& scope, const RefDesc& ref, std::string_view who,
-                                 std::string_view pass = {});
+                                 std::string_view verb, std::string_view pass = {});
 // A resource that nothing names, while what is named more than once is not there and one slip away, is one mistake, at the
 // declaration: it is reported, and found by that name, too. True when it was done now: then a name may be found after all.
 bool mendDeclarations(Model& model);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -140,7 +139,7 @@ void linkAlternatives(Model& model) {
     for (const RefDesc& ref : entity.desc->alternatives) {
       if (isOver(model)) return;
       entity.candidates.push_back(
-          findEntityOrReport(model, *entity.scope, ref, "a list of alternatives names"));
+          findEntityOrReport(model, *entity.scope, ref, "a list of alternatives", "names"));
     }
   }
   for (std::uint32_t i = 0; i < model.entities.size() && !model.stopped; ++i) {
@@ -174,12 +173,13 @@ void spread(Model& model, bool Let::*flag, Holds&& holds) {
 // What decides more than the values of uniforms, everything but these and lets, makes the parameters that it reads structural.
 void markAllStructural(Model& model) {
   for (Scope& scope : model.scopes) {
-    std::set<const Expr*> values;
-    for (const NamedExpr& let : scope.desc->lets) values.insert(&let.expr);
+    std::vector<const Expr*> values;
+    for (const NamedExpr& let : scope.desc->lets) values.push_back(&let.expr);
     for (const PassDesc& pass : scope.desc->passes)
-      for (const PassParameterDesc& parameter : pass.parameters) values.insert(&parameter.value);
+      for (const PassParameterDesc& parameter : pass.parameters) values.push_back(&parameter.value);
+    std::ranges::sort(values);
     const auto mark = [&](const Expr& expr) {
-      if (!values.contains(&expr)) markStructural(model, scope, expr);
+      if (!std::ranges::binary_search(values, &expr)) markStructural(model, scope, expr);
     };
     visitMentions(*scope.desc, mark, [](const RefDesc&) {});
   }
@@ -230,7 +230,7 @@ std::uint32_t boundTo(Model& model, Entity& input, std::uint32_t index) {
   if (parent)
     for (const auto& [own, ref] : input.scope->stanza->include->binds)
       if (own == name) bind = &ref;
-  std::uint32_t target = bind     ? findEntityOrReport(model, *parent, *bind, "\"bind\" names")
+  std::uint32_t target = bind     ? findEntityOrReport(model, *parent, *bind, "\"bind\"", "names")
                          : parent ? findEntity(model, *parent, name, false)
                                   : kNone;
   if (target == kNone && !bind && parent && !input.desc->optional && mendDeclarations(model))
@@ -395,7 +395,7 @@ std::string hintForResource(const Model& model, const Scope& scope, std::string_
 }  // namespace
 
 std::uint32_t findEntityOrReport(Model& model, Scope& scope, const RefDesc& ref, std::string_view who,
-                                 std::string_view pass) {
+                                 std::string_view verb, std::string_view pass) {
   const std::string& name = ref.name;
   const bool import = ref.import, own = scope.resources.contains(name);
   const std::size_t before = model.diagnostics.errorCount();
@@ -417,7 +417,7 @@ std::uint32_t findEntityOrReport(Model& model, Scope& scope, const RefDesc& ref,
   }
   const std::string written = (import ? "@" : "") + name;
   report(model, import ? Code::unknownImport : Code::unknownResource, ref.place,
-         fmt::format("{} the unknown {} '{}'", who, import ? "import" : "resource", written),
+         fmt::format("{} {} the unknown {} '{}'", who, verb, import ? "import" : "resource", written),
          {.hint = std::move(hint), .resource = written, .pass = std::string(pass)});
   return kNone;
 }
