@@ -401,7 +401,7 @@ std::uint32_t findEntityOrReport(Model& model, Scope& scope, const RefDesc& ref,
   const std::size_t before = model.diagnostics.errorCount();
   const std::uint32_t found = findEntity(model, scope, name, import);
   if (found != kNone || isOver(model) || model.diagnostics.errorCount() > before) return found;
-  if (!import && mendDeclarations(model)) return findEntityOrReport(model, scope, ref, who, pass);
+  if (!import && mendDeclarations(model)) return findEntityOrReport(model, scope, ref, who, verb, pass);
   // Its declaration was reported, or it is an input with nothing behind it, which was.
   if (isUnread(scope, name) || (!import && own)) return kNone;
   std::string hint = !import ? hintForResource(model, scope, name)
