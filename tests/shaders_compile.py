@@ -59,20 +59,14 @@ def define_name(name):
     return re.sub(r"\W", "_", name).upper()
 
 
-def laid_over(below, own):
-    """What `like` means: objects merge, null takes away."""
-    if not isinstance(below, dict) or not isinstance(own, dict):
-        return own
-    merged = {key: laid_over(below.get(key), value) for key, value in own.items() if value is not None}
-    return {key: merged.get(key, value) for key, value in {**below, **merged}.items() if own.get(key, value) is not None}
-
-
 def passes_of(graph):
-    desc, known = json.loads(strip_comments(graph.read_text())), {}
+    """Each with what it has of sets."""
+    desc = json.loads(strip_comments(graph.read_text()))
     for stanza in desc.get("passes", []):
-        if "like" in stanza:
-            stanza = laid_over(known[stanza["like"]], stanza)
-        known[stanza.get("name")] = stanza
+        used = stanza.get("use", [])
+        for name in [used] if isinstance(used, str) else used:
+            for group, held in desc["sets"][name].items():
+                stanza[group] = {**held, **stanza.get(group, {})}
         if "shader" in stanza:
             yield stanza, desc
 

@@ -520,7 +520,9 @@ class IsfGraphWriter {
     if (!about.empty()) graph["description"] = about;
     if (!parameters_.empty()) graph["parameters"] = parameters_;
     if (!lets_.empty()) graph["let"] = lets_;
-    graph.update({{"resources", resources_}, {"passes", passes_}, {"present", picture_}});
+    graph["resources"] = resources_;
+    if (shares_) graph["sets"] = {{"controls", {{"parameters", uniforms_}}}};
+    graph.update({{"passes", passes_}, {"present", picture_}});
     return graphText(graph);
   }
 
@@ -724,27 +726,28 @@ class IsfGraphWriter {
 
   void addPasses() {
     std::set<std::string, std::less<>> used;
-    std::string first;
+    const auto isDrawn = [&](const IsfPass& pass) {  // the last pass draws the picture
+      return !pass.target.text.empty() || &pass == &header_.passes.back();
+    };
+    shares_ = !uniforms_.empty() && std::ranges::count_if(header_.passes, isDrawn) > 1;
     for (std::size_t i = 0; i < header_.passes.size(); ++i) {
+      if (!isDrawn(header_.passes[i])) continue;
       const PlacedText& drawn = header_.passes[i].target;
-      if (drawn.text.empty() && i + 1 < header_.passes.size()) continue;  // the last pass draws the picture
       const std::string target = drawn.text.empty() ? picture_ : names_.of(drawn.text);
       const std::string name = freshName(used, "draw_" + target);
       Json pass = {{"name", name}};
-      if (!first.empty())
-        pass["like"] = first;
-      else if (shader_.vertex.empty())
+      if (shader_.vertex.empty())
         pass.update({{"type", "fullscreen"}, {"shader", shader_.fragment}});
       else
         pass.update({{"type", "draw"},
                      {"geometry", "quad"},
                      {"instances", 1},
                      {"shader", {{"vertex", shader_.vertex}, {"fragment", shader_.fragment}}}});
+      if (shares_) pass["use"] = "controls";
       if (Json reads = readsOf(); !reads.empty()) pass["read"] = std::move(reads);
       pass["write"] = {{kIsfOutput, target}};
       pass["defines"] = {{"PASSINDEX", i}};
-      if (first.empty() && !uniforms_.empty()) pass["parameters"] = uniforms_;
-      if (first.empty()) first = name;
+      if (!shares_ && !uniforms_.empty()) pass["parameters"] = uniforms_;
       passes_.push_back(pass);
       if (!drawn.text.empty()) targets_.find(drawn.text)->second.written = true;
     }
@@ -762,12 +765,11 @@ class IsfGraphWriter {
   const ConvertOptions& options_;
   text::Diagnostics& diagnostics_;
   std::string picture_, nothing_;
-  Json passes_ = Json::array();
-  Json parameters_ = Json::object(), lets_ = Json::object(), resources_ = Json::object(),
-       uniforms_ = Json::object();
+  Json passes_ = Json::array(), parameters_ = Json::object(), lets_ = Json::object(),
+       resources_ = Json::object(), uniforms_ = Json::object();
   std::map<std::string, Target, std::less<>> targets_;
   std::map<std::string, std::string, std::less<>> values_, chosen_;  // by input: in expressions; of images
-  bool shown_ = false;
+  bool shown_ = false, shares_ = false;                              // several passes have the parameters
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "app/lsp/answers.h"
 #include "engine/graph/language/keys.h"
+#include "engine/graph/read/read_context.h"
 #include "engine/graph/read/ref_parse.h"
 #include "engine/graph/subresource.h"
 #include "engine/runtime/prepare/program_request.h"
@@ -157,19 +158,33 @@ class Completer {
   }
 
   void keys() {
-    using enum glsl::Role;
     for (KeyDoc& key : keysAt(registry_, spot_))
       add(std::move(key.key), ItemKind::property, std::move(key.doc));
     const JsonValue* const stanza = spot_.stanza();
     const std::string_view group = spot_.keys.empty() ? "" : spot_.keys.back();
     if (spot_.keys.size() == 1 && group == "set") names(Kind::variable);
     if (stanza && spot_.keys.size() == 3) {
-      if (group == "read") slots(*stanza, {sampler, image, uniform_block, storage_block});
-      if (group == "write" || group == "modify") slots(*stanza, {output, image, storage_block});
-      if (group == "parameters") shaderNames(*stanza, {member});
+      slotsIn(*stanza, group);
       if (group == "bind") inputs(*stanza);
     }
+    if (spot_.keys.size() == 3 && spot_.keys[0] == "sets") keysOfSet();
     drop(spot_.value());
+  }
+
+  // Of a set: what the shaders of passes that use it have.
+  void keysOfSet() {
+    const JsonValue* passes = text_.json().root.find("passes");
+    for (const JsonValue& stanza : passes ? passes->items : std::vector<JsonValue>())
+      if (const JsonValue* use = stanza.find("use");
+          use && std::ranges::count(graph::stringsOf(*use), spot_.keys[1], &JsonValue::text) > 0)
+        slotsIn(stanza, spot_.keys[2]);
+  }
+
+  void slotsIn(const JsonValue& stanza, std::string_view group) {
+    using enum glsl::Role;
+    if (group == "read") slots(stanza, {sampler, image, uniform_block, storage_block});
+    if (group == "write" || group == "modify") slots(stanza, {output, image, storage_block});
+    if (group == "parameters") shaderNames(stanza, {member});
   }
 
   void slots(const JsonValue& stanza, std::initializer_list<glsl::Role> roles) {
@@ -181,7 +196,7 @@ class Completer {
       if (const JsonValue* slots = stanza.find(group)) drop(*slots);
   }
 
-  // The files of the program of a stanza, which may take it from another.
+  // The files of the program of a stanza; of an overlay, of the pass that it changes.
   std::vector<std::string> shaderFilesOf(const JsonValue& stanza) const {
     if (const JsonValue* const shader = stanza.find("shader")) {
       const bool pair = shader->is(Type::object);
@@ -191,8 +206,7 @@ class Completer {
     }
     for (const Graph* graph : workspace_.graphsOf(text_.path()))
       for (const Program& program : workspace_.passesOf(*graph))
-        if (program.name == textOf(stanza, "like") || program.name == textOf(stanza, "name"))
-          return workspace_.filesOf(program);
+        if (program.name == textOf(stanza, "name")) return workspace_.filesOf(program);
     return {};
   }
 
@@ -219,10 +233,13 @@ class Completer {
   // Names of the graphs that have this file, as it calls them, and what it declares now.
   void names(Kind kind) {
     const JsonValue& root = text_.json().root;
-    for (const char* section : {"resources", "parameters", "let"})
-      if (const JsonValue* found = root.find(section); found && (*section == 'r') == (kind == Kind::resource))
-        for (const JsonMember& each : found->members)
-          if (kind != Kind::pass) add(each.key, ItemKind::variable);
+    constexpr std::pair<const char*, Kind> kSections[] = {{"resources", Kind::resource},
+                                                          {"sets", Kind::set},
+                                                          {"parameters", Kind::variable},
+                                                          {"let", Kind::variable}};
+    for (const auto& [section, holds] : kSections)
+      if (const JsonValue* found = root.find(section); found && holds == kind)
+        for (const JsonMember& each : found->members) add(each.key, ItemKind::variable);
     for (const Graph* graph : workspace_.graphsOf(text_.path()))
       for (const graph::NameUse& use : graph->uses) {
         // Of a graph that includes this file, what it declares itself: an expression here may use its parameters.
@@ -248,7 +265,8 @@ class Completer {
     if (pass && way[2] == "shader") shaders(key);
     if (pass && key == "geometry")
       for (const graph::GeometryType& type : registry_.geometries) add(type.name, ItemKind::value);
-    if (pass && (key == "like" || key == "before" || key == "after")) names(Kind::pass);
+    if (pass && (key == "before" || key == "after")) names(Kind::pass);
+    if (pass && key == "use") names(Kind::set);
     if (key == "list") addWords(registry_.drawLists);
     if (key == "import") addTypes(registry_.imports);
     for (const graph::ImportType& type : registry_.imports)

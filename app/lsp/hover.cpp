@@ -50,6 +50,13 @@ std::string ofNamed(const Workspace& workspace, const Named& named) {
           text = fenced("glsl", shader->statementOf(*found));
     return text + ofKey(*named.program, named.key);
   }
+  if (named.use->kind == graph::NameUse::Kind::set) {
+    const auto declared = workspace.locate(named.use->declared, "");
+    const auto file = declared ? workspace.texts().of(declared->path) : nullptr;
+    if (!file) return "";
+    const JsonValue& set = text::valueAt(file->json().root, declared->range.begin);
+    return fenced("json", std::string_view(file->bytes()).substr(set.begin, set.end - set.begin));
+  }
   text::Diagnostics ignored;
   const std::string& full = named.use->full;
   const auto& plan = named.graph->plan;
@@ -124,7 +131,8 @@ Json symbolsOf(const Text& text) {
   if (!text.isJson()) return all;
   for (const JsonMember& section : text.json().root.members) {
     const bool passes = section.key == "passes";
-    if (!passes && section.key != "parameters" && section.key != "let" && section.key != "resources")
+    if (!passes && section.key != "parameters" && section.key != "let" && section.key != "resources" &&
+        section.key != "sets")
       continue;
     Json children = Json::array();
     for (const JsonMember& child : section.value.members) {

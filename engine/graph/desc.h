@@ -142,9 +142,10 @@ struct ResourceDesc {
 
 struct SlotDesc {
   std::string name;
-  Place place;  // of its key; of "like" where a pass with another shader takes it over
+  Place place;  // of its key
   Access access = Access::read;
   RefDesc ref;
+  bool ofSet = false;
 };
 
 struct RangeDesc {
@@ -170,12 +171,18 @@ struct IncludeDesc {
   std::shared_ptr<const struct GraphDesc> graph;  // null when it could not be read
 };
 
+// A set that a pass names in "use": what it holds is among the slots, parameters, defines and state of the pass.
+struct UsedSet {
+  std::string name;
+  Place place;     // in "use"
+  Place declared;  // of its key under "sets"
+};
+
 struct PassDesc {
   std::string name;  // for an include: its prefix
   Place place;       // of the stanza's opening brace
   Place namePlace;
-  std::string like;  // what "like" says
-  Place likePlace;
+  std::vector<UsedSet> uses;
   std::optional<IncludeDesc> include;
   std::string type;
   Place typePlace;
@@ -246,6 +253,7 @@ struct GraphDesc {
   std::vector<ParameterDesc> parameters;
   std::vector<NamedExpr> lets;
   std::vector<ResourceDesc> resources;
+  std::vector<std::pair<std::string, Place>> slotSets;  // "sets", with the places of their keys
   std::vector<PassDesc> passes;
   std::optional<RefDesc> present;
   std::vector<OutputDesc> outputs;

@@ -130,7 +130,7 @@ struct SlotSpec {
   Sampler sampler;
   bool array = false;  // true when the resource was declared with "array", even of one element
   bool optional = false;
-  bool inherited = false;  // by "like", and the pass has another shader: `place` is that of "like"
+  bool ofSet = false;  // other passes may have it, too
 };
 
 struct UniformSpec {

@@ -4,7 +4,7 @@
 // Ranges: W001-W019 JSON and files, W020-W039 expressions and references, W040-W099 graph (expansion, validation),
 // W100-W149 shaders and GL, W150-W179 assets and scenes, W180-W199 command line, runtime and outputs, W200-W219 limits, W220-W239 pipelines of other
 // programs.
-// Numbers are never reused; W010 (overlays are not supported yet), W088 (reads of what timed passes made) and W093-W099 (workloads) are retired. Does not hold the message texts: those
+// Numbers are never reused; W010 (overlays are not supported yet), W027 (like a pass that is not there), W088 (reads of what timed passes made) and W093-W099 (workloads) are retired. Does not hold the message texts: those
 // stand where the mistake is found.
 #pragma once
 
@@ -40,7 +40,7 @@ namespace weft::text {
   X(W024, noFiniteResult,            "no finite result")                                            \
   X(W025, notAChoice,                "not one of the choices")                                      \
   X(W026, badFunctionCall,           "wrong function call")                                         \
-  X(W027, likeNothing,               "like a pass that is not there")                               \
+  X(W028, unknownSet,                "unknown set")                                                 \
   /* graph */                                                                                       \
   X(W040, unknownResource,           "unknown resource")                                            \
   X(W041, unknownPassType,           "unknown pass type")                                           \

@@ -156,7 +156,7 @@ std::optional<std::string> overlayOf(const GraphDesc& desc, std::span<const std:
 
 // The key of a pass or include behind which "enabled" is looked for.
 const char* lastOfHead(const JsonValue& stanza) {
-  for (const char* key : {"shader", "type", "like", "as"})
+  for (const char* key : {"shader", "type", "as"})
     if (stanza.find(key)) return key;
   return "include";
 }

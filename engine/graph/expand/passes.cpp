@@ -278,7 +278,7 @@ class PassWalk {
     slot.array = work.array;
     slot.optional = work.slot->ref.optional;
     slot.place = work.slot->place;
-    slot.inherited = text::isSamePlace(slot.place, stanza.desc.likePlace);
+    slot.ofSet = work.slot->ofSet;
     slot.firstUse = static_cast<std::uint32_t>(graph_.uses.size());
     const bool used = work.isConnected() || (work.state == State::missing && work.entity != kNone &&
                                              work.slot->access != Access::write);

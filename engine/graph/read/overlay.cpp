@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <optional>
-#include <unordered_map>
+#include <span>
 #include <utility>
 
 #include "engine/graph/language/suffix.h"
@@ -52,69 +51,6 @@ const JsonValue* calledBy(const JsonValue& stanza) {
   return nullptr;
 }
 
-// Objects merge, null takes a member away, anything else replaces what is there.
-struct Merge {
-  bool keepsNull = false;   // null stays where nothing is there
-  bool takesPlace = false;  // a merged object has the place of the one that is laid over it
-  std::function<void(const JsonMember& over)> nothingThere{};  // for null to take away
-
-  void run(JsonValue& into, const JsonMember& over) const {
-    JsonMember* there = memberOf(into, over.key);
-    if (over.value.is(Type::null) && !keepsNull) {
-      if (there)
-        into.members.erase(into.members.begin() + (there - into.members.data()));
-      else
-        nothingThere(over);
-      return;
-    }
-    if (!there) there = &into.members.emplace_back(over.key, over.place);
-    if (!over.value.is(Type::object)) {
-      *there = over;
-      return;
-    }
-    if (!there->value.is(Type::object)) {
-      *there = over;
-      there->value.members.clear();
-    }
-    if (takesPlace) {
-      there->place = over.place;
-      there->value.place = over.value.place;
-    }
-    for (const JsonMember& member : over.value.members) run(there->value, member);
-  }
-};
-
-void reportNothing(ReadContext& said, const JsonMember& null) {
-  said.error(Code::nothingToChange, null.place,
-             fmt::format("null takes \"{}\" away, which is not there", null.key))
-      .hint = "leave it out";
-}
-
-// `other` with `stanza` over it.
-JsonValue mergeLike(const JsonValue& other, const JsonValue& stanza, const JsonValue& like,
-                    ReadContext& said) {
-  JsonValue made = other;
-  made.place = stanza.place;
-  // A parameter is declared once: who is like its pass takes the value.
-  if (JsonMember* parameters = memberOf(made, "parameters"))
-    for (JsonMember& member : parameters->value.members)
-      if (member.value.is(Type::object)) {
-        member.value = like;
-        member.value.text = fmt::format("${}.{}", like.text, member.key);
-      }
-  // With another shader, a slot, parameter or define of the other that does not fit is a mistake of this pass, at its "like".
-  if (stanza.find("shader"))
-    for (const char* group : {"read", "write", "modify", "parameters", "defines"})
-      if (JsonMember* names = memberOf(made, group))
-        for (JsonMember& member : names->value.members) member.place = like.place;
-  const Merge merge{.takesPlace = true, .nothingThere = [&](const JsonMember& over) {
-                      // One of an overlay may be about what the stanza itself says.
-                      if (over.place.file == stanza.place.file) reportNothing(said, over);
-                    }};
-  for (const JsonMember& member : stanza.members) merge.run(made, member);
-  return made;
-}
-
 }  // namespace
 
 std::string includePrefix(const JsonValue& stanza) {
@@ -125,42 +61,6 @@ std::string includePrefix(const JsonValue& stanza) {
 std::string stanzaName(const JsonValue& stanza) {
   const JsonValue* name = stanza.find("name");
   return name ? name->text : includePrefix(stanza);
-}
-
-void writeOut(std::vector<JsonValue>& stanzas, text::Diagnostics& diagnostics) {
-  ReadContext said(diagnostics);
-  std::unordered_map<std::string, const JsonValue*> above;  // written out, by name
-  std::vector<std::string> names;
-  std::uint64_t values = 0;
-  for (JsonValue& stanza : stanzas) {
-    if (!stanza.is(Type::object) || stanza.find("include")) continue;
-    said.pass = stanzaName(stanza);
-    if (const JsonValue* like = stanza.find("like")) {
-      const auto found = above.find(like->text);
-      std::optional<JsonValue> whole;
-      if (said.expect(*like, Type::string, "\"like\"") && found == above.end()) {
-        auto& d = said.error(
-            Code::likeNothing, *like,
-            fmt::format("no pass above has the name '{}', which '{}' is like", like->text, said.pass));
-        d.expected = "the name of a pass above it in this file";
-        d.hint = text::nearestHint(like->text, names);
-      } else if (found != above.end() && found->second->is(Type::object)) {
-        values += valuesOf(*found->second);
-        if (values > text::raised(text::kMaxValues)) {
-          text::reportLimit(diagnostics, like->place, "passes that are like others hold too many values",
-                            text::kMaxValues, "values");
-          for (JsonValue& each : stanzas) each.type = Type::absent;
-          return;
-        }
-        whole = mergeLike(*found->second, stanza, *like, said);
-      }
-      if (whole)
-        stanza = *std::move(whole);
-      else
-        stanza.type = Type::absent;
-    }
-    if (!said.pass.empty() && above.try_emplace(said.pass, &stanza).second) names.push_back(said.pass);
-  }
 }
 
 // ---- one overlay, laid over a source and the files that it includes ----
@@ -213,7 +113,7 @@ std::vector<std::string> writtenBy(const JsonValue& stanza) {
 bool declares(std::string_view section, const JsonMember& entry) {
   if (entry.value.is(Type::null)) return false;
   if (section == "resources") return !kindOf(entry.value).empty();
-  if (section == "let" || !entry.value.is(Type::object)) return true;
+  if (section == "let" || section == "sets" || !entry.value.is(Type::object)) return true;
   const JsonValue* initial = entry.value.find("default");
   return initial && (!initial->is(Type::string) || entry.value.find("choices") || entry.value.find("type"));
 }
@@ -221,7 +121,7 @@ bool declares(std::string_view section, const JsonMember& entry) {
 class Applier {
  public:
   Applier(SourceLoader& loader, Source& target, text::Diagnostics& diagnostics)
-      : loader_(loader), target_(target), said_(diagnostics) {}
+      : loader_(loader), target_(target), diagnostics_(diagnostics), said_(diagnostics) {}
 
   // Passes first: other sections may reach into what the overlay includes.
   void run(const JsonValue& overlay, bool preset) {
@@ -237,7 +137,8 @@ class Applier {
     for (const JsonMember& member : overlay.members) {
       if (stopped()) return;
       const JsonValue& value = member.value;
-      const bool section = member.key == "parameters" || member.key == "let" || member.key == "resources";
+      const bool section = member.key == "parameters" || member.key == "let" || member.key == "resources" ||
+                           member.key == "sets";
       if (member.key == "extends" || member.key == "passes" ||
           (preset && (member.key == "name" || member.key == "description")))
         continue;
@@ -257,10 +158,29 @@ class Applier {
  private:
   bool stopped() const { return tooMuch_ || !said_.goesOn(); }
 
-  // In a pass that is like another, null stays, for the keys of the other.
-  void merge(JsonValue& into, const JsonMember& over, bool keepsNull = false) {
-    Merge{.keepsNull = keepsNull, .nothingThere = [&](const JsonMember& null) { reportNothing(said_, null); }}
-        .run(into, over);
+  // Objects merge, null takes a member away, anything else replaces what is there.
+  void merge(JsonValue& into, const JsonMember& over) {
+    JsonMember* there = memberOf(into, over.key);
+    if (over.value.is(Type::null)) {
+      if (there)
+        into.members.erase(into.members.begin() + (there - into.members.data()));
+      else
+        said_
+            .error(Code::nothingToChange, over.place,
+                   fmt::format("null takes \"{}\" away, which is not there", over.key))
+            .hint = "leave it out";
+      return;
+    }
+    if (!there) there = &into.members.emplace_back(over.key, over.place);
+    if (!over.value.is(Type::object)) {
+      *there = over;
+      return;
+    }
+    if (!there->value.is(Type::object)) {
+      *there = over;
+      there->value.members.clear();
+    }
+    for (const JsonMember& member : over.value.members) merge(there->value, member);
   }
 
   // ---- what is below ----
@@ -315,12 +235,59 @@ class Applier {
     return spot;
   }
 
-  // "like" names a pass of the same file, which an overlay calls by its whole name or as that file does.
-  JsonValue withLike(JsonValue stanza, const std::vector<std::string>& below) const {
-    if (JsonMember* like = memberOf(stanza, "like"))
-      if (Spot other = locate("passes", like->value.text); other.below == below)
-        like->value.text = std::move(other.own);
+  // "use" names sets of the file of the pass, which an overlay calls by their whole names or as that file does.
+  JsonValue withSets(JsonValue stanza, const std::vector<std::string>& below) {
+    if (JsonMember* use = memberOf(stanza, "use"))
+      for (JsonValue& name :
+           use->value.is(Type::string) ? std::span(&use->value, 1) : std::span(use->value.items))
+        if (Spot set = locate("sets", name.text); set.below == below) {
+          if (set.index)
+            target_.named.push_back({name.text, name.place, set.declared});
+          else
+            name.place.column += static_cast<std::uint32_t>(name.text.size() - set.own.size());
+          name.text = std::move(set.own);
+        }
     return stanza;
+  }
+
+  // Where an overlay changes what a pass has of a set, the pass gets all of the set as its own, and uses it no more.
+  void makeOwn(const Source& source, JsonValue& stanza, const JsonValue& over) {
+    const JsonValue *use = stanza.find("use"), *sets = sectionOf(source, "sets");
+    if (!use || !sets || over.find("use")) return;
+    std::vector<JsonValue> kept;
+    JsonValue own = stanza;
+    for (const JsonValue& name : stringsOf(*use)) {
+      const JsonValue* set = sets->find(name.text);
+      const auto changes = [&](const JsonMember& group) {
+        const JsonValue* found = over.find(group.key);
+        return found &&
+               (!found->is(Type::object) || std::ranges::any_of(found->members, [&](const auto& member) {
+                 return group.value.find(member.key) != nullptr;
+               }));
+      };
+      if (!set || std::ranges::none_of(set->members, changes)) {
+        kept.push_back(name);
+        continue;
+      }
+      if (copied_ += valuesOf(*set); copied_ > text::raised(text::kMaxValues)) {
+        text::reportLimit(diagnostics_, over.place, "overlays change passes that have too much of sets",
+                          text::kMaxValues, "values");
+        tooMuch_ = true;
+        return;
+      }
+      for (const JsonMember& group : set->members)
+        if (JsonMember* there = memberOf(own, group.key))
+          there->value.members.insert(there->value.members.begin(), group.value.members.begin(),
+                                      group.value.members.end());
+        else
+          own.members.push_back(group);
+    }
+    JsonMember& left = *memberOf(own, "use");
+    if (kept.empty())
+      own.members.erase(own.members.begin() + (&left - own.members.data()));
+    else if (left.value.is(Type::array))
+      left.value.items = std::move(kept);
+    stanza = std::move(own);
   }
 
   // Adds every name in a section of a source and of all that it includes, its own first, without inputs: for hints. Looks at
@@ -467,7 +434,7 @@ class Applier {
     if (!source) return;
     std::vector<JsonValue>& items = passesOf(*source);
     std::size_t at = beside.index ? *beside.index + (after ? 1 : 0) : items.size();
-    JsonValue placed = withLike(withoutPlace(stanza, own), beside.below);
+    JsonValue placed = withSets(withoutPlace(stanza, own), beside.below);
     if (beside.index && moved.index) {
       const auto there = items.begin() + static_cast<std::ptrdiff_t>(*moved.index);
       if (!mergeStanza(*source, *there, stanza, beside.below)) return;
@@ -499,7 +466,7 @@ class Applier {
                         ? "name a pass of its own file, or remove it and write a new one here"
                         : fmt::format("call it '{}{}'", whole, said_.pass.substr(said_.pass.rfind('.') + 1)));
     }
-    return stanza.find("type") || stanza.find("include") || stanza.find("like") ||
+    return stanza.find("type") || stanza.find("include") ||
            refuse(named ? *named : stanza, fmt::format("pass '{}' is not there to be moved", said_.pass),
                   meantBy(said_.pass, "passes").hint);
   }
@@ -552,16 +519,18 @@ class Applier {
         there.members.push_back(std::move(as));
       }
     }
-    const JsonValue over = withLike(withoutPlace(stanza, ""), below);
-    const bool keepsNull = there.find("like") != nullptr;
-    for (const JsonMember& member : over.members) merge(there, member, keepsNull);
-    return true;
+    const JsonValue over = withSets(withoutPlace(stanza, ""), below);
+    makeOwn(source, there, over);
+    for (const JsonMember& member : over.members) merge(there, member);
+    return !tooMuch_;
   }
 
   SourceLoader& loader_;
   Source& target_;
+  text::Diagnostics& diagnostics_;
   ReadContext said_;             // with the pass or resource that is being applied
   std::set<const Source*> own_;  // copies that only this overlay has seen
+  std::uint64_t copied_ = 0;     // values of sets, into passes
   bool tooMuch_ = false;         // reported; nothing more is applied
 };
 
@@ -602,8 +571,7 @@ bool isWholeGraph(const JsonValue& root) {
   const JsonValue* passes = root.find("passes");
   if (!passes || passes->items.empty()) return false;
   return std::ranges::all_of(passes->items, [](const JsonValue& stanza) {
-    return (stanza.find("type") || stanza.find("include") || stanza.find("like")) && !stanza.find("before") &&
-           !stanza.find("after");
+    return (stanza.find("type") || stanza.find("include")) && !stanza.find("before") && !stanza.find("after");
   });
 }
 

@@ -1,6 +1,5 @@
-// Lays overlays over graph files, as JSON, before they are read as graphs: a file over the one that it `extends`, presets over
-// the result, and a pass over the one that it is `like`. Every value keeps the file, line and column at which it was
-// written. An overlay may change an included file, whose names it gives whole; the changed copy is kept beside the include.
+// Lays overlays over graph files, as JSON, before they are read as graphs: a file over the one that it `extends`, and presets
+// over the result. Every value keeps the file, line and column at which it was written. An overlay may change an included file, whose names it gives whole; the changed copy is kept beside the include.
 #pragma once
 
 #include <map>
@@ -85,9 +84,5 @@ std::string_view kindOf(const text::JsonValue& resource);
 std::string includePrefix(const text::JsonValue& stanza);
 // Name of a pass stanza, else the prefix of an include (which an overlay may also call by "name"). "" when it has none.
 std::string stanzaName(const text::JsonValue& stanza);
-
-// Writes out each of the stanzas of one file that is "like" one above it: all keys of the other, with its own laid over them.
-// A parameter that the other declares is shared. After a report a stanza becomes `absent`.
-void writeOut(std::vector<text::JsonValue>& stanzas, text::Diagnostics& diagnostics);
 
 }  // namespace weft::graph

@@ -19,6 +19,9 @@ using text::Code;
 using text::Diagnostics;
 using Type = JsonValue::Type;
 
+// Slots, parameters and defines of the passes of one file that use sets.
+constexpr std::uint64_t kMaxShared = std::uint64_t{1} << 18;
+
 class GraphReader {
  public:
   GraphReader(Diagnostics& diagnostics, const FileTexts& given)
@@ -62,7 +65,6 @@ class GraphReader {
     if (!context.expect(source.root, Type::object, "a graph") || isOtherFile(source.root, context))
       return nullptr;
     JsonValue root = source.root;
-    if (JsonMember* passes = memberOf(root, "passes")) writeOut(passes->value.items, diagnostics_);
     checkShape(root, diagnostics_);
     auto graph = std::make_shared<GraphDesc>();
     graph->path = source.path;
@@ -85,9 +87,14 @@ class GraphReader {
       if (std::optional<Value> value = valueOf(member.value))
         graph->sets.push_back({member.key, origin, member.place, member.value.place, *std::move(value)});
       else
-        context.wrongType(member.value, fmt::format("the value of '{}'", member.key),
-                          "a number, true or false, a word, a path, or a list of two to four numbers");
+        context
+            .wrongType(member.value, fmt::format("the value of '{}'", member.key),
+                       "a number, true or false, a word, a path, or a list of two to four numbers")
+            .hint = member.value.is(Type::object) ? "what passes share is declared under \"sets\"" : "";
     }
+    for (const JsonMember& member : membersIn(root, "sets"))
+      if (context.checkName(member.key, member.place, {"a set"}))
+        graph->slotSets.emplace_back(member.key, member.place);
     readPasses(context, source, root, *graph);
     graph->present = context.ref(root, "present");
     for (const JsonMember& member : membersIn(root, "outputs")) {
@@ -134,15 +141,23 @@ class GraphReader {
   }
 
   void readPasses(ReadContext& context, const Source& source, const JsonValue& root, GraphDesc& graph) {
-    const JsonValue* passes = valueIn(root, "passes");
+    static const JsonValue none;
+    const JsonValue *passes = valueIn(root, "passes"), *sets = valueIn(root, "sets");
     ReadContext::Seen seen;
+    std::uint64_t shared = 0;
     for (std::size_t i = 0; passes && i < passes->items.size() && context.goesOn(); ++i) {
       const JsonValue& stanza = passes->items[i];
-      std::optional<PassDesc> pass = readPass(context, stanza);
+      std::optional<PassDesc> pass = readPass(context, stanza, sets ? *sets : none);
       const JsonValue* name = source.root.find("passes")->items[i].find("name");
       if (name && name->is(Type::string) && (!pass || (!pass->include && pass->name != name->text)))
         graph.unread.push_back(name->text);
       if (!pass) continue;
+      if (!pass->uses.empty()) shared += pass->slots.size() + pass->parameters.size() + pass->defines.size();
+      if (shared > text::raised(kMaxShared)) {
+        text::reportLimit(diagnostics_, stanza.place, "passes that use sets hold too much", kMaxShared,
+                          "slots, parameters and defines of such passes");
+        return;
+      }
       context.pass = pass->name;
       context.checkFresh(seen, pass->name, pass->namePlace, "pass");
       context.pass.clear();

@@ -85,7 +85,8 @@ bool ReadContext::checkFresh(Seen& seen, const std::string& name, const Place& p
   const auto [before, fresh] = seen.try_emplace(name, place);
   if (!fresh)
     error(Code::duplicateName, place, fmt::format("{} '{}' is declared twice", what, name)).hint =
-        fmt::format("rename one; the first stands at {}:{}", before->second.line, before->second.column);
+        fmt::format("rename one or leave it out; the first stands at {}:{}", before->second.line,
+                    before->second.column);
   return fresh;
 }
 

@@ -81,7 +81,7 @@ std::optional<ParameterDesc> readParameter(ReadContext& context, const JsonMembe
 // A number, a boolean, a word or path, a list of two to four numbers; nothing, without a report, for anything else.
 std::optional<Value> valueOf(const JsonValue& value);
 std::optional<ResourceDesc> readResource(ReadContext& context, const JsonMember& member);
-// Include stanzas come back with include->graph still null.
-std::optional<PassDesc> readPass(ReadContext& context, const JsonValue& value);
+// With what it uses of `sets`, those of its file. Include stanzas come back with include->graph still null.
+std::optional<PassDesc> readPass(ReadContext& context, const JsonValue& value, const JsonValue& sets);
 
 }  // namespace weft::graph

@@ -316,7 +316,6 @@ struct TextKey {
   Place PassDesc::*place;
 };
 constexpr TextKey kPassTexts[] = {{"name", &PassDesc::name, &PassDesc::namePlace},
-                                  {"like", &PassDesc::like, &PassDesc::likePlace},
                                   {"type", &PassDesc::type, &PassDesc::typePlace},
                                   {"shader", &PassDesc::shader, &PassDesc::shaderPlace},
                                   {"list", &PassDesc::list, &PassDesc::listPlace},
@@ -430,7 +429,7 @@ void readParameters(ReadContext& context, const JsonValue& value, ReadContext::S
   }
 }
 
-void readState(ReadContext& context, const JsonValue& value, PassDesc& out) {
+void readState(ReadContext& context, const JsonValue& value, ReadContext::Seen& keys, PassDesc& out) {
   const auto add = [&](std::string name, const JsonMember& member) {
     // A word of another API is often no expression: ">=".
     const std::string hint =
@@ -444,10 +443,38 @@ void readState(ReadContext& context, const JsonValue& value, PassDesc& out) {
       out.state.push_back({std::move(name), member.place, std::move(expr)});
   };
   for (const JsonMember& member : membersIn(value, "state")) {
-    if (std::ranges::find(kStateKeys, member.key, &KeySpec::key) == kStateKeys.end()) continue;
+    if (std::ranges::find(kStateKeys, member.key, &KeySpec::key) == kStateKeys.end() ||
+        !context.checkFresh(keys, member.key, member.place, "the state"))
+      continue;
     if (!member.value.is(Type::object)) add(member.key, member);
     for (const JsonMember& slot : member.value.members) add("blend." + slot.key, slot);
   }
+}
+
+// The sets that a pass uses, and the pass itself: what each of them holds is what the pass has.
+std::vector<const JsonValue*> partsOf(ReadContext& context, const JsonValue& pass, const JsonValue& sets,
+                                      PassDesc& out) {
+  std::vector<const JsonValue*> parts;
+  const JsonValue* use = valueIn(pass, "use");
+  for (const JsonValue& name : use ? stringsOf(*use) : std::span<const JsonValue>()) {
+    if (name.is(Type::absent)) continue;
+    const auto set = std::ranges::find(sets.members, name.text, &JsonMember::key);
+    if (set == sets.members.end()) {
+      std::vector<std::string> names;
+      for (const JsonMember& each : sets.members) names.push_back(each.key);
+      auto& d = context.error(Code::unknownSet, name, fmt::format("\"sets\" has no '{}'", name.text));
+      d.expected = "the name of a set of this file";
+      d.hint = text::nearestHint(name.text, names);
+    } else if (std::ranges::find(parts, &set->value) != parts.end()) {
+      context.error(Code::duplicateName, name, fmt::format("the set '{}' is used twice", name.text)).hint =
+          "name it once";
+    } else {
+      out.uses.push_back({name.text, name.place, set->place});
+      parts.push_back(&set->value);
+    }
+  }
+  parts.push_back(&pass);
+  return parts;
 }
 
 void readGeometry(ReadContext& context, const JsonValue& value, PassDesc& out) {
@@ -461,7 +488,7 @@ void readGeometry(ReadContext& context, const JsonValue& value, PassDesc& out) {
 }
 
 // False when the pass cannot be used.
-bool readPassInto(ReadContext& context, const JsonValue& value, PassDesc& out) {
+bool readPassInto(ReadContext& context, const JsonValue& value, const JsonValue& sets, PassDesc& out) {
   for (const TextKey& each : kPassTexts)
     if (const JsonValue* found = value.find(each.key)) {
       out.*each.text = found->text;
@@ -487,18 +514,21 @@ bool readPassInto(ReadContext& context, const JsonValue& value, PassDesc& out) {
   out.view = context.ref(value, "view");
   readGeometry(context, value, out);
   const bool indexed = readRepeat(context, value.find("repeat"), out);
-  ReadContext::Seen names;                        // slots, parameters and defines share one namespace
-  for (const JsonMember& member : value.members)  // in file order
-    for (const Access access : {Access::read, Access::write, Access::modify})
-      if (member.key == nameOf(access)) readSlots(context, member.value, access, names, out);
-  readParameters(context, value, names, out);
-  readState(context, value, out);
+  ReadContext::Seen names, states;  // slots, parameters and defines share one namespace
+  for (const JsonValue* part : partsOf(context, value, sets, out)) {
+    for (SlotDesc& slot : out.slots) slot.ofSet = true;
+    for (const JsonMember& member : part->members)  // in file order
+      for (const Access access : {Access::read, Access::write, Access::modify})
+        if (member.key == nameOf(access)) readSlots(context, member.value, access, names, out);
+    readParameters(context, *part, names, out);
+    readState(context, *part, states, out);
+  }
   return indexed && !out.name.empty() && value.find("type");
 }
 
 }  // namespace
 
-std::optional<PassDesc> readPass(ReadContext& context, const JsonValue& value) {
+std::optional<PassDesc> readPass(ReadContext& context, const JsonValue& value, const JsonValue& sets) {
   PassDesc out;
   out.place = value.place;
   context.pass = textIn(value, "name").substr(0, text::kMaxNameBytes);
@@ -507,7 +537,7 @@ std::optional<PassDesc> readPass(ReadContext& context, const JsonValue& value) {
     readInclude(context, value, out);
     good = !out.name.empty();
   } else if (good) {
-    good = readPassInto(context, value, out);
+    good = readPassInto(context, value, sets, out);
   }
   context.pass.clear();
   return good ? std::optional(std::move(out)) : std::nullopt;

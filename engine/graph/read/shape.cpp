@@ -107,7 +107,7 @@ class ShapeCheck {
     if (stanza.is(Type::absent)) return;
     said_.pass = stanzaName(stanza);
     const auto says = [&](const char* key) { return stanza.find(key) != nullptr; };
-    if (mends_ && !says("include") && !says("type") && !says("like") && !says("shader"))
+    if (mends_ && !says("include") && !says("type") && !says("shader"))
       checkKeys(stanza, {std::span(kIncludeKeys).first(1)}, "include");
     const Shape& shape = shapeOf(says("include") ? "include" : "pass");
     if (stanza.is(Type::object))
@@ -132,7 +132,7 @@ class ShapeCheck {
     if (!good && mends_) return false;
     if (!good)
       said_.wrongType(value, fmt::format("{}\"{}\"", item ? "an item of " : "", key), expectedText(shape))
-          .hint = doc.empty() ? "" : fmt::format("\"{}\": {}", key, doc);
+          .hint = doc.empty() || doc == expectedText(shape) ? "" : fmt::format("\"{}\": {}", key, doc);
     if (good && branch->items)
       for (JsonValue& each : value.items) good = good && checkValue(each, *branch->items, key, doc, true);
     if (good && value.is(Type::string) && !branch->open && !mends_) good = checkWord(value, *branch, key);

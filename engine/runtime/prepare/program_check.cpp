@@ -295,10 +295,9 @@ class Checker {
     d.resource = nameOf(graph_.uses[slot.firstUse]);
     d.expected = fmt::format("{} named '{}'", glsl::nameOf(role), slot.name);
     const std::string near = what ? "" : text::nearestName(slot.name, namesInShaders());
-    d.hint = !what && slot.inherited
-                 ? fmt::format("remove it: \"{}\": {{ \"{}\": null }}", graph::nameOf(slot.access), slot.name)
-             : !near.empty() ? fmt::format("did you mean '{}'?", near)
-                             : fmt::format("declare `{}`", declarationOf(slot));
+    d.hint = !what && slot.ofSet ? "declare it, or move it from the set to the passes that need it"
+             : !near.empty()     ? fmt::format("did you mean '{}'?", near)
+                                 : fmt::format("declare `{}`", declarationOf(slot));
   }
 
   void reportType(const SlotSpec& slot, const FlatUse& use, const std::string& type, std::string expected) {

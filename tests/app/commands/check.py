@@ -68,20 +68,22 @@ def check_words(weft, report):
     for graph in (GLOW, "graphs/studio_gi.json", "graphs/deferred_gi.json"):
         done = run(weft, "check", "--no-shaders", "--all", graph)
         report.check(done.code == 0 and not done.codes() and not done.codes("warning"), f"{graph}: {done.err}")
-    # Instances of a stanza are looked at once, but a pass that is like another one is not an instance of it.
+    # Instances of a stanza are looked at once, but passes that use one set are not instances of one pass.
     with temporary_folder() as name:
         folder = pathlib.Path(name)
         (folder / "shaders").mkdir()
         (folder / "shaders/tint.frag.glsl").write_text("uniform sampler2D source;\nlayout(std140) uniform Parameters { float gain; };\nout vec4 result;\n"
                                                        "void main() { result = texelFetch(source, ivec2(0), 0) * gain; }\n")
-        (folder / "like.json").write_text("""{ "resources": { "a": { "texture": "rgba8", "size": 8, "clear": 1 }, "b": { "texture": "rgba8", "size": 8 }, "c": { "texture": "rgba8", "size": 8 } },
+        (folder / "sets.json").write_text("""{ "resources": { "a": { "texture": "rgba8", "size": 8, "clear": 1 }, "b": { "texture": "rgba8", "size": 8 }, "c": { "texture": "rgba8", "size": 8 } },
   "passes": [
     { "name": "one", "type": "fullscreen", "shader": "tint.frag.glsl", "read": { "source": "a" }, "write": { "result": "b" }, "parameters": { "gain": 2 } },
-    { "name": "two", "like": "one", "read": { "source": null, "sauce": "b" }, "write": { "result": "c" }, "parameters": { "gain": null, "gane": 2 } } ],
+    { "name": "two", "type": "fullscreen", "shader": "tint.frag.glsl", "use": "tint", "write": { "result": "c" } },
+    { "name": "three", "type": "fullscreen", "shader": "tint.frag.glsl", "use": "tint", "write": { "result": "c" }, "side_effect": true } ],
+  "sets": { "tint": { "read": { "sauce": "b" }, "parameters": { "gane": 2 } } },
   "present": "c" }
 """)
-        done = run(weft, "check", "--no-shaders", folder / "like.json")
-        report.check(done.codes() == ["W181", "W182"], f"a pass like another one: {done.code}\n{done.err}")
+        done = run(weft, "check", "--no-shaders", folder / "sets.json")
+        report.check(done.codes() == ["W181", "W182"], f"passes that use one set: {done.code}\n{done.err}")
 
 
 def check_time(weft, report, *more):

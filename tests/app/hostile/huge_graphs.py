@@ -235,9 +235,14 @@ def values_of(n):
     return {"g.json": '{"resources":{"a":[' + ",".join(["0"] * n) + "]}}"}
 
 
-def passes_alike(n, defines):
-    first = {**PASS, "name": "p0", "write": {"o": "ldr"}, "defines": {f"D{i}": 1 for i in range(defines)}}
-    return {"g.json": graph({}, [first, *({"name": f"p{i}", "like": f"p{i - 1}"} for i in range(1, n))])}
+def passes_of_one_set(n, defines):
+    sets = {"all": {"defines": {f"D{i}": 1 for i in range(defines)}}}
+    return {"g.json": graph({}, [{**PASS, "name": f"p{i}", "use": "all", "write": {"o": "ldr"}} for i in range(n)], sets=sets)}
+
+
+def overlay_on_sets(n, defines):
+    over = {"extends": "base.json", "passes": [{"name": f"p{i}", "defines": {"D0": 2}} for i in range(n)]}
+    return {"base.json": passes_of_one_set(n, defines)["g.json"], "g.json": json.dumps(over)}
 
 
 def parameters_of_one_pass(n, repeats):

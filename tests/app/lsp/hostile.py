@@ -48,7 +48,7 @@ IGNORED = [  # notifications have no answer
 ]
 TEXTS = ["", "{", '{"passes": [{"name": "', "[" * 50_000, '{"a":' * 50_000, "\0\0\0", '{"passes": [' + '{"name": "a", "type": "fullscreen", "shader": "a", "read": {"x": "@@[[", "y": ".", "z": "a.."}},' * 50,
          '{"resources": {"a": ["a", "b"], "b": "a"}, "passes": [], "present": "a.b.c.mip[$"}', '{"extends": "odd.json"}', '{"passes": [{"include": "odd.json"}]}',
-         '{"passes": [{"name": "a", "like": "b", "read": {"s": "x"}}, {"name": "b", "like": "a"}]}', '"\\', '{"passes": 7, "resources": 7, "let": []}', "é😀" * 1000]
+         '{"sets": {"a": {"read": {"s": "x"}}, "b": 7}, "passes": [{"name": "a", "use": ["a", "b", "a"], "read": {"s": "x"}}, {"name": "b", "use": {}}]}', '"\\', '{"passes": 7, "resources": 7, "let": []}', "é😀" * 1000]
 ENDS = [(b"", "without 'exit'"), (b"Content-Len", "within a header: 'Content-Len'"), (b"Content-Length: 5\r\n", "within a header"), (b"X: " + b"y" * 100_000 + b"\r\n\r\n", "within a header"),
         (b"Content-Length: 50\r\n\r\n{", "after 1 of 50 bytes"), *((header + b"\r\n\r\n{}", "at a header without 'Content-Length: '")
                                                                 for header in (b"Content-Length: seven", b"Content-Length: -5", b"Content-Length: 99999999999999999999999", b"Content-Length: 99999999999",

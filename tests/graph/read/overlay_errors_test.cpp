@@ -139,7 +139,7 @@ TEST_CASE("a list of extends that cannot be has its place: two graphs, a circle,
   const auto over = [&](const char* text) { return wrong(folder.write("over.json", text)); };
   CHECK(over(R"({ "extends": ["base.json", "parts/post.json"] })") == "W019 over.json 1:28");
   folder.write("other.json", R"({ "passes": [{ "name": "one", "type": "fullscreen", "shader": "a.frag.glsl" },
-                                            { "name": "two", "like": "one" }] })");
+                                            { "name": "two", "type": "blit" }] })");
   CHECK(over(R"({ "extends": ["base.json", "other.json"] })") == "W019 over.json 1:28");
   CHECK(over(R"({ "extends": ["base.json", "over.json"] })") == "W015 over.json 1:28");
   CHECK(over(R"({ "extends": ["base.json", 3] })") == "W003 over.json 1:28");

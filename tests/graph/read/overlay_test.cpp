@@ -112,13 +112,15 @@ TEST_CASE("what is new is new, whatever it is the end of, and stands in the file
   CHECK(e.resource("glow").format == Format::r8);
   CHECK(e.resource("post.bloom.glow").format == Format::rgba16f);
   CHECK(e.resource("post.half").format == Format::r8);
-  // Within its own file a pass moves, and is like another, by the whole name or by that file's own.
-  for (const char* like : {"post.bloom.spread", "spread"}) {
+  // Within its own file a pass moves, and uses sets, by the whole name or by that file's own.
+  for (const char* set : {"post.bloom.more", "more"}) {
     const Expanded moved = fine(folder.over(
-        R"("passes": [ { "after": "post.bloom.spread", "name": "again", "like": ")" + std::string(like) +
-        R"(", "write": { "result": null }, "modify": { "more": "glow" } }, { "name": "post.composite", "after": "post.bloom" } ])"));
+        R"("sets": { "post.bloom.more": { "modify": { "more": "glow" } } }, "passes": [ { "after": "post.bloom.spread", "name": "again",
+           "type": "fullscreen", "shader": "g.frag.glsl", "use": ")" +
+        std::string(set) + R"(" }, { "name": "post.composite", "after": "post.bloom" } ])"));
     CHECK(moved.graph->passNames.size() == 5);
     CHECK(moved.spec("post.bloom.again").shader == "g.frag.glsl");
+    CHECK(moved.spec("post.bloom.again").slotCount == 1);
   }
 }
 

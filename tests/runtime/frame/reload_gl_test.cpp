@@ -152,8 +152,8 @@ TEST_CASE("reload: after a toggle the passes that do not differ have the uniform
     "extra": { "texture": "r16f", "size": 4 }, "sum": { "texture": "rgba32f", "size": 4 } }, "passes": [
   { "name": "extra", "type": "fullscreen", "shader": "math/constant.frag.glsl", "write": { "result": "extra" },
     "parameters": { "amount": 11 } },
-  { "name": "a", "like": "extra", "write": { "result": "a" }, "parameters": { "amount": 22 } },
-  { "name": "b", "like": "extra", "write": { "result": "b" }, "parameters": { "amount": 33 } },
+  { "name": "a", "type": "fullscreen", "shader": "math/constant.frag.glsl", "write": { "result": "a" }, "parameters": { "amount": 22 } },
+  { "name": "b", "type": "fullscreen", "shader": "math/constant.frag.glsl", "write": { "result": "b" }, "parameters": { "amount": 33 } },
   { "name": "sum", "type": "fullscreen", "shader": "math/sum.frag.glsl",
     "read": { "a": "a", "b": "b", "c": "extra?" }, "write": { "result": "sum" } } ], "present": "sum" })");
   Stage stage(file.path());

@@ -284,6 +284,15 @@ void warnUnused(Model& model) {
     warnOfVariables(model, scope, mentions);
     for (const ResourceDesc& resource : scope.desc->resources)
       if (isOnTop(scope, resource.place)) warnOfResource(model, scope, resource, mentions);
+    for (const auto& [name, place] : scope.desc->slotSets) {
+      const auto uses = [&](const PassDesc& pass) {
+        return std::ranges::find(pass.uses, name, &UsedSet::name) != pass.uses.end();
+      };
+      if (scope.desc->unread.empty() && std::ranges::none_of(scope.desc->passes, uses) &&
+          isOnTop(scope, place))
+        warnAt(model, place, fmt::format("the set '{}' is in no pass", name),
+               fmt::format("write \"use\": \"{}\" in a pass of this file, or remove it", name));
+    }
   }
   for (const Entity& entity : model.entities) {
     if (!entity.desc || !isOnTop(*entity.scope, entity.desc->place)) continue;

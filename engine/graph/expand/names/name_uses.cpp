@@ -1,5 +1,6 @@
 #include "engine/graph/expand/names/name_uses.h"
 
+#include <algorithm>
 #include <map>
 #include <tuple>
 
@@ -69,6 +70,8 @@ class NameFinder {
     for (const ParameterDesc& each : desc.parameters) declare(UseOf::variable, scope.prefix, each);
     for (const NamedExpr& each : desc.lets) declare(UseOf::variable, scope.prefix, each);
     for (const ResourceDesc& each : desc.resources) declare(UseOf::resource, scope.prefix, each);
+    for (const auto& [name, place] : desc.slotSets)
+      add(UseOf::set, name, scope.prefix + name, insideOf(place), insideOf(place));
     for (const SetDesc& set : desc.sets) addVariable(scope, set.name, insideOf(set.place));
     for (const PassDesc& pass : desc.passes) addPass(scope, pass);
     const auto onExpr = [&](const Expr& expr) {
@@ -81,8 +84,8 @@ class NameFinder {
     addTo(scope, pass, placeOf(pass));
     for (const PassParameterDesc& each : pass.parameters)
       if (each.declared) declare(UseOf::variable, scope.prefix + pass.name + ".", *each.declared);
-    if (const auto like = scope.passes.find(pass.like); like != scope.passes.end())
-      addTo(scope, *like->second, insideOf(pass.likePlace));
+    for (const UsedSet& set : pass.uses)
+      add(UseOf::set, set.name, scope.prefix + set.name, insideOf(set.place), insideOf(set.declared));
     const auto child = pass.include ? scope.includes.find(pass.name) : scope.includes.end();
     if (child == scope.includes.end()) return;
     for (std::size_t i = 0; i < pass.include->binds.size(); ++i) {
@@ -171,7 +174,11 @@ class NameFinder {
     std::string_view name = named.name;
     Place place = insideOf(named.place);
     const Scope& in = addPrefixes(scope, name, place);
-    const UseOf kind = in.resources.contains(name)   ? UseOf::resource
+    const bool set = std::ranges::any_of(in.desc->slotSets, [&](const auto& each) {
+      return each.first == name && text::isSamePlace(each.second, named.declared);
+    });
+    const UseOf kind = set                           ? UseOf::set
+                       : in.resources.contains(name) ? UseOf::resource
                        : in.variables.contains(name) ? UseOf::variable
                                                      : UseOf::pass;
     add(kind, name, in.prefix + std::string(name), place, insideOf(named.declared));

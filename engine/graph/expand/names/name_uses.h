@@ -10,7 +10,7 @@
 namespace weft::graph {
 
 struct NameUse {
-  enum class Kind : std::uint8_t { resource, variable, pass };  // pass: also the prefix of an include
+  enum class Kind : std::uint8_t { resource, variable, pass, set };  // pass: also the prefix of an include
   Kind kind = Kind::resource;
   std::string name;  // one part of a dotted name
   std::string full;  // what it means, as a plan calls it; "@sun" of an import that no file declares
