@@ -15,6 +15,7 @@
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
 #include "engine/assets/images/image.h"
+#include "engine/graph/edit/spelling.h"
 #include "engine/graph/language/names.h"
 #include "engine/graph/read/read.h"
 #include "engine/text/files/file.h"
@@ -44,7 +45,7 @@ void formatFile(const std::string& path, bool checkOnly, text::Diagnostics& diag
   const std::size_t before = diagnostics.errorCount();
   if (text) text::parseJson(*text, file, diagnostics);
   if (!text || diagnostics.errorCount() > before) return;
-  const std::string laid = text::layoutJson(*text);
+  const std::string laid = text::layoutJson(graph::withNewSpelling(*text));
   if (laid == *text) return;
   if (checkOnly) {
     const auto same = std::ranges::mismatch(*text, laid).in1;

@@ -7,6 +7,7 @@
 
 #include "app/lsp/answers.h"
 #include "engine/graph/language/keys.h"
+#include "engine/graph/read/overlay.h"
 #include "engine/graph/read/read_context.h"
 #include "engine/graph/read/ref_parse.h"
 #include "engine/graph/subresource.h"
@@ -161,13 +162,14 @@ class Completer {
     for (KeyDoc& key : keysAt(registry_, spot_))
       add(std::move(key.key), ItemKind::property, std::move(key.doc));
     const JsonValue* const stanza = spot_.stanza();
-    const std::string_view group = spot_.keys.empty() ? "" : spot_.keys.back();
+    const bool inList = spot_.keys.size() == 4 && spot_.keys.back() == "[]";
+    const std::string_view group = spot_.keys.empty() ? "" : inList ? spot_.keys[2] : spot_.keys.back();
     if (spot_.keys.size() == 1 && group == "set") names(Kind::variable);
-    if (stanza && spot_.keys.size() == 3) {
+    if (stanza && (spot_.keys.size() == 3 || inList)) {
       slotsIn(*stanza, group);
       if (group == "bind") inputs(*stanza);
     }
-    if (spot_.keys.size() == 3 && spot_.keys[0] == "sets") keysOfSet();
+    if ((spot_.keys.size() == 3 || inList) && spot_.keys[0] == "sets") keysOfSet();
     drop(spot_.value());
   }
 
@@ -225,9 +227,18 @@ class Completer {
 
   void inputs(const JsonValue& stanza) {
     const auto text = workspace_.texts().of(pathBeside(text_.path(), textOf(stanza, "include")));
-    if (const JsonValue* resources = text ? text->json().root.find("resources") : nullptr)
-      for (const JsonMember& resource : resources->members)
-        if (resource.value.find("input")) add(resource.key, ItemKind::variable);
+    if (text) inputsOf(text->json().root);
+  }
+
+  void inputsOf(const JsonValue& root) {
+    const JsonValue* const inputs = root.find("inputs");
+    const auto take = [&](const std::string& text) {
+      add(text.substr(0, text.find_first_of(" ?")), ItemKind::variable);
+    };
+    for (const JsonValue& item : inputs ? inputs->items : std::vector<JsonValue>()) {
+      if (item.is(Type::string)) take(item.text);
+      for (const JsonMember& member : item.members) take(member.key);
+    }
   }
 
   // Names of the graphs that have this file, as it calls them, and what it declares now.
@@ -240,6 +251,7 @@ class Completer {
     for (const auto& [section, holds] : kSections)
       if (const JsonValue* found = root.find(section); found && holds == kind)
         for (const JsonMember& each : found->members) add(each.key, ItemKind::variable);
+    if (kind == Kind::resource) inputsOf(root);
     for (const Graph* graph : workspace_.graphsOf(text_.path()))
       for (const graph::NameUse& use : graph->uses) {
         // Of a graph that includes this file, what it declares itself: an expression here may use its parameters.
@@ -274,7 +286,10 @@ class Completer {
         for (const graph::ImportArgument& argument : type.arguments)
           if (argument.name == key) addWords(argument.choices);
     const bool refers = areShapes(shapes, "reference") || areShapes(shapes, "resets") || key == "first";
-    if (refers || areShapes(shapes, "value")) mention(refers);
+    if (pass && way[2] == "bind")
+      for (const JsonValue& stanza : spot_.values[1]->items)
+        if (stanza.find("include")) add(graph::stanzaName(stanza), ItemKind::module);
+    if (refers || areShapes(shapes, "value") || areShapes(shapes, "variable")) mention(refers);
   }
 
   // A reference or an expression, of which a part is typed at the cursor.

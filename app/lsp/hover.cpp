@@ -132,16 +132,18 @@ Json symbolsOf(const Text& text) {
   for (const JsonMember& section : text.json().root.members) {
     const bool passes = section.key == "passes";
     if (!passes && section.key != "parameters" && section.key != "let" && section.key != "resources" &&
-        section.key != "sets")
+        section.key != "sets" && section.key != "inputs")
       continue;
     Json children = Json::array();
     for (const JsonMember& child : section.value.members) {
       std::string_view detail = child.value.text;
-      for (const char* key : {"texture", "import", "input", "type"})
+      for (const char* key : {"texture", "import", "type"})
         if (const JsonValue* kind = child.value.find(key)) detail = kind->text;
       children.push_back(symbol(text, child.key, detail, kVariable, rangeOf(child.value), inside(child)));
     }
     for (const JsonValue& stanza : section.value.items) {
+      if (!passes && stanza.is(Type::string))
+        children.push_back(symbol(text, stanza.text, "", kVariable, rangeOf(stanza), inside(stanza)));
       const bool include = stanza.find("include");
       const JsonValue* name = nullptr;
       for (const char* key : {"include", "as", "name"})

@@ -116,6 +116,21 @@ std::string problemOf(const Workspace& workspace, const Uses& uses, const std::s
   return "";
 }
 
+// The string in a list of names that is called by what stands at `name`; null when none is.
+const JsonValue* itemCalled(const Text& text, const Range& name) {
+  if (!text.isJson()) return nullptr;
+  const Spot spot = spotAt(text.json(), name.begin);
+  constexpr std::string_view kLists[] = {"read", "write", "modify", "bind", "parameters"};
+  const bool listed = spot.keys.size() == 4 && spot.keys[3] == "[]" &&
+                      spot.value().is(JsonValue::Type::string) &&
+                      std::ranges::find(kLists, spot.keys[2]) != std::end(kLists);
+  std::string_view behind = text.bytes();
+  behind.remove_prefix(name.end);
+  const bool last = !behind.starts_with('.') ||
+                    graph::isReservedWord(behind.substr(1, behind.find_first_of("[\". ", 1) - 1));
+  return listed && last ? &spot.value() : nullptr;
+}
+
 }  // namespace
 
 Named namedAt(const Workspace& workspace, const Text& text, std::size_t offset) {
@@ -134,11 +149,12 @@ Named namedAt(const Workspace& workspace, const Text& text, std::size_t offset) 
         if (take(*graph, key.place, key.name)) {
           named.key = key.name;
           named.program = std::move(program);
-          return named;
+          break;
         }
+    // In a list a name is both.
     for (const graph::NameUse& use : graph->uses)
       if (take(*graph, use.place, use.name)) named.use = &use;
-    if (named.use) return named;
+    if (named.graph) return named;
   }
   return named;
 }
@@ -206,7 +222,7 @@ Uses usesAt(const Workspace& workspace, const Text& text, std::size_t offset) {
   if (!named.graph) return uses;
   uses.name = named.program ? named.key : named.use->name;
   std::optional<Location> declared;
-  if (named.use) {
+  if (named.use && !named.program) {
     declared = workspace.locate(named.use->declared, "");
     if (!declared) return uses;
     // A parameter that a pass declares is a name of its shader, too.
@@ -233,9 +249,18 @@ Renamed renameAt(const Workspace& workspace, const Text& text, std::size_t offse
   if (std::string problem = problemOf(workspace, uses, name); !problem.empty()) return {nullptr, problem};
   Json changes = Json::object();
   const auto edit = [&](const std::set<Location>& locations, const std::string& with) {
-    for (const Location& each : locations)
-      changes[text::uriOf(each.path)].push_back(
-          {{"range", workspace.texts().of(each.path)->toJson(each.range)}, {"newText", with}});
+    for (const Location& each : locations) {
+      const auto file = workspace.texts().of(each.path);
+      Json& edits = changes[text::uriOf(each.path)];
+      const auto put = [&](Range range, const std::string& by) {
+        edits.push_back({{"range", file->toJson(range)}, {"newText", by}});
+      };
+      // An item of a list is a key and its value, of which one keeps its name.
+      const JsonValue* const item = itemCalled(*file, each.range);
+      if (item) put({item->begin, item->begin}, fmt::format("{{ \"{}\": ", uses.ofShader ? with : uses.name));
+      if (!item || !uses.ofShader) put(each.range, with);
+      if (item) put({item->end, item->end}, " }");
+    }
   };
   edit(uses.locations, name);
   edit(uses.presence, runtime::presenceDefineOf(name));

@@ -78,10 +78,11 @@ struct RefDesc {
   bool stencil = false;
   int history = 0;                           // n of @-n
   std::optional<Kind> kind;                  // `as depth`
+  bool samples = false;                      // the words say how it is sampled:
   Sampler sampler;                           // `as linear wrap`
   BorderColor border{};                      // `as border(…)`
-  Expr condition;                            // `if …`; absent means true
-  bool optional = false;                     // trailing ?
+  Expr condition;                            // `if …` of an alternative; absent means true
+  bool optional = false;                     // trailing ?, or what it names is an optional input
   std::uint32_t wordsAt = 0, wordsSize = 0;  // of "as linear wrap", in `text`
   std::string_view words() const { return std::string_view(text).substr(wordsAt, wordsSize); }
 };
@@ -126,6 +127,9 @@ struct ResourceDesc {
   Place viewPlace;
   // buffer
   Expr bytes;
+  // all but alternatives
+  std::optional<RefDesc>
+      sample;  // how it is sampled, unless a slot says; of an input as written, "hdr as linear"
   // both; an input has history, first and reset
   Expr clear;                       // version zero
   Expr history;                     // depth n, absent: 0
@@ -135,8 +139,7 @@ struct ResourceDesc {
   std::vector<Expr> resetValues;    // "size(hdr)"
   // others
   ImportDesc import;
-  std::string input;  // "texture" or "buffer"
-  bool optional = false;
+  bool optional = false;  // of an input
   std::vector<RefDesc> alternatives;
 };
 

@@ -63,12 +63,15 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
   const Sampler& sampler = work.sampler;
   const FormatInfo& format = infoOf(shape.format);
   const bool known = shape.format != Format::none, buffer = isBuffer(shape);
-  const auto refuse = [&](Code code, std::string_view why, std::string expected, const char* hint = "") {
+  const RefDesc& words = work.sampling ? *work.sampling : ref;
+  const auto refuse = [&](Code code, std::string_view why, std::string expected, const char* hint = "",
+                          const RefDesc* at = nullptr) {
+    const RefDesc& said = at ? *at : ref;
     return context.report(
-        code, ref.place,
+        code, said.place,
         fmt::format("cannot {} '{}' as {}: {}", nameOf(access), entity.name, nameOf(kind), why),
         {.expected = std::move(expected),
-         .found = known ? fmt::format("{}, of format {}", ref.text, format.name) : ref.text,
+         .found = known ? fmt::format("{}, of format {}", said.text, format.name) : said.text,
          .hint = hint,
          .resource = entity.name});
   };
@@ -83,15 +86,16 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
                   fmt::format("it is a {}", buffer ? "buffer" : "texture"),
                   fmt::format("as {} is for {}", nameOf(kind), rule.takes));
   // A blit filters too, and says no more.
-  const bool words = sampler.wrap != Wrap::clamp || sampler.compare;
+  const bool more = sampler.wrap != Wrap::clamp || sampler.compare;
   const bool filters = kind == Kind::sampled || (kind == Kind::copy && type && type->framebuffers &&
-                                                 !buffer && access == Access::read && !words);
-  if (type && (sampler.linear || words) && !filters)
+                                                 !buffer && access == Access::read && !more);
+  if (type && (sampler.linear || more) && !filters)
     return refuse(Code::badKind, "it is not sampled, so it has no filter",
                   "linear, wrap, mirror, border and compare for sampled textures");
   if (sampler.linear && shape.samples > 1)
     return refuse(Code::badKind, "it has several samples, which are not filtered", "no linear",
-                  "leave 'linear' out: the shader declares a sampler2DMS and reads one sample by texelFetch");
+                  "leave 'linear' out: the shader declares a sampler2DMS and reads one sample by texelFetch",
+                  &words);
   if (work.array && (kind == Kind::color || kind == Kind::depth))
     return refuse(Code::badKind, "it is an array, and an attachment is one texture", "one element, 'x[0]'");
   if (!known) return true;
@@ -102,10 +106,12 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
     return refuse(Code::badFormat, kMisfit, "a format that images can have");
   if ((kind == Kind::depth || (kind == Kind::sampled && sampler.compare)) && !isDepth(shape.format))
     return refuse(Code::badFormat, kMisfit, "a depth format",
-                  sampler.compare ? "name a depth texture, or leave 'compare' out" : "");
+                  sampler.compare ? "name a depth texture, or leave 'compare' out" : "",
+                  sampler.compare ? &words : nullptr);
   if (sampler.linear &&
       (isInteger(shape.format) || work.use.planes == 2 || (kind == Kind::copy && isDepth(shape.format))))
-    return refuse(Code::badFormat, kMisfit, "a format that can be filtered", "leave 'linear' out");
+    return refuse(Code::badFormat, kMisfit, "a format that can be filtered",
+                  "leave 'linear' out, or say 'as nearest' at the slot", &words);
   return true;
 }
 

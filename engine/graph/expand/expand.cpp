@@ -104,12 +104,11 @@ void addResets(Model& model, const Entity& entity, HistorySpec& spec) {
     if (!isWhole(ref))
       report(model, Code::badSelector, ref.place,
              fmt::format("the reset of '{}' names '{}'", entity.name, ref.text),
-             {.expected = "the name of a whole resource or import, perhaps with 'if'",
+             {.expected = "the name of a whole resource or import",
               .hint = fmt::format("write '{}{}'", ref.import ? "@" : "", ref.name),
               .resource = entity.name});
-    const auto holds = evaluateCondition(names, ref.condition, true, "the condition of a reset");
     const std::uint32_t found = findEntityOrReport(model, *entity.scope, ref, "\"reset\"", "names");
-    if (found == kNone || !holds || !*holds) continue;
+    if (found == kNone) continue;
     // An import that has nothing now may have something later.
     const std::uint32_t target =
         model.entities[found].kind == ResourceDesc::Kind::import ? found : staticTarget(model, found);

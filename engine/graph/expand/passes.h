@@ -48,17 +48,16 @@ struct Leaf {
   std::uint32_t entity = kNone;
   Selection selection;
   std::optional<Kind> kind;
-  Sampler sampler;
-  BorderColor border{};
-  int history = 0;           // n of @-n, of the reference and of the alternatives on the way
-  bool conditional = false;  // it stands in a list, with a condition
+  const RefDesc* sampling = nullptr;  // what says, nearest to the use, how it is sampled
+  int history = 0;                    // n of @-n, of the reference and of the alternatives on the way
+  bool conditional = false;           // it stands in a list, with a condition
 };
 
 // A slot of one pass instance.
 struct SlotWork {
   enum class State : std::uint8_t {
     connected,
-    absent,   // condition false, or optional without a version
+    absent,   // optional without a version
     missing,  // required, but nothing is there: a MissingRead was recorded or will be
     empty,    // levels that the clamp to the size took away, or `1..` of one level: the pass is left out
     failed    // reported
@@ -66,9 +65,10 @@ struct SlotWork {
   const SlotDesc* slot = nullptr;
   State state = State::failed;
   std::uint32_t entity = kNone, firstElement = 0, elementCount = 1;
-  bool array = false;  // the whole of an array
-  bool whole = false;  // no selector: all sub-resources
-  FlatUse use;         // everything but the resource
+  bool array = false;                 // the whole of an array
+  bool whole = false;                 // no selector: all sub-resources
+  FlatUse use;                        // everything but the resource
+  const RefDesc* sampling = nullptr;  // where `sampler` is said
   Sampler sampler;
   BorderColor border{};
   // The index of the slot, a history, in whose place it is read as long as there is no publication.

@@ -59,24 +59,14 @@ std::optional<Range> closeSpan(const Selection::Span& said, std::int64_t count, 
   return there ? std::optional(Range{first, last - first + 1}) : std::nullopt;
 }
 
-// What `outer`, of a slot, says of sampling, and where it says nothing, `inner` of the alternative that it means.
-Sampler layOver(const Sampler& outer, const Sampler& inner) {
-  Sampler both = outer.wrap == Wrap::clamp ? inner : outer;
-  both.linear = outer.linear || inner.linear;
-  both.compare = outer.compare || inner.compare;
-  both.function = outer.function ? outer.function : inner.function;
-  return both;
-}
-
 // All concrete candidates of a reference whose conditions hold, in order. `leaf` says what `ref` means, and what is said of it from
-// outside. False after a report.
-bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref, Leaf leaf,
-                   std::vector<Leaf>& leaves) {
+// outside; `sample` how that is sampled by itself. False after a report.
+bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref, const RefDesc* sample,
+                   Leaf leaf, std::vector<Leaf>& leaves) {
   Model& model = context.model;
   if (!addSelection(context, names, ref, leaf.selection)) return false;
   if (!leaf.kind) leaf.kind = ref.kind;
-  if (leaf.sampler.wrap == Wrap::clamp) leaf.border = ref.border;
-  leaf.sampler = layOver(leaf.sampler, ref.sampler);
+  if (!leaf.sampling) leaf.sampling = ref.samples ? &ref : sample;
   leaf.history += ref.history;
   Entity& entity = model.entities[leaf.entity];
   entity.firstRead = std::min(entity.firstRead, model.position);
@@ -99,7 +89,8 @@ bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref,
     Leaf within = leaf;
     within.entity = entity.candidates[i];
     within.conditional = leaf.conditional || alternative.condition.present();
-    good = collectLeaves(context, listNames, alternative, std::move(within), leaves) && good;
+    good =
+        collectLeaves(context, listNames, alternative, entity.samples[i], std::move(within), leaves) && good;
   }
   return good;
 }
@@ -166,8 +157,6 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
   work.use.layer = static_cast<std::uint16_t>(layers.first);
   work.use.layers = static_cast<std::uint16_t>(layers.size);
   work.use.planes = selection.stencil ? 2 : planeMask(shape);
-  work.sampler = leaf.sampler;
-  work.border = leaf.border;
   work.state = empty ? State::empty : State::connected;
   return true;
 }
@@ -186,26 +175,13 @@ bool isWritable(const SlotContext& context, const SlotDesc& slot, std::uint32_t 
                         {.hint = "write a texture or buffer of the graph's own", .resource = entity.name});
 }
 
-// A slot whose condition, or that of each of its alternatives, may leave it without a resource.
+// A slot, which its alternatives may leave without a resource.
 struct SlotChoice {
   const SlotContext& context;
   const SlotDesc& slot;
   std::uint32_t pass;  // whose the slot is, for what is missing
   const std::vector<Leaf>& leaves;
   std::vector<MissingRead::Wanted> wanted{};
-
-  // Its condition is false.
-  SlotWork off() {
-    SlotWork work = none();
-    if (!leaves.empty()) {
-      if (!place(leaves[0], work)) return none();
-      const bool placed = work.isConnected();
-      if (placed) note(work, WouldUse::Why::off);
-      if (context.versions) noteOthers(placed ? 1 : 0);
-    }
-    leaveEmpty(work, MissingRead::Cause::condition, slot.access == Access::read);
-    return work;
-  }
 
   // The first alternative that has a version, or the first with no more than version zero, or nothing.
   SlotWork choose() {
@@ -255,7 +231,13 @@ struct SlotChoice {
     const Entity& entity = context.model.entities[work.entity];
     work.use.access = slot.access;
     work.use.kind = leaf.kind.value_or(defaultKind(context.type, slot.access, entity.shape));
-    if (work.sampler.compare) work.sampler.linear = true;
+    // What is said elsewhere is for those that sample.
+    if (leaf.sampling && (work.use.kind == Kind::sampled || leaf.sampling == &slot.ref)) {
+      work.sampling = leaf.sampling;
+      work.sampler = leaf.sampling->sampler;
+      work.border = leaf.sampling->border;
+      if (work.sampler.compare) work.sampler.linear = true;
+    }
     const bool shaderRead = work.use.kind == Kind::sampled || work.use.kind == Kind::image;
     if (shaderRead && work.use.planes == 3)
       work.use.planes = 1;  // a shader sees depth unless .stencil is said
@@ -307,18 +289,13 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
   SlotWork failed;
   failed.slot = &slot;
   failed.use.access = slot.access;
+  const RefDesc* sample = nullptr;
   const std::uint32_t found = findEntityOrReport(context.model, context.names.scope(), ref, context.user,
-                                                 verbOf(slot.access), context.pass);
+                                                 verbOf(slot.access), context.pass, &sample);
   if (found == kNone || (slot.access != Access::read && !isWritable(context, slot, found))) return failed;
-  const auto holds = evaluateCondition(context.names, ref.condition, true, "the condition of a slot");
-  if (!holds) return failed;
-  // A slot whose condition is false may select what is not there; the rest of it must make sense all the same.
-  SlotContext checked = context;
-  checked.ranges = checked.ranges && *holds;
   std::vector<Leaf> leaves;
-  if (!collectLeaves(checked, context.names, ref, {.entity = found}, leaves)) return failed;
-  SlotChoice choice{checked, slot, pass, leaves};
-  return *holds ? choice.choose() : choice.off();
+  if (!collectLeaves(context, context.names, ref, sample, {.entity = found}, leaves)) return failed;
+  return SlotChoice{context, slot, pass, leaves}.choose();
 }
 
 // ---- what is read in the place of a publication that is not there yet ----

@@ -225,17 +225,16 @@ void resolveView(const SlotContext& context, const PassDesc& desc, PassSpec& spe
   RefDesc whole = ref;
   whole.element.reset();
   if (whole.face && !whole.face->range) whole.face.reset();
-  if (!isWhole(whole) || ref.condition.present() || missing || !views) {
+  if (!isWhole(whole) || missing || !views) {
     std::vector<std::string> known;
     for (const ImportType& each : model.registry.imports)
       if (each.kind == ImportKind::view || each.views) known.push_back("@" + each.name);
-    context.report(
-        missing ? Code::emptyImport : Code::notAView, ref.place,
-        fmt::format("is seen from '{}', which {}", ref.text,
-                    missing ? "the scene does not have" : "is no view"),
-        {.expected = fmt::format("one of {}, perhaps with [element] and one .face, without '?' and 'if'",
-                                 fmt::join(known, ", ")),
-         .hint = fmt::format("\"enabled\": \"has({})\" leaves the pass out", ref.name)});
+    context.report(missing ? Code::emptyImport : Code::notAView, ref.place,
+                   fmt::format("is seen from '{}', which {}", ref.text,
+                               missing ? "the scene does not have" : "is no view"),
+                   {.expected = fmt::format("one of {}, perhaps with [element] and one .face, without '?'",
+                                            fmt::join(known, ", ")),
+                    .hint = fmt::format("\"enabled\": \"has({})\" leaves the pass out", ref.name)});
     return;
   }
   const std::int64_t last =

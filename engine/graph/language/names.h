@@ -33,4 +33,17 @@ constexpr bool isReservedWord(std::string_view word) {
   return std::find(kReservedWords.begin(), kReservedWords.end(), word) != kReservedWords.end();
 }
 
+// The dotted name that a text begins with, up to a selector: "ibl.maps" of "ibl.maps.mip[0] as linear". "" when there is none.
+constexpr std::string_view dottedNameIn(std::string_view text) {
+  std::size_t end = 0;
+  for (std::size_t at = 0; at < text.size() && isIdentStart(text[at]); ++at) {
+    std::size_t behind = at;
+    while (behind < text.size() && isIdentChar(text[behind])) ++behind;
+    if (at > 0 && isReservedWord(text.substr(at, behind - at))) break;
+    end = at = behind;
+    if (at >= text.size() || text[at] != '.') break;
+  }
+  return text.substr(0, end);
+}
+
 }  // namespace weft::graph

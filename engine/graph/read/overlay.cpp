@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/graph/language/suffix.h"
+#include "engine/graph/read/lists.h"
 #include "engine/graph/read/read_context.h"
 #include "engine/graph/read/shape.h"
 #include "engine/text/files/file.h"
@@ -608,6 +609,7 @@ std::optional<JsonValue> SourceLoader::parse(const std::string& path, const text
   std::optional<JsonValue> root =
       text::parseJson(*texts_[path], std::make_shared<const std::string>(path), diagnostics_);
   if (root) mendKeys(*root, preset, diagnostics_);
+  if (root) writeOutLists(*root, diagnostics_);
   return root;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "engine/graph/read/overlay.h"
@@ -102,8 +103,28 @@ class GraphReader {
       std::optional<RefDesc> ref = context.refOf(member.value);
       if (named && ref) graph->outputs.push_back({member.key, *std::move(ref)});
     }
+    takeOptional(*graph);
     graph->texts = loader_.texts();
     return graph;
+  }
+
+  // What reads an optional input may do without it.
+  void takeOptional(GraphDesc& graph) {
+    std::set<std::string_view> optional;
+    std::set<std::pair<std::uint32_t, std::uint32_t>> said;  // where; passes may share a slot
+    for (const ResourceDesc& resource : graph.resources)
+      if (resource.kind == ResourceDesc::Kind::input && resource.optional) optional.insert(resource.name);
+    for (PassDesc& pass : graph.passes)
+      for (SlotDesc& slot : pass.slots) {
+        if (slot.access == Access::write || slot.ref.import || !optional.contains(slot.ref.name)) continue;
+        if (std::exchange(slot.ref.optional, true) &&
+            said.emplace(slot.ref.place.line, slot.ref.place.column).second)
+          diagnostics_
+              .warning(
+                  Code::unusedDeclaration, slot.ref.place,
+                  fmt::format("the '?' of \"{}\" says nothing new: the input is optional", slot.ref.text))
+              .hint = "leave it out; `weft format` does";
+      }
   }
 
   // A file without any key of a graph, such as a scene: one report says what it lacks and who may take it.

@@ -116,11 +116,20 @@ Expr ReadContext::exprOf(const JsonValue& value) {
                                                             : Expr::listOf(std::move(items), value.place);
 }
 
-std::optional<RefDesc> ReadContext::refOf(const JsonValue& value) {
+std::optional<RefDesc> ReadContext::refOf(const JsonValue& value, bool alternative) {
   if (!value.is(Type::string)) return std::nullopt;
   text::Diagnostics said;
   std::optional<RefDesc> parsed = parseRef(value.text, value.textPlace(), said);
   adopt(said);
+  if (!parsed || alternative || !parsed->condition.present()) return parsed;
+  auto& d = error(Code::badReference, parsed->condition.place(), "an 'if' outside of a list of alternatives");
+  d.found = fmt::format("\"{}\"", value.text);
+  d.hint = fmt::format(
+      "say \"resources\": {{ \"maybe_{0}\": [\"{0} if {1}\"] }}, and \"maybe_{0} ?\" here; `weft format` "
+      "does so "
+      "for slots",
+      parsed->name, parsed->condition.text());
+  parsed->condition = Expr();
   return parsed;
 }
 

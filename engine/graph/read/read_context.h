@@ -53,7 +53,8 @@ class ReadContext {
   Expr expr(const JsonValue& object, std::string_view key);
   Expr exprOf(const JsonValue& value);
   std::optional<RefDesc> ref(const JsonValue& object, std::string_view key);
-  std::optional<RefDesc> refOf(const JsonValue& value);
+  // Code::badReference for an `if` where none may stand.
+  std::optional<RefDesc> refOf(const JsonValue& value, bool alternative = false);
 
   // For the parsers of strings, which know no pass: adopt() what they said into a fresh Diagnostics.
   void adopt(const text::Diagnostics& said);

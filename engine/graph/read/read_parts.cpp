@@ -200,7 +200,7 @@ bool isPath(std::string_view key, std::string_view text) {
 void readImport(ReadContext& context, const JsonValue& value, ImportDesc& out) {
   out.type = textIn(value, "import");
   for (const auto& member : value.members) {
-    if (member.key == "import") continue;
+    if (member.key == "import" || member.key == "sample") continue;
     const bool named = context.checkName(member.key, member.place, {"an argument"});
     const JsonValue& given = member.value;
     Expr expr =
@@ -258,21 +258,46 @@ bool readFullMips(ReadContext& context, const JsonValue& mips) {
   return meant || mips.text == "full";
 }
 
+// "specular as linear wrap ?"
+bool readInput(ReadContext& context, const JsonValue& input, ResourceDesc& out) {
+  std::optional<RefDesc> ref = context.refOf(input);
+  if (!ref) return false;
+  const bool plain = !ref->import && !ref->mip && !ref->layer && !ref->face && !ref->element && !ref->stencil;
+  if (!plain || ref->kind || ref->history > 0)
+    context.error(Code::badReference, ref->place, fmt::format("the input '{}' is more than a name", out.name))
+        .hint =
+        "an input is a name, perhaps with 'as', words for sampling, and '?'; say the rest where it is used";
+  out.optional = ref->optional;
+  if (ref->samples) out.sample = std::move(ref);
+  return true;
+}
+
 bool readResourceInto(ReadContext& context, const JsonValue& value, ResourceDesc& out) {
   using Kind = ResourceDesc::Kind;
   const std::string_view kind = kindOf(value);
   if (kind == "alternatives") {
     out.kind = Kind::alternatives;
     for (const JsonValue& item : stringsOf(value))
-      if (std::optional<RefDesc> ref = context.refOf(item)) out.alternatives.push_back(*std::move(ref));
+      if (std::optional<RefDesc> ref = context.refOf(item, true)) out.alternatives.push_back(*std::move(ref));
     return !out.alternatives.empty();
+  }
+  if (kind == "input") {
+    out.kind = Kind::input;
+    out.history = context.expr(value, "history");
+    readHistory(context, value, out);
+    return readInput(context, *value.find("input"), out);
+  }
+  if (const JsonValue* sample = valueIn(value, "sample")) {
+    text::Diagnostics said;
+    out.sample = parseSampling(sample->text, sample->textPlace(), said);
+    context.adopt(said);
   }
   if (kind == "import") {
     out.kind = Kind::import;
     readImport(context, value, out.import);
     return !out.import.type.empty();
   }
-  out.kind = kind == "texture" ? Kind::texture : kind == "buffer" ? Kind::buffer : Kind::input;
+  out.kind = kind == "texture" ? Kind::texture : Kind::buffer;
   if (const JsonValue* mips = valueIn(value, "mips")) out.fullMips = readFullMips(context, *mips);
   for (const auto& [key, member] : kResourceValues)
     if (key != "mips" || !out.fullMips) out.*member = context.expr(value, key);
@@ -282,10 +307,7 @@ bool readResourceInto(ReadContext& context, const JsonValue& value, ResourceDesc
   out.view = textIn(value, "view");
   if (out.view == "2d") out.view.clear();
   if (const JsonValue* view = value.find("view")) out.viewPlace = view->place;
-  out.input = textIn(value, "input");
-  if (const JsonValue* optional = valueIn(value, "optional")) out.optional = optional->flag;
-  if (kind == "buffer") return out.bytes.present();
-  return kind == "input" ? !out.input.empty() : !out.format.empty() && out.size.present();
+  return kind == "buffer" ? out.bytes.present() : !out.format.empty() && out.size.present();
 }
 
 }  // namespace

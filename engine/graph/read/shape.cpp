@@ -26,7 +26,8 @@ using text::Foreign;
 using Type = JsonValue::Type;
 using KeyLists = std::initializer_list<std::span<const KeySpec>>;
 
-constexpr std::array<KeySpec, 4> kKinds{{{"texture", ""}, {"buffer", ""}, {"import", ""}, {"input", ""}}};
+constexpr std::array<KeySpec, 3> kKinds{{{"texture", ""}, {"buffer", ""}, {"import", ""}}};
+constexpr std::array<KeySpec, 1> kInput{{{"input", ""}}};  // of a resource that was an input
 
 // Which words of other programs are looked up for the keys of an object.
 std::optional<Foreign> foreignOf(const Shape& shape) {
@@ -87,6 +88,10 @@ class ShapeCheck {
   void checkResource(JsonMember& member) {
     JsonValue& value = member.value;
     said_.resource = member.key;
+    if (value.find("input")) {
+      if (!mends_) checkObject(value, shapeOf("input"), "input", kInput);
+      return said_.resource.clear();
+    }
     if (mends_ && kindOf(value).empty()) checkKeys(value, {kKinds}, member.key);
     const auto kinds =
         std::ranges::count_if(kKinds, [&](const KeySpec& kind) { return value.find(kind.key) != nullptr; });
@@ -97,7 +102,7 @@ class ShapeCheck {
           .error(kinds == 0 ? Code::missingKey : Code::keysExclude, value,
                  fmt::format("the resource '{}' {}", member.key,
                              kinds == 0 ? "does not say what it is" : "is of two kinds at once"))
-          .hint = "say one of \"texture\", \"buffer\", \"import\" and \"input\"";
+          .hint = "say one of \"texture\", \"buffer\" and \"import\"";
       drop(value);
     }
     said_.resource.clear();

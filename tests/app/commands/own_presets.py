@@ -62,7 +62,7 @@ def main():
         shows(0.5, "an overlay in another folder", of=over)
         including = write("outer/it.json", """{ "resources": { "ldr": { "texture": "rgba32f", "size": [2, 2] } },
           "passes": [ { "include": "../part/part.json", "bind": { "target": "ldr" } } ], "present": "ldr" }""")
-        write("part/part.json", """{ "resources": { "target": { "input": "texture" } },
+        write("part/part.json", """{ "inputs": ["target"],
           "passes": [ { "name": "one", "type": "fullscreen", "shader": "one.frag.glsl", "write": { "result": "target" } } ] }""")
         write("part/shaders/one.frag.glsl", "out vec4 result;\nvoid main() { result = vec4(0.75); }\n")
         shows(0.75, "a graph that is included from another folder", of=including)

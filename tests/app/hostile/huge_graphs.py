@@ -33,7 +33,7 @@ def history_of_alternatives_of_two(n):
     """Bound to an input that wants a history of each resource that the list may mean."""
     files = alternatives_of_two(n)
     files["g.json"]["passes"].insert(0, {"include": "part.json", "as": "part", "bind": {"in": "x0"}})
-    return {**files, "part.json": {"resources": {"in": {"input": "texture", "history": 1}, "kept": SMALL}, "passes": [{**reader("in@-1"), "write": {"result": "kept"}}]}}
+    return {**files, "part.json": {"inputs": [{"in": {"history": 1}}], "resources": {"kept": SMALL}, "passes": [{**reader("in@-1"), "write": {"result": "kept"}}]}}
 
 
 def size_of_alternatives_of_two(n):
@@ -118,7 +118,7 @@ def conditions_in_a_row(n):
 
 
 def binds_in_a_row(n):
-    part = {"resources": {"map": {"input": "texture"}}, "passes": []}
+    part = {"inputs": ["map"], "passes": []}
     stanzas = [{"include": "f.json", "as": f"n{i}", "bind": {"map": f"n{i + 1}.map"}} for i in range(n - 1)]
     return {"g.json": graph({}, [*stanzas, {"include": "f.json", "as": f"n{n - 1}", "bind": {"map": "ldr"}}, reader("n0.map?")]), "f.json": part}
 

@@ -99,7 +99,8 @@ TEST_CASE("live: a parameter on which nothing but uniforms depends, also through
       R"J("parameters": { "plain": { "default": 1.5 }, "base": { "default": 3.0 }, "speed": { "default": 0.25 }, "gate": { "default": true },
         "idle": { "default": 2.0 }, "mode": { "default": "b", "choices": ["a", "b"] }, "defined": { "default": 1 } },
       "let": { "twice": "$base * 2", "more": "$twice + 1", "fade": "min(age(in) / $speed, 1)" })J";
-  const Expanded e = expandPass(head, R"J("read": { "s": "in if $gate ?" }, "defines": { "D": "$defined" },
+  const Expanded e =
+      expandPass(head, R"J("read": { "s": "in ?" }, "enabled": "$gate", "defines": { "D": "$defined" },
       "parameters": { "a": "$plain", "b": "$more", "c": "$fade * $twice", "d": "$mode == b ? $plain : 0", "e": { "default": [1, 2] },
                       "f": { "type": "bool", "default": false, "define": true } })J");
   REQUIRE(e.diagnostics.size() == 1);
@@ -126,13 +127,11 @@ TEST_CASE("live: whatever shapes the plan is structural") {
   CHECK(live(R"J("parameters": { "a": "$py" }, "enabled": "$px > 0")J").empty());
   CHECK(live(R"J("parameters": { "a": "$py" }, "repeat": { "i": [1, "$py - 2"] })J").empty());
   CHECK(live(R"J("parameters": { "a": "$py" }, "defines": { "N": "$py" })J").empty());
-  CHECK(live(R"J("parameters": { "a": "$py" }, "read": { "s": "in if $py > 1 ?" })J").empty());
   CHECK(live(R"J("parameters": { "a": "$py" }, "state": { "blend": "$px > 1 ? none : add" })J").empty());
-  CHECK(live(R"J("parameters": { "a": "$py" })J", R"J(, "outputs": { "o": "in if $px > 1 ?" })J").empty());
   const Expanded size = expandText(
-      R"J({ "parameters": { "px": { "default": 2 }, "pz": { "default": 2 }, "pw": { "default": 0.5 } },
-      "resources": { "out": { "texture": "rgba8", "size": "4 * $px", "clear": "$pw" }, "camera": { "import": "camera", "jitter": "$pz" } },
-      "passes": [ { "name": "p", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "r": "out" }, "parameters": { "a": "$px + $pz + $pw" } } ],
+      R"J({ "parameters": { "px": { "default": 2 }, "pz": { "default": 2 }, "pw": { "default": 0.5 }, "pv": { "default": 2 } },
+      "resources": { "out": { "texture": "rgba8", "size": "4 * $px", "clear": "$pw" }, "camera": { "import": "camera", "jitter": "$pz" }, "maybe": ["out if $pv > 1"] },
+      "passes": [ { "name": "p", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "r": "out" }, "parameters": { "a": "$px + $pz + $pw + $pv" } } ],
       "present": "out" })J");
   CHECK(liveOf(size).empty());
 }

@@ -23,7 +23,7 @@ std::string paperFolder() {
     fs::copy_file(paper / name, folder / name, fs::copy_options::overwrite_existing);
   std::ofstream(folder / "gaussian_bloom.json") << R"({
     "name": "gaussian_bloom",
-    "resources": { "hdr": { "input": "texture" }, "glow": { "texture": "r11f_g11f_b10f", "size": "size(hdr)/2" } },
+    "inputs": ["hdr"], "resources": { "glow": { "texture": "r11f_g11f_b10f", "size": "size(hdr)/2" } },
     "passes": [
       { "name": "glow_prefilter", "type": "fullscreen", "shader": "bloom/prefilter.frag.glsl",
         "read": { "source": "hdr" }, "write": { "result": "glow.mip[0]" },
@@ -35,13 +35,14 @@ std::string paperFolder() {
     "resources": {
       "hdr": { "texture": "rgba16f", "size": "screen", "clear": [0, 0, 0, 1] },
       "depth": { "texture": "depth32f", "size": "screen", "clear": 0 },
-      "ldr": { "texture": "rgba8", "size": "screen" } },
+      "ldr": { "texture": "rgba8", "size": "screen" },
+      "sh": ["gi.sh if $gi_sampling == textures"], "probes": ["gi.probes if $gi_sampling == buffer"] },
     "passes": [
       { "include": "ibl.json" },
       { "include": "gi.json", "bind": { "irradiance": "ibl.irradiance" } },
       { "name": "show", "type": "fullscreen", "shader": "a.frag.glsl",
-        "read": { "hdr": "hdr", "depth": "depth?", "sh": "gi.sh as linear if $gi_sampling == textures ?",
-                  "probes": "gi.probes if $gi_sampling == buffer ?", "brdf": "ibl.brdf", "specular": "ibl.specular" },
+        "read": { "hdr": "hdr", "depth": "depth?", "sh": "sh as linear ?",
+                  "probes": "probes ?", "brdf": "ibl.brdf", "specular": "ibl.specular" },
         "write": { "result": "ldr" } } ],
     "present": "ldr" })";
   return folder.string();

@@ -27,8 +27,9 @@ Expanded tell(const std::vector<std::string>& passes, const Settings& settings =
   std::string all;
   for (const std::string& each : passes) all += (all.empty() ? "" : ", ") + each;
   const bool depth = all.find("\"depth\"") != std::string::npos;
+  const std::string maybe = all.find("maybe") != std::string::npos ? R"J(, "maybe": ["glow if $on"])J" : "";
   const std::string more =
-      depth ? R"J(, "depth": { "texture": "depth32f", "size": 8, "clear": 0 } })J" : " }";
+      maybe + (depth ? R"J(, "depth": { "texture": "depth32f", "size": 8, "clear": 0 } })J" : " }");
   return expandText(std::string("{ ") + kResources + more + R"J(, "passes": [ )J" + all +
                         R"J( ], "present": "ldr")J" + rest + " }",
                     settings);
@@ -66,7 +67,7 @@ TEST_CASE("what a pass that runs draws, and another throws away") {
 TEST_CASE("what feeds only what is switched off is no mistake, by whatever it is switched off") {
   const std::string rest = R"J(, "parameters": { "on": { "default": true } })J";
   const std::string needs =
-      pass("show", R"J("read": { "s": "hdr", "g": "glow if $on ?" }, "write": { "r": "ldr" })J");
+      pass("show", R"J("read": { "s": "hdr", "g": "maybe ?" }, "write": { "r": "ldr" })J");
   const std::string between =
       pass("tint", R"J("enabled": "$on", "read": { "g": "glow" }, "modify": { "r": "hdr" })J");
   CHECK(tell({kSky, kBloom, needs}, with({{"on", "false"}}), rest).text() == "");

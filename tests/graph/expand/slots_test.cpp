@@ -262,7 +262,7 @@ TEST_CASE("includes: prefixes, binds, inputs of the same name, names from outsid
   };
   write(
       "inner.json",
-      R"J({ "parameters": { "k": { "default": 2.0 } }, "resources": { "hdr": { "input": "texture" }, "res": { "texture": "rgba8", "size": "size(hdr)" } },
+      R"J({ "parameters": { "k": { "default": 2.0 } }, "inputs": ["hdr"], "resources": { "res": { "texture": "rgba8", "size": "size(hdr)" } },
     "passes": [ { "name": "go", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "source": "hdr" }, "write": { "result": "res" },
                   "parameters": { "k": "$k", "outer": "$outer", "own": { "default": 3 } } } ], "outputs": { "res": "res?" } })J");
   const auto top = [&](const std::string& include, const Settings& settings = {}) {
@@ -310,7 +310,7 @@ TEST_CASE("enabled of an include: none of its passes without it, and what decide
     return (folder / name).string();
   };
   write("dim.json",
-        R"J({ "parameters": { "own": { "default": true } }, "resources": { "hdr": { "input": "texture" } },
+        R"J({ "parameters": { "own": { "default": true } }, "inputs": ["hdr"],
     "passes": [ { "name": "first", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "source": "hdr" }, "write": { "result": "hdr" } },
                 { "name": "second", "type": "fullscreen", "shader": "a.frag.glsl", "enabled": "$own", "read": { "source": "hdr" }, "write": { "result": "hdr" } } ] })J");
   const auto top = [&](const std::string& enabled, const Settings& settings = {}) {

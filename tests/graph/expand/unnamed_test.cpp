@@ -35,9 +35,9 @@ TEST_CASE("a resource is named wherever a reference or a fact may stand, also wh
   CHECK(warningsOf(expandText(graphBeside(kSpare, "")), Code::unusedDeclaration) == 1);
   const std::string kNamed[][2] = {
       {kSpare, R"J(, "read": { "s": "spare" })J"},
-      {kSpare, R"J(, "read": { "s": "spare if 1 > 2 ?" })J"},
+      {kSpare + R"J(, "maybe": ["spare if 1 > 2"])J", R"J(, "read": { "s": "maybe ?" })J"},
       {kSpare, R"J(, "parameters": { "wide": "size(spare)" })J"},
-      {kSpare + R"J(, "list": ["spare", "out"])J", R"J(, "read": { "s": "list if 1 > 2 ?" })J"},
+      {kSpare + R"J(, "list": ["spare", "out"])J", R"J(, "read": { "s": "list" })J"},
       {R"J("camera": { "import": "camera" })J", ""},  // the view of every pass
   };
   for (const auto& [resource, pass] : kNamed) {
@@ -55,7 +55,7 @@ TEST_CASE("what an included file reads counts for the file that binds it, each t
     return expandFiles(
         "expand_unnamed",
         {{"part.json",
-          R"J({ "resources": { "source": { "input": "texture" }, "out": { "texture": "rgba8", "size": 8 } },
+          R"J({ "inputs": ["source"], "resources": { "out": { "texture": "rgba8", "size": 8 } },
     "passes": [ { "name": "go", "type": "fullscreen", "shader": "a.frag.glsl", )J" +
               inner + R"J( "write": { "result": "out" } } ] })J"},
          {"outer.json",

@@ -48,8 +48,8 @@ TEST_CASE("a parameter is read wherever an expression may stand, also where it d
       {"", "", R"J(, "defines": { "GAIN": "$p" })J"},
       {"", "", R"J(, "repeat": { "i": [0, "$p - $p"] })J"},
       {"", "", R"J(, "state": { "polygon": "$p > 9 ? line : fill" })J"},
-      {"", R"J(, "tex": { "texture": "rgba8", "size": 8, "clear": 0 })J",
-       R"J(, "read": { "s": "tex if $p > 8 ?" })J"},
+      {"", R"J(, "tex": { "texture": "rgba8", "size": 8, "clear": 0 }, "maybe": ["tex if $p > 8"])J",
+       R"J(, "read": { "s": "maybe ?" })J"},
       {R"J("q": "$p")J", "", R"J(, "parameters": { "gain": "$q" })J"},
   };
   for (const auto& [let, resources, pass] : kRead) {

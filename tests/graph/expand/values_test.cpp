@@ -49,7 +49,7 @@ TEST_CASE("defines: booleans, numbers, choices with all their names") {
 
 TEST_CASE("uniforms carry values and the parameter behind them; what influences more is structural") {
   const Expanded e = tryPass(
-      R"J("repeat": { "i": [0, 1] }, "read": { "s": "out if $gate ?" }, "parameters": { "a": "$plain", "b": "i / 4.0", "c": "$twice * 2", "d": { "default": [1, 2, 3] } })J",
+      R"J("repeat": { "i": [0, 1] }, "enabled": "$gate || true", "parameters": { "a": "$plain", "b": "i / 4.0", "c": "$twice * 2", "d": { "default": [1, 2, 3] } })J",
       R"J(, "parameters": { "plain": { "default": 1.5 }, "base": { "default": 3.0 }, "gate": { "default": false } }, "let": { "twice": "$base * 2" })J");
   CHECK(e.uniform("p[1]", "a").value == Value::number(1.5));
   CHECK(e.uniform("p[1]", "a").path == "plain");

@@ -42,7 +42,12 @@ std::vector<Host> hosts() {
       {"texture", kTextureKeys, wrapResource, {{"texture", "r8"}, {"size", 1}, {"history", 1}}},
       {"buffer", kBufferKeys, wrapResource, {{"buffer", 16}, {"history", 1}}},
       {"import", kImportKeys, wrapResource, {{"import", "camera"}}},
-      {"input", kInputKeys, wrapResource, {{"input", "texture"}}},
+      {"input",
+       kInputKeys,
+       [](const Json& o) {
+         return Json{{"passes", Json::array()}, {"inputs", Json::array({Json{{"r", o}}})}};
+       },
+       {{"history", 1}}},
       {"pass", kPassKeys, wrapPass, {{"name", "p"}, {"type", "compute"}}},
       {"set", shapeOf("set").keys,
        [](const Json& o) {

@@ -31,7 +31,7 @@ class Folder : public TestFolder {
 })");
     write("parts/post.json", R"json({
   "parameters": { "curve": { "default": "filmic", "choices": ["filmic", "linear"] } },
-  "resources": { "source": { "input": "texture" }, "out": { "texture": "rgba8", "size": "size(source)" } },
+  "inputs": ["source"], "resources": { "out": { "texture": "rgba8", "size": "size(source)" } },
   "passes": [
     { "include": "glow.json", "as": "bloom" },
     { "name": "composite", "type": "fullscreen", "shader": "c.frag.glsl", "read": { "color": "source.mip[0]", "glow": "bloom.glow" },
@@ -39,7 +39,7 @@ class Folder : public TestFolder {
   ]
 })json");
     write("parts/glow.json", R"({
-  "resources": { "source": { "input": "texture" }, "glow": { "texture": "rgba16f", "size": 64 } },
+  "inputs": ["source"], "resources": { "glow": { "texture": "rgba16f", "size": 64 } },
   "passes": [ { "name": "spread", "type": "fullscreen", "shader": "g.frag.glsl", "read": { "source": "source.mip[0]" },
       "write": { "result": "glow" } } ]
 })");

@@ -20,8 +20,7 @@ const PassDesc* passOf(const GraphDesc& graph, const std::string& name) {
 
 TEST_CASE("includes: prefix, binding, files, sharing") {
   const test::TestFolder folder("read_include_test_files");
-  folder.write("parts/low.json",
-               R"({"resources": {"hdr": {"input": "texture"}}, "passes": [{"name": "p", "type": "x"}]})");
+  folder.write("parts/low.json", R"({"inputs": ["hdr"], "passes": [{"name": "p", "type": "x"}]})");
   folder.write("parts/mid.json",
                R"({"passes": [{"include": "low.json"}, {"include": "../parts/low.json", "as": "again"}]})");
   const std::string top = folder.write(

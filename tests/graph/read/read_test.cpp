@@ -111,14 +111,14 @@ TEST_CASE("every part of a graph arrives in its description") {
     "lut": { "type": "file", "default": "" }, "real": { "type": "float", "default": 3 }
   },
   "let": { "half": "size(hdr)/2", "two": 2 },
+  "inputs": ["outer as linear wrap ?"],
   "resources": {
-    "hdr": { "texture": "rgba16f", "size": "screen", "clear": [0, 0, 0, 1] },
+    "hdr": { "texture": "rgba16f", "size": "screen", "clear": [0, 0, 0, 1], "sample": "linear mirror" },
     "sky": { "texture": "rgba16f", "size": [1024, 512], "mips": "full" },
     "maps": { "texture": "depth32f", "view": "cube_array", "size": 64, "layers": "$count", "mips": 2, "array": 3, "samples": 4, "clear": 1 },
     "flat": { "texture": "r8", "view": "2d", "size": 64 },
-    "mean": { "buffer": "16 * $two", "history": 1, "first": -1.0, "reset": ["@cut", "size(hdr)", "camera if $bloom"] },
+    "mean": { "buffer": "16 * $two", "history": 1, "first": -1.0, "reset": ["@cut", "size(hdr)", "camera"] },
     "camera": { "import": "camera", "jitter": "$bloom ? 16 : 0", "file": "a b/c.cube", "other_file": "$lut", "method": "cpu_radix" },
-    "outer": { "input": "buffer" },
     "order": ["mean if $bloom", "outer"], "alias": "@environment"
   },
   "passes": [
@@ -152,28 +152,32 @@ TEST_CASE("every part of a graph arrives in its description") {
 
   CHECK(graph->lets.size() == 2);
   REQUIRE(graph->resources.size() == 9);
-  CHECK(graph->resources[0].clear.text() == "[0, 0, 0, 1]");
-  CHECK(graph->resources[1].fullMips);
-  CHECK(graph->resources[2].view == "cube_array");
-  CHECK(graph->resources[2].layers.text() == "$count");
-  CHECK(graph->resources[2].array.text() == "3");
-  CHECK(graph->resources[2].samples.text() == "4");
-  CHECK(graph->resources[3].view.empty());
-  const ResourceDesc& mean = graph->resources[4];
+  const std::vector<ResourceDesc>& all = graph->resources;
+  CHECK(all[0].kind == ResourceDesc::Kind::input);
+  CHECK(all[0].name == "outer");
+  CHECK(all[0].optional);
+  CHECK(all[0].sample->sampler.wrap == Wrap::repeat);
+  CHECK(all[1].sample->sampler == Sampler{.linear = true, .wrap = Wrap::mirror});
+  CHECK(all[1].clear.text() == "[0, 0, 0, 1]");
+  CHECK(all[2].fullMips);
+  CHECK(all[3].view == "cube_array");
+  CHECK(all[3].layers.text() == "$count");
+  CHECK(all[3].array.text() == "3");
+  CHECK(all[3].samples.text() == "4");
+  CHECK(all[4].view.empty());
+  const ResourceDesc& mean = all[5];
   CHECK(mean.kind == ResourceDesc::Kind::buffer);
   CHECK(mean.bytes.text() == "16 * $two");
   CHECK(mean.resetRefs.size() == 2);
-  CHECK(mean.resetRefs[1].condition.text() == "$bloom");
   CHECK(mean.resetValues.size() == 1);
-  const ResourceDesc& camera = graph->resources[5];
+  const ResourceDesc& camera = all[6];
   CHECK(camera.import.type == "camera");
   REQUIRE(camera.import.arguments.size() == 4);
   CHECK(camera.import.arguments[1].expr.text() == "a b/c.cube");
   CHECK(camera.import.arguments[2].expr.text() == "$lut");
   CHECK(camera.import.arguments[3].expr.text() == "cpu_radix");
-  CHECK(graph->resources[6].input == "buffer");
-  CHECK(graph->resources[7].alternatives.size() == 2);
-  CHECK(graph->resources[8].alternatives[0].import);
+  CHECK(all[7].alternatives.size() == 2);
+  CHECK(all[8].alternatives[0].import);
 
   REQUIRE(graph->passes.size() == 2);
   const PassDesc& one = graph->passes[0];
@@ -218,7 +222,7 @@ TEST_CASE("everything wrong is reported at once, in the order of the text") {
 })") ==
       "W004 2:3 /nmae; W013 3:37 /parameters/a/default; W003 3:57 /parameters/b; W012 3:60 /parameters/mip; "
       "W009 4:12 /let/a; W020 4:21 /let/a; W004 5:42 /resources/t/sise; W004 5:62 /resources/u/bufer; "
-      "W005 5:81 /resources/v; W011 5:101 /resources/i/input; W020 6:61 /passes/0/enabled; "
+      "W005 5:81 /resources/v; W004 5:92 /resources/i/input; W020 6:61 /passes/0/enabled; "
       "W021 6:86 /passes/0/read/s; W011 6:101 /passes/0/update; W003 6:112 /passes/1; W003 7:14 /present");
 }
 

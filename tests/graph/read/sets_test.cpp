@@ -144,9 +144,8 @@ TEST_CASE("sets: a pass that is disabled is written back beside them") {
 
 TEST_CASE("sets: names of sets lead to where they are declared") {
   const TestFolder folder("sets_test_files");
-  folder.write(
-      "part.json",
-      R"J({ "resources": { "out": { "input": "texture" } }, "sets": { "over": { "state": { "cull": "back" } } }, "passes": [
+  folder.write("part.json",
+               R"J({ "inputs": ["out"], "sets": { "over": { "state": { "cull": "back" } } }, "passes": [
     { "name": "p", "type": "draw", "shader": "balls/flat", "list": "spheres", "geometry": "quad", "use": "over", "modify": { "radiance": "out" } } ] })J");
   folder.write(
       "base.json",

@@ -89,7 +89,7 @@ TEST_CASE("clustered lamps: with tiles or slices disabled spheres and glass are 
   for (const Way& way : {kDeferred, Way{"graphs/studio.json", {}}}) {
     CAPTURE(way.graph);
     const std::vector<float> whole = render(way, scene, {});
-    for (const char* pass : {"lamps_in_tiles", "lamps_in_slices"})
+    for (const char* pass : {"lamps_in_tiles", "lamps_in_columns", "lamps_in_slices"})
       CHECK(whole == render(way, scene, {std::string(pass)}));
   }
 }

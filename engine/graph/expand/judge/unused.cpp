@@ -127,11 +127,15 @@ class Mentions {
     }
     Scope* const parent = entity.scope->parent;
     if (entity.desc->kind != ResourceDesc::Kind::input || !parent) return index;
+    const std::string& name = entity.desc->name;
     const auto& binds = entity.scope->stanza->include->binds;
-    const auto bound = std::ranges::find(binds, entity.desc->name, &std::pair<std::string, RefDesc>::first);
-    return add(bound == binds.end() ? find(*parent, entity.desc->name, false)
-                                    : find(*parent, bound->second.name, bound->second.import),
-               back);
+    if (const auto bound = std::ranges::find(binds, name, &std::pair<std::string, RefDesc>::first);
+        bound != binds.end() && !includeBound(*parent, name, bound->second))
+      return add(find(*parent, bound->second.name, bound->second.import), back);
+    for (const auto& [own, ref] : binds)
+      if (const Scope* all = includeBound(*parent, own, ref))
+        if (const std::uint32_t found = find(*all, name, false); found != kNone) return add(found, back);
+    return add(find(*parent, name, false), back);
   }
 
   Model& model_;
@@ -206,14 +210,12 @@ void warnOfParts(Model& model, const Entity& entity, const Mentions::Parts& part
              entity.name);
 }
 
-// A stanza that nothing in the files leaves out, without an `if` at what it writes.
+// A stanza that nothing in the files leaves out.
 bool isUnconditional(const Scope& scope, const PassDesc& pass) {
   bool conditional = pass.enabled.present() || !pass.repeat.empty();
   for (const Scope* outer = &scope; outer->stanza; outer = outer->parent)
     conditional = conditional || outer->stanza->enabled.present();
-  return !conditional && std::ranges::none_of(pass.slots, [](const SlotDesc& slot) {
-    return slot.access != Access::read && slot.ref.condition.present();
-  });
+  return !conditional;
 }
 
 // The pass that always writes all of it before anybody reads the list, or null.

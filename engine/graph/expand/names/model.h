@@ -84,14 +84,16 @@ struct Entity {
   std::vector<std::uint32_t> inputs{};  // that stand for it and ask for a history
   const RefDesc* firstRef = nullptr;    // what is read in place of `first`, in the names of firstScope
   Scope* firstScope = nullptr;
-  FlatUse firstUse{.resource = kNone};    // of it, once some pass reads it
-  std::uint32_t import = kNone;           // index into FlatGraph::imports
-  bool exists = true;                     // imports only
-  bool fallback = false;                  // imports only: a plain read may do without
-  double count = 0;                       // imports only
-  std::uint32_t bound = kNone;            // input: what it stands for
-  std::uint32_t emptied = kNone;          // into Model::emptied: one that would write it
+  FlatUse firstUse{.resource = kNone};  // of it, once some pass reads it
+  std::uint32_t import = kNone;         // index into FlatGraph::imports
+  bool exists = true;                   // imports only
+  bool fallback = false;                // imports only: a plain read may do without
+  double count = 0;                     // imports only
+  std::uint32_t bound = kNone;          // input: what it stands for
+  const RefDesc* sample = nullptr;      // how it is sampled; of an input also what is bound to it may say so
+  std::uint32_t emptied = kNone;        // into Model::emptied: one that would write it
   std::vector<std::uint32_t> candidates;  // alternatives: parallel to desc->alternatives; kNone: unknown
+  std::vector<const RefDesc*> samples{};  // parallel: how each is sampled
   std::vector<Element> elements;
   std::uint32_t firstRead = kNone;  // the first position at which some slot names it
 };

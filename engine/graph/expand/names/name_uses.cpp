@@ -90,8 +90,8 @@ class NameFinder {
     if (child == scope.includes.end()) return;
     for (std::size_t i = 0; i < pass.include->binds.size(); ++i) {
       const auto& [input, ref] = pass.include->binds[i];
+      addRef(scope, ref);  // in a list it stands at the place of the input
       addResource(*child->second, input, insideOf(pass.include->bindPlaces[i]), false);
-      addRef(scope, ref);
     }
   }
 
@@ -133,6 +133,8 @@ class NameFinder {
       add(UseOf::resource, name, entity.name, place, insideOf(entity.desc->place));
     } else if (const auto pass = in.passes.find(name); pass != in.passes.end()) {
       addTo(in, *pass->second, place);  // of has(pass)
+    } else if (const auto include = in.includes.find(name); include != in.includes.end()) {
+      addTo(in, *include->second->stanza, place);  // of "bind"
     }
   }
 

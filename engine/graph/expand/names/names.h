@@ -32,11 +32,14 @@ void applySetting(Model& model, const Setting& set);
 void applyDisable(Model& model, const Disable& disable);
 
 // The entity that a name stands for; an input stands for what is bound to it. kNone when there is none (which is not
-// reported), or when nothing is bound to an input (which is reported once).
-std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool import);
+// reported), or when nothing is bound to an input (which is reported once). `sample` gets what says, nearest to the name, how it
+// is sampled: an input, or the resource itself; null when none does.
+std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool import,
+                         const RefDesc** sample = nullptr);
 // The same, but reports W040 or W043, with the nearest name. `who`: "pass 'blur'"; `verb`: "reads"; `pass`: "blur".
 std::uint32_t findEntityOrReport(Model& model, Scope& scope, const RefDesc& ref, std::string_view who,
-                                 std::string_view verb, std::string_view pass = {});
+                                 std::string_view verb, std::string_view pass = {},
+                                 const RefDesc** sample = nullptr);
 // A resource that nothing names, while what is named more than once is not there and one slip away, is one mistake, at the
 // declaration: it is reported, and found by that name, too. True when it was done now: then a name may be found after all.
 bool mendDeclarations(Model& model);
@@ -47,6 +50,8 @@ std::uint32_t findAsked(Model& model, Scope& scope, std::string_view name);
 std::pair<const PassDesc*, Scope*> findAskedPass(Scope& scope, std::string_view name);
 // Follows the prefixes of a dotted name into the files that are included under them; `name` gets what is left.
 Scope& scopeOf(Scope& scope, std::string_view& name);
+// The scope of the include that an entry of "bind" names whole, for all inputs that have its names; null for another entry.
+Scope* includeBound(Scope& scope, std::string_view input, const RefDesc& ref);
 // All names of resources that this file may use.
 std::vector<std::string> resourceNames(const Model& model, const Scope& scope);
 // True when the name may be of something that the reader reported and left out: a use of it is no second mistake.

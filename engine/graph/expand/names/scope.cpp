@@ -30,16 +30,36 @@ void addParameter(Model& model, Scope& scope, const ParameterDesc& desc, std::st
 
 void buildScope(Model& model, Scope& scope);
 
+bool isInput(const ResourceDesc& resource) {
+  return resource.kind == ResourceDesc::Kind::input;
+}
+
+// Whether the file declares the resource itself.
+bool hasOwn(const Model& model, const Scope& scope, const std::string& name) {
+  const auto found = scope.resources.find(name);
+  return found != scope.resources.end() && !isInput(*model.entities[found->second].desc);
+}
+
 // An input takes the whole of a resource.
-void checkBind(Model& model, const IncludeDesc& include, const std::string& name, const RefDesc& ref) {
+void checkBind(Model& model, Scope& scope, const IncludeDesc& include, const std::string& name,
+               const RefDesc& ref) {
   std::vector<std::string> inputs;
   for (const ResourceDesc& resource : include.graph->resources)
-    if (resource.kind == ResourceDesc::Kind::input) inputs.push_back(resource.name);
+    if (isInput(resource)) inputs.push_back(resource.name);
+  if (const Scope* bound = includeBound(scope, name, ref)) {
+    if (std::ranges::none_of(inputs, [&](const std::string& input) { return hasOwn(model, *bound, input); }))
+      report(
+          model, Code::badBind, ref.place,
+          fmt::format("include '{}' binds all of '{}', which has none of its inputs", include.as, ref.name),
+          {.expected = fmt::format("an include with one of {}", fmt::join(inputs, ", ")),
+           .hint = "leave it out"});
+    return;
+  }
   if (std::ranges::find(inputs, name) == inputs.end())
     report(model, Code::badBind, ref.place,
            fmt::format("include '{}' binds '{}', which is no input of '{}'", include.as, name, include.file),
            {.hint = text::nearestHint(name, inputs)});
-  if (!isWhole(ref) || ref.condition.present())
+  if (!isWhole(ref))
     report(model, Code::badBind, ref.place,
            fmt::format("include '{}' binds '{}' to more than a name", include.as, name),
            {.expected = "the name of a whole resource",
@@ -61,7 +81,6 @@ void addInclude(Model& model, Scope& scope, const PassDesc& stanza) {
   child.prefix = scope.prefix + include.as + ".";
   scope.includes.try_emplace(include.as, &child);
   buildScope(model, child);
-  for (const auto& [name, ref] : include.binds) checkBind(model, include, name, ref);
 }
 
 void buildScope(Model& model, Scope& scope) {
@@ -75,8 +94,11 @@ void buildScope(Model& model, Scope& scope) {
   }
   for (const ResourceDesc& resource : desc.resources)
     if (scope.resources.try_emplace(resource.name, static_cast<std::uint32_t>(model.entities.size())).second)
-      model.entities.push_back(
-          {.kind = resource.kind, .desc = &resource, .scope = &scope, .name = scope.prefix + resource.name});
+      model.entities.push_back({.kind = resource.kind,
+                                .desc = &resource,
+                                .scope = &scope,
+                                .name = scope.prefix + resource.name,
+                                .sample = resource.sample ? &*resource.sample : nullptr});
   for (const PassDesc& pass : desc.passes) {
     if (pass.include) addInclude(model, scope, pass);
     if (model.stopped) return;
@@ -85,6 +107,9 @@ void buildScope(Model& model, Scope& scope) {
       if (parameter.declared)
         addParameter(model, scope, *parameter.declared, scope.prefix + pass.name + "." + parameter.name);
   }
+  for (const PassDesc& pass : desc.passes)  // when all includes are known
+    if (pass.include && pass.include->graph)
+      for (const auto& [name, ref] : pass.include->binds) checkBind(model, scope, *pass.include, name, ref);
   model.sets += desc.sets.size();
   const std::tuple<std::size_t, std::uint64_t, const char*> bounds[] = {
       {model.parameters.size(), kMaxNames, "parameters"},
@@ -98,9 +123,7 @@ void buildScope(Model& model, Scope& scope) {
 
 // A file with inputs that is opened by itself has nothing behind them.
 void reportToInclude(Model& model) {
-  const auto needed = [](const ResourceDesc& each) {
-    return each.kind == ResourceDesc::Kind::input && !each.optional;
-  };
+  const auto needed = [](const ResourceDesc& each) { return isInput(each) && !each.optional; };
   const auto first = std::ranges::find_if(model.desc.resources, needed);
   if (first == model.desc.resources.end()) return;
   model.toInclude = true;
@@ -138,8 +161,8 @@ void linkAlternatives(Model& model) {
     if (entity.kind != ResourceDesc::Kind::alternatives) continue;
     for (const RefDesc& ref : entity.desc->alternatives) {
       if (isOver(model)) return;
-      entity.candidates.push_back(
-          findEntityOrReport(model, *entity.scope, ref, "a list of alternatives", "names"));
+      entity.candidates.push_back(findEntityOrReport(model, *entity.scope, ref, "a list of alternatives",
+                                                     "names", {}, &entity.samples.emplace_back()));
     }
   }
   for (std::uint32_t i = 0; i < model.entities.size() && !model.stopped; ++i) {
@@ -211,38 +234,27 @@ void buildScopes(Model& model) {
 
 namespace {
 
-// Whether it may be bound to an input for a buffer or for a texture. An unknown import is reported where it stands.
-bool fitsInput(const Model& model, const Entity& bound, bool wantsBuffer) {
-  if (bound.kind == ResourceDesc::Kind::texture || bound.kind == ResourceDesc::Kind::buffer)
-    return wantsBuffer == (bound.kind == ResourceDesc::Kind::buffer);
-  if (bound.kind != ResourceDesc::Kind::import) return true;
-  const ImportType* type =
-      findImportType(model.registry, bound.desc ? bound.desc->import.type : bound.name.substr(1));
-  return !type || (type->kind == ImportKind::texture) != wantsBuffer;
-}
-
 // What the includer binds to an input, or what it has of its name; the input itself, which becomes a list of none, where it may
 // be left out. kNone after a report.
 std::uint32_t boundTo(Model& model, Entity& input, std::uint32_t index) {
   Scope* const parent = input.scope->parent;
   const std::string& name = input.desc->name;
   const RefDesc* bind = nullptr;
+  Scope* all = nullptr;  // an include whose resource of the name is bound
   if (parent)
-    for (const auto& [own, ref] : input.scope->stanza->include->binds)
-      if (own == name) bind = &ref;
-  std::uint32_t target = bind     ? findEntityOrReport(model, *parent, *bind, "\"bind\"", "names")
-                         : parent ? findEntity(model, *parent, name, false)
+    for (const auto& [own, ref] : input.scope->stanza->include->binds) {
+      Scope* const include = includeBound(*parent, own, ref);
+      if (!include && own == name) bind = &ref;
+      if (include && !all && hasOwn(model, *include, name)) all = include;
+    }
+  const RefDesc* sample = nullptr;
+  std::uint32_t target = bind ? findEntityOrReport(model, *parent, *bind, "\"bind\"", "names", {}, &sample)
+                         : parent ? findEntity(model, all ? *all : *parent, name, false, &sample)
                                   : kNone;
   if (target == kNone && !bind && parent && !input.desc->optional && mendDeclarations(model))
-    target = findEntity(model, *parent, name, false);
-  if (target != kNone) {
-    const Entity& bound = model.entities[target];
-    if (fitsInput(model, bound, input.desc->input == "buffer")) return target;
-    report(model, Code::badBind, input.scope->stanza->place,
-           fmt::format("input '{}' is a {}, '{}' is not", input.name, input.desc->input, bound.name),
-           {.resource = bound.name});
-    return kNone;
-  }
+    target = findEntity(model, *parent, name, false, &sample);
+  if (!input.sample) input.sample = sample;
+  if (target != kNone) return target;
   // One of the includer's own that has nothing behind it was reported there, and those of the root by reportToInclude().
   if (bind || (parent && parent->resources.contains(name))) return kNone;
   if (input.desc->optional) {
@@ -297,14 +309,31 @@ Scope& scopeOf(Scope& scope, std::string_view& name) {
   return scopeOf(*child->second, name);
 }
 
-std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool import) {
-  if (name.starts_with('@')) return findEntity(model, scope, name.substr(1), true);
-  if (import && name.find('.') == std::string_view::npos) return findImport(model, scope, name);
-  const Scope& in = scopeOf(scope, name);
-  const auto own = in.resources.find(name);
-  const std::uint32_t found = own == in.resources.end() ? kNone : followInput(model, own->second);
-  const bool fits = found != kNone && (!import || model.entities[found].kind == ResourceDesc::Kind::import);
-  return fits ? found : kNone;
+Scope* includeBound(Scope& scope, std::string_view input, const RefDesc& ref) {
+  const std::string whole = ref.name + ".";
+  std::string_view rest = whole;
+  Scope& in = scopeOf(scope, rest);
+  const bool named = rest.empty() && input == std::string_view(ref.name).substr(ref.name.rfind('.') + 1);
+  return named && !scope.resources.contains(ref.name) && !ref.import && isWhole(ref) ? &in : nullptr;
+}
+
+std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool import,
+                         const RefDesc** sample) {
+  if (name.starts_with('@')) return findEntity(model, scope, name.substr(1), true, sample);
+  const Scope* in = &scope;
+  std::uint32_t found = kNone, own = kNone;
+  if (import && name.find('.') == std::string_view::npos) {
+    found = own = findImport(model, scope, name);
+  } else {
+    in = &scopeOf(scope, name);
+    if (const auto there = in->resources.find(name); there != in->resources.end()) {
+      own = there->second;
+      found = followInput(model, own);
+    }
+    if (found != kNone && import && model.entities[found].kind != ResourceDesc::Kind::import) found = kNone;
+  }
+  if (sample && found != kNone) *sample = model.entities[own].sample;
+  return found;
 }
 
 std::vector<std::string> resourceNames(const Model& model, const Scope& scope) {
@@ -338,10 +367,13 @@ Mentions mentionsOf(Model& model) {
     if (!scope.parent) continue;
     const auto& binds = scope.stanza->include->binds;
     for (const auto& [input, ref] : binds) mention(*scope.parent, ref.name, ref.import ? 0 : 1);
+    const bool some = std::ranges::any_of(binds, [&](const auto& bind) {
+      return includeBound(*scope.parent, bind.first, bind.second) != nullptr;
+    });
     for (const ResourceDesc& input : scope.desc->resources)
       if (input.kind == ResourceDesc::Kind::input &&
           std::ranges::none_of(binds, [&](const auto& bind) { return bind.first == input.name; }))
-        mention(*scope.parent, input.name, input.optional ? 0 : 1);
+        mention(*scope.parent, input.name, input.optional || some ? 0 : 1);
   }
   return mentions;
 }
@@ -386,22 +418,22 @@ std::string hintForResource(const Model& model, const Scope& scope, std::string_
   if (findImportType(model.registry, name)) return fmt::format("did you mean the import '@{}'?", name);
   for (const Scope* outer = scope.parent; outer; outer = outer->parent)
     if (outer->resources.contains(name) || outer->includes.contains(firstPart(name)))
-      return fmt::format(
-          "the including file has it: declare \"{}\": {{ \"input\": \"texture\" }} in the file of the pass",
-          name.substr(name.rfind('.') + 1));
+      return fmt::format("the including file has it: write \"inputs\": [\"{}\"] in the file of the pass",
+                         name.substr(name.rfind('.') + 1));
   return suffixHint(name, resourceNames(model, scope));
 }
 
 }  // namespace
 
 std::uint32_t findEntityOrReport(Model& model, Scope& scope, const RefDesc& ref, std::string_view who,
-                                 std::string_view verb, std::string_view pass) {
+                                 std::string_view verb, std::string_view pass, const RefDesc** sample) {
   const std::string& name = ref.name;
   const bool import = ref.import, own = scope.resources.contains(name);
   const std::size_t before = model.diagnostics.errorCount();
-  const std::uint32_t found = findEntity(model, scope, name, import);
+  const std::uint32_t found = findEntity(model, scope, name, import, sample);
   if (found != kNone || isOver(model) || model.diagnostics.errorCount() > before) return found;
-  if (!import && mendDeclarations(model)) return findEntityOrReport(model, scope, ref, who, verb, pass);
+  if (!import && mendDeclarations(model))
+    return findEntityOrReport(model, scope, ref, who, verb, pass, sample);
   // Its declaration was reported, or it is an input with nothing behind it, which was.
   if (isUnread(scope, name) || (!import && own)) return kNone;
   std::string hint = !import ? hintForResource(model, scope, name)
