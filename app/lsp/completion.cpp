@@ -289,7 +289,8 @@ class Completer {
     if (pass && way[2] == "bind")
       for (const JsonValue& stanza : spot_.values[1]->items)
         if (stanza.find("include")) add(graph::stanzaName(stanza), ItemKind::module);
-    if (refers || areShapes(shapes, "value") || areShapes(shapes, "variable")) mention(refers);
+    if (refers || areShapes(shapes, "value") || areShapes(shapes, "variable") || areShapes(shapes, "format"))
+      mention(refers);
   }
 
   // A reference or an expression, of which a part is typed at the cursor.
@@ -311,12 +312,33 @@ class Completer {
       addWords(graph::kSamplerWords);
       return addWords(graph::kCompareNames);
     }
+    if (const std::size_t sigil = all.substr(0, offset_).rfind('@');
+        !refers && sigil >= whole.begin && sigil < offset_)
+      importValues(all.substr(sigil + 1, offset_ - sigil - 1));
     names(Kind::resource);
     addTypes(registry_.imports, "@");
     if (!refers || condition)
-      addWords(std::initializer_list<const char*>{"size", "mips", "count", "has", "age", "min", "max",
-                                                  "floor", "ceil", "abs", "pow2ceil", "log2ceil", "screen",
-                                                  "device.software", "true", "false"});
+      addWords(std::initializer_list<const char*>{
+          "size", "mips",  "count", "has",  "age",  "format",   "min",      "max",    "floor",
+          "ceil", "round", "abs",   "pow2", "log2", "pow2ceil", "log2ceil", "screen", "device.software",
+          "true", "false"});
+  }
+
+  // The values of an import of which "lamps[0].col" is typed: by its type, or by a name that this file gives it.
+  void importValues(std::string_view typed) {
+    const std::string name(typed.substr(0, typed.find_first_of("[.")));
+    const std::size_t dot = typed.rfind('.');
+    if (dot == typed.npos) return;
+    const JsonValue* declared = text_.json().root.find("resources");
+    declared = declared ? declared->find(name) : nullptr;
+    const std::string_view type = declared ? textOf(*declared, "import") : std::string_view(name);
+    for (const graph::ImportType& each : registry_.imports)
+      for (const graph::TableColumn& column : each.columns)
+        if (each.name == type)
+          add(fragment_.begin < offset_ - typed.size()
+                  ? fmt::format("@{}.{}", typed.substr(0, dot), column.name)
+                  : "." + column.name,
+              ItemKind::field, fmt::format("{} {}", column.type, column.doc));
   }
 
   void files() {

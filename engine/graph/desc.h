@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,7 +37,7 @@ enum class Kind : std::uint8_t {
   depth,
   copy
 };
-enum class Cadence : std::uint8_t { always, on_change, once };
+enum class Cadence : std::uint8_t { always, on_change, once, every };
 
 // What a lookup outside 0..1 finds: the texel at the edge, the texture again, its mirror image, or a BorderColor.
 enum class Wrap : std::uint8_t { clamp, repeat, mirror, border };
@@ -117,8 +118,7 @@ struct ResourceDesc {
   Place place;
   Kind kind = Kind::texture;
   // texture
-  std::string format;
-  Place formatPlace;
+  Expr format;                  // its name, as a word
   Expr size;                    // number or list of 2 (or 3: a 3D texture), texels
   Expr mips;                    // absent: 1
   bool fullMips = false;        // "mips": "full"
@@ -161,8 +161,11 @@ struct RangeDesc {
 struct PassParameterDesc {
   std::string name;
   Place place;
-  Expr value;  // when not declared
+  Expr value;               // when not declared
+  std::vector<Expr> items;  // in its place: of an array, or the columns of a matrix
   std::optional<ParameterDesc> declared;
+  // Its expressions, whichever it has.
+  std::span<const Expr> values() const { return items.empty() ? std::span(&value, 1) : std::span(items); }
 };
 
 struct IncludeDesc {
@@ -179,6 +182,12 @@ struct UsedSet {
   std::string name;
   Place place;     // in "use"
   Place declared;  // of its key under "sets"
+};
+
+// The pass or include of the same file beside which a stanza says that it stands.
+struct BesideDesc {
+  std::string name;
+  bool after = false;  // else before it
 };
 
 struct PassDesc {
@@ -199,6 +208,7 @@ struct PassDesc {
   std::vector<NamedExpr> defines;
   std::vector<NamedExpr> state;  // "depth_test", "cull", "blend" (all slots), "blend.radiance" (one slot), …
   Cadence cadence = Cadence::always;
+  Expr period;  // of Cadence::every: frames
   Expr slices, threads, instances;
   std::string list;
   Place listPlace;
@@ -208,6 +218,7 @@ struct PassDesc {
   std::optional<RefDesc> view;
   bool feedback = false;
   bool sideEffect = false;
+  std::optional<BesideDesc> beside;
 };
 
 struct OutputDesc {

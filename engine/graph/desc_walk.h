@@ -22,11 +22,13 @@ void visitRef(const RefDesc& ref, OnExpr&& onExpr, OnRef&& onRef) {
 
 template <class OnExpr, class OnRef>
 void visitPass(const PassDesc& pass, OnExpr&& onExpr, OnRef&& onRef) {
-  for (const Expr* expr : {&pass.enabled, &pass.slices, &pass.threads, &pass.instances}) onExpr(*expr);
+  for (const Expr* expr : {&pass.enabled, &pass.slices, &pass.threads, &pass.instances, &pass.period})
+    onExpr(*expr);
   for (const RangeDesc& range : pass.repeat)
     for (const Expr* expr : {&range.first, &range.last, &range.step}) onExpr(*expr);
   for (const SlotDesc& slot : pass.slots) visitRef(slot.ref, onExpr, onRef);
-  for (const PassParameterDesc& parameter : pass.parameters) onExpr(parameter.value);
+  for (const PassParameterDesc& parameter : pass.parameters)
+    for (const Expr& value : parameter.values()) onExpr(value);
   for (const NamedExpr& define : pass.defines) onExpr(define.expr);
   for (const NamedExpr& state : pass.state) onExpr(state.expr);
   for (const Expr& argument : pass.geometryArguments) onExpr(argument);
@@ -39,7 +41,7 @@ void visitMentions(const GraphDesc& desc, OnExpr&& onExpr, OnRef&& onRef) {
   for (const ResourceDesc& resource : desc.resources) {
     for (const Expr* expr :
          {&resource.size, &resource.mips, &resource.layers, &resource.array, &resource.samples,
-          &resource.bytes, &resource.clear, &resource.history, &resource.first})
+          &resource.bytes, &resource.clear, &resource.history, &resource.first, &resource.format})
       onExpr(*expr);
     for (const Expr& value : resource.resetValues) onExpr(value);
     for (const NamedExpr& argument : resource.import.arguments) onExpr(argument.expr);

@@ -64,6 +64,7 @@ struct FlatUse {
 struct FlatPass {
   std::uint32_t firstUse = 0, useCount = 0;
   Cadence cadence = Cadence::always;
+  std::uint32_t period = 1;  // of Cadence::every: it runs in frames 0, period, 2 * period, …
   bool sideEffect = false;
   std::uint16_t touches = 0;  // as PassType::touches
   std::uint32_t slices = 1;
@@ -133,15 +134,19 @@ struct SlotSpec {
   bool ofSet = false;  // other passes may have it, too
 };
 
+// A parameter of a pass, or an element of one: of an array, or a column of a matrix.
 struct UniformSpec {
   std::string name;
-  Value value;  // with the present parameters; age() counts as 0
-  // Absent: the value never changes while the plan runs. Else the folded expression, in which age() (by FlatResource index)
-  // and live parameters (by index into FlatGraph::parameters) are left.
+  std::uint32_t element = kNone, elements = 0;  // which, of how many; kNone: the whole
+  Value value;                                  // with the present parameters; age() counts as 0
+  // Absent: the value never changes while the plan runs. Else the folded expression, in which age() (by FlatResource index),
+  // live parameters (by index into FlatGraph::parameters) and values of imports (WatchedValue) are left.
   Expr dynamic;
   std::string path;  // full name of the parameter behind it ("post.dof.aperture"), or empty
   Place place;
   bool constant = false;  // written as a number or a list
+  bool isFirst() const { return element == kNone || element == 0; }
+  std::string text() const { return element == kNone ? name : name + "[" + std::to_string(element) + "]"; }
 };
 
 struct DefineSpec {
@@ -236,6 +241,22 @@ struct DisabledPass {
   std::string why;  // "--disable fxaa", "enabled: $bloom is false"
 };
 
+// A value of an import that parameters follow while the plan runs. In folded expressions its key is its index here plus the number
+// of parameters.
+struct WatchedValue {
+  std::uint32_t import = 0, row = 0;
+  std::uint32_t column = 0;         // into ImportType::columns
+  std::uint8_t part = kWholeValue;  // as ImportValue
+  std::string name;                 // of the column: "view"
+  Value shape;                      // any value of that type; of a part, a column
+  std::string text() const { return (row > 0 ? "[" + std::to_string(row) + "]." : ".") + name; }
+};
+
+// Passes that run before others because the file says so: [from, from + fromCount) before [to, to + toCount).
+struct PassOrder {
+  std::uint32_t from = 0, fromCount = 0, to = 0, toCount = 0;
+};
+
 struct FlatGraph {
   // the compiler's input
   std::vector<FlatPass> passes;  // declared order
@@ -243,6 +264,7 @@ struct FlatGraph {
   std::vector<FlatResource> resources;
   FlatUse present;               // resource kNone: nothing
   std::vector<FlatUse> outputs;  // read-backs; which read as passes do
+  std::vector<PassOrder> orders;
   VersionLinks links;
   // names and places, parallel to passes and resources
   std::vector<std::string> passNames, resourceNames;
@@ -253,6 +275,7 @@ struct FlatGraph {
   std::vector<BorderColor> borders;  // of slots that have one
   std::vector<ImportSpec> imports;
   std::vector<ParameterSpec> parameters;
+  std::vector<WatchedValue> watched;
   std::vector<HistorySpec> histories;
   std::vector<ClearSpec> clears;         // values of version zero
   std::vector<std::string> outputNames;  // parallel to outputs

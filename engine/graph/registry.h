@@ -88,7 +88,8 @@ struct ImportType {
   ImportKind kind = ImportKind::texture;
   std::string doc;
   std::vector<ImportArgument> arguments;
-  std::vector<TableColumn> columns{};  // of buffers: rows, laid out as the reading shader's block says
+  // Values of it, which parameters name, as "@lamps[0].color". Of buffers: rows, laid out as the reading shader's block says.
+  std::vector<TableColumn> columns{};
   std::uint32_t array = 0;  // of textures: this many in one slot, as resources with "array"; see elementOf()
   bool views = false;       // of buffers: its elements are views as well: @lamps[l].face[f]
   bool everyPass = false;   // of views: one under the type's name is that of every pass that names none

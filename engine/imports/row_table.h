@@ -6,11 +6,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <functional>
 #include <glm/glm.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -53,9 +55,13 @@ constexpr const char* glslTypeOf() {
   if constexpr (std::is_same_v<Value, glm::mat4>) return "mat4";
 }
 
+// A value of a table on the CPU; of a matrix column by column.
+using Numbers = std::array<double, 16>;
+
 template <class Row>
 struct Column {
   graph::TableColumn told;
+  void (*read)(const Row& row, Numbers& out) = nullptr;
   void (*write)(std::span<const Row> rows, std::byte* out, std::size_t stride) = nullptr;
 };
 
@@ -65,6 +71,13 @@ Column<Row> column(std::string name, std::string doc) {
   using Given = std::remove_cvref_t<std::invoke_result_t<decltype(Get), const Row&>>;
   using Value = std::conditional_t<std::is_same_v<Given, bool>, std::uint32_t, Given>;
   return {{std::move(name), glslTypeOf<Value>(), std::move(doc)},
+          [](const Row& row, Numbers& out) {
+            const Value value = std::invoke(Get, row);
+            if constexpr (std::is_arithmetic_v<Value>)
+              out[0] = value;
+            else
+              std::copy_n(glm::value_ptr(value), sizeof value / sizeof(float), out.begin());
+          },
           [](std::span<const Row> rows, std::byte* out, std::size_t stride) {
             for (const Row& row : rows) {
               const Value value = std::invoke(Get, row);
@@ -126,6 +139,12 @@ class RowTable {
       copy->generation = generation;
     }
     return {copy->buffer.id(), copy->buffer.bytes()};
+  }
+
+  // As Provider::value().
+  bool read(std::span<const Row> rows, std::size_t row, std::uint32_t column, Numbers& out) const {
+    if (row < rows.size()) columns_[column].read(rows[row], out);
+    return row < rows.size();
   }
 
  private:

@@ -230,7 +230,7 @@ TEST_CASE("what may differ from frame to frame says so; none of the built-in imp
     CAPTURE(type.name);
     const auto provider = importOf(type.name).provide(requestOf(type.name));
     CHECK(provider->isStill(moving) == always.contains(type.name));
-    const bool ofTheScene = !type.columns.empty() && type.name != "mouse";
+    const bool ofTheScene = type.kind == ImportKind::buffer && !type.columns.empty() && type.name != "mouse";
     CHECK(provider->isStill(still) == (always.contains(type.name) || ofTheScene));
     CHECK_FALSE(provider->remembers(moving));
   }

@@ -16,6 +16,7 @@ void shuffle(const FlatGraph& graph, std::uint64_t seed, const Plan& plan, const
   std::vector<std::uint32_t> waiting(graph.passes.size(), 0);
   std::vector<std::vector<std::uint32_t>> followers(graph.passes.size());
   for (const Dependency& edge : dependencies(graph, &plan.attached)) {
+    if (scratch.livePass[edge.from] == 0 || scratch.livePass[edge.to] == 0) continue;
     ++waiting[edge.to];
     followers[edge.from].push_back(edge.to);
   }

@@ -288,7 +288,9 @@ void checkAccumulation(const SlotContext& context, const SlotWork& work, std::ui
   context.report(Code::addsUp, work.slot->ref.place,
                  fmt::format("runs in every frame and modifies '{}', which '{}' makes only {}",
                              work.slot->ref.text, graph.passNames[slower],
-                             graph.passes[slower].cadence == Cadence::once ? "once" : "on change"),
+                             graph.passes[slower].cadence == Cadence::once    ? "once"
+                             : graph.passes[slower].cadence == Cadence::every ? "every few frames"
+                                                                              : "on change"),
                  {.hint = "read it and write another resource, or give both passes one \"update\"",
                   .resource = context.model.entities[work.entity].name});
 }

@@ -175,6 +175,7 @@ void foldDeferred(Model& model, const std::vector<DeferredUniform>& deferred) {
   const auto trialAge = [](std::uint32_t) { return kTrialAge; };
   const auto fold = [&](const DeferredUniform& each, Names names, text::Diagnostics& said) {
     names.indices = each.indices;
+    names.follows = each.uniform != kNone;
     const Expr folded = each.expr->fold(names, said);
     return names.failed ? Expr() : folded;
   };
@@ -191,21 +192,33 @@ void foldDeferred(Model& model, const std::vector<DeferredUniform>& deferred) {
   std::vector<Value> values;
   for (const Parameter& parameter : model.parameters) values.push_back(parameter.value);
   const text::Diagnostics said = model.diagnostics;
+  text::Diagnostics unfollowed;  // what keeps values of imports from being followed
   for (const DeferredUniform& each : deferred) {
-    if (each.uniform == kNone || !isLive(model, *each.scope, *each.expr)) continue;
+    const bool watched = each.expr->watched();
+    if (each.uniform == kNone || (!watched && !isLive(model, *each.scope, *each.expr))) continue;
     UniformSpec& uniform = model.graph.specs[each.pass].uniforms[each.uniform];
     Names names(model, *each.scope);
     names.live = true;
     text::Diagnostics ignored;
-    const Expr folded = fold(each, names, ignored);
+    Expr folded = fold(each, names, ignored);
+    if (watched && !folded.present()) {  // parameters become numbers; the values of imports cannot
+      markStructural(model, *each.scope, *each.expr);
+      folded = fold(each, names, unfollowed);
+    }
+    for (std::size_t i = values.size() - model.parameters.size(); i < model.graph.watched.size(); ++i)
+      values.push_back(model.graph.watched[i].shape);
     // The same as it is without leaves, which was checked.
     const Value before = uniform.dynamic.present() ? uniform.dynamic.evaluateFolded(trialAge) : uniform.value;
     if (folded.present() && folded.live() && folded.evaluateFolded(trialAge, values) == before)
       uniform.dynamic = folded;
+    else if (watched && !unfollowed.hasErrors())
+      unfollowed.error(Code::badTime, each.expr->place(), "values of imports in it cannot be followed").hint =
+          "leave out branches that are not taken";
     else if (!folded.present() || folded.live())
       markStructural(model, *each.scope, *each.expr);
   }
   model.diagnostics = said;  // what cannot be folded is no mistake
+  model.diagnostics.append(unfollowed);
   model.stopped = false;
 }
 

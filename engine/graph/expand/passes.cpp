@@ -25,7 +25,7 @@ using State = SlotWork::State;
 std::uint64_t slotsOf(const PassDesc& desc) {
   std::uint64_t count = desc.slots.size() + desc.parameters.size() + desc.defines.size();
   for (const PassParameterDesc& parameter : desc.parameters)
-    if (parameter.declared) count += parameter.declared->choices.size();
+    count += parameter.items.size() + (parameter.declared ? parameter.declared->choices.size() : 0);
   return count;
 }
 
@@ -70,16 +70,34 @@ class PassWalk {
 
   void walk(Scope& scope, const std::string& outerWhy) {
     const std::string& why = outerWhy.empty() ? scope.disabledBy : outerWhy;
+    std::vector<std::uint32_t> begins;  // the first pass of each stanza
     for (const PassDesc& desc : scope.desc->passes) {
       if (isOver(model_)) return;
+      begins.push_back(static_cast<std::uint32_t>(graph_.passes.size()));
       if (desc.include)
         walkInclude(scope, desc, why);
       else if (scope.passes.find(desc.name)->second == &desc)
         walkStanza(scope, desc, why);
     }
+    begins.push_back(static_cast<std::uint32_t>(graph_.passes.size()));
+    noteOrders(*scope.desc, begins);
   }
 
  private:
+  // What stanzas say of their place, unless an overlay has moved the other one across since.
+  void noteOrders(const GraphDesc& desc, const std::vector<std::uint32_t>& begins) {
+    for (std::size_t own = 0; own < desc.passes.size(); ++own) {
+      const std::optional<BesideDesc>& beside = desc.passes[own].beside;
+      if (!beside) continue;
+      const std::size_t other = static_cast<std::size_t>(
+          std::ranges::find(desc.passes, beside->name, &PassDesc::name) - desc.passes.begin());
+      const auto [from, to] = beside->after ? std::pair(other, own) : std::pair(own, other);
+      if (std::max(from, to) < desc.passes.size() && from < to)
+        graph_.orders.push_back(
+            {begins[from], begins[from + 1] - begins[from], begins[to], begins[to + 1] - begins[to]});
+    }
+  }
+
   void walkInclude(Scope& scope, const PassDesc& desc, const std::string& why) {
     const auto child = scope.includes.find(desc.include->as);
     if (child == scope.includes.end() || child->second->stanza != &desc) return;
@@ -314,6 +332,9 @@ class PassWalk {
     const auto pass = static_cast<std::uint32_t>(graph_.passes.size());
     FlatPass flat;
     flat.cadence = desc.cadence;
+    if (desc.cadence == Cadence::every)
+      flat.period = static_cast<std::uint32_t>(
+          evaluateWhole(context.names, desc.period, 1, 1, 65536, "n of every(n)").value_or(1));
     flat.sideEffect = desc.sideEffect;
     flat.touches = stanza.type->touches;
     flat.slices = static_cast<std::uint32_t>(

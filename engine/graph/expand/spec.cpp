@@ -156,9 +156,9 @@ void checkFixedSlots(const SlotContext& context, const PassDesc& desc) {
 }
 
 void checkCadence(const SlotContext& context, const PassDesc& desc) {
-  if (desc.cadence == Cadence::always) {
+  if (desc.cadence == Cadence::always || desc.cadence == Cadence::every) {
     if (desc.slices.present())
-      context.report(Code::badSlices, desc.slices.place(), "is time-sliced but runs in every frame",
+      context.report(Code::badSlices, desc.slices.place(), "is time-sliced but runs by the clock",
                      {.hint = "slices go with \"update\": \"on_change\" or \"once\""});
     return;
   }
@@ -166,10 +166,13 @@ void checkCadence(const SlotContext& context, const PassDesc& desc) {
     if (isDynamic(context.model, context.names.scope(), expr))
       context.report(Code::badTime, expr.place(),
                      fmt::format("sees time in {}, but does not run in every frame", what),
-                     {.found = expr.text(), .hint = "use age() in passes that are \"update\": \"always\""});
+                     {.found = expr.text(),
+                      .hint = "use age() in passes that are \"update\": \"always\" or \"every(n)\""});
   };
   for (const PassParameterDesc& parameter : desc.parameters)
-    if (!parameter.declared) check(parameter.value, fmt::format("parameter '{}'", parameter.name));
+    if (!parameter.declared)
+      for (const Expr& value : parameter.values())
+        check(value, fmt::format("parameter '{}'", parameter.name));
   check(desc.instances, "\"instances\"");
 }
 
@@ -293,46 +296,67 @@ void addDefine(const SlotContext& context, PassSpec& spec, const NamedExpr& defi
 }
 
 // The parameter behind a uniform: one that the pass declares, or the only $variable of its expression. kNone: there is none.
-std::uint32_t parameterOf(const SlotContext& context, const PassDesc& pass, const PassParameterDesc& desc) {
+std::uint32_t parameterOf(const SlotContext& context, const PassDesc& pass, const PassParameterDesc& desc,
+                          const Expr& value) {
   const std::string own = pass.name + "." + desc.name;
-  const std::string* const name = desc.declared ? &own : onlyVariableOf(desc.value);
+  const std::string* const name = desc.declared ? &own : onlyVariableOf(value);
   const Variable variable = name ? findVariable(context.model, context.names.scope(), *name) : Variable{};
   return variable.kind == Variable::Kind::parameter ? variable.index : kNone;
 }
 
+// `uniform`: which element it is.
 void addUniform(const SlotContext& context, const PassDesc& pass, const PassParameterDesc& desc,
-                PassSpec& spec, std::vector<DeferredUniform>& deferred) {
+                const Expr& value, UniformSpec uniform, PassSpec& spec,
+                std::vector<DeferredUniform>& deferred) {
   Model& model = context.model;
   Scope& scope = context.names.scope();
-  const std::uint32_t index = parameterOf(context, pass, desc);
-  UniformSpec uniform;
-  uniform.name = desc.name;
+  const std::uint32_t index = parameterOf(context, pass, desc, value);
   uniform.place = desc.place;
   if (index != kNone) {
     const Parameter& parameter = model.parameters[index];
     uniform.path = parameter.path;
     uniform.value = parameter.value;
-    if (parameter.desc->define)
+    if (parameter.desc->define && uniform.element == kNone)
       return emitDefine(context, spec, upper(desc.name), parameter.value, parameter.desc->choices,
                         desc.place);
     if (!parameter.structural) uniform.dynamic = Expr::parameter(index, desc.place);
   } else {
-    const bool dynamic = isDynamic(model, scope, desc.value);
-    uniform.constant = desc.value.isConstant();
-    if (!dynamic) uniform.value = desc.value.evaluate(context.names, model.diagnostics);
+    const bool dynamic = isDynamic(model, scope, value);
+    uniform.constant = value.isConstant();
+    context.names.follows = true;
+    context.names.absent = !context.versions;
+    if (!dynamic) uniform.value = value.evaluate(context.names, model.diagnostics);
+    context.names.follows = false;
     if (!dynamic && uniform.value.type == Value::Type::none) return;
-    if (dynamic || isLive(model, scope, desc.value))
-      deferred.push_back({.uniform = static_cast<std::uint32_t>(spec.uniforms.size()), .expr = &desc.value});
+    if (dynamic || value.watched() || isLive(model, scope, value))
+      deferred.push_back({.uniform = static_cast<std::uint32_t>(spec.uniforms.size()), .expr = &value});
   }
   if (uniform.value.type == Value::Type::symbol) {
     context.report(
-        Code::wordForNumber, desc.place, fmt::format("gives its parameter '{}' a word", desc.name),
+        Code::wordForNumber, desc.place, fmt::format("gives its parameter '{}' a word", uniform.text()),
         {.expected = "a number, true, false or a list; a choice becomes a define by \"define\": true",
          .found = toText(uniform.value),
          .hint = hintForWord(context.names, uniform.value)});
     return;
   }
   spec.uniforms.push_back(std::move(uniform));
+}
+
+// One uniform, or one for each element of an array or column of a matrix.
+void addParameter(const SlotContext& context, const PassDesc& pass, const PassParameterDesc& desc,
+                  PassSpec& spec, std::vector<DeferredUniform>& deferred) {
+  constexpr std::uint8_t kColumns = 4;
+  Model& model = context.model;
+  const bool matrix =
+      desc.items.empty() && !desc.declared && isMatrix(model, context.names.scope(), desc.value);
+  if (desc.items.empty() && !matrix)
+    return addUniform(context, pass, desc, desc.value, {.name = desc.name}, spec, deferred);
+  const std::uint32_t size = matrix ? kColumns : static_cast<std::uint32_t>(desc.items.size());
+  for (std::uint32_t i = 0; i < size; ++i)
+    addUniform(context, pass, desc,
+               matrix ? model.matrixColumns.emplace_back(desc.value.column(static_cast<std::uint8_t>(i)))
+                      : desc.items[i],
+               {.name = desc.name, .element = i, .elements = size}, spec, deferred);
 }
 
 void checkDefineNames(const SlotContext& context, const PassDesc& desc, const PassSpec& spec) {
@@ -570,7 +594,7 @@ void fillSpec(const SlotContext& context, const PassDesc& desc, const std::vecto
   StateFiller{context, desc, slots, spec.state}.fill();
   for (const NamedExpr& define : desc.defines) addDefine(context, spec, define);
   for (const PassParameterDesc& parameter : desc.parameters)
-    addUniform(context, desc, parameter, spec, deferred);
+    addParameter(context, desc, parameter, spec, deferred);
   checkDefineNames(context, desc, spec);
   if (shader == ShaderShape::compute) addThreads(context, desc, slots, spec);
   if (shader == ShaderShape::draw) addGeometry(context, desc, spec, deferred);

@@ -44,9 +44,12 @@ constexpr OpInfo kOps[] = {{".", 8},
                            {"floor", 0, 1, 1},
                            {"log2ceil", 0, 1, 1},
                            {"pow2ceil", 0, 1, 1},
-                           {"abs", 0, 1, 1}};
+                           {"abs", 0, 1, 1},
+                           {"round", 0, 1, 1},
+                           {"pow2", 0, 1, 1},
+                           {"log2", 0, 1, 1}};
 constexpr auto kFirstOp = static_cast<std::size_t>(ExprOp::component);
-static_assert(std::size(kOps) == static_cast<std::size_t>(ExprOp::abs) - kFirstOp + 1);
+static_assert(std::size(kOps) == static_cast<std::size_t>(kLastOp) - kFirstOp + 1);
 
 }  // namespace
 
@@ -62,7 +65,7 @@ ExprOp findOp(std::string_view spelling, ExprOp first, ExprOp last) {
 }
 
 const char* nameOf(Fact fact) {
-  static constexpr const char* kNames[] = {"size", "mips", "count", "has", "age"};
+  static constexpr const char* kNames[] = {"size", "mips", "count", "has", "age", "format", ""};
   return kNames[static_cast<int>(fact)];
 }
 
@@ -90,10 +93,11 @@ void setChildren(ExprNode& node, std::vector<ExprPtr> children) {
   const int height = heightOver(children);
   assert(height <= kMaxExprHeight + 1);
   node.height = static_cast<std::uint8_t>(height);
-  node.dynamic = node.live = false;
+  node.dynamic = node.live = node.watched = false;
   for (const ExprPtr& child : children) {
     node.dynamic = node.dynamic || child->dynamic;
     node.live = node.live || child->live;
+    node.watched = node.watched || child->watched;
   }
   node.terms = termsOver(children);
   node.children = std::move(children);
@@ -144,7 +148,15 @@ void print(const ExprNode& node, int outer, std::string& out) {
       out += (node.op == ExprOp::variable ? "$" : "") + node.name;
       break;
     case ExprOp::fact:
-      out += fmt::format("{}({})", nameOf(node.fact), node.name);
+      if (node.fact == Fact::value) {
+        out += node.name;
+        if (!node.children.empty()) list("[", ']');
+        out += "." + node.value.symbol;
+        break;
+      }
+      out += fmt::format("{}({}", nameOf(node.fact), node.name);
+      if (!node.children.empty()) list(".mip[", ']');
+      out += ')';
       break;
     case ExprOp::age_key:
     case ExprOp::parameter_key:
@@ -234,6 +246,16 @@ bool Expr::dynamic() const {
 
 bool Expr::live() const {
   return root_ && root_->live;
+}
+
+bool Expr::watched() const {
+  return root_ && root_->watched;
+}
+
+Expr Expr::column(std::uint8_t part) const {
+  auto node = std::make_shared<ExprNode>(*root_);
+  node->part = part;
+  return {std::move(node), start_};
 }
 
 std::vector<std::uint32_t> Expr::parameterKeys() const {
@@ -341,6 +363,12 @@ double combine(ExprOp op, double a, double b) {
       return a <= 1 ? 1 : std::exp2(log2ceil(a));
     case ExprOp::abs:
       return std::fabs(a);
+    case ExprOp::round:
+      return std::round(a);
+    case ExprOp::pow2:
+      return std::exp2(a);
+    case ExprOp::log2:
+      return a > 0 ? std::log2(a) : NAN;
     case ExprOp::less:
       return a < b ? 1 : 0;
     case ExprOp::less_equal:
@@ -468,7 +496,15 @@ class Evaluator {
   Value identifier(const ExprNode& node) { return scope_.index(node.name).value_or(Value::text(node.name)); }
 
   Value fact(const ExprNode& node) {
-    if (std::optional<Value> value = scope_.fact(node.fact, node.name, node.place)) return *std::move(value);
+    constexpr double kMost = 65535;
+    const Value which = node.children.empty() ? Value::number(0) : run(*node.children[0]);
+    if (!which.isNumeric() || which.v[0] != std::floor(which.v[0]) || which.v[0] < 0 || which.v[0] > kMost)
+      return misfit(*node.children[0], "a level or a row is a whole number", "0, 1, 2, …", which);
+    const auto index = static_cast<std::uint32_t>(which.v[0]);
+    if (node.fact == Fact::value)
+      return scope_.importValue({node.name, node.value.symbol, index, node.part}, node.place);
+    if (std::optional<Value> value = scope_.fact(node.fact, node.name, index, node.place))
+      return *std::move(value);
     if (node.fact == Fact::age && scope_.ageKey(node.name))
       return fail(
           Code::operandsDoNotFit, node, fmt::format("age({}) is not known before the frame runs", node.name),
@@ -666,7 +702,7 @@ bool isConstantNumeric(const ExprPtr& node) {
 bool changesLater(const ExprNode& root, EvalScope& scope) {
   bool changes = root.dynamic || root.live;
   visitNodes(root, [&](const ExprNode& node) {
-    changes = changes ||
+    changes = changes || (node.op == ExprOp::fact && node.fact == Fact::value && scope.keepsImports()) ||
               (node.op == ExprOp::variable && (scope.folded(node.name) || scope.parameterKey(node.name)));
   });
   return changes;
@@ -686,10 +722,18 @@ ExprPtr foldNode(const ExprPtr& node, EvalScope& scope, text::Diagnostics& diagn
     Value value = Evaluator(scope, &diagnostics).run(*node);
     return value.type == Value::Type::none ? nullptr : makeConstant(std::move(value), node->place);
   }
+  if (node->op == ExprOp::fact && node->fact != Fact::age) {
+    const ExprNode* const which = node->children.empty() ? nullptr : node->children[0].get();
+    const Value index = which ? Evaluator(scope, &diagnostics).run(*which) : Value::number(0);
+    if ((which && changesLater(*which, scope)) || index.type == Value::Type::none) return nullptr;
+    const std::optional<std::uint32_t> key =
+        scope.importKey({node->name, node->value.symbol, static_cast<std::uint32_t>(index.v[0]), node->part});
+    return key ? Expr::parameter(*key, node->place).root()->shared_from_this() : nullptr;
+  }
   if (node->op == ExprOp::fact) {
     const std::optional<std::uint32_t> key = scope.ageKey(node->name);
     if (!key) {
-      if (scope.fact(Fact::age, node->name, node->place)) return nullptr;  // reported
+      if (scope.fact(Fact::age, node->name, 0, node->place)) return nullptr;  // reported
       auto& d = diagnostics.error(Code::unknownVariable, node->place,
                                   fmt::format("age() of unknown resource '{}'", node->name));
       d.hint = text::nearestHint(node->name, scope.candidates(EvalScope::NameKind::fact_argument));

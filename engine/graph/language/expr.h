@@ -23,7 +23,16 @@ struct ExprNode;  // engine/graph/language/expr_node.h
 using AgeFunction = std::function<double(std::uint32_t key)>;
 class Expr;
 
-enum class Fact : std::uint8_t { size, mips, count, has, age };
+// The last is no function: @import.value.
+enum class Fact : std::uint8_t { size, mips, count, has, age, format, value };
+
+// "@lamps[0].color": `import` has its @.
+constexpr std::uint8_t kWholeValue = 4;
+struct ImportValue {
+  std::string_view import, value;
+  std::uint32_t row = 0;
+  std::uint8_t part = kWholeValue;  // or a column of a matrix
+};
 
 // Answers for names while an expression is evaluated. nullopt means "no such name"; evaluate() then reports
 // it with the nearest of candidates(). A scope that already reported an error of its own returns Value{}
@@ -36,7 +45,9 @@ class EvalScope {
   virtual std::optional<Value> variable(std::string_view) { return std::nullopt; }
   virtual std::optional<Value> index(std::string_view) { return std::nullopt; }
   virtual std::optional<Value> builtin(std::string_view) { return std::nullopt; }
-  virtual std::optional<Value> fact(Fact, std::string_view /*resource*/, const text::Place&) {
+  // `level`: of size(resource.mip[level]), else 0.
+  virtual std::optional<Value> fact(Fact, std::string_view /*resource*/, std::uint32_t /*level*/,
+                                    const text::Place&) {
     return std::nullopt;
   }
   // The choices of a choice parameter, or empty: `$draw == bilboard` is then an error with the nearest
@@ -52,6 +63,11 @@ class EvalScope {
   // A key by which a folded expression finds the value of a live parameter; nullopt for every other name,
   // which is folded to its value.
   virtual std::optional<std::uint32_t> parameterKey(std::string_view /*variable*/) { return std::nullopt; }
+  // What it is, or a value of its type as long as nothing runs; none after a report.
+  virtual Value importValue(const ImportValue&, const text::Place&) { return {}; }
+  // A key by which a folded expression finds it, as parameterKey(); nullopt while it is folded to importValue().
+  virtual std::optional<std::uint32_t> importKey(const ImportValue&) { return std::nullopt; }
+  virtual bool keepsImports() const { return false; }
   // What folded expressions ask by these keys: seconds since a publication, the value of a live parameter.
   virtual double age(std::uint32_t) { return 0; }
   virtual Value parameter(std::uint32_t) { return {}; }
@@ -75,8 +91,12 @@ class Expr {
   bool present() const { return root_ != nullptr; }
   // True when it contains age(): its value changes from frame to frame.
   bool dynamic() const;
-  // True when it is folded and contains live parameters.
+  // True when it is folded and contains live parameters or values of imports.
   bool live() const;
+  // True when it is not folded and contains values of imports.
+  bool watched() const;
+  // A column of the matrix that the expression is: a value of an import.
+  Expr column(std::uint8_t part) const;
   // The keys of those, each once, ascending.
   std::vector<std::uint32_t> parameterKeys() const;
   // Canonical text, fit to be parsed again.
@@ -86,7 +106,7 @@ class Expr {
   const std::vector<std::string>& variables() const;
   // True when the bare `word` stands in it: a repeat index or a choice.
   bool says(std::string_view word) const;
-  // Every size(x), mips(x), count(x), has(x), age(x) it asks, with the name as written (an @ included), in
+  // Every size(x), mips(x), count(x), has(x), age(x), format(x) it asks, with the name as written (an @ included), in
   // order.
   std::vector<std::pair<Fact, std::string>> facts() const;
   // True when evaluating it needs no scope: a literal of the file, or a folded expression without age() and

@@ -18,11 +18,13 @@ namespace weft::graph {
 
 enum class ExprOp : std::uint8_t {
   constant,
-  list,           // children: 1..4 items
-  variable,       // name: "bloom", "composite.fog"
-  identifier,     // name: a repeat index, else a symbol
-  builtin,        // name: "screen", "device.software"
-  fact,           // name: the resource, with its @ if written; fact
+  list,        // children: 1..4 items
+  variable,    // name: "bloom", "composite.fog"
+  identifier,  // name: a repeat index, else a symbol
+  builtin,     // name: "screen", "device.software"
+  // name: the resource, with its @ if written; fact; children: the level of size(x.mip[level]). Of Fact::value also its name, in
+  // `value`, and children: the row.
+  fact,
   age_key,        // key: a folded age()
   parameter_key,  // key: a live parameter, folded
   component,      // children: the list; key: 0..3
@@ -49,16 +51,22 @@ enum class ExprOp : std::uint8_t {
   log2ceil,
   pow2ceil,
   abs,
+  round,
+  pow2,
+  log2,
 };
+constexpr ExprOp kLastOp = ExprOp::log2;
 
 struct ExprNode : std::enable_shared_from_this<ExprNode> {
   ExprOp op = ExprOp::constant;
   Fact fact = Fact::size;
-  std::uint8_t height = 1;  // 1 for leaves; never above kMaxExprHeight
-  bool dynamic = false;     // contains age()
-  bool live = false;        // contains a live parameter, folded
-  bool folded = false;      // nothing in it is left to fold
-  std::uint32_t key = 0;    // of a parsed fact: bytes from `place` to the resource, without its @
+  std::uint8_t height = 1;          // 1 for leaves; never above kMaxExprHeight
+  bool dynamic = false;             // contains age()
+  bool live = false;                // contains a live parameter, or a value of an import, folded
+  bool watched = false;             // contains a value of an import, not folded
+  std::uint8_t part = kWholeValue;  // of a value of an import: as ImportValue
+  bool folded = false;              // nothing in it is left to fold
+  std::uint32_t key = 0;            // of a parsed fact: bytes from `place` to the resource, without its @
   std::uint32_t terms =
       1;              // number of nodes from here down; a node that stands in several places counts in each
   text::Place place;  // of the token to blame: the operator, the name, the function
@@ -88,7 +96,7 @@ ExprOp findOp(std::string_view spelling, ExprOp first, ExprOp last);
 // misspelt `screen`. "" when the value is no word, or nothing is near.
 std::string hintForWord(EvalScope& scope, const Value& value);
 
-// "size", "mips", "count", "has", "age".
+// "size", "mips", "count", "has", "age", "format"; "" for a value of an import.
 const char* nameOf(Fact fact);
 
 // A node over `children`, with height and dynamic filled in. The caller has checked the height.

@@ -95,7 +95,8 @@ constexpr int kMaxParsedHeight =
     kMaxExprHeight - 1;  // leaves one level for the list that Expr::listOf puts around it
 constexpr std::uint32_t kMaxParsedTerms = 1000;
 
-constexpr std::array kFacts = {Fact::size, Fact::mips, Fact::count, Fact::has, Fact::age};
+constexpr std::array kFacts = {Fact::size, Fact::mips, Fact::count,
+                               Fact::has,  Fact::age,  Fact::format};  // functions
 
 constexpr int kComparison = 4;
 
@@ -265,10 +266,42 @@ class Parser {
       if (!accept(")")) return failUnexpected("')'");
       return inner;
     }
-    if (at("@"))
-      return fail(first, "'@' names an import, which is no value by itself",
-                  "ask about it with count(@name), size(@name), has(@name)");
+    if (at("@")) return parseImportValue();
     return failUnexpected("a value");
+  }
+
+  // "@" name [ "[" row "]" ] "." value
+  ExprPtr parseImportValue() {
+    const Token at = token_;
+    advance();
+    auto node = std::make_shared<ExprNode>();
+    std::string name;
+    if (token_.kind != Token::Kind::identifier) return failUnexpected("the name of an import");
+    node->key = static_cast<std::uint32_t>(token_.begin - at.begin);
+    if (!parseDotted(name, true)) return nullptr;
+    std::size_t dot = name.rfind('.');
+    if (accept("[")) {
+      ExprPtr row = parseConditional();
+      if (!row) return nullptr;
+      if (!accept("]")) return failUnexpected("']'");
+      setChildren(*node, {row});
+      if (!accept(".") || token_.kind != Token::Kind::identifier)
+        return failUnexpected("'.' and the name of a value");
+      dot = name.size();
+      name += fmt::format(".{}", token_.text);
+      advance();
+    }
+    if (dot == std::string::npos)
+      return fail(
+          at, fmt::format("'@{}' is an import, which is no value by itself", name),
+          fmt::format("name a value of it, '@{0}.…', or ask count(@{0}), size(@{0}), has(@{0})", name));
+    node->op = ExprOp::fact;
+    node->fact = Fact::value;
+    node->watched = true;
+    node->place = placeOf(at);
+    node->name = "@" + name.substr(0, dot);
+    node->value = Value::text(name.substr(dot + 1));
+    return node;
   }
 
   ExprPtr parseList() {
@@ -304,8 +337,8 @@ class Parser {
     return node;
   }
 
-  // ident { "." ident }, leaving a trailing .x .y .z .w alone when `components`.
-  bool parseDotted(std::string& name, bool components) {
+  // ident { "." ident }, leaving a trailing .x .y .z .w alone when `components`, and .mip when `level`.
+  bool parseDotted(std::string& name, bool components, bool level = false) {
     name = token_.text;
     advance();
     while (at(".")) {
@@ -316,9 +349,12 @@ class Parser {
         return fail(next, fmt::format("'.{}' is no part of a name", next.text), "put it behind the ')'"),
                false;
       }
+      if (level && next.text == "mip") return true;
       if (isReservedWord(next.text))
         return fail(next, fmt::format("'.{}' selects a sub-resource, where a name is expected", next.text),
-                    fmt::format("values know the whole of it: size({0}), mips({0})", name)),
+                    fmt::format(
+                        "values know the whole of it, and the size of a level: size({0}), size({0}.mip[1])",
+                        name)),
                false;
       advance();
       name += '.';
@@ -334,14 +370,23 @@ class Parser {
     if (token_.kind != Token::Kind::identifier) return failUnexpected("the name of a resource");
     const std::size_t begin = token_.begin;
     std::string rest;
-    if (!parseDotted(rest, false)) return nullptr;
+    if (!parseDotted(rest, false, fact == Fact::size)) return nullptr;
+    ExprPtr level;
+    if (accept(".")) {
+      advance();  // mip
+      if (!accept("[")) return failUnexpected("'[' and a level");
+      level = parseConditional();
+      if (!level) return nullptr;
+      if (!accept("]")) return failUnexpected("']'");
+    }
     if (at("["))
       return fail(token_, fmt::format("{}() takes a whole resource, without a selector", word.text));
     if (!accept(")")) return failUnexpected("')'");
     auto node = std::make_shared<ExprNode>();
     node->op = ExprOp::fact;
     node->fact = fact;
-    node->dynamic = fact == Fact::age;
+    if (level) setChildren(*node, {level});
+    node->dynamic = node->dynamic || fact == Fact::age;
     node->key = static_cast<std::uint32_t>(begin - word.begin);
     node->place = placeOf(word);
     node->name = name + rest;
@@ -352,12 +397,12 @@ class Parser {
     advance();  // (
     for (const Fact fact : kFacts)
       if (word.text == nameOf(fact)) return parseFact(fact, word);
-    const ExprOp function = findOp(word.text, ExprOp::minimum, ExprOp::abs);
+    const ExprOp function = findOp(word.text, ExprOp::minimum, kLastOp);
     const OpInfo info = infoOf(function);
     if (function == ExprOp::constant) {
       std::vector<std::string> known;
       for (const Fact fact : kFacts) known.emplace_back(nameOf(fact));
-      for (auto op = ExprOp::minimum; op <= ExprOp::abs; op = static_cast<ExprOp>(static_cast<int>(op) + 1))
+      for (auto op = ExprOp::minimum; op <= kLastOp; op = static_cast<ExprOp>(static_cast<int>(op) + 1))
         known.emplace_back(infoOf(op).spelling);
       auto& d = diagnostics_.error(text::Code::badFunctionCall, placeOf(word),
                                    fmt::format("unknown function '{}'", word.text));

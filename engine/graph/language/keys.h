@@ -12,7 +12,7 @@ namespace weft::graph {
 
 constexpr std::array<std::string_view, 8> kParameterTypes = {"bool", "int",  "float",  "vec2",
                                                              "vec3", "vec4", "choice", "file"};
-constexpr std::array<std::string_view, 3> kUpdateWords = {"always", "on_change", "once"};
+constexpr std::array<std::string_view, 3> kUpdateWords = {"always", "on_change", "once"};  // or every(n)
 
 constexpr std::array<std::string_view, 7> kBlendWords = {"none",     "add", "alpha", "premultiplied",
                                                          "multiply", "min", "max"};

@@ -133,7 +133,7 @@ class Describer {
     if (step != kNone) line(1, "step {} of {}", step, plan_.steps.size());
     line(1, "{}", explainer_.whyPass(pass));
     if (const std::string here = explainer_.whyHere(pass); !here.empty()) line(1, "{}", here);
-    if (flat.cadence != Cadence::always) line(1, "update {}", nameOf(flat.cadence));
+    if (flat.cadence != Cadence::always) line(1, "update {}", updateOf(flat));
     if (flat.slices != 1) line(1, "slices {}", flat.slices);
     if (!spec.vertexShader.empty()) line(1, "vertex shader {}", spec.vertexShader);
     if (!spec.shader.empty()) line(1, "shader {}", spec.shader);
@@ -155,11 +155,18 @@ class Describer {
       if (wanted(define.name)) line(1, "define {} {}", define.name, define.text);
     for (const UniformSpec& uniform : spec.uniforms)
       if (wanted(uniform.name))
-        line(1, "parameter {} = {}{}{}", uniform.name, toText(uniform.value),
+        line(1, "parameter {} = {}{}{}", uniform.text(), toText(uniform.value),
              uniform.path.empty() ? "" : fmt::format(" ({})", uniform.path),
-             uniform.dynamic.present() && uniform.dynamic.dynamic() ? ", changes with time" : "");
+             follows(uniform)                                         ? ", follows an import"
+             : uniform.dynamic.present() && uniform.dynamic.dynamic() ? ", changes with time"
+                                                                      : "");
     for (std::uint32_t i = 0; i < spec.slotCount; ++i)
       if (const SlotSpec& slot = graph_.slots[spec.firstSlot + i]; wanted(slot.name)) addSlot(slot, pass);
+  }
+
+  bool follows(const UniformSpec& uniform) const {
+    const std::vector<std::uint32_t> keys = uniform.dynamic.parameterKeys();
+    return !keys.empty() && keys.back() >= graph_.parameters.size();
   }
 
   void addSlot(const SlotSpec& slot, std::uint32_t pass) {
@@ -229,7 +236,7 @@ class Describer {
             uniform.dynamic.present() ? uniform.dynamic.parameterKeys() : std::vector<std::uint32_t>{};
         const bool live = std::ranges::find(keys, index) != keys.end();
         if (live || uniform.path == parameter.path)
-          line(1, "is read by '{}' as '{}'", spec.name, uniform.name);
+          line(1, "is read by '{}' as '{}'", spec.name, uniform.text());
       }
   }
 

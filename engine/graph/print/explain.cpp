@@ -77,8 +77,9 @@ const char* nameOf(Target target) {
   return kNames[static_cast<std::size_t>(target)];
 }
 
-const char* nameOf(Cadence cadence) {
-  return cadence == Cadence::always ? "always" : cadence == Cadence::on_change ? "on_change" : "once";
+std::string updateOf(const FlatPass& pass) {
+  if (pass.cadence == Cadence::every) return fmt::format("every({})", pass.period);
+  return std::string(kUpdateWords[static_cast<std::size_t>(pass.cadence)]);
 }
 
 Explainer::Explainer(const Plan& plan)
@@ -124,11 +125,16 @@ std::string Explainer::whyHere(std::uint32_t pass) const {
   std::string text;
   for (const Dependency& edge : edges_) {
     if (edge.to != pass || plan_.stepOf[edge.from] == kNone) continue;
+    text += text.empty() ? "after " : ", ";
+    if (edge.type == Dependency::Type::stated) {
+      text += fmt::format("'{}' (as the file says)", graph_.passNames[edge.from]);
+      continue;
+    }
     const char* why = edge.type == Dependency::Type::read_after_write   ? "reads its"
                       : edge.type == Dependency::Type::write_after_read ? "overwrites what it reads,"
                                                                         : "overwrites its";
-    text += fmt::format("{}'{}' ({} '{}')", text.empty() ? "after " : ", ", graph_.passNames[edge.from], why,
-                        graph_.resourceNames[edge.resource]);
+    text +=
+        fmt::format("'{}' ({} '{}')", graph_.passNames[edge.from], why, graph_.resourceNames[edge.resource]);
   }
   return text;
 }

@@ -44,7 +44,8 @@ std::string spanText(const char* part, std::uint32_t first, std::uint32_t count)
 // "texture rgba16f 64x64, 3 levels, 32768 bytes"
 std::string shapeText(const FlatResource& resource);
 const char* nameOf(Target target);
-const char* nameOf(Cadence cadence);
+// "on_change", "every(4)".
+std::string updateOf(const FlatPass& pass);
 
 // Adds a line, two spaces further in per `depth`, and nothing that a terminal obeys.
 template <class... Args>

@@ -130,7 +130,10 @@ class FileWriter {
     for (std::size_t at = text.find('#'); at != std::string::npos; at = text.find('#', at + 1)) {
       const std::size_t end = std::min(text.find_first_not_of("0123456789", at + 1), text.size());
       const auto key = static_cast<std::uint32_t>(std::stoul(text.substr(at + 1, end - at - 1)));
-      if (text[at - 1] == '$') {
+      if (key >= graph_.parameters.size() && text[at - 1] == '$') {
+        const WatchedValue& watched = graph_.watched[key - graph_.parameters.size()];
+        text.replace(at - 1, end - at + 1, "@" + importName(watched.import) + watched.text());
+      } else if (text[at - 1] == '$') {
         text.replace(at - 1, end - at + 1, graph::toText(graph_.parameters[key].value));
       } else {
         use(key);
@@ -223,7 +226,7 @@ class FileWriter {
     addSlots(spec, json);
     addDrawing(spec, json);
     addState(spec, json);
-    if (flat.cadence != Cadence::always) json["update"] = nameOf(flat.cadence);
+    if (flat.cadence != Cadence::always) json["update"] = updateOf(flat);
     if (flat.slices != 1) json["slices"] = flat.slices;
     if (flat.sideEffect) json["side_effect"] = true;
     for (std::uint32_t u = flat.firstUse; u < flat.firstUse + flat.useCount; ++u) {
@@ -238,8 +241,16 @@ class FileWriter {
     for (const DefineSpec& define : spec.defines)
       defines[define.name] = Json::parse(define.text, nullptr, false);
     for (const UniformSpec& uniform : spec.uniforms) {
-      const bool timed = uniform.dynamic.present() && uniform.dynamic.dynamic();
-      parameters[uniform.name] = timed ? Json(expressionText(uniform.dynamic)) : jsonOf(uniform.value);
+      const std::vector<std::uint32_t> keys = uniform.dynamic.parameterKeys();
+      const bool follows = !keys.empty() && keys.back() >= graph_.parameters.size();
+      const bool timed = follows || (uniform.dynamic.present() && uniform.dynamic.dynamic());
+      if (follows && graph_.watched[keys.back() - graph_.parameters.size()].part != kWholeValue) {
+        parameters[uniform.name] = expressionText(uniform.dynamic);  // all columns of a matrix
+        continue;
+      }
+      Json& value = parameters[uniform.name];
+      (uniform.element == kNone ? value : value.emplace_back()) =
+          timed ? Json(expressionText(uniform.dynamic)) : jsonOf(uniform.value);
     }
     if (!parameters.is_null()) json["parameters"] = std::move(parameters);
     if (!defines.is_null()) json["defines"] = std::move(defines);

@@ -117,7 +117,7 @@ Json dataOf(const Plan& plan, bool explain) {
   for (std::uint32_t t = 0; t < end; ++t) {
     const Step& step = plan.steps[t];
     const FlatPass& pass = graph.passes[step.pass];
-    Json s{{"pass", graph.passNames[step.pass]}, {"update", nameOf(pass.cadence)}};
+    Json s{{"pass", graph.passNames[step.pass]}, {"update", updateOf(pass)}};
     if (pass.slices != 1) s["slices"] = pass.slices;
     if (pass.sideEffect) s["side_effect"] = true;
     s["barriers"] = barriersData(step.barriers);

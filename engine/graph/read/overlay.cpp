@@ -156,7 +156,54 @@ class Applier {
     }
   }
 
+  // In a file that extends no other: its stanzas that say where they stand are laid over the others, in an order in which each
+  // finds what it names.
+  void place() {
+    JsonMember* const passes = memberOf(target_.root, "passes");
+    const auto says = [](const JsonValue& stanza) { return anchorOf(stanza) || stanza.find("remove"); };
+    if (!passes || std::ranges::none_of(passes->value.items, says)) return;
+    std::vector<JsonValue> stay, waiting;
+    for (JsonValue& stanza : passes->value.items) {
+      dropRemove(stanza);
+      const bool once = std::ranges::count(passes->value.items, stanzaName(stanza), stanzaName) == 1;
+      (anchorOf(stanza) && once ? waiting : stay).push_back(stanza);
+    }
+    passes->value.items = std::move(stay);
+    while (!waiting.empty() && !stopped()) {
+      const auto next = std::ranges::find_if(waiting, [&](const JsonValue& stanza) {
+        return std::ranges::find(waiting, anchorOf(stanza)->text, stanzaName) == waiting.end();
+      });
+      if (next == waiting.end()) {
+        const JsonValue& anchor = *anchorOf(waiting[0]);
+        said_.pass = stanzaName(waiting[0]);
+        said_
+            .error(Code::passCycle, anchor,
+                   fmt::format("pass '{}' stands beside '{}', which waits for it", said_.pass, anchor.text))
+            .hint = "leave one \"before\" or \"after\" out";
+        std::ranges::move(waiting, std::back_inserter(passesOf(target_)));
+        return;
+      }
+      applyStanza(*next);
+      waiting.erase(next);
+    }
+  }
+
  private:
+  static const JsonValue* anchorOf(const JsonValue& stanza) {
+    const JsonValue* after = stanza.find("after");
+    return after ? after : stanza.find("before");
+  }
+
+  void dropRemove(JsonValue& stanza) {
+    std::erase_if(stanza.members, [&](const JsonMember& member) {
+      if (member.key != "remove") return false;
+      said_.pass = stanzaName(stanza);
+      said_.error(Code::overlayOutOfPlace, member.place, "\"remove\" in a file that extends no other").hint =
+          "leave the pass out, or say what this file \"extends\"";
+      return true;
+    });
+  }
+
   bool stopped() const { return tooMuch_ || !said_.goesOn(); }
 
   // Objects merge, null takes a member away, anything else replaces what is there.
@@ -396,15 +443,13 @@ class Applier {
     if (!said_.expect(stanza, Type::object, "a pass")) return;
     if (!sectionOf(target_, "passes")) return;  // the reader says what is wrong with the base
     said_.pass = stanzaName(stanza);
-    const JsonValue* before = stanza.find("before");
-    const JsonValue* after = stanza.find("after");
-    const JsonValue* remove = stanza.find("remove");
-    if (before && after)
+    const JsonValue *after = stanza.find("after"), *remove = stanza.find("remove");
+    if (stanza.find("before") && after)
       said_.error(Code::keysExclude, stanza.place, "a pass cannot stand both \"before\" and \"after\" others")
           .hint = "keep one of them";
     else if (remove && !remove->is(Type::boolean))
       said_.expect(*remove, Type::boolean, "\"remove\"");
-    else if (const JsonValue* anchor = before ? before : after)
+    else if (const JsonValue* anchor = anchorOf(stanza))
       putAt(stanza, *anchor, after != nullptr);
     else
       change(stanza, remove && remove->flag);
@@ -436,13 +481,16 @@ class Applier {
     std::vector<JsonValue>& items = passesOf(*source);
     std::size_t at = beside.index ? *beside.index + (after ? 1 : 0) : items.size();
     JsonValue placed = withSets(withoutPlace(stanza, own), beside.below);
+    JsonMember place = *std::ranges::find(stanza.members, after ? "after" : "before", &JsonMember::key);
+    place.value.text = beside.own;
     if (beside.index && moved.index) {
       const auto there = items.begin() + static_cast<std::ptrdiff_t>(*moved.index);
       if (!mergeStanza(*source, *there, stanza, beside.below)) return;
-      placed = std::move(*there);
+      placed = withoutPlace(std::move(*there), own);
       items.erase(there);
       if (*moved.index < at) --at;
     }
+    if (beside.index) placed.members.push_back(std::move(place));
     items.insert(items.begin() + static_cast<std::ptrdiff_t>(at), std::move(placed));
   }
 
@@ -537,22 +585,6 @@ class Applier {
 
 // ---- files ----
 
-// Takes the keys of stanzas in overlays away, which mean nothing where there is nothing to lay them over.
-void dropOverlayKeys(JsonValue& root, text::Diagnostics& diagnostics) {
-  JsonMember* passes = memberOf(root, "passes");
-  if (!passes) return;
-  for (JsonValue& stanza : passes->value.items)
-    std::erase_if(stanza.members, [&](const JsonMember& member) {
-      if (member.key != "before" && member.key != "after" && member.key != "remove") return false;
-      ReadContext said(diagnostics);
-      said.pass = stanzaName(stanza);
-      said.error(Code::overlayOutOfPlace, member.place,
-                 fmt::format("\"{}\" in a file that extends no other", member.key))
-          .hint = "write the pass at its place in the list, or say what this file \"extends\"";
-      return true;
-    });
-}
-
 // What "extends" names: a path, or a list of paths. Empty after a report.
 std::vector<const JsonValue*> namesIn(const JsonValue& extends, text::Diagnostics& diagnostics) {
   std::vector<const JsonValue*> names;
@@ -641,10 +673,13 @@ std::shared_ptr<const Source> SourceLoader::complete(JsonValue root, const std::
       for (const JsonMember& member : set->members) source.sets.push_back({member, Origin::file});
       std::erase_if(root.members, [](const JsonMember& member) { return member.key == "set"; });
     }
-    dropOverlayKeys(root, diagnostics_);
-    source.values = valuesOf(root);
     source.root = std::move(root);
-    return mayCopy(source, source.root.place) ? std::make_shared<const Source>(std::move(source)) : nullptr;
+    source.values = valuesOf(source.root);
+    if (!mayCopy(source, source.root.place)) return nullptr;
+    open_.emplace_back(source.identity, path);
+    Applier(*this, source, diagnostics_).place();
+    open_.pop_back();
+    return std::make_shared<const Source>(std::move(source));
   }
   const std::vector<const JsonValue*> below = namesIn(*extends, diagnostics_);
   open_.emplace_back(source.identity, path);

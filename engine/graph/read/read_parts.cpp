@@ -302,12 +302,14 @@ bool readResourceInto(ReadContext& context, const JsonValue& value, ResourceDesc
   for (const auto& [key, member] : kResourceValues)
     if (key != "mips" || !out.fullMips) out.*member = context.expr(value, key);
   readHistory(context, value, out);
-  out.format = textIn(value, "texture");
-  if (const JsonValue* format = value.find("texture")) out.formatPlace = format->place;
+  if (const JsonValue* format = valueIn(value, "texture"))
+    out.format = format->text.find_first_of("$(") == std::string::npos
+                     ? Expr::constant(Value::text(format->text), format->place)
+                     : context.exprOf(*format);
   out.view = textIn(value, "view");
   if (out.view == "2d") out.view.clear();
   if (const JsonValue* view = value.find("view")) out.viewPlace = view->place;
-  return kind == "buffer" ? out.bytes.present() : !out.format.empty() && out.size.present();
+  return kind == "buffer" ? out.bytes.present() : out.format.present() && out.size.present();
 }
 
 }  // namespace
@@ -430,17 +432,26 @@ void readSlots(ReadContext& context, const JsonValue& slots, Access access, Read
   }
 }
 
+// More than a number or a vector.
+bool isArrayOrMatrix(const JsonValue& value) {
+  return value.items.size() > Value{}.v.size() ||
+         std::ranges::any_of(value.items, [](const JsonValue& item) { return item.is(Type::array); });
+}
+
 void readParameters(ReadContext& context, const JsonValue& value, ReadContext::Seen& names, PassDesc& out) {
   for (const JsonMember& member : membersIn(value, "parameters")) {
-    PassParameterDesc parameter{member.key, member.place, {}, {}};
+    PassParameterDesc parameter{.name = member.key, .place = member.place};
     bool good = context.checkFresh(names, member.key, member.place, kSharedName);
     if (member.value.is(Type::object)) {
       parameter.declared = readParameter(context, member);
     } else {
       good = context.checkName(member.key, member.place, {"a parameter", true, false, true}) && good;
-      parameter.value = context.exprOf(member.value);
+      if (isArrayOrMatrix(member.value))
+        for (const JsonValue& item : member.value.items) parameter.items.push_back(context.exprOf(item));
+      else
+        parameter.value = context.exprOf(member.value);
     }
-    if (good && (parameter.declared || parameter.value.present()))
+    if (good && (parameter.declared || std::ranges::all_of(parameter.values(), &Expr::present)))
       out.parameters.push_back(std::move(parameter));
   }
   for (const JsonMember& member : membersIn(value, "defines")) {
@@ -509,6 +520,26 @@ void readGeometry(ReadContext& context, const JsonValue& value, PassDesc& out) {
   if (call) out.geometryArguments = std::move(call->arguments);
 }
 
+void readUpdate(ReadContext& context, const JsonValue& value, PassDesc& out) {
+  const JsonValue* update = valueIn(value, "update");
+  if (!update) return;
+  const auto word = std::ranges::find(kUpdateWords, update->text);
+  out.cadence = static_cast<Cadence>(word - kUpdateWords.begin());
+  if (word != kUpdateWords.end()) return;
+  text::Diagnostics said;
+  const std::optional<CallText> call = parseCallText(update->text, update->textPlace(), said);
+  context.adopt(said);
+  out.cadence = Cadence::always;
+  if (!call) return;
+  if (call->name != "every" || call->arguments.size() != 1) {
+    context.error(Code::badFunctionCall, *update, fmt::format("\"update\" cannot be '{}'", update->text))
+        .expected = fmt::format("{} or every(n), in each n-th frame", fmt::join(kUpdateWords, ", "));
+    return;
+  }
+  out.cadence = Cadence::every;
+  out.period = call->arguments[0];
+}
+
 // False when the pass cannot be used.
 bool readPassInto(ReadContext& context, const JsonValue& value, const JsonValue& sets, PassDesc& out) {
   for (const TextKey& each : kPassTexts)
@@ -528,8 +559,7 @@ bool readPassInto(ReadContext& context, const JsonValue& value, const JsonValue&
     out.vertexShader = textIn(*shaders, "vertex");
     out.shader = textIn(*shaders, "fragment");
   }
-  if (const std::string update = textIn(value, "update"); !update.empty())
-    out.cadence = static_cast<Cadence>(std::ranges::find(kUpdateWords, update) - kUpdateWords.begin());
+  readUpdate(context, value, out);
   for (const auto& [key, flag] : kPassFlags)
     if (const JsonValue* found = valueIn(value, key)) out.*flag = found->flag;
   for (const auto& [key, member] : kPassValues) out.*member = context.expr(value, key);
@@ -561,6 +591,8 @@ std::optional<PassDesc> readPass(ReadContext& context, const JsonValue& value, c
   } else if (good) {
     good = readPassInto(context, value, sets, out);
   }
+  for (const char* key : {"before", "after"})
+    if (const JsonValue* beside = valueIn(value, key)) out.beside = {beside->text, *key == 'a'};
   context.pass.clear();
   return good ? std::optional(std::move(out)) : std::nullopt;
 }

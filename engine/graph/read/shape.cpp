@@ -140,16 +140,18 @@ class ShapeCheck {
           .hint = doc.empty() || doc == expectedText(shape) ? "" : fmt::format("\"{}\": {}", key, doc);
     if (good && branch->items)
       for (JsonValue& each : value.items) good = good && checkValue(each, *branch->items, key, doc, true);
-    if (good && value.is(Type::string) && !branch->open && !mends_) good = checkWord(value, *branch, key);
+    // Beside words there may be calls, such as every(n).
+    const bool call =
+        value.text.find('(') != std::string::npos && !shape.anyOf.empty() && shape.anyOf.back()->open;
+    if (good && value.is(Type::string) && !branch->open && !call && !mends_)
+      good = checkWord(value, *branch, key);
     if (good && value.is(Type::object)) checkObject(value, *branch, key);
     if (!good && !mends_) drop(value);
     return good;
   }
 
   bool checkWord(JsonValue& value, const Shape& shape, std::string_view key) {
-    // Formats are told from those of other programs where they are looked up.
-    if (shape.kind == "format" || std::ranges::find(shape.words, value.text) != shape.words.end())
-      return true;
+    if (std::ranges::find(shape.words, value.text) != shape.words.end()) return true;
     auto& d =
         said_.error(Code::unknownWord, value, fmt::format("unknown word \"{}\" for \"{}\"", value.text, key));
     d.expected = fmt::format("{}", fmt::join(shape.words, ", "));

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "engine/imports/builtin.h"
 #include "engine/text/nearest.h"
@@ -62,6 +64,27 @@ std::vector<graph::ImportArgument> arguments() {
       argument("height", number, "over 0: orthographic, this many world units from bottom to top")};
 }
 
+Columns<scene::ViewData> cameraColumns() {
+  using Row = scene::ViewData;
+  return {
+      column<Row, &Row::eye>("position", "world"),
+      column<Row, [](const Row& row) { return -glm::vec3(row.view[0][2], row.view[1][2], row.view[2][2]); }>(
+          "direction", "unit, where it looks, world"),
+      column<Row, &Row::near_plane>("near_plane",
+                                    "world units before it; depth 1. A perspective has no far plane"),
+      column<Row,
+             [](const Row& row) {
+               const bool perspective = row.projection[2][3] != 0;
+               return perspective ? 2 * std::atan(1 / row.projection[1][1]) * 180 / std::numbers::pi_v<float>
+                                  : 0.0f;
+             }>("angle", "of view, vertical, degrees; 0 of an orthographic one"),
+      column<Row, &Row::view>("view", "world to what it sees, along -Z"),
+      column<Row, &Row::projection>("projection",
+                                    "that to clip space, with the picture's shape and its jitter"),
+      column<Row, &Row::view_projection>("view_projection", "projection * view"),
+      column<Row, &Row::inverse_view_projection>("inverse_view_projection", "")};
+}
+
 class CameraProvider : public Provider {
  public:
   explicit CameraProvider(const graph::ImportRequest& request)
@@ -70,10 +93,14 @@ class CameraProvider : public Provider {
   const scene::ViewData& view(const Frame& frame, const ViewPart& part) override {
     return views_.view(frame, part.width, part.height);
   }
+  bool value(const Frame& frame, const ViewPart& part, std::uint32_t column, Numbers& out) override {
+    return table_.read({&views_.view(frame, part.width, part.height), 1}, part.element, column, out);
+  }
   std::uint64_t generation(const Frame& frame) override { return views_.generation(frame); }
 
  private:
   CameraViews views_;
+  RowTable<scene::ViewData> table_{"camera", cameraColumns()};
 };
 
 class Camera : public ImportOf<CameraProvider> {
@@ -86,6 +113,7 @@ class Camera : public ImportOf<CameraProvider> {
             "The scene's camera, or one that stands elsewhere. Declared under the name `camera` it is the "
             "view of every pass.",
         .arguments = arguments(),
+        .columns = tell(cameraColumns()),
         .everyPass = true};
   }
 

@@ -39,6 +39,10 @@ class LampsProvider : public Provider {
     return table_.get(
         layout, generation_, [this] { return tableRows(); }, diagnostics);
   }
+  bool value(const Frame& frame, const ViewPart& part, std::uint32_t column, Numbers& out) override {
+    follow(frame);
+    return table_.read(tableRows(), part.element, column, out);
+  }
   const scene::ViewData& view(const Frame& frame, const ViewPart& part) override {
     follow(frame);
     if (part.element < rows_.size())

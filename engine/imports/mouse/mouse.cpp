@@ -21,6 +21,9 @@ class MouseProvider : public Provider {
     const auto row = [this] { return std::array{shown_}; };
     return table_.get(layout, generation(frame), row, diagnostics);
   }
+  bool value(const Frame& frame, const ViewPart& part, std::uint32_t column, Numbers& out) override {
+    return table_.read(std::array{frame.input.pointer}, part.element, column, out);
+  }
   std::uint64_t generation(const Frame& frame) override {
     if (generation_ == 0 || frame.input.pointer != shown_) {
       shown_ = frame.input.pointer;

@@ -49,11 +49,12 @@ class SunProvider : public Provider {
 
   BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
     follow(frame);
-    const auto row = [&] {
-      const auto cosAngle = static_cast<float>(std::cos(sun_.angle / 2 * std::numbers::pi / 180));
-      return std::array{SunRow{sun_, cosAngle, fitted_.texel, fitted_.shadowMatrix}};
-    };
-    return table_.get(layout, generation_, row, diagnostics);
+    return table_.get(
+        layout, generation_, [this] { return row(); }, diagnostics);
+  }
+  bool value(const Frame& frame, const ViewPart& part, std::uint32_t column, Numbers& out) override {
+    follow(frame);
+    return table_.read(row(), part.element, column, out);
   }
   const scene::ViewData& view(const Frame& frame, const ViewPart&) override {
     follow(frame);
@@ -66,6 +67,11 @@ class SunProvider : public Provider {
   bool isStill(const World& world) const override { return !scene::isMoving(world.scene()); }
 
  private:
+  std::array<SunRow, 1> row() const {
+    const auto cosAngle = static_cast<float>(std::cos(sun_.angle / 2 * std::numbers::pi / 180));
+    return {SunRow{sun_, cosAngle, fitted_.texel, fitted_.shadowMatrix}};
+  }
+
   void follow(const Frame& frame) {
     if (frame_ == frame.number) return;
     frame_ = frame.number;

@@ -20,8 +20,14 @@ class SpheresProvider : public Provider {
   BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
     return frame.tables.spheres(kList, layout, diagnostics);
   }
+  bool value(const Frame& frame, const ViewPart& part, std::uint32_t column, Numbers& out) override {
+    return spheres_.read(frame.tables.rows(kList), part.element, column, out);
+  }
   std::uint64_t generation(const Frame& frame) override { return frame.tables.generation(kList); }
   bool isStill(const World& world) const override { return !scene::isMoving(world.scene(), kList); }
+
+ private:
+  RowTable<scene::Instance> spheres_{"spheres", sphereColumns()};
 };
 
 class Spheres : public ImportOf<SpheresProvider> {
@@ -43,11 +49,15 @@ class MeshesProvider : public Provider {
   BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
     return frame.tables.meshes(list_, layout, diagnostics);
   }
+  bool value(const Frame& frame, const ViewPart& part, std::uint32_t column, Numbers& out) override {
+    return meshes_.read(frame.tables.meshFrame().rows(list_), part.element, column, out);
+  }
   std::uint64_t generation(const Frame& frame) override { return frame.tables.meshFrame().generation(list_); }
   bool isStill(const World& world) const override { return !scene::isMoving(world.scene()); }
 
  private:
   scene::DrawList list_;
+  RowTable<scene::MeshRow> meshes_{"meshes", meshColumns()};
 };
 
 class Meshes : public ImportOf<MeshesProvider> {
@@ -76,6 +86,10 @@ class TableProvider : public Provider {
   BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
     const auto rows = [&] { return Table::rows(frame); };
     return table_.get(layout, generation(frame), rows, diagnostics);
+  }
+  bool value(const Frame& frame, const ViewPart& part, std::uint32_t column, Numbers& out) override {
+    const auto& rows = Table::rows(frame);
+    return table_.read(rows, part.element, column, out);
   }
   std::uint64_t generation(const Frame& frame) override { return Table::generation(frame); }
   bool isStill(const World& world) const override { return Table::isStill(world); }

@@ -25,7 +25,8 @@ FrameCadence::FrameCadence(const graph::Plan& plan, const FrameCadence* before)
   groupOf_.assign(steps, kNone);
   groups_.resize(plan.groups.sliced.size());
   for (std::uint32_t s = 0; s < steps; ++s) {
-    if (plan.passOf(s).cadence == Cadence::always)
+    if (const Cadence cadence = plan.passOf(s).cadence;
+        cadence == Cadence::always || cadence == Cadence::every)
       plan.forEachWrite(s, [&](const FlatUse& use) { alwaysWritten_[use.resource] = 1; });
     groupOf_[s] = plan.groups.groupOf(plan.steps[s].pass);
     if (groupOf_[s] != kNone) groups_[groupOf_[s]].steps.push_back(s);
@@ -67,6 +68,7 @@ bool FrameCadence::wants(std::size_t step, const std::vector<std::uint64_t>& own
                          const std::vector<std::uint64_t>& generations) const {
   const Cadence cadence = plan_.passOf(step).cadence;
   if (cadence == Cadence::always) return true;
+  if (cadence == Cadence::every && frame_ % plan_.passOf(step).period == 0) return true;
   // While a group is under way, any change of what it has read would make the rest of its result another picture, also for
   // `once`.
   if (groupOf_[step] != kNone && (groups_[groupOf_[step]].active || groups_[groupOf_[step]].finished))
@@ -96,8 +98,8 @@ bool FrameCadence::sweep(bool ahead) {
       woken |= written_[use.resource] != 0;
       blocked |= blocked_[use.resource] != 0;
     }
-    if (cadence == Cadence::once && !(group && (group->active || group->finished))) woken = false;
-    bool want = wants_[s] || woken;
+    if (cadence != Cadence::on_change && !(group && (group->active || group->finished))) woken = false;
+    bool want = (wants_[s] || woken) && !(ahead && cadence == Cadence::every);
     if (group) {
       if ((want && !group->wants) || (blocked && !group->blocked)) again = true;
       group->wants |= want;

@@ -1,5 +1,6 @@
 // Decides which passes of a plan run in a frame, and which slices of each. `always` passes run in every frame. `once`
-// passes run until they have run on the storage that they write. `on_change` passes run when their inputs, parameters,
+// passes run until they have run on the storage that they write, `every` passes also in each frame whose number their period
+// divides. `on_change` passes run when their inputs, parameters,
 // program or storage have changed since they last ran. Of the passes of one group (plan.h) all run or none. A time-sliced
 // group runs one slice of one pass per frame and starts again when something it has read changes; its owner publishes it at
 // the start of the frame after its last slice. A pass that is not `always` waits while something it reads was never
@@ -33,7 +34,10 @@ class FrameCadence {
   explicit FrameCadence(const graph::Plan& plan, const FrameCadence* before = nullptr);
 
   // To be called first in a frame: no step has run in it.
-  void beginFrame() { std::ranges::fill(ran_, std::uint8_t{0}); }
+  void beginFrame(std::uint32_t frame) {
+    frame_ = frame;
+    std::ranges::fill(ran_, std::uint8_t{0});
+  }
   // Takes `own[step]` and `generations[resource]` as they are before the frame. Afterwards runs(step) and slices(step)
   // give the result.
   void decide(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& generations);
@@ -85,6 +89,7 @@ class FrameCadence {
             const std::vector<std::uint64_t>& after) const;
 
   const graph::Plan& plan_;
+  std::uint32_t frame_ = 0;
   std::vector<PassMemory> memories_,
       latches_;                         // per step; latches: the inputs with which a time-sliced group began
   std::vector<std::uint32_t> groupOf_;  // per step, kNone

@@ -46,13 +46,14 @@ bool readsPointer(const graph::Plan& plan, Imports& imports) {
 
 }  // namespace
 
-std::uint64_t hashOf(const PreparedPass& pass, ResourcePool& pool, Imports& imports,
+std::uint64_t hashOf(const PreparedPass& pass, graph::Cadence cadence, ResourcePool& pool, Imports& imports,
                      const FrameUniforms& uniforms) {
   std::uint64_t hash = pass.programHash;
-  hash = uniforms.hash(pass.parametersOffset, pass.parametersBlock, hash);
-  hash = uniforms.hash(pass.viewOffset, pass.viewBlock, hash);
   for (const std::uint32_t resource : pass.written)
     hash = text::hashCombine(hash, pool[resource].serial + (pool[resource].resets << 40));
+  if (cadence == graph::Cadence::every) return hash;  // whatever it reads
+  hash = uniforms.hash(pass.parametersOffset, pass.parametersBlock, hash);
+  hash = uniforms.hash(pass.viewOffset, pass.viewBlock, hash);
   // Adds the imports that this pass sees later than they change.
   for (const std::uint32_t resource : pass.read)
     if (const std::uint32_t publisher = pool[resource].publisher;
@@ -98,7 +99,8 @@ FrameReport Execution::frame(const World& world, const FrameInput& input, text::
   refreshUniforms(false);
   for (std::size_t step = 0; step < hashes_.size(); ++step)
     if (!steps_.isAlways(step))
-      hashes_[step] = hashOf(prepared_.passes[step], *prepared_.pool, device_.imports, uniforms_);
+      hashes_[step] = hashOf(prepared_.passes[step], plan().passOf(step).cadence, *prepared_.pool,
+                             device_.imports, uniforms_);
   if (input.headless) runAhead(report, diagnostics);
   chooseSteps();
   runSteps(watch_, report, diagnostics);
@@ -113,7 +115,7 @@ void Execution::beginFrame(const World& world, const FrameInput& input) {
   device_.imports.beginFrame(world, input);
   readBack_.collect();
   publications_.beginFrame(input);
-  steps_.beginFrame();
+  steps_.beginFrame(input.frame);
 }
 
 // What the frame before finished, and what the world changed, becomes what this frame sees.
@@ -266,7 +268,8 @@ bool Execution::remembers(const World& world) const {
       still[r] = imports.isStill(graph.imports[import], world);
   for (std::size_t step = 0; step < passes.size(); ++step)
     for (const graph::FlatUse& use : plan.usesOf(step))
-      if (use.access != graph::Access::read && plan.passOf(step).cadence == graph::Cadence::always)
+      if (use.access != graph::Access::read && (plan.passOf(step).cadence == graph::Cadence::always ||
+                                                plan.passOf(step).cadence == graph::Cadence::every))
         still[use.resource] = 0;
   for (const graph::HistorySpec& history : graph.histories) {
     const auto moves = [&](std::uint32_t import) { return !imports.isStill(graph.imports[import], world); };
@@ -298,7 +301,13 @@ bool Execution::remembers(const World& world) const {
       if (expr.present())
         forEachAge(*expr.root(), [&](std::uint32_t resource) { unsteady |= !still[resource]; });
     };
-    for (const graph::UniformSpec& uniform : spec.uniforms) look(uniform.dynamic);
+    for (const graph::UniformSpec& uniform : spec.uniforms) {
+      look(uniform.dynamic);
+      for (const std::uint32_t key : uniform.dynamic.parameterKeys())
+        if (kept && key >= graph.parameters.size())
+          unsteady |=
+              !imports.isStill(graph.imports[graph.watched[key - graph.parameters.size()].import], world);
+    }
     look(spec.timedInstances);
     if (unsteady) return true;
     if (!kept) continue;
@@ -306,7 +315,9 @@ bool Execution::remembers(const World& world) const {
             ? scene::isMoving(world.scene())
             : pass.list >= 0 && scene::isMoving(world.scene(), static_cast<scene::DrawList>(pass.list)))
       return true;
-    if (pass.viewBlock && (cameraMoves || spec.view != graph::kNone)) return true;
+    if (pass.viewBlock &&
+        (plan.passOf(step).cadence == graph::Cadence::every || cameraMoves || spec.view != graph::kNone))
+      return true;
   }
   return false;
 }

@@ -34,7 +34,7 @@ struct StepWatch {
 };
 
 // The hash of what a pass that is not `always` is made of, besides the generations of what it reads: program, uniforms, storage.
-std::uint64_t hashOf(const PreparedPass& pass, ResourcePool& pool, Imports& imports,
+std::uint64_t hashOf(const PreparedPass& pass, graph::Cadence cadence, ResourcePool& pool, Imports& imports,
                      const FrameUniforms& uniforms);
 
 class Execution {

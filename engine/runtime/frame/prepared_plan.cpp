@@ -47,7 +47,8 @@ bool sameSlot(const FlatGraph& mine, const SlotSpec& a, const FlatGraph& theirs,
 }
 
 bool sameUniform(const graph::UniformSpec& a, const graph::UniformSpec& b) {
-  return a.name == b.name && a.value.type == b.value.type && a.value.count == b.value.count;
+  return a.name == b.name && a.element == b.element && a.elements == b.elements &&
+         a.value.type == b.value.type && a.value.count == b.value.count;
 }
 
 bool sameSpec(const PassSpec& a, const PassSpec& b) {

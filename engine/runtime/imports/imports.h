@@ -50,6 +50,11 @@ class Imports {
   BufferRef buffer(const graph::ImportSpec& import, const RowLayout& layout, text::Diagnostics& diagnostics) {
     return of(import).buffer(frame(), layout, diagnostics);
   }
+  bool value(const graph::FlatGraph& graph, const graph::WatchedValue& asked, imports::Numbers& out) {
+    const auto row = static_cast<std::uint16_t>(asked.row);
+    return of(graph.imports[asked.import])
+        .value(frame(), {graph.screenWidth, graph.screenHeight, row}, asked.column, out);
+  }
   // What a pass whose attachments have this size is seen from: its view, else the scene's camera as it is. A camera's is of
   // the graph's screen.
   const scene::ViewData& view(const graph::FlatGraph& graph, const graph::PassSpec& spec, std::uint32_t width,

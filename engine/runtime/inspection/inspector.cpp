@@ -156,7 +156,9 @@ GLuint Inspector::draw(const InspectView& view, std::uint32_t width, std::uint32
   }
   std::vector<std::byte> bytes(block->bytes + 16);
   const auto set = [&](const char* name, const graph::Value& value) {
-    if (const gl::BlockMember* member = block->find(name)) writeValue(bytes.data(), *member, value);
+    const gl::BlockMember* member = block->find(name);
+    const auto field = member ? fieldFor(*member, {.value = value}) : std::nullopt;
+    if (field) writeValue(bytes.data(), *field, value);
   };
   const auto number = [](double x) { return graph::Value::number(x); };
   graph::Value origin{graph::Value::Type::list, 2, {view.x, view.y, 0, 0}, {}};

@@ -123,7 +123,7 @@ struct ClearCommand {
 
 // A uniform that changes with time.
 struct DynamicUniform {
-  gl::BlockMember member;
+  Field field;
   graph::Expr expr;
 };
 

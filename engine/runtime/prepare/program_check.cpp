@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "engine/glsl/interface.h"
 #include "engine/graph/subresource.h"
@@ -368,7 +369,8 @@ class Checker {
       const auto isParameter = [&](const Declaration& each) {
         return each.owner == "Parameters" && each.name == uniform.name;
       };
-      if (maybe(Role::member, isParameter) || maybe(uniform.name, Role::uniform)) continue;
+      if (!uniform.isFirst() || maybe(Role::member, isParameter) || maybe(uniform.name, Role::uniform))
+        continue;
       missing = true;
       const std::string other = blockOf(uniform.name);
       if (other.empty()) reportMissing(uniform);
@@ -414,24 +416,27 @@ class Checker {
   void reportMember(const graph::UniformSpec& uniform, const gl::GlslType& type,
                     const std::string& expected) {
     const std::string message =
-        fmt::format("parameter '{}' does not fit the shader's {}", uniform.name, type.name);
-    if (isSaid(Code::parameterTypeMismatch, message)) {
-      failed_ = true;
+        fmt::format("parameter '{}' does not fit the shader's {}", uniform.text(), type.name);
+    failed_ = true;
+    if (isSaid(Code::parameterTypeMismatch, message) || std::exchange(misfit_, uniform.name) == uniform.name)
       return;
-    }
     text::Diagnostic& d = fail(Code::parameterTypeMismatch, uniform.place, message);
     d.expected = expected;
-    d.found = graph::toText(uniform.value);
+    d.found = uniform.elements == 0
+                  ? graph::toText(uniform.value)
+                  : fmt::format("{} items, the first {}", uniform.elements, graph::toText(uniform.value));
     d.hint = fmt::format("give it {}, or declare the member with another type", expected);
   }
 
   void checkParameter(const graph::UniformSpec& uniform, const Declaration& declared) {
     const gl::GlslType* type = gl::findGlslType(declared.type);
     if (!type) return;
-    const gl::BlockMember member{.name = uniform.name, .type = type->type, .arraySize = declared.elements};
-    std::string expected;
-    if (memberTakes(member, uniform.value, expected)) return checkWhole(uniform, *type);
-    reportMember(uniform, *type, expected);
+    gl::BlockMember member{.name = uniform.name, .type = type->type, .arraySize = declared.elements};
+    if (!declared.array.empty()) member.arrayStride = 16;
+    const gl::Block* block = linked_ ? linked_->reflection.findUniformBlock("Parameters") : nullptr;
+    if (const gl::BlockMember* known = block ? block->find(uniform.name) : nullptr) member = *known;
+    if (fieldFor(member, uniform)) return checkWhole(uniform, *type);
+    reportMember(uniform, *type, expectedFor(member));
   }
 
   // Reports numbers in the graph, and sliders, that would lose their fraction in an integer member. What an expression computes is cut.
@@ -455,17 +460,14 @@ class Checker {
 
   // A member that the pass does not set: it would be 0, which mostly gives a black picture.
   void reportUnset(const Declaration& member) {
-    const std::string type = std::string(member.type) + member.array;
     text::Diagnostic& d =
         fail(Code::undeclaredShaderInput, spec_.shaderPlace,
              fmt::format("the shader '{}' reads the parameter '{}', which pass '{}' does not set", shaders_,
                          member.name, spec_.declared));
-    d.expected = fmt::format("\"parameters\": {{ \"{}\": … }}, of type {}", member.name, type);
-    d.hint =
-        member.array.empty()
-            ? fmt::format("set it, or guard the member and its use with `#ifdef {}`",
-                          presenceDefineOf(member.name))
-            : "no graph can set an array: make it one member for each element, or rows of a storage buffer";
+    d.expected = fmt::format("\"parameters\": {{ \"{}\": … }}, of type {}", member.name,
+                             std::string(member.type) + member.array);
+    d.hint = fmt::format("set it, or guard the member and its use with `#ifdef {}`",
+                         presenceDefineOf(member.name));
   }
 
   // What the blocks that the engine fills may have.
@@ -562,7 +564,8 @@ class Checker {
 
   // A pass that does not run in every frame, and whose shader reads what changes in every frame. A variable may hide its name.
   void warnTimeless() {
-    if (graph_.passes[pass_].cadence == graph::Cadence::always) return;
+    const graph::Cadence cadence = graph_.passes[pass_].cadence;
+    if (cadence == graph::Cadence::always || cadence == graph::Cadence::every) return;
     for (const char* const member : {"time", "delta_time", "frame"}) {
       const bool reads = std::ranges::any_of(stages_, [&](const gl::StageSource& stage) {
         const Declaration* found = of(stage).find(member, Role::member);
@@ -616,6 +619,7 @@ class Checker {
   const std::string shaders_ =
       spec_.vertexShader.empty() ? spec_.shader : spec_.vertexShader + "' and '" + spec_.shader;
   std::string misnamed_;  // a block that has the parameters under another name
+  std::string misfit_;    // the last parameter of which a value was reported
   bool slotMissing_ = false, failed_ = false;
 };
 

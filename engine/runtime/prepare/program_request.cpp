@@ -88,7 +88,7 @@ gl::ProgramRequest programRequestOf(const FlatGraph& graph, const Plan& plan, st
     if (slot.kind == Kind::color) request.outputs.push_back(slot.name);
   }
   for (const graph::UniformSpec& uniform : spec.uniforms)
-    request.defines.push_back({presenceDefineOf(uniform.name), "1"});
+    if (uniform.isFirst()) request.defines.push_back({presenceDefineOf(uniform.name), "1"});
   for (const graph::DefineSpec& define : spec.defines) request.defines.push_back({define.name, define.text});
   return request;
 }

@@ -21,21 +21,26 @@ T toWhole(double x) {
                                    static_cast<double>(std::numeric_limits<T>::max())));
 }
 
-void putScalar(std::byte* at, GLenum base, double x) {
-  if (base == GL_INT) {
-    const auto value = toWhole<std::int32_t>(x);
-    std::memcpy(at, &value, sizeof value);
-  } else if (base == GL_UNSIGNED_INT) {
-    const auto value = toWhole<std::uint32_t>(x);
-    std::memcpy(at, &value, sizeof value);
-  } else if (base == GL_BOOL) {
-    const std::uint32_t value = x != 0;
-    std::memcpy(at, &value, sizeof value);
-  } else if (base == GL_DOUBLE) {
-    std::memcpy(at, &x, sizeof x);
-  } else {
-    const auto value = static_cast<float>(x);
-    std::memcpy(at, &value, sizeof value);
+// Whether the bytes are others than before.
+template <class T>
+bool put(std::byte* at, T value) {
+  if (std::memcmp(at, &value, sizeof value) == 0) return false;
+  std::memcpy(at, &value, sizeof value);
+  return true;
+}
+
+bool putScalar(std::byte* at, GLenum base, double x) {
+  switch (base) {
+    case GL_INT:
+      return put(at, toWhole<std::int32_t>(x));
+    case GL_UNSIGNED_INT:
+      return put(at, toWhole<std::uint32_t>(x));
+    case GL_BOOL:
+      return put(at, std::uint32_t{x != 0});
+    case GL_DOUBLE:
+      return put(at, x);
+    default:
+      return put(at, static_cast<float>(x));
   }
 }
 
@@ -76,29 +81,50 @@ const ViewMember kViewMembers[] = {
 
 }  // namespace
 
-bool memberTakes(const gl::BlockMember& member, const graph::Value& value, std::string& expected) {
+std::optional<Field> fieldFor(const gl::BlockMember& member, const graph::UniformSpec& uniform) {
   const auto shape = gl::shapeOf(member.type);
-  if (!shape || shape->columns != 1 || member.arraySize != 1) {
-    expected = "a scalar or vector member in the shader, not " + gl::glslTypeName(member.type);
-    if (member.arraySize != 1) expected += fmt::format("[{}]", member.arraySize);
-    return false;
+  const graph::Value& value = uniform.value;
+  if (!shape) return std::nullopt;
+  const bool matrix = shape->columns > 1, array = member.arraySize != 1 || member.arrayStride != 0;
+  const std::uint32_t size = shape->base == GL_DOUBLE ? 8 : 4, element = uniform.element;
+  Field field{member.offset, shape->base, shape->rows, size};
+  if (element != graph::kNone) {
+    const std::uint32_t elements = matrix ? shape->columns : member.arraySize;
+    const bool known = elements != 0;  // the number may be one of the preprocessor's
+    if (matrix == array || (known && elements != uniform.elements)) return std::nullopt;
+    field.offset += element * (array ? member.arrayStride : member.rowMajor ? size : member.matrixStride);
+    if (matrix && member.rowMajor) field.step = member.matrixStride;
+  } else if (matrix) {
+    return std::nullopt;
+  } else if (array && value.type == graph::Value::Type::list && shape->rows == 1 &&
+             (member.arraySize == 0 || member.arraySize == value.count)) {
+    field.rows = value.count;
+    field.step = member.arrayStride;
+  } else if (member.arraySize != 1) {
+    return std::nullopt;
   }
-  const bool list = value.type == graph::Value::Type::list;
-  const bool fits = value.type != graph::Value::Type::symbol && value.type != graph::Value::Type::none &&
-                    (list ? value.count == shape->rows : shape->rows == 1);
-  if (!fits)
-    expected = shape->rows == 1
-                   ? "a number, for " + gl::glslTypeName(member.type)
-                   : fmt::format("a list of {} numbers, for {}", shape->rows, gl::glslTypeName(member.type));
-  return fits;
+  return field.takes(value) ? std::optional(field) : std::nullopt;
 }
 
-void writeValue(std::byte* block, const gl::BlockMember& member, const graph::Value& value) {
+std::string expectedFor(const gl::BlockMember& member) {
   const auto shape = gl::shapeOf(member.type);
-  assert(shape);
-  const std::size_t size = shape->base == GL_DOUBLE ? 8 : 4;
-  for (std::uint32_t i = 0; i < shape->rows; ++i)
-    putScalar(block + member.offset + i * size, shape->base, value.v[i]);
+  std::string type = gl::glslTypeName(member.type);
+  const bool array = member.arraySize != 1 || member.arrayStride != 0, matrix = shape && shape->columns > 1;
+  if (array) type += fmt::format("[{}]", member.arraySize);
+  if (!shape || (array && matrix))
+    return "a scalar, a vector, a matrix or an array of vectors in the shader, not " + type;
+  const std::string of = shape->rows == 1 ? "" : fmt::format(" of {} numbers", shape->rows);
+  if (!array && !matrix)
+    return of.empty() ? fmt::format("a number, for {}", type) : fmt::format("a list{}, for {}", of, type);
+  return fmt::format("a list of {} {}{}{}, for {}", matrix ? shape->columns : member.arraySize,
+                     of.empty() ? "numbers" : "lists", of, matrix ? ", its columns" : "", type);
+}
+
+bool writeValue(std::byte* block, const Field& field, const graph::Value& value) {
+  bool changed = false;
+  for (std::uint32_t i = 0; i < field.rows; ++i)
+    changed |= putScalar(block + field.offset + std::size_t{i} * field.step, field.base, value.v[i]);
+  return changed;
 }
 
 std::vector<std::string> viewMemberNames() {

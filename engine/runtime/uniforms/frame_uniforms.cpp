@@ -16,8 +16,6 @@ namespace weft::runtime {
 
 namespace {
 
-constexpr std::size_t kLargestMember = 32;  // bytes of a vector of four doubles
-
 double trialAge(std::uint32_t) {
   return graph::kTrialAge;
 }
@@ -30,6 +28,8 @@ FrameUniforms::FrameUniforms(const graph::Plan& plan, Imports& imports, std::uin
     indexOf_.emplace(parameter.path, parameters_.size());
     parameters_.push_back(parameter.value);
   }
+  for (const graph::WatchedValue& each : plan.graph->watched) parameters_.push_back(each.shape);
+  generations_.resize(plan.graph->watched.size());
 }
 
 bool FrameUniforms::layOut(std::span<PreparedPass> passes, text::Diagnostics& diagnostics) {
@@ -63,28 +63,55 @@ void FrameUniforms::fill(PreparedPass& pass) {
   if (!pass.parametersBlock) return;
   for (const graph::UniformSpec& uniform : pass.context.spec->uniforms) {
     const gl::BlockMember* member = pass.parametersBlock->find(uniform.name);
-    if (!member) continue;
+    const auto field = member ? fieldFor(*member, uniform) : std::nullopt;
+    if (!field) continue;
     const bool live = uniform.dynamic.live();
     if (uniform.dynamic.dynamic())
-      pass.dynamics.push_back({*member, uniform.dynamic});
+      pass.dynamics.push_back({*field, uniform.dynamic});
     else
-      write(pass.parametersOffset, *member,
+      write(pass.parametersOffset, *field,
             live ? uniform.dynamic.evaluateFolded(trialAge, parameters_) : uniform.value);
     if (!live) continue;
     for (const std::uint32_t key : uniform.dynamic.parameterKeys())
-      readersOf_[key].push_back({member, &uniform.dynamic, pass.parametersOffset});
+      readersOf_[key].push_back({*field, &uniform.dynamic, pass.parametersOffset});
+  }
+}
+
+// Evaluates what reads values of imports that are others than in the frame before.
+void FrameUniforms::followImports() {
+  const graph::FlatGraph& graph = *plan_.graph;
+  imports::Numbers numbers;
+  for (std::size_t i = 0; i < generations_.size(); ++i) {
+    const graph::WatchedValue& asked = graph.watched[i];
+    const graph::ImportSpec& import = graph.imports[asked.import];
+    // A view has more than its generation counts: the jitter.
+    const bool view = import.kind == graph::ImportKind::view;
+    const std::uint64_t generation = view ? 0 : imports_.generation(import);
+    if (!view && std::exchange(generations_[i], generation) == generation) continue;
+    if (!imports_.value(graph, asked, numbers)) continue;
+    const std::size_t key = graph.parameters.size() + i;
+    graph::Value value = asked.shape;
+    const bool column = asked.part != graph::kWholeValue;
+    std::copy_n(numbers.begin() + (column ? 4 * asked.part : 0), value.count, value.v.begin());
+    if (value == parameters_[key]) continue;
+    parameters_[key] = value;
+    for (const Reader& reader : readersOf_[key])
+      if (!reader.expr->dynamic())
+        write(reader.block, reader.field, reader.expr->evaluateFolded(trialAge, parameters_));
   }
 }
 
 void FrameUniforms::refresh(std::span<PreparedPass> passes, const std::function<double(std::uint32_t)>& ageOf,
                             bool alwaysOnly) {
   const graph::FlatGraph& graph = *plan_.graph;
+  followImports();
   for (std::size_t step = 0; step < passes.size(); ++step) {
     PreparedPass& pass = passes[step];
-    const bool timeless = graph.passes[plan_.steps[step].pass].cadence != graph::Cadence::always;
+    const graph::Cadence cadence = graph.passes[plan_.steps[step].pass].cadence;
+    const bool timeless = cadence == graph::Cadence::on_change || cadence == graph::Cadence::once;
     if (alwaysOnly && timeless) continue;
     for (const DynamicUniform& uniform : pass.dynamics)
-      write(pass.parametersOffset, uniform.member, uniform.expr.evaluateFolded(ageOf, parameters_));
+      write(pass.parametersOffset, uniform.field, uniform.expr.evaluateFolded(ageOf, parameters_));
     if (const graph::Expr& timed = pass.context.spec->timedInstances; timed.present())
       pass.context.instances = instancesAt(timed, ageOf);
     if (!pass.viewBlock) continue;
@@ -105,7 +132,7 @@ void FrameUniforms::setSlices(PreparedPass& pass, const SliceRange& range) {
     graph::Value value{graph::Value::Type::list, 3, {}, {}};
     for (std::size_t axis = 0; axis < 3; ++axis)
       value.v[axis] = groups.first[axis] * (member.name == "first_group" ? 1u : pass.context.groupSize[axis]);
-    write(pass.sliceOffset, member, value);
+    if (const auto field = fieldFor(member, {.value = value})) write(pass.sliceOffset, *field, value);
   }
 }
 
@@ -118,25 +145,19 @@ bool FrameUniforms::set(std::string_view path, const graph::Value& value) {
   graph::Value& mine = parameters_[index];
   graph::Value before = std::exchange(mine, value);
   const std::vector<Reader>& readers = readersOf_[index];
-  std::string unexpected;
   for (std::size_t i = 0; i < readers.size(); ++i) {
     results_[i] = readers[i].expr->evaluateFolded(trialAge, parameters_);
-    if (memberTakes(*readers[i].member, results_[i], unexpected)) continue;
+    if (readers[i].field.takes(results_[i])) continue;
     mine = std::move(before);
     return false;
   }
   for (std::size_t i = 0; i < readers.size(); ++i)
-    if (!readers[i].expr->dynamic()) write(readers[i].block, *readers[i].member, results_[i]);
+    if (!readers[i].expr->dynamic()) write(readers[i].block, readers[i].field, results_[i]);
   return true;
 }
 
-void FrameUniforms::write(std::uint32_t block, const gl::BlockMember& member, const graph::Value& value) {
-  std::byte* const at = bytes_.data() + block + member.offset;
-  const std::size_t window = std::min<std::size_t>(kLargestMember, bytes_.size() - block - member.offset);
-  std::array<std::byte, kLargestMember> before;
-  std::memcpy(before.data(), at, window);
-  writeValue(bytes_.data() + block, member, value);
-  changed_ |= std::memcmp(before.data(), at, window) != 0;
+void FrameUniforms::write(std::uint32_t block, const Field& field, const graph::Value& value) {
+  changed_ |= writeValue(bytes_.data() + block, field, value);
 }
 
 std::uint64_t FrameUniforms::hash(std::uint32_t block, const gl::Block* layout, std::uint64_t seed) const {

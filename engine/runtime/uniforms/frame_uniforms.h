@@ -38,7 +38,9 @@ class FrameUniforms {
   void upload();
 
   // The values of the plan's parameters, parallel to FlatGraph::parameters: those of the plan, or those set since.
-  std::span<const graph::Value> parameters() const { return parameters_; }
+  std::span<const graph::Value> parameters() const {
+    return std::span(parameters_).first(plan_.graph->parameters.size());
+  }
   // Sets a live parameter for the next frame: evaluates the expressions that read it and writes their bytes. False, and
   // nothing has changed, when that takes another plan: the parameter is structural or unknown, it does not take the value,
   // or an expression has no result with that value. Allocates nothing for numbers, booleans and lists.
@@ -52,12 +54,13 @@ class FrameUniforms {
  private:
   // A uniform that reads live parameters.
   struct Reader {
-    const gl::BlockMember* member = nullptr;
+    Field field;
     const graph::Expr* expr = nullptr;
     std::uint32_t block = 0;  // offset of its block
   };
   void fill(PreparedPass& pass);
-  void write(std::uint32_t block, const gl::BlockMember& member, const graph::Value& value);
+  void followImports();
+  void write(std::uint32_t block, const Field& field, const graph::Value& value);
 
   const graph::Plan& plan_;
   Imports& imports_;
@@ -65,10 +68,11 @@ class FrameUniforms {
   std::vector<std::byte> bytes_;
   gl::Buffer buffer_;
   bool changed_ = true;
-  std::vector<graph::Value> parameters_;
+  std::vector<graph::Value> parameters_;                       // and the values of imports behind them
   std::unordered_map<std::string_view, std::size_t> indexOf_;  // of a parameter, by its path in the plan
-  std::vector<std::vector<Reader>> readersOf_;                 // per parameter
-  std::vector<graph::Value> results_;                          // scratch of set()
+  std::vector<std::vector<Reader>> readersOf_;                 // of each of these
+  std::vector<std::uint64_t> generations_;  // of the imports of FlatGraph::watched, when they were read
+  std::vector<graph::Value> results_;       // scratch of set()
 };
 
 }  // namespace weft::runtime

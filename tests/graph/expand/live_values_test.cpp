@@ -13,6 +13,7 @@
 using namespace weft;
 using namespace weft::graph;
 using namespace weft::graph::test;
+using text::Code;
 
 namespace {
 
@@ -222,4 +223,84 @@ TEST_CASE("live: random values give every uniform of the bundled graphs the bits
   MESSAGE(changed, " live parameters, ", uniforms, " uniforms that read them");
   CHECK(changed > 80);
   CHECK(uniforms > 60);
+}
+
+namespace {
+
+Expanded followed(const std::string& parameters, const std::string& head = "", const std::string& keys = "") {
+  return expandText(
+      R"J({ "resources": { "out": { "texture": "rgba8", "size": 8 } }, )J" + head +
+      R"J("passes": [ { "name": "p", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "r": "out" }, )J" +
+      keys + R"J("parameters": { )J" + parameters + R"J( } } ], "present": "out" })J");
+}
+
+// "camera.position" of each, in the order of their keys.
+std::string watchedOf(const Expanded& e) {
+  std::string all;
+  for (const WatchedValue& each : e.graph->watched)
+    all += e.graph->imports[each.import].name + each.text() +
+           (each.part == kWholeValue ? " " : "#" + std::to_string(each.part) + " ");
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("values of imports are followed while the plan runs, also beside parameters and age()") {
+  const Expanded e = followed(
+      R"J("eye": "@camera.position", "mid": "@camera.near_plane / 2 + $gain", "up": "@camera.position.y * 2",
+          "late": "age(out) * @sun.texel", "pair": ["@sun.texel", 1, 2, 3, 4])J",
+      R"J("parameters": { "gain": { "default": 2.0 } }, )J");
+  CHECK(e.text() == "");
+  CHECK(watchedOf(e) == "@camera.position @camera.near_plane @sun.texel ");
+  CHECK(e.uniform("p", "eye").value.count == 3);
+  CHECK(e.uniform("p", "eye").dynamic.parameterKeys() == std::vector<std::uint32_t>{1});
+  CHECK(e.uniform("p", "mid").dynamic.parameterKeys() == std::vector<std::uint32_t>{0, 2});
+  CHECK_FALSE(e.graph->parameters[0].structural);
+  const std::vector<Value> values = {
+      Value::number(10), {Value::Type::list, 3, {1, 2, 3, 0}, {}}, Value::number(0.5), Value::number(4)};
+  const auto threeSeconds = [](std::uint32_t) { return 3.0; };
+  CHECK(e.uniform("p", "mid").dynamic.evaluateFolded({}, values) == Value::number(10.25));
+  CHECK(e.uniform("p", "up").dynamic.evaluateFolded({}, values) == Value::number(4));
+  CHECK(e.uniform("p", "late").dynamic.dynamic());
+  CHECK(e.uniform("p", "late").dynamic.evaluateFolded(threeSeconds, values) == Value::number(12));
+  CHECK(e.uniform("p", "pair").dynamic.evaluateFolded({}, values) == Value::number(4));
+}
+
+TEST_CASE("a matrix of an import is a column each; a row is known before the frame") {
+  const Expanded e = followed(R"J("m": "@camera.view", "t": "@sun[0].texel")J");
+  CHECK(e.text() == "");
+  CHECK(watchedOf(e) == "@camera.view#0 @camera.view#1 @camera.view#2 @camera.view#3 @sun.texel ");
+  CHECK(e.spec("p").uniforms[3].text() == "m[3]");
+  CHECK(e.spec("p").uniforms[3].value.count == 4);
+  const Expanded row =
+      followed(R"J("t": "@sun[$row].texel")J", R"J("parameters": { "row": { "default": 0, "min": 0 } }, )J");
+  CHECK(row.text() == "");
+  CHECK(row.graph->parameters[0].structural);
+}
+
+TEST_CASE("values of imports stand in parameters only, have names, and are there") {
+  CHECK(followed(R"J("a": 1)J", R"J("let": { "near": "@camera.near_plane" }, )J").text() ==
+        "");  // nobody asks
+  CHECK(followed(R"J("a": "$near")J", R"J("let": { "near": "@camera.near_plane" }, )J").has(Code::badTime));
+  CHECK(followed(R"J("a": 1)J", "", R"J("enabled": "@camera.near_plane > 0", )J").has(Code::badTime));
+  const Expanded near = followed(R"J("a": "@camera.positon")J");
+  CHECK(near.of(Code::unknownVariable).hint == "did you mean 'position'?");
+  CHECK(followed(R"J("a": "@lamps.color")J").has(Code::unknownVariable));
+  CHECK(followed(R"J("a": "@camra.position")J").has(Code::unknownImport));
+  CHECK(followed(R"J("a": "@camera")J").has(Code::badExpression));
+  CHECK(followed(R"J("a": "@camera.view * 2")J").has(Code::operandsDoNotFit));
+  CHECK(followed(R"J("a": "@sun[0.5].texel")J").has(Code::operandsDoNotFit));
+  // An on_change pass follows them; it sees no age().
+  CHECK(followed(R"J("a": "@camera.near_plane")J", "", R"J("update": "on_change", )J").text() == "");
+}
+
+TEST_CASE("an import that is not there has no values, but behind has()") {
+  const Registry none = testRegistry({.sun = false});
+  const auto text = [](const std::string& value, const std::string& keys = "") {
+    return R"J({ "resources": { "out": { "texture": "rgba8", "size": 8 } }, "passes": [ { "name": "p", "type": "fullscreen", "shader": "a.frag.glsl", "side_effect": true, "write": { "r": "out" }, )J" +
+           keys + R"J("parameters": { "a": ")J" + value + R"J(" } } ] })J";
+  };
+  CHECK(expandText(text("@sun.texel"), {}, none).has(Code::emptyImport));
+  CHECK(expandText(text("has(@sun) ? @sun.texel : 3"), {}, none).uniform("p", "a").value == Value::number(3));
+  CHECK(expandText(text("@sun.texel", R"J("enabled": "has(@sun)", )J"), {}, none).text() == "");
 }

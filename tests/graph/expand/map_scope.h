@@ -25,10 +25,14 @@ struct MapScope : EvalScope {
   std::optional<Value> variable(std::string_view name) override { return find(variables, name); }
   std::optional<Value> index(std::string_view name) override { return find(indices, name); }
   std::optional<Value> builtin(std::string_view name) override { return find(builtins, name); }
-  std::optional<Value> fact(Fact fact, std::string_view resource, const text::Place&) override {
+  std::optional<Value> fact(Fact fact, std::string_view resource, std::uint32_t level,
+                            const text::Place&) override {
     ++factsAsked;
     const auto found = facts.find({fact, std::string(resource)});
-    return found == facts.end() ? std::nullopt : std::optional<Value>(found->second);
+    if (found == facts.end()) return std::nullopt;
+    Value value = found->second;
+    for (double& side : value.v) side = side / (1u << level);
+    return value;
   }
   std::vector<std::string> choicesOf(std::string_view name) override {
     const auto found = choices.find(name);

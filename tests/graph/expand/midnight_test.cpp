@@ -83,7 +83,7 @@ TEST_CASE("a mistake at midnight: expressions in the words of other languages") 
   checkOne("\"blend\": \"none\"", "\"blend\": { \"src\": \"one\", \"dst\": \"one\" }", badState,
            "blends 'src'", "'alpha' is src_alpha");
   checkOne(bytes, "\"4 * 2^8\"", badExpression, "unexpected '^'", "there is no power");
-  checkOne(bytes, "\"size(scene.mip[0])\"", badExpression, "'.mip' selects", "size(scene)");
+  checkOne(bytes, "\"mips(scene.mip[0])\"", badExpression, "'.mip' selects", "size(scene)");
   checkOne(bytes, "\"scene.mip[0]\"", badExpression, "'scene.mip' is no value", "size(scene)");
   checkOne(bytes, "\"camera.position.x\"", badExpression, "is no value", "has 'camera_position'");
   checkOne(enabled, "\"enabled\": \"on\"", wrongValueType, "is no condition", "write true");

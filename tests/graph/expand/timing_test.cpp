@@ -1,6 +1,7 @@
 // Where age() may stand. Earlier publications in lists of alternatives.
 #include <doctest/doctest.h>
 
+#include "engine/graph/compile/compile.h"
 #include "tests/graph/expand/support.h"
 
 using namespace weft;
@@ -79,4 +80,56 @@ TEST_CASE("alternatives: an earlier publication has a name of its own") {
   // Each step back counts.
   CHECK(messageOf(tryPasses(stanza("show", R"("read": { "a": "old@-1" }, "modify": { "r": "out" })", "true")),
                   Code::noHistory) == "pass 'show' reads 'old@-1', further back than 'pulse' remembers");
+}
+
+namespace {
+
+Expanded orderedBy(const std::string& first, const std::string& second, const std::string& third) {
+  const auto pass = [](const char* name, const std::string& place) {
+    return R"J({ "name": ")J" + std::string(name) +
+           R"J(", "type": "fullscreen", "shader": "a.frag.glsl", )J" + place +
+           R"J( "repeat": { "i": [0, 1] }, "write": { "r": ")J" + name +
+           R"J(.mip[i]" }, "side_effect": true })J";
+  };
+  return expandText(R"J({ "resources": {
+    "a": { "texture": "r8", "size": 8, "mips": 2 }, "b": { "texture": "r8", "size": 8, "mips": 2 },
+    "c": { "texture": "r8", "size": 8, "mips": 2 } }, "passes": [ )J" +
+                    pass("a", first) + ", " + pass("b", second) + ", " + pass("c", third) + " ] }");
+}
+
+}  // namespace
+
+TEST_CASE("before and after place a stanza in its own file, and order its passes where no resource does") {
+  CHECK(orderedBy("", "", "").names() == "a[0] a[1] b[0] b[1] c[0] c[1]");
+  CHECK(orderedBy(R"("after": "b",)", "", "").names() == "b[0] b[1] a[0] a[1] c[0] c[1]");
+  CHECK(orderedBy(R"("after": "b",)", R"("after": "c",)", "").names() == "c[0] c[1] b[0] b[1] a[0] a[1]");
+  CHECK(orderedBy("", "", R"("before": "a",)").names() == "c[0] c[1] a[0] a[1] b[0] b[1]");
+  const Expanded e = orderedBy(R"("after": "c",)", "", "");
+  CHECK(e.text() == "");
+  // Every random order has all of `a` behind all of `c`; `b` is anywhere.
+  const auto first = [&](const Plan& plan, char name) {
+    for (std::uint32_t s = 0; s < plan.steps.size(); ++s)
+      if (plan.graph->passNames[plan.steps[s].pass][0] == name) return s;
+    return kNone;
+  };
+  bool between = false, before = false;
+  for (std::uint64_t seed = 1; seed < 60; ++seed) {
+    const Plan plan = compile(e.graph, {.orderSeed = seed});
+    REQUIRE(plan.steps.size() == 6);
+    std::uint32_t lastC = 0;
+    for (std::uint32_t s = 0; s < 6; ++s)
+      if (plan.graph->passNames[plan.steps[s].pass][0] == 'c') lastC = s;
+    CHECK(lastC < first(plan, 'a'));
+    between |= first(plan, 'b') > lastC && first(plan, 'b') < first(plan, 'a');
+    before |= first(plan, 'b') < lastC;
+  }
+  CHECK(between);
+  CHECK(before);
+}
+
+TEST_CASE("places that cannot be") {
+  CHECK(orderedBy(R"("after": "b",)", R"("after": "a",)", "").has(Code::passCycle));
+  CHECK(orderedBy(R"("after": "a",)", "", "").has(Code::passCycle));
+  CHECK(orderedBy(R"("after": "bb",)", "", "").has(Code::passWithoutPlace));
+  CHECK(orderedBy(R"("after": "b", "before": "c",)", "", "").has(Code::keysExclude));
 }

@@ -306,3 +306,70 @@ TEST_CASE("repeats: order, names, empty ranges, later bounds from earlier indice
   // no pass is left to write what is shown, which names the range
   CHECK(names(R"J({ "i": [1, 0] })J").find("W060") != std::string::npos);
 }
+
+TEST_CASE("formats and sizes of levels are those of another resource") {
+  const char* const graph = R"J({
+    "parameters": { "precision": { "default": "rgba8", "choices": ["rgba8", "rgba16f"] } },
+    "resources": {
+      "hdr": { "texture": "$precision", "size": [100, 13], "mips": 4 },
+      "blurred": { "texture": "format(hdr)", "size": "size(hdr.mip[2])" },
+      "last": { "texture": "format(blurred) == rgba16f ? r16f : r8", "size": "size(hdr.mip[3])" }
+    },
+    "passes": [
+      { "name": "p", "type": "compute", "shader": "a.comp.glsl", "side_effect": true, "repeat": { "i": [0, 3] },
+        "write": { "a": "hdr.mip[i]" }, "parameters": { "texels": "size(hdr.mip[i])" } },
+      { "name": "q", "type": "compute", "shader": "a.comp.glsl", "side_effect": true,
+        "write": { "b": "blurred", "c": "last" } } ] })J";
+  const Expanded e = expandText(graph);
+  CHECK(e.text() == "");
+  CHECK(e.resource("hdr").format == Format::rgba8);
+  CHECK(e.resource("blurred").format == Format::rgba8);
+  CHECK(e.resource("last").format == Format::r8);
+  CHECK(e.resource("blurred").width == 25);
+  CHECK(e.resource("blurred").height == 3);
+  CHECK(e.resource("last").width == 12);
+  CHECK(e.resource("last").height == 1);
+  CHECK(e.uniform("p[3]", "texels").value == Value{Value::Type::list, 2, {12, 1, 0, 0}, {}});
+  CHECK(e.graph->parameters[0].structural);
+  Settings settings;
+  settings.sets.emplace_back("precision", Value::text("rgba16f"), Origin::panel);
+  const Expanded other = expandText(graph, settings);
+  CHECK(other.resource("blurred").format == Format::rgba16f);
+  CHECK(other.resource("last").format == Format::r16f);
+}
+
+TEST_CASE("the size of a level that is not there, and what has no format") {
+  CHECK(tryTexture(R"J("mips": 3, "size": [16, 16] }, "u": { "texture": "r8", "size": "size(t.mip[3])")J")
+            .has(Code::missingSubresource));
+  CHECK(tryTexture(R"J("size": 4 }, "u": { "texture": "format(v)", "size": 4 }, "v": { "buffer": 16)J")
+            .has(Code::wrongValueType));
+  CHECK(tryTexture(R"J("size": 4 }, "u": { "texture": "size(t).x", "size": 4)J").has(Code::unknownFormat));
+  CHECK(tryTexture(R"J("size": 4 }, "u": { "texture": "format(u)", "size": 4)J").has(Code::dependsOnItself));
+}
+
+TEST_CASE("a parameter of several values is an element each; what a level depends on is structural") {
+  const Expanded e = tryPass(
+      R"J("repeat": { "i": [0, 1] }, "parameters": { "taps": [1, "$a", "i", 4, 5], "m": [["$b", 1], [2, "3*i"]], "l": "size(t.mip[$c]).x" })J",
+      R"J(, "parameters": { "a": { "default": 2.5 }, "b": { "default": 7.0 }, "c": { "default": 1, "min": 0 } })J");
+  const Expanded good = expandText(
+      R"J({ "parameters": { "a": { "default": 2.5 }, "b": { "default": 7.0 }, "c": { "default": 1, "min": 0, "max": 2 } },
+  "resources": { "t": { "texture": "rgba8", "size": [16, 8], "mips": 3 } },
+  "passes": [ { "name": "p", "type": "fullscreen", "shader": "a.frag.glsl", "repeat": { "i": [0, 1] }, "write": { "r": "t.mip[i]" },
+    "parameters": { "taps": [1, "$a", "i", 4, 5], "m": [["$b", 1], [2, "3*i"]], "l": "size(t.mip[$c]).x" } } ], "present": "t" })J");
+  CHECK(e.has(Code::unknownVariable));  // there is no 't'
+  CHECK(good.text() == "");
+  const std::vector<UniformSpec>& uniforms = good.spec("p[1]").uniforms;
+  REQUIRE(uniforms.size() == 8);
+  for (std::uint32_t i = 0; i < 5; ++i) {
+    CHECK(uniforms[i].text() == "taps[" + std::to_string(i) + "]");
+    CHECK(uniforms[i].elements == 5);
+  }
+  CHECK(uniforms[1].value == Value::number(2.5));
+  CHECK(uniforms[2].value == Value::number(1));
+  CHECK(uniforms[5].value == Value{Value::Type::list, 2, {7, 1, 0, 0}, {}});
+  CHECK(uniforms[6].value == Value{Value::Type::list, 2, {2, 3, 0, 0}, {}});
+  CHECK(uniforms[7].value == Value::number(8));
+  CHECK_FALSE(good.graph->parameters[0].structural);
+  CHECK_FALSE(good.graph->parameters[1].structural);
+  CHECK(good.graph->parameters[2].structural);
+}

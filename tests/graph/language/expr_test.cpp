@@ -130,6 +130,27 @@ TEST_CASE("log2ceil and pow2ceil are exact") {
   CHECK(eval("8 * pow2ceil($n)") == "1024");
 }
 
+TEST_CASE("round, pow2 and log2 take any number, lists item by item") {
+  CHECK(eval("round([2.5, -2.5, 2.4])") == "[3, -3, 2]");
+  CHECK(eval("pow2([0, 10, -1])") == "[1, 1024, 0.5]");
+  CHECK(eval("pow2(0.5) * pow2(0.5) - 2 < 1e-12") == "true");
+  CHECK(eval("log2([1, 0.125, 1024])") == "[0, -3, 10]");
+  CHECK(eval("pow2(log2(9) / 2)") == "3");
+  CHECK(failure("log2(0)").code == Code::noFiniteResult);
+  CHECK(failure("pow2(5000)").code == Code::noFiniteResult);
+}
+
+TEST_CASE("the size of a level") {
+  CHECK(eval("size(hdr.mip[0])") == "[1280, 720]");
+  CHECK(eval("size(hdr.mip[k - i])") == "[320, 180]");
+  CHECK(eval("size(ibl.environment.mip[1]).x") == "512");
+  CHECK(failure("size(hdr.mip[0.5])").code == Code::operandsDoNotFit);
+  CHECK(failure("size(hdr.mip[-1])").code == Code::operandsDoNotFit);
+  CHECK(failure("size(hdr.mip[0..1])").code == Code::badExpression);
+  CHECK(failure("size(hdr.layer[0])").code == Code::badExpression);
+  CHECK(failure("mips(hdr.mip[0])").code == Code::badExpression);
+}
+
 TEST_CASE("comparison, logic, conditions and symbols") {
   CHECK(eval("$draw == billboard") == "true");
   CHECK(eval("$draw != icosphere") == "true");
@@ -176,7 +197,7 @@ TEST_CASE("syntax errors point at the offending token") {
   CHECK(failure("[1, 2, 3, 4, 5]").column == 1);
   CHECK(failure("@spheres").code == Code::badExpression);
   CHECK(failure("1 + ibl.environment").column == 5);
-  CHECK(failure("size(glow.mip[0])").column == 11);
+  CHECK(failure("mips(glow.mip[0])").column == 11);
   CHECK(failure("size(hdr.x)").column == 10);
   CHECK(failure("$grid.q").code == Code::unknownVariable);
   CHECK(failure("[1, 2].q").column == 8);

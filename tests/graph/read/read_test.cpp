@@ -297,7 +297,7 @@ TEST_CASE("keys that exclude each other, words, ranges") {
         "W003 1:60 /passes/0/repeat/i/1");
   CHECK(wrong(R"({"passes": [{"name": "p", "type": "x", "geometry": "icosphere("}]})") ==
         "W021 1:62 /passes/0/geometry");
-  CHECK(wrong(R"({"passes": [{"name": "p", "type": "x", "before": "q"}]})") == "W019 1:40 /passes/0/before");
+  CHECK(wrong(R"({"passes": [{"name": "p", "type": "x", "before": "q"}]})") == "W016 1:50 /passes/0/before");
 }
 
 TEST_CASE("what could not be read is remembered, so that a use of it is no second error") {

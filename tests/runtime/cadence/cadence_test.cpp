@@ -68,6 +68,7 @@ std::size_t countRunning(const FrameCadence& cadence, const Plan& plan) {
 constexpr auto kAlways = Cadence::always;
 constexpr auto kOnce = Cadence::once;
 constexpr auto kOnChange = Cadence::on_change;
+constexpr auto kEvery = Cadence::every;
 
 }  // namespace
 
@@ -262,4 +263,28 @@ TEST_CASE(
   CHECK_FALSE(cadence.decideAhead(g.own, g.generations));
   CHECK(countRunning(cadence, g.plan) == 0);
   CHECK(runSlices(cadence, g.plan, g.own, g.generations) == "4 5");
+}
+
+TEST_CASE("every(3) runs in frames 0, 3, 6, and where its storage is new; what follows it runs with it") {
+  Builder b;
+  const auto world = b.resource(), light = b.resource(), shown = b.resource(), picture = b.resource();
+  b.pass(kAlways, {{world, Access::write}});
+  b.pass(kEvery, {{world, Access::read}, {light, Access::write}});
+  b.graph->passes.back().period = 3;
+  b.pass(kOnChange, {{light, Access::read}, {shown, Access::write}});
+  b.pass(kAlways, {{shown, Access::read}, {picture, Access::write}});
+  const Plan plan = b.compile(picture);
+  CHECK(plan.persistent[light] == 1);
+  FrameCadence cadence(plan);
+  std::vector<std::uint64_t> own(4, 1), generations(4, 1);
+  for (std::uint32_t frame = 0; frame < 9; ++frame) {
+    CAPTURE(frame);
+    if (frame == 4) own[1] = 2;
+    cadence.beginFrame(frame);
+    const int runs = frame % 3 == 0 || frame == 4;
+    CHECK(runFrame(cadence, plan, own, generations) == std::vector<int>{1, runs, runs, 1});
+  }
+  FrameCadence late(plan);  // begins where it does not run: nothing is there yet
+  late.beginFrame(5);
+  CHECK(runFrame(late, plan, own, generations) == std::vector<int>{1, 1, 1, 1});
 }

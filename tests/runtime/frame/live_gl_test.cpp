@@ -1,5 +1,6 @@
 // Live parameters on the GPU: set between frames they make no plan and no allocation, give the picture of a
 // graph that was loaded with them, and wake what runs on change.
+#include <cmath>
 #include <cstring>
 
 #include "engine/text/hash.h"
@@ -230,4 +231,60 @@ TEST_CASE("toggle: only passes that differ are prepared, and the picture is that
   CHECK(stage.execution().passesPrepared() == 0);
   stage.run(0);
   CHECK(stage.pixels() == first);
+}
+
+TEST_CASE("live: arrays and matrices reach the shader in the order of its own indices") {
+  const CleanScope clean;
+  Stage stage("tests/runtime/graphs/arrays.json", 36, 1);
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  const auto row = [&] {
+    stage.run(0);
+    const std::vector<float> texels = stage.read("row");
+    std::vector<float> numbers;
+    for (std::size_t i = 0; i < texels.size(); i += 4) numbers.push_back(texels[i]);
+    return numbers;
+  };
+  std::vector<float> expected;
+  for (int i = 0; i < 36; ++i) expected.push_back(static_cast<float>(i));
+  CHECK(row() == expected);
+  const std::uint64_t plans = stage.renderer().plansBuilt();
+  REQUIRE(stage.renderer().setParameter("gain", Value::number(5)));
+  REQUIRE(stage.renderer().setParameter("shift", {Value::Type::list, 2, {100, 200, 0, 0}, {}}));
+  expected[2] = 10;
+  expected[9] = 109;
+  expected[10] = 210;
+  CHECK(row() == expected);
+  CHECK(stage.renderer().plansBuilt() == plans);
+}
+
+TEST_CASE("live: values of imports follow the world frame by frame, and wake a pass that is on_change") {
+  const CleanScope clean;
+  Stage stage("tests/runtime/graphs/follow.json", 16, 9, "tests/runtime/graphs/follow_scene.json");
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  const std::uint64_t plans = stage.renderer().plansBuilt();
+  FrameInput input = headlessFrame(stage.world, 0, 60);
+  const auto run = [&](std::uint32_t frame) {
+    input.frame = frame;
+    stage.run(input);
+    const std::vector<float> texels = stage.read("row");
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < texels.size(); i += 4) numbers.push_back(texels[i]);
+    return numbers;
+  };
+  const auto isNear = [](std::span<const double> found, std::vector<double> wanted) {
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      CHECK(found[i] == doctest::Approx(wanted[i]).epsilon(1e-5));
+  };
+  input.pose = {.position = {1, 2, 3}, .target = {1, 2, -5}, .fovDegrees = 40, .nearPlane = 0.25};
+  const std::vector<double> first = run(0);
+  isNear(first, {1, 2, 3, 0, 0, -1});
+  isNear(std::span(first).subspan(6), {2 * 0.6, 0, 2 * -0.8, 0.25, 40, 7});  // as follow_scene.json says
+  CHECK(stage.read("same")[0] == 0);
+  run(1);
+  CHECK_FALSE(stage.ran("kept"));
+  input.pose.position = {4, 2, -5};
+  isNear(run(2), {4, 2, -5, -1, 0, 0});
+  CHECK(stage.ran("kept"));
+  CHECK(stage.read("same")[0] == 0);
+  CHECK(stage.renderer().plansBuilt() == plans);
 }

@@ -34,11 +34,12 @@ struct ChosenSteps {
   }
   void refreshHashes() {
     for (std::size_t step = 0; step < hashes.size(); ++step)
-      hashes[step] = runtime::hashOf(on.passes[step], *on.pool, on.device.imports, uniforms);
+      hashes[step] = runtime::hashOf(on.passes[step], on.plan->passOf(step).cadence, *on.pool,
+                                     on.device.imports, uniforms);
   }
   // The names of the steps that a frame runs, in order.
   std::string frame() {
-    steps.beginFrame();
+    steps.beginFrame(0);
     refreshHashes();
     steps.decide(hashes, generations);
     std::string names;
@@ -86,7 +87,7 @@ TEST_CASE("a step ran or not: in this frame, and always or not") {
   live.frame();
   CHECK_FALSE(live.steps.ran(kept));
   CHECK(live.steps.ran(start));
-  live.steps.beginFrame();
+  live.steps.beginFrame(0);
   CHECK_FALSE(live.steps.ran(start));
   CHECK_FALSE(live.steps.isAlways(kept));
   CHECK(live.steps.isAlways(start));

@@ -60,3 +60,17 @@ TEST_CASE("timed: headless, everything was published long ago, and any frame may
   CHECK(stage.value() == 100);
   CHECK_FALSE(stage.execution().remembers(stage.world));
 }
+
+TEST_CASE("every(n): a pass sees the frames 0, n, 2n, and its picture stays until then") {
+  const CleanScope clean;
+  Stage stage("tests/runtime/graphs/every.json", 1, 1);
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  CHECK(stage.execution().remembers(stage.world));
+  for (std::uint32_t frame = 0; frame < 8; ++frame) {
+    CAPTURE(frame);
+    stage.run(frame);
+    const std::vector<float> both = stage.read("both");
+    CHECK(both[0] == static_cast<float>(frame / 3 * 3));
+    CHECK(both[1] == static_cast<float>(frame));
+  }
+}

@@ -17,15 +17,26 @@ T at(const std::vector<std::byte>& bytes, std::size_t offset) {
   return value;
 }
 
+Value listOf(std::initializer_list<double> items) {
+  Value value{Value::Type::list, 0, {}, {}};
+  for (const double item : items) value.v[value.count++] = item;
+  return value;
+}
+
 }  // namespace
 
 TEST_CASE("values are converted at the destination") {
   std::vector<std::byte> block(64, std::byte{0});
-  runtime::writeValue(block.data(), {.name = "f", .type = GL_FLOAT, .offset = 0}, Value::number(1.5));
-  runtime::writeValue(block.data(), {.name = "i", .type = GL_INT, .offset = 4}, Value::number(-3));
-  runtime::writeValue(block.data(), {.name = "b", .type = GL_BOOL, .offset = 8}, Value::boolean(true));
-  runtime::writeValue(block.data(), {.name = "v", .type = GL_FLOAT_VEC3, .offset = 16},
-                      {Value::Type::list, 3, {1, 2, 3, 0}, {}});
+  const auto write = [&](const gl::BlockMember& member, const Value& value) {
+    const auto field = runtime::fieldFor(member, {.value = value});
+    REQUIRE(field);
+    return runtime::writeValue(block.data(), *field, value);
+  };
+  CHECK(write({.name = "f", .type = GL_FLOAT, .offset = 0}, Value::number(1.5)));
+  CHECK_FALSE(write({.name = "f", .type = GL_FLOAT, .offset = 0}, Value::number(1.5)));
+  write({.name = "i", .type = GL_INT, .offset = 4}, Value::number(-3));
+  write({.name = "b", .type = GL_BOOL, .offset = 8}, Value::boolean(true));
+  write({.name = "v", .type = GL_FLOAT_VEC3, .offset = 16}, listOf({1, 2, 3}));
   CHECK(at<float>(block, 0) == 1.5f);
   CHECK(at<std::int32_t>(block, 4) == -3);
   CHECK(at<std::uint32_t>(block, 8) == 1u);
@@ -34,8 +45,8 @@ TEST_CASE("values are converted at the destination") {
 
 TEST_CASE("a number beyond a whole type becomes its nearest value") {
   std::vector<std::byte> block(16, std::byte{0});
-  const auto write = [&](GLenum type, double x) {
-    runtime::writeValue(block.data(), {.name = "i", .type = type, .offset = 0}, Value::number(x));
+  const auto write = [&](GLenum base, double x) {
+    runtime::writeValue(block.data(), {.base = base}, Value::number(x));
   };
   write(GL_INT, 1e30);
   CHECK(at<std::int32_t>(block, 0) == 2147483647);
@@ -49,15 +60,33 @@ TEST_CASE("a number beyond a whole type becomes its nearest value") {
   CHECK(at<std::uint32_t>(block, 0) == 0u);
 }
 
-TEST_CASE("a member says what it expects of a value that does not fit") {
-  std::string expected;
-  CHECK(runtime::memberTakes({.name = "f", .type = GL_FLOAT}, Value::number(1), expected));
-  CHECK_FALSE(runtime::memberTakes({.name = "f", .type = GL_FLOAT}, {Value::Type::list, 3, {1, 2, 3, 0}, {}},
-                                   expected));
-  CHECK(expected == "a number, for float");
-  CHECK_FALSE(runtime::memberTakes({.name = "v", .type = GL_FLOAT_VEC2}, Value::number(1), expected));
-  CHECK(expected == "a list of 2 numbers, for vec2");
-  CHECK_FALSE(runtime::memberTakes({.name = "f", .type = GL_FLOAT}, Value::text("high"), expected));
+TEST_CASE("a member takes values of its own shape, and says which") {
+  const auto takes = [](const gl::BlockMember& member, const Value& value,
+                        std::uint32_t element = graph::kNone, std::uint32_t elements = 0) {
+    return runtime::fieldFor(member, {.element = element, .elements = elements, .value = value}).has_value();
+  };
+  const gl::BlockMember number{.name = "f", .type = GL_FLOAT}, vector{.name = "v", .type = GL_FLOAT_VEC2};
+  CHECK(takes(number, Value::number(1)));
+  CHECK_FALSE(takes(number, listOf({1, 2, 3})));
+  CHECK(runtime::expectedFor(number) == "a number, for float");
+  CHECK_FALSE(takes(vector, Value::number(1)));
+  CHECK(runtime::expectedFor(vector) == "a list of 2 numbers, for vec2");
+  CHECK_FALSE(takes(number, Value::text("high")));
+
+  const gl::BlockMember weights{.name = "w", .type = GL_FLOAT, .arraySize = 9, .arrayStride = 16};
+  CHECK(takes(weights, Value::number(1), 8, 9));
+  CHECK_FALSE(takes(weights, Value::number(1), 0, 8));
+  CHECK_FALSE(takes(weights, Value::number(1)));
+  CHECK_FALSE(takes(weights, listOf({1, 2}), 0, 9));
+  CHECK(runtime::expectedFor(weights) == "a list of 9 numbers, for float[9]");
+  const gl::BlockMember three{.name = "w", .type = GL_FLOAT, .arraySize = 3, .arrayStride = 16};
+  CHECK(takes(three, listOf({1, 2, 3})));
+  CHECK_FALSE(takes(three, listOf({1, 2})));
+  const gl::BlockMember turn{.name = "m", .type = GL_FLOAT_MAT2x3, .matrixStride = 16};
+  CHECK(takes(turn, listOf({1, 2, 3}), 1, 2));
+  CHECK_FALSE(takes(turn, listOf({1, 2}), 1, 3));
+  CHECK_FALSE(takes(turn, listOf({1, 2, 3, 4})));
+  CHECK(runtime::expectedFor(turn) == "a list of 2 lists of 3 numbers, its columns, for mat2x3");
 }
 
 TEST_CASE("the View block is written by name; passes that are not always see no time") {

@@ -20,6 +20,11 @@ struct Mistiming {
   std::string why, hint;
 };
 
+// Whatever has changed: in each frame, or in each n-th.
+bool runsByClock(const FlatPass& pass) {
+  return pass.cadence == Cadence::always || pass.cadence == Cadence::every;
+}
+
 // What is wrong with one read of a pass that is not `always`; `why` is empty when nothing is.
 Mistiming findMistiming(const FlatGraph& graph, std::uint32_t pass, std::uint32_t use) {
   const FlatUse& read = graph.uses[use];
@@ -77,7 +82,7 @@ void checkWayBack(Model& model, const Groups& groups, std::uint32_t group) {
            "make it \"update\": \"on_change\"");
       between = kNone;
     }
-    if (inside || !follows || graph.passes[p].cadence == Cadence::always) continue;
+    if (inside || !follows || runsByClock(graph.passes[p])) continue;
     for (const std::uint32_t u : graph.usesOf(p))
       if (graph.uses[u].access != Access::read) from[graph.uses[u].resource] = p;
   }
@@ -97,14 +102,13 @@ void checkSlices(Model& model) {
         f(p, graph.uses[u], groups.slicedWriterOf(graph.uses[u].resource) != kNone);
   };
   eachUse([&](std::uint32_t p, const FlatUse& use, bool sliced) {
-    if (graph.passes[p].cadence != Cadence::always || use.access == Access::read) return;
+    if (!runsByClock(graph.passes[p]) || use.access == Access::read) return;
     alwaysWriter[use.resource] = p;
     if (sliced)
-      fail(
-          model, p, use.resource,
-          fmt::format("pass '{}' runs in every frame and writes '{}', which others write over several frames",
-                      graph.passNames[p], graph.resourceNames[use.resource]),
-          "write a resource of its own, or remove \"slices\"");
+      fail(model, p, use.resource,
+           fmt::format("pass '{}' runs by the clock and writes '{}', which others write over several frames",
+                       graph.passNames[p], graph.resourceNames[use.resource]),
+           "write a resource of its own, or remove \"slices\"");
   });
   eachUse([&](std::uint32_t p, const FlatUse& use, bool sliced) {
     const std::uint32_t group = groups.groupOf(p), writer = alwaysWriter[use.resource];
@@ -112,7 +116,7 @@ void checkSlices(Model& model) {
         writer == kNone || sliced)
       return;
     fail(model, p, use.resource,
-         fmt::format("pass '{}' is time-sliced and reads '{}', which pass '{}' makes anew in each frame",
+         fmt::format("pass '{}' is time-sliced and reads '{}', which pass '{}' makes anew by the clock",
                      graph.passNames[p], graph.resourceNames[use.resource], graph.passNames[writer]),
          fmt::format("make '{}' \"update\": \"on_change\", or remove \"slices\"", graph.passNames[writer]));
   });
@@ -129,7 +133,7 @@ void warnCadence(Model& model) {
     for (const std::uint32_t u : graph.usesOf(p)) {
       if (cadence == Cadence::on_change && graph.uses[u].access != Access::read)
         changing.insert(graph.uses[u].resource);
-      if (cadence == Cadence::always || graph.uses[u].access != Access::read) continue;
+      if (runsByClock(graph.passes[p]) || graph.uses[u].access != Access::read) continue;
       if (Mistiming found = findMistiming(graph, p, u); !found.why.empty())
         suspects.push_back(std::move(found));
     }

@@ -201,6 +201,7 @@ struct Model {
   std::vector<ElementOf> elementOf{};  // per FlatResource
   // What names of `name.…` begin with where the file includes nothing under it: one report is enough.
   std::set<std::pair<const Scope*, std::string>> unincluded{};
+  std::deque<Expr> matrixColumns{};    // of parameters that are a matrix of an import
   std::deque<std::string> misspelt{};  // names that files use of what is declared under a misspelt one
   bool mended = false;                 // mendDeclarations() was called
   bool incomplete = false;             // the reader left something out for its mistakes

@@ -176,13 +176,14 @@ bool isLeft(const Scope& from, const Model& model, const PassDesc& pass, const S
 
 }  // namespace
 
-std::optional<Value> Names::fact(Fact fact, std::string_view resource, const Place& place) {
+std::optional<Value> Names::fact(Fact fact, std::string_view resource, std::uint32_t level,
+                                 const Place& place) {
   const std::uint32_t index = findAsked(model_, scope_, resource);
   if (index == kNone) {
     if (fact == Fact::has)
       if (const auto [pass, in] = findAskedPass(scope_, resource); pass)
         return Value::boolean(isLeft(scope_, model_, *pass, *in));
-    if (mendDeclarations(model_)) return this->fact(fact, resource, place);
+    if (mendDeclarations(model_)) return this->fact(fact, resource, level, place);
     // Its declaration, or the input that has nothing behind it, was reported where it stands.
     const bool reported = isUnread(scope_, resource) || scope_.resources.contains(resource);
     return reported ? std::optional(Value{}) : std::nullopt;
@@ -198,7 +199,7 @@ std::optional<Value> Names::fact(Fact fact, std::string_view resource, const Pla
   const bool isImport = entity.kind == ResourceDesc::Kind::import;
   const std::uint32_t target = isImport && fact != Fact::has ? index : staticTarget(model_, index, &mip);
   if (fact == Fact::has) return Value::boolean(target != kNone);
-  if (target != kNone) return factOfShape(fact, target, mip, place);
+  if (target != kNone) return factOfShape(fact, target, mip, level, place);
   if (!model_.stopped && std::ranges::find(entity.candidates, kNone) == entity.candidates.end())
     report(model_, Code::conditionLeavesSlotEmpty, place,
            fmt::format("no alternative of '{}' holds, so it has no size", entity.name),
@@ -207,13 +208,22 @@ std::optional<Value> Names::fact(Fact fact, std::string_view resource, const Pla
 }
 
 std::optional<Value> Names::factOfShape(Fact fact, std::uint32_t target, std::uint32_t mip,
-                                        const Place& place) {
+                                        std::uint32_t level, const Place& place) {
   if (!ensureShape(model_, target)) return Value{};
   const Entity& entity = model_.entities[target];
   const FlatResource& shape = entity.shape;
+  if (level > 0 && mip + level >= std::max(entity.writtenMips, shape.mips)) {
+    report(model_, Code::missingSubresource, place,
+           fmt::format("the size of level {} of '{}' is asked for", mip + level, entity.name),
+           {.expected = fmt::format("a level from 0 to {}", std::max(entity.writtenMips, shape.mips) - 1),
+            .resource = entity.name});
+    return Value{};
+  }
+  mip = std::min(mip + level, 31u);
   const auto side = [&](std::uint32_t texels) { return static_cast<double>(std::max(1u, texels >> mip)); };
   if (fact == Fact::count && entity.kind == ResourceDesc::Kind::import) return Value::number(entity.count);
   if (fact == Fact::count && entity.arrayCount > 0) return Value::number(entity.arrayCount);
+  if (fact == Fact::format && !isBuffer(shape)) return Value::text(infoOf(shape.format).name);
   if (fact == Fact::mips && !isBuffer(shape)) return Value::number(shape.mips);
   if (fact == Fact::size && isBuffer(shape)) return Value::number(static_cast<double>(shape.bytes));
   if (fact == Fact::size) {
@@ -224,7 +234,8 @@ std::optional<Value> Names::factOfShape(Fact fact, std::uint32_t target, std::ui
   }
   report(model_, Code::wrongValueType, place,
          fmt::format("'{}' is asked for what it does not have", entity.name),
-         {.expected = fact == Fact::mips ? "a texture for mips()" : "an import or an array for count()",
+         {.expected = fact == Fact::count ? "an import or an array for count()"
+                                          : fmt::format("a texture for {}()", nameOf(fact)),
           .resource = entity.name});
   return Value{};
 }
@@ -298,6 +309,100 @@ std::optional<std::uint32_t> Names::parameterKey(std::string_view name) {
   const Variable found = findVariable(model_, scope_, name);
   const bool leaf = found.kind == Variable::Kind::parameter && !model_.parameters[found.index].structural;
   return leaf ? std::optional(found.index) : std::nullopt;
+}
+
+namespace {
+
+struct FoundValue {
+  std::uint32_t entity = kNone, column = 0;
+  const ImportType* type = nullptr;  // null: nothing has the name, or its declaration has a mistake
+  const TableColumn* told = nullptr;
+};
+
+FoundValue findValue(Model& model, Scope& scope, const ImportValue& asked) {
+  FoundValue found{.entity = findEntity(model, scope, asked.import, true)};
+  if (found.entity == kNone || !ensureShape(model, found.entity)) return found;
+  const std::uint32_t import = model.entities[found.entity].import;
+  found.type = findImportType(model.registry, model.graph.imports[import].request.type);
+  const auto column = std::ranges::find(found.type->columns, asked.value, &TableColumn::name);
+  found.column = static_cast<std::uint32_t>(column - found.type->columns.begin());
+  if (column != found.type->columns.end()) found.told = &*column;
+  return found;
+}
+
+// Some value of a type of columns; none for a whole matrix.
+Value shapeOf(const TableColumn& column, std::uint8_t part) {
+  if (column.type == "mat4" && part == kWholeValue) return {};
+  const bool list = column.type.starts_with("vec") || column.type == "mat4";
+  Value value = Value::number(kTrialAge);
+  if (!list) return value;
+  value.type = Value::Type::list;
+  value.count = static_cast<std::uint8_t>(column.type.back() - '0');
+  value.v.fill(kTrialAge);
+  return value;
+}
+
+}  // namespace
+
+Value Names::importValue(const ImportValue& asked, const Place& place) {
+  const std::string name = fmt::format("{}.{}", asked.import, asked.value);
+  const auto refuse = [&](Code code, std::string message, std::string expected, std::string hint) {
+    report(model_, code, place, std::move(message),
+           {.expected = std::move(expected), .hint = std::move(hint), .resource = std::string(asked.import)});
+    return Value{};
+  };
+  if (!follows)
+    return refuse(Code::badTime, fmt::format("'{}' is known only while the graph runs", name), "",
+                  "values of imports may stand only in \"parameters\" of passes");
+  const FoundValue found = findValue(model_, scope_, asked);
+  if (found.entity == kNone) {
+    const RefDesc ref{.place = place, .name = std::string(asked.import.substr(1)), .import = true};
+    findEntityOrReport(model_, scope_, ref, "a parameter", "asks");
+    return {};
+  }
+  if (!found.type) return {};
+  std::vector<std::string> known;
+  for (const TableColumn& column : found.type->columns) known.push_back(column.name);
+  if (!found.told)
+    return refuse(Code::unknownVariable, fmt::format("'{}' has no value '{}'", asked.import, asked.value),
+                  known.empty() ? "an import with values, such as '@camera'"
+                                : fmt::format("{}", fmt::join(known, ", ")),
+                  text::nearestHint(std::string(asked.value), known));
+  const Entity& entity = model_.entities[found.entity];
+  if (!entity.exists && !absent)
+    return refuse(Code::emptyImport, fmt::format("'{}' is not there", asked.import), "",
+                  fmt::format("write 'has({}) ? {} : …'", asked.import, name));
+  if (entity.count > 0 && asked.row >= entity.count && !absent)
+    return refuse(Code::missingSubresource, fmt::format("'{}' has no row {}", asked.import, asked.row),
+                  fmt::format("a row from 0 to {}", entity.count - 1), "");
+  Value value = shapeOf(*found.told, asked.part);
+  return value.type != Value::Type::none
+             ? value
+             : refuse(Code::operandsDoNotFit, fmt::format("'{}' is a matrix", name), "a number or a list",
+                      "a matrix stands alone in a parameter");
+}
+
+std::optional<std::uint32_t> Names::importKey(const ImportValue& asked) {
+  if (!live) return std::nullopt;
+  const FoundValue found = findValue(model_, scope_, asked);
+  const std::uint32_t import = found.told ? model_.entities[found.entity].import : kNone;
+  const Value shape = found.told ? shapeOf(*found.told, asked.part) : Value{};
+  if (shape.type == Value::Type::none) return std::nullopt;
+  auto& watched = model_.graph.watched;
+  const auto known = std::ranges::find_if(watched, [&](const WatchedValue& each) {
+    return each.import == import && each.row == asked.row && each.column == found.column &&
+           each.part == asked.part;
+  });
+  const auto index = static_cast<std::uint32_t>(known - watched.begin());
+  if (known == watched.end())
+    watched.push_back({import, asked.row, found.column, asked.part, found.told->name, shape});
+  return static_cast<std::uint32_t>(model_.parameters.size()) + index;
+}
+
+bool isMatrix(Model& model, Scope& scope, const Expr& expr) {
+  if (!expr.watched() || expr.root()->op != ExprOp::fact || expr.root()->fact != Fact::value) return false;
+  const FoundValue found = findValue(model, scope, {expr.root()->name, expr.root()->value.symbol});
+  return found.told && found.told->type == "mat4";
 }
 
 namespace {

@@ -92,26 +92,36 @@ class Names final : public EvalScope {
   // would need that, or fails, sets `failed`.
   bool live = false, failed = false;
   bool checking = false;  // a let with age() answers 1 instead of an error
+  bool follows = false;   // values of imports answer with a value of their type instead of an error …
+  bool absent = false;    // … also of an import that is not there
 
   std::optional<Value> variable(std::string_view name) override;
   std::optional<Value> index(std::string_view name) override;
   std::optional<Value> builtin(std::string_view name) override;
-  std::optional<Value> fact(Fact fact, std::string_view resource, const Place& place) override;
+  std::optional<Value> fact(Fact fact, std::string_view resource, std::uint32_t level,
+                            const Place& place) override;
   std::vector<std::string> choicesOf(std::string_view variable) override;
   std::vector<std::string> candidates(NameKind kind) override;
   std::optional<std::uint32_t> ageKey(std::string_view resource) override;
   const Expr* folded(std::string_view variable) override;
   std::optional<std::uint32_t> parameterKey(std::string_view variable) override;
+  Value importValue(const ImportValue& asked, const Place& place) override;
+  std::optional<std::uint32_t> importKey(const ImportValue& asked) override;
+  bool keepsImports() const override { return live; }
 
   Model& model() { return model_; }
   Scope& scope() { return scope_; }
 
  private:
-  std::optional<Value> factOfShape(Fact fact, std::uint32_t target, std::uint32_t mip, const Place& place);
+  std::optional<Value> factOfShape(Fact fact, std::uint32_t target, std::uint32_t mip, std::uint32_t level,
+                                   const Place& place);
 
   Model& model_;
   Scope& scope_;
 };
+
+// Whether the expression is a value of an import that is a matrix, which a parameter takes column by column.
+bool isMatrix(Model& model, Scope& scope, const Expr& expr);
 
 // Evaluation with the expected type held: nullopt after a report, which calls it `what`. An absent expression yields `absent`.
 std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absent, const char* what);

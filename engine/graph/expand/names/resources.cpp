@@ -91,7 +91,7 @@ std::uint32_t internImport(Model& model, ImportRequest request, const ImportType
                        .key = key,
                        .kind = type.kind,
                        .name = entity.name,
-                       .columns = type.columns,
+                       .columns = type.kind == ImportKind::buffer ? type.columns : std::vector<TableColumn>(),
                        .standIns = {}});
     model.importResource.push_back(kNone);
   }
@@ -253,24 +253,27 @@ bool decideTarget(Model& model, Entity& entity) {
   return true;
 }
 
-bool evaluateFormat(Model& model, Entity& entity) {
-  const ResourceDesc& desc = *entity.desc;
-  const auto format = findFormat(desc.format);
+bool evaluateFormat(Model& model, Names& names, Entity& entity) {
+  const Expr& said = entity.desc->format;
+  const Value value = said.evaluate(names, model.diagnostics);
+  if (value.type == Value::Type::none) return false;
+  const std::string name = toText(value);
+  const auto format = findFormat(name);
   if (format) entity.shape.format = *format;
-  const std::string meant = format ? "" : text::hintForForeign(text::Foreign::format, desc.format);
+  const std::string meant = format ? "" : text::hintForForeign(text::Foreign::format, name);
   return format ||
-         report(model, Code::unknownFormat, desc.formatPlace,
-                fmt::format("texture '{}' has the unknown format '{}'", entity.name, desc.format),
+         report(model, Code::unknownFormat, said.place(),
+                fmt::format("texture '{}' has the unknown format '{}'", entity.name, name),
                 {.expected = "channels, bits and kind: r8, rg16f, rgba16f, rgba32ui, srgb8_a8, depth32f, …",
                  .hint = findFormat(meant) ? fmt::format("write '{}'", meant)
-                                           : text::nearestHint(desc.format, formatNames()),
+                                           : text::nearestHint(name, formatNames()),
                  .resource = entity.name});
 }
 
 bool evaluateTexture(Model& model, Names& names, Entity& entity) {
   const ResourceDesc& desc = *entity.desc;
   FlatResource& shape = entity.shape;
-  bool good = evaluateFormat(model, entity);
+  bool good = evaluateFormat(model, names, entity);
   good = evaluateSize(names, entity) && good;
   const auto mips = evaluateWhole(names, desc.mips, 1, 1, kMaxMips, "the number of mips", true);
   const auto layers = evaluateWhole(names, desc.layers, 1, 0, kMaxLayers, "the number of layers", true);

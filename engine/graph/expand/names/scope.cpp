@@ -199,7 +199,8 @@ void markAllStructural(Model& model) {
     std::vector<const Expr*> values;
     for (const NamedExpr& let : scope.desc->lets) values.push_back(&let.expr);
     for (const PassDesc& pass : scope.desc->passes)
-      for (const PassParameterDesc& parameter : pass.parameters) values.push_back(&parameter.value);
+      for (const PassParameterDesc& parameter : pass.parameters)
+        for (const Expr& value : parameter.values()) values.push_back(&value);
     std::ranges::sort(values);
     const auto mark = [&](const Expr& expr) {
       if (!std::ranges::binary_search(values, &expr)) markStructural(model, scope, expr);

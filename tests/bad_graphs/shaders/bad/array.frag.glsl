@@ -1,4 +1,4 @@
-// Weights that no graph can set.
+// Weights that the pass does not set.
 layout(std140) uniform Parameters { vec4 weights[4]; };
 out vec4 result;
 

@@ -1,4 +1,4 @@
-// Weights that no graph can set, with the size behind the type.
+// Weights that the pass does not set, with the size behind the type.
 layout(std140) uniform Parameters { vec4[4] weights; };
 out vec4 result;
 
