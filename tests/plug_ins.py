@@ -35,7 +35,7 @@ OTHER_MEANINGS = {
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 ARGUMENT = re.compile(r'\bargument\("(\w+)"')
 COMPARED = re.compile(r'[=!]= "(\w+)"|"(\w+)" [=!]=')
-GEOMETRY = re.compile(r'\{"(\w+)", \{')
+GEOMETRY = re.compile(r'\{(?:\.name = )?"(\w+)", ')
 
 
 def strip_comments(text: str) -> str:
@@ -58,8 +58,8 @@ def names_of_plug_ins(top: pathlib.Path) -> dict[str, str]:
             if reflected != [folder.name] and folder.name != "tables":
                 sys.exit(f"engine/{room}/{folder.name}: its reflect() should name '{folder.name}', found {reflected}")
     draw = strip_comments((top / "engine/passes/draw/geometry.cpp").read_text())
-    body = draw[draw.index("reflectGeometries() {"):]
-    for name in GEOMETRY.findall(body[:body.index("\n}")]):
+    body = draw[draw.index("kTopologies[] = {"):]
+    for name in GEOMETRY.findall(body[:body.index("return types;")]):
         names[name] = "engine/passes/draw"
     return names
 

@@ -37,7 +37,9 @@ std::vector<ShaderKey> keysOf(const graph::PassDesc& pass) {
   for (const graph::PassParameterDesc& each : pass.parameters) add("parameter", each.name, each.place);
   for (const graph::NamedExpr& each : pass.defines) add("define", each.name, each.place);
   for (const graph::NamedExpr& each : pass.state)
-    if (each.name.starts_with("blend.")) add("slot", each.name.substr(6), each.place);
+    for (const std::string_view key : {"blend.", "color_mask."})
+      if (each.name.starts_with(key) && each.name.find('.', key.size()) == std::string::npos)
+        add("slot", each.name.substr(key.size()), each.place);
   return keys;
 }
 

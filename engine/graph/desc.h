@@ -25,18 +25,7 @@ using text::Where;
 // How a pass touches a resource.
 enum class Access : std::uint8_t { read, write, modify };
 // What the hardware does with it: docs/graph-format.md, "References".
-enum class Kind : std::uint8_t {
-  sampled,
-  image,
-  uniform,
-  storage,
-  vertex,
-  index,
-  indirect,
-  color,
-  depth,
-  copy
-};
+enum class Kind : std::uint8_t { sampled, image, uniform, storage, indirect, color, depth, copy };
 enum class Cadence : std::uint8_t { always, on_change, once, every };
 
 // What a lookup outside 0..1 finds: the texel at the edge, the texture again, its mirror image, or a BorderColor.
@@ -206,10 +195,11 @@ struct PassDesc {
   std::vector<SlotDesc> slots;  // in file order
   std::vector<PassParameterDesc> parameters;
   std::vector<NamedExpr> defines;
-  std::vector<NamedExpr> state;  // "depth_test", "cull", "blend" (all slots), "blend.radiance" (one slot), …
+  std::vector<NamedExpr>
+      state;  // "cull", "blend" (all slots), "blend.radiance" (one slot), "stencil.pass", …
   Cadence cadence = Cadence::always;
   Expr period;  // of Cadence::every: frames
-  Expr slices, threads, instances;
+  Expr slices, threads, instances, draws, raster, samples;
   std::string list;
   Place listPlace;
   std::string geometry;  // "quad", "mesh", "icosphere"

@@ -22,7 +22,8 @@ void visitRef(const RefDesc& ref, OnExpr&& onExpr, OnRef&& onRef) {
 
 template <class OnExpr, class OnRef>
 void visitPass(const PassDesc& pass, OnExpr&& onExpr, OnRef&& onRef) {
-  for (const Expr* expr : {&pass.enabled, &pass.slices, &pass.threads, &pass.instances, &pass.period})
+  for (const Expr* expr : {&pass.enabled, &pass.slices, &pass.threads, &pass.instances, &pass.period,
+                           &pass.draws, &pass.raster, &pass.samples})
     onExpr(*expr);
   for (const RangeDesc& range : pass.repeat)
     for (const Expr* expr : {&range.first, &range.last, &range.step}) onExpr(*expr);

@@ -5,8 +5,10 @@
 // `specs`, `slots` and the rest are for the executor.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <ranges>
 #include <string>
 #include <vector>
@@ -154,11 +156,71 @@ struct DefineSpec {
   friend bool operator==(const DefineSpec&, const DefineSpec&) = default;
 };
 
-enum class Blend : std::uint8_t { none, add, alpha, premultiplied, multiply, min, max };
+// clang-format off
+enum class BlendFactor : std::uint8_t {
+  zero, one, src_color, one_minus_src_color, dst_color, one_minus_dst_color,
+  src_alpha, one_minus_src_alpha, dst_alpha, one_minus_dst_alpha,
+  constant_color, one_minus_constant_color, constant_alpha, one_minus_constant_alpha, src_alpha_saturate
+};
+enum class StencilOp : std::uint8_t {
+  keep, zero, replace, increment, increment_wrap, decrement, decrement_wrap, invert
+};
+// clang-format on
+enum class BlendEquation : std::uint8_t { add, subtract, reverse_subtract, min, max };
+// Of red, green and blue, or of alpha. As it is made, nothing is blended.
+struct BlendPart {
+  BlendFactor source = BlendFactor::one, destination = BlendFactor::zero;
+  BlendEquation equation = BlendEquation::add;
+  friend bool operator==(const BlendPart&, const BlendPart&) = default;
+};
+struct Blend {
+  BlendPart color, alpha;
+  friend bool operator==(const Blend&, const Blend&) = default;
+};
+// The words for whole blends, in the order of the schema: none, add, alpha, premultiplied, multiply, min, max.
+constexpr std::array<Blend, 7> kBlends = [] {
+  using enum BlendFactor;
+  using enum BlendEquation;
+  constexpr BlendPart over{one, one_minus_src_alpha}, sum{one, one}, product{dst_color, zero};
+  return std::array<Blend, 7>{{{},
+                               {sum, sum},
+                               {{src_alpha, one_minus_src_alpha}, over},
+                               {over, over},
+                               {product, product},
+                               {{one, one, min}, {one, one, min}},
+                               {{one, one, max}, {one, one, max}}}};
+}();
 enum class Cull : std::uint8_t { none, front, back };
 
+// Of a color slot.
+struct ColorState {
+  Blend blend;
+  std::uint8_t mask = 15;  // bits 0 to 3: red, green, blue and alpha are written
+  friend bool operator==(const ColorState&, const ColorState&) = default;
+};
+
+struct StencilFace {
+  Compare test = Compare::always;
+  StencilOp fail = StencilOp::keep, depthFail = StencilOp::keep, pass = StencilOp::keep;
+  bool writes() const {
+    return fail != StencilOp::keep || depthFail != StencilOp::keep || pass != StencilOp::keep;
+  }
+  friend bool operator==(const StencilFace&, const StencilFace&) = default;
+};
+struct StencilState {
+  StencilFace front, back;
+  std::uint8_t reference = 0, readMask = 255, writeMask = 255;
+  bool writes() const { return writeMask != 0 && (front.writes() || back.writes()); }
+  friend bool operator==(const StencilState&, const StencilState&) = default;
+};
+
 struct StateSpec {
-  std::vector<std::pair<std::string, Blend>> blend;  // per color slot; absent slots do not blend
+  std::vector<std::pair<std::string, ColorState>> colors;  // of the slots that "state" names, or of all
+  std::array<double, 4> blendColor{};
+  std::optional<StencilState> stencil;
+  std::optional<std::array<std::int32_t, 4>> viewport;  // x, y, width, height; absent: all of the attachment
+  std::optional<std::uint32_t> sampleMask;
+  bool alphaToCoverage = false, depthClamp = false;
   bool depthTest = false;
   Compare depthCompare = Compare::always;
   bool depthWrite = true;  // only with a depth test and a writable depth attachment
@@ -180,10 +242,14 @@ struct PassSpec {
   std::vector<UniformSpec> uniforms;
   StateSpec state;
   std::uint32_t threads[3] = {1, 1, 1};
-  Place threadsPlace;           // of "threads", else of the pass
-  std::uint32_t instances = 1;  // of a draw without a list
-  Expr timedInstances;          // the same, folded, when it contains age(); else absent
-  std::string list;             // draw list or ""
+  Place threadsPlace;                     // of "threads", else of the pass
+  std::uint32_t instances = 1;            // of a draw without a list
+  Expr timedInstances;                    // the same, folded, when it contains age(); else absent
+  std::array<std::uint32_t, 2> raster{};  // of a pass without attachments, in texels; else 0
+  std::uint8_t rasterSamples = 1;
+  bool indirect = false;    // the command takes its arguments from a buffer
+  std::uint32_t draws = 1;  // records of it, of a draw
+  std::string list;         // draw list or ""
   std::string geometry;
   std::vector<double> geometryArguments;
   bool meshes = false;         // as GeometryType::meshes

@@ -20,22 +20,20 @@ namespace weft::graph {
 // One bit per glMemoryBarrier bit that a plan can need (OpenGL 4.5 core, 7.12.2). Which access needs which is
 // compile/barrier_rules.h; the runtime maps them to GL enums.
 enum BarrierBit : std::uint16_t {
-  kBarrierVertex = 1 << 0,         // VERTEX_ATTRIB_ARRAY
-  kBarrierIndex = 1 << 1,          // ELEMENT_ARRAY
-  kBarrierUniform = 1 << 2,        // UNIFORM
-  kBarrierTexture = 1 << 3,        // TEXTURE_FETCH
-  kBarrierImage = 1 << 4,          // SHADER_IMAGE_ACCESS
-  kBarrierCommand = 1 << 5,        // COMMAND
-  kBarrierTextureUpdate = 1 << 6,  // TEXTURE_UPDATE: clears and sub-image writes
-  kBarrierBufferUpdate = 1 << 7,   // BUFFER_UPDATE: buffer clears and copies
-  kBarrierFramebuffer = 1 << 8,    // FRAMEBUFFER: attachments, blits, read-back of textures
-  kBarrierStorage = 1 << 9,        // SHADER_STORAGE
+  kBarrierUniform = 1 << 0,        // UNIFORM
+  kBarrierTexture = 1 << 1,        // TEXTURE_FETCH
+  kBarrierImage = 1 << 2,          // SHADER_IMAGE_ACCESS
+  kBarrierCommand = 1 << 3,        // COMMAND
+  kBarrierTextureUpdate = 1 << 4,  // TEXTURE_UPDATE: clears and sub-image writes
+  kBarrierBufferUpdate = 1 << 5,   // BUFFER_UPDATE: buffer clears and copies
+  kBarrierFramebuffer = 1 << 6,    // FRAMEBUFFER: attachments, blits, read-back of textures
+  kBarrierStorage = 1 << 7,        // SHADER_STORAGE
 };
-constexpr int kBarrierBitCount = 10;
+constexpr int kBarrierBitCount = 8;
 constexpr const char* barrierName(BarrierBit bit) {
   constexpr std::array<const char*, kBarrierBitCount> kNames = {
-      "vertex",  "index",          "uniform",       "texture_fetch", "image_access",
-      "command", "texture_update", "buffer_update", "framebuffer",   "shader_storage"};
+      "uniform",        "texture_fetch", "image_access", "command",
+      "texture_update", "buffer_update", "framebuffer",  "shader_storage"};
   return kNames[static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(bit)))];
 }
 
@@ -61,6 +59,7 @@ struct PassType {
   // The type uses glCopyImageSubData where source and destination are one level and layer each of 2D textures or arrays of
   // the graph, with one size, one sample and one color format that is not sRGB (FlatUse::exact). Only with `framebuffers`.
   bool exactCopies = false;
+  bool indirect = false;  // takes a buffer as the arguments of its command
   // Barrier bits (BarrierBit) that the GL command needs besides those of its slots' kinds, on the ranges that the slots
   // name, because it touches them in a way that no slot says.
   std::uint16_t touches = 0;
@@ -131,7 +130,9 @@ struct GeometryArgument {
 struct GeometryType {
   std::string name;
   std::vector<GeometryArgument> arguments;
-  bool meshes = false;  // draws the meshes of a draw list, each with its own vertices
+  bool meshes = false;   // draws the meshes of a draw list, each with its own vertices
+  bool counted = false;  // its argument is how many vertices an instance has; they have no attributes
+  bool indexed = false;  // has indices
 };
 
 struct Registry {

@@ -150,13 +150,9 @@ std::uint64_t outputBytesOf(const FlatUse& use, const FlatResource& r);
 // ---- words ----
 
 // The words for Kind and Access, in their order, as files have them behind `as`, and as messages and dumps do.
-constexpr std::array<const char*, 10> kKindNames = {"sampled", "image",    "uniform", "storage", "vertex",
-                                                    "index",   "indirect", "color",   "depth",   "copy"};
+constexpr std::array<const char*, 8> kKindNames = {"sampled",  "image", "uniform", "storage",
+                                                   "indirect", "color", "depth",   "copy"};
 constexpr std::array<const char*, 3> kAccessNames = {"read", "write", "modify"};
-// What the draw or dispatch command itself fetches from a buffer: kinds that no type of pass takes yet (W087).
-constexpr bool isCommandInput(Kind kind) {
-  return kind == Kind::vertex || kind == Kind::index || kind == Kind::indirect;
-}
 constexpr const char* nameOf(Kind kind) {
   return kKindNames[static_cast<std::size_t>(kind)];
 }

@@ -52,6 +52,7 @@ struct PassContext {
   bool exact = false;     // blit: as graph::FlatUse::exact
   Geometry geometry;
   std::uint32_t instances = 0;  // draw
+  BoundBuffer commands;         // draw, compute: the arguments of the GL command, where it has a name
   // Slices [slice, slice + sliceCount) of `slices`. Rows of pixels are the executor's scissor; compute takes rows of groups.
   std::uint32_t slice = 0, sliceCount = 1, slices = 1;
 };

@@ -4,7 +4,7 @@
 // Ranges: W001-W019 JSON and files, W020-W039 expressions and references, W040-W099 graph (expansion, validation),
 // W100-W149 shaders and GL, W150-W179 assets and scenes, W180-W199 command line, runtime and outputs, W200-W219 limits, W220-W239 pipelines of other
 // programs.
-// Numbers are never reused; W010 (overlays are not supported yet), W027 (like a pass that is not there), W088 (reads of what timed passes made) and W093-W099 (workloads) are retired. Does not hold the message texts: those
+// Numbers are never reused; W010 (overlays are not supported yet), W027 (like a pass that is not there), W087 (reserved kinds), W088 (reads of what timed passes made) and W093-W099 (workloads) are retired. Does not hold the message texts: those
 // stand where the mistake is found.
 #pragma once
 
@@ -89,7 +89,6 @@ namespace weft::text {
   X(W084, parameterNotPass,          "not a pass but a parameter")                                  \
   X(W085, conditionLeavesSlotEmpty,  "condition leaves a slot empty")                               \
   X(W086, badOutput,                 "output that cannot be read back")                             \
-  X(W087, unusedKind,                "kind that no pass uses yet")                                  \
   X(W089, unusedDeclaration,         "declared and never used")                                     \
   X(W090, culledOverwritten,         "culled: output overwritten")                                  \
   X(W091, culledUnread,              "culled: output never read")                                   \

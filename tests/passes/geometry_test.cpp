@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
-using weft::passes::makeIcosphere;
+using weft::passes::makeBox, weft::passes::makeIcosphere;
 
 TEST_CASE("an icosphere has 20 * 4^n outward triangles, 10 * 4^n + 2 vertices, all on the unit sphere") {
   for (int n = 0; n <= 4; ++n) {
@@ -27,4 +27,21 @@ TEST_CASE("an icosphere has 20 * 4^n outward triangles, 10 * 4^n + 2 vertices, a
       CHECK(glm::length(vertex(i)) == doctest::Approx(1).epsilon(1e-5));
     if (n == 4) CHECK(volume == doctest::Approx(4.18879).epsilon(0.01));
   }
+}
+
+TEST_CASE("a box has twelve outward triangles, each with the normal of its face, and fills -1 to 1") {
+  const auto mesh = makeBox();
+  REQUIRE(mesh.indices.size() == 36);
+  const auto at = [](const std::vector<float>& from, std::uint32_t i) {
+    return glm::vec3(from[3 * i], from[3 * i + 1], from[3 * i + 2]);
+  };
+  double volume = 0;
+  for (std::size_t t = 0; t < 36; t += 3) {
+    const glm::vec3 a = at(mesh.positions, mesh.indices[t]), b = at(mesh.positions, mesh.indices[t + 1]),
+                    c = at(mesh.positions, mesh.indices[t + 2]), out = glm::cross(b - a, c - a);
+    volume += static_cast<double>(glm::dot(a, glm::cross(b, c))) / 6;
+    for (std::size_t v = t; v < t + 3; ++v)
+      CHECK(glm::dot(glm::normalize(out), at(mesh.normals, mesh.indices[v])) == doctest::Approx(1));
+  }
+  CHECK(volume == doctest::Approx(8));
 }

@@ -216,7 +216,9 @@ void clearAttached(GLuint framebuffer, GLenum buffer, GLint index) {
   X(DrawArraysInstanced, (GLenum mode, GLint first, GLsizei count, GLsizei instances), (mode, first, count, instances), noteDraw(false)) \
   X(DrawElementsInstanced, (GLenum mode, GLsizei count, GLenum type, const void* at, GLsizei instances), (mode, count, type, at, instances), noteDraw(true)) \
   X(MultiDrawElementsIndirect, (GLenum mode, GLenum type, const void* at, GLsizei count, GLsizei stride), (mode, type, at, count, stride), \
-    touch(bytesOf(state->drawCommands), GL_COMMAND_BARRIER_BIT); noteDraw(true)) \
+    touch(bytesOf(state->drawCommands, reinterpret_cast<GLintptr>(at), count * 20), GL_COMMAND_BARRIER_BIT); noteDraw(true)) \
+  X(MultiDrawArraysIndirect, (GLenum mode, const void* at, GLsizei count, GLsizei stride), (mode, at, count, stride), \
+    touch(bytesOf(state->drawCommands, reinterpret_cast<GLintptr>(at), count * 16), GL_COMMAND_BARRIER_BIT); noteDraw(false)) \
   X(DispatchCompute, (GLuint x, GLuint y, GLuint z), (x, y, z), touchBound()) \
   X(DispatchComputeIndirect, (GLintptr at), (at), touch(bytesOf(state->dispatchCommands, at, 12), GL_COMMAND_BARRIER_BIT); touchBound()) \
   X(ClearNamedFramebufferfv, (GLuint to, GLenum buffer, GLint index, const GLfloat* value), (to, buffer, index, value), clearAttached(to, buffer, index)) \

@@ -13,8 +13,6 @@ GLbitfield barrierBitsOf(std::uint16_t bits) {
   const auto take = [&](graph::BarrierBit mine, GLbitfield theirs) {
     gl |= (bits & mine) != 0 ? theirs : 0u;
   };
-  take(graph::kBarrierVertex, GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
-  take(graph::kBarrierIndex, GL_ELEMENT_ARRAY_BARRIER_BIT);
   take(graph::kBarrierUniform, GL_UNIFORM_BARRIER_BIT);
   take(graph::kBarrierTexture, GL_TEXTURE_FETCH_BARRIER_BIT);
   take(graph::kBarrierImage, GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);

@@ -13,8 +13,13 @@ void StateCache::forget() {
   std::ranges::fill(images_, std::nullopt);
   std::ranges::fill(uniformBuffers_, std::nullopt);
   std::ranges::fill(storageBuffers_, std::nullopt);
-  scissorTest_ = depthTest_ = cull_ = srgb_ = offsetFill_ = depthMask_ = colorMask_ = std::nullopt;
+  enabled_.fill(std::nullopt);
+  stencil_.fill(std::nullopt);
+  depthMask_ = std::nullopt;
+  colorMask_ = std::nullopt;
   viewport_ = std::nullopt;
+  sampleMask_ = std::nullopt;
+  blendColor_ = std::nullopt;
   scissor_ = std::nullopt;
   depthFunc_ = cullFace_ = polygonMode_ = std::nullopt;
   offset_ = std::nullopt;
@@ -32,13 +37,10 @@ void StateCache::bindBuffer(GLenum target, GLuint index, GLuint buffer, GLintptr
 }
 
 void StateCache::enable(GLenum capability, bool on) {
-  std::optional<bool>& known = capability == GL_SCISSOR_TEST       ? scissorTest_
-                               : capability == GL_DEPTH_TEST       ? depthTest_
-                               : capability == GL_CULL_FACE        ? cull_
-                               : capability == GL_FRAMEBUFFER_SRGB ? srgb_
-                                                                   : offsetFill_;
-  assert(&known != &offsetFill_ || capability == GL_POLYGON_OFFSET_FILL);
-  if (!takes(known, on)) return;
+  const auto index =
+      static_cast<std::size_t>(std::ranges::find(kCapabilities, capability) - kCapabilities.begin());
+  assert(index < kCapabilities.size());
+  if (!takes(enabled_[index], on)) return;
   if (on)
     glEnable(capability);
   else
@@ -55,12 +57,8 @@ void StateCache::blend(GLuint index, const std::optional<Blend>& mode) {
       glDisablei(GL_BLEND, index);
   }
   if (!mode || known.mode == mode) return;
-  const bool sameEquation = known.mode && known.mode->equation == mode->equation;
-  Blend factors = *mode;
-  if (known.mode) factors.equation = known.mode->equation;
-  if (!sameEquation) glBlendEquationi(index, mode->equation);
-  if (!known.mode || factors != *known.mode)
-    glBlendFuncSeparatei(index, mode->source, mode->destination, mode->sourceAlpha, mode->destinationAlpha);
+  glBlendEquationSeparatei(index, mode->equation, mode->equationAlpha);
+  glBlendFuncSeparatei(index, mode->source, mode->destination, mode->sourceAlpha, mode->destinationAlpha);
   known.mode = mode;
 }
 

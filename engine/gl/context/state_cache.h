@@ -15,6 +15,10 @@ namespace weft::gl {
 
 class StateCache {
  public:
+  static constexpr std::array<GLenum, 10> kCapabilities = {
+      GL_SCISSOR_TEST, GL_DEPTH_TEST,  GL_CULL_FACE,   GL_POLYGON_OFFSET_FILL,      GL_FRAMEBUFFER_SRGB,
+      GL_STENCIL_TEST, GL_DEPTH_CLAMP, GL_SAMPLE_MASK, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_PROGRAM_POINT_SIZE};
+
   void forget();
 
   void useProgram(GLuint program) {
@@ -40,10 +44,10 @@ class StateCache {
     if (takes(vertexArray_, vertexArray)) glBindVertexArray(vertexArray);
   }
 
-  // GL_SCISSOR_TEST, GL_DEPTH_TEST, GL_CULL_FACE, GL_POLYGON_OFFSET_FILL, GL_FRAMEBUFFER_SRGB
+  // One of kCapabilities.
   void enable(GLenum capability, bool on);
-  void viewport(GLsizei width, GLsizei height) {
-    if (takes(viewport_, {width, height})) glViewport(0, 0, width, height);
+  void viewport(GLint x, GLint y, GLsizei width, GLsizei height) {
+    if (takes(viewport_, {x, y, width, height})) glViewport(x, y, width, height);
   }
   void scissor(GLint y, GLsizei width, GLsizei height) {
     if (takes(scissor_, {y, width, height})) glScissor(0, y, width, height);
@@ -54,9 +58,13 @@ class StateCache {
   void depthMask(bool open) {
     if (takes(depthMask_, open)) glDepthMask(open ? GL_TRUE : GL_FALSE);
   }
-  void colorMask(bool open) {
-    const GLboolean mask = open ? GL_TRUE : GL_FALSE;
-    if (takes(colorMask_, open)) glColorMask(mask, mask, mask, mask);
+  // Bits 0 to 3: red, green, blue, alpha. Of all draw buffers, or of one after that.
+  void colorMask(unsigned mask) {
+    if (takes(colorMask_, mask)) glColorMask(mask & 1, mask >> 1 & 1, mask >> 2 & 1, mask >> 3 & 1);
+  }
+  void colorMask(GLuint index, unsigned mask) {
+    glColorMaski(index, mask & 1, mask >> 1 & 1, mask >> 2 & 1, mask >> 3 & 1);
+    colorMask_.reset();
   }
   void stencilMask(GLuint mask) {
     if (takes(stencilMask_, mask)) glStencilMask(mask);
@@ -71,8 +79,29 @@ class StateCache {
     if (takes(offset_, {factor, units})) glPolygonOffset(factor, units);
   }
 
+  void sampleMask(GLbitfield mask) {
+    if (takes(sampleMask_, mask)) glSampleMaski(0, mask);
+  }
+  void blendColor(const std::array<GLfloat, 4>& color) {
+    if (takes(blendColor_, color)) glBlendColor(color[0], color[1], color[2], color[3]);
+  }
+
+  struct Stencil {
+    GLenum test = GL_ALWAYS;
+    GLint reference = 0;
+    GLuint mask = 0xff;
+    GLenum fail = GL_KEEP, depthFail = GL_KEEP, pass = GL_KEEP;
+    friend bool operator==(const Stencil&, const Stencil&) = default;
+  };
+  void stencil(bool back, const Stencil& stencil) {
+    if (!takes(stencil_[back ? 1 : 0], stencil)) return;
+    const GLenum face = back ? GL_BACK : GL_FRONT;
+    glStencilFuncSeparate(face, stencil.test, stencil.reference, stencil.mask);
+    glStencilOpSeparate(face, stencil.fail, stencil.depthFail, stencil.pass);
+  }
+
   struct Blend {
-    GLenum equation = GL_FUNC_ADD;
+    GLenum equation = GL_FUNC_ADD, equationAlpha = GL_FUNC_ADD;
     GLenum source = GL_ONE, destination = GL_ZERO;  // of colors
     GLenum sourceAlpha = GL_ONE, destinationAlpha = GL_ZERO;
     friend bool operator==(const Blend&, const Blend&) = default;
@@ -114,8 +143,13 @@ class StateCache {
   std::vector<std::optional<GLuint>> textures_, samplers_;
   std::vector<std::optional<Image>> images_;
   std::vector<std::optional<Range>> uniformBuffers_, storageBuffers_;
-  std::optional<bool> scissorTest_, depthTest_, cull_, srgb_, offsetFill_, depthMask_, colorMask_;
-  std::optional<std::array<GLsizei, 2>> viewport_;
+  std::array<std::optional<bool>, kCapabilities.size()> enabled_;
+  std::optional<bool> depthMask_;
+  std::optional<unsigned> colorMask_;
+  std::optional<std::array<GLint, 4>> viewport_;
+  std::optional<GLbitfield> sampleMask_;
+  std::optional<std::array<GLfloat, 4>> blendColor_;
+  std::array<std::optional<Stencil>, 2> stencil_;  // of front and back faces
   std::optional<std::array<GLint, 3>> scissor_;
   std::optional<GLenum> depthFunc_, cullFace_, polygonMode_;
   std::optional<std::array<GLfloat, 2>> offset_;

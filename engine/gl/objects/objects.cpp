@@ -333,7 +333,7 @@ std::optional<TextureView> TextureView::create(const TextureRef& of, const ViewD
 
 std::optional<Framebuffer> Framebuffer::create(std::span<const Attachment> attachments,
                                                std::string_view label, text::Diagnostics& diagnostics,
-                                               std::uint32_t width, std::uint32_t height) {
+                                               const Raster& raster) {
   GLuint id = 0;
   glCreateFramebuffers(1, &id);
   Framebuffer framebuffer(id);
@@ -352,8 +352,12 @@ std::optional<Framebuffer> Framebuffer::create(std::span<const Attachment> attac
   }
   glNamedFramebufferDrawBuffers(id, drawCount, draws.data());  // absent ones are GL_NONE, which is 0
   glNamedFramebufferReadBuffer(id, drawCount > 0 && draws[0] != GL_NONE ? draws[0] : GL_NONE);
-  if (width > 0) glNamedFramebufferParameteri(id, GL_FRAMEBUFFER_DEFAULT_WIDTH, static_cast<GLint>(width));
-  if (height > 0) glNamedFramebufferParameteri(id, GL_FRAMEBUFFER_DEFAULT_HEIGHT, static_cast<GLint>(height));
+  if (raster.width > 0) {
+    glNamedFramebufferParameteri(id, GL_FRAMEBUFFER_DEFAULT_WIDTH, static_cast<GLint>(raster.width));
+    glNamedFramebufferParameteri(id, GL_FRAMEBUFFER_DEFAULT_HEIGHT, static_cast<GLint>(raster.height));
+    glNamedFramebufferParameteri(id, GL_FRAMEBUFFER_DEFAULT_SAMPLES,
+                                 raster.samples > 1 ? static_cast<GLint>(raster.samples) : 0);
+  }
   labelObject(GL_FRAMEBUFFER, id, label);
   const GLenum status = glCheckNamedFramebufferStatus(id, GL_DRAW_FRAMEBUFFER);
   if (status == GL_FRAMEBUFFER_COMPLETE) return framebuffer;

@@ -139,13 +139,18 @@ struct Attachment {
   friend bool operator==(const Attachment&, const Attachment&) = default;
 };
 
+// Of a framebuffer without attachments.
+struct Raster {
+  std::uint32_t width = 0, height = 0, samples = 1;
+  friend bool operator==(const Raster&, const Raster&) = default;
+};
+
 class Framebuffer : public Owner<ObjectKind::framebuffer> {
  public:
-  // Draw buffer i writes GL_COLOR_ATTACHMENTi when that is attached, else nothing. Without attachments, width and
-  // height give the area that is rasterized. When the framebuffer is incomplete, reports W115 with the reason.
+  // Draw buffer i writes GL_COLOR_ATTACHMENTi when that is attached, else nothing. Without attachments, `raster` is
+  // the area that is rasterized. When the framebuffer is incomplete, reports W115 with the reason.
   static std::optional<Framebuffer> create(std::span<const Attachment> attachments, std::string_view label,
-                                           text::Diagnostics& diagnostics, std::uint32_t width = 0,
-                                           std::uint32_t height = 0);
+                                           text::Diagnostics& diagnostics, const Raster& raster = {});
 
  private:
   using Owner::Owner;

@@ -38,10 +38,6 @@ inline std::uint16_t useBits(const FlatUse& use, bool buffer) {
       return kBarrierUniform;
     case Kind::storage:
       return kBarrierStorage;
-    case Kind::vertex:
-      return kBarrierVertex;
-    case Kind::index:
-      return kBarrierIndex;
     case Kind::indirect:
       return kBarrierCommand;
     case Kind::color:

@@ -8,9 +8,10 @@
 
 namespace weft::graph::expansion {
 
-bool coversAll(const PassType* type, const SlotWork& work) {
-  return !type || type->shader != ShaderShape::draw ||
-         (work.use.kind != Kind::color && work.use.kind != Kind::depth);
+bool coversAll(const PassType* type, const PassDesc& desc, const SlotWork& work) {
+  const bool attached = work.use.kind == Kind::color || work.use.kind == Kind::depth;
+  const bool part = std::ranges::find(desc.state, "viewport", &NamedExpr::name) != desc.state.end();
+  return !attached || !type || (type->shader != ShaderShape::draw && !part);
 }
 
 bool isInteger(Format format) {
@@ -44,9 +45,8 @@ constexpr KindRule kKindRules[] = {
     {true, false, true, true, true, true, "a texture, in a pass with a shader"},  // image
     {false, true, true, false, true, true, "a buffer that a shader reads"},       // uniform
     {false, true, true, true, true, true, "a buffer, in a pass with a shader"},   // storage
-    {false, false, true, true, true, true, "nothing yet; read it as storage"},    // vertex
-    {false, false, true, true, true, true, "nothing yet; read it as storage"},    // index
-    {false, false, true, true, true, true, "nothing yet; read it as storage"},    // indirect
+    {false, true, true, false, true, true,
+     "a buffer that a draw or compute pass takes its arguments from"},  // indirect
     {true, false, false, true, true, false,
      "a texture that a draw writes or modifies; image in a compute pass"},          // color
     {true, false, true, true, true, false, "a depth texture of a draw"},            // depth
@@ -81,10 +81,14 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
   const bool inPass = !type || (type->shader == ShaderShape::none ? kind == defaultKind(type, access, shape)
                                 : type->shader == ShaderShape::compute ? rule.compute
                                                                        : rule.graphics);
-  if (!inPass || !(buffer ? rule.buffer : rule.texture) || !(access == Access::read ? rule.read : rule.write))
-    return refuse(buffer && isCommandInput(kind) ? Code::unusedKind : Code::badKind,
-                  fmt::format("it is a {}", buffer ? "buffer" : "texture"),
+  if (!inPass || !(buffer ? rule.buffer : rule.texture) ||
+      !(access == Access::read ? rule.read : rule.write) ||
+      (kind == Kind::indirect && (!type || !type->indirect)))
+    return refuse(Code::badKind, fmt::format("it is a {}", buffer ? "buffer" : "texture"),
                   fmt::format("as {} is for {}", nameOf(kind), rule.takes));
+  if (kind == Kind::indirect && (work.array || entity.import != kNone || ref.optional))
+    return refuse(Code::badKind, "a command takes its arguments from one buffer of the graph",
+                  "a buffer, without '?'");
   // A blit filters too, and says no more.
   const bool more = sampler.wrap != Wrap::clamp || sampler.compare;
   const bool filters = kind == Kind::sampled || (kind == Kind::copy && type && type->framebuffers &&

@@ -227,8 +227,8 @@ void settleKept(FlatGraph& graph) {
   for (std::size_t p = 0; p < graph.passes.size(); ++p) {
     const FlatPass& pass = graph.passes[p];
     const StateSpec& state = graph.specs[p].state;
-    // A depth test reads what it writes; so does a shader that modifies an image or a storage block.
-    const bool tests = state.depthTest && state.depthCompare != Compare::always;
+    // A depth or stencil test reads what it writes; so does a shader that modifies an image or a storage block.
+    const bool tests = (state.depthTest && state.depthCompare != Compare::always) || state.stencil;
     FlatUse* raster = nullptr;
     bool stores = false, hasRaster = false;
     for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {

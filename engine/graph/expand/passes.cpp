@@ -321,7 +321,8 @@ class PassWalk {
       const std::uint32_t e = work.firstElement + i, index = spec.firstUse + i;
       FlatUse& use = graph_.uses[index];
       if (use.access == Access::write)
-        use.resource = resourceToWrite(model_, work.entity, e, work.whole, coversAll(stanza.type, work));
+        use.resource =
+            resourceToWrite(model_, work.entity, e, work.whole, coversAll(stanza.type, stanza.desc, work));
       model_.versions.write(index);
     }
     record(work, pass, kNone);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/graph/expand/names/names.h"
+#include "engine/text/words/foreign_words.h"
 
 namespace weft::graph::expansion {
 
@@ -111,8 +112,8 @@ SlotWork resolveFirst(const SlotContext& context, const SlotWork& work, std::uin
 bool checkStanza(const SlotContext& context, const PassDesc& desc);
 bool isInteger(Format format);
 const PassType* findPassType(const Registry& registry, std::string_view name);
-// Not an attachment of a draw: of that only what its geometry covers is drawn.
-bool coversAll(const PassType* type, const SlotWork& work);
+// Not an attachment of a draw, of which only what its geometry covers is drawn, or of a pass with a viewport.
+bool coversAll(const PassType* type, const PassDesc& desc, const SlotWork& work);
 // The kind of a use whose reference names none.
 Kind defaultKind(const PassType* type, Access access, const FlatResource& shape);
 // Checks one use: its kind must fit the resource, the access, the pass type and the format; sampler words must fit.
@@ -128,6 +129,10 @@ void checkAccumulation(const SlotContext& context, const SlotWork& work, std::ui
 
 // ---- what the executor needs besides: state, defines, uniforms, threads, draw list, geometry and view ----
 
+// What a word of another program means here, else the nearest of `known`.
+std::string hintOrNearest(text::Foreign kind, const std::string& name, const std::vector<std::string>& known);
+void fillState(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots,
+               StateSpec& state);
 // Fills everything of `spec`, of `pass`, but names, slots and the values of uniforms whose expression contains age().
 // `deferred` gets those that may change without another plan.
 void fillSpec(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots,

@@ -1,4 +1,4 @@
-// What is checked of a stanza, and what the executor needs of a pass instance besides its uses: state, defines, uniforms, threads,
+// What is checked of a stanza, and what the executor needs of a pass instance besides its uses and state: defines, uniforms, threads,
 // draw list, geometry and view. Declared in passes.h.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,15 +17,15 @@
 
 namespace weft::graph::expansion {
 
-// ---- what is checked once per stanza, however often it repeats ----
-
-namespace {
-
 std::string hintOrNearest(text::Foreign kind, const std::string& name,
                           const std::vector<std::string>& known) {
   std::string theirs = text::hintForForeign(kind, name);
   return theirs.empty() ? text::nearestHint(text::lowered(name), known) : theirs;
 }
+
+// ---- what is checked once per stanza, however often it repeats ----
+
+namespace {
 
 template <class T>
 std::vector<std::string> namesOf(const std::vector<T>& things) {
@@ -59,6 +59,54 @@ void checkShaders(const SlotContext& context, const PassDesc& desc) {
        .found = desc.shader});
 }
 
+const GeometryType* findGeometry(const SlotContext& context, const PassDesc& desc) {
+  const auto& types = context.model.registry.geometries;
+  const auto found = std::ranges::find(types, desc.geometry, &GeometryType::name);
+  return found == types.end() ? nullptr : &*found;
+}
+const SlotDesc* findIndirect(const PassDesc& desc) {
+  const auto found = std::ranges::find(desc.slots, std::optional(Kind::indirect),
+                                       [](const SlotDesc& slot) { return slot.ref.kind; });
+  return found == desc.slots.end() ? nullptr : &*found;
+}
+bool isCounted(const SlotContext& context, const PassDesc& desc) {
+  const GeometryType* const type = findGeometry(context, desc);
+  return type && type->counted;
+}
+
+// What a pass says beside a buffer that says it.
+void checkIndirect(const SlotContext& context, const PassDesc& desc) {
+  const SlotDesc* const slot = findIndirect(desc);
+  const GeometryType* const geometry = findGeometry(context, desc);
+  const auto isOther = [&](const SlotDesc& each) { return &each != slot && each.ref.kind == Kind::indirect; };
+  const struct {
+    const char* what;
+    bool said;
+    Place place;
+  } refused[] = {
+      {"two buffers as indirect", std::ranges::any_of(desc.slots, isOther), slot ? slot->place : Place{}},
+      {"\"threads\"", desc.threads.present(), desc.threads.place()},
+      {"\"instances\"", desc.instances.present(), desc.instances.place()},
+      {"\"slices\"", desc.slices.present(), desc.slices.place()},
+      {"a number of vertices", geometry && geometry->counted && !desc.geometryArguments.empty(),
+       desc.geometryPlace},
+      {"the geometry \"mesh\"", geometry && geometry->meshes, desc.geometryPlace}};
+  for (const auto& [what, said, place] : refused)
+    if (slot && said)
+      context.report(Code::keyNotTaken, place,
+                     fmt::format("has {} and takes its arguments from '{}'", what, slot->ref.name),
+                     {.hint = "leave one of the two out: the records of the buffer say how much is run"});
+  if (!slot && desc.draws.present())
+    context.report(Code::keyNotTaken, desc.draws.place(),
+                   "has \"draws\" and no buffer that says what to draw",
+                   {.hint = "read the buffer as indirect: \"read\": { \"commands\": \"x as indirect\" }"});
+}
+
+constexpr const char* kLacksRaster =
+    "something to draw into: a slot in \"write\" or \"modify\" that is an attachment says how large it is, "
+    "or "
+    "\"raster\" does";
+
 void checkKeys(const SlotContext& context, const PassDesc& desc) {
   const ShaderShape shader = context.type->shader;
   const bool hasShader = shader != ShaderShape::none, draw = shader == ShaderShape::draw;
@@ -68,6 +116,9 @@ void checkKeys(const SlotContext& context, const PassDesc& desc) {
     bool present, taken;
     Place place;
   } keys[] = {{"threads", desc.threads.present(), false, desc.threads.place()},
+              {"draws", desc.draws.present(), false, desc.draws.place()},
+              {"raster", desc.raster.present(), false, desc.raster.place()},
+              {"samples", desc.samples.present(), false, desc.samples.place()},
               {"instances", desc.instances.present(), false, desc.instances.place()},
               {"list", !desc.list.empty(), false, desc.listPlace},
               {"geometry", !desc.geometry.empty(), false, desc.geometryPlace},
@@ -89,19 +140,24 @@ void checkKeys(const SlotContext& context, const PassDesc& desc) {
     context.report(Code::keyNotTaken, desc.instances.place(),
                    "has \"instances\" and a \"list\", which says how many",
                    {.hint = "leave one of the two out"});
+  checkIndirect(context, desc);
   if (!hasShader) return;
   checkShaders(context, desc);
   const auto attaches = [](const SlotDesc& slot) {
     return slot.access != Access::read && slot.ref.kind != Kind::image && slot.ref.kind != Kind::storage;
   };
-  const char* const lacking =
-      draw && desc.list.empty() && !desc.instances.present() ? "what to draw: \"list\" or \"instances\""
-      : draw && desc.geometry.empty() ? "a geometry: \"quad\", \"icosphere(3)\", \"mesh\", …"
-      : shader != ShaderShape::compute && !context.model.incomplete &&
-              std::ranges::none_of(desc.slots, attaches)
-          ? "something to draw into: a slot in \"write\" or \"modify\" that is an attachment says how large "
-            "it is"
-          : nullptr;
+  const char* const lacking = draw && desc.geometry.empty()
+                                  ? "a geometry: \"quad\", \"triangles(6)\", \"mesh\", …"
+                              : draw && desc.list.empty() && !desc.instances.present() &&
+                                      !isCounted(context, desc) && !findIndirect(desc)
+                                  ? "what to draw: \"list\" or \"instances\""
+                              : shader != ShaderShape::compute && !context.model.incomplete &&
+                                      !desc.raster.present() && std::ranges::none_of(desc.slots, attaches)
+                                  ? kLacksRaster
+                                  : nullptr;
+  if (!desc.raster.present() && desc.samples.present())
+    context.report(Code::keyNotTaken, desc.samples.place(), "has \"samples\" and no \"raster\"",
+                   {.hint = "write \"samples\" on the textures that it draws into"});
   if (lacking)
     context.report(Code::keyNeeded, desc.namePlace, "lacks a key or a slot", {.expected = lacking});
 }
@@ -114,8 +170,8 @@ void checkLists(const SlotContext& context, const PassDesc& desc) {
                    fmt::format("draws the unknown list '{}'", desc.list),
                    {.hint = text::nearestHint(desc.list, drawLists)});
   if (desc.geometry.empty()) return;
-  const auto geometry = std::ranges::find(geometries, desc.geometry, &GeometryType::name);
-  if (geometry == geometries.end())
+  const GeometryType* const geometry = findGeometry(context, desc);
+  if (!geometry)
     context.report(Code::unknownGeometry, desc.geometryPlace,
                    fmt::format("draws the unknown geometry '{}'", desc.geometry),
                    {.hint = text::nearestHint(desc.geometry, namesOf(geometries))});
@@ -127,6 +183,10 @@ void checkLists(const SlotContext& context, const PassDesc& desc) {
                    fmt::format("gives '{}' too many arguments", desc.geometry),
                    {.expected = fmt::format("at most {}", geometry->arguments.size()),
                     .found = fmt::format("{}", desc.geometryArguments.size())});
+  else if (geometry->counted && desc.geometryArguments.empty() && !findIndirect(desc))
+    context.report(Code::keyNeeded, desc.geometryPlace,
+                   fmt::format("draws '{}' without saying how many vertices", desc.geometry),
+                   {.expected = fmt::format("\"{}(n)\", n of each instance", desc.geometry)});
 }
 
 // The slots of a pass type without a shader. What is wrong with them is one mistake.
@@ -403,6 +463,59 @@ void addThreads(const SlotContext& context, const PassDesc& desc, const std::vec
                    {.expected = "\"threads\": a number or a list, as no texture is written"});
 }
 
+// A buffer that is read as indirect holds records of the command (OpenGL 4.5 core, 10.4 and 19).
+void addIndirect(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots,
+                 PassSpec& spec) {
+  const auto work =
+      std::ranges::find_if(slots, [](const SlotWork& each) { return each.use.kind == Kind::indirect; });
+  if (work == slots.end() || work->entity == kNone) return;
+  spec.indirect = true;
+  const auto draws = evaluateWhole(context.names, desc.draws, 1, 0, 1 << 20, "the number of draws", true);
+  if (!draws) return;
+  spec.draws = static_cast<std::uint32_t>(*draws);
+  const GeometryType* const geometry = findGeometry(context, desc);
+  const bool dispatch = context.type->shader == ShaderShape::compute, indexed = geometry && geometry->indexed;
+  const std::uint64_t record = dispatch  ? 12
+                               : indexed ? 20
+                                         : 16,
+                      has = context.model.entities[work->entity].shape.bytes;
+  if (has < record * spec.draws)
+    context.report(Code::numberOutOfRange, work->slot->ref.place,
+                   fmt::format("takes {} of {} bytes from '{}', which has {}",
+                               spec.draws == 1 ? "a record" : fmt::format("{} records", spec.draws), record,
+                               work->slot->ref.name, has),
+                   {.expected = dispatch  ? "uint groups_x, groups_y, groups_z"
+                                : indexed ? "uint count, instances, first_index, base_vertex, base_instance"
+                                          : "uint count, instances, first, base_instance",
+                    .hint = fmt::format("write \"buffer\": {}", record * spec.draws)});
+}
+
+// What a pass draws over: its attachments, or "raster".
+void addRaster(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots,
+               PassSpec& spec) {
+  const auto attaches = [](const SlotWork& work) {
+    return work.isConnected() && (work.use.kind == Kind::color || work.use.kind == Kind::depth);
+  };
+  const bool attached = std::ranges::any_of(slots, attaches);
+  if (!desc.raster.present()) {
+    if (!attached && std::ranges::all_of(slots, &SlotWork::isConnected))
+      context.report(Code::keyNeeded, desc.namePlace, "lacks a key or a slot", {.expected = kLacksRaster});
+    return;
+  }
+  if (attached)
+    context.report(Code::keyNotTaken, desc.raster.place(),
+                   "has \"raster\" and an attachment, which says how large it is",
+                   {.hint = "leave one of the two out"});
+  constexpr std::uint64_t kBounds[] = {16384, 16384};  // GL_MAX_FRAMEBUFFER_WIDTH and _HEIGHT of every device
+  const auto size = evaluateCounts(context.names, desc.raster, kBounds, "the raster of " + context.user,
+                                   "a number, or a list of 2");
+  const auto samples = evaluateWhole(context.names, desc.samples, 1, 1, 4, "the number of samples");
+  if (!size || !samples) return;
+  for (std::size_t i = 0; i < 2; ++i)
+    spec.raster[i] = static_cast<std::uint32_t>(size->each[size->size == 1 ? 0 : i]);
+  spec.rasterSamples = static_cast<std::uint8_t>(*samples);
+}
+
 void addGeometry(const SlotContext& context, const PassDesc& desc, PassSpec& spec,
                  std::vector<DeferredUniform>& deferred) {
   spec.list = desc.list;
@@ -412,178 +525,19 @@ void addGeometry(const SlotContext& context, const PassDesc& desc, PassSpec& spe
   else if (const auto instances = evaluateWhole(context.names, desc.instances, 1, 0, 2147483647,
                                                 "the number of instances", true))
     spec.instances = static_cast<std::uint32_t>(*instances);
-  const auto& types = context.model.registry.geometries;
-  const auto type = std::ranges::find(types, desc.geometry, &GeometryType::name);
-  if (type == types.end()) return;
+  const GeometryType* const type = findGeometry(context, desc);
+  if (!type) return;
   spec.meshes = type->meshes;
   for (std::size_t i = 0; i < type->arguments.size(); ++i) {
     const GeometryArgument& argument = type->arguments[i];
     std::optional<std::int64_t> value = argument.initial;
+    if (spec.indirect && type->counted) break;
     if (i < desc.geometryArguments.size())
       value = evaluateWhole(context.names, desc.geometryArguments[i], argument.initial, argument.min,
-                            argument.max, "an argument of the geometry");
+                            argument.max, "an argument of the geometry", type->counted);
     if (value) spec.geometryArguments.push_back(static_cast<double>(*value));
   }
 }
-
-// ---- state: from "state" and the slots that it is for ----
-
-struct StateFiller {
-  const SlotContext& context;
-  const PassDesc& desc;
-  const std::vector<SlotWork>& slots;
-  StateSpec& state;
-  bool failed = false;
-
-  void fill() {
-    for (const NamedExpr& each : desc.state)
-      if (!failed) add(each);
-    if (failed) return;
-    checkDepth();
-    checkBlends();
-    checkCover();
-  }
-
-  void error(const Place& place, std::string_view message, Says says) const {
-    context.report(Code::badState, place, message, std::move(says));
-  }
-  const NamedExpr* find(std::string_view name) const {
-    const auto found = std::ranges::find(desc.state, name, &NamedExpr::name);
-    return found == desc.state.end() ? nullptr : &*found;
-  }
-
-  // Index among the words of the key; 0 after a report.
-  int word(const NamedExpr& said) {
-    const std::string_view key = std::string_view(said.name).substr(0, said.name.find('.'));
-    const auto& known = std::ranges::find(kStateKeys, key, &KeySpec::key)->words;
-    const std::vector<std::string> words(known.begin(), known.end());
-    const Value value = said.expr.evaluate(context.names, context.model.diagnostics);
-    const auto found = std::ranges::find(words, value.symbol);
-    if (value.type == Value::Type::symbol && found != words.end())
-      return static_cast<int>(found - words.begin());
-    failed = true;
-    if (value.type == Value::Type::none) return 0;
-    const std::string text = toText(value);
-    error(said.expr.place(), fmt::format("has an unknown value for the state '{}'", said.name),
-          {.expected = fmt::format("{}", fmt::join(words, ", ")),
-           .found = text,
-           .hint = hintOrNearest(text::Foreign::state_word, text, words)});
-    return 0;
-  }
-
-  void addBlend(const NamedExpr& said) {
-    std::vector<std::string> colors;
-    for (const SlotWork& work : slots)
-      if (!work.reads() && (work.entity == kNone || work.use.kind == Kind::color))
-        colors.push_back(work.slot->name);
-    const std::string slot = said.name == "blend" ? "" : said.name.substr(6);
-    const bool known = slot.empty() || std::ranges::find(colors, slot) != colors.end();
-    const Blend blend = known ? static_cast<Blend>(word(said)) : Blend::none;
-    if (!known || (colors.empty() && blend != Blend::none)) {
-      failed = true;
-      return error(said.place, fmt::format("blends '{}', which is no color slot of it", slot),
-                   {.expected = "one word, \"blend\": \"alpha\", or one for each color slot",
-                    .hint = hintOrNearest(text::Foreign::state_key, slot, colors)});
-    }
-    if (!slot.empty()) colors = {slot};
-    for (const std::string& color : colors) {
-      std::erase_if(state.blend, [&](const auto& old) { return old.first == color; });
-      state.blend.emplace_back(color, blend);
-    }
-  }
-
-  void add(const NamedExpr& said) {
-    if (said.name == "blend" || said.name.starts_with("blend.")) {
-      addBlend(said);
-    } else if (said.name == "depth_test") {
-      state.depthTest = true;
-      state.depthCompare = static_cast<Compare>(word(said));
-    } else if (said.name == "depth_write") {
-      state.depthWrite =
-          evaluateCondition(context.names, said.expr, true, "the state 'depth_write'").value_or(true);
-    } else if (said.name == "offset") {
-      const Value value = said.expr.evaluate(context.names, context.model.diagnostics);
-      if (value.type != Value::Type::none && (value.type != Value::Type::list || value.count != 2))
-        error(said.expr.place(), "has an unknown value for the state 'offset'",
-              {.expected = "[factor, units]", .found = toText(value)});
-      state.offsetFactor = value.v[0];
-      state.offsetUnits = value.v[1];
-    } else {
-      const int found = word(said);
-      if (said.name == "cull") state.cull = static_cast<Cull>(found);
-      if (said.name == "polygon") state.lines = found == 1;
-      // The one triangle of a fullscreen pass has no back, and is filled.
-      if (found != 0 && context.type->shader == ShaderShape::fragment)
-        error(said.place, fmt::format("has the state '{}', which is for draws", said.name),
-              {.hint = fmt::format("leave \"{}\" out", said.name)});
-    }
-  }
-
-  // ---- what would do nothing ----
-
-  void checkDepth() const {
-    const SlotWork* depth = nullptr;
-    bool writable = false;
-    for (const SlotWork& work : slots) {
-      if (work.entity == kNone) return;  // reported
-      if (work.use.kind != Kind::depth) continue;
-      depth = &work;
-      writable = writable || !work.reads();
-    }
-    const NamedExpr *test = find("depth_test"), *write = find("depth_write"), *offset = find("offset");
-    if (!depth) {
-      if (const NamedExpr* said = test ? test : write ? write : offset)
-        error(said->place, fmt::format("says '{}' but has no depth attachment", said->name),
-              {.hint = "add \"modify\": { \"depth\": \"depth\" }, or leave it out"});
-      return;
-    }
-    const std::string& slot = depth->slot->name;
-    if (test && write && state.depthWrite && !writable)
-      error(write->place, fmt::format("writes depth, and its depth slot '{}' is only read", slot),
-            {.hint = fmt::format("move '{}' to \"modify\", or leave \"depth_write\" out", slot)});
-    const bool writes = writable && !(write && write->expr.isConstant() && !state.depthWrite);
-    if (!test || (test->expr.text() == "always" && !writes))
-      error(
-          depth->slot->place,
-          fmt::format("has the depth slot '{}' and {}", slot,
-                      test ? "neither tests nor writes it" : "no \"depth_test\""),
-          {.expected = "\"state\": { \"depth_test\": … }",
-           .hint =
-               "write \"depth_test\": \"greater\", by which the nearer surface wins, or leave the slot out"});
-  }
-
-  void checkBlends() const {
-    for (const auto& [name, blend] : state.blend) {
-      const auto named = [&](const SlotWork& each) { return each.slot->name == name; };
-      const auto work = std::ranges::find_if(slots, named);
-      if (blend == Blend::none || work == slots.end() || work->entity == kNone) continue;
-      const Format format = context.model.entities[work->entity].shape.format;
-      const NamedExpr* said = find("blend." + name);
-      if (isInteger(format))
-        error((said ? said : find("blend"))->place,
-              fmt::format("blends '{}', whose format {} does not blend", name, infoOf(format).name),
-              {.hint = fmt::format("write \"blend\": {{ \"{}\": \"none\" }}", name)});
-      else if (work->slot->access == Access::write && context.type->shader == ShaderShape::fragment)
-        error(work->slot->place, fmt::format("blends '{}' with nothing, as it says \"write\"", name),
-              {.hint = fmt::format("say \"modify\", or leave \"blend\" out of '{}'", name)});
-    }
-  }
-
-  // A draw covers what its geometry covers.
-  void checkCover() const {
-    for (const SlotWork& work : slots) {
-      if (work.entity == kNone || work.slot->access != Access::write || coversAll(context.type, work))
-        continue;
-      const Entity& entity = context.model.entities[work.entity];
-      if (entity.shape.hasClear) continue;
-      context.report(
-          Code::badSlots, work.slot->place,
-          fmt::format("draws a part of '{}' and says \"write\"", entity.name),
-          {.hint = fmt::format("give '{}' a \"clear\" for the rest, or say \"modify\"", entity.name)});
-      return;
-    }
-  }
-};
 
 }  // namespace
 
@@ -591,12 +545,14 @@ void fillSpec(const SlotContext& context, const PassDesc& desc, const std::vecto
               PassSpec& spec, std::uint32_t pass, std::vector<DeferredUniform>& deferred) {
   const ShaderShape shader = context.type->shader;
   const std::size_t before = deferred.size();
-  StateFiller{context, desc, slots, spec.state}.fill();
+  fillState(context, desc, slots, spec.state);
   for (const NamedExpr& define : desc.defines) addDefine(context, spec, define);
   for (const PassParameterDesc& parameter : desc.parameters)
     addParameter(context, desc, parameter, spec, deferred);
   checkDefineNames(context, desc, spec);
-  if (shader == ShaderShape::compute) addThreads(context, desc, slots, spec);
+  addIndirect(context, desc, slots, spec);
+  if (shader == ShaderShape::fragment || shader == ShaderShape::draw) addRaster(context, desc, slots, spec);
+  if (shader == ShaderShape::compute && !spec.indirect) addThreads(context, desc, slots, spec);
   if (shader == ShaderShape::draw) addGeometry(context, desc, spec, deferred);
   if (desc.view || shader != ShaderShape::none) resolveView(context, desc, spec);
   for (std::size_t i = before; i < deferred.size(); ++i) {

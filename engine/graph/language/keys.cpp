@@ -117,6 +117,23 @@ const Shape& shapeOf(std::string_view kind) {
   return at->second;
 }
 
+const KeySpec* findStateKey(std::string_view path) {
+  const std::string_view last = path.substr(path.rfind('.') + 1);
+  const bool factors = path.starts_with("blend.") && path.find('.') != path.rfind('.');
+  const auto& keys = path.starts_with("stencil.back.") ? shapeOf("stencilFace").keys
+                     : path.starts_with("stencil.")    ? shapeOf("stencil").keys
+                     : factors                         ? shapeOf("blending").keys
+                                                       : shapeOf("state").keys;
+  const auto found = std::ranges::find(
+      keys, &keys == &shapeOf("state").keys ? path.substr(0, path.find('.')) : last, &KeySpec::key);
+  return found == keys.end() ? nullptr : &*found;
+}
+
+std::span<const std::string_view> stateWords(std::string_view path) {
+  const KeySpec* const key = findStateKey(path);
+  return key ? key->words : std::span<const std::string_view>();
+}
+
 const std::span<const KeySpec> kGraphKeys = shapeOfGraph().keys;
 const std::span<const KeySpec> kParameterKeys = shapeOf("parameter").keys;
 const std::span<const KeySpec> kTextureKeys = shapeOf("texture").keys;

@@ -14,13 +14,9 @@ constexpr std::array<std::string_view, 8> kParameterTypes = {"bool", "int",  "fl
                                                              "vec3", "vec4", "choice", "file"};
 constexpr std::array<std::string_view, 3> kUpdateWords = {"always", "on_change", "once"};  // or every(n)
 
-constexpr std::array<std::string_view, 7> kBlendWords = {"none",     "add", "alpha", "premultiplied",
-                                                         "multiply", "min", "max"};
 // Of "depth_test" and `as compare(…)`, in the order of Compare.
 constexpr std::array<std::string_view, 8> kCompareNames = {
     "never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always"};
-constexpr std::array<std::string_view, 3> kCullWords = {"none", "front", "back"};
-constexpr std::array<std::string_view, 2> kPolygonWords = {"fill", "line"};
 
 // The text of the schema (draft 2020-12).
 extern const char* const kGraphSchema;
@@ -59,6 +55,10 @@ extern const std::span<const KeySpec> kPassKeys;
 extern const std::span<const KeySpec> kIncludeKeys;
 extern const std::span<const KeySpec> kShaderKeys;  // of a draw that names two
 extern const std::span<const KeySpec> kStateKeys;
+// Of "cull", "blend.SLOT", "blend.SLOT.source", "stencil.back.pass"; null when there is none.
+const KeySpec* findStateKey(std::string_view path);
+// The words that such a key may be, in the order of the enumeration in flat_graph.h.
+std::span<const std::string_view> stateWords(std::string_view path);
 extern const std::span<const KeySpec>
     kPlaceKeys;  // of a stanza in an overlay, beside those of passes and includes
 

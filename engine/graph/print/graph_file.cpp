@@ -281,10 +281,13 @@ class FileWriter {
       json["geometry"] = spec.geometry;
       if (!spec.geometryArguments.empty())
         json["geometry"] = fmt::format("{}({})", spec.geometry, fmt::join(spec.geometryArguments, ", "));
-      if (spec.list.empty())
+      if (spec.list.empty() && !spec.indirect)
         json["instances"] =
             spec.timedInstances.present() ? Json(expressionText(spec.timedInstances)) : Json(spec.instances);
     }
+    if (spec.raster[0] > 0) json["raster"] = spec.raster;
+    if (spec.rasterSamples > 1) json["samples"] = spec.rasterSamples;
+    if (spec.draws != 1) json["draws"] = spec.draws;
     if (spec.view == kNone) return;
     std::string view = importName(spec.view);
     if (spec.viewLayer > 0 || spec.viewFace > 0)
@@ -292,14 +295,55 @@ class FileWriter {
     json["view"] = view;
   }
 
+  template <class Enum>
+  static std::string_view wordOf(std::string_view key, Enum value) {
+    return stateWords(key)[static_cast<std::size_t>(value)];
+  }
+
+  static void addStencil(const StencilState& stencil, Json& json) {
+    const auto addFace = [](const StencilFace& face, Json& out) {
+      out["test"] = wordOf("stencil.test", face.test);
+      out["fail"] = wordOf("stencil.pass", face.fail);
+      out["depth_fail"] = wordOf("stencil.pass", face.depthFail);
+      out["pass"] = wordOf("stencil.pass", face.pass);
+    };
+    addFace(stencil.front, json);
+    json["reference"] = stencil.reference;
+    json["read_mask"] = stencil.readMask;
+    json["write_mask"] = stencil.writeMask;
+    if (stencil.back != stencil.front) addFace(stencil.back, json["back"]);
+  }
+
   static void addState(const PassSpec& spec, Json& json) {
     const StateSpec& state = spec.state;
     Json out;
-    for (const auto& [slot, blend] : state.blend)
-      out["blend"][slot] = kBlendWords[static_cast<std::size_t>(blend)];
+    for (const auto& [slot, color] : state.colors) {
+      const auto known = std::ranges::find(kBlends, color.blend);
+      Json& blend = out["blend"][slot];
+      if (known != kBlends.end())
+        blend = stateWords("blend")[static_cast<std::size_t>(known - kBlends.begin())];
+      else
+        for (const bool alpha : {false, true}) {
+          const BlendPart& part = alpha ? color.blend.alpha : color.blend.color;
+          const std::string end = alpha ? "_alpha" : "";
+          blend["source" + end] = wordOf("blend.x.source", part.source);
+          blend["destination" + end] = wordOf("blend.x.source", part.destination);
+          blend["equation" + end] = wordOf("blend.x.equation", part.equation);
+        }
+      std::string mask;
+      for (unsigned channel = 0; channel < 4; ++channel)
+        if ((color.mask >> channel & 1) != 0) mask += "rgba"[channel];
+      if (color.mask != 15) out["color_mask"][slot] = mask.empty() ? "none" : mask;
+    }
+    if (state.blendColor != std::array<double, 4>{}) out["blend_color"] = state.blendColor;
+    if (state.stencil) addStencil(*state.stencil, out["stencil"]);
+    if (state.viewport) out["viewport"] = *state.viewport;
+    if (state.sampleMask) out["sample_mask"] = *state.sampleMask;
+    if (state.alphaToCoverage) out["alpha_to_coverage"] = true;
+    if (state.depthClamp) out["depth_clamp"] = true;
     if (state.depthTest) out["depth_test"] = kCompareNames[static_cast<std::size_t>(state.depthCompare)];
     if (!state.depthWrite) out["depth_write"] = false;
-    if (state.cull != Cull::none) out["cull"] = kCullWords[static_cast<std::size_t>(state.cull)];
+    if (state.cull != Cull::none) out["cull"] = wordOf("cull", state.cull);
     if (state.lines) out["polygon"] = "line";
     if (state.offsetFactor != 0 || state.offsetUnits != 0)
       out["offset"] = {state.offsetFactor, state.offsetUnits};

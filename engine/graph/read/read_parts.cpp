@@ -344,10 +344,10 @@ constexpr TextKey kPassTexts[] = {{"name", &PassDesc::name, &PassDesc::namePlace
                                   {"shader", &PassDesc::shader, &PassDesc::shaderPlace},
                                   {"list", &PassDesc::list, &PassDesc::listPlace},
                                   {"geometry", &PassDesc::geometry, &PassDesc::geometryPlace}};
-constexpr std::pair<std::string_view, Expr PassDesc::*> kPassValues[] = {{"enabled", &PassDesc::enabled},
-                                                                         {"slices", &PassDesc::slices},
-                                                                         {"threads", &PassDesc::threads},
-                                                                         {"instances", &PassDesc::instances}};
+constexpr std::pair<std::string_view, Expr PassDesc::*> kPassValues[] = {
+    {"enabled", &PassDesc::enabled},     {"slices", &PassDesc::slices}, {"threads", &PassDesc::threads},
+    {"instances", &PassDesc::instances}, {"draws", &PassDesc::draws},   {"raster", &PassDesc::raster},
+    {"samples", &PassDesc::samples}};
 constexpr std::pair<std::string_view, bool PassDesc::*> kPassFlags[] = {
     {"feedback", &PassDesc::feedback}, {"side_effect", &PassDesc::sideEffect}};
 
@@ -475,13 +475,13 @@ void readState(ReadContext& context, const JsonValue& value, ReadContext::Seen& 
     if (Expr expr = context.exprOf(member.value); expr.present())
       out.state.push_back({std::move(name), member.place, std::move(expr)});
   };
-  for (const JsonMember& member : membersIn(value, "state")) {
-    if (std::ranges::find(kStateKeys, member.key, &KeySpec::key) == kStateKeys.end() ||
-        !context.checkFresh(keys, member.key, member.place, "the state"))
-      continue;
-    if (!member.value.is(Type::object)) add(member.key, member);
-    for (const JsonMember& slot : member.value.members) add("blend." + slot.key, slot);
-  }
+  const auto addAll = [&](const auto& self, const std::string& name, const JsonMember& member) -> void {
+    if (!findStateKey(name)) return;  // reported
+    if (!member.value.is(Type::object)) return add(name, member);
+    for (const JsonMember& each : member.value.members) self(self, name + "." + each.key, each);
+  };
+  for (const JsonMember& member : membersIn(value, "state"))
+    if (context.checkFresh(keys, member.key, member.place, "the state")) addAll(addAll, member.key, member);
 }
 
 // The sets that a pass uses, and the pass itself: what each of them holds is what the pass has.

@@ -13,14 +13,21 @@ class Compute final : public PassType {
         .name = "compute",
         .doc =
             "Runs a compute shader over `threads` invocations (a number or a list of up to three; default "
-            "the size of the first written texture), rounded up to the shader's local size. Written "
+            "the size of the first written texture), rounded up to the shader's local size, or over the "
+            "groups that a buffer `as indirect` says. Written "
             "textures are images, buffers storage.",
         .shader = graph::ShaderShape::compute,
         .defaultWriteTexture = graph::Kind::image,
-        .keys = {"threads", "view"}};
+        .keys = {"threads", "view"},
+        .indirect = true};
   }
 
   void execute(const PassContext& context) const override {
+    if (const BoundBuffer& commands = context.commands; commands.name) {
+      glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, commands.name);
+      glDispatchComputeIndirect(commands.offset);
+      return;
+    }
     const WorkGroups groups = workGroupsOf(context);
     if (groups.count[0] == 0 || groups.count[1] == 0 || groups.count[2] == 0) return;
     glDispatchCompute(groups.count[0], groups.count[1], groups.count[2]);

@@ -8,18 +8,32 @@ namespace {
 class Draw final : public PassType {
  public:
   graph::PassType reflect() const override {
-    return {.name = "draw",
-            .doc =
-                "Draws the instances of `list` (or `instances` copies) as `geometry`, seen from `view`, with "
-                "NAME.vert.glsl and NAME.frag.glsl, or the two that `shader` names. Written slots are "
-                "attachments; a depth format is the depth attachment.",
-            .shader = graph::ShaderShape::draw,
-            .keys = {"list", "geometry", "instances", "view", "state", "feedback"}};
+    return {
+        .name = "draw",
+        .doc =
+            "Draws the instances of `list` (or `instances` copies, or what a buffer `as indirect` says) as "
+            "`geometry`, seen from `view`, with "
+            "NAME.vert.glsl and NAME.frag.glsl, or the two that `shader` names. Written slots are "
+            "attachments; a depth format is the depth attachment.",
+        .shader = graph::ShaderShape::draw,
+        .keys = {"list", "geometry", "instances", "draws", "raster", "samples", "view", "state", "feedback"},
+        .indirect = true};
   }
 
   void execute(const PassContext& context) const override {
     const Geometry& geometry = context.geometry;
-    if (context.instances == 0 || geometry.count == 0) return;
+    if (context.instances == 0) return;
+    if (const BoundBuffer& commands = context.commands; commands.name) {
+      const void* const at = reinterpret_cast<const void*>(commands.offset);
+      const auto draws = static_cast<GLsizei>(context.spec->draws);
+      glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.name);
+      if (geometry.indexType)
+        glMultiDrawElementsIndirect(geometry.mode, geometry.indexType, at, draws, 0);
+      else
+        glMultiDrawArraysIndirect(geometry.mode, at, draws, 0);
+      return;
+    }
+    if (geometry.count == 0) return;
     if (geometry.commands) {
       glBindBuffer(GL_DRAW_INDIRECT_BUFFER, geometry.commands);
       glMultiDrawElementsIndirect(geometry.mode, geometry.indexType, nullptr, geometry.count, 0);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <tuple>
 
 namespace weft::passes {
 
@@ -55,10 +56,50 @@ ShapeMesh makeIcosphere(int subdivisions) {
   return mesh;
 }
 
+ShapeMesh makeBox() {
+  ShapeMesh mesh;
+  for (std::uint32_t face = 0; face < 6; ++face) {
+    const float side = face % 2 == 0 ? -1.0F : 1.0F;
+    std::array<float, 3> position{}, normal{};
+    const std::size_t axis = face / 2;
+    position[axis] = normal[axis] = side;
+    for (std::uint32_t corner = 0; corner < 4; ++corner) {
+      position[(axis + 1) % 3] = (corner & 1) != 0 ? side : -side;
+      position[(axis + 2) % 3] = (corner & 2) != 0 ? 1.0F : -1.0F;
+      mesh.positions.insert(mesh.positions.end(), position.begin(), position.end());
+      mesh.normals.insert(mesh.normals.end(), normal.begin(), normal.end());
+    }
+    for (const std::uint32_t corner : {0u, 1u, 2u, 2u, 1u, 3u}) mesh.indices.push_back(4 * face + corner);
+  }
+  return mesh;
+}
+
+namespace {
+
+// Without attributes, with as many vertices as the graph says.
+constexpr std::pair<const char*, GLenum> kTopologies[] = {{"points", GL_POINTS},
+                                                          {"lines", GL_LINES},
+                                                          {"line_strip", GL_LINE_STRIP},
+                                                          {"triangles", GL_TRIANGLES},
+                                                          {"triangle_strip", GL_TRIANGLE_STRIP}};
+constexpr int kBox = -1;  // among the icospheres
+
+}  // namespace
+
 std::vector<graph::GeometryType> reflectGeometries() {
   const graph::GeometryArgument subdivision{
       .name = "subdivision", .min = 0, .max = kMaxSubdivision, .initial = 2};
-  return {{"quad", {}}, {"octagon", {}}, {"icosphere", {subdivision}}, {"triangle", {}}, {"mesh", {}, true}};
+  const graph::GeometryArgument vertices{.name = "vertices", .min = 0, .max = 2147483647};
+  std::vector<graph::GeometryType> types = {
+      {"quad", {}},
+      {"octagon", {}},
+      {.name = "icosphere", .arguments = {subdivision}, .indexed = true},
+      {"triangle", {}},
+      {.name = "box", .arguments = {}, .indexed = true},
+      {.name = "mesh", .arguments = {}, .meshes = true}};
+  for (const auto& [name, mode] : kTopologies)
+    types.push_back({.name = name, .arguments = {vertices}, .counted = true});
+  return types;
 }
 
 Geometry Geometries::empty() {
@@ -73,19 +114,28 @@ Geometry Geometries::get(const std::string& name, const std::vector<double>& arg
     geometry.mode = GL_TRIANGLE_STRIP;
     geometry.count = name == "quad" ? 4 : 8;
   }
-  if (name != "icosphere") return geometry;
+  for (const auto& [topology, mode] : kTopologies)
+    if (name == topology) {
+      geometry.mode = mode;
+      geometry.count = arguments.empty() ? 0 : static_cast<GLsizei>(arguments[0]);
+    }
+  const bool box = name == "box";
+  if (!box && name != "icosphere") return geometry;
 
-  assert(arguments.size() == 1 && arguments[0] >= 0 && arguments[0] <= kMaxSubdivision);
-  const int subdivisions = static_cast<int>(arguments[0]);
-  Mesh& mesh = icospheres_[subdivisions];
+  assert(box || (arguments.size() == 1 && arguments[0] >= 0 && arguments[0] <= kMaxSubdivision));
+  const int subdivisions = box ? kBox : static_cast<int>(arguments[0]);
+  Mesh& mesh = shapes_[subdivisions];
   if (mesh.count == 0) {
-    const ShapeMesh shape = makeIcosphere(subdivisions);
+    ShapeMesh shape = box ? makeBox() : makeIcosphere(subdivisions);
+    mesh.normals = shape.normals.empty() ? 0 : static_cast<std::uint32_t>(shape.positions.size() * 4);
+    shape.positions.insert(shape.positions.end(), shape.normals.begin(), shape.normals.end());
     auto vertices =
-        gl::Buffer::create(shape.positions.size() * 4, 0, "icosphere", diagnostics, shape.positions.data());
-    auto indices =
-        gl::Buffer::create(shape.indices.size() * 4, 0, "icosphere", diagnostics, shape.indices.data());
+        gl::Buffer::create(shape.positions.size() * 4, 0, name, diagnostics, shape.positions.data());
+    auto indices = gl::Buffer::create(shape.indices.size() * 4, 0, name, diagnostics, shape.indices.data());
     if (!vertices || !indices) return {};
-    mesh = {std::move(*vertices), std::move(*indices), static_cast<GLsizei>(shape.indices.size())};
+    mesh.vertices = std::move(*vertices);
+    mesh.indices = std::move(*indices);
+    mesh.count = static_cast<GLsizei>(shape.indices.size());
   }
   GLint position = -1, normal = -1;
   for (const gl::Interface& attribute : reflection.attributes) {
@@ -99,11 +149,11 @@ Geometry Geometries::get(const std::string& name, const std::vector<double>& arg
       geometry.vertexArray = each.vertexArray.id();
       return geometry;
     }
-  Bound bound{subdivisions, position, normal, gl::VertexArray::create("icosphere")};
-  std::vector<gl::VertexAttribute> attributes;
-  for (const GLint location : {position, normal})
-    if (location >= 0) attributes.push_back({.location = static_cast<GLuint>(location), .components = 3});
-  bound.vertexArray.setVertices(0, mesh.vertices.id(), 0, 12, attributes);
+  Bound bound{subdivisions, position, normal, gl::VertexArray::create(name)};
+  for (const auto& [binding, location, offset] :
+       {std::tuple(0u, position, 0u), std::tuple(1u, normal, mesh.normals)})
+    if (const gl::VertexAttribute each{.location = static_cast<GLuint>(location)}; location >= 0)
+      bound.vertexArray.setVertices(binding, mesh.vertices.id(), offset, 12, {&each, 1});
   bound.vertexArray.setIndices(mesh.indices.id());
   geometry.vertexArray = bound.vertexArray.id();
   bound_.push_back(std::move(bound));

@@ -1,5 +1,5 @@
-// The built-in shapes of draw passes: strips of 4 and 8 vertices without attributes (quad, octagon), one triangle, and
-// icospheres by subdivision. Vertex arrays bind `position` and `normal` to the locations of the program that draws.
+// The built-in shapes of draw passes: vertices without attributes (strips of 4 and 8: quad, octagon; one triangle; n points, lines or
+// triangles), and a box and icospheres, whose vertex arrays bind `position` and `normal` to the locations of the program that draws.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,15 @@
 namespace weft::passes {
 
 struct ShapeMesh {
-  std::vector<float> positions;        // xyz per vertex, on the unit sphere (the normal equals the position)
+  std::vector<float> positions;        // xyz per vertex
+  std::vector<float> normals;          // the same; empty: the normal equals the position
   std::vector<std::uint32_t> indices;  // counter-clockwise triangles seen from outside
 };
 // 20 * 4^n triangles from an icosahedron; midpoints are shared. n from 0 to kMaxSubdivision.
 constexpr int kMaxSubdivision = 6;
 ShapeMesh makeIcosphere(int subdivisions);
+// From -1 to 1 along each axis.
+ShapeMesh makeBox();
 
 // What graphs may write as "geometry".
 std::vector<graph::GeometryType> reflectGeometries();
@@ -35,9 +38,10 @@ class Geometries {
   struct Mesh {
     gl::Buffer vertices, indices;
     GLsizei count = 0;
+    std::uint32_t normals = 0;  // where they begin, in bytes
   };
   gl::VertexArray empty_;
-  std::map<int, Mesh> icospheres_;
+  std::map<int, Mesh> shapes_;  // icospheres by subdivision, and the box
   struct Bound {
     int subdivisions = 0;
     GLint position = -1, normal = -1;

@@ -14,7 +14,7 @@ class Fullscreen final : public PassType {
             "Runs a fragment shader once per pixel of what it writes. `in vec2 uv` is 0..1 from the lower "
             "left. Written slots are color attachments; `state` sets blending and the depth test.",
         .shader = graph::ShaderShape::fragment,
-        .keys = {"state", "view", "feedback"}};
+        .keys = {"raster", "samples", "state", "view", "feedback"}};
   }
 
   void execute(const PassContext&) const override { glDrawArrays(GL_TRIANGLES, 0, 3); }

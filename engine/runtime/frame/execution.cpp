@@ -210,8 +210,8 @@ void Execution::lookAtMeshes() {
     if (!pass.meshes || !steps_.runs(step)) continue;
     const scene::ViewData& view =
         device_.imports.view(*plan().graph, *pass.context.spec, pass.width, pass.height);
-    const bool sorted = std::ranges::any_of(pass.blends, [](const auto& blend) {
-      return blend.second == graph::Blend::premultiplied || blend.second == graph::Blend::alpha;
+    const bool sorted = std::ranges::any_of(pass.colors, [](const auto& color) {
+      return color.second.blend.color.destination == graph::BlendFactor::one_minus_src_alpha;
     });
     meshViews_.push_back(&pass.meshes->view());
     meshViews_.back()->look(static_cast<scene::DrawList>(pass.list), view.view, view.view_projection,

@@ -5,7 +5,7 @@
 namespace weft::runtime {
 
 void openMasks(gl::StateCache& states) {
-  states.colorMask(true);
+  states.colorMask(15);
   states.depthMask(true);
   states.stencilMask(0xff);
   states.enable(GL_SCISSOR_TEST, false);

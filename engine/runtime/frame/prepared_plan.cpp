@@ -56,7 +56,8 @@ bool sameSpec(const PassSpec& a, const PassSpec& b) {
          a.slotCount == b.slotCount && a.defines == b.defines &&
          std::ranges::equal(a.uniforms, b.uniforms, sameUniform) && a.state == b.state &&
          std::ranges::equal(a.threads, b.threads) && a.instances == b.instances && a.list == b.list &&
-         a.geometry == b.geometry && a.geometryArguments == b.geometryArguments;
+         a.geometry == b.geometry && a.geometryArguments == b.geometryArguments && a.draws == b.draws &&
+         a.raster == b.raster && a.rasterSamples == b.rasterSamples;
 }
 
 const graph::Value* clearOf(const FlatGraph& graph, std::uint32_t resource) {

@@ -13,43 +13,87 @@ using graph::kNone;
 
 namespace {
 
-// In the order of graph::Blend, behind `none`.
-constexpr gl::StateCache::Blend kBlends[] = {
-    {GL_FUNC_ADD, GL_ONE, GL_ONE, GL_ONE, GL_ONE},
-    {GL_FUNC_ADD, GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA},
-    {GL_FUNC_ADD, GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA},
-    {GL_FUNC_ADD, GL_DST_COLOR, GL_ZERO, GL_DST_COLOR, GL_ZERO},
-    {GL_MIN, GL_ONE, GL_ONE, GL_ONE, GL_ONE},
-    {GL_MAX, GL_ONE, GL_ONE, GL_ONE, GL_ONE}};
+// In the order of the enumerations.
+// clang-format off
+constexpr GLenum kFactors[] = {
+    GL_ZERO, GL_ONE, GL_SRC_COLOR, GL_ONE_MINUS_SRC_COLOR, GL_DST_COLOR, GL_ONE_MINUS_DST_COLOR,
+    GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_DST_ALPHA, GL_ONE_MINUS_DST_ALPHA,
+    GL_CONSTANT_COLOR, GL_ONE_MINUS_CONSTANT_COLOR, GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA, GL_SRC_ALPHA_SATURATE};
+// clang-format on
+constexpr GLenum kEquations[] = {GL_FUNC_ADD, GL_FUNC_SUBTRACT, GL_FUNC_REVERSE_SUBTRACT, GL_MIN, GL_MAX};
+constexpr GLenum kStencilOps[] = {GL_KEEP,      GL_ZERO, GL_REPLACE,   GL_INCR,
+                                  GL_INCR_WRAP, GL_DECR, GL_DECR_WRAP, GL_INVERT};
 
-std::optional<gl::StateCache::Blend> blendOf(graph::Blend blend) {
-  if (blend == graph::Blend::none) return std::nullopt;
-  return kBlends[static_cast<std::size_t>(blend) - 1];
+template <class Enum, std::size_t kCount>
+GLenum glOf(const GLenum (&all)[kCount], Enum value) {
+  return all[static_cast<std::size_t>(value)];
+}
+
+std::optional<gl::StateCache::Blend> blendOf(const graph::Blend& blend) {
+  if (blend == graph::Blend{}) return std::nullopt;
+  return gl::StateCache::Blend{.equation = glOf(kEquations, blend.color.equation),
+                               .equationAlpha = glOf(kEquations, blend.alpha.equation),
+                               .source = glOf(kFactors, blend.color.source),
+                               .destination = glOf(kFactors, blend.color.destination),
+                               .sourceAlpha = glOf(kFactors, blend.alpha.source),
+                               .destinationAlpha = glOf(kFactors, blend.alpha.destination)};
+}
+
+// Of the faces; what the pass only reads is not written.
+void applyStencil(const graph::StencilState* stencil, bool writable, gl::StateCache& states) {
+  states.enable(GL_STENCIL_TEST, stencil != nullptr);
+  if (!stencil) return;
+  states.stencilMask(writable ? stencil->writeMask : 0u);
+  for (const bool back : {false, true}) {
+    const graph::StencilFace& face = back ? stencil->back : stencil->front;
+    states.stencil(back, {.test = glCompareOf(face.test),
+                          .reference = stencil->reference,
+                          .mask = stencil->readMask,
+                          .fail = glOf(kStencilOps, face.fail),
+                          .depthFail = glOf(kStencilOps, face.depthFail),
+                          .pass = glOf(kStencilOps, face.pass)});
+  }
 }
 
 // Sets the fixed-function state whole before each pass, so that nothing leaks from one to the next.
 void applyState(const PreparedPass& pass, gl::StateCache& states) {
   const graph::StateSpec& state = pass.context.spec->state;
-  bool depthAttached = false, depthWritable = false;
+  bool depthAttached = false, depthWritable = false, stencilWritable = false;
+  states.colorMask(pass.writesColor ? 15u : 0u);
   for (const AttachmentBinding& attachment : pass.attachments) {
     const bool depth =
         attachment.point == GL_DEPTH_ATTACHMENT || attachment.point == GL_DEPTH_STENCIL_ATTACHMENT;
     depthAttached |= depth;
     depthWritable |= depth && attachment.use.access != graph::Access::read;
-    if (depth || attachment.point == GL_STENCIL_ATTACHMENT) continue;
+    const bool stencil =
+        attachment.point != GL_DEPTH_ATTACHMENT && (depth || attachment.point == GL_STENCIL_ATTACHMENT);
+    stencilWritable |= stencil && attachment.use.access != graph::Access::read;
+    if (depth || stencil) continue;
     const GLuint index = attachment.point - GL_COLOR_ATTACHMENT0;
-    graph::Blend mode = graph::Blend::none;
-    for (const auto& [buffer, blend] : pass.blends)
-      if (buffer == index) mode = blend;
-    states.blend(index, blendOf(mode));
+    const auto said = std::ranges::find(pass.colors, index, &PreparedPass::DrawBuffer::first);
+    const graph::ColorState color = said == pass.colors.end() ? graph::ColorState{} : said->second;
+    states.blend(index, blendOf(color.blend));
+    if (pass.writesColor && color.mask != 15) states.colorMask(index, color.mask);
   }
   states.enable(GL_FRAMEBUFFER_SRGB, pass.encodesSrgb);
-  states.viewport(static_cast<GLsizei>(pass.width), static_cast<GLsizei>(pass.height));
+  const std::array<std::int32_t, 4> whole{0, 0, static_cast<std::int32_t>(pass.width),
+                                          static_cast<std::int32_t>(pass.height)};
+  const auto& viewport = state.viewport ? *state.viewport : whole;
+  states.viewport(viewport[0], viewport[1], viewport[2], viewport[3]);
+  std::array<GLfloat, 4> constant{};
+  std::ranges::transform(state.blendColor, constant.begin(),
+                         [](double c) { return static_cast<GLfloat>(c); });
+  states.blendColor(constant);
+  applyStencil(state.stencil ? &*state.stencil : nullptr, stencilWritable, states);
+  states.enable(GL_DEPTH_CLAMP, state.depthClamp);
+  states.enable(GL_SAMPLE_ALPHA_TO_COVERAGE, state.alphaToCoverage);
+  states.enable(GL_SAMPLE_MASK, state.sampleMask.has_value());
+  if (state.sampleMask) states.sampleMask(*state.sampleMask);
+  states.enable(GL_PROGRAM_POINT_SIZE, pass.sizesPoints);
   const bool depthTest = depthAttached && state.depthTest;
   states.enable(GL_DEPTH_TEST, depthTest);
   if (depthTest) states.depthFunc(glCompareOf(state.depthCompare));
   states.depthMask(depthTest && depthWritable && state.depthWrite);
-  states.colorMask(pass.writesColor);
   states.enable(GL_CULL_FACE, state.cull != graph::Cull::none);
   if (state.cull != graph::Cull::none) states.cullFace(state.cull == graph::Cull::back ? GL_BACK : GL_FRONT);
   states.polygonMode(state.lines ? GL_LINE : GL_FILL);
@@ -75,7 +119,8 @@ void scissorTo(const PreparedPass& pass, gl::StateCache& states) {
 void StepRunner::run(std::size_t step, PreparedPass& pass, bool clears, text::Diagnostics& diagnostics) {
   const gl::DebugGroup group(device_.context.debugLog(), pass.context.spec->name);
   device_.timers.begin(static_cast<std::uint32_t>(step));
-  const GLuint framebuffer = pass.attachments.empty() ? 0 : framebufferOf(pass, diagnostics);
+  const bool draws = !pass.attachments.empty() || pass.context.spec->raster[0] > 0;
+  const GLuint framebuffer = draws ? framebufferOf(pass, diagnostics) : 0;
   if (clears && !pass.clears.empty()) clear(pass, framebuffer, diagnostics);
   if (const std::uint16_t after = plan_.steps[step].barriersAfterClears) glMemoryBarrier(glBarriersOf(after));
   const bool bound = bind(pass, diagnostics);
@@ -138,7 +183,9 @@ GLuint StepRunner::framebufferOf(const PreparedPass& pass, text::Diagnostics& di
                         .mip = attachment.mip,
                         .layer = attachment.layer});
   }
-  return framebuffers_.get(scratch_, pass.context.spec->name, diagnostics);
+  const graph::PassSpec& spec = *pass.context.spec;
+  return framebuffers_.get(scratch_, spec.name, diagnostics,
+                           {spec.raster[0], spec.raster[1], spec.rasterSamples});
 }
 
 namespace {
@@ -178,7 +225,7 @@ bool StepRunner::bind(PreparedPass& pass, text::Diagnostics& diagnostics) {
     }
   }
   for (const BufferBinding& binding : pass.buffers)
-    if (holds(binding.firstOf)) bindBuffer(binding, pass.group, diagnostics);
+    if (holds(binding.firstOf)) bindBuffer(binding, pass, diagnostics);
   bindBlock(pass.parametersBlock, pass.parametersOffset);
   bindBlock(pass.viewBlock, pass.viewOffset);
   bindBlock(pass.sliceBlock, pass.sliceOffset);
@@ -200,7 +247,7 @@ void StepRunner::gatherMeshes(PreparedPass& pass, text::Diagnostics& diagnostics
                            .commands = draw.commands};
 }
 
-void StepRunner::bindBuffer(const BufferBinding& binding, std::uint32_t group,
+void StepRunner::bindBuffer(const BufferBinding& binding, PreparedPass& pass,
                             text::Diagnostics& diagnostics) {
   if (binding.list >= 0) {
     const auto list = static_cast<scene::DrawList>(binding.list);
@@ -214,9 +261,13 @@ void StepRunner::bindBuffer(const BufferBinding& binding, std::uint32_t group,
     states_.bindBuffer(binding.target, binding.index, table.id, 0, 0);
   } else {
     const GpuResource& resource = pool_[binding.resource];
-    states_.bindBuffer(binding.target, binding.index,
-                       resource.buffers[resource.copyOf(binding.history, group)],
-                       static_cast<GLintptr>(resource.offset), static_cast<GLsizeiptr>(resource.bytes));
+    const GLuint buffer = resource.buffers[resource.copyOf(binding.history, pass.group)];
+    const auto offset = static_cast<GLintptr>(resource.offset),
+               bytes = static_cast<GLsizeiptr>(resource.bytes);
+    if (binding.target == GL_DRAW_INDIRECT_BUFFER)
+      pass.context.commands = {.name = buffer, .offset = offset, .bytes = bytes};
+    else
+      states_.bindBuffer(binding.target, binding.index, buffer, offset, bytes);
   }
 }
 

@@ -33,7 +33,7 @@ class StepRunner {
   // False: a pass type without a shader lacks the texture of an import, which was reported.
   bool bind(PreparedPass& pass, text::Diagnostics& diagnostics);
   void gatherMeshes(PreparedPass& pass, text::Diagnostics& diagnostics);
-  void bindBuffer(const BufferBinding& binding, std::uint32_t group, text::Diagnostics& diagnostics);
+  void bindBuffer(const BufferBinding& binding, PreparedPass& pass, text::Diagnostics& diagnostics);
   void bindBlock(const gl::Block* block, std::uint32_t offset);
   bool bindFixed(const FixedBinding& binding, PreparedPass& pass, text::Diagnostics& diagnostics);
   // The GL name of the texture that a binding of `pass` means now; of an import, of the part that the binding has.

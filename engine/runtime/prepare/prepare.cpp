@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "engine/glsl/interface.h"
 #include "engine/runtime/prepare/prepared_pass.h"
 #include "engine/runtime/prepare/program_request.h"
 #include "engine/runtime/storage/formats.h"
@@ -111,6 +112,7 @@ class Preparer {
       }
     }
     if (out_.attachments.empty()) good &= attachRaster();
+    if (spec_.raster[0] > 0) out_.width = spec_.raster[0], out_.height = spec_.raster[1];
     const gl::Block* instances =
         out_.variant->program.reflection().findStorageBlock(imports::kInstancesBlock);
     if (instances && !spec_.list.empty() && !hasSlot(imports::kInstancesBlock)) {
@@ -211,8 +213,8 @@ class Preparer {
         const gl::Interface* output = reflection.findOutput(slot.name);
         if (!output) return true;
         const auto location = static_cast<GLuint>(output->location);
-        for (const auto& [name, blend] : spec_.state.blend)
-          if (name == slot.name && blend != graph::Blend::none) out_.blends.emplace_back(location, blend);
+        for (const auto& [name, color] : spec_.state.colors)
+          if (name == slot.name) out_.colors.emplace_back(location, color);
         return attach(index, GL_COLOR_ATTACHMENT0 + location);
       }
       case Kind::depth: {
@@ -222,10 +224,11 @@ class Preparer {
                              : use.planes == 2 ? GL_STENCIL_ATTACHMENT
                                                : GL_DEPTH_STENCIL_ATTACHMENT);
       }
-      case Kind::copy:
-      case Kind::vertex:
-      case Kind::index:
       case Kind::indirect:
+        out_.buffers.push_back(
+            {.target = GL_DRAW_INDIRECT_BUFFER, .resource = use.resource, .history = use.history});
+        return true;
+      case Kind::copy:
         return true;
     }
     return true;
@@ -302,6 +305,7 @@ class Preparer {
     if (type.shader != graph::ShaderShape::draw) return;
     if (!spec_.list.empty()) out_.list = static_cast<int>(*scene::findDrawList(spec_.list));
     out_.context.instances = spec_.instances;
+    out_.sizesPoints = out_.variant->stages[0].source->ofAllBranches().isLive("gl_PointSize");
     if (spec_.meshes) {
       out_.meshes = std::make_shared<imports::MeshPass>(out_.variant->program.reflection(), spec_.name);
       return;

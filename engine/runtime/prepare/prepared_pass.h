@@ -80,7 +80,7 @@ struct TextureBinding {
 };
 
 struct BufferBinding {
-  GLenum target = GL_SHADER_STORAGE_BUFFER;
+  GLenum target = GL_SHADER_STORAGE_BUFFER;  // GL_DRAW_INDIRECT_BUFFER: of a draw or a dispatch
   GLuint index = 0;
   std::uint32_t resource = 0;
   std::uint8_t history = 0;
@@ -140,6 +140,7 @@ struct PreparedPass {
   std::uint32_t width = 0, height = 0;       // of the attachments
   bool feedback = false;
   bool writesColor = true;   // false: the shader has no output, and an attachment only says the size
+  bool sizesPoints = false;  // its vertex shader writes gl_PointSize
   bool encodesSrgb = false;  // an attachment is sRGB: GL encodes the linear light of shaders
   std::uint32_t group = graph::kNone;             // as Plan::groups
   bool framebuffers = false, fromSource = false;  // as graph::PassType
@@ -153,7 +154,8 @@ struct PreparedPass {
   std::uint32_t parametersOffset = 0, viewOffset = 0, sliceOffset = 0;
   std::vector<DynamicUniform> dynamics;
   std::uint64_t programHash = 0;
-  std::vector<std::pair<GLuint, graph::Blend>> blends;  // draw buffer index, mode
+  using DrawBuffer = std::pair<GLuint, graph::ColorState>;  // by its index
+  std::vector<DrawBuffer> colors;
 };
 
 // What preparePass() needs of the executor.

@@ -77,8 +77,6 @@ GLenum glTargetOf(graph::Target target) {
 
 GLbitfield glBarriersOf(std::uint16_t barriers) {
   static constexpr std::pair<graph::BarrierBit, GLbitfield> kBits[] = {
-      {graph::kBarrierVertex, GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT},
-      {graph::kBarrierIndex, GL_ELEMENT_ARRAY_BARRIER_BIT},
       {graph::kBarrierUniform, GL_UNIFORM_BARRIER_BIT},
       {graph::kBarrierTexture, GL_TEXTURE_FETCH_BARRIER_BIT},
       {graph::kBarrierImage, GL_SHADER_IMAGE_ACCESS_BARRIER_BIT},

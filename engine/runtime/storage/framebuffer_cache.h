@@ -14,20 +14,22 @@ namespace weft::runtime {
 
 class FramebufferCache {
  public:
-  // The GL name; 0 after an error.
+  // The GL name; 0 after an error. `raster`: of one without attachments.
   GLuint get(std::span<const gl::Attachment> attachments, const std::string& label,
-             text::Diagnostics& diagnostics) {
+             text::Diagnostics& diagnostics, const gl::Raster& raster = {}) {
     for (const Entry& entry : entries_)
-      if (std::ranges::equal(entry.attachments, attachments)) return entry.framebuffer.id();
-    auto made = gl::Framebuffer::create(attachments, label, diagnostics);
+      if (std::ranges::equal(entry.attachments, attachments) && entry.raster == raster)
+        return entry.framebuffer.id();
+    auto made = gl::Framebuffer::create(attachments, label, diagnostics, raster);
     if (!made) return 0;
-    entries_.push_back({{attachments.begin(), attachments.end()}, std::move(*made)});
+    entries_.push_back({{attachments.begin(), attachments.end()}, raster, std::move(*made)});
     return entries_.back().framebuffer.id();
   }
 
  private:
   struct Entry {
     std::vector<gl::Attachment> attachments;
+    gl::Raster raster;
     gl::Framebuffer framebuffer;
   };
   std::vector<Entry> entries_;

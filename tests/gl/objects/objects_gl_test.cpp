@@ -217,7 +217,7 @@ TEST_CASE("framebuffers take levels, layers and whole cubes, and say why they ar
   for (std::uint32_t face = 0; face < 6; ++face) CHECK(readFloats(cube.ref(), 0, face)[15] == 0.5f);
 
   Diagnostics diagnostics;
-  CHECK(Framebuffer::create({}, "attachmentless", diagnostics, 16, 16));
+  CHECK(Framebuffer::create({}, "attachmentless", diagnostics, {16, 16}));
   CHECK(diagnostics.empty());
   CHECK_FALSE(Framebuffer::create({}, "empty", diagnostics));
   const Texture shared = makeTexture({.format = GL_RGB9_E5, .width = 4, .height = 4});

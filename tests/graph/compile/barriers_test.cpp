@@ -41,8 +41,6 @@ TEST_CASE("a use after a store waits for its own bit") {
         (kBarrierFramebuffer | kBarrierTexture));
   CHECK(bitsBefore(Kind::storage, Kind::storage, true) == kBarrierStorage);
   CHECK(bitsBefore(Kind::storage, Kind::uniform, true) == kBarrierUniform);
-  CHECK(bitsBefore(Kind::storage, Kind::vertex, true) == kBarrierVertex);
-  CHECK(bitsBefore(Kind::storage, Kind::index, true) == kBarrierIndex);
   CHECK(bitsBefore(Kind::storage, Kind::indirect, true) == kBarrierCommand);
   CHECK(bitsBefore(Kind::storage, Kind::copy, true) == kBarrierBufferUpdate);
   CHECK(bitsBefore(Kind::storage, Kind::sampled, true) == kBarrierTexture);

@@ -26,9 +26,7 @@ enum Gl : std::uint32_t {
 };
 
 std::uint32_t toGl(std::uint16_t mask) {
-  const std::pair<BarrierBit, std::uint32_t> names[] = {{kBarrierVertex, kVertexAttribArray},
-                                                        {kBarrierIndex, kElementArray},
-                                                        {kBarrierUniform, kUniform},
+  const std::pair<BarrierBit, std::uint32_t> names[] = {{kBarrierUniform, kUniform},
                                                         {kBarrierTexture, kTextureFetch},
                                                         {kBarrierImage, kShaderImageAccess},
                                                         {kBarrierCommand, kCommand},
@@ -48,8 +46,6 @@ enum class Op {
   image,
   uniform,
   storage,
-  vertex,
-  index,
   command,
   attachment,
   blit,
@@ -68,10 +64,6 @@ Op opOf(const FlatUse& use, bool buffer) {
       return Op::uniform;
     case Kind::storage:
       return Op::storage;
-    case Kind::vertex:
-      return Op::vertex;
-    case Kind::index:
-      return Op::index;
     case Kind::indirect:
       return Op::command;
     case Kind::color:
@@ -87,10 +79,6 @@ Op opOf(const FlatUse& use, bool buffer) {
 // section.
 std::uint32_t bitToSeeShaderWrites(Op op, bool buffer) {
   switch (op) {
-    case Op::vertex:
-      return kVertexAttribArray;  // vertex data sourced from buffer objects
-    case Op::index:
-      return kElementArray;  // vertex array indices sourced from buffer objects
     case Op::uniform:
       return kUniform;  // shader uniforms sourced from buffer objects
     case Op::texture_fetch:

@@ -107,9 +107,9 @@ class Generator {
 
   Kind readKind(const FlatResource& r, bool compute) {
     if (isBuffer(r)) {
-      constexpr Kind kinds[] = {Kind::storage, Kind::storage, Kind::uniform,  Kind::vertex,
-                                Kind::index,   Kind::copy,    Kind::indirect, Kind::sampled};
-      return kinds[pick(8)];
+      constexpr Kind kinds[] = {Kind::storage, Kind::storage,  Kind::uniform,
+                                Kind::copy,    Kind::indirect, Kind::sampled};
+      return kinds[pick(6)];
     }
     if (isDepth(r.format) && chance(40)) return Kind::depth;
     if (infoOf(r.format).imageStorable && compute && chance(40)) return Kind::image;

@@ -98,11 +98,8 @@ TEST_CASE("kinds and formats that do not fit") {
   is(Code::badKind, fullscreen(R"J("read": { "a": "col as uniform" })J"));
   is(Code::badKind, fullscreen(R"J("read": { "a": "buf as sampled" })J"));
   is(Code::badKind, fullscreen(R"J("read": { "a": "col as color" })J"));
-  for (const char* kind : {"vertex", "index", "indirect"}) {
-    is(Code::unusedKind, fullscreen(R"J("read": { "a": "buf as )J" + std::string(kind) + R"J(" })J"));
-    is(Code::unusedKind, compute(R"J("read": { "a": "buf as )J" + std::string(kind) + R"J(" })J"));
-    is(Code::badKind, fullscreen(R"J("read": { "a": "col as )J" + std::string(kind) + R"J(" })J"));
-  }
+  is(Code::badKind, fullscreen(R"J("read": { "a": "buf as indirect" })J"));
+  is(Code::badKind, fullscreen(R"J("read": { "a": "col as indirect" })J"));
   is(Code::badKind, fullscreen(R"J("read": { "a": "@cut" })J"));
   is(Code::badKind, fullscreen(R"J("read": { "a": "buf as linear" })J"));
   is(Code::badKind, fullscreen(R"J("read": { "a": "ms as linear" })J"));

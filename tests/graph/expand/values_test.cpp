@@ -224,8 +224,9 @@ TEST_CASE("state words, flags and per-slot blending") {
       "state": { "blend": { "radiance": "premultiplied" }, "depth_test": "greater_equal", "depth_write": false, "cull": "back", "polygon": "$wire ? line : fill", "offset": [2, 4] } } ], "present": "out" })J");
   CHECK(e.text() == "");
   const StateSpec& s = e.spec("p").state;
-  REQUIRE(s.blend.size() == 1);
-  CHECK(s.blend[0] == std::pair<std::string, Blend>("radiance", Blend::premultiplied));
+  REQUIRE(s.colors.size() == 1);
+  CHECK(s.colors[0].first == "radiance");
+  CHECK(s.colors[0].second.blend.color == BlendPart{BlendFactor::one, BlendFactor::one_minus_src_alpha});
   CHECK((s.depthTest && s.depthCompare == Compare::greater_equal && !s.depthWrite && s.cull == Cull::back &&
          s.lines));
   CHECK(s.offsetFactor == 2);

@@ -60,7 +60,7 @@ TEST_CASE("sets: a pass has its own and what its sets have, for each index of it
   CHECK(e.spec("one").state.cull == Cull::none);
   CHECK(e.spec("two").state.cull == Cull::back);
   CHECK(e.spec("two").state.depthTest);
-  CHECK(e.spec("two").state.blend.size() == 1);
+  CHECK(e.spec("two").state.colors.size() == 1);
   const FlatGraph& graph = *e.graph;
   const SlotSpec& above = graph.slots[e.spec("down[3]").firstSlot];
   CHECK(graph.uses[above.firstUse].mip == 2);
@@ -112,14 +112,14 @@ TEST_CASE("sets: overlays change a set for all that use it, and what a pass has 
     return e;
   };
   const Expanded both = over(R"J("sets": { "ball": { "state": { "blend": null } } })J");
-  CHECK(both.spec("one").state.blend.empty());
-  CHECK(both.spec("two").state.blend.empty());
+  CHECK(both.spec("one").state.colors.empty());
+  CHECK(both.spec("two").state.colors.empty());
   const Expanded one = over(
       R"J("passes": [ { "name": "one", "read": { "source": null, "third": "small?" }, "state": { "blend": null } } ])J");
   CHECK(slotsOf(one, "one") == "other third radiance depth");
   CHECK(one.define("one", "ROUND") == "1");
-  CHECK(one.spec("one").state.blend.empty());
-  CHECK(one.spec("two").state.blend.size() == 1);
+  CHECK(one.spec("one").state.colors.empty());
+  CHECK(one.spec("two").state.colors.size() == 1);
   const Expanded fresh = over(
       R"J("sets": { "front": { "state": { "cull": "front" } } }, "passes": [ { "after": "two", "name": "three",
       "type": "draw", "shader": "balls/flat", "list": "spheres", "geometry": "quad", "use": ["ball", "front"] } ])J");

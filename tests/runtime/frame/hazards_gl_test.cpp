@@ -31,7 +31,7 @@ void runFrames(GlTrace& trace, Stage& stage, const std::shared_ptr<const graph::
 }
 
 std::vector<std::string> graphsThatRun() {
-  std::vector<std::string> graphs{"tests/runtime/graphs/stores.json"};
+  std::vector<std::string> graphs{"tests/runtime/graphs/stores.json", "tests/runtime/graphs/draws.json"};
   for (const auto& entry : std::filesystem::directory_iterator(sourcePath("graphs")))
     if (entry.path().extension() == ".json") graphs.push_back("graphs/" + entry.path().filename().string());
   std::ranges::sort(graphs);

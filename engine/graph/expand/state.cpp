@@ -1,0 +1,353 @@
+// The fixed-function state of a pass: from "state" and the slots that it is for. Declared in passes.h.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "engine/graph/expand/passes.h"
+#include "engine/text/chars.h"
+#include "engine/text/nearest.h"
+#include "engine/text/words/foreign_words.h"
+
+namespace weft::graph::expansion {
+
+namespace {
+
+struct StateFiller {
+  const SlotContext& context;
+  const PassDesc& desc;
+  const std::vector<SlotWork>& slots;
+  StateSpec& state;
+  bool failed = false;
+
+  void fill() {
+    for (const NamedExpr& each : desc.state)
+      if (!failed) add(each);
+    if (failed) return;
+    checkDepth();
+    checkStencil();
+    checkColors();
+    checkSamples();
+    checkCover();
+  }
+
+  void error(const Place& place, std::string_view message, Says says) const {
+    context.report(Code::badState, place, message, std::move(says));
+  }
+  const NamedExpr* find(std::string_view name) const {
+    const auto found = std::ranges::find(desc.state, name, &NamedExpr::name);
+    return found == desc.state.end() ? nullptr : &*found;
+  }
+
+  // The first that is said of a key with keys of its own: "stencil".
+  const NamedExpr* findWithin(const std::string& key) const {
+    const auto found = std::ranges::find_if(
+        desc.state, [&](const NamedExpr& each) { return each.name.starts_with(key + '.'); });
+    return found == desc.state.end() ? find(key) : &*found;
+  }
+
+  void refuse(const NamedExpr& said, const Value& value, std::string expected, std::string hint = "") {
+    failed = true;
+    if (value.type != Value::Type::none)  // reported
+      error(said.expr.place(), fmt::format("has an unknown value for the state '{}'", said.name),
+            {.expected = std::move(expected), .found = toText(value), .hint = std::move(hint)});
+  }
+
+  // Index among the words of the key; 0 after a report.
+  int word(const NamedExpr& said) {
+    const auto known = stateWords(said.name);
+    const std::vector<std::string> words(known.begin(), known.end());
+    const Value value = said.expr.evaluate(context.names, context.model.diagnostics);
+    const auto found = std::ranges::find(words, value.symbol);
+    if (value.type == Value::Type::symbol && found != words.end())
+      return static_cast<int>(found - words.begin());
+    const std::string text = toText(value);
+    refuse(said, value, fmt::format("{}", fmt::join(words, ", ")),
+           said.name.starts_with("blend.") && words.size() != kBlends.size()  // a factor, no whole blend
+               ? text::nearestHint(text::lowered(text).substr(text.starts_with("GL_") ? 3 : 0), words)
+               : hintOrNearest(text::Foreign::state_word, text, words));
+    return 0;
+  }
+  template <class Enum>
+  void take(const NamedExpr& said, Enum& value) {
+    value = static_cast<Enum>(word(said));
+  }
+  template <class Number>
+  void takeWhole(const NamedExpr& said, Number& value, std::int64_t most) {
+    const auto whole =
+        evaluateWhole(context.names, said.expr, 0, 0, most, fmt::format("the state '{}'", said.name).c_str());
+    failed = failed || !whole;
+    value = static_cast<Number>(whole.value_or(0));
+  }
+  void take(const NamedExpr& said, bool& value) {
+    value =
+        evaluateCondition(context.names, said.expr, true, fmt::format("the state '{}'", said.name).c_str())
+            .value_or(value);
+  }
+  // A list of so many numbers as `into` has.
+  void takeList(const NamedExpr& said, std::span<double> into, const char* expected) {
+    const Value value = said.expr.evaluate(context.names, context.model.diagnostics);
+    std::copy_n(value.v.begin(), into.size(), into.begin());
+    if (value.type != Value::Type::list || value.count != into.size()) refuse(said, value, expected);
+  }
+
+  // The letters of the channels that are written, or "none".
+  std::uint8_t maskOf(const NamedExpr& said) {
+    const Value value = said.expr.evaluate(context.names, context.model.diagnostics);
+    std::uint8_t mask = 0;
+    bool good = value.type == Value::Type::symbol;
+    for (const char letter : value.symbol == "none" ? "" : value.symbol) {
+      const auto channel = std::string_view("rgba").find(letter);
+      good = good && channel != std::string_view::npos && (mask >> channel & 1) == 0;
+      if (good) mask = static_cast<std::uint8_t>(mask | 1u << channel);
+    }
+    if (!good) refuse(said, value, "the channels that are written: \"rgb\", \"a\", …, or \"none\"");
+    return mask;
+  }
+
+  // "blend" and "color_mask", of all color slots or of one, and the factors of one.
+  void addColor(const NamedExpr& said) {
+    std::vector<std::string> colors;
+    for (const SlotWork& work : slots)
+      if (!work.reads() && (work.entity == kNone || work.use.kind == Kind::color))
+        colors.push_back(work.slot->name);
+    const std::size_t dot = said.name.find('.'), second = said.name.find('.', dot + 1);
+    const bool masks = said.name.starts_with("color_mask"), all = dot == std::string::npos,
+               factor = !all && second != std::string::npos;
+    const std::string slot = all ? "" : said.name.substr(dot + 1, second - dot - 1);
+    const bool known = all || std::ranges::find(colors, slot) != colors.end();
+    ColorState given;
+    if (known && masks) given.mask = maskOf(said);
+    if (known && !masks && !factor) given.blend = kBlends[static_cast<std::size_t>(word(said))];
+    if (!known || (colors.empty() && given != ColorState{})) {
+      failed = true;
+      return error(said.place,
+                   fmt::format("{} '{}', which is no color slot of it", masks ? "masks" : "blends", slot),
+                   {.expected = "one word, \"blend\": \"alpha\", or one for each color slot",
+                    .hint = hintOrNearest(text::Foreign::state_key, slot, colors)});
+    }
+    if (!all) colors = {slot};
+    for (const std::string& color : colors) {
+      auto at = std::ranges::find(state.colors, color, [](const auto& each) { return each.first; });
+      if (at == state.colors.end()) at = state.colors.insert(at, {color, {}});
+      if (masks)
+        at->second.mask = given.mask;
+      else if (factor)
+        addFactor(said, said.name.substr(second + 1), at->second.blend);
+      else
+        at->second.blend = given.blend;
+    }
+  }
+
+  // What is said of colors holds for alpha, too, unless that is said apart.
+  void addFactor(const NamedExpr& said, std::string key, Blend& blend) {
+    const std::string end = "_alpha", apart = said.name + end;
+    const bool alpha = key.ends_with(end);
+    if (alpha) key.resize(key.size() - end.size());
+    const auto set = [&](auto BlendPart::*member) {
+      take(said, (alpha ? blend.alpha : blend.color).*member);
+      if (!alpha && !find(apart)) blend.alpha.*member = blend.color.*member;
+    };
+    if (key == "source") set(&BlendPart::source);
+    if (key == "destination") set(&BlendPart::destination);
+    if (key == "equation") set(&BlendPart::equation);
+  }
+
+  // What is said of front faces holds for back faces, too, unless that is said apart.
+  void addStencil(const NamedExpr& said, const std::string& key) {
+    if (!state.stencil) state.stencil.emplace();
+    StencilState& stencil = *state.stencil;
+    if (key == "reference") return takeWhole(said, stencil.reference, 255);
+    if (key == "read_mask") return takeWhole(said, stencil.readMask, 255);
+    if (key == "write_mask") return takeWhole(said, stencil.writeMask, 255);
+    const bool back = key.starts_with("back.");
+    const std::string own = back ? key.substr(5) : key;
+    const auto set = [&](auto StencilFace::*member) {
+      StencilFace& face = back ? stencil.back : stencil.front;
+      take(said, face.*member);
+      if (!back && !find("stencil.back." + own)) stencil.back.*member = face.*member;
+    };
+    if (own == "test") set(&StencilFace::test);
+    if (own == "fail") set(&StencilFace::fail);
+    if (own == "depth_fail") set(&StencilFace::depthFail);
+    if (own == "pass") set(&StencilFace::pass);
+  }
+
+  void add(const NamedExpr& said) {
+    const std::string key = said.name.substr(0, said.name.find('.'));
+    if (key == "blend" || key == "color_mask") {
+      addColor(said);
+    } else if (key == "stencil") {
+      addStencil(said, said.name.substr(key.size() + 1));
+    } else if (key == "depth_test") {
+      state.depthTest = true;
+      take(said, state.depthCompare);
+    } else if (key == "depth_write") {
+      take(said, state.depthWrite);
+    } else if (key == "depth_clamp") {
+      take(said, state.depthClamp);
+    } else if (key == "alpha_to_coverage") {
+      take(said, state.alphaToCoverage);
+    } else if (key == "sample_mask") {
+      takeWhole(said, state.sampleMask.emplace(), 0xffffffff);
+    } else if (key == "blend_color") {
+      takeList(said, state.blendColor, "[red, green, blue, alpha]");
+    } else if (key == "viewport") {
+      addViewport(said);
+    } else if (key == "offset") {
+      std::array<double, 2> offset{};
+      takeList(said, offset, "[factor, units]");
+      state.offsetFactor = offset[0];
+      state.offsetUnits = offset[1];
+    } else {
+      const int found = word(said);
+      if (said.name == "cull") state.cull = static_cast<Cull>(found);
+      if (said.name == "polygon") state.lines = found == 1;
+      // The one triangle of a fullscreen pass has no back, and is filled.
+      if (found != 0 && context.type->shader == ShaderShape::fragment)
+        error(said.place, fmt::format("has the state '{}', which is for draws", said.name),
+              {.hint = fmt::format("leave \"{}\" out", said.name)});
+    }
+  }
+
+  void addViewport(const NamedExpr& said) {
+    constexpr double kMost = 65536;
+    std::array<double, 4> sides{};
+    takeList(said, sides, "[x, y, width, height] in texels");
+    if (failed) return;
+    for (std::size_t i = 0; i < 4; ++i) {
+      sides[i] = std::floor(sides[i]);
+      failed = failed || sides[i] < (i < 2 ? -kMost : 1) || sides[i] > kMost;
+    }
+    if (failed)
+      context.report(Code::numberOutOfRange, said.expr.place(), "has a viewport without texels",
+                     {.expected = fmt::format("a width and a height from 1 to {}", kMost),
+                      .found = fmt::format("[{}]", fmt::join(sides, ", ")),
+                      .hint = "write 'max(…, 1)' where it is computed"});
+    state.viewport.emplace();
+    for (std::size_t i = 0; i < 4; ++i) (*state.viewport)[i] = static_cast<std::int32_t>(sides[i]);
+  }
+
+  // ---- what would do nothing ----
+
+  void checkDepth() const {
+    const SlotWork* depth = nullptr;
+    bool writable = false;
+    for (const SlotWork& work : slots) {
+      if (work.entity == kNone) return;  // reported
+      if (work.use.kind != Kind::depth || (work.use.planes & 1) == 0) continue;
+      depth = &work;
+      writable = writable || !work.reads();
+    }
+    const NamedExpr *test = find("depth_test"), *write = find("depth_write"), *offset = find("offset");
+    if (!depth) {
+      if (const NamedExpr* said = test ? test : write ? write : offset)
+        error(said->place, fmt::format("says '{}' but has no depth attachment", said->name),
+              {.hint = "add \"modify\": { \"depth\": \"depth\" }, or leave it out"});
+      return;
+    }
+    if (!test && !write && findWithin("stencil")) return;  // it is attached for its stencil
+    const std::string& slot = depth->slot->name;
+    if (test && write && state.depthWrite && !writable)
+      error(write->place, fmt::format("writes depth, and its depth slot '{}' is only read", slot),
+            {.hint = fmt::format("move '{}' to \"modify\", or leave \"depth_write\" out", slot)});
+    const bool writes = writable && !(write && write->expr.isConstant() && !state.depthWrite);
+    if (!test || (test->expr.text() == "always" && !writes))
+      error(
+          depth->slot->place,
+          fmt::format("has the depth slot '{}' and {}", slot,
+                      test ? "neither tests nor writes it" : "no \"depth_test\""),
+          {.expected = "\"state\": { \"depth_test\": … }",
+           .hint =
+               "write \"depth_test\": \"greater\", by which the nearer surface wins, or leave the slot out"});
+  }
+
+  void checkStencil() const {
+    const SlotWork* slot = nullptr;
+    for (const SlotWork& work : slots) {
+      if (work.entity == kNone) return;  // reported
+      if (work.use.kind == Kind::depth && (work.use.planes & 2) != 0) slot = &work;
+    }
+    const NamedExpr* const said = findWithin("stencil");
+    const auto idle = [](const StencilFace& face) { return face.test == Compare::always && !face.writes(); };
+    const auto varies = [](const NamedExpr& each) { return !each.expr.variables().empty(); };
+    if (said && !slot)
+      error(said->place, "says 'stencil' but has no stencil attachment",
+            {.hint = "add \"modify\": { \"depth\": \"depth\" }, a texture of the format depth24_stencil8 or "
+                     "depth32f_stencil8, or leave it out"});
+    else if (said && slot->reads() && state.stencil->writes())
+      error(said->place, fmt::format("writes the stencil, and its slot '{}' is only read", slot->slot->name),
+            {.hint = fmt::format("move '{}' to \"modify\", or write \"write_mask\": 0", slot->slot->name)});
+    else if (said ? idle(state.stencil->front) && idle(state.stencil->back) &&
+                        std::ranges::none_of(desc.state, varies)
+                  : slot && slot->use.planes == 2)
+      error(said ? said->place : slot->slot->place, "neither tests nor writes the stencil",
+            {.expected = "\"stencil\": { \"test\": \"equal\", … } or { \"pass\": \"replace\", … }"});
+  }
+
+  void checkColors() const {
+    for (const auto& [name, color] : state.colors) {
+      const auto named = [&](const SlotWork& each) { return each.slot->name == name; };
+      const auto work = std::ranges::find_if(slots, named);
+      const bool blends = color.blend != Blend{}, masks = color.mask != 15;
+      if ((!blends && !masks) || work == slots.end() || work->entity == kNone) continue;
+      const Format format = context.model.entities[work->entity].shape.format;
+      if (blends && isInteger(format))
+        error(findWithin(find("blend") ? "blend" : "blend." + name)->place,
+              fmt::format("blends '{}', whose format {} does not blend", name, infoOf(format).name),
+              {.hint = fmt::format("write \"blend\": {{ \"{}\": \"none\" }}", name)});
+      else if (work->slot->access == Access::write && context.type->shader == ShaderShape::fragment)
+        error(work->slot->place,
+              fmt::format("{} '{}' with nothing, as it says \"write\"", blends ? "blends" : "masks", name),
+              {.hint = fmt::format("say \"modify\", or leave \"{}\" out of '{}'",
+                                   blends ? "blend" : "color_mask", name)});
+    }
+    const auto constant = [](const NamedExpr& each) {
+      return each.expr.text().find("constant_") != std::string::npos;
+    };
+    if (const NamedExpr* said = find("blend_color"); said && std::ranges::none_of(desc.state, constant))
+      error(
+          said->place, "says 'blend_color', and no blend has it as a factor",
+          {.hint = "write \"blend\": { \"slot\": { \"source\": \"constant_color\", … } }, or leave it out"});
+  }
+
+  void checkSamples() const {
+    const NamedExpr *mask = find("sample_mask"), *said = mask ? mask : find("alpha_to_coverage");
+    if (desc.samples.present()) return;
+    std::uint32_t samples = 1;
+    for (const SlotWork& work : slots) {
+      if (work.entity == kNone) return;  // reported
+      if (work.use.kind != Kind::color && work.use.kind != Kind::depth) continue;
+      samples = std::max<std::uint32_t>(samples, context.model.entities[work.entity].shape.samples);
+    }
+    if (said && samples == 1 && (mask || state.alphaToCoverage))
+      error(said->place, fmt::format("says '{}', and its attachments have one sample", said->name),
+            {.hint = "write \"samples\": 4 on each texture that it draws into, or leave it out"});
+  }
+
+  // A draw covers what its geometry covers.
+  void checkCover() const {
+    for (const SlotWork& work : slots) {
+      if (work.entity == kNone || work.slot->access != Access::write || coversAll(context.type, desc, work))
+        continue;
+      const Entity& entity = context.model.entities[work.entity];
+      if (entity.shape.hasClear) continue;
+      context.report(
+          Code::badSlots, work.slot->place,
+          fmt::format("draws a part of '{}' and says \"write\"", entity.name),
+          {.hint = fmt::format("give '{}' a \"clear\" for the rest, or say \"modify\"", entity.name)});
+      return;
+    }
+  }
+};
+
+}  // namespace
+
+void fillState(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots,
+               StateSpec& state) {
+  StateFiller{context, desc, slots, state}.fill();
+}
+
+}  // namespace weft::graph::expansion
