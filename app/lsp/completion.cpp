@@ -279,7 +279,10 @@ class Completer {
       for (const graph::GeometryType& type : registry_.geometries) add(type.name, ItemKind::value);
     if (pass && (key == "before" || key == "after")) names(Kind::pass);
     if (pass && key == "use") names(Kind::set);
-    if (key == "list") addWords(registry_.drawLists);
+    if (key == "list") {
+      addWords(registry_.drawLists);
+      names(Kind::resource);
+    }
     if (key == "import") addTypes(registry_.imports);
     for (const graph::ImportType& type : registry_.imports)
       if (type.name == textOf(*spot_.values[spot_.values.size() - 2], "import"))

@@ -63,7 +63,6 @@ std::string presetFile(const std::string& preset, const std::string& own) {
 
 runtime::WorldFacts factsWithoutWorld() {
   runtime::WorldFacts facts;
-  for (const std::string& list : scene::drawListNames()) facts.lists.push_back({list, 0});
   // What the scene that could not be read has is not known, and nothing is said of it.
   facts.sun = facts.ground = true;
   facts.lamps = facts.castingLamps = 1;

@@ -163,6 +163,7 @@ struct IncludeDesc {
   std::string as;  // prefix; never empty after reading
   std::vector<std::pair<std::string, RefDesc>> binds;
   std::vector<Place> bindPlaces;                  // parallel: of the keys
+  Expr screen;                                    // what `screen` is there; absent: as outside
   std::shared_ptr<const struct GraphDesc> graph;  // null when it could not be read
 };
 

@@ -25,6 +25,7 @@ void visitPass(const PassDesc& pass, OnExpr&& onExpr, OnRef&& onRef) {
   for (const Expr* expr : {&pass.enabled, &pass.slices, &pass.threads, &pass.instances, &pass.period,
                            &pass.draws, &pass.raster, &pass.samples})
     onExpr(*expr);
+  if (pass.include) onExpr(pass.include->screen);
   for (const RangeDesc& range : pass.repeat)
     for (const Expr* expr : {&range.first, &range.last, &range.step}) onExpr(*expr);
   for (const SlotDesc& slot : pass.slots) visitRef(slot.ref, onExpr, onRef);

@@ -247,13 +247,15 @@ struct PassSpec {
   Expr timedInstances;                    // the same, folded, when it contains age(); else absent
   std::array<std::uint32_t, 2> raster{};  // of a pass without attachments, in texels; else 0
   std::uint8_t rasterSamples = 1;
-  bool indirect = false;    // the command takes its arguments from a buffer
-  std::uint32_t draws = 1;  // records of it, of a draw
-  std::string list;         // draw list or ""
+  bool indirect = false;             // the command takes its arguments from a buffer
+  std::uint32_t draws = 1;           // records of it, of a draw
+  std::string list;                  // draw list or ""
+  std::uint32_t listImport = kNone;  // of the graph's own: import index
   std::string geometry;
   std::vector<double> geometryArguments;
-  bool meshes = false;         // as GeometryType::meshes
-  std::uint32_t view = kNone;  // import index; kNone: the default camera
+  bool meshes = false;                        // as GeometryType::meshes
+  std::array<std::uint32_t, 2> screen{1, 1};  // pixels: what `screen` means in its file, which cameras see
+  std::uint32_t view = kNone;                 // import index; kNone: the default camera
   std::uint16_t viewLayer = 0, viewFace = 0;
 };
 

@@ -14,11 +14,18 @@ const Value& ImportRequest::at(std::string_view argument) const {
   return found->second;
 }
 
+const ImportRequest* ImportRequest::named(std::string_view argument) const {
+  const auto found = std::ranges::find_if(of, [&](const auto& each) { return each.first == argument; });
+  return found == of.end() ? nullptr : &found->second;
+}
+
 std::uint64_t keyOf(const ImportRequest& request) {
   std::uint64_t key = text::hashBytes(request.type);
   for (const auto& [name, value] : request.arguments)
     key = text::hashCombine(text::hashBytes(toText(value), text::hashBytes(name, key)),
                             static_cast<std::uint64_t>(value.type));
+  for (const auto& [name, other] : request.of)
+    key = text::hashCombine(text::hashBytes(name, key), keyOf(other));
   return key;
 }
 

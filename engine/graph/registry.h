@@ -73,6 +73,8 @@ struct ImportArgument {
   std::vector<std::string> choices;
   std::string doc;
   bool drawList = false;  // a word that names a draw list
+  bool view = false;      // a word that names a view; empty: that of the file's passes that name none
+  bool ofMeshes = false;  // of a draw list: says something of its meshes only
 };
 
 // A field of the rows of a table that shaders read as an array of structs, by name.
@@ -98,8 +100,11 @@ struct ImportType {
 struct ImportRequest {
   std::string type;
   // In the order of ImportType::arguments, defaults filled in.
-  std::vector<std::pair<std::string, Value>> arguments;
-  const Value& at(std::string_view argument) const;  // one that the type has
+  std::vector<std::pair<std::string, Value>> arguments{};
+  // Draw lists and views that the graph declares, by the arguments that name them.
+  std::vector<std::pair<std::string, ImportRequest>> of{};
+  const Value& at(std::string_view argument) const;             // one that the type has
+  const ImportRequest* named(std::string_view argument) const;  // null: it names none of these
   friend bool operator==(const ImportRequest&, const ImportRequest&) = default;
 };
 // A hash of the request, by which an import is found again without comparing words.
@@ -138,7 +143,7 @@ struct GeometryType {
 struct Registry {
   std::vector<PassType> passTypes;
   std::vector<ImportType> imports;
-  std::vector<std::string> drawLists;  // "spheres", "opaque", …
+  std::vector<std::string> drawLists;  // of every scene: "spheres", "opaque", …
   struct Things {
     std::vector<std::string> lists;  // in which they stand
     std::uint64_t count = 0;

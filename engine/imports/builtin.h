@@ -8,6 +8,7 @@ namespace weft::imports {
 
 void addTables(graph::PlugIns<Import>& imports);
 std::unique_ptr<Import> makeEnvironment();
+std::unique_ptr<Import> makeDrawList();
 std::unique_ptr<Import> makeDrawOrder();
 std::unique_ptr<Import> makeSilhouettes();
 std::unique_ptr<Import> makeMaterialMaps();

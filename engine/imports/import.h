@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -73,6 +74,32 @@ class Provider {
   virtual void dropUploaded(World&) const {}
 };
 
+// The providers of a device.
+class Providers {
+ public:
+  virtual ~Providers() = default;
+  virtual Provider& of(const graph::ImportRequest& request, std::uint64_t key) = 0;  // keyOf() the request
+};
+
+// What a request is made for: the view that it names, or the scene's camera as it is, in a picture of one pixel.
+class NamedView {
+ public:
+  explicit NamedView(const graph::ImportRequest& request) {
+    if (const graph::ImportRequest* view = request.named("view")) view_ = {*view, graph::keyOf(*view)};
+  }
+  const scene::ViewData& view(const Frame& frame) const {
+    return view_ ? frame.providers.of(view_->first, view_->second).view(frame, {})
+                 : frame.camera.view(frame, 1, 1);
+  }
+  std::uint64_t generation(const Frame& frame) const {
+    return view_ ? frame.providers.of(view_->first, view_->second).generation(frame)
+                 : frame.camera.generation(frame);
+  }
+
+ private:
+  std::optional<std::pair<graph::ImportRequest, std::uint64_t>> view_;
+};
+
 class Import {
  public:
   virtual ~Import() = default;
@@ -109,10 +136,17 @@ inline graph::ImportArgument drawListArgument(scene::DrawList initial = scene::D
   const std::string& name = scene::drawListNames()[static_cast<std::size_t>(initial)];
   return {"list", graph::Value::text(name), {}, "a draw list", true};
 }
-// That a request names: expansion lets known ones through only.
-inline scene::DrawList drawListOf(const graph::ImportRequest& request) {
-  return scene::findDrawList(request.at("list").symbol).value_or(scene::DrawList::spheres);
+inline graph::ImportArgument viewArgument() {
+  return {.name = "view",
+          .initial = graph::Value::text(""),
+          .choices = {},
+          .doc = "where the eye is: a camera of the graph; empty for that of its passes",
+          .view = true};
 }
+// What a request of a draw list of a graph's own says.
+scene::Selection selectionOf(const graph::ImportRequest& list);
+// The draw list that a request names: expansion lets known ones through only.
+scene::Selection drawListOf(const graph::ImportRequest& request);
 
 // For facts(): an argument that cannot be, without the place, which expansion knows.
 inline text::Diagnostic badArgument(std::string message, std::string expected, std::string found,

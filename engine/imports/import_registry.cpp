@@ -7,8 +7,8 @@ namespace weft::imports {
 ImportRegistry ImportRegistry::builtin() {
   ImportRegistry registry;
   addTables(registry);
-  for (const auto make : {makeEnvironment, makeDrawOrder, makeSilhouettes, makeMaterialMaps, makeSun,
-                          makeLamps, makeCamera, makeCubeLut, makeImage, makeCut, makeMouse})
+  for (const auto make : {makeEnvironment, makeDrawList, makeDrawOrder, makeSilhouettes, makeMaterialMaps,
+                          makeSun, makeLamps, makeCamera, makeCubeLut, makeImage, makeCut, makeMouse})
     registry.add(make());
   return registry;
 }

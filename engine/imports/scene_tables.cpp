@@ -23,10 +23,26 @@ Columns<scene::MeshRow> meshColumns() {
 }
 
 SceneTables::SceneTables() {
-  for (const std::string& name : scene::drawListNames()) {
-    sphereTables_.emplace_back(name, sphereColumns());
-    meshTables_.emplace_back(name + " meshes", meshColumns());
+  for (int i = 0; i < scene::kDrawListCount; ++i)
+    add(static_cast<scene::DrawList>(i), scene::drawListNames()[static_cast<std::size_t>(i)]);
+}
+
+void SceneTables::add(const scene::Selection& selection, const std::string& label) {
+  lists_.push_back({.selection = selection,
+                    .spheres = {label, sphereColumns()},
+                    .meshes = {label + " meshes", meshColumns()},
+                    .rows = {}});
+}
+
+scene::DrawList SceneTables::listOf(const scene::Selection& selection) {
+  const auto known = std::ranges::find(lists_, selection, &List::selection);
+  const auto list = static_cast<scene::DrawList>(known - lists_.begin());
+  if (known == lists_.end()) {
+    add(selection, "draw list");
+    chosen_.push_back(selection);
+    meshFrameNumber_ = 0;
   }
+  return list;
 }
 
 void SceneTables::beginFrame(const World& world, const FrameInput& input, std::uint64_t number) {
@@ -38,13 +54,14 @@ void SceneTables::beginFrame(const World& world, const FrameInput& input, std::u
   moment_ = moment;
 }
 
-const SceneTables::ListFacts& SceneTables::factsOf(scene::DrawList list) {
-  ListFacts& facts = facts_[static_cast<std::size_t>(list)];
-  if (facts.scene != world_->sceneGeneration())
-    facts = {.scene = world_->sceneGeneration(),
-             .count = static_cast<std::uint32_t>(scene::countInstances(world_->scene(), list)),
-             .moving = scene::isMoving(world_->scene(), list)};
-  return facts;
+const SceneTables::List& SceneTables::factsOf(scene::DrawList list) {
+  List& mine = of(list);
+  if (mine.scene != world_->sceneGeneration()) {
+    mine.scene = world_->sceneGeneration();
+    mine.count = static_cast<std::uint32_t>(scene::countInstances(world_->scene(), mine.selection));
+    mine.moving = scene::isMoving(world_->scene(), mine.selection);
+  }
+  return mine;
 }
 
 std::uint32_t SceneTables::countOf(scene::DrawList list) {
@@ -57,10 +74,11 @@ std::uint64_t SceneTables::generation(scene::DrawList list) {
 }
 
 const std::vector<scene::Instance>& SceneTables::rows(scene::DrawList list) {
-  Rows& mine = rows_[static_cast<std::size_t>(list)];
+  List& mine = of(list);
   const std::uint64_t wanted = generation(list);
   if (mine.generation != wanted) {
-    scene::fillInstances(world_->scene(), list, input_->time, input_->time - input_->deltaTime, mine.rows);
+    scene::fillInstances(world_->scene(), mine.selection, input_->time, input_->time - input_->deltaTime,
+                         mine.rows);
     mine.generation = wanted;
   }
   return mine.rows;
@@ -69,13 +87,13 @@ const std::vector<scene::Instance>& SceneTables::rows(scene::DrawList list) {
 BufferRef SceneTables::spheres(scene::DrawList list, const RowLayout& layout,
                                text::Diagnostics& diagnostics) {
   const auto all = [&] { return std::span(rows(list)); };
-  return sphereTables_[static_cast<std::size_t>(list)].get(layout, generation(list), all, diagnostics);
+  return of(list).spheres.get(layout, generation(list), all, diagnostics);
 }
 
 const scene::MeshFrame& SceneTables::meshFrame() {
   if (meshFrameNumber_ != number_) {
     meshFrame_.update(world_->scene(), world_->sceneGeneration(), input_->time,
-                      input_->time - input_->deltaTime);
+                      input_->time - input_->deltaTime, chosen_);
     meshFrameNumber_ = number_;
   }
   return meshFrame_;
@@ -83,8 +101,7 @@ const scene::MeshFrame& SceneTables::meshFrame() {
 
 BufferRef SceneTables::meshes(scene::DrawList list, const RowLayout& layout, text::Diagnostics& diagnostics) {
   const auto all = [&] { return meshFrame().rows(list); };
-  return meshTables_[static_cast<std::size_t>(list)].get(layout, meshFrame().generation(list), all,
-                                                         diagnostics);
+  return of(list).meshes.get(layout, meshFrame().generation(list), all, diagnostics);
 }
 
 void SceneTables::see(std::span<scene::MeshView* const> views) {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -29,6 +31,11 @@ class SceneTables {
   // Both must live until the next call.
   void beginFrame(const World& world, const FrameInput& input, std::uint64_t number);
 
+  // The number of a list for the functions below: of one of the scene's, or of a graph's own, which is kept from then on. Those that no
+  // graph names any more mostly hold what another list does, and share its rows.
+  scene::DrawList listOf(const scene::Selection& selection);
+  const scene::Selection& selectionOf(scene::DrawList list) { return of(list).selection; }
+
   // The spheres of a draw list.
   BufferRef spheres(scene::DrawList list, const RowLayout& layout, text::Diagnostics& diagnostics);
   const std::vector<scene::Instance>& rows(scene::DrawList list);
@@ -49,27 +56,28 @@ class SceneTables {
   MaterialTextures& textures() { return textures_; }
 
  private:
-  // What is asked of a draw list several times a frame; looking at every sphere each time would cost with a million.
-  struct ListFacts {
-    std::uint64_t scene = 0;  // generation
-    std::uint32_t count = 0;
+  // One draw list. What is asked of it several times a frame is kept; looking at every sphere each time would cost with a million.
+  struct List {
+    scene::Selection selection;
+    RowTable<scene::Instance> spheres;
+    RowTable<scene::MeshRow> meshes;
+    std::uint64_t scene = 0;  // generation of which the next two are
+    std::uint32_t count = 0;  // spheres
     bool moving = false;
-  };
-  struct Rows {
     std::vector<scene::Instance> rows;
-    std::uint64_t generation = 0;
+    std::uint64_t generation = 0;  // of the rows
   };
-  const ListFacts& factsOf(scene::DrawList list);
+  void add(const scene::Selection& selection, const std::string& label);
+  List& of(scene::DrawList list) { return lists_[static_cast<std::size_t>(list)]; }
+  const List& factsOf(scene::DrawList list);
 
   const World* world_ = nullptr;
   const FrameInput* input_ = nullptr;
   std::uint64_t number_ = 0;
   std::pair<double, double> moment_{0, -1};  // time and step, on which all that moves depends
   std::uint64_t moments_ = 0;
-  ListFacts facts_[scene::kDrawListCount];
-  Rows rows_[scene::kDrawListCount];
-  std::vector<RowTable<scene::Instance>> sphereTables_;  // per draw list
-  std::vector<RowTable<scene::MeshRow>> meshTables_;
+  std::deque<List> lists_;                // by number
+  std::vector<scene::Selection> chosen_;  // those behind the scene's
   scene::MeshFrame meshFrame_;
   std::uint64_t meshFrameNumber_ = 0;
   scene::MeshViews meshViews_;

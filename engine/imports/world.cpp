@@ -8,20 +8,10 @@
 
 namespace weft::imports {
 
-double WorldFacts::countOf(std::string_view list) const {
-  const auto found = std::ranges::find(lists, list, &List::name);
-  return found == lists.end() ? 0 : static_cast<double>(found->count);
-}
-
-double WorldFacts::meshesOf(std::string_view list) const {
-  const auto found = std::ranges::find(lists, list, &List::name);
-  return found == lists.end() ? 0 : static_cast<double>(found->meshes);
-}
-
-World::World(scene::Scene scene) : scene_(std::move(scene)) {}
+World::World(scene::Scene scene) : scene_(std::make_shared<const scene::Scene>(std::move(scene))) {}
 
 void World::setScene(scene::Scene scene) {
-  scene_ = std::move(scene);
+  scene_ = std::make_shared<const scene::Scene>(std::move(scene));
   ++sceneGeneration_;
 }
 
@@ -49,17 +39,10 @@ WorldFacts World::facts() const {
     facts.environmentWidth = environment_->width;
     facts.environmentHeight = environment_->height;
   }
-  for (int i = 0; i < scene::kDrawListCount; ++i) {
-    const auto list = static_cast<scene::DrawList>(i);
-    facts.lists.push_back({scene::drawListNames()[static_cast<std::size_t>(i)],
-                           scene::countInstances(scene_, list), scene::countMeshInstances(scene_, list)});
-  }
-  for (const scene::Sphere& sphere : scene_.spheres.rows())
-    if (sphere.lists != 0 && sphere.lists != scene::Sphere{}.lists) ++facts.unusual[sphere.lists];
-  for (const scene::MeshInstance& mesh : scene_.meshInstances.rows())
-    if (mesh.lists != 0 && mesh.lists != scene::MeshInstance{}.lists) ++facts.unusual[mesh.lists];
-  facts.materials = scene_.materials.size();
-  for (const MaterialArray& array : batchTextures(scene_)) {
+  facts.things = scene_;
+  const scene::Scene& scene = *scene_;
+  facts.materials = scene.materials.size();
+  for (const MaterialArray& array : batchTextures(scene)) {
     WorldFacts::Maps& maps = facts.maps;
     ++maps.arrays;
     maps.width = std::max(maps.width, array.width);
@@ -67,15 +50,15 @@ WorldFacts World::facts() const {
     maps.layers = std::max(maps.layers, static_cast<std::uint32_t>(array.textures.size()));
     maps.mips = static_cast<std::uint32_t>(std::bit_width(std::max(maps.width, maps.height)));
   }
-  facts.skins = scene_.skins.size();
-  facts.coloredVertices = scene_.meshData ? scene_.meshData->colors.size() : 0;
-  facts.sun = scene_.sun.has_value();
-  facts.castingSun = facts.sun && scene_.sun->shadow;
-  facts.ground = scene_.ground.has_value();
-  facts.lamps = static_cast<std::uint32_t>(scene_.lamps.size());
+  facts.skins = scene.skins.size();
+  facts.coloredVertices = scene.meshData ? scene.meshData->colors.size() : 0;
+  facts.sun = scene.sun.has_value();
+  facts.castingSun = facts.sun && scene.sun->shadow;
+  facts.ground = scene.ground.has_value();
+  facts.lamps = static_cast<std::uint32_t>(scene.lamps.size());
   facts.castingLamps =
-      static_cast<std::uint32_t>(std::ranges::count_if(scene_.lamps.rows(), &scene::Lamp::shadow));
-  for (const scene::Camera& camera : scene_.cameras.rows()) facts.cameras.push_back(camera.name);
+      static_cast<std::uint32_t>(std::ranges::count_if(scene.lamps.rows(), &scene::Lamp::shadow));
+  for (const scene::Camera& camera : scene.cameras.rows()) facts.cameras.push_back(camera.name);
   return facts;
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,15 +20,7 @@ namespace weft::imports {
 struct WorldFacts {
   bool environment = false;  // one was loaded, or is on its way
   std::uint32_t environmentWidth = 1024, environmentHeight = 512;
-  struct List {
-    std::string name;         // draw list: "spheres"
-    std::uint64_t count = 0;  // spheres
-    std::uint64_t meshes = 0;
-    friend bool operator==(const List&, const List&) = default;
-  };
-  std::vector<List> lists;
-  // How many things stand in each combination of lists (maskOf) that is not the usual one for their kind.
-  std::map<std::uint8_t, std::uint64_t> unusual;
+  std::shared_ptr<const scene::Scene> things;  // that draw lists choose from; null: it is not known
   std::uint64_t materials = 0;
   struct Maps {  // the arrays that materials' textures are batched in: how many, and the greatest of each
     std::uint32_t arrays = 0, width = 1, height = 1, layers = 1, mips = 1;
@@ -41,8 +32,12 @@ struct WorldFacts {
   bool ground = false;
   std::uint32_t lamps = 0, castingLamps = 0;  // all; those with a shadow
   std::vector<std::string> cameras;
-  double countOf(std::string_view list) const;  // spheres; 0 for a list that is not there
-  double meshesOf(std::string_view list) const;
+  double spheresOf(const scene::Selection& list) const {
+    return things ? static_cast<double>(scene::countInstances(*things, list)) : 0;
+  }
+  double meshesOf(const scene::Selection& list) const {
+    return things ? static_cast<double>(scene::countMeshInstances(*things, list)) : 0;
+  }
   friend bool operator==(const WorldFacts&, const WorldFacts&) = default;
 };
 
@@ -50,7 +45,7 @@ class World {
  public:
   explicit World(scene::Scene scene);
 
-  const scene::Scene& scene() const { return scene_; }
+  const scene::Scene& scene() const { return *scene_; }
   void setScene(scene::Scene scene);
   std::uint64_t sceneGeneration() const { return sceneGeneration_; }
 
@@ -72,7 +67,7 @@ class World {
   WorldFacts facts() const;
 
  private:
-  scene::Scene scene_;
+  std::shared_ptr<const scene::Scene> scene_;
   std::shared_ptr<const assets::EnvironmentMap> environment_;
   bool environmentExpected_ = false;
   std::uint64_t sceneGeneration_ = 1, environmentGeneration_ = 1;
@@ -110,6 +105,7 @@ struct BufferRef {
 
 class CameraViews;
 class Files;
+class Providers;
 class SceneTables;
 
 // What a provider makes its textures, buffers and views from: the inputs of one frame, and what providers of one device
@@ -119,8 +115,9 @@ struct Frame {
   const FrameInput& input;
   std::uint64_t number = 0;  // of the frames of this device; not input.frame, which may stand still or jump
   Files& files;
-  SceneTables& tables;  // rows of the draw lists
-  CameraViews& camera;  // the scene's camera as it is
+  SceneTables& tables;   // rows of the draw lists
+  CameraViews& camera;   // the scene's camera as it is
+  Providers& providers;  // of other imports
   std::uint64_t& generations;
 
   // A generation that nothing on this device has had.

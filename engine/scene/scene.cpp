@@ -40,20 +40,47 @@ const Camera* findCamera(const Scene& scene, std::string_view name) {
   return nullptr;
 }
 
-std::size_t countInstances(const Scene& scene, DrawList list) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      scene.spheres.rows(), [&](const Sphere& s) { return (s.lists & maskOf(list)) != 0; }));
+bool matches(std::string_view word, std::string_view text) {
+  const bool before = word.starts_with('*'), after = word.size() > 1 && word.ends_with('*');
+  const std::string_view part = word.substr(before, word.size() - before - after);
+  return before && after ? text.find(part) != text.npos
+         : before        ? text.ends_with(part)
+         : after         ? text.starts_with(part)
+                         : text == part;
 }
 
-std::size_t countMeshInstances(const Scene& scene, DrawList list) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      scene.meshInstances.rows(), [&](const MeshInstance& m) { return (m.lists & maskOf(list)) != 0; }));
+Members::Members(const Selection& selection, const Scene& scene) : lists_(selection.lists) {
+  const auto anyOf = [](const std::string& word, const std::vector<std::string>& texts) {
+    return word.empty() ||
+           std::ranges::any_of(texts, [&](const std::string& text) { return matches(word, text); });
+  };
+  if (!selection.name.empty() || !selection.tag.empty()) {
+    for (const Label& label : scene.labels.rows())
+      labels_.push_back(anyOf(selection.name, label.names) && anyOf(selection.tag, label.tags));
+    labels_.push_back(0);
+  }
+  if (selection.material.empty()) return;
+  for (const Material& material : scene.materials.rows())
+    materials_.push_back(matches(selection.material, material.name));
+  materials_.push_back(0);
 }
 
-bool isMoving(const Scene& scene, DrawList list) {
-  return std::ranges::any_of(scene.spheres.rows(), [&](const Sphere& s) {
-    return (s.lists & maskOf(list)) != 0 && s.velocity != glm::vec3(0);
-  });
+std::size_t countInstances(const Scene& scene, const Selection& list) {
+  const Members members(list, scene);
+  return static_cast<std::size_t>(
+      std::ranges::count_if(scene.spheres.rows(), [&](const Sphere& s) { return members.has(s); }));
+}
+
+std::size_t countMeshInstances(const Scene& scene, const Selection& list) {
+  const Members members(list, scene);
+  return static_cast<std::size_t>(std::ranges::count_if(
+      scene.meshInstances.rows(), [&](const MeshInstance& m) { return members.has(m); }));
+}
+
+bool isMoving(const Scene& scene, const Selection& list) {
+  const Members members(list, scene);
+  return std::ranges::any_of(scene.spheres.rows(),
+                             [&](const Sphere& s) { return s.velocity != glm::vec3(0) && members.has(s); });
 }
 
 bool isMoving(const Scene& scene) {
@@ -65,14 +92,15 @@ bool isMoving(const Scene& scene) {
          });
 }
 
-void fillInstances(const Scene& scene, DrawList list, double time, double previousTime,
+void fillInstances(const Scene& scene, const Selection& list, double time, double previousTime,
                    std::vector<Instance>& out) {
+  const Members members(list, scene);
   out.clear();
   out.reserve(countInstances(scene, list));
   const float now = static_cast<float>(time), before = static_cast<float>(previousTime);
   static const Material kNoMaterial{};
   for (const Sphere& sphere : scene.spheres.rows()) {
-    if ((sphere.lists & maskOf(list)) == 0) continue;
+    if (!members.has(sphere)) continue;
     const Material* found = scene.materials.find(sphere.material);
     const Material& material = found ? *found : kNoMaterial;
     out.push_back({sphere.center + sphere.velocity * now, sphere.radius,

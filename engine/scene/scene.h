@@ -2,6 +2,7 @@
 // motion is a function of the time that the caller gives. What of it depends on time is worked out in engine/scene/frame.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -124,8 +125,9 @@ struct Ground {
   float radius = 100;               // of that surface, about the world's Y axis; it fades in the outer half
 };
 
-// The draw lists a graph may name. A list holds spheres and mesh instances; each may stand in several.
-enum class DrawList : std::uint8_t { spheres, opaque, shadow_casters, transparent_spheres, transparent };
+// The draw lists that every scene has. A list holds spheres and mesh instances; each may stand in several. Greater numbers are those
+// of lists that graphs choose, each with a Selection, which whoever numbers them keeps.
+enum class DrawList : std::uint16_t { spheres, opaque, shadow_casters, transparent_spheres, transparent };
 constexpr int kDrawListCount = 5;
 const std::vector<std::string>& drawListNames();  // in the order of the enum
 std::optional<DrawList> findDrawList(std::string_view name);
@@ -133,11 +135,34 @@ constexpr std::uint8_t maskOf(DrawList list) {
   return static_cast<std::uint8_t>(1u << static_cast<unsigned>(list));
 }
 
+// How the meshes of a list are drawn: those of a mesh together, those of a material together, or by the depth of the centers of
+// their boxes. Equal ones in the order of the rows.
+enum class MeshOrder : std::uint8_t { by_mesh, by_material, front_to_back, back_to_front };
+
+// Which things of a scene a draw list holds.
+struct Selection {
+  std::uint8_t lists = 0xff;        // those in any of these
+  std::string name, tag, material;  // names with '*' at the ends for any text; empty: whatever it is
+  std::optional<MeshOrder> order;   // empty: back_to_front where a pass blends, else by_mesh
+  Selection() = default;
+  Selection(DrawList list)
+      : lists(maskOf(list)) {}  // NOLINT(google-explicit-constructor): one of the scene's is a selection
+  friend bool operator==(const Selection&, const Selection&) = default;
+};
+
+// What a selection knows a thing by, besides its material.
+struct Label {
+  std::vector<std::string> names, tags;  // its own, and those of the nodes and the model that it is part of
+  friend bool operator==(const Label&, const Label&) = default;
+};
+using LabelId = Id<Label>;
+
 struct Sphere {
   glm::vec3 center{0};    // world, at time 0
   float radius = 1;       // over 0
   glm::vec3 velocity{0};  // world units per second, constant
   MaterialId material;
+  LabelId label{};
   std::uint8_t lists = maskOf(DrawList::spheres);
 };
 
@@ -146,12 +171,14 @@ struct MeshInstance {
   MeshId mesh;
   MaterialId material;
   SkinId skin;  // of a skinned mesh; its joints place it then, and not its node
+  LabelId label{};
   std::uint8_t lists = static_cast<std::uint8_t>(maskOf(DrawList::opaque) | maskOf(DrawList::shadow_casters));
 };
 
 struct Scene {
   std::string name;
   Table<Material> materials;
+  Table<Label> labels;
   Table<Sphere> spheres;
   Table<Texture> textures;
   std::shared_ptr<const MeshData> meshData;  // null: no meshes
@@ -181,13 +208,33 @@ struct Instance {
   float metallic = 0;
 };
 
-std::size_t countInstances(const Scene& scene, DrawList list);      // spheres
-std::size_t countMeshInstances(const Scene& scene, DrawList list);  // mesh instances
+// Which rows of a scene a selection holds, found out once.
+class Members {
+ public:
+  Members(const Selection& selection, const Scene& scene);
+  bool has(const auto& row) const {  // a Sphere or a MeshInstance
+    return (row.lists & lists_) != 0 && admits(labels_, row.label.index) &&
+           admits(materials_, row.material.index);
+  }
+
+ private:
+  // By row, and one more for none; empty: all.
+  static bool admits(const std::vector<std::uint8_t>& rows, std::uint32_t row) {
+    return rows.empty() || rows[std::min<std::size_t>(row, rows.size() - 1)] != 0;
+  }
+  std::uint8_t lists_;
+  std::vector<std::uint8_t> labels_, materials_;
+};
+// Whether a text is what a word of a Selection says.
+bool matches(std::string_view word, std::string_view text);
+
+std::size_t countInstances(const Scene& scene, const Selection& list);      // spheres
+std::size_t countMeshInstances(const Scene& scene, const Selection& list);  // mesh instances
 // Whether the list's spheres differ from one time to another.
-bool isMoving(const Scene& scene, DrawList list);
+bool isMoving(const Scene& scene, const Selection& list);
 bool isMoving(const Scene& scene);  // any sphere or node
 // Replaces `out` by the list's instances in table order. Linear in spheres; reuses the capacity of `out`.
-void fillInstances(const Scene& scene, DrawList list, double time, double previousTime,
+void fillInstances(const Scene& scene, const Selection& list, double time, double previousTime,
                    std::vector<Instance>& out);
 
 }  // namespace weft::scene

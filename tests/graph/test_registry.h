@@ -61,6 +61,18 @@ inline ImportArgument drawListArgument() {
   return {.name = "list", .initial = Value::text("spheres"), .choices = {}, .doc = "", .drawList = true};
 }
 
+inline ImportArgument viewArgument() {
+  return {.name = "view", .initial = Value::text(""), .choices = {}, .doc = "", .view = true};
+}
+
+inline ImportArgument orderArgument() {
+  return {.name = "order",
+          .initial = Value::text("auto"),
+          .choices = {"auto", "front_to_back"},
+          .doc = "",
+          .ofMeshes = true};
+}
+
 inline std::vector<ImportType> testImports() {
   Value grid;
   grid.type = Value::Type::list;
@@ -103,8 +115,17 @@ inline std::vector<ImportType> testImports() {
        ImportKind::buffer,
        "",
        {drawListArgument(), argument("by", Value::text("power"), {"power", "depth"}),
-        argument("method", Value::text("cpu_radix"), {"cpu_std", "cpu_radix", "gpu_bitonic"})}},
-      {"silhouettes", ImportKind::buffer, "", {drawListArgument(), argument("height", Value::number(720))}},
+        argument("method", Value::text("cpu_radix"), {"cpu_std", "cpu_radix", "gpu_bitonic"}),
+        viewArgument()}},
+      {"draw_list",
+       ImportKind::list,
+       "",
+       {argument("of", Value::text("all"), {"all", "opaque", "spheres"}), argument("name", Value::text("")),
+        argument("tag", Value::text("")), argument("material_name", Value::text("")), orderArgument()}},
+      {"silhouettes",
+       ImportKind::buffer,
+       "",
+       {drawListArgument(), argument("height", Value::number(720)), viewArgument()}},
       {"cube_lut", ImportKind::texture, "", {argument("file", Value{})}},
       {"image",
        ImportKind::texture,
@@ -151,6 +172,9 @@ inline ImportFacts testFacts(const World& world, const ImportRequest& request) {
   } else if (request.type == "spheres") {
     facts.count = world.spheres;
     facts.bytes = 4800;
+  } else if (request.type == "draw_list") {
+    facts.count = request.at("tag").symbol == "rare" ? 0 : 3;
+    facts.exists = facts.count > 0;
   } else if (request.type == "draw_order") {
     facts.count = world.spheres;
     facts.bytes = 800;

@@ -42,6 +42,20 @@ graph::ImportFacts factsOf(const graph::ImportRequest& request, const WorldFacts
   return importOf(request.type).facts(request, world, files);
 }
 
+// Of a scene with so many spheres in `spheres`, and so many in `opaque`, in red.
+WorldFacts factsWith(std::size_t spheres, std::size_t opaque) {
+  scene::Scene scene;
+  scene.name = "toys";
+  scene.cameras.add({.name = "front"});
+  scene.materials.add({.name = "red"});
+  const scene::LabelId label = scene.labels.add({.names = {"ball"}, .tags = {"marked"}});
+  for (std::size_t i = 0; i < spheres; ++i) scene.spheres.add({});
+  for (std::size_t i = 0; i < opaque; ++i)
+    scene.spheres.add(
+        {.material = scene.materials.idOf(0), .label = label, .lists = maskOf(scene::DrawList::opaque)});
+  return World(std::move(scene)).facts();
+}
+
 class Clouds : public Import {
  public:
   graph::ImportType reflect() const override { return {.name = "clouds", .doc = "of an embedder"}; }
@@ -69,9 +83,9 @@ TEST_CASE(
     }
     CHECK(importOf(type.name).provide(requestOf(type.name)));
   }
-  CHECK(names == std::set<std::string>{"camera", "cube_lut", "cut", "draw_order", "environment", "ground",
-                                       "image", "joints", "lamps", "material_maps", "materials", "meshes",
-                                       "mouse", "silhouettes", "spheres", "sun", "vertex_colors"});
+  CHECK(names == std::set<std::string>{"camera", "cube_lut", "cut", "draw_list", "draw_order", "environment",
+                                       "ground", "image", "joints", "lamps", "material_maps", "materials",
+                                       "meshes", "mouse", "silhouettes", "spheres", "sun", "vertex_colors"});
   CHECK_FALSE(registry().find("clouds"));
 }
 
@@ -79,7 +93,7 @@ TEST_CASE("the environment is a texture with levels, and a graph that stands in 
   const graph::ImportType type = importOf("environment").reflect();
   CHECK(type.kind == ImportKind::texture);
   CHECK(importOf("environment").standInGraph() == "graphs/daylight.json");
-  WorldFacts world{.environment = true, .environmentWidth = 512, .environmentHeight = 256, .lists = {}};
+  WorldFacts world{.environment = true, .environmentWidth = 512, .environmentHeight = 256};
   const graph::ImportFacts facts = factsOf(requestOf("environment"), world);
   CHECK(facts.exists);
   CHECK(facts.fallback);
@@ -96,7 +110,7 @@ TEST_CASE("spheres are a table of instances, as many as the world's list has") {
   CHECK(type.kind == ImportKind::buffer);
   CHECK(type.columns.size() == 6);
   CHECK(type.arguments.empty());
-  CHECK(factsOf(requestOf("spheres"), {.lists = {{"opaque", 3}, {"spheres", 7}}}).count == 7);
+  CHECK(factsOf(requestOf("spheres"), factsWith(7, 3)).count == 7);
   CHECK(factsOf(requestOf("spheres"), {}).count == 0);
 }
 
@@ -106,7 +120,7 @@ TEST_CASE("a draw order has eight bytes per instance of the list that it names, 
   CHECK(type.columns.empty());
   const auto lists = std::ranges::count_if(type.arguments, &graph::ImportArgument::drawList);
   CHECK(lists == 1);
-  const WorldFacts world{.lists = {{"spheres", 7}, {"opaque", 3}}};
+  const WorldFacts world = factsWith(7, 3);
   const graph::ImportFacts facts = factsOf(requestOf("draw_order", "list", "opaque"), world);
   CHECK(facts.count == 3);
   CHECK(facts.bytes == 24);
@@ -118,11 +132,31 @@ TEST_CASE(
   const graph::ImportType type = importOf("silhouettes").reflect();
   CHECK(type.kind == ImportKind::buffer);
   CHECK(type.columns.empty());
-  const graph::ImportFacts facts =
-      factsOf(requestOf("silhouettes", "list", "opaque"), {.lists = {{"spheres", 7}, {"opaque", 3}}});
+  const graph::ImportFacts facts = factsOf(requestOf("silhouettes", "list", "opaque"), factsWith(7, 3));
   CHECK(facts.exists);
   CHECK(facts.count == 3);
   CHECK(facts.bytes == 0);
+}
+
+TEST_CASE("a draw list of nothing is told with the nearest word of the scene, unless no scene is known") {
+  const auto of = [](std::string_view argument, const std::string& word, const WorldFacts& world) {
+    return factsOf(requestOf("draw_list", argument, word), world);
+  };
+  const WorldFacts world = factsWith(7, 3);
+  CHECK(of("of", "opaque", world).count == 3);
+  CHECK(of("of", "all", world).count == 10);
+  CHECK(of("tag", "marked", world).count == 3);
+  CHECK(of("tag", "marked", world).problems.empty());
+  const graph::ImportFacts none = of("tag", "marke", world);
+  CHECK_FALSE(none.exists);
+  REQUIRE(none.problems.size() == 1);
+  CHECK(none.problems[0].severity == text::Severity::warning);
+  CHECK(none.problems[0].code == text::Code::emptyImport);
+  CHECK(none.problems[0].message.find("'toys'") != std::string::npos);
+  CHECK(none.problems[0].hint == "did you mean 'marked'?");
+  CHECK(of("material_name", "wood", world).problems.at(0).message.find("wood") != std::string::npos);
+  CHECK(of("of", "transparent", world).problems.size() == 1);
+  CHECK(of("tag", "marke", {}).problems.empty());
 }
 
 TEST_CASE("a sun is there if the scene has one, if it casts, or if the graph says where it stands") {
@@ -230,7 +264,9 @@ TEST_CASE("what may differ from frame to frame says so; none of the built-in imp
     CAPTURE(type.name);
     const auto provider = importOf(type.name).provide(requestOf(type.name));
     CHECK(provider->isStill(moving) == always.contains(type.name));
-    const bool ofTheScene = type.kind == ImportKind::buffer && !type.columns.empty() && type.name != "mouse";
+    const bool ofTheScene =
+        (type.kind == ImportKind::buffer && !type.columns.empty() && type.name != "mouse") ||
+        type.kind == ImportKind::list;
     CHECK(provider->isStill(still) == (always.contains(type.name) || ofTheScene));
     CHECK_FALSE(provider->remembers(moving));
   }

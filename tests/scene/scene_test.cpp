@@ -49,6 +49,40 @@ TEST_CASE("moving spheres stand where the time says, then and before") {
   CHECK(out[0].radius == 2);
 }
 
+TEST_CASE(
+    "a word of a selection stands for itself, and with * at its ends for what begins, ends or holds it") {
+  CHECK(matches("left", "left"));
+  CHECK_FALSE(matches("left", "lefty"));
+  CHECK(matches("left*", "lefty"));
+  CHECK_FALSE(matches("left*", "a left"));
+  CHECK(matches("*left", "a left"));
+  CHECK(matches("*ef*", "left"));
+  CHECK_FALSE(matches("*eft*", "le ft"));
+  CHECK(matches("*", "anything"));
+}
+
+TEST_CASE("a selection holds what is in its lists and has its name, its tag and its material") {
+  Scene scene = twoSpheres();
+  scene.materials.add({.name = "old gold"});
+  Sphere third;
+  third.material = scene.materials.idOf(1);
+  third.label = scene.labels.add({.names = {"ball", "toys"}, .tags = {"small"}});
+  scene.spheres.add(third);
+  const auto count = [&](auto choose) {
+    Selection selection;
+    choose(selection);
+    return countInstances(scene, selection);
+  };
+  CHECK(count([](Selection&) {}) == 3);
+  CHECK(count([](Selection& s) { s.material = "*gold"; }) == 2);
+  CHECK(count([](Selection& s) { s.material = "gold"; }) == 1);
+  CHECK(count([](Selection& s) { s.name = "toy*"; }) == 1);
+  CHECK(count([](Selection& s) { s.name = "*"; }) == 1);  // what has a name
+  CHECK(count([](Selection& s) { s.tag = "small"; }) == 1);
+  CHECK(count([](Selection& s) { s.tag = "small", s.name = "box"; }) == 0);
+  CHECK(count([](Selection& s) { s = DrawList::transparent_spheres, s.tag = "small"; }) == 0);
+}
+
 TEST_CASE("lists and cameras are found by name") {
   for (std::size_t i = 0; i < kDrawListCount; ++i)
     CHECK(findDrawList(drawListNames()[i]) == static_cast<DrawList>(i));

@@ -102,6 +102,8 @@ class PassWalk {
     const auto child = scope.includes.find(desc.include->as);
     if (child == scope.includes.end() || child->second->stanza != &desc) return;
     checkExpr(model_, scope, desc.enabled);
+    checkExpr(model_, scope, desc.include->screen);
+    screenOf(model_, *child->second);
     Names names(model_, scope);
     const auto enabled = evaluateCondition(names, desc.enabled, true, "'enabled' of an include");
     if (enabled) walk(*child->second, why.empty() && !*enabled ? whyFalse(desc.enabled) : why);

@@ -162,19 +162,37 @@ void checkKeys(const SlotContext& context, const PassDesc& desc) {
     context.report(Code::keyNeeded, desc.namePlace, "lacks a key or a slot", {.expected = lacking});
 }
 
+// Reports what a list of the graph's own says of meshes, while spheres are drawn.
+void checkOwnList(const SlotContext& context, const PassDesc& desc, const ImportRequest& list) {
+  const ImportType& type = *findImportType(context.model.registry, list.type);
+  for (const ImportArgument& argument : type.arguments)
+    if (argument.ofMeshes && !(list.at(argument.name) == argument.initial))
+      context.report(
+          Code::keyNotTaken, desc.listPlace,
+          fmt::format("draws spheres of '{}', whose \"{}\" is of meshes", desc.list, argument.name),
+          {.hint = "draw its meshes, or sort with the import draw_order"});
+}
+
 void checkLists(const SlotContext& context, const PassDesc& desc) {
-  const auto& drawLists = context.model.registry.drawLists;
-  const auto& geometries = context.model.registry.geometries;
-  if (!desc.list.empty() && std::ranges::find(drawLists, desc.list) == drawLists.end())
+  Model& model = context.model;
+  const auto& geometries = model.registry.geometries;
+  std::vector<std::string> lists = model.registry.drawLists;
+  const std::uint32_t own = findDeclared(model, context.names.scope(), desc.list, ImportKind::list);
+  if (!desc.list.empty() && own == kNone && std::ranges::find(lists, desc.list) == lists.end()) {
+    for (const std::string& name : resourceNames(model, context.names.scope()))
+      if (findDeclared(model, context.names.scope(), name, ImportKind::list) != kNone) lists.push_back(name);
     context.report(Code::unknownDrawList, desc.listPlace,
                    fmt::format("draws the unknown list '{}'", desc.list),
-                   {.hint = text::nearestHint(desc.list, drawLists)});
+                   {.hint = text::nearestHint(desc.list, lists)});
+  }
   if (desc.geometry.empty()) return;
   const GeometryType* const geometry = findGeometry(context, desc);
   if (!geometry)
     context.report(Code::unknownGeometry, desc.geometryPlace,
                    fmt::format("draws the unknown geometry '{}'", desc.geometry),
                    {.hint = text::nearestHint(desc.geometry, namesOf(geometries))});
+  else if (own != kNone && !geometry->meshes && ensureShape(model, own))
+    checkOwnList(context, desc, model.graph.imports[model.entities[own].import].request);
   else if (geometry->meshes && desc.list.empty())
     context.report(Code::keyNeeded, desc.geometryPlace, fmt::format("draws '{}' of no list", desc.geometry),
                    {.expected = "\"list\": the draw list whose meshes are drawn"});
@@ -266,14 +284,10 @@ namespace {
 void resolveView(const SlotContext& context, const PassDesc& desc, PassSpec& spec) {
   Model& model = context.model;
   Scope& scope = context.names.scope();
+  spec.screen = screenOf(model, scope);
   if (!desc.view) {
-    // Declared under the name of such a type, here or in an enclosing file.
-    for (const ImportType& type : model.registry.imports) {
-      if (!type.everyPass) continue;
-      const std::uint32_t view = findEntity(model, scope, type.name, true);
-      if (view != kNone && model.entities[view].desc && ensureShape(model, view))
-        spec.view = model.entities[view].import;
-    }
+    if (const std::uint32_t view = findFileView(model, scope); view != kNone)
+      spec.view = model.entities[view].import;
     return;
   }
   const RefDesc& ref = *desc.view;
@@ -519,6 +533,10 @@ void addRaster(const SlotContext& context, const PassDesc& desc, const std::vect
 void addGeometry(const SlotContext& context, const PassDesc& desc, PassSpec& spec,
                  std::vector<DeferredUniform>& deferred) {
   spec.list = desc.list;
+  if (const std::uint32_t own =
+          findDeclared(context.model, context.names.scope(), desc.list, ImportKind::list);
+      own != kNone && ensureShape(context.model, own))
+    spec.listImport = context.model.entities[own].import;
   spec.geometry = desc.geometry;
   if (isDynamic(context.model, context.names.scope(), desc.instances))
     deferred.push_back({.expr = &desc.instances});

@@ -157,10 +157,14 @@ class FileWriter {
         // An empty word is what an argument is when nothing is given; written, it would be an empty expression.
         const bool given =
             value.type == Value::Type::symbol ? !value.symbol.empty() : value.type != Value::Type::none;
-        if (name == "element" || !given) continue;
+        const ImportRequest* named = spec.request.named(name);
+        if (name == "element" || (!given && !named)) continue;
         const bool path = name.ends_with("file") && !value.symbol.empty();
-        json[name] =
-            path ? Json(std::filesystem::absolute(value.symbol).lexically_normal().string()) : jsonOf(value);
+        json[name] = named  ? Json(importName(static_cast<std::uint32_t>(
+                                 std::ranges::find(graph_.imports, *named, &ImportSpec::request) -
+                                 graph_.imports.begin())))
+                     : path ? Json(std::filesystem::absolute(value.symbol).lexically_normal().string())
+                            : jsonOf(value);
       }
       all[importName(import)] = std::move(json);
     }
@@ -276,7 +280,7 @@ class FileWriter {
 
   void addDrawing(const PassSpec& spec, Json& json) {
     if (spec.threadsPlace.line > 0) json["threads"] = {spec.threads[0], spec.threads[1], spec.threads[2]};
-    if (!spec.list.empty()) json["list"] = spec.list;
+    if (!spec.list.empty()) json["list"] = spec.listImport == kNone ? spec.list : importName(spec.listImport);
     if (!spec.geometry.empty()) {
       json["geometry"] = spec.geometry;
       if (!spec.geometryArguments.empty())

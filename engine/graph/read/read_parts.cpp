@@ -197,14 +197,22 @@ bool isPath(std::string_view key, std::string_view text) {
          std::ranges::any_of(kEndings, [&](std::string_view ending) { return text.ends_with(ending); });
 }
 
+// The same for a name that a scene file gives: of an argument whose key ends in "name".
+bool isForeignName(std::string_view key, std::string_view text) {
+  return key.ends_with("name") && !text.starts_with('$');
+}
+
 void readImport(ReadContext& context, const JsonValue& value, ImportDesc& out) {
   out.type = textIn(value, "import");
   for (const auto& member : value.members) {
     if (member.key == "import" || member.key == "sample") continue;
     const bool named = context.checkName(member.key, member.place, {"an argument"});
     const JsonValue& given = member.value;
+    const bool isText = given.is(Type::string);
     Expr expr =
-        given.is(Type::string) && isPath(member.key, given.text)
+        isText && isForeignName(member.key, given.text)
+            ? Expr::constant(Value::text(given.text), given.textPlace())
+        : isText && isPath(member.key, given.text)
             ? Expr::constant(Value::text(text::besideFile(given.textPlace(), given.text)), given.textPlace())
             : context.exprOf(given);
     if (named && expr.present()) out.arguments.push_back({member.key, member.place, std::move(expr)});
@@ -358,6 +366,7 @@ void readInclude(ReadContext& context, const JsonValue& value, PassDesc& out) {
   include.file = file.text;
   include.filePlace = file.place;
   out.enabled = context.expr(value, "enabled");
+  include.screen = context.expr(value, "screen");
   for (const JsonMember& member : membersIn(value, "bind")) {
     const bool named = context.checkName(member.key, member.place, {"an input"});
     std::optional<RefDesc> ref = context.refOf(member.value);

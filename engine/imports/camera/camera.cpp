@@ -46,8 +46,9 @@ CameraViews::Poses posesOf(const graph::ImportRequest& request) {
     const FrameInput& input = frame.input;
     const scene::Camera* camera = name.empty() ? nullptr : scene::findCamera(frame.world.scene(), name);
     if (!camera) return std::pair(seen(input.pose), seen(input.previousPose));
-    return std::pair(seen(scene::poseAt(*camera, input.time)),
-                     seen(scene::poseAt(*camera, input.time - input.deltaTime)));
+    return std::pair(
+        seen(scene::poseAt(*camera, input.time)),
+        seen(scene::poseAt(*camera, input.frame == 0 ? input.time : input.time - input.deltaTime)));
   };
 }
 

@@ -19,21 +19,22 @@ class SilhouettesProvider : public Provider {
  public:
   explicit SilhouettesProvider(const graph::ImportRequest& request)
       : list_(drawListOf(request)),
+        view_(request),
         height_(static_cast<float>(std::clamp(request.at("height").v[0], 1.0, kHighest))) {}
 
   BufferRef buffer(const Frame& frame, const RowLayout&, text::Diagnostics& diagnostics) override {
     const std::uint64_t now = generation(frame);
     if (buffer_ && sent_ == now) return {buffer_.id(), buffer_.bytes()};
-    found_.find(frame.tables.rows(list_), eye_, kPixels * pixel_);
+    found_.find(frame.tables.rows(frame.tables.listOf(list_)), eye_, kPixels * pixel_);
     if (!sendTo(buffer_, std::as_bytes(std::span(found_.rows())), "silhouettes", true, diagnostics))
       return {};
     sent_ = now;
     return {buffer_.id(), buffer_.bytes()};
   }
   std::uint64_t generation(const Frame& frame) override {
-    const scene::ViewData& view = frame.camera.view(frame, 1, 1);
+    const scene::ViewData& view = view_.view(frame);
     const float pixel = 2 / (view.projection[1].y * height_);
-    const std::uint64_t rows = frame.tables.generation(list_);
+    const std::uint64_t rows = frame.tables.generation(frame.tables.listOf(list_));
     if (generation_ == 0 || rows != rows_ || view.eye != eye_ || pixel != pixel_)
       generation_ = frame.newGeneration();
     rows_ = rows;
@@ -43,7 +44,8 @@ class SilhouettesProvider : public Provider {
   }
 
  private:
-  scene::DrawList list_;
+  scene::Selection list_;
+  NamedView view_;
   float height_;
   scene::Silhouettes found_;
   gl::Buffer buffer_;
@@ -63,12 +65,13 @@ class Silhouettes : public ImportOf<SilhouettesProvider> {
                 "uvec4(first, number, 0, 0) per instance, then per such sphere the bits of vec4(center from "
                 "the eye, radius); empty with more than 4096, or 131072 pairs that meet.",
             .arguments = {drawListArgument(),
-                          argument("height", graph::Value::number(720), "of the picture, pixels")}};
+                          argument("height", graph::Value::number(720), "of the picture, pixels"),
+                          viewArgument()}};
   }
 
   graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,
                            Files&) const override {
-    graph::ImportFacts facts{.exists = true, .count = world.countOf(request.at("list").symbol)};
+    graph::ImportFacts facts{.exists = true, .count = world.spheresOf(drawListOf(request))};
     const double height = request.at("height").v[0];
     if (height >= 1 && height <= kHighest) return facts;
     facts.problems.push_back(

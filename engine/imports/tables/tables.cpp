@@ -39,7 +39,7 @@ class Spheres : public ImportOf<SpheresProvider> {
             .columns = tell(sphereColumns())};
   }
   ImportFacts facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const override {
-    return {.exists = true, .count = world.countOf("spheres")};
+    return {.exists = true, .count = world.spheresOf(scene::DrawList::spheres)};
   }
 };
 
@@ -47,16 +47,18 @@ class MeshesProvider : public Provider {
  public:
   explicit MeshesProvider(const graph::ImportRequest& request) : list_(drawListOf(request)) {}
   BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
-    return frame.tables.meshes(list_, layout, diagnostics);
+    return frame.tables.meshes(frame.tables.listOf(list_), layout, diagnostics);
+  }
+  std::uint64_t generation(const Frame& frame) override {
+    return frame.tables.meshFrame().generation(frame.tables.listOf(list_));
   }
   bool value(const Frame& frame, const ViewPart& part, std::uint32_t column, Numbers& out) override {
-    return meshes_.read(frame.tables.meshFrame().rows(list_), part.element, column, out);
+    return meshes_.read(frame.tables.meshFrame().rows(frame.tables.listOf(list_)), part.element, column, out);
   }
-  std::uint64_t generation(const Frame& frame) override { return frame.tables.meshFrame().generation(list_); }
   bool isStill(const World& world) const override { return !scene::isMoving(world.scene()); }
 
  private:
-  scene::DrawList list_;
+  scene::Selection list_;
   RowTable<scene::MeshRow> meshes_{"meshes", meshColumns()};
 };
 
@@ -73,7 +75,7 @@ class Meshes : public ImportOf<MeshesProvider> {
         .columns = tell(meshColumns())};
   }
   ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) const override {
-    const double count = world.meshesOf(request.at("list").symbol);
+    const double count = world.meshesOf(drawListOf(request));
     return {.exists = count > 0, .count = count};
   }
 };

@@ -60,9 +60,11 @@ std::uint64_t hashOf(const PreparedPass& pass, graph::Cadence cadence, ResourceP
         publisher != kNone && publisher != pass.group)
       hash = text::hashCombine(hash, pool[resource].shows);
   for (const std::uint32_t axis : pass.context.spec->threads) hash = text::hashCombine(hash, axis);
-  if (pass.list >= 0)
+  if (pass.list >= 0) {
     hash = text::hashCombine(
         hash, imports.generation(static_cast<scene::DrawList>(pass.list), pass.meshes != nullptr));
+    hash = text::hashCombine(hash, static_cast<std::uint64_t>(pass.list));
+  }
   return hash;
 }
 
@@ -214,8 +216,10 @@ void Execution::lookAtMeshes() {
       return color.second.blend.color.destination == graph::BlendFactor::one_minus_src_alpha;
     });
     meshViews_.push_back(&pass.meshes->view());
-    meshViews_.back()->look(static_cast<scene::DrawList>(pass.list), view.view, view.view_projection,
-                            sorted ? scene::MeshOrder::back_to_front : scene::MeshOrder::by_mesh);
+    const auto list = static_cast<scene::DrawList>(pass.list);
+    const scene::MeshOrder order = sorted ? scene::MeshOrder::back_to_front : scene::MeshOrder::by_mesh;
+    meshViews_.back()->look(list, view.view, view.view_projection,
+                            device_.imports.tables().selectionOf(list).order.value_or(order));
   }
   if (!meshViews_.empty()) device_.imports.tables().see(meshViews_);
 }
@@ -313,7 +317,8 @@ bool Execution::remembers(const World& world) const {
     if (!kept) continue;
     if (pass.meshes
             ? scene::isMoving(world.scene())
-            : pass.list >= 0 && scene::isMoving(world.scene(), static_cast<scene::DrawList>(pass.list)))
+            : pass.list >= 0 && scene::isMoving(world.scene(), imports.tables().selectionOf(
+                                                                   static_cast<scene::DrawList>(pass.list))))
       return true;
     if (pass.viewBlock &&
         (plan.passOf(step).cadence == graph::Cadence::every || cameraMoves || spec.view != graph::kNone))

@@ -94,7 +94,8 @@ class PassKeeper {
     const FlatPass &now = mine.passes[stepNow.pass], &then = theirs.passes[stepThen.pass];
     const PassSpec &spec = mine.specs[stepNow.pass], &specThen = theirs.specs[stepThen.pass];
     if (now.useCount != then.useCount || now.slices != then.slices ||
-        stepNow.clearCount != stepThen.clearCount || !sameSpec(spec, specThen))
+        stepNow.clearCount != stepThen.clearCount || !sameSpec(spec, specThen) ||
+        !sameImport(mine, spec.listImport, theirs, specThen.listImport))
       return false;
     for (std::uint32_t i = 0; i < spec.slotCount; ++i)
       if (!sameSlot(mine, mine.slots[spec.firstSlot + i], theirs, theirs.slots[specThen.firstSlot + i]))
@@ -263,8 +264,8 @@ std::optional<PreparedPlan> preparePlan(Device& device, std::shared_ptr<const gr
     const graph::PassSpec& spec = graph.specs[made.plan->steps[step].pass];
     ++made.passesPrepared;
     text::Diagnostics said;
-    PrepareContext context{
-        *made.plan, device.passTypes, variants[step], *made.pool, device.geometries, device.samplers, said};
+    PrepareContext context{*made.plan,        device.passTypes, variants[step],          *made.pool,
+                           device.geometries, device.samplers,  device.imports.tables(), said};
     std::optional<PreparedPass> pass = preparePass(context, step);
     appendWithPlaces(
         said,

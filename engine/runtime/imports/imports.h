@@ -5,6 +5,7 @@
 #include <glad/gl.h>
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <span>
 #include <string>
@@ -27,7 +28,7 @@ using imports::RowLayout;
 using imports::World;
 using imports::WorldFacts;
 
-class Imports {
+class Imports : public imports::Providers {
  public:
   explicit Imports(std::shared_ptr<const imports::ImportRegistry> registry);
   Imports(const Imports&) = delete;
@@ -56,7 +57,7 @@ class Imports {
         .value(frame(), {graph.screenWidth, graph.screenHeight, row}, asked.column, out);
   }
   // What a pass whose attachments have this size is seen from: its view, else the scene's camera as it is. A camera's is of
-  // the graph's screen.
+  // the screen of the pass.
   const scene::ViewData& view(const graph::FlatGraph& graph, const graph::PassSpec& spec, std::uint32_t width,
                               std::uint32_t height);
   // Moves when what a draw list draws may be another: its spheres or its meshes.
@@ -105,20 +106,24 @@ class Imports {
     bool used = false;
   };
   Held& hold(const graph::ImportRequest& request, std::uint64_t key);
-  Held& heldOf(const graph::ImportSpec& import) {
+  Held& heldOf(const graph::ImportRequest& request, std::uint64_t key) {
     for (Held& each : held_)
-      if (each.key == import.key) return each;
-    return hold(import.request, import.key);
+      if (each.key == key) return each;
+    return hold(request, key);
   }
-  imports::Provider& of(const graph::ImportSpec& import) {
-    Held& held = heldOf(import);
+  Held& heldOf(const graph::ImportSpec& import) { return heldOf(import.request, import.key); }
+  imports::Provider& of(const graph::ImportSpec& import) { return use(heldOf(import)); }
+  imports::Provider& of(const graph::ImportRequest& request, std::uint64_t key) override {
+    return use(heldOf(request, key));
+  }
+  static imports::Provider& use(Held& held) {
     held.used = true;
     return *held.provider;
   }
-  imports::Frame frame() { return {*world_, input_, frames_, files_, tables_, camera_, generations_}; }
+  imports::Frame frame() { return {*world_, input_, frames_, files_, tables_, camera_, *this, generations_}; }
 
   std::shared_ptr<const imports::ImportRegistry> registry_;
-  std::vector<Held> held_;
+  std::deque<Held> held_;  // stays in place while another is made for it
   const World* world_ = nullptr;
   FrameInput input_;
   std::uint64_t frames_ = 0, generations_ = 0;

@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "engine/glsl/interface.h"
+#include "engine/imports/import.h"
 #include "engine/runtime/prepare/prepared_pass.h"
 #include "engine/runtime/prepare/program_request.h"
 #include "engine/runtime/storage/formats.h"
@@ -43,6 +44,12 @@ class Preparer {
   }
 
  private:
+  int listOf() const {
+    const auto* own = spec_.listImport == kNone ? nullptr : &graph_.imports[spec_.listImport].request;
+    return static_cast<int>(
+        c_.tables.listOf(own ? imports::selectionOf(*own) : *scene::findDrawList(spec_.list)));
+  }
+
   bool isAttached(std::uint32_t use) const { return c_.plan.attached[use] != 0; }
 
   void collectUses() {
@@ -117,7 +124,7 @@ class Preparer {
         out_.variant->program.reflection().findStorageBlock(imports::kInstancesBlock);
     if (instances && !spec_.list.empty() && !hasSlot(imports::kInstancesBlock)) {
       BufferBinding binding{.index = instances->binding};
-      binding.list = static_cast<int>(*scene::findDrawList(spec_.list));
+      binding.list = listOf();
       binding.meshes = spec_.meshes;
       takeLayout(*instances, instanceColumnsOf(spec_), binding);
       out_.buffers.push_back(binding);
@@ -303,7 +310,7 @@ class Preparer {
   void prepareGeometry(const graph::PassType& type) {
     if (type.shader == graph::ShaderShape::fragment) out_.context.geometry = c_.geometries.empty();
     if (type.shader != graph::ShaderShape::draw) return;
-    if (!spec_.list.empty()) out_.list = static_cast<int>(*scene::findDrawList(spec_.list));
+    if (!spec_.list.empty()) out_.list = listOf();
     out_.context.instances = spec_.instances;
     out_.sizesPoints = out_.variant->stages[0].source->ofAllBranches().isLive("gl_PointSize");
     if (spec_.meshes) {

@@ -18,6 +18,7 @@
 #include "engine/graph/plan.h"
 #include "engine/imports/mesh_draws.h"
 #include "engine/imports/row_table.h"
+#include "engine/imports/scene_tables.h"
 #include "engine/passes/draw/geometry.h"
 #include "engine/passes/pass_registry.h"
 #include "engine/runtime/prepare/sampler_cache.h"
@@ -166,6 +167,7 @@ struct PrepareContext {
   ResourcePool& pool;
   passes::Geometries& geometries;
   SamplerCache& samplers;
+  imports::SceneTables& tables;
   text::Diagnostics& diagnostics;
 };
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "engine/text/chars.h"
 #include "engine/text/nearest.h"
 
 namespace weft::scene {
@@ -36,6 +39,20 @@ std::optional<std::uint8_t> readLists(text::JsonFields& fields, const std::strin
              text::nearestHint(*name, drawListNames()));
   }
   return mask;
+}
+
+std::vector<std::string> readTags(text::JsonFields& fields, const std::string& what,
+                                  text::Diagnostics& diagnostics) {
+  std::vector<std::string> tags;
+  const text::JsonValue* all = fields.array("tags");
+  for (std::size_t i = 0; all && i < all->items.size(); ++i) {
+    const auto tag = text::readText(all->items[i], fmt::format("a tag of {}", what), diagnostics);
+    if (tag && (tag->empty() || !std::ranges::all_of(*tag, text::isIdentChar)))
+      failAt(diagnostics, text::Code::badSceneValue, all->items[i], fmt::format("'{}' is no tag", *tag),
+             "write letters, digits and _, as a graph can name them");
+    if (tag) tags.push_back(*tag);
+  }
+  return tags;
 }
 
 void SceneGrid::read(SceneFields& fields) {

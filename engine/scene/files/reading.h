@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "engine/scene/scene.h"
 #include "engine/text/json/fields.h"
@@ -43,6 +44,10 @@ void failTooMany(text::Diagnostics& diagnostics, const text::JsonValue& value, s
 // `what` names the object in messages.
 std::optional<std::uint8_t> readLists(text::JsonFields& fields, const std::string& what,
                                       text::Diagnostics& diagnostics);
+
+// The key `tags`: words of the author's own, by which a graph may choose things.
+std::vector<std::string> readTags(text::JsonFields& fields, const std::string& what,
+                                  text::Diagnostics& diagnostics);
 
 // The keys `count` and `spacing`, and places around a center row by row, from the upper left one in front.
 struct SceneGrid {

@@ -126,6 +126,7 @@ class Reader {
     }
     ModelCopy copy;
     copy.root.name = loaded->model.name;
+    copy.labels = addLabels(scene_, loaded->model, scene_.name, {});
     if (!loaded->model.animations.empty()) copy.animation = 0;
     addModelCopy(scene_, loaded->rows, loaded->model, copy);
     MeshFrame frame;
@@ -276,6 +277,10 @@ class Reader {
     fields.read("radius", kSize, sphere.radius);
     fields.read("velocity", kWorld, sphere.velocity);
     sphere.lists = readLists(fields, what, diagnostics_).value_or(sphere.lists);
+    Label label;
+    if (const auto name = fields.text("name")) label.names.push_back(*name);
+    label.tags = readTags(fields, what, diagnostics_);
+    if (label != Label{}) sphere.label = scene_.labels.add(std::move(label));
     return sphere;
   }
 
@@ -416,6 +421,7 @@ class Reader {
     root.local.scale = glm::vec3(scale);
     root.spin = {0, toRadians(spin), 0};
     copy.lists = readLists(fields, what, diagnostics_);
+    const std::vector<std::string> tags = readTags(fields, what, diagnostics_);
     fields.read("speed", kSpeed, copy.speed);
     fields.read("lights", copy.lights);
     fields.read("lamp_shadows", copy.lampShadows);
@@ -432,6 +438,7 @@ class Reader {
     if (!loaded) return;
     if (animation) readAnimation(*animation, what, loaded->model, copy);
     if (copy.material && !scene_.materials.find(*copy.material)) return;
+    copy.labels = addLabels(scene_, loaded->model, name, tags);
     addCopies(value, name, *loaded, std::move(copy), grid);
   }
 

@@ -47,28 +47,28 @@ void MeshFrame::rebuild(const Scene& scene) {
     facts_.push_back(facts);
   }
 
-  std::vector<ListTable> tables(1);
-  tables[0].generation = ++count_;
-  for (int i = 0; i < kDrawListCount; ++i) {
-    const auto list = static_cast<DrawList>(i);
-    std::vector<std::uint32_t> instances;
-    for (std::size_t row = 0; row < facts_.size(); ++row)
-      if ((scene.meshInstances.rows()[row].lists & maskOf(list)) != 0)
-        instances.push_back(static_cast<std::uint32_t>(row));
-    std::ranges::stable_sort(instances, {}, [&](std::uint32_t row) { return facts_[row].mesh; });
-    auto found = std::ranges::find(tables, instances, &ListTable::instances);
-    if (found == tables.end()) {
-      ListTable& table = tables.emplace_back();
-      for (std::size_t row = 0; row < instances.size(); ++row)
-        if (facts_[instances[row]].moving) table.moving.push_back(static_cast<std::uint32_t>(row));
-      table.rows.resize(instances.size());
-      table.bounds.resize(instances.size());
-      table.instances = std::move(instances);
-      found = tables.end() - 1;
-    }
-    tableOf_[i] = static_cast<std::uint32_t>(found - tables.begin());
+  tables_.assign(1, {});
+  tables_[0].generation = ++count_;
+  tableOf_.clear();
+}
+
+void MeshFrame::addList(const Scene& scene, const Selection& list) {
+  const Members members(list, scene);
+  std::vector<std::uint32_t> instances;
+  for (std::size_t row = 0; row < facts_.size(); ++row)
+    if (members.has(scene.meshInstances.rows()[row])) instances.push_back(static_cast<std::uint32_t>(row));
+  std::ranges::stable_sort(instances, {}, [&](std::uint32_t row) { return facts_[row].mesh; });
+  auto found = std::ranges::find(tables_, instances, &ListTable::instances);
+  if (found == tables_.end()) {
+    ListTable& table = tables_.emplace_back();
+    for (std::size_t row = 0; row < instances.size(); ++row)
+      if (facts_[instances[row]].moving) table.moving.push_back(static_cast<std::uint32_t>(row));
+    table.rows.resize(instances.size());
+    table.bounds.resize(instances.size());
+    table.instances = std::move(instances);
+    found = tables_.end() - 1;
   }
-  tables_ = std::move(tables);
+  tableOf_.push_back(static_cast<std::uint32_t>(found - tables_.begin()));
 }
 
 void MeshFrame::fillJoints(const Scene& scene, bool all) {
@@ -105,8 +105,9 @@ void MeshFrame::fillRow(const Scene& scene, ListTable& table, std::uint32_t row)
   table.bounds[row] = box;
 }
 
-void MeshFrame::fillRows(const Scene& scene, bool all) {
+void MeshFrame::fillRows(const Scene& scene, bool another) {
   for (ListTable& table : tables_) {
+    const bool all = another || table.generation == 0;
     if (!all && table.moving.empty()) continue;
     forRanges(many_, all ? table.rows.size() : table.moving.size(), kMinRows,
               [&](std::size_t from, std::size_t to) {
@@ -164,12 +165,19 @@ void MeshFrame::fillLights(const Scene& scene, bool all) {
   if (sunNode_ != kNone) sun_->direction = turnDirection(transforms_.now()[sunNode_], scene.sun->direction);
 }
 
-void MeshFrame::update(const Scene& scene, std::uint64_t sceneGeneration, double time, double previousTime) {
+void MeshFrame::update(const Scene& scene, std::uint64_t sceneGeneration, double time, double previousTime,
+                       std::span<const Selection> chosen) {
   const bool another = sceneGeneration != sceneGeneration_;
-  if (!another && time == time_ && previousTime == previousTime_) return;
+  const std::size_t lists = kDrawListCount + chosen.size();
+  if (!another && time == time_ && previousTime == previousTime_ && lists == tableOf_.size()) return;
   transforms_.prepare(scene, sceneGeneration, time, previousTime);
   ++count_;
   if (another) rebuild(scene);
+  while (tableOf_.size() < lists) {
+    const std::size_t list = tableOf_.size();
+    addList(scene,
+            list < kDrawListCount ? Selection(static_cast<DrawList>(list)) : chosen[list - kDrawListCount]);
+  }
   std::size_t work = transforms_.movingCount();
   for (const ListTable& table : tables_) work += another ? table.rows.size() : table.moving.size();
   many_ = work >= kLittleWork;

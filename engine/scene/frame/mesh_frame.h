@@ -29,9 +29,11 @@ struct Joint {
 
 class MeshFrame {
  public:
-  // Nothing happens for a generation and times that are those of the last call. Little work is done on one thread; the tables are
-  // the same, byte for byte, on any number.
-  void update(const Scene& scene, std::uint64_t sceneGeneration, double time, double previousTime);
+  // `chosen`: lists beside those of every scene, numbered behind them; there may be more than in the last call, and the others
+  // must be the same. Nothing happens for a generation, times and lists that are those of the last call. Little work is done on
+  // one thread; the tables are the same, byte for byte, on any number.
+  void update(const Scene& scene, std::uint64_t sceneGeneration, double time, double previousTime,
+              std::span<const Selection> chosen = {});
 
   // The rows of the last update. Those of one mesh stand together, in table order; meshes stand in the order of Scene::meshes.
   std::span<const MeshRow> rows(DrawList list) const { return tableOf(list).rows; }
@@ -60,7 +62,7 @@ class MeshFrame {
     std::vector<std::uint32_t> moving;     // rows of this table
     std::vector<MeshRow> rows;
     std::vector<Box> bounds;
-    std::uint64_t generation = 0;
+    std::uint64_t generation = 0;  // 0: its rows are not filled yet
   };
   struct InstanceFacts {
     std::uint32_t node = 0, mesh = 0, material = 0, skin = 0;  // rows; skin may be none
@@ -68,9 +70,10 @@ class MeshFrame {
   };
   const ListTable& tableOf(DrawList list) const { return tables_[tableOf_[static_cast<std::size_t>(list)]]; }
   void rebuild(const Scene& scene);
+  void addList(const Scene& scene, const Selection& list);
   void fillJoints(const Scene& scene, bool all);
   void fillRow(const Scene& scene, ListTable& table, std::uint32_t row) const;
-  void fillRows(const Scene& scene, bool all);
+  void fillRows(const Scene& scene, bool another);
   void fillBounds(const Scene& scene, double time, bool all);
   void fillLights(const Scene& scene, bool all);
 
@@ -80,8 +83,8 @@ class MeshFrame {
   WorldTransforms transforms_;
   std::vector<InstanceFacts> facts_;  // by row of Scene::meshInstances
   std::vector<ListTable> tables_{1};  // the first is empty
-  std::uint32_t tableOf_[kDrawListCount] = {};
-  std::vector<std::uint32_t> firstJoint_;  // by row of Scene::skins
+  std::vector<std::uint32_t> tableOf_ = std::vector<std::uint32_t>(kDrawListCount);  // by list
+  std::vector<std::uint32_t> firstJoint_;                                            // by row of Scene::skins
   std::vector<std::uint32_t> jointNodes_;  // rows, of all skins one after another
   std::vector<Joint> joints_;
   std::vector<std::uint8_t> skinMoves_;  // by row of Scene::skins

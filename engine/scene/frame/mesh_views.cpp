@@ -89,11 +89,17 @@ void MeshViews::join(MeshView& view) {
 
 void MeshViews::sort(const MeshFrame& frame, MeshView& view, bool many) {
   const std::span<const Box> boxes = frame.bounds(view.wish_.list);
+  const std::span<const MeshRow> rows = frame.rows(view.wish_.list);
+  const MeshOrder order = view.wish_.order;
+  const float sign = order == MeshOrder::back_to_front ? -1.0f : 1.0f;
   view.keys_.resize(view.visible_.size());
   forRanges(many, view.keys_.size(), kMinKeys, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
       const std::uint32_t row = view.visible_[i];
-      view.keys_[i] = {depthKey(-(view.wish_.view * glm::vec4(boxes[row].center(), 1)).z), row};
+      view.keys_[i] = {order == MeshOrder::by_material
+                           ? rows[row].material
+                           : depthKey(sign * (view.wish_.view * glm::vec4(boxes[row].center(), 1)).z),
+                       row};
     }
   });
   sortElements(view.keys_, view.scratch_);
@@ -128,7 +134,7 @@ void MeshViews::update(const Scene& scene, const MeshFrame& frame, std::span<Mes
     for (std::size_t i = from; i < to; ++i) {
       MeshView& view = *due_[i];
       join(view);
-      if (view.wish_.order == MeshOrder::back_to_front) sort(frame, view, many);
+      if (view.wish_.order != MeshOrder::by_mesh) sort(frame, view, many);
       makeCommands(scene, frame.rows(view.wish_.list), view.visible_, view.commands_);
     }
   });

@@ -38,10 +38,6 @@ struct DrawCommand {
 void makeCommands(const Scene& scene, std::span<const MeshRow> rows, std::span<const std::uint32_t> visible,
                   std::vector<DrawCommand>& commands);
 
-// How the visible rows are ordered: those of a mesh together, or by the depth of their boxes' centers, farthest first, as
-// what one sees through must be drawn. Equal depths by row.
-enum class MeshOrder : std::uint8_t { by_mesh, back_to_front };
-
 // One view of one draw list. Keeps its memory from frame to frame.
 class MeshView {
  public:

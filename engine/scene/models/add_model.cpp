@@ -74,6 +74,22 @@ ModelRows addModelTables(Scene& scene, MeshData& data, const assets::Model& mode
   return rows;
 }
 
+std::vector<LabelId> addLabels(Scene& scene, const assets::Model& model, const std::string& name,
+                               const std::vector<std::string>& tags) {
+  std::vector<LabelId> ofNodes(model.nodes.size()), labels;
+  for (const assets::ModelInstance& instance : model.instances) {
+    LabelId& label = ofNodes[instance.node];
+    if (!label.valid()) {
+      Label with{.names = {name}, .tags = tags};
+      for (std::uint32_t node = instance.node; node != kNoRow; node = model.nodes[node].parent)
+        with.names.push_back(model.nodes[node].name);
+      label = scene.labels.add(std::move(with));
+    }
+    labels.push_back(label);
+  }
+  return labels;
+}
+
 void addModelCopy(Scene& scene, const ModelRows& rows, const assets::Model& model, const ModelCopy& copy) {
   const NodeId root = scene.nodes.add(copy.root);
   std::vector<bool> animated(model.nodes.size());
@@ -96,8 +112,10 @@ void addModelCopy(Scene& scene, const ModelRows& rows, const assets::Model& mode
     for (const std::uint32_t joint : from.joints) skin.joints.push_back(nodes[joint]);
     skins.push_back(scene.skins.add(std::move(skin)));
   }
-  for (const assets::ModelInstance& from : model.instances) {
+  for (std::size_t i = 0; i < model.instances.size(); ++i) {
+    const assets::ModelInstance& from = model.instances[i];
     MeshInstance instance;
+    if (!copy.labels.empty()) instance.label = copy.labels[i];
     instance.node = nodes[from.node];
     instance.mesh = rows.meshes[from.mesh];
     instance.material = copy.material.value_or(rows.materials[from.material]);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/assets/model.h"
@@ -21,11 +22,16 @@ struct ModelRows {
 // content the scene has already are not added again.
 ModelRows addModelTables(Scene& scene, MeshData& data, const assets::Model& model);
 
+// A label for each instance of the model, with `name`, the names of its node and of those above, and `tags`.
+std::vector<LabelId> addLabels(Scene& scene, const assets::Model& model, const std::string& name,
+                               const std::vector<std::string>& tags);
+
 // A node without a transform, which no animation moves, gets no row: what names it names its parent.
 struct ModelCopy {
   Node root;  // above the model's own; its parent must be in the scene
   std::optional<std::uint8_t>
-      lists;  // empty: opaque and shadow_casters, or transparent where the material blends
+      lists;                    // empty: opaque and shadow_casters, or transparent where the material blends
+  std::vector<LabelId> labels;  // parallel to the model's instances; empty: none
   std::optional<MaterialId> material;      // of every instance
   std::optional<std::uint32_t> animation;  // row of the model's animations
   float speed = 1;

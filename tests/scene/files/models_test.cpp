@@ -169,3 +169,28 @@ TEST_CASE("loading can be watched and given up") {
   CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
   CHECK(calls == 5);
 }
+
+TEST_CASE("spheres and models have the names and tags of the scene file, models those of their nodes, too") {
+  const TemporaryFolder folder;
+  writeTriangle(folder);
+  const Scene scene = loadGood(folder.write("s.json", R"({
+    "spheres": [ { "center": [0, 0, 0], "material": { "albedo": [1, 1, 1] }, "name": "ball", "tags": ["toy", "round"] },
+                 { "center": [0, 0, 0], "material": { "albedo": [1, 1, 1] } } ],
+    "models": { "rock": { "file": "t.obj", "count": [2, 1, 1], "tags": ["stone"] } } })"));
+  CHECK(scene.labels.find(scene.spheres.rows()[0].label)->names == std::vector<std::string>{"ball"});
+  CHECK(scene.labels.find(scene.spheres.rows()[0].label)->tags == std::vector<std::string>{"toy", "round"});
+  CHECK(scene.labels.find(scene.spheres.rows()[1].label) == nullptr);
+  REQUIRE(scene.meshInstances.size() == 2);
+  CHECK(scene.meshInstances.rows()[0].label == scene.meshInstances.rows()[1].label);
+  const Label& rock = *scene.labels.find(scene.meshInstances.rows()[0].label);
+  CHECK(rock.names.front() == "rock");
+  CHECK(rock.tags == std::vector<std::string>{"stone"});
+  Selection lenses;
+  lenses.name = "Lenses*";
+  CHECK(countMeshInstances(loadGood(kTop + "scenes/helmet_alone.json"), lenses) == 1);
+  for (const auto& [tag, code] :
+       {std::pair("1", text::Code::wrongType), {R"("two words")", text::Code::badSceneValue}})
+    CHECK(failuresOf(folder,
+                     fmt::format(R"({{ "models": {{ "rock": {{ "file": "t.obj", "tags": [{}] }} }} }})", tag))
+              .contains(code));
+}

@@ -155,6 +155,32 @@ TEST_CASE("what does not move costs nothing and keeps its generation") {
   CHECK(frame.generation(DrawList::transparent) != 0);
 }
 
+TEST_CASE("a list that a graph chooses is added to those that there are, which stay as they were") {
+  Scene scene = randomTree(50, 3);
+  for (std::size_t i = 0; i < 50; ++i) {
+    Node& node = scene.nodes.edit(scene.nodes.idOf(i));
+    node.spin = node.velocity = glm::vec3(0);
+  }
+  const LabelId label = scene.labels.add({.names = {}, .tags = {"marked"}});
+  for (const std::size_t row : {3, 7}) scene.meshInstances.edit(scene.meshInstances.idOf(row)).label = label;
+  MeshFrame frame;
+  frame.update(scene, 1, 1, 0);
+  const std::uint64_t generation = frame.generation(DrawList::opaque);
+  Selection marked;
+  marked.tag = "marked";
+  const auto list = static_cast<DrawList>(kDrawListCount);
+  for (const std::uint64_t scenes : {1, 2}) {
+    frame.update(scene, scenes, 1, 0, {&marked, 1});
+    REQUIRE(frame.rows(list).size() == 2);
+    CHECK(frame.generation(list) != 0);
+    CHECK((frame.generation(DrawList::opaque) == generation) == (scenes == 1));
+    int same = 0;
+    for (const MeshRow& row : frame.rows(DrawList::opaque))
+      same += row.transform == frame.rows(list)[0].transform && row.mesh == frame.rows(list)[0].mesh ? 1 : 0;
+    CHECK(same == 1);
+  }
+}
+
 TEST_CASE("boxes hold their meshes, and the scene's box everything") {
   Scene scene = randomTree(100, 5);
   Sphere sphere;

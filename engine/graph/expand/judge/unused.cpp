@@ -69,6 +69,11 @@ class Mentions {
       };
       const auto addRef = [&](const RefDesc& ref) { add(scope, ref); };
       visitMentions(*scope.desc, addExpr, addRef);
+      for (const ResourceDesc& resource : scope.desc->resources)
+        for (const NamedExpr& argument : resource.import.arguments)
+          if (argument.expr.present() && argument.expr.root()->op == ExprOp::identifier)
+            add(find(scope, argument.expr.root()->name, true), false);
+      for (const PassDesc& pass : scope.desc->passes) add(find(scope, pass.list, true), false);
       for (const PassDesc& pass : scope.desc->passes)
         if (pass.include)
           for (const auto& [input, ref] : pass.include->binds) visitRef(ref, addExpr, addRef);
@@ -262,6 +267,7 @@ void warnOfSceneLists(Model& model) {
       if (!pass.list.empty()) drawn.insert(pass.list);
   if (drawn.empty()) return;  // it shows no things
   for (const ImportSpec& import : model.graph.imports) {
+    if (import.kind == ImportKind::list) return;  // it chooses things by more than their lists
     const ImportType* type = findImportType(model.registry, import.request.type);
     for (std::size_t i = 0; type && i < import.request.arguments.size() && i < type->arguments.size(); ++i)
       if (type->arguments[i].drawList) drawn.insert(import.request.arguments[i].second.symbol);

@@ -109,8 +109,11 @@ struct Scope {
   std::map<std::string, Variable, std::less<>> below;  // found in the files that are included below, so far
   KnownNames<Scope*> includes;
   KnownNames<const PassDesc*> passes;
-  std::string disabledBy;  // "--disable post"; empty: not disabled
-  bool broken = false;     // an include below it could not be read: names it does not know may be from there
+  KnownNames<std::uint32_t> imports;  // of types whose defaults see from the file's camera: entities
+  Progress screenState = Progress::fresh;
+  std::array<std::uint32_t, 2> screen{1, 1};  // of an include that says it, when done
+  std::string disabledBy;                     // "--disable post"; empty: not disabled
+  bool broken = false;  // an include below it could not be read: names it does not know may be from there
 };
 
 // What --disable matched.

@@ -73,6 +73,10 @@ class NameFinder {
     for (const auto& [name, place] : desc.slotSets)
       add(UseOf::set, name, scope.prefix + name, insideOf(place), insideOf(place));
     for (const SetDesc& set : desc.sets) addVariable(scope, set.name, insideOf(set.place));
+    for (const ResourceDesc& each : desc.resources)
+      for (const NamedExpr& argument : each.import.arguments)
+        if (argument.expr.present() && argument.expr.root()->op == ExprOp::identifier)
+          addWord(scope, argument.expr.root()->name, argument.expr.root()->place);
     for (const PassDesc& pass : desc.passes) addPass(scope, pass);
     const auto onExpr = [&](const Expr& expr) {
       if (expr.present()) addNode(scope, *expr.root());
@@ -82,6 +86,7 @@ class NameFinder {
 
   void addPass(Scope& scope, const PassDesc& pass) {
     addTo(scope, pass, placeOf(pass));
+    addWord(scope, pass.list, insideOf(pass.listPlace));
     for (const PassParameterDesc& each : pass.parameters)
       if (each.declared) declare(UseOf::variable, scope.prefix + pass.name + ".", *each.declared);
     for (const UsedSet& set : pass.uses)
@@ -117,6 +122,12 @@ class NameFinder {
   void addRef(Scope& scope, const RefDesc& ref) {
     const std::size_t at = ref.text.find(ref.name);
     if (at != std::string::npos) addResource(scope, ref.name, placeAfter(ref.place, at), ref.import);
+  }
+
+  // A word that may name an import which a file declares.
+  void addWord(Scope& scope, std::string_view name, const Place& place) {
+    const std::uint32_t found = name.empty() ? kNone : findEntity(model_, scope, name, true);
+    if (found != kNone && model_.entities[found].desc) addResource(scope, name, place, true);
   }
 
   void addResource(Scope& scope, std::string_view name, Place place, bool import) {

@@ -149,11 +149,12 @@ std::optional<Value> Names::index(std::string_view name) {
 }
 
 std::optional<Value> Names::builtin(std::string_view name) {
-  const auto [width, height] = std::pair(model_.settings.screenWidth, model_.settings.screenHeight);
-  if (name == "screen")
+  if (name == "screen") {
+    const auto [width, height] = screenOf(model_, scope_);
     return Value{.type = Value::Type::list,
                  .count = 2,
                  .v = {static_cast<double>(width), static_cast<double>(height), 0, 0}};
+  }
   if (name == "device.software") return Value::boolean(model_.settings.software);
   return std::nullopt;
 }
@@ -466,6 +467,25 @@ std::optional<Counts> evaluateCounts(Names& names, const Expr& expr, std::span<c
     counts.each[i] = static_cast<std::uint64_t>(std::max(1.0, std::floor(count)));
   }
   return counts;
+}
+
+std::array<std::uint32_t, 2> screenOf(Model& model, Scope& scope) {
+  if (!scope.parent) return {model.settings.screenWidth, model.settings.screenHeight};
+  const IncludeDesc& include = *scope.stanza->include;
+  if (!include.screen.present()) return screenOf(model, *scope.parent);
+  if (scope.screenState == Progress::done || scope.screenState == Progress::failed) return scope.screen;
+  const Evaluation evaluation(model, scope.screenState, "the screen of '" + include.as + "'",
+                              include.screen.place());
+  if (!evaluation.good()) return scope.screen;
+  constexpr std::uint64_t kBounds[] = {kMaxSize, kMaxSize};
+  Names names(model, *scope.parent);
+  const auto size = evaluateCounts(names, include.screen, kBounds, "the screen of '" + include.as + "'",
+                                   "a number, or a list of 2, such as \"screen/2\"");
+  if (size)
+    for (const std::size_t i : {0, 1})
+      scope.screen[i] = static_cast<std::uint32_t>(size->each[std::min(i, size->size - 1)]);
+  scope.screenState = size ? Progress::done : Progress::failed;
+  return scope.screen;
 }
 
 }  // namespace weft::graph::expansion

@@ -40,6 +40,13 @@ std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool
 std::uint32_t findEntityOrReport(Model& model, Scope& scope, const RefDesc& ref, std::string_view who,
                                  std::string_view verb, std::string_view pass = {},
                                  const RefDesc** sample = nullptr);
+// What the passes of a file that name no view are seen from: an import that is declared, or bound, under the name of such a type. kNone:
+// the camera that is looked through.
+std::uint32_t findFileView(Model& model, Scope& scope);
+// The import that an include puts in the place of one that its file names or declares. kNone: it binds none of this name.
+std::uint32_t findBoundImport(Model& model, const Scope& scope, std::string_view name);
+// The import of a kind that is declared under a name, or bound to it, here or in an enclosing file: an entity. kNone: there is none.
+std::uint32_t findDeclared(Model& model, Scope& scope, std::string_view name, ImportKind kind);
 // A resource that nothing names, while what is named more than once is not there and one slip away, is one mistake, at the
 // declaration: it is reported, and found by that name, too. True when it was done now: then a name may be found after all.
 bool mendDeclarations(Model& model);
@@ -137,6 +144,9 @@ struct Counts {
 };
 std::optional<Counts> evaluateCounts(Names& names, const Expr& expr, std::span<const std::uint64_t> bounds,
                                      const std::string& what, const char* expected);
+
+// What `screen` means in a file, in pixels.
+std::array<std::uint32_t, 2> screenOf(Model& model, Scope& scope);
 
 // ---- shapes (resources.cpp): size, format, levels, layers, target, bytes and history. Lazily, as sizes refer to each other ----
 

@@ -36,19 +36,28 @@ bool checkArgument(Model& model, const Entity& entity, const ImportArgument& arg
   const Value& initial = argument.initial;
   const auto& words = argument.drawList ? model.registry.drawLists : argument.choices;
   const bool numeric = initial.isNumeric(), word = value.type == Value::Type::symbol;
-  const bool fits = !words.empty() ? word && std::ranges::find(words, value.symbol) != words.end()
-                    : numeric      ? value.isNumeric()
+  const bool fits = argument.view    ? value.type == initial.type && value.symbol.empty()
+                    : !words.empty() ? word && std::ranges::find(words, value.symbol) != words.end()
+                    : numeric        ? value.isNumeric()
                     : initial.type == Value::Type::none
                         ? true
                         : initial.type == value.type && initial.count == value.count;
   return fits || report(model, word && argument.drawList ? Code::unknownDrawList : Code::badImportArgument,
                         given.expr.place(),
                         fmt::format("import '{}': argument '{}' does not fit", entity.name, argument.name),
-                        {.expected = !words.empty() ? fmt::format("one of {}", fmt::join(words, ", "))
-                                     : numeric      ? "a number"
-                                                    : fmt::format("a value like {}", toText(initial)),
+                        {.expected = argument.view    ? "a view that the graph declares"
+                                     : !words.empty() ? fmt::format("one of {}", fmt::join(words, ", "))
+                                     : numeric        ? "a number"
+                                                      : fmt::format("a value like {}", toText(initial)),
                          .found = toText(value),
                          .hint = text::nearestHint(value.symbol, words)});
+}
+
+// The import that the word of an argument names.
+std::uint32_t findNamed(Model& model, Scope& scope, const ImportArgument& argument, const Value& value) {
+  if (argument.view && value.symbol.empty()) return findFileView(model, scope);
+  if (!argument.view && !argument.drawList) return kNone;
+  return findDeclared(model, scope, value.symbol, argument.view ? ImportKind::view : ImportKind::list);
 }
 
 // Fills in what is asked for, with the defaults of what is not given. False after a report.
@@ -56,6 +65,11 @@ bool evaluateArguments(Model& model, const Entity& entity, const ImportType& typ
                        const std::vector<NamedExpr>& given, ImportRequest& request) {
   Names names(model, *entity.scope);
   bool good = true;
+  // What an include binds to it says what the file leaves out.
+  const std::uint32_t bound = entity.desc ? findBoundImport(model, *entity.scope, entity.desc->name) : kNone;
+  const bool shaped = bound != kNone && ensureShape(model, bound);
+  const ImportRequest* base = shaped ? &model.graph.imports[model.entities[bound].import].request : nullptr;
+  if (base && base->type != type.name) base = nullptr;  // reported
   std::vector<std::string> known;
   for (const ImportArgument& argument : type.arguments) known.push_back(argument.name);
   for (const NamedExpr& argument : given)
@@ -65,15 +79,22 @@ bool evaluateArguments(Model& model, const Entity& entity, const ImportType& typ
                     {.hint = text::nearestHint(argument.name, known), .resource = entity.name});
   for (const ImportArgument& argument : type.arguments) {
     const auto found = std::ranges::find(given, argument.name, &NamedExpr::name);
-    Value value = argument.initial;
-    if (found != given.end()) {
-      value = found->expr.evaluate(names, model.diagnostics);
+    const bool says = found != given.end();
+    Value value = base ? base->at(argument.name) : argument.initial;
+    if (says) value = found->expr.evaluate(names, model.diagnostics);
+    const ImportRequest* named = !says && base ? base->named(argument.name) : nullptr;
+    if (const std::uint32_t other = named ? kNone : findNamed(model, *entity.scope, argument, value);
+        other != kNone) {
+      good = ensureShape(model, other) && good;
+      if (good) named = &model.graph.imports[model.entities[other].import].request;
+    } else if (says) {
       good = value.type != Value::Type::none && checkArgument(model, entity, argument, *found, value) && good;
     } else if (value.type == Value::Type::none && good) {
       good = report(model, Code::badImportArgument, entity.desc ? entity.desc->place : Place{},
                     fmt::format("import '{}' needs the argument '{}'", type.name, argument.name),
                     {.expected = fmt::format("\"import\": \"{}\", \"{}\": …", type.name, argument.name)});
     }
+    if (named) request.of.emplace_back(argument.name, *named);
     request.arguments.emplace_back(argument.name, std::move(value));
   }
   return good;
@@ -161,7 +182,8 @@ Where placeAtArgument(Model& model, Scope& scope, const std::vector<NamedExpr>& 
 bool evaluateImport(Model& model, Entity& entity) {
   static const std::vector<NamedExpr> kNoArguments;
   const std::vector<NamedExpr>& given = entity.desc ? entity.desc->import.arguments : kNoArguments;
-  ImportRequest request{.type = entity.desc ? entity.desc->import.type : entity.name.substr(1)};
+  ImportRequest request{.type = entity.desc ? entity.desc->import.type
+                                            : entity.name.substr(entity.scope->prefix.size() + 1)};
   const ImportType* type = findImportType(model.registry, request.type);
   if (!type)
     return report(model, Code::unknownImport, entity.desc->place,

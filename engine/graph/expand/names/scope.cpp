@@ -40,6 +40,14 @@ bool hasOwn(const Model& model, const Scope& scope, const std::string& name) {
   return found != scope.resources.end() && !isInput(*model.entities[found->second].desc);
 }
 
+// The type of the import that a file names or declares under a name. Null: there is none.
+const ImportType* importTypeOf(const Model& model, const GraphDesc& file, std::string_view name) {
+  const auto own = std::ranges::find(file.resources, name, &ResourceDesc::name);
+  const bool declared = own != file.resources.end();
+  if (declared && own->kind != ResourceDesc::Kind::import) return nullptr;
+  return findImportType(model.registry, declared ? std::string_view(own->import.type) : name);
+}
+
 // An input takes the whole of a resource.
 void checkBind(Model& model, Scope& scope, const IncludeDesc& include, const std::string& name,
                const RefDesc& ref) {
@@ -55,7 +63,7 @@ void checkBind(Model& model, Scope& scope, const IncludeDesc& include, const std
            .hint = "leave it out"});
     return;
   }
-  if (std::ranges::find(inputs, name) == inputs.end())
+  if (std::ranges::find(inputs, name) == inputs.end() && !importTypeOf(model, *include.graph, name))
     report(model, Code::badBind, ref.place,
            fmt::format("include '{}' binds '{}', which is no input of '{}'", include.as, name, include.file),
            {.hint = text::nearestHint(name, inputs)});
@@ -85,6 +93,14 @@ void addInclude(Model& model, Scope& scope, const PassDesc& stanza) {
 
 void buildScope(Model& model, Scope& scope) {
   const GraphDesc& desc = *scope.desc;
+  const auto isImport = [&](const auto& bind) { return importTypeOf(model, desc, bind.first) != nullptr; };
+  if (scope.parent && std::ranges::any_of(scope.stanza->include->binds, isImport))
+    for (const ImportType& type : model.registry.imports)
+      if (std::ranges::any_of(type.arguments, &ImportArgument::view)) {
+        scope.imports.emplace(type.name, static_cast<std::uint32_t>(model.entities.size()));
+        model.entities.push_back(
+            {.kind = ResourceDesc::Kind::import, .scope = &scope, .name = "@" + scope.prefix + type.name});
+      }
   for (const ParameterDesc& parameter : desc.parameters)
     addParameter(model, scope, parameter, scope.prefix + parameter.name);
   for (const NamedExpr& let : desc.lets) {
@@ -119,6 +135,28 @@ void buildScope(Model& model, Scope& scope) {
   for (const auto& [count, bound, what] : bounds)
     if (count > text::raised(bound))
       return stopAt(model, model.desc.place, fmt::format("the graph has too many {}", what), bound, what);
+}
+
+// What is bound to an import is one of its kind; of its type where the file declares it and so has arguments for it.
+void checkBoundImports(Model& model, Scope& scope) {
+  for (const auto& [name, ref] : scope.stanza->include->binds) {
+    const ImportType* type =
+        includeBound(*scope.parent, name, ref) ? nullptr : importTypeOf(model, *scope.desc, name);
+    const bool declared = scope.resources.contains(name);
+    const std::uint32_t bound =
+        type ? findEntityOrReport(model, *scope.parent, ref, "\"bind\"", "names") : kNone;
+    if (bound == kNone) continue;
+    const Entity& entity = model.entities[bound];
+    const ImportType* given =
+        entity.kind != ResourceDesc::Kind::import
+            ? nullptr
+            : findImportType(model.registry, entity.desc ? entity.desc->import.type : entity.name.substr(1));
+    if (!given || given->kind != type->kind || (declared && given != type))
+      report(model, Code::badBind, ref.place,
+             fmt::format("include '{}' binds the import '{}' to '{}', which is another kind of thing",
+                         scope.stanza->include->as, name, ref.text),
+             {.expected = fmt::format("\"import\": \"{}\"", type->name)});
+  }
 }
 
 // A file with inputs that is opened by itself has nothing behind them.
@@ -225,6 +263,7 @@ void buildScopes(Model& model) {
     model.imports.emplace(type.name, static_cast<std::uint32_t>(model.entities.size()));
     model.entities.push_back({.kind = ResourceDesc::Kind::import, .scope = &root, .name = "@" + type.name});
   }
+  for (std::size_t i = 1; i < model.scopes.size(); ++i) checkBoundImports(model, model.scopes[i]);
   reportToInclude(model);
   spread(model, &Let::dynamic, [](const Let& let) { return let.desc->expr.dynamic(); });
   markAllStructural(model);
@@ -286,11 +325,15 @@ std::uint32_t followInput(Model& model, std::uint32_t index) {
   return entity.bound;
 }
 
-// An import declared under `name` here or in an enclosing file, else one of that type with its defaults.
-std::uint32_t findImport(const Model& model, const Scope& from, std::string_view name) {
-  for (const Scope* scope = &from; scope; scope = scope->parent)
+// An import declared under `name`, or bound to it, here or in an enclosing file, else one of that type with its defaults.
+std::uint32_t findImport(Model& model, const Scope& from, std::string_view name) {
+  for (const Scope* scope = &from; scope; scope = scope->parent) {
     if (const auto found = scope->resources.find(name); found != scope->resources.end())
       if (model.entities[found->second].kind == ResourceDesc::Kind::import) return found->second;
+    if (const std::uint32_t bound = findBoundImport(model, *scope, name); bound != kNone) return bound;
+  }
+  for (const Scope* scope = &from; scope; scope = scope->parent)
+    if (const auto own = scope->imports.find(name); own != scope->imports.end()) return own->second;
   const auto type = model.imports.find(name);
   return type == model.imports.end() ? kNone : type->second;
 }
@@ -453,6 +496,30 @@ std::uint32_t findEntityOrReport(Model& model, Scope& scope, const RefDesc& ref,
          fmt::format("{} {} the unknown {} '{}'", who, verb, import ? "import" : "resource", written),
          {.hint = std::move(hint), .resource = written, .pass = std::string(pass)});
   return kNone;
+}
+
+std::uint32_t findBoundImport(Model& model, const Scope& scope, std::string_view name) {
+  if (!scope.parent) return kNone;
+  const auto& binds = scope.stanza->include->binds;
+  const auto bind = std::ranges::find(binds, name, &std::pair<std::string, RefDesc>::first);
+  const std::uint32_t found =
+      bind == binds.end() ? kNone : findEntity(model, *scope.parent, bind->second.name, bind->second.import);
+  return found != kNone && model.entities[found].kind == ResourceDesc::Kind::import ? found : kNone;
+}
+
+std::uint32_t findFileView(Model& model, Scope& scope) {
+  for (const ImportType& type : model.registry.imports) {
+    const std::uint32_t view = type.everyPass ? findEntity(model, scope, type.name, true) : kNone;
+    if (view != kNone && model.entities[view].desc && ensureShape(model, view)) return view;
+  }
+  return kNone;
+}
+
+std::uint32_t findDeclared(Model& model, Scope& scope, std::string_view name, ImportKind kind) {
+  const std::uint32_t found = name.empty() ? kNone : findEntity(model, scope, name, true);
+  if (found == kNone || !model.entities[found].desc) return kNone;
+  const ImportType* type = findImportType(model.registry, model.entities[found].desc->import.type);
+  return type && type->kind == kind ? found : kNone;
 }
 
 std::uint32_t findAsked(Model& model, Scope& scope, std::string_view name) {
