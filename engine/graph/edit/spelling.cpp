@@ -32,15 +32,14 @@ class Rewriter {
   }
 
   std::string withSlots() {
-    if (const JsonValue* passes = tree_.root.find("passes"))
-      for (const JsonValue& stanza : passes->items)
-        for (const char* group : {"read", "modify"})
-          if (const JsonValue* slots = stanza.find(group)) {
-            for (const JsonMember& slot : slots->members) mendSlot(stanza, slot);
-            for (const JsonValue& item : slots->items)
-              for (const JsonMember& slot : item.members) mendSlot(stanza, slot);
-          }
-    addLists();
+    const JsonValue *resources = tree_.root.find("resources"), *passes = tree_.root.find("passes");
+    if (!resources || resources->members.empty() || !passes) return std::string(text_);
+    for (const JsonValue& stanza : passes->items)
+      if (const JsonValue* slots = stanza.find("read"))
+        for (const JsonMember& slot : slots->members)
+          if (slot.value.is(Type::string)) mendSlot(stanza, slot);
+    const std::size_t end = resources->members.back().value.end;
+    edits_[end] = {end, lists_};
     return edited();
   }
 
@@ -85,50 +84,25 @@ class Rewriter {
   }
 
   void mendSlot(const JsonValue& stanza, const JsonMember& slot) {
-    if (!slot.value.is(Type::string)) return;
     std::string_view ref = trimmed(slot.value.text);
     const bool may = ref.ends_with('?');
     if (may) ref = trimmed(ref.substr(0, ref.size() - 1));
-    const std::string name(dottedNameIn(ref));
+    const std::string_view name = dottedNameIn(ref);
     const std::size_t at = ref.find(" if ");
-    if (at != std::string_view::npos && !name.empty() && !stanza.find("repeat")) {
-      const std::string& list =
-          listFor(fmt::format("{} if {}", name, trimmed(ref.substr(at + 4))), stanza, slot);
-      put(slot.value, list + std::string(ref.substr(name.size(), at - name.size())) + (may ? " ?" : ""));
-    } else if (may && at == std::string_view::npos && optional_.contains(name)) {
-      put(slot.value, std::string(ref));
-    }
-  }
-  void put(const JsonValue& value, const std::string& ref) {
-    edits_[value.begin] = {value.end, text::quoteJson(ref)};
-  }
-
-  // The name of the list of this one alternative: that of the slot, if it is free.
-  const std::string& listFor(const std::string& alternative, const JsonValue& stanza,
-                             const JsonMember& slot) {
-    const auto known = std::ranges::find(lists_, alternative, &std::pair<std::string, std::string>::first);
-    if (known != lists_.end()) return known->second;
     const JsonValue* pass = stanza.find("name");
-    std::string name = names_.contains(slot.key) && pass ? pass->text + "_" + slot.key : slot.key;
-    while (!names_.insert(name).second) name += "_";
-    return lists_.emplace_back(alternative, std::move(name)).second;
-  }
-
-  void addLists() {
-    std::string all;
-    for (const auto& [alternative, name] : lists_)
-      all += fmt::format("{}{}: [{}]", all.empty() ? "" : ",\n", text::quoteJson(name),
-                         text::quoteJson(alternative));
-    if (all.empty()) return;
-    const JsonValue* resources = tree_.root.find("resources");
-    const auto passes = std::ranges::find(tree_.root.members, "passes", &JsonMember::key);
-    if (!resources) {
-      edits_[passes->begin] = {passes->begin, fmt::format("\"resources\": {{ {} }},\n", all)};
-    } else {
-      const bool first = resources->members.empty();
-      const std::size_t at = first ? resources->begin + 1 : resources->members.back().value.end;
-      edits_[at] = {at, (first ? "" : ",\n") + all};
+    std::string mended(ref);
+    if (at != std::string_view::npos) {
+      if (name.empty() || !pass || stanza.find("repeat")) return;
+      // The list has the name of the slot, if it is free.
+      std::string list = names_.contains(slot.key) ? pass->text + "_" + slot.key : slot.key;
+      while (!names_.insert(list).second) list += "_";
+      lists_ += fmt::format(",\n{}: [{}]", text::quoteJson(list),
+                            text::quoteJson(fmt::format("{} if {}", name, trimmed(ref.substr(at + 4)))));
+      mended = list + std::string(ref.substr(name.size(), at - name.size())) + (may ? " ?" : "");
+    } else if (!may || !optional_.contains(std::string(name))) {
+      return;
     }
+    edits_[slot.value.begin] = {slot.value.end, text::quoteJson(mended)};
   }
 
   std::string edited() const {
@@ -140,8 +114,8 @@ class Rewriter {
 
   std::string_view text_;
   text::JsonTree tree_;
-  std::set<std::string> names_, optional_;                  // of resources; of optional inputs
-  std::vector<std::pair<std::string, std::string>> lists_;  // "specular if $x", the name of the list
+  std::set<std::string> names_, optional_;                            // of resources; of optional inputs
+  std::string lists_;                                                 // of alternatives, to be added
   std::map<std::size_t, std::pair<std::size_t, std::string>> edits_;  // begin: end, what stands there then
 };
 

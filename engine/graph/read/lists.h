@@ -10,7 +10,7 @@ namespace weft::graph {
 // Makes objects of the lists under "read", "write", "modify", "bind" and "parameters" of passes and sets: ["ibl.brdf", { "sky":
 // "clouds" }] is { "brdf": "ibl.brdf", "sky": "clouds" }. Each name stands where its string does. What is neither a string nor
 // an object stays a list, which does not fit the schema.
-// An input, "specular as linear ?", becomes the resource "specular": { "input": "specular as linear ?" }.
+// An input, "specular as linear ?", becomes the resource "specular": { "inputs": "specular as linear ?" }.
 void writeOutLists(text::JsonValue& root, text::Diagnostics& diagnostics);
 
 }  // namespace weft::graph

@@ -30,7 +30,7 @@ JsonMember* memberOf(JsonValue& object, std::string_view key) {
 
 std::string_view kindOf(const JsonValue& resource) {
   if (!resource.is(Type::object)) return "alternatives";
-  for (const std::string_view kind : {"texture", "buffer", "import", "input"})
+  for (const std::string_view kind : {"texture", "buffer", "import", "inputs"})
     if (const JsonValue* value = resource.find(kind); value && !value->is(Type::null)) return kind;
   return "";
 }
@@ -344,7 +344,7 @@ class Applier {
                 std::vector<std::string>& names) const {
     if (const JsonValue* own = sectionOf(source, section)) {
       for (const JsonMember& member : own->members)
-        if (!member.value.find("input")) names.push_back(prefix + member.key);
+        if (!member.value.find("inputs")) names.push_back(prefix + member.key);
       for (const JsonValue& stanza : own->items)
         if (const std::string name = stanzaName(stanza); !name.empty()) names.push_back(prefix + name);
     }

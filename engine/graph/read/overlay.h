@@ -78,7 +78,7 @@ class SourceLoader {
 
 // The member of that key, or null.
 text::JsonMember* memberOf(text::JsonValue& object, std::string_view key);
-// "texture", "buffer", "import" or "input"; "alternatives" for what is no object; "" for an object without a kind.
+// "texture", "buffer", "import" or "inputs"; "alternatives" for what is no object; "" for an object without a kind.
 std::string_view kindOf(const text::JsonValue& resource);
 // What an include stanza is called: "as", else the file's name without its ending. "" when it says neither.
 std::string includePrefix(const text::JsonValue& stanza);

@@ -124,11 +124,9 @@ std::optional<RefDesc> ReadContext::refOf(const JsonValue& value, bool alternati
   if (!parsed || alternative || !parsed->condition.present()) return parsed;
   auto& d = error(Code::badReference, parsed->condition.place(), "an 'if' outside of a list of alternatives");
   d.found = fmt::format("\"{}\"", value.text);
-  d.hint = fmt::format(
-      "say \"resources\": {{ \"maybe_{0}\": [\"{0} if {1}\"] }}, and \"maybe_{0} ?\" here; `weft format` "
-      "does so "
-      "for slots",
-      parsed->name, parsed->condition.text());
+  d.hint =
+      fmt::format("declare \"maybe_{0}\": [\"{0} if {1}\"] under \"resources\", and read \"maybe_{0} ?\"",
+                  parsed->name, parsed->condition.text());
   parsed->condition = Expr();
   return parsed;
 }

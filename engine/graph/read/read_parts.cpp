@@ -289,16 +289,21 @@ bool readResourceInto(ReadContext& context, const JsonValue& value, ResourceDesc
       if (std::optional<RefDesc> ref = context.refOf(item, true)) out.alternatives.push_back(*std::move(ref));
     return !out.alternatives.empty();
   }
-  if (kind == "input") {
+  if (kind == "inputs") {
     out.kind = Kind::input;
     out.history = context.expr(value, "history");
     readHistory(context, value, out);
-    return readInput(context, *value.find("input"), out);
+    return readInput(context, *value.find("inputs"), out);
   }
   if (const JsonValue* sample = valueIn(value, "sample")) {
-    text::Diagnostics said;
-    out.sample = parseSampling(sample->text, sample->textPlace(), said);
-    context.adopt(said);
+    JsonValue words = *sample;  // of a reference, so that all it says stands at its place
+    words.text.insert(0, "sample as ");
+    words.place.column -= 10;
+    out.sample = context.refOf(words);
+    if (out.sample) out.sample->place = sample->textPlace();
+    if (out.sample && (out.sample->kind || out.sample->optional))
+      context.error(Code::badReference, *sample, "\"sample\" says how a texture is sampled, and no more")
+          .hint = "write words such as \"linear wrap\"";
   }
   if (kind == "import") {
     out.kind = Kind::import;
@@ -584,6 +589,8 @@ bool readPassInto(ReadContext& context, const JsonValue& value, const JsonValue&
     readParameters(context, *part, names, out);
     readState(context, *part, states, out);
   }
+  // As if the pass said all of it: what it reads stands together, and so on.
+  if (!out.uses.empty()) std::ranges::stable_sort(out.slots, {}, &SlotDesc::access);
   return indexed && !out.name.empty() && value.find("type");
 }
 

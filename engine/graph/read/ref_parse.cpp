@@ -79,19 +79,7 @@ class RefParser {
                : std::nullopt;
   }
 
-  // Words alone.
-  std::optional<RefDesc> runWords() {
-    ref_.place = place_;
-    dropSpaceBehind();
-    if (!parseWordList()) return std::nullopt;
-    if (at_ < text_.size()) return fail(at_, fmt::format("unexpected {}", found()), kSampling), std::nullopt;
-    if (ref_.kind) return fail(0, "a kind, where only sampling is said", kSampling), std::nullopt;
-    return std::move(ref_);
-  }
-
  private:
-  static constexpr const char* kSampling = "write words such as \"linear wrap\"; a kind stands at a slot";
-
   bool fail(std::size_t offset, std::string message, std::string hint) {
     auto& d = diagnostics_.error(Code::badReference, shifted(place_, offset), std::move(message));
     d.found = fmt::format("\"{}\"", whole_);
@@ -224,13 +212,6 @@ class RefParser {
     if (peekWord(at_) != "as") return true;
     const std::size_t start = at_;
     at_ += 2;
-    if (!parseWordList()) return false;
-    ref_.wordsAt = static_cast<std::uint32_t>(start);
-    ref_.wordsSize = static_cast<std::uint32_t>(text_.find_last_not_of(" \t\r\n", at_ - 1) + 1 - start);
-    return true;
-  }
-
-  bool parseWordList() {
     for (bool any = false;; any = true) {
       skipSpace();
       const string_view word = peekWord(at_);
@@ -242,6 +223,8 @@ class RefParser {
     }
     ref_.samples = filtered_ || wrapped_ || ref_.sampler.compare;
     if (ref_.sampler.compare) ref_.sampler.linear = ref_.sampler.linear || !filtered_;
+    ref_.wordsAt = static_cast<std::uint32_t>(start);
+    ref_.wordsSize = static_cast<std::uint32_t>(text_.find_last_not_of(" \t\r\n", at_ - 1) + 1 - start);
     return true;
   }
 
@@ -334,10 +317,6 @@ class RefParser {
 
 std::optional<RefDesc> parseRef(string_view text, const Place& place, text::Diagnostics& diagnostics) {
   return RefParser(text, place, diagnostics).run();
-}
-
-std::optional<RefDesc> parseSampling(string_view text, const Place& place, text::Diagnostics& diagnostics) {
-  return RefParser(text, place, diagnostics).runWords();
 }
 
 bool looksLikeRef(string_view text) {

@@ -20,9 +20,6 @@ constexpr std::array<std::string_view, 7> kSamplerWords = {"linear", "nearest", 
 // `text` stands at `place`. Empty after Code::badReference, or Code::badExpression inside an index or a condition; stops at the
 // first.
 std::optional<RefDesc> parseRef(std::string_view text, const Place& place, text::Diagnostics& diagnostics);
-// Words as behind `as`, without a kind: "linear wrap". The reference has no name.
-std::optional<RefDesc> parseSampling(std::string_view text, const Place& place,
-                                     text::Diagnostics& diagnostics);
 
 // Tells "@cut" and "camera if $progressive" from "size(hdr)" and "$taa ? 1 : 0" where both may stand
 // ("reset").

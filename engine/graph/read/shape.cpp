@@ -27,7 +27,7 @@ using Type = JsonValue::Type;
 using KeyLists = std::initializer_list<std::span<const KeySpec>>;
 
 constexpr std::array<KeySpec, 3> kKinds{{{"texture", ""}, {"buffer", ""}, {"import", ""}}};
-constexpr std::array<KeySpec, 1> kInput{{{"input", ""}}};  // of a resource that was an input
+constexpr std::array<KeySpec, 1> kInput{{{"inputs", ""}}};  // of a resource that was an input
 
 // Which words of other programs are looked up for the keys of an object.
 std::optional<Foreign> foreignOf(const Shape& shape) {
@@ -88,7 +88,7 @@ class ShapeCheck {
   void checkResource(JsonMember& member) {
     JsonValue& value = member.value;
     said_.resource = member.key;
-    if (value.find("input")) {
+    if (value.find("inputs")) {
       if (!mends_) checkObject(value, shapeOf("input"), "input", kInput);
       return said_.resource.clear();
     }
@@ -102,7 +102,10 @@ class ShapeCheck {
           .error(kinds == 0 ? Code::missingKey : Code::keysExclude, value,
                  fmt::format("the resource '{}' {}", member.key,
                              kinds == 0 ? "does not say what it is" : "is of two kinds at once"))
-          .hint = "say one of \"texture\", \"buffer\" and \"import\"";
+          .hint =
+          value.find("input")
+              ? fmt::format("write \"inputs\": [\"{}\"] beside \"resources\"; `weft format` does", member.key)
+              : "say one of \"texture\", \"buffer\" and \"import\"";
       drop(value);
     }
     said_.resource.clear();

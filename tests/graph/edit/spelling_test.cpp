@@ -58,7 +58,7 @@ TEST_CASE("an if at a slot becomes an alternative, where it can be decided") {
   CHECK(made.find(R"("p_ldr": ["hdr if !$on"])") != std::string::npos);
   CHECK(
       made.find(
-          R"("read": { "soft": "soft.mip[0] as linear ?", "ldr": "p_ldr ?", "again": "soft ?", "other": "other.mip[0]" })") !=
+          R"("read": { "soft": "soft.mip[0] as linear ?", "ldr": "p_ldr ?", "again": "again ?", "other": "other.mip[0]" })") !=
       std::string::npos);
   CHECK(made.find(R"(["ibl.map if $on"])") != std::string::npos);
   CHECK(made.find(R"("s": "hdr if i > 0 ?")") != std::string::npos);

@@ -222,7 +222,7 @@ TEST_CASE("everything wrong is reported at once, in the order of the text") {
 })") ==
       "W004 2:3 /nmae; W013 3:37 /parameters/a/default; W003 3:57 /parameters/b; W012 3:60 /parameters/mip; "
       "W009 4:12 /let/a; W020 4:21 /let/a; W004 5:42 /resources/t/sise; W004 5:62 /resources/u/bufer; "
-      "W005 5:81 /resources/v; W004 5:92 /resources/i/input; W020 6:61 /passes/0/enabled; "
+      "W005 5:81 /resources/v; W005 5:90 /resources/i; W020 6:61 /passes/0/enabled; "
       "W021 6:86 /passes/0/read/s; W011 6:101 /passes/0/update; W003 6:112 /passes/1; W003 7:14 /present");
 }
 

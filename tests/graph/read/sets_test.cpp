@@ -50,7 +50,7 @@ TEST_CASE("sets: a pass has its own and what its sets have, for each index of it
   const Expanded e = expandText(fileWith(kTwo));
   REQUIRE_MESSAGE(e.text() == "", e.text());
   CHECK(e.names() == "one two down[1] down[2] down[3]");
-  CHECK(slotsOf(e, "one") == "source radiance depth other");
+  CHECK(slotsOf(e, "one") == "source other radiance depth");
   CHECK(slotsOf(e, "two") == "radiance depth");
   CHECK(slotsOf(e, "down[2]") == "above result");
   CHECK(e.define("one", "ROUND") == "1");
@@ -125,7 +125,7 @@ TEST_CASE("sets: overlays change a set for all that use it, and what a pass has 
       "type": "draw", "shader": "balls/flat", "list": "spheres", "geometry": "quad", "use": ["ball", "front"] } ])J");
   CHECK(fresh.spec("three").state.cull == Cull::front);
   const Expanded other = over(R"J("passes": [ { "name": "one", "use": "ball" } ])J");
-  CHECK(slotsOf(other, "one") == "radiance depth other");
+  CHECK(slotsOf(other, "one") == "other radiance depth");
 }
 
 TEST_CASE("sets: a pass that is disabled is written back beside them") {
