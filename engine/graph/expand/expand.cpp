@@ -211,11 +211,13 @@ void foldDeferred(Model& model, const std::vector<DeferredUniform>& deferred) {
     const Value before = uniform.dynamic.present() ? uniform.dynamic.evaluateFolded(trialAge) : uniform.value;
     if (folded.present() && folded.live() && folded.evaluateFolded(trialAge, values) == before)
       uniform.dynamic = folded;
-    else if (watched && !unfollowed.hasErrors())
+    else if (folded.present() && !folded.live())
+      continue;  // it needs none of them now
+    else if (!watched)
+      markStructural(model, *each.scope, *each.expr);
+    else if (!unfollowed.hasErrors())
       unfollowed.error(Code::badTime, each.expr->place(), "values of imports in it cannot be followed").hint =
           "leave out branches that are not taken";
-    else if (!folded.present() || folded.live())
-      markStructural(model, *each.scope, *each.expr);
   }
   model.diagnostics = said;  // what cannot be folded is no mistake
   model.diagnostics.append(unfollowed);
