@@ -123,7 +123,8 @@ class Rewriter {
 
 std::string withNewSpelling(std::string_view text) {
   if (!text::JsonEdit(text)) return std::string(text);
-  const std::string slots = Rewriter(text).withSlots();
+  const std::string whole = withWholePasses(text);
+  const std::string slots = Rewriter(whole).withSlots();
   return Rewriter(slots).withInputs();
 }
 

@@ -117,6 +117,13 @@ class ShapeCheck {
     const auto says = [&](const char* key) { return stanza.find(key) != nullptr; };
     if (mends_ && !says("include") && !says("type") && !says("shader"))
       checkKeys(stanza, {std::span(kIncludeKeys).first(1)}, "include");
+    if (const JsonMember* like = mends_ ? nullptr : memberOf(stanza, "like")) {  // of the first edition
+      said_.error(Code::unknownKey, like->place, "a pass is no longer \"like\" another").hint =
+          "declare what they share under \"sets\", and name it with \"use\"; `weft format` writes this pass "
+          "out whole";
+      drop(stanza);
+      return said_.pass.clear();
+    }
     const Shape& shape = shapeOf(says("include") ? "include" : "pass");
     if (stanza.is(Type::object))
       checkObject(stanza, shape, shape.kind, overlay_ ? kPlaceKeys : std::span<const KeySpec>());

@@ -66,6 +66,31 @@ def main():
         report.check(told.code == 1 and told.err == wanted, f"the first line that differs:\n{told.err}")
         report.check("[ ]" in graph.read_text(), "--check writes")
 
+        # A pass that is like another, in words of the first edition, is written out whole; comments stay.
+        old = folder / "old.json"
+        old.write_text("""{
+  "resources": { "a": { "texture": "rgba8", "size": 8, "clear": 0 }, "b": { "texture": "rgba8", "size": 8 }, "c": { "texture": "rgba8", "size": 8 } },
+  "passes": [
+    { "name": "one", "type": "fullscreen", "shader": "one.frag.glsl", "read": { "source": "a", "more": "a as linear" }, // of one
+      "write": { "result": "b" }, "parameters": { "gain": { "default": 2.0 }, "bias": 1 }, "defines": { "ONE": 1 } },
+    { "name": "two", "like": "one", // keeps the gain
+      "read": { "source": null, /* , */ "third": "b" }, "write": { "result": "c" }, "defines": { "ONE": null } },
+    { "name": "three", "like": "two", "shader": "three.frag.glsl", "parameters": null, "side_effect": true },
+    { "name": "four", "like": "nobody" }
+  ],
+  "present": "c"
+}
+""")
+        told = run(weft, "check", "--no-shaders", old)
+        report.check(told.err.count("[W004]") == told.err.count("error[") - 1 == 3, f"a file of the first edition: {told.err}")
+        report.check(run(weft, "format", old).code == 0, "a file of the first edition")
+        new = value_of(old.read_text())["passes"]
+        two = {"name": "two", "type": "fullscreen", "shader": "one.frag.glsl", "read": {"more": "a as linear", "third": "b"}, "write": {"result": "c"},
+               "parameters": {"gain": "$one.gain", "bias": 1}}
+        three = {key: value for key, value in two.items() if key != "parameters"} | {"name": "three", "shader": "three.frag.glsl", "side_effect": True}
+        report.check(new[1:] == [two, three, {"name": "four", "like": "nobody"}], old.read_text())
+        report.check(all(text in old.read_text() for text in ("// of one", "// keeps the gain", "/* , */")), old.read_text())
+
         good = graph.read_text()
         for broken, code in (('{ "name": "a" "passes": [] }', "W002"), ('{ "name": 1, "name": 2 }', "W006"), ("[" * 80 + "]" * 80, "W007"), ("", "W002")):
             bad = folder / "bad.json"
