@@ -9,6 +9,7 @@
 #include <set>
 
 #include "app/commands/commands.h"
+#include "app/commands/shader_stanza.h"
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
 #include "engine/graph/compile/compile.h"
@@ -19,6 +20,7 @@
 #include "engine/runtime/prepare/program_check.h"
 #include "engine/runtime/prepare/program_request.h"
 #include "engine/text/files/file_watcher.h"
+#include "engine/text/json/layout.h"
 #include "engine/text/json/report.h"
 #include "engine/text/printable.h"
 
@@ -34,6 +36,7 @@ struct CheckOptions : Options {
   bool matrix = false;       // try every variation
   bool allVariants = false;  // compile what the variations reach
   bool watch = false;        // again after every save
+  bool strict = false;       // warnings fail, too
 };
 
 // What tells the variants of a plan's passes apart.
@@ -102,6 +105,17 @@ class ShaderCheck {
     sources_.setRoots(runtime::shaderRootsOf(graphFiles, dataFolder()));
   }
 
+  // Checks a shader that no graph names; compiled where there is OpenGL.
+  std::optional<ShaderStanza> checkAlone(const std::string& path, text::Diagnostics& diagnostics) {
+    text::Diagnostics noDevice;
+    if (options_.shaders && !open(noDevice)) unread.append(noDevice);
+    glsl::SourceLoader& sources = session_ ? session_->renderer.device().sources : sources_;
+    auto made = stanzaFor(path, sources, diagnostics);
+    if (made && session_) session_->renderer.device().programs.get(made->request, diagnostics);
+    files.insert(sources.touched().begin(), sources.touched().end());
+    return made;
+  }
+
   std::set<std::string> files;     // that were read or looked for
   std::set<std::string> variants;  // by what they are made of
   text::Diagnostics
@@ -153,12 +167,17 @@ struct Checked {
   text::Diagnostics diagnostics{};
   std::shared_ptr<const graph::Plan> plan{};  // null after errors of the graph
   std::optional<graph::Matrix> matrix{};
+  std::optional<ShaderStanza> stanza{};  // of a shader by itself
   ShaderCheck shaders;
 };
 
 Checked checkOnce(const CheckOptions& options) {
   Checked checked{.shaders = ShaderCheck(options)};
   text::Diagnostics& diagnostics = checked.diagnostics;
+  if (options.graph.ends_with(".glsl")) {
+    checked.stanza = checked.shaders.checkAlone(options.graph, diagnostics);
+    return checked;
+  }
   const auto world = loadWorld(options, diagnostics);
   const runtime::WorldFacts facts = world ? world->facts() : factsWithoutWorld();
   checked.plan = makePlan(options, facts, true, diagnostics);
@@ -222,10 +241,21 @@ std::string matrixText(const CheckOptions& options, const Checked& checked) {
   return text;
 }
 
+// 1 after an error, with --strict also after a warning.
+int codeOf(const CheckOptions& options, const text::Diagnostics& said) {
+  const bool warned = options.strict && std::ranges::any_of(said.items(), [](const text::Diagnostic& d) {
+                        return d.severity == text::Severity::warning;
+                      });
+  return said.hasErrors() || warned ? 1 : 0;
+}
+
 int tellText(const CheckOptions& options, Checked& checked) {
-  const int code = report(checked.diagnostics);
+  report(checked.diagnostics);
+  const int code = codeOf(options, checked.diagnostics);
   if (checked.matrix) print(matrixText(options, checked));
-  if (code == 0)
+  if (checked.stanza)
+    print(text::layoutJson(dumpJson(checked.stanza->pass) + "\n"));
+  else if (code == 0)
     print(fmt::format("{}: {}, {} run, {} {} {} of {} declared bytes\n", text::printable(options.graph),
                       text::counted(checked.plan->graph->passes.size(), "pass"), checked.plan->steps.size(),
                       text::counted(checked.plan->storages.size(), "texture"),
@@ -257,6 +287,7 @@ Json documentOf(const CheckOptions& options, const Checked& checked) {
                    {"textures", checked.plan->storages.size()},
                    {"bytes_declared", checked.plan->bytesDeclared},
                    {"bytes_allocated", checked.plan->bytesAllocated}};
+  if (checked.stanza) out["stanza"] = checked.stanza->pass;
   for (const text::Diagnostic& each : checked.shaders.unread.items())
     out["not_looked_at"].push_back(each.message);
   if (options.shaders) out["shader_variants"] = checked.shaders.variants.size();
@@ -276,7 +307,7 @@ int tell(const CheckOptions& options, Checked& checked) {
     print(text::diagnosticsSarif(checked.diagnostics, kVersion) + "\n");
   else  // to be watched: a line for each time
     print(dumpJson(documentOf(options, checked), options.watch ? -1 : 2) + "\n");
-  return checked.diagnostics.hasErrors() ? 1 : 0;
+  return codeOf(options, checked.diagnostics);
 }
 
 // Returns when some of the files changed and then nothing did for a moment: a save may be several writes.
@@ -314,9 +345,11 @@ int runCheck(CheckOptions& options) {
 }  // namespace
 
 void addCheck(CommandLine& line) {
-  const auto [command, options] =
-      line.add("check", "report everything wrong with a graph; exit 1 when it cannot run", runCheck);
-  options.addGraph(command);
+  const auto [command, options] = line.add(
+      "check", "report everything wrong with a graph, or a shader by itself; exit 1 when it cannot run",
+      runCheck);
+  options.addGraph(command)->description(
+      "graph file (JSON), or a shader (.glsl), for which a pass is printed");
   command.add_flag("!--no-shaders", options.shaders, "do not compile the shaders (needs no OpenGL)");
   addChoice(command, "--format", options.format, "text, json, or sarif for code hosts and editors",
             {"text", "json", "sarif"});
@@ -325,6 +358,7 @@ void addCheck(CommandLine& line) {
       "also with each pass disabled, each pair of passes, and each value that a parameter offers");
   command.add_flag("--all", options.allVariants,
                    "compile every shader variant that disabling a pass or setting a parameter reaches");
+  command.add_flag("--strict", options.strict, "exit 1 after a warning, too");
   command.add_flag("--watch", options.watch,
                    "check again whenever a file that was read changes, until ended");
 }

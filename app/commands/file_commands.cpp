@@ -1,4 +1,4 @@
-// The commands that write files of text: format lays graphs out, new begins a pass, import makes a graph of another program's
+// The commands that write files of text: format lays graphs out, new begins a graph or a pass, import makes a graph of another program's
 // pipeline.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -121,18 +121,19 @@ struct NewOptions {
 
 int runNew(NewOptions& options) {
   text::Diagnostics diagnostics;
-  if (options.graph.empty()) options.graph = dataFolder() + "/graphs/glow.json";
   const std::string& name = options.name;
+  const bool pass = options.what == "pass";
+  if (options.graph.empty()) options.graph = dataFolder() + "/graphs/glow.json";
   if (!graph::isIdent(name) || name[0] == '_' || name.size() > kLongestName || graph::isReservedWord(name)) {
     diagnostics
-        .error(text::Code::notAName, text::placeOfOption("new pass " + name),
-               fmt::format("\"{}\" cannot name a pass", name))
+        .error(text::Code::notAName, text::placeOfOption(fmt::format("new {} {}", options.what, name)),
+               fmt::format("\"{}\" cannot name a {}", name, options.what))
         .expected =
         fmt::format("a letter, then letters, digits and '_', {} at most, and none of the words {}",
                     kLongestName, fmt::join(graph::kReservedWords, ", "));
     return report(diagnostics);
   }
-  const auto anchor = findAnchor(options.graph, name, diagnostics);
+  const auto anchor = pass ? findAnchor(options.graph, name, diagnostics) : Anchor{};
   if (!anchor) return report(diagnostics);
   const fs::path folder = options.folder.empty() ? "." : options.folder;
   const std::string graphFile = (folder / (name + ".json")).lexically_normal().string();
@@ -141,7 +142,7 @@ int runNew(NewOptions& options) {
   const OutputFile outputs[] = {{"-o", graphFile, OutputFile::Over::nothing},
                                 {"-o", shaderFile, OutputFile::Over::nothing}};
   if (!checkDistinct(outputs, {}, diagnostics)) return report(diagnostics);
-  if (writeFrom("new_pass.json", graphFile,
+  if (writeFrom(pass ? "new_pass.json" : "new_graph.json", graphFile,
                 {{"%NAME%", name},
                  {"%AFTER%", anchor->after},
                  {"%TEXTURE%", anchor->texture},
@@ -229,13 +230,18 @@ void addFormat(CommandLine& line) {
 }
 
 void addNew(CommandLine& line) {
-  const auto [command, options] = line.add(
-      "new", "write a graph with a new pass behind an existing graph, and its shader, commented", runNew);
-  addChoice(command, "what", options.what, "what to write: pass", {"pass"})->required();
-  command.add_option("name", options.name, "name of the pass: letters, digits and _")->required();
-  addPath(command, "--graph", options.graph, "the graph to extend (default: the bundled graphs/glow.json)");
+  const auto [command, options] =
+      line.add("new", "write a graph, or a pass behind an existing graph, and its shader, commented", runNew);
+  addChoice(command, "what", options.what, "what to write: graph or pass", {"graph", "pass"})->required();
+  command.add_option("name", options.name, "its name: letters, digits and _")->required();
+  addPath(command, "--graph", options.graph,
+          "the graph that a pass extends (default: the bundled graphs/glow.json)");
+  command.parse_complete_callback([&options = options] {
+    if (options.what == "graph" && !options.graph.empty())
+      throw CLI::ValidationError("--graph", "is for 'new pass': a new graph extends no other");
+  });
   addPath(command, "-o,--output", options.folder, "folder to write into (default: here)", "FOLDER");
-  command.footer("Example: weft new pass tint -o out/tint");
+  command.footer("Example: weft new graph tint -o out/tint");
 }
 
 void addImport(CommandLine& line) {

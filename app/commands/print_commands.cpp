@@ -22,6 +22,8 @@
 #include "engine/text/files/file.h"
 #include "engine/text/json/dom.h"
 #include "engine/text/json/layout.h"
+#include "engine/text/nearest.h"
+#include "engine/text/printable.h"
 
 namespace weft::app {
 
@@ -47,12 +49,12 @@ int runPlan(PlanOptions& options) {
   return report(diagnostics);
 }
 
-// The section of docs/errors.md of a code such as "W053"; "" where there is none.
-std::string sectionOfCode(std::string code) {
-  std::ranges::transform(code, code.begin(), [](unsigned char c) { return std::toupper(c); });
+// The section of docs/errors.md of a code such as "W053"; "" where there is none. `codes`: all that it has.
+std::string sectionOfCode(const std::string& code, std::vector<std::string>& codes) {
   std::ifstream page(dataFolder() + "/docs/errors.md");
   std::string section;
   for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("## W")) codes.push_back(line.substr(3, line.find(':') - 3));
     if (line.starts_with("## ") && !section.empty()) break;
     if (line.starts_with("## " + code + ":"))
       section = line.substr(3) + "\n";
@@ -69,8 +71,14 @@ struct ExplainOptions : Options {
 
 int runExplain(ExplainOptions& options) {
   if (options.name.empty()) {
-    if (const std::string section = sectionOfCode(options.graph); !section.empty()) return print(section), 0;
-    printError("explain: give a graph and a name, or a code such as W053\n");
+    std::string code = options.graph;
+    std::ranges::transform(code, code.begin(), [](unsigned char c) { return std::toupper(c); });
+    std::vector<std::string> codes;
+    if (const std::string section = sectionOfCode(code, codes); !section.empty()) return print(section), 0;
+    const std::string near = text::nearestName(code, codes);
+    printError(near.empty() ? "explain: give a graph and a name, or a code such as W053\n"
+                            : fmt::format("explain: there is no code {}; did you mean {}?\n",
+                                          text::printable(code), near));
     return 2;
   }
   text::Diagnostics diagnostics;

@@ -305,7 +305,7 @@ void addDump(CommandLine& line) {
                   "names of resources, or any suffix of theirs; * stands for any letters; hdr#2 is a version")
       ->required();
   addPath(command, "-o,--output", options.folder, "folder to write to", "FOLDER")->required();
-  options.addFrame(command, "--frames");
+  options.addFrame(command, "--frame,--frames");
   options.addFps(command);
   options.addPointer(command);
   options.addBackend(command);

@@ -5,6 +5,7 @@
 
 #include "engine/glsl/tokens.h"
 #include "engine/text/files/file.h"
+#include "engine/text/json/report.h"
 
 namespace weft::app::lsp {
 

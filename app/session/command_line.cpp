@@ -75,7 +75,9 @@ int tell(const CLI::App& app, const CLI::ParseError& error) {
   }
   std::ostringstream out, err;
   const int code = app.exit(error, out, err);
-  print(out.str());
+  std::string help = out.str();  // without what a flag that says no is set to
+  for (std::size_t at = 0; (at = help.find("{false}", at)) != std::string::npos;) help.replace(at, 7, 7, ' ');
+  print(help);
   // What is wrong repeats what was written; the rest is of the parser.
   const std::string said = err.str(), what = error.what();
   printError(said.starts_with(what) ? shown(what) + said.substr(what.size()) : said);

@@ -136,6 +136,7 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
           {.expected = fmt::format("{} 0 to {}", kPartWords[i], counts[i] - 1),
            .found = said->first == said->last ? fmt::format("{}", said->first)
                                               : fmt::format("{}..{}", said->first, said->last),
+           .hint = fmt::format("the last {} is {}", kPartWords[i], counts[i] - 1),
            .resource = entity.name});
     ranges[i] = *range;
     empty = empty || range->empty;

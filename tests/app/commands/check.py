@@ -217,6 +217,35 @@ def check_present(weft, report):
     report.check(done.code == 1 and "glow_prefilter" in done.err, f"--present of a pass: {done.code}\n{done.err}")
 
 
+def check_strict(weft, report):
+    codes = [run(weft, "check", SOUND, "--no-shaders", *more).code for more in ((), ("--strict",), ("--strict", "--format", "json"))]
+    report.check(codes == [0, 1, 1], f"warnings with --strict: {codes}")
+
+
+def check_shader(weft, report, *more):
+    """A shader by itself: the stanza that is printed is one that the check of a graph takes."""
+    with temporary_folder() as name:
+        folder = pathlib.Path(name)
+        shaders = folder / "shaders"
+        (shaders / "mix").mkdir(parents=True)
+        shader = shaders / "mix/mix.frag.glsl"
+        shader.write_text("uniform sampler2D one, other;\nlayout(std140) uniform Parameters { vec3 tint; bool on; };\nlayout(r32f) readonly uniform image2D grid;\n"
+                          "in vec2 uv;\nout vec4 result;\nvoid main() {\n  result = texture(one, uv) * (on ? 1.0 : 0.5) * imageLoad(grid, ivec2(TILE)).r;\n"
+                          "#ifdef HAS_OTHER\n  result += texture(other, uv);\n#endif\n  result.rgb *= tint;\n}\n")
+        done = run(weft, "check", shader, "--format", "json", *more)
+        stanza = json.loads(done.out)["stanza"]
+        report.check(done.code == 0 and stanza["read"] == {"one": "one", "other": "other", "grid": "grid as image"} and stanza["write"] == {"result": "result"}, done.out)
+        report.check(stanza["parameters"] == {"tint": [0, 0, 0], "on": False} and list(stanza["defines"]) == ["TILE"] and stanza["type"] == "fullscreen", done.out)
+        textures = {name: {"texture": "r32f" if name == "grid" else "rgba8", "size": "screen", "clear": [0, 0, 0, 0]} for name in ("one", "other", "grid", "result")}
+        (folder / "mix.json").write_text(json.dumps({"name": "mix", "resources": textures, "passes": [stanza], "present": "result"}))
+        whole = run(weft, "check", folder / "mix.json", *more)
+        report.check(whole.code == 0, f"the stanza in a graph: {whole.err}")
+        shader.write_text(shader.read_text().replace("= tint;", "= tin;"))
+        wrong = run(weft, "check", shader, *more)
+        places = [(d["place"], int(d["line"]), d["code"]) for d in wrong.diagnostics]
+        report.check(places == ([] if more else [(str(shader), 11, "W104")]), f"{places}")
+
+
 def check_matrix(weft, report):
     result = run(weft, "check", "--no-shaders", GLOW, "--matrix", "--format", "json")
     matrix = json.loads(result.out)["matrix"]
@@ -369,6 +398,7 @@ def main():
         check_all(weft, report)
         check_present(weft, report)
         check_time(weft, report)
+        check_shader(weft, report)
     else:
         check_formats(weft, report)
         check_words(weft, report)
@@ -378,6 +408,8 @@ def main():
         check_scene_lists(weft, report)
         check_missing_shader(weft, report)
         check_matrix(weft, report)
+        check_strict(weft, report)
+        check_shader(weft, report, "--no-shaders")
         check_many_mistakes(weft, report)
         check_watch(weft, report)
         check_watch_from_the_start(weft, report)

@@ -58,9 +58,9 @@ def main():
 
     explained = run(weft, "explain", "w053")
     report.check(explained.code == 0 and explained.out.startswith("W053: ") and "selector" in explained.out and "w053_" in explained.out and "W054" not in explained.out and "```" not in explained.out, f"{explained}")
-    for words in (["W010"], ["graphs/glow.json"]):
-        wrong = run(weft, "explain", *words)
-        report.check(wrong.code == 2 and not wrong.out and "such as W053" in wrong.err, f"explain {words}: {wrong}")
+    for word, said in (("W530", "there is no code W530; did you mean W0"), ("graphs/glow.json", "such as W053")):
+        wrong = run(weft, "explain", word)
+        report.check(wrong.code == 2 and not wrong.out and said in wrong.err, f"explain {word}: {wrong}")
     report.end()
 
 

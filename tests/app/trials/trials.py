@@ -326,6 +326,16 @@ def check_new(weft, report, folder):
             report.check(pictures[0] != pictures[1] == pictures[2], f"{graph}: the pass does what it says")
     again = run(weft, "new", "pass", "tint", "-o", here)
     report.check(again.code == 1 and "W180" in again.err, f"nothing is written over: {again.code}\n{again.err}")
+    mine = folder / "graph"
+    made = run(weft, "new", "graph", "glint", "-o", mine)
+    checked = run(weft, "check", mine / "glint.json", "--strict")
+    report.check(made.code == checked.code == 0 and not checked.err, f"new graph: {made.err}{checked.err}")
+    for strength in ("1", "0"):
+        run(weft, "render", mine / "glint.json", "--size", SIZE, "--quiet", "--set", f"glint.strength={strength}", "-o", mine / f"{strength}.png")
+    report.check((mine / "1.png").read_bytes() != (mine / "0.png").read_bytes(), "new graph: the effect does what it says")
+    again = run(weft, "new", "graph", "glint", "-o", mine)
+    report.check(again.code == 1 and "W180" in again.err, f"new graph writes over: {again.code}\n{again.err}")
+    report.check(run(weft, "new", "graph", "x", "--graph", GLOW, "-o", mine).code == 2, "a new graph extends none")
     for name, code in (("9lives", "W012"), ("sky", "W009")):
         wrong = run(weft, "new", "pass", name, "-o", folder / "wrong")
         report.check(wrong.code == 1 and code in wrong.err and not (folder / "wrong").exists(), f"{name}: {wrong.err}")
@@ -340,7 +350,7 @@ def main():
     for command in ("test", "diff", "ablate", "fuzz"):
         help_ = run(weft, command, "--help")
         report.check(help_.code == 0 and f"Example: weft {command}" in help_.out, help_.out)
-    report.check("Example: weft new pass" in run(weft, "new", "pass", "--help").out, "new pass --help")
+    report.check("Example: weft new" in run(weft, "new", "pass", "--help").out, "new pass --help")
     report.end()
 
 

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "engine/graph/expand/names/names.h"
 #include "engine/graph/language/suffix.h"
@@ -189,6 +191,25 @@ void applyDisable(Model& model, const Disable& disable) {
            {.hint = suffixHint(declared, names)});
 }
 
+// A file of more than three values of which none is for this graph is one mistake, and reported.
+static bool isForeign(Model& model, const Scope& scope, const SetDesc& first) {
+  std::size_t count = 0;
+  for (const SetDesc& set : scope.desc->sets)
+    if (set.place.file == first.place.file) {
+      if (!parametersMeant(model, scope.prefix, set.name).empty() || isUnread(scope, set.name)) return false;
+      ++count;
+    }
+  if (count < 4) return false;
+  report(
+      model, Code::unknownParameter, first.place,
+      fmt::format("'{}' is for another graph: no parameter has one of its {} names", *first.place.file,
+                  count),
+      {.expected = fmt::format("some of those that 'weft params {}' lists", model.scopes.front().desc->path),
+       .found = first.name,
+       .hint = "leave it out, or name the graph that it is for"});
+  return true;
+}
+
 void applySettings(Model& model) {
   const auto [width, height] = std::pair(model.settings.screenWidth, model.settings.screenHeight);
   if (width < 1 || width > kMaxSize || height < 1 || height > kMaxSize)
@@ -197,9 +218,13 @@ void applySettings(Model& model) {
            {.expected = fmt::format("1 to {} pixels a side", kMaxSize),
             .found = fmt::format("{}x{}", width, height)});
   // What files say first, the innermost first, so that an including file has the last word; then the command line.
-  for (auto scope = model.scopes.rbegin(); scope != model.scopes.rend(); ++scope)
+  for (auto scope = model.scopes.rbegin(); scope != model.scopes.rend(); ++scope) {
+    std::shared_ptr<const std::string> file;
+    bool foreign = false;
     for (const SetDesc& set : scope->desc->sets) {
       if (isOver(model)) return;
+      if (std::exchange(file, set.place.file) != set.place.file) foreign = isForeign(model, *scope, set);
+      if (foreign) continue;
       std::optional<std::string> path;
       if (set.value.type == Value::Type::symbol) path = text::besideFile(set.place, set.value.symbol);
       Parameter* const parameter = applySet(model, *scope, set.name, set.value, path, set.place);
@@ -207,6 +232,7 @@ void applySettings(Model& model) {
       parameter->origin = set.origin;
       if (set.valuePlace.file) parameter->valuePlace = set.valuePlace;
     }
+  }
   for (const Setting& set : model.settings.sets) applySetting(model, set);
   for (const Disable& disable : model.settings.disables) applyDisable(model, disable);
 }
