@@ -355,7 +355,7 @@ TEST_CASE("a parameter of several values is an element each; what a level depend
   const Expanded good = expandText(
       R"J({ "parameters": { "a": { "default": 2.5 }, "b": { "default": 7.0 }, "c": { "default": 1, "min": 0, "max": 2 } },
   "resources": { "t": { "texture": "rgba8", "size": [16, 8], "mips": 3 } },
-  "passes": [ { "name": "p", "type": "fullscreen", "shader": "a.frag.glsl", "repeat": { "i": [0, 2] }, "write": { "r": "t.mip[i]" },
+  "passes": [ { "name": "p", "type": "fullscreen", "shader": "a.frag.glsl", "side_effect": true, "repeat": { "i": [0, 2] }, "write": { "r": "t.mip[i]" },
     "parameters": { "taps": [1, "$a", "i", 4, 5], "m": [["$b", 1], [2, "3*i"]], "l": "size(t.mip[$c]).x" } } ], "present": "t" })J");
   CHECK(e.has(Code::unknownVariable));  // there is no 't'
   CHECK(good.text() == "");
