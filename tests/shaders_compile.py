@@ -55,8 +55,19 @@ def expand(path, roots, seen_stack=()):
     return out
 
 
+# Optional inputs that are there whenever the pass is.
+NEVER_EMPTY = {"fog/surfaces.frag.glsl": {"air"}}
+
+
 def define_name(name):
     return re.sub(r"\W", "_", name).upper()
+
+
+def by_name(value):
+    """A list of names and objects as the object that it is short for."""
+    if isinstance(value, dict):
+        return value
+    return {k: v for item in value for k, v in (item if isinstance(item, dict) else {re.match(r"[@$]?(?:\w+\.(?!mip|layer|face))*(\w+)", item)[1]: item}).items()}
 
 
 def passes_of(graph):
@@ -64,9 +75,11 @@ def passes_of(graph):
     desc = json.loads(strip_comments(graph.read_text()))
     for stanza in desc.get("passes", []):
         used = stanza.get("use", [])
+        for group in ("read", "write", "modify", "parameters"):
+            stanza[group] = by_name(stanza.get(group, {}))
         for name in [used] if isinstance(used, str) else used:
             for group, held in desc["sets"][name].items():
-                stanza[group] = {**held, **stanza.get(group, {})}
+                stanza[group] = {**by_name(held), **stanza.get(group, {})}
         if "shader" in stanza:
             yield stanza, desc
 
@@ -80,10 +93,12 @@ def constants_of(graphs):
 def variants(stanza, desc, constants):
     """Dictionaries of defines."""
     slots, optional = [], []
+    inputs = [name for item in desc.get("inputs", []) for name in ([item] if isinstance(item, str) else item)]
+    may_be_empty = {name.split()[0] for name in inputs if name.endswith("?")} - NEVER_EMPTY.get(stanza["shader"] if isinstance(stanza["shader"], str) else "", set())
     for access in ("read", "write", "modify"):
         for slot, ref in stanza.get(access, {}).items():
             slots.append(slot)
-            if access != "read" or str(ref).rstrip().endswith("?"):
+            if access != "read" or str(ref).rstrip().endswith("?") or re.match(r"\w*", str(ref))[0] in may_be_empty:
                 optional.append(slot)
     parameters, choices = [], {}
     for name, value in stanza.get("parameters", {}).items():

@@ -38,7 +38,7 @@ TEST_CASE("a word of each kind is found however it is decorated") {
       {Foreign::texture_key, "format"},    {Foreign::state_key, "ZTest"},
       {Foreign::state_word, "GL_LEQUAL"},  {Foreign::state_word, "One One"},
       {Foreign::value_key, "value"},       {Foreign::value_type, "Range(0, 1)"},
-      {Foreign::sampling, "LinearFilter"}, {Foreign::expression, "round"},
+      {Foreign::sampling, "LinearFilter"}, {Foreign::expression, "clamp"},
       {Foreign::value, "width"},           {Foreign::import_type, "texture"},
       {Foreign::import_argument, "url"},   {Foreign::shader_name, "saturate"}};
   for (const auto& [kind, word] : kWords) CHECK_MESSAGE(!hintForForeign(kind, word).empty(), word);

@@ -25,14 +25,17 @@ CANNOT_SAY = {
     "w012_reserved_define.json": "names that the engine defines",
     "w012_two_underscores.json": "names that GLSL keeps for itself",
     "w012_word_of_glsl.json": "the reserved words of GLSL",
+    "w012_list.json": "what an item of a list may be follows from the key",
     "w012_include_prefix.json": "a prefix that comes from a file's name",
+    "w042_choice.json": "which words a choice may give",
     "w018_pass_and_include.json": "that the file below has an include of this name",
     "w018_texture_and_buffer.json": "of what kind the file below declares it",
 }
 SEES = {
     "w007_deep.json": "it is a list, and a graph is an object",
     "w014_two_kinds.json": "each kind of resource has keys of its own",
-    "w019_before.json": "the keys of an overlay do not stand in a graph without \"extends\"",
+    "w019_remove.json": "the keys of an overlay do not stand in a graph without \"extends\"",
+    "w026_every.json": "the words of \"update\"",
 }
 PYTHON_READS = {
     "w002_huge_number.json": "a number beyond all floating-point numbers is infinite there",

@@ -50,7 +50,7 @@ FILES = {
     "deep.json": "[" * 100_000,
     "not_utf8.json": graph().replace("broken", "\udcff").encode("utf-8", "surrogateescape"),
     "number_for_string.json": graph().replace('"broken"', "42"),
-    "list_for_object.json": graph().replace('"read": { "environment": "@environment" }', '"read": ["@environment"]'),
+    "list_for_object.json": graph(more=', "defines": ["A"]'),
     "object_for_size.json": graph(size='{ "width": 4 }'),
     "mips.json": graph(extra=', "mips": 1000000000', write="ldr.mip[0]"),
     "size.json": graph(size="1e9"),

@@ -54,16 +54,10 @@ void checkBind(Model& model, Scope& scope, const IncludeDesc& include, const std
   std::vector<std::string> inputs;
   for (const ResourceDesc& resource : include.graph->resources)
     if (isInput(resource)) inputs.push_back(resource.name);
-  if (const Scope* bound = includeBound(scope, name, ref)) {
-    if (std::ranges::none_of(inputs, [&](const std::string& input) { return hasOwn(model, *bound, input); }))
-      report(
-          model, Code::badBind, ref.place,
-          fmt::format("include '{}' binds all of '{}', which has none of its inputs", include.as, ref.name),
-          {.expected = fmt::format("an include with one of {}", fmt::join(inputs, ", ")),
-           .hint = "leave it out"});
-    return;
-  }
-  if (std::ranges::find(inputs, name) == inputs.end() && !importTypeOf(model, *include.graph, name))
+  if (includeBound(scope, name, ref)) return;
+  // A file that cannot be read was reported: it may be what is bound.
+  if (!scope.broken && std::ranges::find(inputs, name) == inputs.end() &&
+      !importTypeOf(model, *include.graph, name))
     report(model, Code::badBind, ref.place,
            fmt::format("include '{}' binds '{}', which is no input of '{}'", include.as, name, include.file),
            {.hint = text::nearestHint(name, inputs)});
@@ -281,22 +275,27 @@ std::uint32_t boundTo(Model& model, Entity& input, std::uint32_t index) {
   const std::string& name = input.desc->name;
   const RefDesc* bind = nullptr;
   Scope* all = nullptr;  // an include whose resource of the name is bound
-  if (parent)
+  const auto findBind = [&] {
     for (const auto& [own, ref] : input.scope->stanza->include->binds) {
       Scope* const include = includeBound(*parent, own, ref);
       if (!include && own == name) bind = &ref;
       if (include && !all && hasOwn(model, *include, name)) all = include;
     }
+  };
+  if (parent) findBind();
   const RefDesc* sample = nullptr;
   std::uint32_t target = bind ? findEntityOrReport(model, *parent, *bind, "\"bind\"", "names", {}, &sample)
                          : parent ? findEntity(model, all ? *all : *parent, name, false, &sample)
                                   : kNone;
-  if (target == kNone && !bind && parent && !input.desc->optional && mendDeclarations(model))
-    target = findEntity(model, *parent, name, false, &sample);
+  if (target == kNone && !bind && parent && !input.desc->optional && mendDeclarations(model)) {
+    findBind();
+    target = findEntity(model, all ? *all : *parent, name, false, &sample);
+  }
   if (!input.sample) input.sample = sample;
   if (target != kNone) return target;
-  // One of the includer's own that has nothing behind it was reported there, and those of the root by reportToInclude().
-  if (bind || (parent && parent->resources.contains(name))) return kNone;
+  // One of the includer's own that has nothing behind it was reported there, as was a file that cannot be read and may have one, and
+  // those of the root by reportToInclude().
+  if (bind || (parent && (parent->resources.contains(name) || parent->broken))) return kNone;
   if (input.desc->optional) {
     input.kind = ResourceDesc::Kind::alternatives;
     input.state = Progress::done;
