@@ -71,6 +71,7 @@ namespace {
 using text::Diagnostic;
 
 constexpr std::uint64_t kMaxChanges = 16'384;  // values of one overlay: each is looked for in what is below
+constexpr std::uint64_t kMaxShared = 262'144;  // values of sets, counted for each pass that has them
 
 // Where a whole name leads.
 struct Spot {
@@ -122,7 +123,7 @@ bool declares(std::string_view section, const JsonMember& entry) {
 class Applier {
  public:
   Applier(SourceLoader& loader, Source& target, text::Diagnostics& diagnostics)
-      : loader_(loader), target_(target), diagnostics_(diagnostics), said_(diagnostics) {}
+      : loader_(loader), target_(target), said_(diagnostics) {}
 
   // Passes first: other sections may reach into what the overlay includes.
   void run(const JsonValue& overlay, bool preset) {
@@ -204,7 +205,7 @@ class Applier {
     });
   }
 
-  bool stopped() const { return tooMuch_ || !said_.goesOn(); }
+  bool stopped() const { return loader_.tooMany() || !said_.goesOn(); }
 
   // Objects merge, null takes a member away, anything else replaces what is there.
   void merge(JsonValue& into, const JsonMember& over) {
@@ -317,12 +318,7 @@ class Applier {
         kept.push_back(name);
         continue;
       }
-      if (copied_ += valuesOf(*set); copied_ > text::raised(text::kMaxValues)) {
-        text::reportLimit(diagnostics_, over.place, "overlays change passes that have too much of sets",
-                          text::kMaxValues, "values");
-        tooMuch_ = true;
-        return;
-      }
+      if (!loader_.mayShare(*set, over.place)) return;
       for (const JsonMember& group : set->members)
         if (JsonMember* there = memberOf(own, group.key))
           there->value.members.insert(there->value.members.begin(), group.value.members.begin(),
@@ -379,15 +375,13 @@ class Applier {
     Source* at = &target_;
     for (const std::string& prefix : below) {
       const std::shared_ptr<const Source> child = includedBy(*at, prefix);
-      std::shared_ptr<Source>& kept = at->changed[prefix];
       if (!own_.contains(child.get())) {
-        tooMuch_ = !loader_.mayCopy(*child, place);
-        kept = std::make_shared<Source>(*child);
-        own_.insert(kept.get());
+        if (!loader_.mayCopy(*child, place)) return nullptr;
+        own_.insert((at->changed[prefix] = std::make_shared<Source>(*child)).get());
       }
-      at = kept.get();
+      at = at->changed[prefix].get();
     }
-    return tooMuch_ ? nullptr : at;
+    return at;
   }
 
   // ---- parameters, lets, resources ----
@@ -571,16 +565,13 @@ class Applier {
     const JsonValue over = withSets(withoutPlace(stanza, ""), below);
     makeOwn(source, there, over);
     for (const JsonMember& member : over.members) merge(there, member);
-    return !tooMuch_;
+    return true;
   }
 
   SourceLoader& loader_;
   Source& target_;
-  text::Diagnostics& diagnostics_;
   ReadContext said_;             // with the pass or resource that is being applied
   std::set<const Source*> own_;  // copies that only this overlay has seen
-  std::uint64_t copied_ = 0;     // values of sets, into passes
-  bool tooMuch_ = false;         // reported; nothing more is applied
 };
 
 // ---- files ----
@@ -647,12 +638,20 @@ std::optional<JsonValue> SourceLoader::parse(const std::string& path, const text
 
 bool SourceLoader::mayCopy(const Source& source, const text::Place& place) {
   values_ += source.values;
-  if (values_ <= text::raised(text::kMaxValues)) return true;
+  if (!tooMany_ && values_ <= text::raised(text::kMaxValues)) return true;
   if (!std::exchange(tooMany_, true))
     text::reportLimit(diagnostics_, place,
                       "the files of the graph and the copies that overlays change hold too many values",
                       text::kMaxValues, "values")
         .found = fmt::format("{} with '{}'", values_, source.path);
+  return false;
+}
+
+bool SourceLoader::mayShare(const JsonValue& set, const text::Place& place) {
+  shared_ += valuesOf(set);
+  if (!tooMany_ && shared_ <= text::raised(kMaxShared)) return true;
+  if (!std::exchange(tooMany_, true))
+    text::reportLimit(diagnostics_, place, "passes hold too much of sets", kMaxShared, "values");
   return false;
 }
 
@@ -767,7 +766,7 @@ bool SourceLoader::lay(Source& made, const JsonValue& root, const std::string& p
   made.top = path;
   if (made.root.is(Type::object)) Applier(*this, made, diagnostics_).run(root, preset);
   made.values = valuesOf(made.root);
-  return true;
+  return !tooMany_;
 }
 
 }  // namespace weft::graph

@@ -56,6 +56,9 @@ class SourceLoader {
   const FileTexts& texts() const { return texts_; }
   // False after Code::limitExceeded: overlays make copies of what they are laid over, so values are counted again for each.
   bool mayCopy(const Source& source, const text::Place& place);
+  // As mayCopy(), for a set that a pass gets.
+  bool mayShare(const text::JsonValue& set, const text::Place& place);
+  bool tooMany() const { return tooMany_; }
 
  private:
   std::optional<text::JsonValue> parse(const std::string& path, const text::Place& from, bool preset);
@@ -73,7 +76,8 @@ class SourceLoader {
   std::map<std::string, std::shared_ptr<const Source>> known_;  // by identity; null for files that failed
   std::vector<std::pair<std::string, std::string>> open_;       // identity and path of such overlays
   std::uint64_t values_ = 0;                                    // of all files and copies so far
-  bool tooMany_ = false;
+  std::uint64_t shared_ = 0;                                    // of sets, in passes
+  bool tooMany_ = false;  // reported; nothing more is laid over anything
 };
 
 // The member of that key, or null.

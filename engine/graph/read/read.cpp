@@ -20,9 +20,6 @@ using text::Code;
 using text::Diagnostics;
 using Type = JsonValue::Type;
 
-// Slots, parameters and defines of the passes of one file that use sets.
-constexpr std::uint64_t kMaxShared = std::uint64_t{1} << 18;
-
 class GraphReader {
  public:
   GraphReader(Diagnostics& diagnostics, const FileTexts& given)
@@ -165,7 +162,6 @@ class GraphReader {
     static const JsonValue none;
     const JsonValue *passes = valueIn(root, "passes"), *sets = valueIn(root, "sets");
     ReadContext::Seen seen;
-    std::uint64_t shared = 0;
     for (std::size_t i = 0; passes && i < passes->items.size() && context.goesOn(); ++i) {
       const JsonValue& stanza = passes->items[i];
       std::optional<PassDesc> pass = readPass(context, stanza, sets ? *sets : none);
@@ -173,12 +169,8 @@ class GraphReader {
       if (name && name->is(Type::string) && (!pass || (!pass->include && pass->name != name->text)))
         graph.unread.push_back(name->text);
       if (!pass) continue;
-      if (!pass->uses.empty()) shared += pass->slots.size() + pass->parameters.size() + pass->defines.size();
-      if (shared > text::raised(kMaxShared)) {
-        text::reportLimit(diagnostics_, stanza.place, "passes that use sets hold too much", kMaxShared,
-                          "slots, parameters and defines of such passes");
-        return;
-      }
+      for (const auto& use : pass->uses)
+        if (!loader_.mayShare(*sets->find(use.name), stanza.place)) return;
       context.pass = pass->name;
       context.checkFresh(seen, pass->name, pass->namePlace, "pass");
       context.pass.clear();
