@@ -131,7 +131,7 @@ CASES = [
     (["plan", "truncated.json"], 1, "W002", r"truncated\.json:5:44"),
     (["dot", "truncated.json"], 1, "W002", r"truncated\.json:5:44"),
     (rendered("number_for_string.json"), 1, "W003", r"number_for_string\.json:1:11"),
-    (rendered("list_for_object.json"), 1, "W003", r"list_for_object\.json:6:15"),
+    (rendered("list_for_object.json"), 1, "W003", r"list_for_object\.json:6:93"),
     (rendered("object_for_size.json"), 1, "W003", r"object_for_size\.json:3:42"),
     (rendered("mips.json"), 1, "W048", r"mips\.json:3:60"),
     (rendered("size.json"), 1, "W048", r"size\.json:3:42"),
