@@ -52,6 +52,7 @@ struct Leaf {
   const RefDesc* sampling = nullptr;  // what says, nearest to the use, how it is sampled
   int history = 0;                    // n of @-n, of the reference and of the alternatives on the way
   bool conditional = false;           // it stands in a list, with a condition
+  bool off = false;                   // that, or one on the way, is false
 };
 
 // A slot of one pass instance.
@@ -91,6 +92,7 @@ struct SlotContext {
   const std::string& pass;  // "glow_down[3]"
   bool versions = true;     // false: a disabled pass; the first candidate is validated
   bool ranges = true;       // false: sub-resource ranges are not held against sizes
+  bool quiet = false;       // report() says nothing
 
   // Reports a mistake of the pass: "pass 'glow_down[3]' MESSAGE". Returns false.
   bool report(Code code, const Place& place, std::string_view message, Says says = {}) const;

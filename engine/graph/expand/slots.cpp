@@ -59,42 +59,6 @@ std::optional<Range> closeSpan(const Selection::Span& said, std::int64_t count, 
   return there ? std::optional(Range{first, last - first + 1}) : std::nullopt;
 }
 
-// All concrete candidates of a reference whose conditions hold, in order. `leaf` says what `ref` means, and what is said of it from
-// outside; `sample` how that is sampled by itself. False after a report.
-bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref, const RefDesc* sample,
-                   Leaf leaf, std::vector<Leaf>& leaves) {
-  Model& model = context.model;
-  if (!addSelection(context, names, ref, leaf.selection)) return false;
-  if (!leaf.kind) leaf.kind = ref.kind;
-  if (!leaf.sampling) leaf.sampling = ref.samples ? &ref : sample;
-  leaf.history += ref.history;
-  Entity& entity = model.entities[leaf.entity];
-  entity.firstRead = std::min(entity.firstRead, model.position);
-  if (entity.kind != ResourceDesc::Kind::alternatives) {
-    leaves.push_back(std::move(leaf));
-    return true;
-  }
-  if (entity.state == Progress::failed) return false;  // reported
-  Names listNames(model, *entity.scope);
-  bool good = true;
-  for (std::size_t i = 0; i < entity.candidates.size(); ++i) {
-    if (entity.candidates[i] == kNone) continue;
-    const RefDesc& alternative = entity.desc->alternatives[i];
-    const auto holds =
-        evaluateCondition(listNames, alternative.condition, true, "the condition of an alternative");
-    if (!holds) good = false;
-    if (holds && !*holds)
-      wouldUse(model, entity.candidates[i], Access::read, leaf.history + alternative.history);
-    if (!holds || !*holds) continue;
-    Leaf within = leaf;
-    within.entity = entity.candidates[i];
-    within.conditional = leaf.conditional || alternative.condition.present();
-    good =
-        collectLeaves(context, listNames, alternative, entity.samples[i], std::move(within), leaves) && good;
-  }
-  return good;
-}
-
 // The selected rectangle of a leaf, checked. `work` gets entity, elements, use (without kind), whole, and the state `empty`
 // when none of the levels is there at this size. False after a report.
 bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc& ref, SlotWork& work) {
@@ -160,6 +124,60 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
   work.use.planes = selection.stencil ? 2 : planeMask(shape);
   work.state = empty ? State::empty : State::connected;
   return true;
+}
+
+// Notes what a slot would read if the conditions on the way to `leaf` held, or nothing in front of it were there. What it selects need
+// not be there: nobody reads it.
+void noteOff(const SlotContext& context, const Leaf& leaf, const RefDesc& ref) {
+  const Entity& entity = context.model.entities[leaf.entity];
+  const bool own = entity.kind == ResourceDesc::Kind::texture || entity.kind == ResourceDesc::Kind::buffer;
+  if (!own || entity.state != Progress::done) return;
+  SlotContext off = context;
+  off.ranges = false;
+  off.quiet = true;
+  SlotWork work;
+  if (!placeSelection(off, leaf, ref, work) || !work.isConnected()) return;
+  work.use.kind = Kind::copy;
+  work.use.history = static_cast<std::uint8_t>(leaf.history);
+  wouldUse(context.model, {WouldUse::Why::off, work.entity, work.firstElement, work.elementCount, work.use});
+}
+
+// All concrete candidates of a reference whose conditions hold, in order; the others are noted. `leaf` says what `ref` means, and what
+// is said of it from outside; `sample` how that is sampled by itself. False after a report.
+bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref, const RefDesc* sample,
+                   Leaf leaf, std::vector<Leaf>& leaves) {
+  Model& model = context.model;
+  if (!addSelection(context, names, ref, leaf.selection)) return false;
+  if (!leaf.kind) leaf.kind = ref.kind;
+  if (!leaf.sampling) leaf.sampling = ref.samples ? &ref : sample;
+  leaf.history += ref.history;
+  Entity& entity = model.entities[leaf.entity];
+  if (!leaf.off) entity.firstRead = std::min(entity.firstRead, model.position);
+  if (entity.kind != ResourceDesc::Kind::alternatives) {
+    if (leaf.off)
+      noteOff(context, leaf, ref);
+    else
+      leaves.push_back(std::move(leaf));
+    return true;
+  }
+  if (entity.state == Progress::failed) return false;  // reported
+  Names listNames(model, *entity.scope);
+  bool good = true;
+  for (std::size_t i = 0; i < entity.candidates.size(); ++i) {
+    if (entity.candidates[i] == kNone) continue;
+    const RefDesc& alternative = entity.desc->alternatives[i];
+    const auto holds =
+        evaluateCondition(listNames, alternative.condition, true, "the condition of an alternative");
+    good = good && holds;
+    if (!holds) continue;
+    Leaf within = leaf;
+    within.entity = entity.candidates[i];
+    within.conditional = leaf.conditional || alternative.condition.present();
+    within.off = leaf.off || !*holds;
+    good =
+        collectLeaves(context, listNames, alternative, entity.samples[i], std::move(within), leaves) && good;
+  }
+  return good;
 }
 
 const char* verbOf(Access access) {
@@ -265,8 +283,7 @@ struct SlotChoice {
   }
   // The alternatives from `first` on, which are off.
   void noteOthers(std::size_t first) const {
-    for (std::size_t i = first; i < leaves.size(); ++i)
-      wouldUse(context.model, leaves[i].entity, slot.access, leaves[i].history);
+    for (std::size_t i = first; i < leaves.size(); ++i) noteOff(context, leaves[i], slot.ref);
   }
 
   // Nothing is there: a mistake when it is `needed`, and the slot does not say that it can do without.
@@ -281,6 +298,7 @@ struct SlotChoice {
 }  // namespace
 
 bool SlotContext::report(Code code, const Place& place, std::string_view message, Says says) const {
+  if (quiet) return false;
   says.pass = pass;
   return expansion::report(model, code, place, fmt::format("{} {}", user, message), std::move(says));
 }

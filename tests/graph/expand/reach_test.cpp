@@ -125,6 +125,33 @@ TEST_CASE("what \"clear\" says in place of what is drawn below; a chain that beg
   CHECK(expandText(sums).text() == "");
 }
 
+TEST_CASE("a part that a pass below draws, and a part that an alternative that is off does not read") {
+  // "far" alone is read where "on" is true, so that "halve" writes the other layer for nobody.
+  const auto told = [](const std::string& passes) {
+    return expandText(R"J({ "parameters": { "on": { "default": false } }, "resources": {
+      "fields": { "texture": "rgba8", "size": 8, "mips": 2, "layers": 2, "clear": [0, 0, 0, 0] },
+      "far": ["fields.layer[1] if $on"], "ldr": { "texture": "rgba8", "size": 8 } }, "passes": [ )J" +
+                      passes + R"J( ], "present": "ldr" })J");
+  };
+  const std::string split = pass("split", R"J("write": { "r": "fields.mip[0]" })J") + ", ";
+  const std::string show =
+      pass("show", R"J("read": { "s": "fields.layer[0]", "far": "far ?" }, "write": { "r": "ldr" })J");
+  const auto halve = [](const std::string& layer) {
+    return pass("halve", R"J("modify": { "r": "fields.mip[1])J" + layer + R"J(" })J");
+  };
+  CHECK(told(split + halve(".layer[0]") + ", " + show).text() == "");
+  const Expanded late = told(split + show + ", " + halve(".layer[0]"));
+  REQUIRE(late.diagnostics.size() > 0);
+  CHECK(late.text().find("'halve'") != std::string::npos);
+  // Read in full above all writers: each of them is named that no longer runs.
+  const std::string off = ", " + pass("after", R"J("read": { "far": "far ?" }, "modify": { "r": "ldr" })J");
+  const Expanded first = told(show + ", " + split + halve("") + off);
+  CHECK(first.text().find("'halve'") != std::string::npos);
+  // Of the layer that it would read, what is off keeps the writer; of the other one it does not.
+  CHECK(told(split + show + ", " + halve(".layer[1]") + off).text() == "");
+  CHECK(told(split + show + ", " + halve(".layer[0]") + off).text() != "");
+}
+
 TEST_CASE(
     "the second of two alternatives is not read while the first is there; by a condition that is meant") {
   const auto told = [](const char* list) {

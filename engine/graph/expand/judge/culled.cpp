@@ -153,34 +153,80 @@ class Lines {
   // kNone.
   std::uint32_t nearest(const Line& at, bool below) const {
     const Line* best = nullptr;
-    if (const auto found = lines_.find(at.entity); found != lines_.end())
-      for (const Line& line : found->second)
-        if ((below ? line.position > at.position : line.position < at.position) &&
-            (!best || (below ? line.position < best->position : line.position > best->position)) &&
-            line.firstElement < at.firstElement + at.elementCount &&
-            at.firstElement < line.firstElement + line.elementCount && overlap(line.rect, at.rect))
-          best = &line;
+    eachAt(at, below, [&](const Line& line) {
+      if (!best || (below ? line.position < best->position : line.position > best->position)) best = &line;
+    });
     return best ? best->who : kNone;
+  }
+  // Calls f(line) for all of these.
+  template <class F>
+  void eachAt(const Line& at, bool below, F&& f) const {
+    const auto found = lines_.find(at.entity);
+    if (found == lines_.end()) return;
+    for (const Line& line : found->second)
+      if ((below ? line.position > at.position : line.position < at.position) &&
+          line.firstElement < at.firstElement + at.elementCount &&
+          at.firstElement < line.firstElement + line.elementCount && overlap(line.rect, at.rect))
+        f(line);
   }
 
  private:
   std::map<std::uint32_t, std::vector<Line>> lines_;
 };
 
-// A read that found no version but zero, in an enabled pass.
+// A read, or a part of one, that found no version but zero, in an enabled pass.
 struct Missed {
-  const WouldUse* would = nullptr;
+  Line line;
+  std::uint32_t slot = kNone;  // of the pass
+  WouldUse::Why why = WouldUse::Why::zero;
   std::uint32_t pass = kNone;
+  std::string part{};  // of what the slot reads, where that is more
 };
 
+// The levels of each layer that a read sees as "clear" left them, where it sees more than that.
+void addMissedParts(const Model& model, std::uint32_t use, std::uint32_t slot, std::vector<Missed>& missed) {
+  const FlatGraph& graph = model.graph;
+  const FlatUse& read = graph.uses[use];
+  const FlatResource& shape = graph.resources[read.resource];
+  const std::uint32_t pass = graph.links.passOf[use];
+  const Line whole = lineOf(model, use, pass);
+  std::uint32_t next = kNone;
+  forEachVersion(graph.links, graph.links.seen[use], read, shape, [&](std::uint32_t s, std::uint32_t writer) {
+    if (writer != kNone) return;
+    const auto [mip, layer, plane] = subresourceAt(s, shape);
+    if (s == next && mip > 0) {
+      ++missed.back().line.rect.mips;
+    } else {
+      Line part = whole;
+      part.rect.mip = static_cast<std::uint16_t>(mip);
+      part.rect.layer = static_cast<std::uint16_t>(layer);
+      part.rect.mips = part.rect.layers = 1;
+      part.rect.planes = static_cast<std::uint8_t>(1u << plane);
+      missed.push_back({part, slot, WouldUse::Why::zero, pass, " of " + subresourceText(shape, s)});
+    }
+    next = s + 1;
+  });
+}
+
 std::vector<Missed> findMissedReads(const Model& model) {
+  const FlatGraph& graph = model.graph;
   std::vector<Missed> missed;
   for (const WouldUse& would : model.would) {
     if (would.why == WouldUse::Why::off || would.slot == kNone || !isOwn(model, would.entity)) continue;
     const auto at = std::ranges::lower_bound(model.positionOf, would.position);
-    if (at != model.positionOf.end() && *at == would.position)
-      missed.push_back({&would, static_cast<std::uint32_t>(at - model.positionOf.begin())});
+    if (at == model.positionOf.end() || *at != would.position) continue;
+    const auto pass = static_cast<std::uint32_t>(at - model.positionOf.begin());
+    missed.push_back({lineOf(would, pass), would.slot, would.why, pass});
   }
+  for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
+    for (std::uint32_t s = 0; s < graph.specs[p].slotCount; ++s) {
+      const SlotSpec& slot = graph.slots[graph.specs[p].firstSlot + s];
+      for (std::uint32_t u = slot.firstUse; u < slot.firstUse + slot.useCount; ++u)
+        if (slot.access == Access::read && graph.uses[u].history == 0 &&
+            VersionLinks::hasRuns(graph.links.seen[u]) &&
+            isOwn(model, model.elementOf[graph.uses[u].resource].entity))
+          addMissedParts(model, u, s, missed);
+    }
   return missed;
 }
 
@@ -250,7 +296,7 @@ std::map<std::uint32_t, Loss> findLosses(const Model& model, const Reach& reach)
         readers.add(model, lineOf(model, u, p));
     }
   for (const Missed& missed : findMissedReads(model))
-    if (reach.live.pass[missed.pass] != 0) readers.add(model, lineOf(*missed.would, missed.pass));
+    if (reach.live.pass[missed.pass] != 0) readers.add(model, missed.line);
   for (const std::uint32_t u : gone) {
     const std::uint32_t pass = graph.links.passOf[u];
     const Line line = lineOf(model, u, pass);
@@ -387,10 +433,11 @@ std::vector<bool> findNeeded(const FlatGraph& graph, std::uint32_t pass) {
   return needed;
 }
 
-// The stanzas of an entry of the file that are culled without being lost, with what only feeds them.
-std::vector<std::string_view> findCulled(const FlatGraph& graph, const Reach& reach,
-                                         const std::string& entry) {
+// The stanzas of an entry of the file, and of `writers`, that are culled without being lost, with what only feeds them.
+std::vector<std::string_view> findCulled(const FlatGraph& graph, const Reach& reach, const std::string& entry,
+                                         const std::set<std::uint32_t>& writers) {
   std::vector<bool> culled(graph.passes.size(), false);
+  for (const std::uint32_t writer : writers) culled[writer] = true;
   std::vector<std::string_view> names;
   for (auto p = static_cast<std::uint32_t>(culled.size()); p-- > 0;) {
     const std::string& name = graph.specs[p].declared;
@@ -403,8 +450,8 @@ std::vector<std::string_view> findCulled(const FlatGraph& graph, const Reach& re
 }
 
 // Not where the writer below is lost (it is told with its reader) or is another repeat of the same stanza, where a pass
-// above that would write it is switched off, or where the writer needs what the reader makes and the reader only begins
-// with what "clear" says.
+// above that would write it is switched off, or where the writer runs, needs what the reader makes, and the reader only
+// begins with what "clear" says.
 void warnMisplaced(Model& model, const Reach& reach) {
   const FlatGraph& graph = model.graph;
   const std::vector<Missed> missed = findMissedReads(model);
@@ -417,36 +464,41 @@ void warnMisplaced(Model& model, const Reach& reach) {
   // What stands on the wrong side of the same entry is one mistake.
   struct Mistake {
     std::pair<std::string, std::string> entries;  // of reader and writer
-    const WouldUse* would = nullptr;
-    std::uint32_t reader = kNone, writer = kNone;
+    Missed missed;
+    std::uint32_t writer = kNone;
     std::vector<std::string_view> others{};  // stanzas that read it, too
+    std::set<std::uint32_t> below{};         // passes that write it
   };
   std::vector<Mistake> mistakes;
-  for (const auto& [would, reader] : missed) {
-    const Line line = lineOf(*would, reader);
-    const std::uint32_t writer = writers.nearest(line, true);
-    if (writer == kNone || reach.live.pass[reader] == 0 || off.nearest(line, false) != kNone) continue;
+  for (const Missed& miss : missed) {
+    const std::uint32_t reader = miss.pass, writer = writers.nearest(miss.line, true);
+    if (writer == kNone || reach.live.pass[reader] == 0 || off.nearest(miss.line, false) != kNone) continue;
     const std::string &name = graph.specs[reader].declared, &other = graph.specs[writer].declared;
-    if (name == other || (would->why == WouldUse::Why::zero && findNeeded(graph, writer)[reader])) continue;
+    if (name == other || (miss.why == WouldUse::Why::zero && reach.live.pass[writer] != 0 &&
+                          findNeeded(graph, writer)[reader]))
+      continue;
     auto entries = entriesOf(name, other);
-    const auto at = std::ranges::find(mistakes, entries, &Mistake::entries);
+    auto at = std::ranges::find(mistakes, entries, &Mistake::entries);
     if (at == mistakes.end())
-      mistakes.push_back({std::move(entries), would, reader, writer});
-    else if (name != graph.specs[at->reader].declared &&
+      at = mistakes.insert(at, {std::move(entries), miss, writer});
+    else if (name != graph.specs[at->missed.pass].declared &&
              std::ranges::find(at->others, name) == at->others.end())
       at->others.push_back(name);
+    writers.eachAt(miss.line, true, [&](const Line& line) { at->below.insert(line.who); });
   }
-  for (const auto& [entries, would, reader, writer, others] : mistakes) {
+  for (const auto& [entries, miss, writer, others, below] : mistakes) {
+    const auto& [line, slotOfPass, why, reader, part] = miss;
     const PassSpec& spec = graph.specs[reader];
-    const SlotSpec& slot = graph.slots[spec.firstSlot + would->slot];
-    const std::string& resource = model.entities[would->entity].name;
-    std::string message = fmt::format("pass '{}' reads '{}' before pass '{}' writes it: its slot '{}' {}",
+    const SlotSpec& slot = graph.slots[spec.firstSlot + slotOfPass];
+    const std::string& resource = model.entities[line.entity].name;
+    std::string message = fmt::format("pass '{}' reads '{}' before pass '{}' writes it: its slot '{}' {}{}",
                                       spec.name, resource, graph.specs[writer].name, slot.name,
-                                      would->why == WouldUse::Why::zero ? "has only what \"clear\" says"
-                                      : slot.useCount == 0              ? "stays empty"
-                                                                        : "takes another alternative");
+                                      why == WouldUse::Why::zero ? "has only what \"clear\" says"
+                                      : slot.useCount == 0       ? "stays empty"
+                                                                 : "takes another alternative",
+                                      part);
     addNames(message, "likewise", others);
-    addNames(message, "culled:", findCulled(graph, reach, entries.second));
+    addNames(message, "culled:", findCulled(graph, reach, entries.second, below));
     auto& d = model.diagnostics.warning(Code::readBeforeWrite, slot.place, std::move(message));
     d.pass = spec.name;
     d.resource = resource;
