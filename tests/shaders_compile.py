@@ -70,15 +70,23 @@ def by_name(value):
     return {k: v for item in value for k, v in (item if isinstance(item, dict) else {re.match(r"[@$]?(?:\w+\.(?!mip|layer|face))*(\w+)", item)[1]: item}).items()}
 
 
+def sets_of(graph):
+    """Those of the file and of the files that it extends."""
+    desc = json.loads(strip_comments(graph.read_text()))
+    below = desc.get("extends", [])
+    return {name: held for file in ([below] if isinstance(below, str) else below) for name, held in sets_of(graph.parent / file).items()} | desc.get("sets", {})
+
+
 def passes_of(graph):
     """Each with what it has of sets."""
     desc = json.loads(strip_comments(graph.read_text()))
+    sets = sets_of(graph)
     for stanza in desc.get("passes", []):
         used = stanza.get("use", [])
         for group in ("read", "write", "modify", "parameters"):
             stanza[group] = by_name(stanza.get(group, {}))
         for name in [used] if isinstance(used, str) else used:
-            for group, held in desc["sets"][name].items():
+            for group, held in sets[name].items():
                 stanza[group] = {**by_name(held), **stanza.get(group, {})}
         if "shader" in stanza:
             yield stanza, desc
@@ -87,7 +95,7 @@ def passes_of(graph):
 def constants_of(graphs):
     """The numbers that a `let` names, as text. Includes see those of their includers: so they are gathered from all files."""
     lets = [json.loads(strip_comments(graph.read_text())).get("let", {}) for graph in graphs]
-    return {f"${name}": str(value) for let in lets for name, value in let.items() if isinstance(value, int)}
+    return {f"${name.split('.')[-1]}": str(value) for let in lets for name, value in let.items() if isinstance(value, int)}
 
 
 def variants(stanza, desc, constants):

@@ -1,0 +1,9 @@
+// The sky behind everything.
+// write   radiance
+#include "common/view.glsl"
+#include "sky_at.glsl"
+
+in vec2 uv;
+out vec4 radiance;
+
+void main() { radiance = vec4(skyAt(normalize(viewRay(uv))), 1.0); }
