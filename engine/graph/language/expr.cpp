@@ -198,8 +198,9 @@ void print(const ExprNode& node, int outer, std::string& out) {
 
 Expr::Expr(ExprPtr root, text::Place start) : root_(std::move(root)), start_(std::move(start)) {
   std::vector<std::string> names;
+  std::set<std::string_view> seen;
   visitNodes(*root_, [&](const ExprNode& node) {
-    if (node.op == ExprOp::variable) names.push_back(node.name);
+    if (node.op == ExprOp::variable && seen.insert(node.name).second) names.push_back(node.name);
   });
   if (!names.empty()) variables_ = std::make_shared<const std::vector<std::string>>(std::move(names));
 }

@@ -102,7 +102,7 @@ class Expr {
   // Canonical text, fit to be parsed again.
   std::string text() const;
   const text::Place& place() const { return start_; }
-  // Every $variable it names, as often as it does (for culling conditions, hot reload and `explain`).
+  // Every $variable it names, each once (for culling conditions, hot reload and `explain`).
   const std::vector<std::string>& variables() const;
   // True when the bare `word` stands in it: a repeat index or a choice.
   bool says(std::string_view word) const;

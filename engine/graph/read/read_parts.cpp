@@ -580,6 +580,7 @@ bool readPassInto(ReadContext& context, const JsonValue& value, const JsonValue&
   out.view = context.ref(value, "view");
   readGeometry(context, value, out);
   const bool indexed = readRepeat(context, value.find("repeat"), out);
+  const JsonValue* use = valueIn(value, "use");
   ReadContext::Seen names, states;  // slots, parameters and defines share one namespace
   for (const JsonValue* part : partsOf(context, value, sets, out)) {
     for (SlotDesc& slot : out.slots) slot.ofSet = true;
@@ -591,7 +592,9 @@ bool readPassInto(ReadContext& context, const JsonValue& value, const JsonValue&
   }
   // As if the pass said all of it: what it reads stands together, and so on.
   if (!out.uses.empty()) std::ranges::stable_sort(out.slots, {}, &SlotDesc::access);
-  return indexed && !out.name.empty() && value.find("type");
+  // Without one of its sets it is another pass.
+  const bool whole = out.uses.size() == (use ? stringsOf(*use).size() : 0);
+  return indexed && whole && !out.name.empty() && value.find("type");
 }
 
 }  // namespace

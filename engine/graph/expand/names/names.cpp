@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -75,8 +76,19 @@ std::optional<Value> letValue(Model& model, Let& let) {
   return let.value;
 }
 
+int timesNamed(const Expr& expr, std::string_view name) {
+  if (std::ranges::find(variablesOf(expr), name) == variablesOf(expr).end()) return 0;
+  const std::string text = expr.text(), variable = fmt::format("${}", name);
+  int times = 0;
+  for (std::size_t at = text.find(variable); at != std::string::npos; at = text.find(variable, at + 1)) {
+    const std::size_t end = at + variable.size();
+    times += end == text.size() || (text[end] != '.' && text[end] != '_' && !std::isalnum(text[end] & 0x7f));
+  }
+  return times;
+}
+
 // What a name that nothing has stands for when it is the declaration of a parameter or let, an edit away, that is misspelt:
-// nothing reads it under its own name, and more than one expression asks for `name`. That is one mistake, at the declaration.
+// nothing reads it under its own name, and `name` is asked for more than once. That is one mistake, at the declaration.
 // Files ask for what they declare, what those declare that include them, and what those declare that they include.
 Variable declarationMeant(Model& model, Scope& user, std::string_view name) {
   const auto sees = [](const Scope& a, const Scope& b) {
@@ -92,8 +104,8 @@ Variable declarationMeant(Model& model, Scope& user, std::string_view name) {
     int asked = 0, read = 0;
     const auto see = [&](const Expr& expr) {
       if (!expr.present()) return;
-      asked += static_cast<int>(std::ranges::count(variablesOf(expr), name));
-      read += static_cast<int>(std::ranges::count(variablesOf(expr), declared));
+      asked += timesNamed(expr, name);
+      read += timesNamed(expr, declared);
     };
     for (const Scope& scope : model.scopes)
       if (sees(scope, from)) visitMentions(*scope.desc, see, [](const RefDesc&) {});
@@ -101,7 +113,7 @@ Variable declarationMeant(Model& model, Scope& user, std::string_view name) {
     const bool let = meant.kind == Variable::Kind::let;
     report(model, Code::unknownVariable,
            let ? model.lets[meant.index].desc->place : model.parameters[meant.index].desc->place,
-           fmt::format("nothing reads '${}', and {} expressions ask for '${}'", declared, asked, name),
+           fmt::format("nothing reads '${}', and '${}' is asked for {} times", declared, name, asked),
            {.hint = fmt::format("did you mean '{}'?", name)});
     // In the file of the declaration, and where it is found from below.
     from.variables.try_emplace(model.misspelt.emplace_back(name), meant);

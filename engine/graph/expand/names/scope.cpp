@@ -410,13 +410,15 @@ Mentions mentionsOf(Model& model) {
     if (!scope.parent) continue;
     const auto& binds = scope.stanza->include->binds;
     for (const auto& [input, ref] : binds) mention(*scope.parent, ref.name, ref.import ? 0 : 1);
-    const bool some = std::ranges::any_of(binds, [&](const auto& bind) {
-      return includeBound(*scope.parent, bind.first, bind.second) != nullptr;
-    });
+    std::vector<Scope*> whole;  // includes that are bound
+    for (const auto& [input, ref] : binds)
+      if (Scope* include = includeBound(*scope.parent, input, ref)) whole.push_back(include);
     for (const ResourceDesc& input : scope.desc->resources)
       if (input.kind == ResourceDesc::Kind::input &&
-          std::ranges::none_of(binds, [&](const auto& bind) { return bind.first == input.name; }))
-        mention(*scope.parent, input.name, input.optional || some ? 0 : 1);
+          std::ranges::none_of(binds, [&](const auto& bind) { return bind.first == input.name; })) {
+        mention(*scope.parent, input.name, input.optional || !whole.empty() ? 0 : 1);
+        for (Scope* include : whole) mention(*include, input.name, input.optional ? 0 : 1);
+      }
   }
   return mentions;
 }
