@@ -41,7 +41,7 @@ std::string seenFrom(const std::string& folder, const std::string& path) {
 
 void formatFile(const std::string& path, bool checkOnly, text::Diagnostics& diagnostics) {
   const auto text = text::readTextFile(path, diagnostics);
-  const auto file = std::make_shared<const std::string>(path);
+  const text::FileName file = path;
   const std::size_t before = diagnostics.errorCount();
   if (text) text::parseJson(*text, file, diagnostics);
   if (!text || diagnostics.errorCount() > before) return;
@@ -83,7 +83,7 @@ std::optional<Anchor> findAnchor(const std::string& graphFile, const std::string
                                  text::Diagnostics& diagnostics) {
   const auto desc = graph::readGraph(graphFile, diagnostics);
   if (!desc || diagnostics.hasErrors()) return std::nullopt;
-  const text::Place place = {std::make_shared<const std::string>(graphFile), 1, 1};
+  const text::Place place = {graphFile, 1, 1};
   for (const graph::PassDesc& pass : desc->passes)
     if (pass.name == name) {
       diagnostics

@@ -140,8 +140,7 @@ std::vector<Json> knownPresets(const std::string& own, text::Diagnostics& diagno
       const std::string path = entry.path().string(), name = entry.path().stem().string();
       if (entry.path().extension() != ".json" || !seen.insert(name).second) continue;
       const auto text = text::readTextFile(path, diagnostics);
-      const auto root = text ? text::parseJson(*text, std::make_shared<const std::string>(path), diagnostics)
-                             : std::nullopt;
+      const auto root = text ? text::parseJson(*text, path, diagnostics) : std::nullopt;
       const auto textOf = [&](const char* key) { return root->find(key) ? root->find(key)->text : ""; };
       if (root)
         presets.push_back(

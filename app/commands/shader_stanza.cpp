@@ -125,9 +125,8 @@ std::optional<ShaderStanza> stanzaFor(const std::string& path, glsl::SourceLoade
   const auto [root, file] = rootOf(path);
   const bool compute = file.ends_with(".comp.glsl"), vertex = file.ends_with(".vert.glsl");
   if (!compute && !vertex && !file.ends_with(".frag.glsl")) {
-    text::Diagnostic& d =
-        diagnostics.error(text::Code::unreadableShader, {std::make_shared<const std::string>(path), 1, 1},
-                          fmt::format("'{}' is no stage of a shader", path));
+    text::Diagnostic& d = diagnostics.error(text::Code::unreadableShader, {path, 1, 1},
+                                            fmt::format("'{}' is no stage of a shader", path));
     d.expected = "a name that ends in .frag.glsl, .vert.glsl or .comp.glsl";
     d.hint = "a file that others include is checked with a shader that includes it";
     return std::nullopt;
@@ -151,8 +150,7 @@ std::optional<ShaderStanza> stanzaFor(const std::string& path, glsl::SourceLoade
   stages.push_back({last, vertex ? stem + ".frag.glsl" : file, ""});
   bool uvAlone = true;  // what the vertex shader of a fullscreen pass puts out
   for (const auto& stage : stages) {
-    const auto source =
-        sources.load(stage.file, diagnostics, {std::make_shared<const std::string>(path), 1, 1});
+    const auto source = sources.load(stage.file, diagnostics, {path, 1, 1});
     if (!source) return std::nullopt;
     StanzaMaker(made, compute).add(*source, &stage == &stages.back());
     for (const Declaration& each : source->ofAllBranches().declarations)

@@ -28,7 +28,7 @@ std::optional<Converted> convertFile(const std::string& path, ConvertOptions opt
     if (vertex) source.vertex = *vertex;
     return convertIsf(source, options, diagnostics);
   }
-  refuse(diagnostics, text::Code::unknownPipeline, {std::make_shared<const std::string>(path), 1, 1},
+  refuse(diagnostics, text::Code::unknownPipeline, {path, 1, 1},
          "the file is of no kind that can be imported",
          "an ISF file ends in .fs, a user shader of mpv has lines //!HOOK: see docs/importing.md");
   return std::nullopt;

@@ -259,8 +259,7 @@ class HeaderReader {
 };
 
 // Mistakes of form are W002 to W013 and W220; what Weft has no counterpart for is W221.
-std::optional<IsfHeader> readIsfHeader(std::string_view text, const std::shared_ptr<const std::string>& file,
-                                       Diagnostics& diagnostics) {
+std::optional<IsfHeader> readIsfHeader(std::string_view text, text::FileName file, Diagnostics& diagnostics) {
   const auto comment = firstComment(text);
   if (!comment) {
     refuse(diagnostics, Code::notIsf, {file, 1, 1}, "the file has no ISF header",
@@ -385,7 +384,7 @@ class ShaderTranslator {
   }
 
   std::string translate(std::string_view original, const std::string& fileName, bool isVertex) {
-    file_ = std::make_shared<const std::string>(fileName);
+    file_ = fileName;
     if (original.find('\0') != original.npos) {
       fail({.line = 1, .column = 1}, "the shader has a zero byte", "save the file as UTF-8");
       return {};
@@ -486,7 +485,7 @@ class ShaderTranslator {
   const IsfHeader& header_;
   const IsfNames& names_;
   text::Diagnostics& diagnostics_;
-  std::shared_ptr<const std::string> file_;  // that is being translated
+  text::FileName file_;  // that is being translated
   std::vector<std::string> images_;
   IsfShader out_;
 };
@@ -777,8 +776,7 @@ class IsfGraphWriter {
 std::optional<Converted> convertIsf(const IsfSource& source, const ConvertOptions& options,
                                     text::Diagnostics& diagnostics) {
   const std::size_t errors = diagnostics.errorCount();
-  const auto header =
-      readIsfHeader(source.fragment, std::make_shared<const std::string>(source.fragmentFile), diagnostics);
+  const auto header = readIsfHeader(source.fragment, source.fragmentFile, diagnostics);
   if (!header) return std::nullopt;
   std::vector<std::string> images;
   for (const IsfInput& input : header->inputs)

@@ -137,8 +137,8 @@ std::string readTexels(MpvTexture& texture, std::string_view hex) {
 // The blocks of the file. Mistakes are W225.
 class MpvReader {
  public:
-  MpvReader(std::string_view text, std::shared_ptr<const std::string> file, text::Diagnostics& diagnostics)
-      : file_(std::move(file)), diagnostics_(diagnostics) {
+  MpvReader(std::string_view text, text::FileName file, text::Diagnostics& diagnostics)
+      : file_(file), diagnostics_(diagnostics) {
     while (!text.empty()) {
       const std::size_t end = std::min(text.find('\n'), text.size());
       out_.lines.push_back(text.substr(0, end));
@@ -313,7 +313,7 @@ class MpvReader {
     out_.parameters.push_back(std::move(parameter));
   }
 
-  std::shared_ptr<const std::string> file_;
+  text::FileName file_;
   text::Diagnostics& diagnostics_;
   MpvFile out_;
   std::size_t at_ = 0;
@@ -702,7 +702,7 @@ class MpvWriter {
 
 std::optional<Converted> convertMpv(std::string_view text, const std::string& file,
                                     const ConvertOptions& options, text::Diagnostics& diagnostics) {
-  const auto parsed = MpvReader(text, std::make_shared<const std::string>(file), diagnostics).run();
+  const auto parsed = MpvReader(text, file, diagnostics).run();
   static const std::string kPicture[] = {"picture"};
   if (!parsed || !checkImageNames(options, kPicture, diagnostics)) return std::nullopt;
   return MpvWriter(*parsed, options, diagnostics).run();

@@ -105,7 +105,7 @@ std::optional<std::string> firstEnvironment(const std::string& fileOrFolder, tex
   const std::vector<std::string> files = listEnvironments(fileOrFolder);
   if (!files.empty()) return files.front();
   text::Diagnostic& d =
-      diagnostics.error(text::Code::unreadableImage, {std::make_shared<const std::string>(fileOrFolder)},
+      diagnostics.error(text::Code::unreadableImage, {fileOrFolder},
                         fmt::format("there is no environment in the folder '{}'", fileOrFolder));
   d.expected = "a .hdr or .exr file in it";
   return std::nullopt;

@@ -123,8 +123,7 @@ Json Text::toJson(const Range& range) const {
 
 text::Place Text::placeOf(std::size_t offset) const {
   const std::size_t line = lineOf(offset);
-  return {std::make_shared<const std::string>(path_), static_cast<std::uint32_t>(line),
-          static_cast<std::uint32_t>(offset - lines_[line - 1] + 1)};
+  return {path_, static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(offset - lines_[line - 1] + 1)};
 }
 
 const text::JsonTree& Text::json() const {
@@ -159,7 +158,7 @@ const glsl::Interface& Text::glsl() const {
 }
 
 std::size_t Text::offsetOf(const glsl::Token& token) const {
-  return text::offsetOf(bytes_, {nullptr, token.line, token.column});
+  return text::offsetOf(bytes_, {{}, token.line, token.column});
 }
 
 std::optional<Range> Text::rangeOf(const glsl::Declaration& declaration) const {

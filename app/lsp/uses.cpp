@@ -98,7 +98,7 @@ std::string problemOf(const Workspace& workspace, const Uses& uses, const std::s
   for (const Graph* graph : workspace.graphs()) {
     if (uses.ofShader) break;
     for (const graph::NameUse& use : graph->uses)
-      if (use.name == name && use.kind == uses.kind && text::isSamePlace(use.place, use.declared) &&
+      if (use.name == name && use.kind == uses.kind && use.place == use.declared &&
           std::ranges::any_of(uses.locations,
                               [&](const Location& each) { return each.path == *use.place.file; }))
         return fmt::format("'{}' is declared already in {}", name, *use.place.file);

@@ -181,7 +181,7 @@ void Workspace::check() {
 void Workspace::check(const std::string& path, Graph& graph) {
   graph.current = false;
   if (graph.readSaid.hasErrors() && isPreset(path)) {
-    text::parseJson(texts_.of(path)->bytes(), std::make_shared<const std::string>(path), graph.said);
+    text::parseJson(texts_.of(path)->bytes(), path, graph.said);
     return;
   }
   graph.said.append(graph.readSaid);

@@ -77,8 +77,7 @@ bool checkOutput(const std::string& pattern, std::uint32_t firstFrame, bool seve
 
 void refuseOutput(const std::string& path, const std::string& message, const std::string& hint,
                   text::Diagnostics& diagnostics) {
-  diagnostics.error(text::Code::outputNotWritten, std::make_shared<const std::string>(path), message).hint =
-      hint;
+  diagnostics.error(text::Code::outputNotWritten, {path}, message).hint = hint;
 }
 
 bool makeFolderOf(const std::string& path, text::Diagnostics& diagnostics) {

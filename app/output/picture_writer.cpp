@@ -87,7 +87,7 @@ bool PictureWriter::save(runtime::Renderer& renderer, const std::string& path,
 void PictureWriter::tell(text::Diagnostics& diagnostics) {
   if (first_.pixels == 0) return;
   auto& d = diagnostics.warning(
-      text::Code::pictureNotFinite, {std::make_shared<const std::string>(first_.file), 0, 0},
+      text::Code::pictureNotFinite, {first_.file, 0, 0},
       fmt::format("{} of the picture {} NaN or infinite, the first at x {}, y {} from the upper left",
                   text::counted(first_.pixels, "pixel"), first_.pixels == 1 ? "is" : "are", first_.x,
                   first_.y));

@@ -198,9 +198,7 @@ std::vector<std::string> filesReadBy(const Options& options, const runtime::Rend
 
 bool checkPresents(const Options& options, runtime::Renderer& renderer, text::Diagnostics& diagnostics) {
   if (renderer.execution()->presented().id != 0) return true;
-  diagnostics
-      .error(text::Code::presentsNothing, {std::make_shared<const std::string>(options.graph), 1, 1},
-             "the graph presents nothing to write")
+  diagnostics.error(text::Code::presentsNothing, {options.graph, 1, 1}, "the graph presents nothing to write")
       .hint = "add \"present\": \"<texture>\", and enable a pass that writes it";
   return false;
 }

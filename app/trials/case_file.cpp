@@ -33,7 +33,7 @@ bool isCaseName(std::string_view text) {
 class CaseReader {
  public:
   CaseReader(const std::string& path, const Options& base, text::Diagnostics& diagnostics)
-      : base_(base), diagnostics_(diagnostics), file_(std::make_shared<const std::string>(path)) {
+      : base_(base), diagnostics_(diagnostics), file_(path) {
     const std::filesystem::path parent = std::filesystem::path(path).parent_path();
     folder_ = parent.empty() ? "" : parent.string() + "/";
   }
@@ -187,7 +187,7 @@ class CaseReader {
 
   const Options& base_;
   text::Diagnostics& diagnostics_;
-  std::shared_ptr<const std::string> file_;
+  text::FileName file_;
   std::string folder_, text_;
   std::set<std::string> names_;
 };
@@ -216,14 +216,12 @@ std::vector<std::string> findCaseFiles(const std::string& path, text::Diagnostic
       files.push_back(std::move(name));  // also what is no file: reading it says so
   // A case that is not run must not count as one that holds.
   if (ec)
-    diagnostics.error(Code::unreadableFile, {std::make_shared<const std::string>(path)},
+    diagnostics.error(Code::unreadableFile, {path},
                       fmt::format("cannot read a folder in it: {}", ec.message()));
   std::ranges::sort(files);
   if (files.empty() && !diagnostics.hasErrors())
-    diagnostics
-        .error(Code::unreadableFile, {std::make_shared<const std::string>(path)},
-               "the folder has no file of cases")
-        .hint = fmt::format("write one whose name ends in {}: docs/testing_pictures.md", kSuffix);
+    diagnostics.error(Code::unreadableFile, {path}, "the folder has no file of cases").hint =
+        fmt::format("write one whose name ends in {}: docs/testing_pictures.md", kSuffix);
   return files;
 }
 

@@ -151,8 +151,7 @@ std::optional<PassRecords> readRecords(const std::string& path, text::Diagnostic
                                     : readLine(line, records);
     if (good) continue;
     text::Diagnostic& d =
-        diagnostics.error(text::Code::wrongType, {std::make_shared<const std::string>(path), number, 1},
-                          "this is no line of a record of passes");
+        diagnostics.error(text::Code::wrongType, {path, number, 1}, "this is no line of a record of passes");
     d.found = text::shortened(text::printable(line));
     d.hint = "write the file anew: weft test --accept";
     return std::nullopt;

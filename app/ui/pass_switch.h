@@ -16,7 +16,7 @@ inline std::string switchNameOf(const graph::FlatGraph& graph, std::uint32_t pas
   const graph::PassSpec& spec = graph.specs[pass];
   std::string name = spec.declared;
   for (const graph::PassSpec& other : graph.specs)
-    if (text::isSamePlace(other.place, spec.place)) name = graph::commonSuffix(name, other.declared);
+    if (other.place == spec.place) name = graph::commonSuffix(name, other.declared);
   return name;
 }
 

@@ -111,9 +111,7 @@ std::optional<CubeLut> readCubeLut(std::string_view text, const std::string& nam
   }
   if (problem.message.empty()) problem = checkWhole(lut);
   if (problem.message.empty()) return lut;
-  diagnostics
-      .error(text::Code::notACubeTable, {std::make_shared<const std::string>(name), line}, problem.message)
-      .found = problem.found;
+  diagnostics.error(text::Code::notACubeTable, {name, line}, problem.message).found = problem.found;
   return {};
 }
 

@@ -123,7 +123,7 @@ class IncludeExpander {
 
  private:
   std::size_t addFile(const FileStamp& file) {
-    source_->files.push_back(std::make_shared<const std::string>(file.path));
+    source_->files.push_back(file.path);
     files_.push_back(file);
     unconditional_.push_back(false);
     return files_.size() - 1;
@@ -352,14 +352,12 @@ std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, 
   touched_.insert(*where);
   if (bytes > most) {
     ShaderSource large;
-    large.file = std::make_shared<const std::string>(*where);
+    large.file = *where;
     checkShaderSize({.bytes = bytes}, large, diagnostics);
   }
   if (!text) return nullptr;
   if (text->find_first_not_of(" \t\r\n") == std::string::npos) {
-    diagnostics
-        .error(Code::shaderDoesNotCompile, {std::make_shared<const std::string>(*where), 1, 1},
-               fmt::format("shader '{}' is empty", path))
+    diagnostics.error(Code::shaderDoesNotCompile, {*where, 1, 1}, fmt::format("shader '{}' is empty", path))
         .hint = "the least a shader can hold is 'void main() {}'";
     return nullptr;
   }

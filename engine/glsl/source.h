@@ -33,9 +33,9 @@ struct ShaderSource {
   struct Run {  // from `textLine` of the text on: `line`, `line` + 1, … of `file`
     std::uint32_t textLine = 1, file = 0, line = 1;
   };
-  std::shared_ptr<const std::string> file;  // the stage's own file, as opened
-  std::string text;                         // no #version, no defines, no #line
-  std::vector<std::shared_ptr<const std::string>> files;
+  text::FileName file;  // the stage's own file, as opened
+  std::string text;     // no #version, no defines, no #line
+  std::vector<text::FileName> files;
   std::vector<Run> runs;   // by textLine
   std::uint64_t hash = 0;  // of text
   // What the text declares and uses with these defines, and in all branches of every #if at once; read when first asked for. The first

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <mutex>
 #include <tuple>
+#include <unordered_set>
 #include <utility>
 
 #include "engine/text/printable.h"
@@ -12,14 +14,14 @@ namespace weft::text {
 
 namespace {
 
-const std::string& textOf(const std::string* text) {
+const std::string& textOf(FileName file) {
   static const std::string none;
-  return text ? *text : none;
+  return file ? *file : none;
 }
 
 auto keyOf(const Diagnostic& d) {
   const Where& at = d.place;
-  return std::tie(textOf(at.file.get()), at.option, at.line, at.column);
+  return std::tie(textOf(at.file), at.option, at.line, at.column);
 }
 
 // A text of any length fits on a screen, and is one line.
@@ -36,6 +38,14 @@ bool sameMistake(const Diagnostic& a, const Diagnostic& b) {
 
 }  // namespace
 
+FileName::FileName(const std::string& path) {
+  static std::mutex mutex;
+  static auto& paths =
+      *new std::unordered_set<std::string>;  // never destroyed: whatever ends later may name files
+  const std::lock_guard lock(mutex);
+  path_ = &*paths.insert(path).first;
+}
+
 Where placeOfOption(std::string option) {
   Where where;
   where.option = std::move(option);
@@ -44,11 +54,6 @@ Where placeOfOption(std::string option) {
 
 bool isKnown(const Where& where) {
   return where.file || where.option;
-}
-
-bool isSamePlace(const Place& a, const Place& b) {
-  return a.line == b.line && a.column == b.column &&
-         (a.file == b.file || (a.file && b.file && *a.file == *b.file));
 }
 
 std::string nameOf(Code code) {

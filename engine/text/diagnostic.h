@@ -3,8 +3,8 @@
 // optional (or false) when the result cannot be used. Nothing here throws, aborts or prints.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,15 +14,30 @@
 
 namespace weft::text {
 
-// A place in a text file. Lines and columns count from 1, columns in bytes; 0 means unknown. There may be millions.
-struct Place {
-  std::shared_ptr<const std::string> file;  // path as the person would write it; null for no file
-  std::uint32_t line = 0;
-  std::uint32_t column = 0;
+// The path of a file as the person would write it, or none. Each path is kept once, as long as the program runs, so that
+// names of files are copied and compared like numbers. Threads may make them at the same time.
+class FileName {
+ public:
+  FileName() = default;
+  FileName(const std::string& path);                           // NOLINT: a path names a file
+  FileName(const char* path) : FileName(std::string(path)) {}  // NOLINT
+  FileName(std::nullptr_t) = delete;                           // {} is no file
+  explicit operator bool() const { return path_; }
+  const std::string& operator*() const { return *path_; }
+  const std::string* operator->() const { return path_; }
+  friend bool operator==(FileName, FileName) = default;
+
+ private:
+  const std::string* path_ = nullptr;
 };
 
-// Two places in files of the same path are the same, however often the file was read.
-bool isSamePlace(const Place& a, const Place& b);
+// A place in a text file. Lines and columns count from 1, columns in bytes; 0 means unknown. There may be millions.
+struct Place {
+  FileName file;
+  std::uint32_t line = 0;
+  std::uint32_t column = 0;
+  friend bool operator==(const Place&, const Place&) = default;
+};
 
 // Where a diagnostic or the value of a parameter stands: in a file, in an option of the command line, or nowhere. A Place
 // becomes one by itself, but not the other way round, which would lose the option.
@@ -33,9 +48,9 @@ struct Where : private Place {
   std::optional<std::string> option;  // as it was written, "--set bloom=yes"; then there is no file
 
   Where() = default;
-  Where(Place place) : Place(std::move(place)) {}  // NOLINT: a place in a file says where
-  Where(std::shared_ptr<const std::string> path, std::uint32_t atLine = 0, std::uint32_t atColumn = 0)
-      : Place{std::move(path), atLine, atColumn} {}
+  Where(Place place) : Place(place) {}  // NOLINT: a place in a file says where
+  Where(FileName path, std::uint32_t atLine = 0, std::uint32_t atColumn = 0)
+      : Place{path, atLine, atColumn} {}
 
   const Place& inFile() const { return *this; }
 };

@@ -54,7 +54,7 @@ TEST_CASE("every file of tests/convert becomes a graph that Weft reads") {
 
 TEST_CASE("every broken file gives the diagnostic of its name, at its place, and says what would fix it") {
   text::Diagnostics said;
-  const auto manifest = text::parseJson(textOf(kFolder / "bad/manifest.json"), nullptr, said);
+  const auto manifest = text::parseJson(textOf(kFolder / "bad/manifest.json"), {}, said);
   REQUIRE(manifest);
   std::set<std::string> listed;
   for (const text::JsonValue& entry : manifest->find("files")->items) {

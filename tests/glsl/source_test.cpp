@@ -147,7 +147,7 @@ TEST_CASE("a missing shader is reported at the one who named it, a directory as 
   folder.write("sky/sky.frag.glsl", "void main() {}\n");
   SourceLoader loader({folder.path().string()});
   Diagnostics diagnostics;
-  const weft::text::Place graph{std::make_shared<const std::string>("studio.json"), 12, 40};
+  const weft::text::Place graph{"studio.json", 12, 40};
   CHECK_FALSE(loader.load("sky/skye.frag.glsl", diagnostics, graph));
   CHECK_FALSE(loader.load("sky", diagnostics, graph));
   CHECK_FALSE(loader.load("project/sky/sky.frag.glsl", diagnostics, graph));

@@ -9,7 +9,7 @@
 using namespace weft::text;
 
 static Place at(std::uint32_t line, std::uint32_t column) {
-  return {std::make_shared<const std::string>("a.json"), line, column};
+  return {"a.json", line, column};
 }
 
 TEST_CASE("a diagnostic prints place, code, message and its details") {

@@ -8,7 +8,7 @@ using namespace weft::text;
 namespace {
 
 Place at(std::uint32_t line) {
-  static const auto file = std::make_shared<const std::string>("a.json");
+  static const FileName file = "a.json";
   return {file, line, 1};
 }
 

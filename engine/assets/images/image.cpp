@@ -27,7 +27,7 @@ using text::Place;
 namespace {
 
 Place placeOf(const std::string& name) {
-  return {std::make_shared<const std::string>(name)};
+  return {name};
 }
 
 void reportUnknownKind(Diagnostics& diagnostics, const std::string& name, std::string expected) {

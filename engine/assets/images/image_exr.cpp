@@ -334,7 +334,7 @@ bool saveExr(const std::string& path, const ImageF& image, Diagnostics& diagnost
   const std::size_t size = SaveEXRImageToMemory(&picture, &header, &bytes, &message);
   const std::unique_ptr<unsigned char, decltype(&std::free)> memory(bytes, &std::free);
   if (size > 0) return text::writeFile(path, {reinterpret_cast<const char*>(bytes), size}, diagnostics);
-  diagnostics.error(text::Code::outputNotWritten, {std::make_shared<const std::string>(path)},
+  diagnostics.error(text::Code::outputNotWritten, {path},
                     fmt::format("cannot encode '{}' as OpenEXR: {}", path, takeMessage(message)));
   return false;
 }

@@ -251,8 +251,7 @@ bool savePng8(const std::string& path, int width, int height, int channels,
               std::span<const std::uint8_t> texels, Diagnostics& diagnostics) {
   const std::string bytes = encodePng8(width, height, channels, texels);
   if (!bytes.empty()) return text::writeFile(path, bytes, diagnostics);
-  diagnostics.error(text::Code::outputNotWritten, {std::make_shared<const std::string>(path)},
-                    fmt::format("cannot encode '{}' as PNG", path));
+  diagnostics.error(text::Code::outputNotWritten, {path}, fmt::format("cannot encode '{}' as PNG", path));
   return false;
 }
 

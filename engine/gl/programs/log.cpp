@@ -178,7 +178,7 @@ text::Place placeOfFunctionIn(const std::string& message, const glsl::ShaderSour
 
 std::size_t mapLog(std::string_view log, const glsl::ShaderSource& source, text::Code code,
                    text::Diagnostics& diagnostics, std::span<const glsl::Define> defines) {
-  static const auto kDefines = std::make_shared<const std::string>("<defines>");
+  static const text::FileName kDefines = "<defines>";
   std::vector<LogMessage> messages;
   while (!log.empty()) {
     const std::string_view raw = trim(log.substr(0, log.find('\n')));

@@ -64,7 +64,7 @@ TrialProgram readTrial(std::string_view text) {
       continue;
     }
     auto source = std::make_shared<glsl::ShaderSource>();
-    source->file = std::make_shared<const std::string>("trial");
+    source->file = "trial";
     source->text = std::move(field);
     program.stages.push_back({static_cast<GLenum>(kind == 'v'   ? GL_VERTEX_SHADER
                                                   : kind == 'f' ? GL_FRAGMENT_SHADER

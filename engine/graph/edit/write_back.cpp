@@ -366,7 +366,7 @@ bool saveWriteBack(const WriteBack& plan, text::Diagnostics& diagnostics) {
     if (now && *now == file.before) continue;
     same = false;
     if (!now) continue;
-    auto& d = diagnostics.error(Code::fileChanged, {std::make_shared<const std::string>(file.path), 0, 0},
+    auto& d = diagnostics.error(Code::fileChanged, {file.path, 0, 0},
                                 fmt::format("'{}' has changed since it was read", file.path));
     d.hint = "wait until the viewer shows the file as it is, then write again";
   }

@@ -84,7 +84,7 @@ std::uint32_t termsOver(const std::vector<ExprPtr>& children) {
 ExprPtr makeNode(ExprOp op, text::Place place, std::vector<ExprPtr> children) {
   auto node = std::make_shared<ExprNode>();
   node->op = op;
-  node->place = std::move(place);
+  node->place = place;
   setChildren(*node, std::move(children));
   return node;
 }
@@ -106,7 +106,7 @@ void setChildren(ExprNode& node, std::vector<ExprPtr> children) {
 ExprPtr makeConstant(Value value, text::Place place) {
   auto node = std::make_shared<ExprNode>();
   node->value = std::move(value);
-  node->place = std::move(place);
+  node->place = place;
   return node;
 }
 
@@ -215,7 +215,7 @@ Expr Expr::parameter(std::uint32_t key, text::Place place) {
   node->key = key;
   node->live = node->folded = true;
   node->place = place;
-  return {std::move(node), std::move(place)};
+  return {std::move(node), place};
 }
 
 Expr Expr::listOf(std::vector<Expr> items, text::Place place) {
@@ -229,7 +229,7 @@ Expr Expr::listOf(std::vector<Expr> items, text::Place place) {
       value.v[value.count++] = item.root_->value.v[0];
     children.push_back(item.root_);
   }
-  if (value.count == items.size()) return constant(std::move(value), std::move(place));
+  if (value.count == items.size()) return constant(std::move(value), place);
   return {makeNode(ExprOp::list, place, std::move(children)), place};
 }
 

@@ -629,8 +629,7 @@ std::optional<JsonValue> SourceLoader::parse(const std::string& path, const text
     if (!bytes) return std::nullopt;
     texts_[path] = std::make_shared<const std::string>(*std::move(bytes));
   }
-  std::optional<JsonValue> root =
-      text::parseJson(*texts_[path], std::make_shared<const std::string>(path), diagnostics_);
+  std::optional<JsonValue> root = text::parseJson(*texts_[path], path, diagnostics_);
   if (root) mendKeys(*root, preset, diagnostics_);
   if (root) writeOutLists(*root, diagnostics_);
   return root;

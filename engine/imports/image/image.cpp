@@ -134,7 +134,7 @@ class ImageProvider : public Provider {
   bool fits(const ImageHeader& header, const std::string& path, text::Diagnostics& diagnostics) const {
     if (textureDescOf(header, request_) == texture_.desc()) return true;
     text::Diagnostic& d =
-        diagnostics.error(text::Code::badImageSize, {std::make_shared<const std::string>(path)},
+        diagnostics.error(text::Code::badImageSize, {path},
                           fmt::format("a picture of the sequence '{}' has another size", pattern_->text));
     d.expected =
         fmt::format("{} x {}, as the pictures before", texture_.desc().width, texture_.desc().height);

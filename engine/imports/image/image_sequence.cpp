@@ -60,7 +60,7 @@ std::optional<SequencePattern> sequencePatternOf(const std::string& file) {
 
 std::vector<std::uint32_t> numbersOf(const SequencePattern& pattern, text::Diagnostics& diagnostics) {
   namespace fs = std::filesystem;
-  const text::Place place{std::make_shared<const std::string>(pattern.text)};
+  const text::Place place{pattern.text};
   const std::size_t slash = pattern.before.rfind('/');
   const std::string folder = slash == std::string::npos ? "." : pattern.before.substr(0, slash + 1);
   const std::string before = slash == std::string::npos ? pattern.before : pattern.before.substr(slash + 1);

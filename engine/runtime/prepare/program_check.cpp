@@ -641,7 +641,7 @@ void warnOfConditions(const graph::PassSpec& pass, std::span<const gl::StageSour
     const auto warn = [&](const glsl::Token& word, const std::string& message, std::string hint) {
       const text::Place place = stage.source->placeOf(word.line, word.column);
       if (std::ranges::any_of(diagnostics.items(), [&](const text::Diagnostic& d) {
-            return d.code == Code::undeclaredShaderInput && text::isSamePlace(d.place.inFile(), place);
+            return d.code == Code::undeclaredShaderInput && d.place.inFile() == place;
           }))
         return;
       text::Diagnostic& d = diagnostics.warning(Code::undeclaredShaderInput, place, message);

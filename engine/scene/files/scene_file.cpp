@@ -78,7 +78,7 @@ class Reader {
 
   std::optional<Scene> read(std::string_view text) {
     const std::size_t errorsBefore = diagnostics_.errorCount();
-    const auto root = text::parseJson(text, std::make_shared<const std::string>(name_), diagnostics_);
+    const auto root = text::parseJson(text, name_, diagnostics_);
     if (!root) return {};
     for (const char* key : {"passes", "extends"})
       if (root->find(key)) {
@@ -115,7 +115,7 @@ class Reader {
   // `left`, `right`, `back`, `top`), and its lights; a sun where it has none.
   std::optional<Scene> readModelFile() {
     JsonValue whole;
-    whole.place.file = std::make_shared<const std::string>(name_);
+    whole.place.file = name_;
     scene_.name = std::filesystem::path(name_).stem().string();
     const Loaded* loaded = load(name_);
     if (!loaded) return {};
@@ -521,7 +521,7 @@ class Reader {
 std::optional<std::vector<Material>> readMaterialLibrary(std::string_view text, const std::string& name,
                                                          Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
-  const auto root = text::parseJson(text, std::make_shared<const std::string>(name), diagnostics);
+  const auto root = text::parseJson(text, name, diagnostics);
   if (!root || !text::expectType(*root, "a material library", JsonValue::Type::array, diagnostics)) return {};
   std::vector<Material> materials;
   std::set<std::string> names;
@@ -565,7 +565,7 @@ bool namesModels(const std::string& path) {
   if (assets::isModelName(path)) return true;
   Diagnostics unsaid;
   const std::optional<std::string> text = text::readTextFile(path, unsaid);
-  const auto root = text ? text::parseJson(*text, nullptr, unsaid) : std::nullopt;
+  const auto root = text ? text::parseJson(*text, {}, unsaid) : std::nullopt;
   return root && root->find("models") != nullptr;
 }
 

@@ -196,7 +196,7 @@ Opened openFile(const std::string& path) {
 
 // `place`, or the file itself.
 Where placeOr(const Place& place, const std::string& path) {
-  return isKnown(place) ? place : Place{std::make_shared<const std::string>(path)};
+  return isKnown(place) ? place : Place{path};
 }
 
 }  // namespace
@@ -277,15 +277,14 @@ std::optional<std::string> readTextFile(const std::string& path, Diagnostics& di
     return !tooLarge;
   };
   std::optional<std::string> bytes = readFile(path, diagnostics, code, place, within);
-  if (tooLarge) reportTooLarge({std::make_shared<const std::string>(path), 0, 0}, found, diagnostics);
+  if (tooLarge) reportTooLarge({path, 0, 0}, found, diagnostics);
   return bytes;
 }
 
 bool writeFile(const std::string& path, std::span<const char> bytes, Diagnostics& diagnostics) {
   const auto fail = [&](const std::string& reason) {
     diagnostics
-        .error(Code::outputNotWritten, {std::make_shared<const std::string>(path), 0, 0},
-               fmt::format("cannot write '{}': {}", path, reason))
+        .error(Code::outputNotWritten, {path, 0, 0}, fmt::format("cannot write '{}': {}", path, reason))
         .hint = reason == std::strerror(ENOSPC) ? "free some space, or name a file on another disk"
                                                 : "name a file in an existing folder that can be written to";
     return false;

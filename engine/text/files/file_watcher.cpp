@@ -87,7 +87,7 @@ void FileWatcher::tell(int error, const std::string& file) {
   Diagnostic& d = notices_.add({.severity = Severity::note,
                                 .code = Code::filesNotWatched,
                                 .message = fmt::format("changes of '{}' are not seen", file),
-                                .place = {std::make_shared<const std::string>(file)}});
+                                .place = {file}});
   d.found = fmt::format("inotify: {}", std::strerror(error));
   d.hint =
       "make its folder readable, or raise fs.inotify.max_user_watches and max_user_instances with sysctl";

@@ -34,10 +34,9 @@ bool isOneOf(char c, std::string_view all) {
 // it recovers, and passes over what it does not understand.
 class Parser {
  public:
-  Parser(std::string_view text, std::shared_ptr<const std::string> file, Diagnostics* diagnostics,
-         std::vector<ByteRange>* comments)
+  Parser(std::string_view text, FileName file, Diagnostics* diagnostics, std::vector<ByteRange>* comments)
       : text_(text),
-        file_(std::move(file)),
+        file_(file),
         diagnostics_(diagnostics),
         comments_(comments),
         first_(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0),
@@ -353,7 +352,7 @@ class Parser {
   }
 
   const std::string_view text_;
-  const std::shared_ptr<const std::string> file_;
+  const FileName file_;
   Diagnostics* const diagnostics_;  // null: mistakes are passed over
   std::vector<ByteRange>* const comments_;
   const std::size_t first_;  // behind a byte order mark
@@ -403,12 +402,11 @@ std::size_t JsonTree::behindComment(std::size_t at) const {
 
 JsonTree parseJsonTree(std::string_view text) {
   JsonTree tree;
-  Parser(text, nullptr, nullptr, &tree.comments).run(tree.root);
+  Parser(text, {}, nullptr, &tree.comments).run(tree.root);
   return tree;
 }
 
-std::optional<JsonValue> parseJson(std::string_view text, const std::shared_ptr<const std::string>& file,
-                                   Diagnostics& diagnostics) {
+std::optional<JsonValue> parseJson(std::string_view text, FileName file, Diagnostics& diagnostics) {
   const std::size_t mark = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
   if (text.size() - mark > raised(kMaxTextBytes)) {
     reportTooLarge({file, 0, 0}, text.size() - mark, diagnostics);

@@ -72,8 +72,7 @@ constexpr std::uint64_t kMaxNameBytes = 255;     // of a name or a key
 // Empty after Code::notJson, Code::nestedTooDeeply or Code::limitExceeded (a text beyond the limit json_bytes, more values
 // than json_values, a key beyond name_bytes). A duplicate key is reported as Code::duplicateKey, its later value is dropped,
 // and reading goes on. `file` becomes part of every place and may be null.
-std::optional<JsonValue> parseJson(std::string_view text, const std::shared_ptr<const std::string>& file,
-                                   Diagnostics& diagnostics);
+std::optional<JsonValue> parseJson(std::string_view text, FileName file, Diagnostics& diagnostics);
 
 // Where a place with a line is in the text of its file.
 std::size_t offsetOf(std::string_view text, const Place& place);

@@ -30,7 +30,7 @@ bool beginsLine(std::string_view text, std::size_t at) {
 
 JsonEdit::JsonEdit(std::string_view text) : text_(text), tree_(parseJsonTree(text)) {
   Diagnostics said;
-  good_ = parseJson(text, nullptr, said) && !said.hasErrors();
+  good_ = parseJson(text, {}, said) && !said.hasErrors();
 }
 
 std::string JsonEdit::putBehind(const std::vector<ByteRange>& elements, std::size_t index,

@@ -144,7 +144,7 @@ TEST_CASE("a box of the passes turns off what F8 can write, and turns it on agai
   const auto add = [&](const char* name, const char* file, std::uint32_t line) {
     graph::PassSpec& spec = flat.specs.emplace_back();
     spec.name = spec.declared = name;
-    spec.place = {std::make_shared<const std::string>(file), line, 5};
+    spec.place = {file, line, 5};
   };
   add("lit.sky", "lit.json", 3);
   add("lit.balls", "lit.json", 9);

@@ -99,7 +99,7 @@ TEST_CASE("the broken shaders give the messages of docs/errors.md") {
   SourceLoader loader({"tests/bad_shaders"});
   for (const auto& [file, code] : cases) {
     Diagnostics diagnostics;
-    CHECK_FALSE(loader.load(file, diagnostics, {std::make_shared<const std::string>("frame.json"), 5, 41}));
+    CHECK_FALSE(loader.load(file, diagnostics, {"frame.json", 5, 41}));
     CHECK(diagnostics.size() == 1);
     weft::gl::test::checkDocumented(diagnostics, code);
   }

@@ -73,7 +73,7 @@ Written writeBack(const std::string& path, const Settings& settings,
 // `text` without the bytes of the values at `pointers`.
 std::string around(const std::string& text, const std::vector<std::string>& pointers) {
   text::Diagnostics diagnostics;
-  const auto root = text::parseJson(text, nullptr, diagnostics);
+  const auto root = text::parseJson(text, {}, diagnostics);
   REQUIRE(root);
   std::vector<std::pair<std::size_t, std::size_t>> ranges;
   for (const std::string& pointer : pointers)

@@ -9,7 +9,7 @@ using weft::text::Diagnostics;
 namespace {
 
 Place refPlaceAt(std::uint32_t column) {
-  return {std::make_shared<const std::string>("t.json"), 3, column};
+  return {"t.json", 3, column};
 }
 
 RefDesc parse(std::string_view text) {

@@ -167,8 +167,7 @@ TEST_CASE("confined: the message names the folders and the place, and more folde
   write(folder / "out/there");
   REQUIRE_FALSE(confineTo(folder / "in"));
   Diagnostics all;
-  CHECK_FALSE(readFile(folder / "out/there", all, Code::unreadableImage,
-                       {std::make_shared<const std::string>("graph.json"), 3, 7}));
+  CHECK_FALSE(readFile(folder / "out/there", all, Code::unreadableImage, {"graph.json", 3, 7}));
   REQUIRE(all.size() == 1);
   const Diagnostic& d = all.items()[0];
   CHECK(d.code == Code::outsideConfinement);

@@ -8,7 +8,7 @@ using namespace weft::text;
 
 namespace {
 
-const auto kFile = std::make_shared<const std::string>("t.json");
+const FileName kFile = "t.json";
 
 JsonValue parse(std::string_view text) {
   Diagnostics diagnostics;

@@ -6,7 +6,7 @@ using namespace weft::text;
 
 static JsonValue parseGood(std::string_view text) {
   Diagnostics diagnostics;
-  auto value = parseJson(text, std::make_shared<const std::string>("f.json"), diagnostics);
+  auto value = parseJson(text, "f.json", diagnostics);
   REQUIRE_MESSAGE(value, diagnostics.text());
   return *value;
 }

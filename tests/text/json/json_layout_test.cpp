@@ -20,7 +20,7 @@ std::string layout(std::string_view text) {
 
 bool isGood(const std::string& text) {
   Diagnostics diagnostics;
-  return parseJson(text, nullptr, diagnostics) && diagnostics.empty();
+  return parseJson(text, {}, diagnostics) && diagnostics.empty();
 }
 
 // Comments in order, without white space at their ends.

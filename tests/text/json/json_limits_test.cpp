@@ -13,7 +13,7 @@ using namespace weft::text;
 namespace {
 
 std::optional<JsonValue> parse(std::string_view text, Diagnostics& diagnostics) {
-  return parseJson(text, std::make_shared<const std::string>("t.json"), diagnostics);
+  return parseJson(text, "t.json", diagnostics);
 }
 
 void checkRefused(std::string_view text, const char* place, const char* name) {

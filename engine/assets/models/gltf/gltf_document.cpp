@@ -133,7 +133,7 @@ GltfDocument::GltfDocument(std::string bytes, ModelFiles& files, text::Diagnosti
   std::string_view binary;
   const std::string_view json = split(bytes, binary);
   const std::size_t before = diagnostics_.errorCount();
-  auto root = text::parseJson(json, std::make_shared<const std::string>(files_.path()), diagnostics_);
+  auto root = text::parseJson(json, files_.path(), diagnostics_);
   refuseUnless(root && diagnostics_.errorCount() == before);
   root_ = std::move(*root);
   const JsonValue* version = valueOf(root_, {"asset", "version"});

@@ -39,7 +39,7 @@ ModelFiles::ModelFiles(std::string path, text::Diagnostics& diagnostics, const L
     : path_(std::move(path)), diagnostics_(diagnostics), observer_(observer), files_{path_} {}
 
 Place ModelFiles::place() const {
-  return {std::make_shared<const std::string>(path_)};
+  return {path_};
 }
 
 std::optional<std::string> ModelFiles::readModel() {

@@ -51,8 +51,7 @@ class NameFinder {
  private:
   void add(UseOf kind, std::string_view name, std::string full, const Place& place, Place declared) {
     if (place.file)
-      uses_.try_emplace(orderOf(place),
-                        NameUse{kind, std::string(name), std::move(full), place, std::move(declared)});
+      uses_.try_emplace(orderOf(place), NameUse{kind, std::string(name), std::move(full), place, declared});
   }
   template <class Thing>
   void declare(UseOf kind, const std::string& prefix, const Thing& thing) {
@@ -60,7 +59,7 @@ class NameFinder {
   }
 
   static Place placeOf(const PassDesc& pass) {
-    const bool path = pass.include && text::isSamePlace(pass.namePlace, pass.include->filePlace);
+    const bool path = pass.include && pass.namePlace == pass.include->filePlace;
     return path ? pass.namePlace : insideOf(pass.namePlace);
   }
 
@@ -188,7 +187,7 @@ class NameFinder {
     Place place = insideOf(named.place);
     const Scope& in = addPrefixes(scope, name, place);
     const bool set = std::ranges::any_of(in.desc->slotSets, [&](const auto& each) {
-      return each.first == name && text::isSamePlace(each.second, named.declared);
+      return each.first == name && each.second == named.declared;
     });
     const UseOf kind = set                           ? UseOf::set
                        : in.resources.contains(name) ? UseOf::resource

@@ -169,7 +169,7 @@ void applyDisable(Model& model, const Disable& disable) {
   const std::vector<std::size_t> found = suffixMatches(names, declared);
   // When a file is included twice, both stanzas are meant.
   const auto isSame = [&](std::size_t i) {
-    return text::isSamePlace(candidates[i].second->place, candidates[found[0]].second->place);
+    return candidates[i].second->place == candidates[found[0]].second->place;
   };
   if (!std::ranges::all_of(found, isSame)) {
     std::vector<std::string> meant;
@@ -219,7 +219,7 @@ void applySettings(Model& model) {
             .found = fmt::format("{}x{}", width, height)});
   // What files say first, the innermost first, so that an including file has the last word; then the command line.
   for (auto scope = model.scopes.rbegin(); scope != model.scopes.rend(); ++scope) {
-    std::shared_ptr<const std::string> file;
+    text::FileName file;
     bool foreign = false;
     for (const SetDesc& set : scope->desc->sets) {
       if (isOver(model)) return;
