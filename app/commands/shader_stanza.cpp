@@ -47,12 +47,6 @@ Json zeroOf(const Declaration& member) {
   return Json(std::vector<int>(static_cast<std::size_t>(member.type.back() - '0'), 0));
 }
 
-// Written as macros are: "LAMP_TILE".
-bool isMacro(std::string_view word) {
-  return word.size() > 1 && std::ranges::none_of(word, [](unsigned char c) { return std::islower(c); }) &&
-         std::isupper(static_cast<unsigned char>(word[0]));
-}
-
 class StanzaMaker {
  public:
   StanzaMaker(ShaderStanza& made, bool compute) : made_(made), compute_(compute) {}
@@ -63,55 +57,55 @@ class StanzaMaker {
     for (const Declaration& declared : shader.declarations)
       if (isNeeded(shader, declared)) add(declared, last, !source.interfaceWith({}).find(declared.name));
     const glsl::Conditions conditions = glsl::conditionsOf(source.text);
-    std::set<std::string> asked, needed;
+    // `compiled`: nothing compiles without.
+    const auto define = [&](std::string_view word, bool compiled) {
+      const bool own = conditions.made.contains(word) || word.starts_with("HAS_") ||
+                       word.starts_with("GL_") || word.starts_with("__");
+      if (!own && made_.pass["defines"].emplace(word, 1).second && compiled)
+        made_.request.defines.push_back({std::string(word), "1"});
+    };
     for (const auto* words : {&conditions.valued, &conditions.tested})
-      for (const glsl::Token& word : *words) asked.emplace(word.text);
-    for (const std::string_view word : conditions.used)
-      if (isMacro(word) && !shader.find(word)) needed.emplace(word);
-    for (const auto* words : {&asked, &needed})
-      for (const std::string& word : *words) {
-        const int value = words == &asked ? 1 : 4;  // without which nothing compiles: often a count
-        if (!conditions.made.contains(word) && !word.starts_with("HAS_") && !word.starts_with("GL_") &&
-            !word.starts_with("__") && put("defines", word, value) &&
-            (words == &needed || shader.live.contains(word)))
-          made_.request.defines.push_back({word, std::to_string(value)});
-      }
+      for (const glsl::Token& word : *words) define(word.text, shader.live.contains(word.text));
+    const std::set used(conditions.used.begin(), conditions.used.end());
+    for (const std::string_view word : used)  // that are written as macros are: LAMP_TILE
+      if (word.size() > 1 && std::isupper(static_cast<unsigned char>(word[0])) && !shader.find(word) &&
+          std::ranges::none_of(word, [](unsigned char c) { return std::islower(c); }))
+        define(word, true);
   }
 
  private:
   void add(const Declaration& declared, bool last, bool optional) {
     const std::string name(declared.name);
     const char* const access = !declared.writes ? "read" : declared.reads ? "modify" : "write";
-    const auto slot = [&](const char* key, const char* words) {
-      if (put(key, name, name + words + (optional ? "?" : "")))
-        made_.request.defines.push_back({runtime::presenceDefineOf(name), "1"});
+    // Both stages may declare it.
+    const auto slot = [&](const char* key, const char* kind = "") {
+      Json& slots = made_.pass[key];
+      const Json text = name + kind + (optional ? " ?" : "");
+      if (std::find(slots.begin(), slots.end(), text) != slots.end()) return;
+      slots.push_back(text);
+      made_.request.defines.push_back({glsl::presenceDefineOf(name), "1"});
     };
     switch (declared.role) {
       case Role::sampler:
-        return slot("read", "");
+        return slot("read");
       case Role::image:
         return slot(access, compute_ && declared.writes ? "" : " as image");
       case Role::storage_block:
-        return slot(access, "");
+        return slot(access);
       case Role::uniform_block:
         if (name != "Parameters" && name != "View" && name != "Slice") slot("read", " as uniform");
         return;
       case Role::output:
         if (!last || compute_) return;
         made_.request.outputs.push_back(name);
-        return slot("write", "");
+        return slot("write");
       case Role::member:
-        if (declared.owner == "Parameters" && put("parameters", name, zeroOf(declared)))
-          made_.request.defines.push_back({runtime::presenceDefineOf(name), "1"});
+        if (declared.owner == "Parameters" && made_.pass["parameters"].emplace(name, zeroOf(declared)).second)
+          made_.request.defines.push_back({glsl::presenceDefineOf(name), "1"});
         return;
       default:
         return;
     }
-  }
-
-  // False when it is there already: both stages may declare it.
-  bool put(const char* key, const std::string& name, Json value) {
-    return made_.pass[key].emplace(name, std::move(value)).second;
   }
 
   ShaderStanza& made_;

@@ -490,7 +490,6 @@ class ShaderTranslator {
   IsfShader out_;
 };
 
-constexpr std::array<std::string_view, 5> kSizeFunctions{"floor", "ceil", "min", "max", "abs"};
 const Json kClear = {0, 0, 0, 0};
 
 class IsfGraphWriter {
@@ -529,12 +528,6 @@ class IsfGraphWriter {
   bool showsLast() const { return shown_; }
 
  private:
-  struct Target {
-    IsfPass size;  // as the first pass that names it says
-    bool persistent = false, floats = false;
-    bool written = false;  // by a pass before the one that is looked at
-  };
-
   void addInput(const IsfInput& input) {
     const std::string& name = names_.of(input.name);
     if (input.type == InputType::image) return addImage(input);
@@ -551,7 +544,7 @@ class IsfGraphWriter {
     if (!label.empty()) parameter["label"] = label;
     parameters_[name] = parameter;
     uniforms_[name] = value;
-    values_[input.name] = value;
+    if (input.type != InputType::point && input.type != InputType::color) values_.emplace(input.name, value);
   }
 
   // The default must lie in the range: ISF does not ask for it.
@@ -643,31 +636,21 @@ class IsfGraphWriter {
   void findTargets() {
     for (const IsfPass& pass : header_.passes) {
       if (pass.target.text.empty()) continue;
-      Target& target = targets_.try_emplace(pass.target.text, Target{.size = pass}).first->second;
+      IsfPass& target = targets_.try_emplace(pass.target.text, pass).first->second;
       target.persistent |= pass.persistent;
       target.floats |= pass.floats;
     }
     const IsfPass& last = header_.passes.back();
     for (const auto& [name, target] : targets_) {
-      Json texture = textureOf(target.floats, sizeOf(target.size));
+      Json texture = textureOf(target.floats, sizeOf(target));
       if (target.persistent && shader_.read.contains(name)) texture["history"] = 1;
       resources_[names_.of(name)] = texture;
-      if (name == last.target.text) shown_ = target.floats || last.isScaled() || target.size.isScaled();
+      if (name == last.target.text) shown_ = target.floats || last.isScaled() || target.isScaled();
     }
     if (!last.target.text.empty() && !shown_)
       picture_ = names_.of(last.target.text);
     else
       resources_[picture_] = textureOf(false, "screen");
-  }
-
-  // The text for the name behind a '$' in a size.
-  std::string variableOf(std::string_view name) const {
-    if (name == "WIDTH") return "screen.x";
-    if (name == "HEIGHT") return "screen.y";
-    const auto value = values_.find(name);
-    if (value == values_.end()) return {};
-    const InputType type = std::ranges::find(header_.inputs, name, &IsfInput::name)->type;
-    return type != InputType::point && type != InputType::color ? value->second : std::string();
   }
 
   // The size of a pass as an expression of Weft: "floor($WIDTH/4.0)" becomes "floor(screen.x/4.0)". `otherwise` after W222.
@@ -680,23 +663,23 @@ class IsfGraphWriter {
       return otherwise;
     };
     std::string out;
-    const std::vector<glsl::Token> tokens = glsl::splitTokens(size.text);
-    for (std::size_t i = 0; i < tokens.size(); ++i) {
-      const glsl::Token& token = tokens[i];
+    bool variable = false;  // behind a '$'
+    for (const glsl::Token& token : glsl::splitTokens(size.text)) {
+      constexpr std::array<std::string_view, 13> kWords{"floor", "ceil", "min", "max", "abs", "+", "-",
+                                                        "*",     "/",    "%",   "(",   ")",   ","};
       const std::string name = text::lowered(token.text);
-      if (token.kind == glsl::TokenKind::number) {  // Weft has digits on both sides of a point
+      const auto value = values_.find(token.text);
+      const bool known =
+          variable ? value != values_.end()
+                   : token.kind == glsl::TokenKind::number || token.is("$") || contains(kWords, name);
+      if (!known) return wrong(fmt::format("unexpected '{}' in a size", token.text), token.column - variable);
+      if (variable)
+        out += value->second;
+      else if (token.kind == glsl::TokenKind::number)  // Weft has digits on both sides of a point
         out += (name.front() == '.' ? "0" : "") + name + (name.back() == '.' ? "0" : "");
-      } else if (contains(kSizeFunctions, name)) {
-        out += name;
-      } else if (token.is("$")) {
-        const std::string variable = i + 1 < tokens.size() ? variableOf(tokens[++i].text) : "";
-        if (variable.empty()) return wrong("no number that a size can use is behind the '$'", token.column);
-        out += variable;
-      } else if (name.size() == 1 && std::string_view("+-*/%(),").find(name) != std::string::npos) {
-        out += token.is(",") ? ", " : name;
-      } else {
-        return wrong(fmt::format("unexpected '{}' in a size", token.text), token.column);
-      }
+      else if (!token.is("$"))
+        out += name + (token.is(",") ? " " : "");
+      variable = !variable && token.is("$");
     }
     text::Diagnostics said;
     if (out.empty() && size.text.empty()) return otherwise;
@@ -719,19 +702,18 @@ class IsfGraphWriter {
       if (shader_.read.contains(imported.name)) add(imported.name, names_.of(imported.name));
     for (const auto& [name, target] : targets_)
       if (shader_.read.contains(name))
-        add(name, target.written ? names_.of(name) : target.persistent ? names_.of(name) + "@-1" : nothing());
+        add(name, contains(written_, name) ? names_.of(name)
+                  : target.persistent      ? names_.of(name) + "@-1"
+                                           : nothing());
     return reads;
   }
 
   void addPasses() {
     std::set<std::string, std::less<>> used;
-    const auto isDrawn = [&](const IsfPass& pass) {  // the last pass draws the picture
-      return !pass.target.text.empty() || &pass == &header_.passes.back();
-    };
-    shares_ = !uniforms_.empty() && std::ranges::count_if(header_.passes, isDrawn) > 1;
+    shares_ = !uniforms_.empty() && header_.passes.size() > 1;
     for (std::size_t i = 0; i < header_.passes.size(); ++i) {
-      if (!isDrawn(header_.passes[i])) continue;
       const PlacedText& drawn = header_.passes[i].target;
+      if (drawn.text.empty() && i + 1 < header_.passes.size()) continue;  // the last pass draws the picture
       const std::string target = drawn.text.empty() ? picture_ : names_.of(drawn.text);
       const std::string name = freshName(used, "draw_" + target);
       Json pass = {{"name", name}};
@@ -748,7 +730,7 @@ class IsfGraphWriter {
       pass["defines"] = {{"PASSINDEX", i}};
       if (!shares_ && !uniforms_.empty()) pass["parameters"] = uniforms_;
       passes_.push_back(pass);
-      if (!drawn.text.empty()) targets_.find(drawn.text)->second.written = true;
+      written_.insert(drawn.text);
     }
     if (!shown_) return;
     passes_.push_back({{"name", freshName(used, "show")},
@@ -766,9 +748,12 @@ class IsfGraphWriter {
   std::string picture_, nothing_;
   Json passes_ = Json::array(), parameters_ = Json::object(), lets_ = Json::object(),
        resources_ = Json::object(), uniforms_ = Json::object();
-  std::map<std::string, Target, std::less<>> targets_;
-  std::map<std::string, std::string, std::less<>> values_, chosen_;  // by input: in expressions; of images
-  bool shown_ = false, shares_ = false;                              // several passes have the parameters
+  std::map<std::string, IsfPass, std::less<>> targets_;  // as the first pass that names it says
+  std::set<std::string, std::less<>> written_;           // by passes before the one that is looked at
+  std::map<std::string, std::string, std::less<>> values_{{"WIDTH", "screen.x"},
+                                                          {"HEIGHT", "screen.y"}};  // of '$'
+  std::map<std::string, std::string, std::less<>> chosen_;                          // of images, by input
+  bool shown_ = false, shares_ = false;  // several passes have the parameters
 };
 
 }  // namespace

@@ -364,14 +364,6 @@ std::set<std::string, std::less<>> namesMentioned(const std::string& text) {
   return names;
 }
 
-// What a shader of Weft is compiled with where the slot has something: HAS_HOOKED_RAW.
-std::string presenceDefineOf(std::string_view slot) {
-  std::string text = "HAS_" + std::string(slot);
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
-}
-
 class MpvWriter {
  public:
   MpvWriter(const MpvFile& file, const ConvertOptions& options, text::Diagnostics& diagnostics)
@@ -665,10 +657,10 @@ class MpvWriter {
       if (used_.contains(size)) members += fmt::format("  vec2 {};\n", size);
     for (const std::string& bound : bound_)
       slots += fillTemplate(templates::mpv_slot,
-                            {{"@NAME@", bound}, {"@PRESENT@", presenceDefineOf(bound + "_raw")}});
+                            {{"@NAME@", bound}, {"@PRESENT@", glsl::presenceDefineOf(bound + "_raw")}});
     for (const std::string& texture : texturesBound_)
-      slots +=
-          fmt::format("\n#ifdef {}\nuniform sampler2D {};\n#endif\n", presenceDefineOf(texture), texture);
+      slots += fmt::format("\n#ifdef {}\nuniform sampler2D {};\n#endif\n", glsl::presenceDefineOf(texture),
+                           texture);
     const auto add = [&](const std::string& file, const char* text) {
       texts.push_back({fmt::format("shaders/{}/{}", name_, file),
                        fillTemplate(text, {{"@NAME@", name_},

@@ -42,6 +42,7 @@ struct Uses {
   graph::NameUse::Kind kind = graph::NameUse::Kind::resource;  // of the others
   std::string name;                                            // the last part of a dotted name
   std::set<Location> locations;                                // of `name`
+  std::set<Location> keys;                                     // of these, NameUse::key
   std::set<Location> presence;                                 // in GLSL, of HAS_NAME
   std::vector<Program> programs;                               // of a slot: those that have it
 };

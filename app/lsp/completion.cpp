@@ -11,7 +11,6 @@
 #include "engine/graph/read/read_context.h"
 #include "engine/graph/read/ref_parse.h"
 #include "engine/graph/subresource.h"
-#include "engine/runtime/prepare/program_request.h"
 #include "engine/text/chars.h"
 
 namespace weft::app::lsp {
@@ -118,7 +117,7 @@ class Completer {
         if (!program.has(text_.path())) break;
         add(key.name, ItemKind::field, fmt::format("{} of pass '{}'", key.kind, program.name));
         if (key.kind != std::string_view("define"))
-          add(runtime::presenceDefineOf(key.name), ItemKind::keyword, "1 where the pass has it");
+          add(glsl::presenceDefineOf(key.name), ItemKind::keyword, "1 where the pass has it");
       }
     return finish(word ? word->range : Range{offset_, offset_}, "");
   }

@@ -5,7 +5,6 @@
 
 #include "app/lsp/answers.h"
 #include "engine/graph/language/names.h"
-#include "engine/runtime/prepare/program_request.h"
 #include "engine/text/json/report.h"
 
 namespace weft::app::lsp {
@@ -33,13 +32,16 @@ void usesInGraphs(const Workspace& workspace, Uses& uses, const Location& declar
   for (const Graph* graph : workspace.graphs())
     for (const graph::NameUse& use : graph->uses)
       if (use.name == uses.name && workspace.locate(use.declared, "") == declared)
-        if (const auto location = workspace.locate(use.place, uses.name)) uses.locations.insert(*location);
+        if (const auto location = workspace.locate(use.place, uses.name)) {
+          uses.locations.insert(*location);
+          if (use.key) uses.keys.insert(*location);
+        }
 }
 
 // Adds every word `name` in the files of a slot's programs. A renamed program is consistent only with all of them, and so is
 // every other program that has one of these files; so the set of files grows until it has the files of all such programs.
 void usesInShaders(const Workspace& workspace, Uses& uses, std::set<std::string> files) {
-  const std::string presence = runtime::presenceDefineOf(uses.name);
+  const std::string presence = glsl::presenceDefineOf(uses.name);
   const auto eachMention = [&](const std::string& path, auto&& f) {
     if (const auto text = workspace.texts().of(path))
       for (const GlslWord& word : text->words())
@@ -153,7 +155,7 @@ Named namedAt(const Workspace& workspace, const Text& text, std::size_t offset) 
         }
     // In a list a name is both.
     for (const graph::NameUse& use : graph->uses)
-      if (take(*graph, use.place, use.name)) named.use = &use;
+      if (!use.key && take(*graph, use.place, use.name)) named.use = &use;
     if (named.graph) return named;
   }
   return named;
@@ -257,13 +259,14 @@ Renamed renameAt(const Workspace& workspace, const Text& text, std::size_t offse
       };
       // An item of a list is a key and its value, of which one keeps its name.
       const JsonValue* const item = itemCalled(*file, each.range);
-      if (item) put({item->begin, item->begin}, fmt::format("{{ \"{}\": ", uses.ofShader ? with : uses.name));
-      if (!item || !uses.ofShader) put(each.range, with);
+      const bool key = uses.ofShader || uses.keys.contains(each);
+      if (item) put({item->begin, item->begin}, fmt::format("{{ \"{}\": ", key ? with : uses.name));
+      if (!item || !key) put(each.range, with);
       if (item) put({item->end, item->end}, " }");
     }
   };
   edit(uses.locations, name);
-  edit(uses.presence, runtime::presenceDefineOf(name));
+  edit(uses.presence, glsl::presenceDefineOf(name));
   return {{{"changes", std::move(changes)}}, ""};
 }
 

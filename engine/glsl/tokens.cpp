@@ -28,6 +28,12 @@ std::size_t continuationAt(std::string_view text, std::size_t at) {
 
 }  // namespace
 
+std::string presenceDefineOf(std::string_view name) {
+  std::string text = "HAS_" + std::string(name);
+  for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
+  return text;
+}
+
 std::vector<Token> splitTokens(std::string_view text) {
   std::vector<Token> tokens;
   std::uint32_t line = 1;

@@ -54,6 +54,9 @@ struct Conditions {
 };
 Conditions conditionsOf(std::string_view text);
 
+// "HAS_GAIN": what a shader finds defined when its pass has the slot or parameter "gain".
+std::string presenceDefineOf(std::string_view name);
+
 // The tokens of a text as it stands, directives included.
 std::vector<Token> splitTokens(std::string_view text);
 

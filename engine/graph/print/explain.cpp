@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "engine/graph/subresource.h"
 
@@ -122,19 +123,47 @@ std::string Explainer::whyPass(std::uint32_t pass) const {
 }
 
 std::string Explainer::whyHere(std::uint32_t pass) const {
-  std::string text;
+  using Type = Dependency::Type;
+  struct Reason {
+    std::string text;
+    std::vector<std::uint32_t> passes;
+  };
+  std::vector<Reason> reasons;
   for (const Dependency& edge : edges_) {
     if (edge.to != pass || plan_.stepOf[edge.from] == kNone) continue;
-    text += text.empty() ? "after " : ", ";
-    if (edge.type == Dependency::Type::stated) {
-      text += fmt::format("'{}' (as the file says)", graph_.passNames[edge.from]);
+    Dependency read = edge;
+    read.type = Type::read_after_write;
+    if (edge.type == Type::write_after_write && std::ranges::find(edges_, read) != edges_.end())
+      continue;  // it modifies
+    const char* const why = edge.type == Type::read_after_write   ? "reads its"
+                            : edge.type == Type::write_after_read ? "overwrites what it reads,"
+                                                                  : "overwrites its";
+    std::string text = edge.type == Type::stated
+                           ? "as the file says"
+                           : fmt::format("{} '{}'", why, graph_.resourceNames[edge.resource]);
+    auto known = std::ranges::find(reasons, text, &Reason::text);
+    if (known == reasons.end()) known = reasons.insert(known, {std::move(text), {}});
+    known->passes.push_back(edge.from);
+  }
+  std::string text;
+  const Reason* before = nullptr;
+  for (const Reason& reason : reasons) {
+    if (const Reason* const last = std::exchange(before, &reason); last && last->passes == reason.passes) {
+      text.insert(text.size() - 1, ", " + reason.text);
       continue;
     }
-    const char* why = edge.type == Dependency::Type::read_after_write   ? "reads its"
-                      : edge.type == Dependency::Type::write_after_read ? "overwrites what it reads,"
-                                                                        : "overwrites its";
-    text +=
-        fmt::format("'{}' ({} '{}')", graph_.passNames[edge.from], why, graph_.resourceNames[edge.resource]);
+    std::string passes;
+    for (std::size_t first = 0, end = 0; first < reason.passes.size(); first = end) {
+      // Instances of one pass, in a row.
+      const auto declared = [&](std::size_t i) {
+        const std::string& name = graph_.passNames[reason.passes[i]];
+        return name.substr(0, name.rfind('['));
+      };
+      while (end < reason.passes.size() && declared(end) == declared(first)) ++end;
+      passes += fmt::format("{}'{}'", passes.empty() ? "" : ", ", graph_.passNames[reason.passes[first]]);
+      if (end > first + 1) passes += fmt::format(" to '{}'", graph_.passNames[reason.passes[end - 1]]);
+    }
+    text += fmt::format("{}{} ({})", text.empty() ? "after " : "; ", passes, reason.text);
   }
   return text;
 }
@@ -157,11 +186,9 @@ std::string Explainer::whyStorage(std::uint32_t resource) const {
   for (std::uint32_t q = 0; q < graph_.resources.size(); ++q)
     if (q != resource && plan_.firstStep[q] != kNone && shareStorage(plan_, resource, q))
       others.push_back(fmt::format("'{}' ({})", graph_.resourceNames[q], stepsText(plan_, q)));
-  const std::string steps = stepsText(plan_, resource);
   return others.empty()
-             ? fmt::format("its own: alive in {}, and nothing else of its class fits before or after", steps)
-             : fmt::format("shared with {}, none of which lives while it does (alive in {})",
-                           fmt::join(others, ", "), steps);
+             ? "its own: nothing else of its class fits before or after"
+             : fmt::format("shared with {}, none of which lives while it does", fmt::join(others, ", "));
 }
 
 std::vector<std::string> Explainer::whyBarriers(std::uint32_t step, bool afterClears) const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <vector>
 
 #include "engine/graph/language/keys.h"
@@ -88,7 +89,22 @@ class FileWriter {
  private:
   // ---- names ----
 
-  std::string importName(std::uint32_t import) const {
+  // Of an import that is to be declared, with those that its arguments name.
+  std::string importName(std::uint32_t import) {
+    std::string name = nameOfImport(import);
+    if (named_.insert(name).second)
+      for (const auto& [key, value] : graph_.imports[import].request.arguments)
+        if (const ImportRequest* other = graph_.imports[import].request.named(key))
+          importName(indexOf(*other));
+    return name;
+  }
+
+  std::uint32_t indexOf(const ImportRequest& request) const {
+    return static_cast<std::uint32_t>(std::ranges::find(graph_.imports, request, &ImportSpec::request) -
+                                      graph_.imports.begin());
+  }
+
+  std::string nameOfImport(std::uint32_t import) const {
     const ImportSpec& spec = graph_.imports[import];
     // A view under the name of its type would be the view of all passes.
     if (spec.kind == ImportKind::view)
@@ -102,7 +118,10 @@ class FileWriter {
   }
 
   // The resource is to be declared.
-  void use(std::uint32_t resource) { used_[resource] = 1; }
+  void use(std::uint32_t resource) {
+    used_[resource] = 1;
+    if (const std::uint32_t import = graph_.resources[resource].import; import != kNone) importName(import);
+  }
 
   // `span`: also levels that are all there are.
   std::string textOf(const FlatUse& use, bool wholeArray, bool span = false) const {
@@ -148,10 +167,19 @@ class FileWriter {
   // ---- resources ----
 
   Json resourcesJson() {
-    Json all = Json::object();
+    Json all = Json::object(), textures = Json::object();
+    for (std::uint32_t r = 0; r < graph_.resources.size(); ++r) {
+      if (used_[r] == 0 || isImported(graph_.resources[r])) continue;
+      const ElementName name = elementName(graph_.resourceNames[r]);
+      if (!textures.contains(name.array)) textures[name.array] = resourceJson(r);
+      if (name.index.empty()) continue;
+      Json& array = textures[name.array]["array"];
+      const int count = std::stoi(name.index) + 1;
+      array = array.is_number() ? std::max(array.get<int>(), count) : count;
+    }
     for (std::uint32_t import = 0; import < graph_.imports.size(); ++import) {
       const ImportSpec& spec = graph_.imports[import];
-      if (elementOf(spec.request) > 0) continue;
+      if (elementOf(spec.request) > 0 || !named_.contains(nameOfImport(import))) continue;
       Json json{{"import", spec.request.type}};
       for (const auto& [name, value] : spec.request.arguments) {
         // An empty word is what an argument is when nothing is given; written, it would be an empty expression.
@@ -160,27 +188,17 @@ class FileWriter {
         const ImportRequest* named = spec.request.named(name);
         if (name == "element" || (!given && !named)) continue;
         const bool path = name.ends_with("file") && !value.symbol.empty();
-        json[name] = named  ? Json(importName(static_cast<std::uint32_t>(
-                                 std::ranges::find(graph_.imports, *named, &ImportSpec::request) -
-                                 graph_.imports.begin())))
+        json[name] = named  ? Json(importName(indexOf(*named)))
                      : path ? Json(std::filesystem::absolute(value.symbol).lexically_normal().string())
                             : jsonOf(value);
       }
       all[importName(import)] = std::move(json);
     }
-    for (std::uint32_t r = 0; r < graph_.resources.size(); ++r) {
-      if (used_[r] == 0 || isImported(graph_.resources[r])) continue;
-      const ElementName name = elementName(graph_.resourceNames[r]);
-      if (!all.contains(name.array)) all[name.array] = resourceJson(r);
-      if (name.index.empty()) continue;
-      Json& array = all[name.array]["array"];
-      const int count = std::stoi(name.index) + 1;
-      array = array.is_number() ? std::max(array.get<int>(), count) : count;
-    }
+    all.update(textures);
     return all;
   }
 
-  Json resourceJson(std::uint32_t index) const {
+  Json resourceJson(std::uint32_t index) {
     const FlatResource& r = graph_.resources[index];
     Json json;
     if (isBuffer(r)) {
@@ -357,6 +375,7 @@ class FileWriter {
   const Plan& plan_;
   const FlatGraph& graph_;
   std::vector<std::uint8_t> used_;  // per resource
+  std::set<std::string> named_;     // imports
 };
 
 }  // namespace

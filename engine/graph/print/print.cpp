@@ -193,15 +193,15 @@ std::string optionOf(const Json& data, const char* key) {
 void addWhy(std::string& text, std::size_t depth, const Json& data, const std::string& key = "why") {
   const auto why = data.find(key);
   if (why == data.end()) return;
-  for (const Json& each : why->is_array() ? *why : Json::array({*why}))
-    if (each != "") addLine(text, depth, "why {}", wordOf(each));
+  if (*why != "") addLine(text, depth, "why {}", wordOf(*why));
 }
 
 void addBarriers(std::string& text, const Json& data, const char* word, const std::string& key) {
   const auto bits = data.find(key);
   if (bits == data.end() || bits->empty()) return;
-  addLine(text, 2, "{} {}", word, joined(*bits));
-  addWhy(text, 3, data, "why_" + key);
+  const auto why = data.find("why_" + key);  // a text for each bit
+  if (why == data.end()) return addLine(text, 2, "{} {}", word, joined(*bits));
+  for (const Json& each : *why) addLine(text, 2, "{} {}", word, wordOf(each));
 }
 
 void addStep(std::string& text, std::size_t index, const Json& step) {
@@ -298,8 +298,10 @@ std::string dumpText(const Plan& plan, bool explain) {
     addLine(lines, 1, "{}", wordOf(pass["pass"]));
     addWhy(lines, 2, pass);
   });
+  std::string reason;  // of the passes before, too
   addList("disabled", data["disabled"], [&](std::string& lines, const Json& pass) {
-    addLine(lines, 1, "{}{}", wordOf(pass["pass"]), explain ? ": " + wordOf(pass["why"]) : "");
+    if (explain && pass["why"] != reason) addLine(lines, 1, "{}", reason = wordOf(pass["why"]));
+    addLine(lines, explain ? 2 : 1, "{}", wordOf(pass["pass"]));
   });
   return text;
 }

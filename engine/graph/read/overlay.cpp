@@ -734,12 +734,13 @@ bool SourceLoader::layFile(Source& made, const std::string& path, const JsonValu
   const std::optional<JsonValue> root = parse(path, written ? written->place : text::Place{}, true);
   bool good = root && ReadContext(diagnostics_).expect(*root, Type::object, "a preset");
   const JsonValue* extends = good ? root->find("extends") : nullptr;
-  if (good && written && !extends && isWholeGraph(*root)) {
-    auto& d =
-        diagnostics_.error(Code::overlayOutOfPlace, written->place,
-                           fmt::format("'{}' is a graph of its own, which nothing can be laid under", path));
+  if (good && !extends && isWholeGraph(*root) && (written || root->find("present"))) {
+    auto& d = diagnostics_.error(
+        Code::overlayOutOfPlace, (written ? *written : *root).place,
+        fmt::format("'{}' is a graph of its own, which cannot be laid over another", path));
     d.expected = fmt::format("an overlay on '{}', or a preset", made.path);
-    d.hint = "a file extends one graph, the first of its list; give the others as includes";
+    d.hint = written ? "a file extends one graph, the first of its list; give the others as includes"
+                     : "include it in a graph, or check it by itself";
     good = false;
   }
   open_.emplace_back(own, path);

@@ -261,7 +261,7 @@ class Checker {
     const Role role = *roleFor(slot.kind);
     const Declaration* declared = find(slot.name, role);
     if (slot.kind == Kind::depth) {
-      if (declared) reportType(slot, use, "output", "a texture with a color format, such as rgba16f");
+      if (declared) reportDepth(use);
     } else if (!declared) {
       if (slot.kind != Kind::color || !givesRasterAlone(plan_, pass_, slot.firstUse))
         checkMissing(slot, role);
@@ -307,9 +307,22 @@ class Checker {
     d.resource = nameOf(use);
     d.expected = std::move(expected);
     d.found = type;
-    d.hint = slot.kind == Kind::depth
-                 ? fmt::format("give '{}' a color format, or write gl_FragDepth", d.resource)
-                 : fmt::format("declare `{}`, or name another resource", declarationOf(slot));
+    d.hint = fmt::format("declare `{}`, or name another resource", declarationOf(slot));
+  }
+
+  // Said where the texture is declared, once for all passes that write colors to it.
+  void reportDepth(const FlatUse& use) {
+    const std::string message =
+        fmt::format("'{}' has a depth format, and shaders write colors to it", nameOf(use));
+    if (isSaid(Code::slotTypeMismatch, message)) {
+      failed_ = true;
+      return;
+    }
+    text::Diagnostic& d = fail(Code::slotTypeMismatch, graph_.resourcePlaces[use.resource], message);
+    d.resource = nameOf(use);
+    d.expected = "a color format, such as rgba16f";
+    d.found = graph::infoOf(resourceOf(use).format).name;
+    d.hint = "give it a color format, or write gl_FragDepth";
   }
 
   // Writing float outputs to integer formats, or the other way round, leaves undefined texels (OpenGL 4.5 core, 15.2.3).
@@ -467,7 +480,7 @@ class Checker {
     d.expected = fmt::format("\"parameters\": {{ \"{}\": … }}, of type {}", member.name,
                              std::string(member.type) + member.array);
     d.hint = fmt::format("set it, or guard the member and its use with `#ifdef {}`",
-                         presenceDefineOf(member.name));
+                         glsl::presenceDefineOf(member.name));
   }
 
   // What the blocks that the engine fills may have.
@@ -498,7 +511,7 @@ class Checker {
     d.expected = fmt::format("a slot '{}' in \"read\", \"write\" or \"modify\"", name);
     d.hint = !nearest.empty() ? fmt::format("did you mean '{}'?", nearest)
                               : fmt::format("add \"{}\": \"RESOURCE\", or guard its use with `#ifdef {}`",
-                                            name, presenceDefineOf(name));
+                                            name, glsl::presenceDefineOf(name));
   }
 
   // What the linked program has besides.

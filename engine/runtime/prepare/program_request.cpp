@@ -24,12 +24,6 @@ void main() {
 }
 )";
 
-std::string presenceDefineOf(std::string_view name) {
-  std::string text = "HAS_" + std::string(name);
-  for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
-  return text;
-}
-
 std::span<const graph::TableColumn> columnsOf(const FlatGraph& graph, const FlatUse& use) {
   const std::uint32_t import = graph.resources[use.resource].import;
   if (import == graph::kNone) return {};
@@ -84,11 +78,11 @@ gl::ProgramRequest programRequestOf(const FlatGraph& graph, const Plan& plan, st
     const SlotSpec& slot = graph.slots[spec.firstSlot + i];
     if (slot.useCount == 0) continue;
     if (slot.access != Access::read && !plan.attached[slot.firstUse]) continue;
-    request.defines.push_back({presenceDefineOf(slot.name), "1"});
+    request.defines.push_back({glsl::presenceDefineOf(slot.name), "1"});
     if (slot.kind == Kind::color) request.outputs.push_back(slot.name);
   }
   for (const graph::UniformSpec& uniform : spec.uniforms)
-    if (uniform.isFirst()) request.defines.push_back({presenceDefineOf(uniform.name), "1"});
+    if (uniform.isFirst()) request.defines.push_back({glsl::presenceDefineOf(uniform.name), "1"});
   for (const graph::DefineSpec& define : spec.defines) request.defines.push_back({define.name, define.text});
   return request;
 }

@@ -22,9 +22,6 @@ bool givesRasterAlone(const graph::Plan& plan, std::uint32_t pass, std::uint32_t
 gl::ProgramRequest programRequestOf(const graph::FlatGraph& graph, const graph::Plan& plan,
                                     std::uint32_t pass, const graph::PassType& type);
 
-// "HAS_GAIN": what a shader finds defined when its pass has the slot or parameter "gain".
-std::string presenceDefineOf(std::string_view name);
-
 // The columns of the table that a use reads; empty when the use reads no table.
 std::span<const graph::TableColumn> columnsOf(const graph::FlatGraph& graph, const graph::FlatUse& use);
 // The columns of the rows of the list that a draw pass draws.

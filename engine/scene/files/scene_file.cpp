@@ -385,12 +385,18 @@ class Reader {
     ModelRows rows;
   };
 
-  const Loaded* load(const std::string& path) {
+  // `named`: what the scene names it by; null: the command line does.
+  const Loaded* load(const std::string& path, const JsonValue* named = nullptr) {
     const auto [known, isNew] = models_.try_emplace(path);
     std::unique_ptr<Loaded>& loaded = known->second;
     if (!isNew) return loaded.get();
     std::vector<std::string> files;
-    std::optional<assets::Model> model = assets::loadModel(path, diagnostics_, observer_, &files);
+    text::Diagnostics said;
+    std::optional<assets::Model> model = assets::loadModel(path, said, observer_, &files);
+    for (text::Diagnostic each : said.items()) {
+      if (named && each.place.line == 0) each.place = named->textPlace();
+      diagnostics_.add(std::move(each));
+    }
     for (std::string& file : files)
       if (std::ranges::find(files_, file) == files_.end()) files_.push_back(std::move(file));
     modelMissing_ = modelMissing_ || !model;
@@ -434,7 +440,8 @@ class Reader {
     fields.finish();
     if (!file || grid.total() == 0) return;
     const Loaded* loaded =
-        load((std::filesystem::path(name_).parent_path() / *file).lexically_normal().string());
+        load((std::filesystem::path(name_).parent_path() / *file).lexically_normal().string(),
+             fields.find("file"));
     if (!loaded) return;
     if (animation) readAnimation(*animation, what, loaded->model, copy);
     if (copy.material && !scene_.materials.find(*copy.material)) return;

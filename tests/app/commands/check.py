@@ -234,7 +234,7 @@ def check_shader(weft, report, *more):
                           "#ifdef HAS_OTHER\n  result += texture(other, uv);\n#endif\n  result.rgb *= tint;\n}\n")
         done = run(weft, "check", shader, "--format", "json", *more)
         stanza = json.loads(done.out)["stanza"]
-        report.check(done.code == 0 and stanza["read"] == {"one": "one", "other": "other", "grid": "grid as image"} and stanza["write"] == {"result": "result"}, done.out)
+        report.check(done.code == 0 and stanza["read"] == ["one", "other", "grid as image"] and stanza["write"] == ["result"], done.out)
         report.check(stanza["parameters"] == {"tint": [0, 0, 0], "on": False} and list(stanza["defines"]) == ["TILE"] and stanza["type"] == "fullscreen", done.out)
         textures = {name: {"texture": "r32f" if name == "grid" else "rgba8", "size": "screen", "clear": [0, 0, 0, 0]} for name in ("one", "other", "grid", "result")}
         (folder / "mix.json").write_text(json.dumps({"name": "mix", "resources": textures, "passes": [stanza], "present": "result"}))

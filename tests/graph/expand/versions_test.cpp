@@ -242,6 +242,8 @@ TEST_CASE("a disabled writer is named with the ways out") {
         "pass 'last' reads 'a', but pass 'one' that would write it is disabled (enabled: $on is false)");
   for (const char* fix : {"enable 'one'", "'?'", "alternatives", "\"clear\""})
     CHECK_MESSAGE(off.of(Code::disabledWriter).hint.find(fix) != std::string::npos, fix);
+  CHECK(off.of(Code::disabledWriter).hint.find("disable 'last'") ==
+        std::string::npos);  // nothing would be shown
   const Expanded gone = expandText(text, with({}, {"last"}));
   CHECK(gone.of(Code::disabledWriter).message.find("present shows 'out', but pass 'last'") == 0);
 }

@@ -26,6 +26,7 @@ TEST_CASE("values that do not fit are reported where they stand") {
   CHECK(only(R"({ "set": { "gain": [1, "x"] } })") == "W003 1:20");
   CHECK(only(R"({ "set": 3 })") == "W003 1:10");
   CHECK(only(R"([])") == "W003 1:1");
+  CHECK(only(R"({ "passes": [ { "name": "a", "type": "compute" } ], "present": "x" })") == "W019 1:1");
   CHECK(only(R"({ "extends": "parts/post.json" })") == "W019 1:14");
   CHECK(only(R"({ "passes": [ { "name": "sohw", "enabled": false } ] })") == "W016 1:25");
   CHECK(expandFile(folder.file("base.json"), {folder.file("none.json")}).has(Code::unreadableFile));

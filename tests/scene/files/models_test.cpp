@@ -129,7 +129,9 @@ TEST_CASE("what is wrong with a model of a scene has a place") {
   const auto codeOf = [&](const std::string& model) {
     const text::Diagnostics d = failuresOf(folder, "{\"models\": {\"m\": " + model + "}}");
     REQUIRE_MESSAGE(d.size() == 1, d.text());
-    CHECK(d.items()[0].place.file);
+    REQUIRE(d.items()[0].place.file);
+    CHECK(d.items()[0].place.file->ends_with("/s.json"));
+    CHECK(d.items()[0].place.line == 1);
     return d.items()[0].code;
   };
   CHECK(codeOf(R"({"file": "missing.obj"})") == text::Code::unreadableModel);

@@ -244,7 +244,14 @@ void report(Model& model, const Liveness& live, const std::vector<Cause>& reads)
           ? verbOf(first)
           : fmt::format("and {} more read", readers.size() == 2 ? "one" : fmt::to_string(readers.size() - 1));
   if (cause.disabled) {
-    if (!passes.empty() && passes.size() <= 4)
+    // Without what writes the presented texture there would be no picture.
+    const std::uint32_t shown = graph.present.resource;
+    const auto remains = [&](const WriteRecord& write) {
+      return write.entity == model.elementOf[shown].entity && write.pass != kNone &&
+             !passes.contains(graph.specs[write.pass].declared);
+    };
+    if (!passes.empty() && passes.size() <= 4 &&
+        (shown == kNone || std::ranges::any_of(model.writes, remains)))
       cause.fixes.insert(cause.fixes.begin(), fmt::format("disable '{}' too", fmt::join(passes, "' and '")));
     const auto isSwitch = [&](const Disable& each) { return sourceOf(each) == cause.disabled->why; };
     if (std::ranges::none_of(model.settings.disables, isSwitch))

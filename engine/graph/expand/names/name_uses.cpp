@@ -16,9 +16,9 @@ namespace {
 
 using UseOf = NameUse::Kind;
 
-using NamePlace = std::tuple<std::string, std::uint32_t, std::uint32_t>;
-NamePlace orderOf(const Place& place) {
-  return {place.file ? *place.file : "", place.line, place.column};
+using NamePlace = std::tuple<std::string, std::uint32_t, std::uint32_t, bool>;
+NamePlace orderOf(const Place& place, bool key = false) {
+  return {place.file ? *place.file : "", place.line, place.column, key};
 }
 
 Place placeAfter(Place place, std::size_t bytes) {
@@ -51,7 +51,8 @@ class NameFinder {
  private:
   void add(UseOf kind, std::string_view name, std::string full, const Place& place, Place declared) {
     if (place.file)
-      uses_.try_emplace(orderOf(place), NameUse{kind, std::string(name), std::move(full), place, declared});
+      uses_.try_emplace(orderOf(place, key_),
+                        NameUse{kind, std::string(name), std::move(full), place, key_, declared});
   }
   template <class Thing>
   void declare(UseOf kind, const std::string& prefix, const Thing& thing) {
@@ -94,8 +95,10 @@ class NameFinder {
     if (child == scope.includes.end()) return;
     for (std::size_t i = 0; i < pass.include->binds.size(); ++i) {
       const auto& [input, ref] = pass.include->binds[i];
-      addRef(scope, ref);  // in a list it stands at the place of the input
+      addRef(scope, ref);
+      key_ = text::isSamePlace(ref.place, insideOf(pass.include->bindPlaces[i]));
       addResource(*child->second, input, insideOf(pass.include->bindPlaces[i]), false);
+      key_ = false;
     }
   }
 
@@ -198,6 +201,7 @@ class NameFinder {
 
   Model& model_;
   std::map<NamePlace, NameUse> uses_;
+  bool key_ = false;  // of the next use
 };
 
 }  // namespace

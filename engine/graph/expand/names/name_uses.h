@@ -15,12 +15,14 @@ struct NameUse {
   std::string name;  // one part of a dotted name
   std::string full;  // what it means, as a plan calls it; "@sun" of an import that no file declares
   Place place;       // of the first character
+  bool key =
+      false;  // an item of a list "bind" by what it is bound to: the other use of this place is what it names
   Place
       declared;  // of that of the declaration; without a file where there is none. An include without "as" is declared
                  // by the opening quote of its path
 };
 
-// In each file once, by file and place; declarations are among them. A name that means nothing is left out. The graph may have
+// In each file once, by file, place and `key`; declarations are among them. A name that means nothing is left out. The graph may have
 // mistakes.
 std::vector<NameUse> findNameUses(const GraphDesc& desc, const Registry& registry);
 
