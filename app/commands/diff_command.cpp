@@ -106,9 +106,7 @@ void leavePictures(const DiffOptions& options, const ShotPair& pair, text::Diagn
   std::vector<OutputFile> outputs;
   for (const char* name : {"/before.png", "/after.png", "/difference.png"})
     outputs.push_back({"-o", files.emplace_back(options.output + name), OutputFile::Over::file});
-  std::vector<std::string> read = pair.before.files;
-  read.insert(read.end(), pair.after.files.begin(), pair.after.files.end());
-  if (!checkDistinct(outputs, read, diagnostics) || !savePng(files[0], pair.pictureBefore(), diagnostics) ||
+  if (!checkDistinct(outputs, diagnostics) || !savePng(files[0], pair.pictureBefore(), diagnostics) ||
       !savePng(files[1], pair.pictureAfter(), diagnostics))
     return;
   std::error_code ignored;

@@ -141,7 +141,7 @@ int runNew(NewOptions& options) {
       (folder / "shaders" / name / (name + ".frag.glsl")).lexically_normal().string();
   const OutputFile outputs[] = {{"-o", graphFile, OutputFile::Over::nothing},
                                 {"-o", shaderFile, OutputFile::Over::nothing}};
-  if (!checkDistinct(outputs, {}, diagnostics)) return report(diagnostics);
+  if (!checkDistinct(outputs, diagnostics)) return report(diagnostics);
   if (writeFrom(pass ? "new_pass.json" : "new_graph.json", graphFile,
                 {{"%NAME%", name},
                  {"%AFTER%", anchor->after},
@@ -185,7 +185,7 @@ bool writeAll(const ImportOptions& options, const importing::Converted& made,
                 ? assets::saveExr(pathOf(image), {image.width, image.height, 4, image.floats}, diagnostics)
                 : assets::savePng8(pathOf(image), image.width, image.height, 4, image.bytes, diagnostics));
   };
-  if (!checkDistinct(outputs, {}, diagnostics)) return false;
+  if (!checkDistinct(outputs, diagnostics)) return false;
   const bool good =
       std::ranges::all_of(made.texts, writeText) && std::ranges::all_of(made.images, writeImage);
   std::error_code ignored;

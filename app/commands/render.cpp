@@ -164,9 +164,7 @@ int runRender(RenderOptions& options) {
       return 1;
     const double prepared = now();
     findParts(options, renderer.execution()->plan(), run, diagnostics);
-    if (!checkDistinct(outputs, filesReadBy(options, renderer, world), diagnostics) ||
-        diagnostics.hasErrors())
-      return 1;
+    if (!checkDistinct(outputs, diagnostics) || diagnostics.hasErrors()) return 1;
     renderer.device().timers.setEnabled(options.profile);
     const auto checkSaved = [&] {
       for (const Part& part : run.parts)
@@ -249,9 +247,7 @@ int runDump(DumpOptions& options) {
     std::vector<OutputFile> outputs;
     for (const Part& part : run.parts)
       for (const std::string& file : part.files) outputs.push_back({"-o", file, OutputFile::Over::file});
-    if (diagnostics.hasErrors() ||
-        !checkDistinct(outputs, filesReadBy(options, renderer, world), diagnostics))
-      return 1;
+    if (diagnostics.hasErrors() || !checkDistinct(outputs, diagnostics)) return 1;
     runFrames(
         *session, world, options, run, [] {}, diagnostics);
     for (const Part& part : run.parts)

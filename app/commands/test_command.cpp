@@ -73,8 +73,7 @@ std::string leftName(const std::string& folder, const TestCase& test, std::uint3
 }
 
 // Checks that --report, -o and --accept write none of the files that the cases are made of, also of cases that do not run,
-// and that each picture is another file. The files that a graph names are known only when it is loaded: CaseRunner checks
-// those.
+// and that each picture is another file. The files that a graph names are known only when it is loaded.
 bool checkOutputs(const TestOptions& options, const Cases& cases, text::Diagnostics& diagnostics) {
   std::vector<OutputFile> outputs;
   std::vector<std::string> inputs;
@@ -99,17 +98,17 @@ bool checkOutputs(const TestOptions& options, const Cases& cases, text::Diagnost
         if (!options.output.empty() && !test.plan) make("-o", leftName(options.output, test, frame) + end);
   }
   std::erase(inputs, "");
-  return checkDistinct(outputs, inputs, diagnostics);
+  return checkDistinct(outputs, diagnostics, inputs);
 }
 
-// Writes the picture and the difference of what failed. `read`: files of all cases.
+// Writes the picture and the difference of what failed, when all cases have read their files.
 void leaveFiles(const std::string& folder, const TestCase& test, const CaseResult& result,
-                const std::vector<std::string>& read, text::Diagnostics& diagnostics) {
+                text::Diagnostics& diagnostics) {
   for (const CaseResult::Pair& pair : result.pairs) {
     if (!pair.failed) continue;
     const std::string stem = leftName(folder, test, pair.frame);
     const OutputFile outputs[] = {{"-o", stem + ".png"}, {"-o", stem + "_flip.png"}};
-    if (!checkDistinct(outputs, read, diagnostics)) continue;
+    if (!checkDistinct(outputs, diagnostics)) continue;
     const bool written = savePng(stem + ".png", pair.picture, diagnostics);
     if (written && !pair.map.errors.empty())
       savePng(stem + "_flip.png", assets::colorFlip(pair.map), diagnostics);
@@ -126,7 +125,6 @@ int runTest(TestOptions& options) {
   }
   CaseRunner runner(options);
   std::vector<std::pair<TestCase, CaseResult>> results;
-  std::vector<std::string> read;
   std::size_t counts[4] = {};
   for (const TestCase& test : cases) {
     CaseResult result = runner.run(test, options.accept, diagnostics);
@@ -136,21 +134,17 @@ int runTest(TestOptions& options) {
     ++counts[static_cast<std::size_t>(result.state)];
     const bool left = !options.output.empty() && result.state == State::different;
     if (result.state == State::same || (options.report.empty() && !left)) result.pairs.clear();
-    read.insert(read.end(), result.files.begin(), result.files.end());
     results.emplace_back(test, std::move(result));
   }
-  std::ranges::sort(read);
-  read.erase(std::ranges::unique(read).begin(), read.end());
   std::string sum;
   for (const State state : {State::same, State::written, State::different, State::broken})
     if (const std::size_t count = counts[static_cast<std::size_t>(state)])
       sum += fmt::format("{}{} {}", sum.empty() ? "" : ", ", count, wordOf(state));
   print(fmt::format("{}: {}\n", text::counted(cases.size(), "case"), sum));
   if (!options.output.empty())
-    for (const auto& [test, result] : results) leaveFiles(options.output, test, result, read, diagnostics);
-  const OutputFile page{"--report", options.report,
-                        OutputFile::Over::file};  // over nothing that a case reads
-  if (!options.report.empty() && checkDistinct({&page, 1}, read, diagnostics) &&
+    for (const auto& [test, result] : results) leaveFiles(options.output, test, result, diagnostics);
+  const OutputFile page{"--report", options.report, OutputFile::Over::file};
+  if (!options.report.empty() && checkDistinct({&page, 1}, diagnostics) &&
       makeFolderOf(options.report, diagnostics))
     text::writeFile(options.report, reportPage(results), diagnostics);
   const bool written = report(diagnostics) == 0;

@@ -8,6 +8,8 @@
 #include <memory>
 #include <vector>
 
+#include "engine/text/files/file.h"
+
 namespace weft::app {
 
 namespace {
@@ -92,11 +94,12 @@ bool makeFolderOf(const std::string& path, text::Diagnostics& diagnostics) {
   return false;
 }
 
-bool checkDistinct(std::span<const OutputFile> outputs, std::span<const std::string> inputs,
-                   text::Diagnostics& diagnostics) {
+bool checkDistinct(std::span<const OutputFile> outputs, text::Diagnostics& diagnostics,
+                   std::span<const std::string> inputs) {
   const std::size_t before = diagnostics.errorCount();
   std::vector<OutputFile> seen;  // by their plain names; those that are read have no option
   for (const std::string& input : inputs) seen.push_back({"", plainName(input)});
+  for (const std::string& file : text::filesRead()) seen.push_back({"", plainName(file)});
   for (const OutputFile& output : outputs) {
     if (output.pattern.empty()) continue;
     std::error_code ec;

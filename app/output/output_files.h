@@ -38,9 +38,9 @@ struct OutputFile {
   std::string pattern;  // empty: nothing is written
   Over over = Over::anything;
 };
-// Checks that no output is one of the files that the run reads, or another output, however it is spelled and whatever links lead
-// to it; a pattern is that of every frame. False after W180.
-bool checkDistinct(std::span<const OutputFile> outputs, std::span<const std::string> inputs,
-                   text::Diagnostics& diagnostics);
+// Checks that no output is one of the files that were read so far, of `inputs`, or another output, however it is spelled and
+// whatever links lead to it; a pattern is that of every frame. False after W180.
+bool checkDistinct(std::span<const OutputFile> outputs, text::Diagnostics& diagnostics,
+                   std::span<const std::string> inputs = {});
 
 }  // namespace weft::app

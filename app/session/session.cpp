@@ -118,12 +118,6 @@ std::shared_ptr<const graph::Plan> planOf(const Options& options, text::Diagnost
 }
 
 bool isWrong(const Options& options, const runtime::WorldFacts& facts, text::Diagnostics& diagnostics) {
-  std::vector<std::string> named{options.graph};
-  named.insert(named.end(), options.presets.begin(), options.presets.end());
-  for (const graph::Setting& set : options.sets) named.push_back(set.text);  // where the parameter is a file
-  std::error_code ignored;
-  for (const std::string& path : named)
-    if (std::filesystem::is_fifo(path, ignored)) return false;
   text::Diagnostics said, onHardware;
   if (makePlan(options, facts, true, said) || makePlan(options, facts, false, onHardware)) return false;
   diagnostics.append(said);
@@ -180,20 +174,10 @@ int runOnDevice(std::initializer_list<const Options*> all, int wrong, const Devi
       const int code = run(session, *world, diagnostics);
       return report(diagnostics, !options.quiet) ? wrong : code;
     }
-    makePlan(options, facts, true, diagnostics);  // one that came by a pipe
     wrong = 3;
   }
   report(diagnostics);
   return wrong;
-}
-
-std::vector<std::string> filesReadBy(const Options& options, const runtime::Renderer& renderer,
-                                     const runtime::World& world) {
-  std::vector<std::string> files = renderer.files();
-  files.insert(files.end(), world.scene().files.begin(), world.scene().files.end());
-  for (const std::string& file : {options.graph, scenePathOf(options), options.environment})
-    files.push_back(file);
-  return files;
 }
 
 bool checkPresents(const Options& options, runtime::Renderer& renderer, text::Diagnostics& diagnostics) {

@@ -56,7 +56,7 @@ std::shared_ptr<const graph::Plan> makePlan(const Options& options, const runtim
 std::shared_ptr<const graph::Plan> planOf(const Options& options, text::Diagnostics& diagnostics);
 
 // Whether the graph is wrong on every device; what is wrong is in `diagnostics` then. Commands that draw ask before they open OpenGL,
-// which takes longer than all of this. Of what a pipe holds nobody knows before it is read, which it can be once: false.
+// which takes longer than all of this.
 bool isWrong(const Options& options, const runtime::WorldFacts& facts, text::Diagnostics& diagnostics);
 
 // Prints the diagnostics to standard error, with or without notes. Of very many it prints only some
@@ -82,10 +82,6 @@ std::unique_ptr<DeviceSession> openDevice(const Options& options, text::Diagnost
 // without OpenGL. The first of `all` says which world, which device and what is reported.
 using DeviceRun = std::function<int(std::unique_ptr<DeviceSession>&, runtime::World&, text::Diagnostics&)>;
 int runOnDevice(std::initializer_list<const Options*> all, int wrong, const DeviceRun& run);
-
-// What the run reads, once the graph is loaded: none of it is to be written over.
-std::vector<std::string> filesReadBy(const Options& options, const runtime::Renderer& renderer,
-                                     const runtime::World& world);
 
 // False after W188: the graph presents nothing.
 bool checkPresents(const Options& options, runtime::Renderer& renderer, text::Diagnostics& diagnostics);

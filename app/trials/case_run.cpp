@@ -72,28 +72,13 @@ std::string firstLineOfDifference(const std::string& before, const std::string& 
                      lineOf(before));
 }
 
-}  // namespace
-
-CaseResult CaseRunner::run(const TestCase& test, bool accept, text::Diagnostics& diagnostics) {
-  text::Diagnostics said;
-  CaseResult result = test.plan ? runPlan(test, accept, said) : runPictures(test, accept, said);
-  const bool warned = std::ranges::count(said.items(), text::Severity::warning, &text::Diagnostic::severity);
-  appendWithPlaces(test, said, diagnostics);
-  if (said.hasErrors()) {
-    result.state = State::broken;
-  } else if (warned && !accept) {
-    result.lines.emplace_back("it has warnings: see above");
-    result.state = State::different;
-  }
-  return result;
-}
-
-CaseResult CaseRunner::runPlan(const TestCase& test, bool accept, text::Diagnostics& diagnostics) {
+CaseResult runPlan(const TestCase& test, bool accept, text::Diagnostics& diagnostics) {
   CaseResult result;
   const auto plan = planOf(test.options, diagnostics);
   if (!plan || diagnostics.hasErrors()) return result;
-  result.files = plan->graph->files;
   const std::string text = graph::dumpText(*plan), file = test.planGolden();
+  const OutputFile written{"--accept", file};
+  if (accept && !checkDistinct({&written, 1}, diagnostics)) return result;
   text::Diagnostics ignored;  // what cannot be read is written anew
   const auto golden = isThere(file) ? text::readFile(file, accept ? ignored : diagnostics) : std::nullopt;
   if (!golden)
@@ -101,31 +86,14 @@ CaseResult CaseRunner::runPlan(const TestCase& test, bool accept, text::Diagnost
   if (golden == text) return result;
   result.state = accept ? State::written : State::different;
   if (golden) result.lines.push_back(firstLineOfDifference(*golden, text));
-  const OutputFile written{"--accept", file};
-  if (accept && checkDistinct({&written, 1}, plan->graph->files, diagnostics))
-    text::writeFile(file, text, diagnostics);
+  if (accept) text::writeFile(file, text, diagnostics);
   return result;
-}
-
-std::optional<Shot> CaseRunner::shoot(const TestCase& test, text::Diagnostics& diagnostics) {
-  const auto world = loadWorld(test.options, diagnostics);
-  if (!world) makePlan(test.options, factsWithoutWorld(), true, diagnostics);
-  if (!world || (!context_ && isWrong(test.options, world->facts(), diagnostics))) return std::nullopt;
-  if (!context_ && !lacksContext_) {
-    context_ = openContext(options_, diagnostics);
-    lacksContext_ = !context_;
-  }
-  if (!context_) {
-    makePlan(test.options, world->facts(), true, diagnostics);
-    return std::nullopt;
-  }
-  return takeShot(*context_, test.options, *world, {.frames = test.frames, .records = true}, diagnostics);
 }
 
 // Compares a picture with its golden, or with `accept` writes it as that where they differ. False when it is not good enough, or
 // was written.
-bool CaseRunner::judgePicture(const TestCase& test, std::uint32_t frame, const assets::Image8& picture,
-                              bool accept, CaseResult& result, text::Diagnostics& diagnostics) {
+bool judgePicture(const TestCase& test, std::uint32_t frame, const assets::Image8& picture, bool accept,
+                  CaseResult& result, text::Diagnostics& diagnostics) {
   const std::string file = test.goldenOf(frame);
   text::Diagnostics ignored;  // what cannot be read is written anew
   const auto golden =
@@ -156,16 +124,43 @@ bool CaseRunner::judgePicture(const TestCase& test, std::uint32_t frame, const a
   return good;
 }
 
+}  // namespace
+
+CaseResult CaseRunner::run(const TestCase& test, bool accept, text::Diagnostics& diagnostics) {
+  text::Diagnostics said;
+  CaseResult result = test.plan ? runPlan(test, accept, said) : runPictures(test, accept, said);
+  const bool warned = std::ranges::count(said.items(), text::Severity::warning, &text::Diagnostic::severity);
+  appendWithPlaces(test, said, diagnostics);
+  if (said.hasErrors()) {
+    result.state = State::broken;
+  } else if (warned && !accept) {
+    result.lines.emplace_back("it has warnings: see above");
+    result.state = State::different;
+  }
+  return result;
+}
+
+std::optional<Shot> CaseRunner::shoot(const TestCase& test, text::Diagnostics& diagnostics) {
+  const auto world = loadWorld(test.options, diagnostics);
+  if (!world) makePlan(test.options, factsWithoutWorld(), true, diagnostics);
+  if (!world || (!context_ && isWrong(test.options, world->facts(), diagnostics))) return std::nullopt;
+  if (!context_ && !lacksContext_) {
+    context_ = openContext(options_, diagnostics);
+    lacksContext_ = !context_;
+  }
+  if (!context_) return std::nullopt;
+  return takeShot(*context_, test.options, *world, {.frames = test.frames, .records = true}, diagnostics);
+}
+
 CaseResult CaseRunner::runPictures(const TestCase& test, bool accept, text::Diagnostics& diagnostics) {
   CaseResult result;
   const auto shot = shoot(test, diagnostics);
   if (!shot) return result;
-  result.files = shot->files;
   const std::string record = test.recordFile();
   if (accept) {
     std::vector<OutputFile> outputs;
     for (const std::string& file : test.acceptedFiles()) outputs.push_back({"--accept", file});
-    if (!checkDistinct(outputs, shot->files, diagnostics)) return result;
+    if (!checkDistinct(outputs, diagnostics)) return result;
     for (const auto& [frame, picture] : shot->pictures)
       if (!readMask(test, picture, diagnostics)) return result;
   }

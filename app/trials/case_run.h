@@ -25,7 +25,6 @@ struct CaseResult {
   };
   State state = State::same;
   std::vector<std::string> lines;  // what was found, a sentence each
-  std::vector<std::string> files;  // that were read: graph, shaders, images, … of a case that is not broken
   std::vector<Pair> pairs;         // those that differ
   std::optional<Divergence> first;
 };
@@ -40,11 +39,8 @@ class CaseRunner {
   bool lacksContext() const { return lacksContext_; }
 
  private:
-  CaseResult runPlan(const TestCase& test, bool accept, text::Diagnostics& diagnostics);
   CaseResult runPictures(const TestCase& test, bool accept, text::Diagnostics& diagnostics);
   std::optional<Shot> shoot(const TestCase& test, text::Diagnostics& diagnostics);
-  static bool judgePicture(const TestCase& test, std::uint32_t frame, const assets::Image8& picture,
-                           bool accept, CaseResult& result, text::Diagnostics& diagnostics);
 
   const Options& options_;
   std::unique_ptr<gl::Context> context_;

@@ -47,7 +47,6 @@ std::optional<Shot> takeShot(gl::Context& context, const Options& options, const
   runtime::Execution& execution = *renderer.execution();
   Shot shot;
   shot.plan = std::make_shared<const graph::Plan>(execution.plan());
-  shot.files = filesReadBy(options, renderer, world);
   shot.records.driver = context.device().driverKey;
   for (std::size_t pass = 0; pass < shot.plan->stepOf.size(); ++pass)
     if (shot.plan->stepOf[pass] == graph::kNone)

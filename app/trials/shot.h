@@ -42,7 +42,6 @@ struct Shot {
   std::map<std::uint32_t, assets::Image8> pictures;  // RGBA, by frame
   PassRecords records;
   std::shared_ptr<const graph::Plan> plan;
-  std::vector<std::string> files;                  // that were read
   double milliseconds = 0;                         // of the fastest frame that was measured
   std::map<std::string, double> passMilliseconds;  // by declared name, of that frame
 };

@@ -60,11 +60,8 @@ int runView(ViewOptions& options) {
   const bool wait = options.waitForAssets || !options.record.empty();
   Options first = files;
   if (!wait) first.environment.clear();
-  // Models come while the window is open, too. A pipe can be read once: it is read by loadWorld.
-  const std::string scenePath = scenePathOf(files);
-  std::error_code none;
-  const bool later =
-      !wait && std::filesystem::is_regular_file(scenePath, none) && scene::namesModels(scenePath);
+  // Models come while the window is open, too.
+  const bool later = !wait && scene::namesModels(scenePathOf(files));
   std::optional<runtime::World> world;
   if (later) {
     scene::Scene empty;
@@ -75,8 +72,7 @@ int runView(ViewOptions& options) {
   }
   if (!world) {
     if (wait && !files.environment.empty()) return report(diagnostics);
-    if (std::filesystem::is_regular_file(scenePath, none))
-      diagnostics.clear();  // the scene is read again, and says it again
+    diagnostics.clear();  // the scene is read again, and says it again
     world.emplace(scene::Scene{});
   }
   if (!files.environment.empty() && !world->environment()) world->expectEnvironment();
@@ -90,9 +86,7 @@ int runView(ViewOptions& options) {
       return report(diagnostics);
     const OutputFile outputs[] = {{"--screenshot", outputNameOf(options.screenshot, last).value_or("")},
                                   {"--record", options.record}};
-    std::vector<std::string> inputs = live.files();
-    inputs.push_back(options.graph);
-    if (!checkDistinct(outputs, inputs, diagnostics)) return report(diagnostics);
+    if (!checkDistinct(outputs, diagnostics, live.files())) return report(diagnostics);
     Viewer viewer(options, *session, live, std::move(diagnostics));
     code = viewer.run();
     if (options.stats) {

@@ -16,6 +16,8 @@
 #include <filesystem>
 #include <map>
 #include <mutex>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "data_places.h"
@@ -36,9 +38,10 @@ constexpr std::size_t kMaxBytes = std::size_t{4} << 30;
 struct Access {
   std::mutex mutex;
   bool confined = false;
-  std::vector<std::string> named;     // as the person wrote them
-  std::vector<std::string> folders;   // real paths
-  std::map<std::string, int> chosen;  // by absolute path: how often it may be a pipe
+  std::vector<std::string> named;      // as the person wrote them
+  std::vector<std::string> folders;    // real paths
+  std::map<std::string, bool> chosen;  // by absolute path: whether it may be a pipe, as it was not opened yet
+  std::set<std::string> read;          // absolute paths
   std::map<std::string, Overlay> overlays;
   std::uint64_t overlaid = 0;  // in the life of the process
 };
@@ -155,8 +158,7 @@ Opened openFile(const std::string& path) {
     const std::lock_guard lock(all.mutex);
     const auto chosen = all.chosen.find(absolute);
     wasChosen = chosen != all.chosen.end();
-    mayBePipe = wasChosen && chosen->second > 0;
-    if (mayBePipe) --chosen->second;
+    mayBePipe = wasChosen && std::exchange(chosen->second, false);
     free = !all.confined || wasChosen;
   }
   // Looked at before it is opened: opening a device can do something by itself. A handle reads nothing and does nothing.
@@ -174,9 +176,6 @@ Opened openFile(const std::string& path) {
   if (handle && ::fstat(handle.get(), &status) == 0) {
     const bool pipe = S_ISFIFO(status.st_mode);
     if (S_ISDIR(status.st_mode)) return {.why = "it is a directory", .hint = "name a file inside it"};
-    if (pipe && wasChosen && !mayBePipe)
-      return {.why = "it is a pipe, which can be read only once",
-              .hint = "name a file, to have it read again"};
     if (pipe && !mayBePipe)
       return {.why = "it is a pipe", .hint = "name a file; only a path on the command line may be a pipe"};
     if (!pipe && !S_ISREG(status.st_mode))
@@ -189,6 +188,8 @@ Opened openFile(const std::string& path) {
     return {.why = "no such file", .hint = hintForMissing(path)};
   if (descriptor < 0) return {.why = std::strerror(error)};
   const bool regular = S_ISREG(status.st_mode);
+  const std::lock_guard lock(all.mutex);
+  all.read.insert(absolute);
   return {.descriptor = descriptor,
           .endless = !regular,
           .bytes = regular ? static_cast<std::uint64_t>(status.st_size) : 0};
@@ -253,6 +254,7 @@ std::optional<std::string> readFile(const std::string& path, Diagnostics& diagno
     const ssize_t got = ::read(file.get(), chunk, sizeof chunk);
     if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
     if (got < 0) return fail(std::strerror(errno), "");
+    if (got == 0 && opened.endless) overlayFile(path, bytes);  // nobody can read it again
     if (got == 0) return bytes;
     bytes.append(chunk, static_cast<std::size_t>(got));
     if (goOn && !goOn(bytes.size(), opened.bytes)) return std::nullopt;
@@ -321,7 +323,7 @@ void chooseFile(const std::string& path) {
   Access& all = access();
   const std::lock_guard lock(all.mutex);
   const std::string written = absolutePath(path);
-  ++all.chosen[written];
+  all.chosen[written] = true;
   std::error_code ec;
   if (fs::is_directory(written, ec)) addFolder(all, written);
 }
@@ -366,6 +368,12 @@ void reportOutside(const std::string& path, Diagnostics& diagnostics, const Plac
   d.expected = fmt::format("a path that stays, with links followed, in {} or in Weft's own data",
                            fmt::join(folders, ", "));
   d.hint = "move the file into one of them, or allow its folder with --confine FOLDER";
+}
+
+std::set<std::string> filesRead() {
+  Access& all = access();
+  const std::lock_guard lock(all.mutex);
+  return all.read;
 }
 
 void resetFileAccess() {

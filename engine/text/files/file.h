@@ -2,7 +2,7 @@
 // reading, whatever names the file (a graph, an include, a shader, a scene, a library, an environment, a program binary).
 //
 // Only regular files are read: a pipe, a socket or a device would block for ever or never end. A path that the person gave on the
-// command line may be a pipe, the first time it is opened, so that `weft render <(generate) …` works. Paths are free, as a
+// command line may be a pipe, which is read once and kept, so that `weft render <(generate) …` works. Paths are free, as a
 // compiler's are, until reading is confined to a folder (--confine). From then on only files that really lie in such a folder, or
 // in an allowed one, with links followed, are read; no answer tells whether something exists outside. What the person named on the
 // command line stays free. The file that was checked is the file that is opened: no other can take its place in between.
@@ -15,6 +15,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 
@@ -58,8 +59,8 @@ std::string dataFolder();
 
 // ---- which files may be read ----
 
-// The person named this path on the command line: it is never outside, and may be a pipe once. A folder that is
-// named so is an allowed one. A path that is named twice may be a pipe twice.
+// The person named this path on the command line: it is never outside, and may be a pipe. A folder that is
+// named so is an allowed one.
 void chooseFile(const std::string& path);
 
 // Confines reading to `folder`, and to all other folders that were given to this function or to allowFolder().
@@ -73,6 +74,9 @@ void allowFolder(const std::string& folder);
 bool mayRead(const std::string& path);
 // W200: `path`, as written, leads out of the folders.
 void reportOutside(const std::string& path, Diagnostics& diagnostics, const Place& place);
+
+// What has been opened so far, as absolute paths.
+std::set<std::string> filesRead();
 
 // Takes back all calls of the functions above. For tests.
 void resetFileAccess();
