@@ -16,22 +16,19 @@ namespace {
 struct FuzzOptions : Options {
   std::uint32_t runs = 12;            // random orders
   std::optional<std::uint32_t> seed;  // this order alone; 0 is the declared one
-  std::uint32_t first = 0, last = ~0u;
   std::string share = "both", poison = "both";
 };
 
 // The graph in another legal order, with shared storage or without, with poisoned transients or not.
 struct Trial {
-  std::uint32_t seed = 0;               // of the order; 0: the declared one
-  std::uint32_t first = 0, last = ~0u;  // places in the plan that are reordered; the others stay
+  std::uint32_t seed = 0;  // of the order; 0: the declared one
   bool share = true;
   std::optional<runtime::PoisonPattern> poison{};
 
-  // "--seed 7 --order 3:5 --share off --poison nan": repeats this one.
+  // "--seed 7 --share off --poison nan": repeats this one.
   std::string arguments() const {
-    const std::string order = first > 0 || last != ~0u ? fmt::format(" --order {}:{}", first, last) : "";
-    return fmt::format("--seed {}{} --share {} --poison {}", seed, seed == 0 ? "" : order,
-                       share ? "on" : "off", poison ? runtime::nameOf(*poison) : "none");
+    return fmt::format("--seed {} --share {} --poison {}", seed, share ? "on" : "off",
+                       poison ? runtime::nameOf(*poison) : "none");
   }
 };
 
@@ -44,32 +41,18 @@ std::vector<Trial> trialsOf(const FuzzOptions& wanted) {
   std::vector<Trial> trials;
   for (std::uint32_t run = 0; run <= (wanted.seed ? 0 : wanted.runs); ++run)
     for (const bool share : shares)
-      for (const auto& poison : poisons)
-        trials.push_back({wanted.seed.value_or(run), wanted.first, wanted.last, share, poison});
+      for (const auto& poison : poisons) trials.push_back({wanted.seed.value_or(run), share, poison});
   return trials;
 }
 
-// The smallest trial that still differs, found by leaving out one thing after another: the poison, the storage, the order, then
-// the passes that are reordered at its ends. `end`: the last place of the plan.
+// The smallest trial that still differs, found by leaving out one thing after another: the poison, the storage, the order.
 template <class Differs>
-Trial shrink(Trial trial, std::uint32_t end, const Differs& differs) {
-  const auto keepIf = [&](Trial smaller) {
-    const bool kept = differs(smaller);
-    if (kept) trial = smaller;
-    return kept;
-  };
-  const auto with = [&](auto Trial::*member, auto value) {
+Trial shrink(Trial trial, const Differs& differs) {
+  for (const auto leaveOut : {+[](Trial& each) { each.poison.reset(); },
+                              +[](Trial& each) { each.share = true; }, +[](Trial& each) { each.seed = 0; }}) {
     Trial smaller = trial;
-    smaller.*member = value;
-    return smaller;
-  };
-  if (trial.poison) keepIf(with(&Trial::poison, std::optional<runtime::PoisonPattern>{}));
-  if (!trial.share) keepIf(with(&Trial::share, true));
-  if (trial.seed == 0 || keepIf(with(&Trial::seed, 0u))) return trial;
-  trial.last = std::min(trial.last, end);
-  while (trial.first + 1 < trial.last && keepIf(with(&Trial::first, trial.first + 1))) {
-  }
-  while (trial.first + 1 < trial.last && keepIf(with(&Trial::last, trial.last - 1))) {
+    leaveOut(smaller);
+    if (smaller.arguments() != trial.arguments() && differs(smaller)) trial = smaller;
   }
   return trial;
 }
@@ -90,10 +73,7 @@ int fuzz(gl::Context& context, const FuzzOptions& options, const runtime::World&
   const auto shoot = [&](const Trial& trial, text::Diagnostics& said) {
     const ShotWish wish{.frames = {options.lastFrame},
                         .records = true,
-                        .compile = {.share = trial.share,
-                                    .orderSeed = trial.seed,
-                                    .orderFirst = trial.first,
-                                    .orderLast = trial.last},
+                        .compile = {.share = trial.share, .orderSeed = trial.seed},
                         .poison = trial.poison};
     return takeShot(context, options, world, wish, said);
   };
@@ -121,7 +101,7 @@ int fuzz(gl::Context& context, const FuzzOptions& options, const runtime::World&
       return 2;
     }
     if (same) continue;
-    const Trial trial = shrink(found, static_cast<std::uint32_t>(declared->plan->steps.size() - 1), differs);
+    const Trial trial = shrink(found, differs);
     differs(trial);
     if (const auto difference = comparePictures(pictureOf(*other), pictureOf(*declared)))
       print("a picture differs: " + difference->text() + "\n");
@@ -160,10 +140,6 @@ void addFuzz(CommandLine& line) {
   command.add_option("--runs", options.runs, "how many random orders to try")->check(CLI::Range(1u, 100000u));
   command.add_option("--seed", options.seed,
                      "try this order alone; 0 is the declared one (default: 0 to --runs)");
-  addTaken(
-      command, "--order",
-      [&options = options](const std::string& text) { return takeRange(text, options.first, options.last); },
-      "FIRST:LAST", "reorder only the passes at these places of the plan, counted from 0");
   addChoice(command, "--share", options.share, "whether transient textures share storage: on, off or both",
             {"on", "off", "both"});
   addChoice(command, "--poison", options.poison,

@@ -62,8 +62,6 @@ struct Groups {
 struct CompileOptions {
   bool share = true;            // false: every resource its own storage (fuzz)
   std::uint64_t orderSeed = 0;  // not 0: a random legal order instead of the declared one (fuzz)
-  // The live passes, counted in declared order, that the random order may move; the others stay where they are.
-  std::uint32_t orderFirst = 0, orderLast = ~0u;
 };
 
 struct Plan {

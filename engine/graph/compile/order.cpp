@@ -54,18 +54,6 @@ void orderPasses(const FlatGraph& graph, const CompileOptions& options, Plan& pl
   }
   std::vector<std::uint32_t> order;
   shuffle(graph, options.orderSeed, plan, scratch, order);
-  // What stands before the window in declared order needs nothing of what stands in it or behind it, and so on: the three parts
-  // one after another are legal, each in an order that is.
-  std::vector<std::uint32_t> rank(graph.passes.size(), 0);
-  for (std::uint32_t p = 0, next = 0; p < graph.passes.size(); ++p)
-    if (scratch.livePass[p] != 0) rank[p] = next++;
-  const auto part = [&](std::uint32_t p) {
-    return rank[p] < options.orderFirst ? 0 : rank[p] <= options.orderLast ? 1 : 2;
-  };
-  std::ranges::stable_sort(order, [&](std::uint32_t a, std::uint32_t b) {
-    const int x = part(a), y = part(b);
-    return x != y ? x < y : x != 1 && a < b;
-  });
   for (const std::uint32_t p : order) append(p);
 }
 

@@ -54,7 +54,6 @@ def check_fuzz(weft, report, folder):
     order = write_graph(folder, "order", ORDER, ORDER_SHADERS)
     result = run(weft, "fuzz", order, "--size", SIZE, "--runs", "6", "--poison", "none", "--share", "on")
     report.check(result.code == 1 and "--poison none" in result.out and "double" in result.out, result.out + result.err)
-    report.check("--order 1:2" in result.out, f"only the two passes are left: {result.out}")
     repeat_it(weft, report, result, order)
     report.check(run(weft, "fuzz", order, "--size", SIZE, "--seed", "0", "--poison", "none").code == 0, "in the declared order there is nothing to find")
 

@@ -115,30 +115,6 @@ TEST_CASE("liveness, order and storage agree with slow second opinions") {
   CHECK(failures == 0);
 }
 
-TEST_CASE("a window of a random order moves no other pass, and is legal") {
-  std::size_t failures = 0, moved = 0;
-  for (std::uint64_t seed = 1; seed <= kPropertyGraphs; ++seed) {
-    const FlatBuilder b = randomGraph(seed);
-    const Plan declared = b.compiled();
-    const auto steps = static_cast<std::uint32_t>(declared.steps.size());
-    if (steps < 2) continue;
-    const std::uint32_t first = static_cast<std::uint32_t>(seed) % (steps - 1),
-                        last = first + (steps - first) / 2;
-    const Plan plan = b.compiled({.share = true, .orderSeed = seed, .orderFirst = first, .orderLast = last});
-    bool stays = plan.steps.size() == steps;
-    for (std::uint32_t s = 0; stays && s < steps; ++s) {
-      const bool same = plan.steps[s].pass == declared.steps[s].pass;
-      stays = same || (s >= first && s <= last);
-      moved += same ? 0 : 1;
-    }
-    const bool right = stays && checks::checkOrder(plan).empty() &&
-                       replay::showPlanned(plan, 4) == replay::showDeclared(plan, 4);
-    if (!right && ++failures < 10) FAIL_CHECK("graph " << seed << ", " << first << ":" << last);
-  }
-  CHECK(failures == 0);
-  CHECK(moved > kPropertyGraphs / 4);
-}
-
 TEST_CASE("any legal order, shared or not, shows what the graph means") {
   std::size_t failures = 0;
   for (std::uint64_t seed = 1; seed <= kPropertyGraphs; ++seed) {
