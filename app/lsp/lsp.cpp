@@ -294,7 +294,9 @@ class Server {
 
 }  // namespace lsp
 
-int runLsp(const Options& options) {
+namespace {
+
+int runLsp(Options& options) {
   lsp::MessageReader reader;
   lsp::Server server(options);
   while (!server.ended()) {
@@ -308,6 +310,18 @@ int runLsp(const Options& options) {
     server.take(*message);
   }
   return *server.ended();
+}
+
+}  // namespace
+
+void addLsp(CommandLine& line) {
+  const auto [command, options] = line.add(
+      "lsp", "language server for editors, on standard input and output (docs/editors.md); needs no OpenGL",
+      runLsp);
+  addPath(command, "--scene", options.scene, "scene that graphs are checked with (default: the bundled one)");
+  options.addSize(command);
+  command.add_flag("--stdio")->description("accepted for editors that say so; there is no other transport");
+  command.footer("Example, for Neovim: vim.lsp.start({ name = 'weft', cmd = { 'weft', 'lsp' } })");
 }
 
 }  // namespace weft::app

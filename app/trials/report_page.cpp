@@ -6,27 +6,11 @@
 
 #include "engine/assets/images/image.h"
 #include "engine/text/printable.h"
+#include "report_head.h"
 
 namespace weft::app {
 
 namespace {
-
-constexpr const char* kHead = R"(<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><style>
-:root { color-scheme: light dark }
-body { font: 15px/1.5 system-ui, sans-serif; margin: 2rem auto; max-width: 90rem; padding: 0 1rem }
-h1 { font-size: 1.3rem } h2 { font-size: 1.1rem; margin: 2.5rem 0 .25rem; border-top: 1px solid #8886; padding-top: 1rem }
-p { margin: .25rem 0 } .first { font-weight: 600 } .row { display: flex; flex-wrap: wrap; gap: 1rem; margin-top: .75rem }
-figure { margin: 0; flex: 1 1 20rem; min-width: 0 } img { width: 100%; image-rendering: pixelated; background: #0004 }
-figcaption { font-size: .85rem; opacity: .75 }
-.flip { position: relative } .flip img + img { position: absolute; left: 0; top: 0; opacity: 0 }
-.flip:hover img + img, .flip:focus img + img { opacity: 1 }
-.scale { height: .6rem; width: 12rem; display: inline-block; vertical-align: middle; background: linear-gradient(90deg,
-  #000004, #3b0f70, #8c2981, #de4968, #fe9f6d, #fcfdbf) }
-body > img { max-width: 40rem } td img { width: 12rem }
-td, th { text-align: right; padding: .25rem .75rem; border-bottom: 1px solid #8886 } td:first-child, td[colspan] { text-align: left }
-</style>
-)";
 
 std::string encodeBase64(std::string_view bytes) {
   static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -68,7 +52,7 @@ std::string section(const TestCase& test, const CaseResult& result) {
 }  // namespace
 
 std::string pageHead(std::string_view title) {
-  return kHead + fmt::format("<title>{}</title></head><body>\n", escapeHtml(title));
+  return kReportHead + fmt::format("<title>{}</title></head><body>\n", escapeHtml(title));
 }
 
 std::string imageTag(const assets::Image8& image, std::string_view alt) {
