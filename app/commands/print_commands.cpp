@@ -16,6 +16,7 @@
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
 #include "engine/graph/language/keys.h"
+#include "engine/graph/print/explain.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/read/read.h"
 #include "engine/runtime/imports/registry.h"
@@ -100,25 +101,12 @@ std::string rangeOf(const graph::ParameterDesc& desc) {
   return desc.max ? fmt::format("up to {}", *desc.max) : "";
 }
 
-Json toJson(const graph::Value& value) {
-  switch (value.type) {
-    case graph::Value::Type::boolean:
-      return value.truth();
-    case graph::Value::Type::number:
-      return value.v[0];
-    case graph::Value::Type::list:
-      return std::vector<double>(value.v.begin(), value.v.begin() + value.count);
-    default:
-      return value.symbol;
-  }
-}
-
 Json toJson(const graph::ParameterSpec& parameter) {
   const graph::ParameterDesc& desc = parameter.desc;
   Json out{{"name", parameter.path},
            {"type", nameOf(desc.type)},
-           {"default", toJson(desc.initial)},
-           {"value", toJson(parameter.value)},
+           {"default", graph::jsonOf(desc.initial)},
+           {"value", graph::jsonOf(parameter.value)},
            {"from", graph::wordFor(parameter.origin)}};
   if (desc.min) out["min"] = *desc.min;
   if (desc.max) out["max"] = *desc.max;
@@ -185,6 +173,11 @@ int runPresets(ListOptions& options) {
   return report(diagnostics);
 }
 
+void printIndented(const std::string& text) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) print("  " + line + "\n");
+}
+
 // What a graph may name, from the registry itself.
 int runTypes(Options&) {
   const graph::Registry registry = runtime::makeRegistry({}, {});
@@ -196,18 +189,9 @@ int runTypes(Options&) {
       print(fmt::format("    slot {}: {}\n", slot.name, slot.doc));
   }
   print("\nimports\n");
-  for (const graph::ImportType& type : registry.imports) {
-    print(fmt::format("  @{}\n    {}\n", type.name, type.doc));
-    for (const graph::ImportArgument& argument : type.arguments)
-      print(fmt::format("    {} (default {}): {}\n", argument.name, graph::toText(argument.initial),
-                        argument.doc));
-    for (const graph::TableColumn& column : type.columns)
-      print(fmt::format("    .{} {}{}{}\n", column.name, column.type, column.doc.empty() ? "" : ": ",
-                        column.doc));
-  }
+  for (const graph::ImportType& type : registry.imports) printIndented(graph::textOf(type));
   print("\nformats\n");
-  std::istringstream formats(graph::formatTable());
-  for (std::string line; std::getline(formats, line);) print("  " + line + "\n");
+  printIndented(graph::formatTable());
   return 0;
 }
 

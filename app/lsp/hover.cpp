@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "app/lsp/answers.h"
+#include "engine/graph/print/explain.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/read/overlay.h"
 
@@ -22,17 +23,10 @@ std::string ofPlan(const Graph& graph, const std::string& text) {
                       : fenced("text", text + (graph.current ? "" : "(of the last plan without errors)\n"));
 }
 
-// As Markdown; "" when the type is no import.
+// "" when the type is no import.
 std::string docOfImport(const graph::Registry& registry, std::string_view name) {
   const auto type = std::ranges::find(registry.imports, name, &graph::ImportType::name);
-  if (type == registry.imports.end()) return "";
-  std::string text = fmt::format("**@{}**: {}\n", type->name, type->doc);
-  for (const graph::ImportArgument& argument : type->arguments)
-    text += fmt::format("- `{}` (default {}): {}\n", argument.name, graph::toText(argument.initial),
-                        argument.doc);
-  for (const graph::TableColumn& column : type->columns)
-    text += fmt::format("- `.{}` {}: {}\n", column.name, column.type, column.doc);
-  return text;
+  return type == registry.imports.end() ? "" : fenced("text", graph::textOf(*type));
 }
 
 // What the plan does with a name that a pass shares with its shader.

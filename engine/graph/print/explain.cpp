@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <utility>
 
@@ -60,6 +61,29 @@ std::string textOf(const FlatGraph& graph, const FlatUse& use) {
     if (planesOf(r) == 2 && (use.planes & 3) == 2) text += ".stencil";
   }
   return use.history > 0 ? fmt::format("{}@-{}", text, use.history) : text;
+}
+
+std::string textOf(const ImportType& type) {
+  std::string text = fmt::format("@{}\n  {}\n", type.name, type.doc);
+  for (const ImportArgument& argument : type.arguments)
+    text += fmt::format("  {} (default {}): {}\n", argument.name, toText(argument.initial), argument.doc);
+  for (const TableColumn& column : type.columns)
+    text +=
+        fmt::format("  .{} {}{}{}\n", column.name, column.type, column.doc.empty() ? "" : ": ", column.doc);
+  return text;
+}
+
+nlohmann::ordered_json jsonOf(const Value& value) {
+  switch (value.type) {
+    case Value::Type::boolean:
+      return value.truth();
+    case Value::Type::number:
+      return value.v[0];
+    case Value::Type::list:
+      return std::vector<double>(value.v.begin(), value.v.begin() + value.count);
+    default:
+      return value.symbol;
+  }
 }
 
 std::string shapeText(const FlatResource& r) {

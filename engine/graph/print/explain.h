@@ -6,12 +6,14 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/plan.h"
+#include "engine/graph/registry.h"
 #include "engine/text/printable.h"
 
 namespace weft::graph {
@@ -41,6 +43,9 @@ class Explainer {
 std::string textOf(const FlatGraph& graph, const FlatUse& use);
 // ".mip[2]" or ".mip[2..4]"
 std::string spanText(const char* part, std::uint32_t first, std::uint32_t count);
+// What an import is, its arguments and its columns: "@lamps", then a line each, two spaces further in.
+std::string textOf(const ImportType& type);
+nlohmann::ordered_json jsonOf(const Value& value);
 // "texture rgba16f 64x64, 3 levels, 32768 bytes"
 std::string shapeText(const FlatResource& resource);
 const char* nameOf(Target target);

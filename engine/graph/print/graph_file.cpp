@@ -43,19 +43,6 @@ ElementName elementName(const std::string& name) {
   return {plainName(name.substr(0, open) + name.substr(close + 1)), name.substr(open + 1, close - open - 1)};
 }
 
-Json jsonOf(const Value& value) {
-  switch (value.type) {
-    case Value::Type::boolean:
-      return value.truth();
-    case Value::Type::number:
-      return value.v[0];
-    case Value::Type::list:
-      return std::vector<double>(value.v.begin(), value.v.begin() + value.count);
-    default:
-      return value.symbol;
-  }
-}
-
 class FileWriter {
  public:
   explicit FileWriter(const Plan& plan)

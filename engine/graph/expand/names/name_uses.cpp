@@ -96,7 +96,7 @@ class NameFinder {
     for (std::size_t i = 0; i < pass.include->binds.size(); ++i) {
       const auto& [input, ref] = pass.include->binds[i];
       addRef(scope, ref);
-      key_ = text::isSamePlace(ref.place, insideOf(pass.include->bindPlaces[i]));
+      key_ = ref.place == insideOf(pass.include->bindPlaces[i]);
       addResource(*child->second, input, insideOf(pass.include->bindPlaces[i]), false);
       key_ = false;
     }
