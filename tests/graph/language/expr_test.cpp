@@ -16,7 +16,7 @@ using weft::text::Place;
 namespace {
 
 Place placeAt(std::uint32_t column) {
-  return {std::make_shared<const std::string>("t.json"), 3, column};
+  return {"t.json", 3, column};
 }
 
 Value list(std::initializer_list<double> items) {
