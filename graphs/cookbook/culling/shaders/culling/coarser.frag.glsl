@@ -1,0 +1,11 @@
+// The farthest of the cells that make this one: four, or two where the level above is one cell wide.
+// read    finer      the level above
+// write   farthest
+uniform sampler2D finer;
+out float farthest;
+
+void main() {
+  ivec2 last = textureSize(finer, 0) - 1, a = min(2 * ivec2(gl_FragCoord.xy), last), b = min(a + 1, last);
+  farthest = min(min(texelFetch(finer, a, 0).r, texelFetch(finer, ivec2(b.x, a.y), 0).r),
+                 min(texelFetch(finer, ivec2(a.x, b.y), 0).r, texelFetch(finer, b, 0).r));
+}
