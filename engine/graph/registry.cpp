@@ -1,6 +1,7 @@
 #include "engine/graph/registry.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 
 #include "engine/text/hash.h"
@@ -21,9 +22,12 @@ const ImportRequest* ImportRequest::named(std::string_view argument) const {
 
 std::uint64_t keyOf(const ImportRequest& request) {
   std::uint64_t key = text::hashBytes(request.type);
-  for (const auto& [name, value] : request.arguments)
-    key = text::hashCombine(text::hashBytes(toText(value), text::hashBytes(name, key)),
-                            static_cast<std::uint64_t>(value.type));
+  for (const auto& [name, value] : request.arguments) {
+    key = text::hashBytes(value.symbol, text::hashBytes(name, key));
+    for (std::size_t i = 0; i < value.count; ++i)
+      key = text::hashCombine(key, std::bit_cast<std::uint64_t>(value.v[i] + 0.0));  // -0 is 0
+    key = text::hashCombine(key, static_cast<std::uint64_t>(value.type));
+  }
   for (const auto& [name, other] : request.of)
     key = text::hashCombine(text::hashBytes(name, key), keyOf(other));
   return key;

@@ -118,9 +118,8 @@ class PassWalk {
       return stopAt(model_, desc.place, fmt::format("pass '{}' has too many slots", stanza.declared),
                     kMaxSlotsOfPass, "slots, parameters and defines of one pass");
     Names names(model_, scope);
-    user_ = fmt::format("pass '{}'", stanza.declared);
     const std::size_t errors = model_.diagnostics.errorCount();
-    stanza.sound = checkStanza({model_, names, stanza.type, user_, stanza.declared}, desc);
+    stanza.sound = checkStanza({model_, names, stanza.type, {}, stanza.declared}, desc);
     if (stanza.type) repeat(stanza, names);
     if (model_.diagnostics.errorCount() > errors) leaveOut(scope, desc);
   }
@@ -215,7 +214,6 @@ class PassWalk {
     std::vector<std::int64_t> at;
     for (const Names::Index& index : names.indices) at.push_back(static_cast<std::int64_t>(index.value));
     name_ = stanza.declared + (at.empty() ? "" : fmt::format("[{}]", fmt::join(at, ",")));
-    user_ = fmt::format("pass '{}'", name_);
     const auto holds = evaluateCondition(names, stanza.desc.enabled, true, "'enabled'");
     if (!holds) {
       stanza.failed = true;
@@ -223,7 +221,7 @@ class PassWalk {
     }
     std::string why = whyDisabled(stanza, *holds);
     const bool enabled = why.empty();
-    const SlotContext context{model_, names, stanza.type, user_, name_, enabled, *holds};
+    const SlotContext context{model_, names, stanza.type, {}, name_, enabled, *holds};
     const std::uint32_t pass = enabled ? static_cast<std::uint32_t>(graph_.passes.size()) : kNone;
 
     const std::size_t missed = model_.missing.size();
@@ -378,7 +376,7 @@ class PassWalk {
   std::vector<DeferredUniform>& deferred_;
   std::uint64_t made_ = 0, slotsMade_ = 0;  // passes, disabled ones and empty ranges counted; their slots
   // of the instance
-  std::string name_, user_;  // "glow_down[3]", "pass 'glow_down[3]'"
+  std::string name_;  // "glow_down[3]"
   std::vector<SlotWork> slots_;
   std::deque<SlotDesc> firsts_;
 };

@@ -88,7 +88,7 @@ struct SlotContext {
   Model& model;
   Names& names;             // of the pass instance
   const PassType* type;     // null: present, outputs, resets
-  const std::string& user;  // "pass 'glow_down[3]'"
+  std::string_view user;    // "output 'x'"; of a pass "", which its name says
   const std::string& pass;  // "glow_down[3]"
   bool versions = true;     // false: a disabled pass; the first candidate is validated
   bool ranges = true;       // false: sub-resource ranges are not held against sizes

@@ -300,7 +300,8 @@ struct SlotChoice {
 bool SlotContext::report(Code code, const Place& place, std::string_view message, Says says) const {
   if (quiet) return false;
   says.pass = pass;
-  return expansion::report(model, code, place, fmt::format("{} {}", user, message), std::move(says));
+  return expansion::report(model, code, place, fmt::format("{} {}", whoIs(user, pass), message),
+                           std::move(says));
 }
 
 SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint32_t pass) {

@@ -27,13 +27,6 @@ std::string hintOrNearest(text::Foreign kind, const std::string& name,
 
 namespace {
 
-template <class T>
-std::vector<std::string> namesOf(const std::vector<T>& things) {
-  std::vector<std::string> names;
-  for (const T& thing : things) names.push_back(thing.name);
-  return names;
-}
-
 // A file says by its name for which stage it is written; another stage would not compile it, with riddles for messages.
 void checkShaders(const SlotContext& context, const PassDesc& desc) {
   constexpr const char* kEndings[] = {".comp.glsl", ".vert.glsl", ".frag.glsl"};
@@ -240,17 +233,16 @@ void checkCadence(const SlotContext& context, const PassDesc& desc) {
                      {.hint = "slices go with \"update\": \"on_change\" or \"once\""});
     return;
   }
-  const auto check = [&](const Expr& expr, std::string_view what) {
+  const auto check = [&](const Expr& expr, Called what) {
     if (isDynamic(context.model, context.names.scope(), expr))
       context.report(Code::badTime, expr.place(),
-                     fmt::format("sees time in {}, but does not run in every frame", what),
+                     fmt::format("sees time in {}, but does not run in every frame", what.text()),
                      {.found = expr.text(),
                       .hint = "use age() in passes that are \"update\": \"always\" or \"every(n)\""});
   };
   for (const PassParameterDesc& parameter : desc.parameters)
     if (!parameter.declared)
-      for (const Expr& value : parameter.values())
-        check(value, fmt::format("parameter '{}'", parameter.name));
+      for (const Expr& value : parameter.values()) check(value, {"parameter '{}'", parameter.name});
   check(desc.instances, "\"instances\"");
 }
 
@@ -271,7 +263,8 @@ bool checkStanza(const SlotContext& context, const PassDesc& desc) {
   const auto check = [&](const Expr& expr) {
     checkExpr(context.model, context.names.scope(), expr, desc.repeat);
   };
-  visitPass(desc, check, [](const RefDesc&) {});
+  visitPass(
+      desc, check, [](const RefDesc&) {}, check);
   checkCadence(context, desc);
   return context.model.diagnostics.errorCount() == before;
 }
@@ -453,7 +446,7 @@ void addThreads(const SlotContext& context, const PassDesc& desc, const std::vec
   if (said.present()) {
     constexpr std::uint64_t kMax = 2147483647, kBounds[] = {kMax, kMax, kMax};
     const auto threads =
-        evaluateCounts(context.names, said, kBounds, fmt::format("the number of threads of {}", context.user),
+        evaluateCounts(context.names, said, kBounds, {"the number of threads of pass '{}'", context.pass},
                        "a number, or a list of 2 or 3");
     for (std::size_t i = 0; threads && i < 3; ++i)
       spec.threads[i] = static_cast<std::uint32_t>(threads->each[i]);
@@ -521,8 +514,8 @@ void addRaster(const SlotContext& context, const PassDesc& desc, const std::vect
                    "has \"raster\" and an attachment, which says how large it is",
                    {.hint = "leave one of the two out"});
   constexpr std::uint64_t kBounds[] = {16384, 16384};  // GL_MAX_FRAMEBUFFER_WIDTH and _HEIGHT of every device
-  const auto size = evaluateCounts(context.names, desc.raster, kBounds, "the raster of " + context.user,
-                                   "a number, or a list of 2");
+  const auto size = evaluateCounts(context.names, desc.raster, kBounds,
+                                   {"the raster of pass '{}'", context.pass}, "a number, or a list of 2");
   const auto samples = evaluateWhole(context.names, desc.samples, 1, 1, 4, "the number of samples");
   if (!size || !samples) return;
   for (std::size_t i = 0; i < 2; ++i)

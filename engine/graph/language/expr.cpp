@@ -291,8 +291,8 @@ bool Expr::says(std::string_view word) const {
   return found;
 }
 
-std::vector<std::pair<Fact, std::string>> Expr::facts() const {
-  std::vector<std::pair<Fact, std::string>> out;
+std::vector<std::pair<Fact, std::string_view>> Expr::facts() const {
+  std::vector<std::pair<Fact, std::string_view>> out;
   if (root_)
     visitNodes(*root_, [&](const ExprNode& node) {
       if (node.op == ExprOp::fact) out.emplace_back(node.fact, node.name);

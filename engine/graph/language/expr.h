@@ -108,7 +108,7 @@ class Expr {
   bool says(std::string_view word) const;
   // Every size(x), mips(x), count(x), has(x), age(x), format(x) it asks, with the name as written (an @ included), in
   // order.
-  std::vector<std::pair<Fact, std::string>> facts() const;
+  std::vector<std::pair<Fact, std::string_view>> facts() const;
   // True when evaluating it needs no scope: a literal of the file, or a folded expression without age() and
   // live parameters.
   bool isConstant() const;

@@ -303,7 +303,7 @@ TEST_CASE("folding keeps only what changes from frame to frame") {
   const Expr fade = parse("min(age(ibl.specular) / (0.125 * 2), 1) * $n");
   CHECK(fade.dynamic());
   CHECK(fade.variables() == std::vector<std::string>{"n"});
-  CHECK(fade.facts() == std::vector<std::pair<Fact, std::string>>{{Fact::age, "ibl.specular"}});
+  CHECK(fade.facts() == std::vector<std::pair<Fact, std::string_view>>{{Fact::age, "ibl.specular"}});
   const Expr folded = fade.fold(scope, diagnostics);
   REQUIRE(folded.present());
   CHECK(folded.dynamic());

@@ -280,7 +280,8 @@ std::vector<std::uint32_t> findGone(const Model& model, const Reach& reach) {
 }
 
 // What each pass loses first.
-std::map<std::uint32_t, Loss> findLosses(const Model& model, const Reach& reach) {
+std::map<std::uint32_t, Loss> findLosses(const Model& model, const Reach& reach,
+                                         const std::vector<Missed>& missedReads) {
   const FlatGraph& graph = model.graph;
   std::map<std::uint32_t, Loss> losses;
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
@@ -295,7 +296,7 @@ std::map<std::uint32_t, Loss> findLosses(const Model& model, const Reach& reach)
       if (use.access == Access::read && use.history == 0 && reach.live.pass[p] != 0 && reach.now.pass[p] != 0)
         readers.add(model, lineOf(model, u, p));
     }
-  for (const Missed& missed : findMissedReads(model))
+  for (const Missed& missed : missedReads)
     if (reach.live.pass[missed.pass] != 0) readers.add(model, missed.line);
   for (const std::uint32_t u : gone) {
     const std::uint32_t pass = graph.links.passOf[u];
@@ -351,9 +352,9 @@ void report(Model& model, const Loss& loss, bool runs, const std::vector<std::st
   d.hint = std::move(hint);
 }
 
-void warnOfLosses(Model& model, const Reach& reach) {
+void warnOfLosses(Model& model, const Reach& reach, const std::vector<Missed>& missed) {
   const FlatGraph& graph = model.graph;
-  const std::map<std::uint32_t, Loss> lossOf = findLosses(model, reach);
+  const std::map<std::uint32_t, Loss> lossOf = findLosses(model, reach, missed);
   if (lossOf.empty()) return;
   const auto runs = [&](std::uint32_t pass) { return reach.live.pass[pass] != 0; };
   std::vector<Loss> losses;
@@ -452,9 +453,8 @@ std::vector<std::string_view> findCulled(const FlatGraph& graph, const Reach& re
 // Not where the writer below is lost (it is told with its reader) or is another repeat of the same stanza, where a pass
 // above that would write it is switched off, or where the writer runs, needs what the reader makes, and the reader only
 // begins with what "clear" says.
-void warnMisplaced(Model& model, const Reach& reach) {
+void warnMisplaced(Model& model, const Reach& reach, const std::vector<Missed>& missed) {
   const FlatGraph& graph = model.graph;
-  const std::vector<Missed> missed = findMissedReads(model);
   if (missed.empty()) return;
   Lines writers, off;
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
@@ -519,8 +519,9 @@ void warnUnread(Model& model) {
     return;
   }
   const Reach reach = findReach(model);
-  warnOfLosses(model, reach);
-  warnMisplaced(model, reach);
+  const std::vector<Missed> missed = findMissedReads(model);
+  warnOfLosses(model, reach, missed);
+  warnMisplaced(model, reach, missed);
 }
 
 }  // namespace weft::graph::expansion

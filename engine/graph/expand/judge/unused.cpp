@@ -5,13 +5,9 @@
 #include <algorithm>
 #include <set>
 #include <string_view>
-#include <unordered_map>
-#include <unordered_set>
 
-#include "engine/graph/desc_walk.h"
 #include "engine/graph/expand/judge/judge.h"
 #include "engine/graph/expand/names/names.h"
-#include "engine/graph/language/expr_node.h"
 
 namespace weft::graph::expansion {
 
@@ -32,139 +28,31 @@ text::Diagnostic& warnAt(Model& model, const Place& place, std::string message, 
   return d;
 }
 
-// Which levels, layers or elements all references to a resource select.
-struct Selected {
-  bool several = false;
-  std::string one;  // the only one so far, as written; empty: no reference so far
-
-  // A number; nothing for all of them, several, or one that depends on something.
-  void add(const Expr* first, const Expr* last) {
-    const auto textOf = [](const Expr* expr) {
-      return expr && expr->present() && expr->isConstant() ? expr->text() : std::string();
-    };
-    const std::string which = textOf(first);
-    several = several || which.empty() || textOf(last) != which || (!one.empty() && one != which);
-    one = which;
-  }
-  void add(const std::optional<SpanDesc>& span) {
-    add(span ? &span->first : nullptr, span ? (span->range ? &span->last : &span->first) : nullptr);
-  }
-};
-
-// What the expressions and references of all files name, whatever the conditions say now. A file may be included twice, so
-// what is named is a declaration.
-class Mentions {
- public:
-  struct Parts {
-    Selected level, layer, element;
-  };
-  std::unordered_set<const void*> named, lookedBackAt;  // parameters, lets and resources; resources
-  std::set<std::string_view> below;  // last parts of names that are looked for in included files
-  std::unordered_map<const ResourceDesc*, Parts> parts;
-
-  explicit Mentions(Model& model) : model_(model), walked_(model.entities.size(), 0) {
-    for (Scope& scope : model_.scopes) {
-      const auto addExpr = [&](const Expr& expr) {
-        if (expr.present()) add(scope, *expr.root());
-      };
-      const auto addRef = [&](const RefDesc& ref) { add(scope, ref); };
-      visitMentions(*scope.desc, addExpr, addRef);
-      for (const ResourceDesc& resource : scope.desc->resources)
-        for (const NamedExpr& argument : resource.import.arguments)
-          if (argument.expr.present() && argument.expr.root()->op == ExprOp::identifier)
-            add(find(scope, argument.expr.root()->name, true), false);
-      for (const PassDesc& pass : scope.desc->passes) add(find(scope, pass.list, true), false);
-      for (const PassDesc& pass : scope.desc->passes)
-        if (pass.include)
-          for (const auto& [input, ref] : pass.include->binds) visitRef(ref, addExpr, addRef);
-    }
-  }
-
- private:
-  void add(Scope& scope, const ExprNode& node) {
-    if (node.op == ExprOp::fact) {
-      add(find(scope, node.name, false), false);
-    } else if (node.op == ExprOp::variable) {
-      const Variable found = findVariableFrom(scope, node.name);
-      if (found.kind == Variable::Kind::parameter)
-        named.insert(model_.parameters[found.index].desc);
-      else if (found.kind == Variable::Kind::let)
-        named.insert(model_.lets[found.index].desc);
-      else
-        below.insert(std::string_view(node.name).substr(node.name.rfind('.') + 1));
-    }
-    for (const ExprPtr& child : node.children) add(scope, *child);
-  }
-
-  void add(Scope& scope, const RefDesc& ref) {
-    const std::uint32_t found = add(find(scope, ref.name, ref.import), ref.history > 0);
-    if (found == kNone || ref.import) return;
-    Parts& selected = parts[model_.entities[found].desc];
-    selected.level.add(ref.mip);
-    selected.layer.add(ref.layer);
-    selected.element.add(ref.element ? &*ref.element : nullptr, ref.element ? &*ref.element : nullptr);
-  }
-
-  // What a name means as it is written: an input is itself. kNone for what no file declares.
-  std::uint32_t find(const Scope& scope, std::string_view name, bool import) const {
-    if (name.starts_with('@')) return find(scope, name.substr(1), true);
-    for (const Scope* at = &scope; at; at = import ? at->parent : nullptr)
-      if (const auto found = at->resources.find(name); found != at->resources.end())
-        if (!import || model_.entities[found->second].kind == ResourceDesc::Kind::import)
-          return found->second;
-    const std::size_t dot = name.find('.');
-    if (dot == std::string_view::npos) return kNone;
-    const auto child = scope.includes.find(name.substr(0, dot));
-    return child == scope.includes.end() ? kNone : find(*child->second, name.substr(dot + 1), false);
-  }
-
-  // An input, and all that is bound to it, the last of which is returned; of what is looked back at also what the list may mean.
-  std::uint32_t add(std::uint32_t index, bool back) {
-    if (index == kNone || !model_.entities[index].desc) return kNone;
-    const Entity& entity = model_.entities[index];
-    const std::uint8_t flags = back ? 3 : 1;
-    if ((walked_[index] & flags) != flags) {
-      walked_[index] |= flags;
-      named.insert(entity.desc);
-      if (back) lookedBackAt.insert(entity.desc);
-      for (const RefDesc& ref : entity.desc->alternatives)
-        if (back) add(find(*entity.scope, ref.name, ref.import), true);
-    }
-    Scope* const parent = entity.scope->parent;
-    if (entity.desc->kind != ResourceDesc::Kind::input || !parent) return index;
-    const std::string& name = entity.desc->name;
-    const auto& binds = entity.scope->stanza->include->binds;
-    if (const auto bound = std::ranges::find(binds, name, &std::pair<std::string, RefDesc>::first);
-        bound != binds.end() && !includeBound(*parent, name, bound->second))
-      return add(find(*parent, bound->second.name, bound->second.import), back);
-    for (const auto& [own, ref] : binds)
-      if (const Scope* all = includeBound(*parent, own, ref))
-        if (const std::uint32_t found = find(*all, name, false); found != kNone) return add(found, back);
-    return add(find(*parent, name, false), back);
-  }
-
-  Model& model_;
-  std::vector<std::uint8_t> walked_;  // per entity: 1 named, 2 looked back at
-};
+// Whether an instance of a file that is included more than once is named, too, when `own` is not.
+template <class Things, class Thing>
+bool isNamed(const Things& all, const Thing& own) {
+  return own.named ||
+         std::ranges::any_of(all, [&](const Thing& each) { return each.desc == own.desc && each.named; });
+}
 
 // ---- parameters and lets ----
 
-void warnOfVariables(Model& model, const Scope& scope, const Mentions& mentions) {
-  for (const ParameterDesc& parameter : scope.desc->parameters)
-    if (!mentions.named.contains(&parameter) && !mentions.below.contains(parameter.name) &&
-        isOnTop(scope, parameter.place))
-      warnAt(model, parameter.place,
-             fmt::format("the parameter '{0}' changes nothing: no expression reads '${0}'", parameter.name),
+void warnOfVariables(Model& model) {
+  for (const Parameter& parameter : model.parameters) {
+    const std::string& name = parameter.desc->name;
+    if (!isNamed(model.parameters, parameter) && isOnTop(*parameter.scope, parameter.desc->place))
+      warnAt(model, parameter.desc->place,
+             fmt::format("the parameter '{0}' changes nothing: no expression reads '${0}'", name),
              fmt::format(
                  "write '${0}' where its value is meant, such as \"parameters\": {{ \"{0}\": \"${0}\" }} "
                  "of a pass, or remove it",
-                 parameter.name));
-  if (scope.parent) return;  // an including file may want a let
-  for (const NamedExpr& let : scope.desc->lets)
-    if (!mentions.named.contains(&let) && isOnTop(scope, let.place))
-      warnAt(model, let.place,
-             fmt::format("the \"let\" '{0}' changes nothing: no expression reads '${0}'", let.name),
-             fmt::format("write '${}' where its value is meant, or remove it", let.name));
+                 name));
+  }
+  for (const Let& let : model.lets)  // an including file may want one
+    if (!let.named && !let.scope->parent && isOnTop(*let.scope, let.desc->place))
+      warnAt(model, let.desc->place,
+             fmt::format("the \"let\" '{0}' changes nothing: no expression reads '${0}'", let.desc->name),
+             fmt::format("write '${}' where its value is meant, or remove it", let.desc->name));
 }
 
 // ---- resources ----
@@ -177,42 +65,48 @@ bool servesAll(const Model& model, const ResourceDesc& resource) {
   return type && type->everyPass && type->name == resource.name;
 }
 
-void warnOfResource(Model& model, const Scope& scope, const ResourceDesc& resource,
-                    const Mentions& mentions) {
+void warnOfResource(Model& model, const Entity& entity) {
+  const ResourceDesc& resource = *entity.desc;
+  const GraphDesc& file = *entity.scope->desc;
   const std::string& name = resource.name;
   const bool input = resource.kind == ResourceDesc::Kind::input;
   // Files that include this one may read what it keeps: it presents nothing, or just that.
-  const bool mayBeReadAbove = scope.parent || !scope.desc->present || scope.desc->present->name == name;
-  if (!mentions.named.contains(&resource) && !servesAll(model, resource))
+  const bool mayBeReadAbove = entity.scope->parent || !file.present || file.present->name == name;
+  if (!isNamed(model.entities, entity) && !servesAll(model, resource))
     warnAt(model, resource.place,
            fmt::format("the {} '{}' is not used: no pass, list or expression of {} names it",
                        input ? "input" : "resource", name, input ? "this file" : "the graph"),
            fmt::format("name '{}' where it is meant, or remove it", name), name);
-  else if (resource.history.present() && !mentions.lookedBackAt.contains(&resource) && !mayBeReadAbove)
+  else if (resource.history.present() && !entity.lookedBackAt && !mayBeReadAbove)
     warnAt(model, resource.history.place(),
            fmt::format("'{0}' keeps what it was before, and no pass reads '{0}@-1'", name),
            fmt::format("read '{}@-1' where that is meant, or leave \"history\" out", name), name);
 }
 
-void warnOfParts(Model& model, const Entity& entity, const Mentions::Parts& parts) {
+void warnOfParts(Model& model, const Entity& entity) {
   const ResourceDesc& desc = *entity.desc;
   const struct {
-    const Selected& selected;
+    Selected Entity::*selected;
     std::uint32_t count;
     const Expr& said;
     const char *key, *word, *selector;
-  } kinds[] = {{parts.level, entity.shape.mips, desc.mips, "mips", "level", ".mip[i]"},
-               {parts.element, entity.arrayCount, desc.array, "array", "element", "[i]"},
-               {parts.layer, desc.layers.present() ? entity.shape.layers : 0u, desc.layers, "layers", "layer",
-                ".layer[i]"}};
-  for (const auto& [selected, count, said, key, word, selector] : kinds)
-    if (!selected.several && count > 1)
+  } kinds[] = {{&Entity::levels, entity.shape.mips, desc.mips, "mips", "level", ".mip[i]"},
+               {&Entity::ofArray, entity.arrayCount, desc.array, "array", "element", "[i]"},
+               {&Entity::layers, desc.layers.present() ? entity.shape.layers : 0u, desc.layers, "layers",
+                "layer", ".layer[i]"}};
+  for (const auto& [selected, count, said, key, word, selector] : kinds) {
+    if (count < 2 || (entity.*selected).several || !(entity.*selected).one) continue;
+    Selected all;  // of the instances of a file that is included more than once
+    for (const Entity& each : model.entities)
+      if (each.desc == &desc) all.add(each.*selected);
+    if (!all.several)
       warnAt(model, said.present() ? said.place() : desc.place,
              fmt::format("'{}' has {} {}s, and all that is written and read is {} {}", entity.name, count,
-                         word, word, selected.one),
+                         word, word, all.one->text()),
              fmt::format("leave \"{}\" out, or use the others, such as '{}{}' in a pass with \"repeat\"", key,
                          desc.name, selector),
              entity.name);
+  }
 }
 
 // A stanza that nothing in the files leaves out.
@@ -260,7 +154,7 @@ void warnOfList(Model& model, const Entity& list) {
 
 // Things of the scene whose author put them into lists, of which the graph draws others only.
 void warnOfSceneLists(Model& model) {
-  if (!model.desc.top.empty()) return;
+  if (!model.desc.top.empty() || model.registry.things.empty()) return;
   std::set<std::string> drawn;
   for (const Scope& scope : model.scopes)
     for (const PassDesc& pass : scope.desc->passes)
@@ -286,12 +180,9 @@ void warnOfSceneLists(Model& model) {
 }  // namespace
 
 void warnUnused(Model& model) {
-  const Mentions mentions(model);
   warnOfSceneLists(model);
-  for (const Scope& scope : model.scopes) {
-    warnOfVariables(model, scope, mentions);
-    for (const ResourceDesc& resource : scope.desc->resources)
-      if (isOnTop(scope, resource.place)) warnOfResource(model, scope, resource, mentions);
+  warnOfVariables(model);
+  for (const Scope& scope : model.scopes)
     for (const auto& [name, place] : scope.desc->slotSets) {
       const auto uses = [&](const PassDesc& pass) {
         return std::ranges::find(pass.uses, name, &UsedSet::name) != pass.uses.end();
@@ -301,14 +192,13 @@ void warnUnused(Model& model) {
         warnAt(model, place, fmt::format("the set '{}' is in no pass", name),
                fmt::format("write \"use\": \"{}\" in a pass of this file, or remove it", name));
     }
-  }
   for (const Entity& entity : model.entities) {
     if (!entity.desc || !isOnTop(*entity.scope, entity.desc->place)) continue;
-    const auto parts = mentions.parts.find(entity.desc);
+    warnOfResource(model, entity);
     if (entity.kind == ResourceDesc::Kind::alternatives)
       warnOfList(model, entity);
-    else if (parts != mentions.parts.end() && entity.kind <= ResourceDesc::Kind::buffer)
-      warnOfParts(model, entity, parts->second);
+    else if (entity.kind <= ResourceDesc::Kind::buffer)
+      warnOfParts(model, entity);
   }
 }
 

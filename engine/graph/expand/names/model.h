@@ -44,7 +44,9 @@ struct Parameter {
   const ParameterDesc* desc = nullptr;
   std::string path;  // "post.exposure", "post.dof.aperture"
   Value value;
+  const Scope* scope = nullptr;
   bool structural = false;
+  bool named = false;  // some expression reads it, or a pass declares it
   Where valuePlace{};  // where `value` was written: a default, a "set", the command line
   Origin origin = Origin::declaration;
 };
@@ -60,6 +62,7 @@ struct Let {
   bool live = false;               // reads a live parameter, perhaps through another let
   std::optional<Expr> liveFolded;  // of a live let, and of a dynamic one when there are live ones
   bool structural = false;
+  bool named = false;  // some expression reads it
 };
 
 // The versions of one array element of a texture or buffer while passes are walked in declared order.
@@ -67,6 +70,21 @@ struct Element {
   std::uint32_t resource = kNone;  // the current FlatResource; Model::versions knows who wrote it
   std::uint32_t count = 0;         // FlatResources made so far
   bool zeroUsed = false;           // version zero was read or modified
+};
+
+// Which levels, layers or elements all references to a resource select.
+struct Selected {
+  bool several = false;       // all of them, several, or one that depends on something
+  const Expr* one = nullptr;  // the only number so far
+
+  void add(const Expr* first, const Expr* last);
+  void add(const std::optional<SpanDesc>& span) {
+    add(span ? &span->first : nullptr, span ? (span->range ? &span->last : &span->first) : nullptr);
+  }
+  void add(const Selected& other) {
+    if (other.several) several = true;
+    if (other.one) add(other.one, other.one);
+  }
 };
 
 struct Entity {
@@ -96,6 +114,9 @@ struct Entity {
   std::vector<const RefDesc*> samples{};  // parallel: how each is sampled
   std::vector<Element> elements;
   std::uint32_t firstRead = kNone;  // the first position at which some slot names it
+  // Some reference or expression names it, whatever the conditions say now; by @-n.
+  bool named = false, lookedBackAt = false;
+  Selected levels, layers, ofArray;
 };
 
 // One file instance.
@@ -212,10 +233,10 @@ struct Model {
   std::set<std::uint32_t> leftOut{};
   bool toInclude =
       false;  // the file that was opened has inputs: it is to be included, and its own names are not all
-  std::uint32_t position = 0;             // of the instance being expanded
-  std::uint32_t slot = kNone;             // of it, while it is resolved
-  std::vector<std::string> evaluating{};  // what is being evaluated now, for the path of a cycle
-  bool stopped = false;                   // a bound was exceeded and reported: nothing more is expanded
+  std::uint32_t position = 0;               // of the instance being expanded
+  std::uint32_t slot = kNone;               // of it, while it is resolved
+  std::vector<struct Called> evaluating{};  // what is being evaluated now, for the path of a cycle
+  bool stopped = false;                     // a bound was exceeded and reported: nothing more is expanded
 };
 
 bool isOver(const Model& model);  // nothing more is worth expanding
@@ -229,13 +250,21 @@ struct Says {
 // Reports an error; returns false, so that a check can end with it.
 bool report(Model& model, Code code, const Where& place, std::string message, Says says = {});
 
+// What messages call a thing: a format with perhaps one name in it, "the size of '{}'". The name outlives it.
+struct Called {
+  const char* format;
+  std::string_view name;
+  Called(const char* text, std::string_view of = {}) : format(text), name(of) {}  // NOLINT: a text calls it
+  std::string text() const;
+};
+
 // Lives while a definition (a let, a size, what an input stands for, a list of alternatives) is evaluated for another.
 // `state` is that of the definition. It is not good when the definition is being evaluated already (W050: "a -> b -> a"), or
 // when too many wait for each other, which would end the stack (W201). Then the state is `failed`.
 class Evaluation {
  public:
   static constexpr std::uint32_t kMax = 32;
-  Evaluation(Model& model, Progress& state, std::string label, const Place& place, std::size_t most = kMax);
+  Evaluation(Model& model, Progress& state, Called label, const Place& place, std::size_t most = kMax);
   ~Evaluation();
   Evaluation(const Evaluation&) = delete;
   Evaluation& operator=(const Evaluation&) = delete;

@@ -38,23 +38,30 @@ bool report(Model& model, Code code, const Where& place, std::string message, Sa
   return false;
 }
 
-Evaluation::Evaluation(Model& model, Progress& state, std::string label, const Place& place, std::size_t most)
+std::string Called::text() const {
+  return fmt::format(fmt::runtime(format), name);
+}
+
+Evaluation::Evaluation(Model& model, Progress& state, Called label, const Place& place, std::size_t most)
     : model_(model), good_(false) {
   auto& stack = model.evaluating;
   if (state == Progress::active) {
-    report(model, Code::dependsOnItself, place,
-           fmt::format("{} depends on itself: {} -> {}", label,
-                       fmt::join(std::find(stack.begin(), stack.end(), label), stack.end(), " -> "), label),
+    const std::string own = label.text();
+    std::string path;
+    for (const Called& each : stack)
+      if (const std::string text = each.text(); text == own || !path.empty()) path += text + " -> ";
+    report(model, Code::dependsOnItself, place, fmt::format("{} depends on itself: {}{}", own, path, own),
            {.hint = "one of them must not refer to the next"});
   } else if (stack.size() >= most) {
     if (!std::exchange(model.stopped, true))
-      report(model, Code::limitExceeded, place,
-             fmt::format("definitions depend on each other in too long a row, which ends at {}", label),
-             {.expected = fmt::format("at most {} in a row", kMax),
-              .hint = "let some of them use fewer others"});
+      report(
+          model, Code::limitExceeded, place,
+          fmt::format("definitions depend on each other in too long a row, which ends at {}", label.text()),
+          {.expected = fmt::format("at most {} in a row", kMax),
+           .hint = "let some of them use fewer others"});
   } else {
     good_ = true;
-    stack.push_back(std::move(label));
+    stack.push_back(label);
   }
   state = good_ ? Progress::active : Progress::failed;
 }
@@ -68,7 +75,7 @@ namespace {
 std::optional<Value> letValue(Model& model, Let& let) {
   if (let.state == Progress::done) return let.value;
   if (let.state == Progress::failed) return Value{};
-  const Evaluation evaluation(model, let.state, "$" + let.path, let.desc->place);
+  const Evaluation evaluation(model, let.state, {"${}", let.path}, let.desc->place);
   if (!evaluation.good()) return Value{};
   Names names(model, *let.scope);
   let.value = let.desc->expr.evaluate(names, model.diagnostics);
@@ -302,7 +309,7 @@ const Expr* Names::folded(std::string_view variable) {
   if (!kept) {
     Progress own = Progress::fresh;
     Progress& state = live ? own : let.state;
-    const Evaluation evaluation(model_, state, "$" + let.path, let.desc->place);
+    const Evaluation evaluation(model_, state, {"${}", let.path}, let.desc->place);
     if (live || !evaluation.good()) kept = Expr();  // met again in a circle, it fails
     if (evaluation.good()) {
       text::Diagnostics ignored;  // a branch that is not taken now
@@ -358,14 +365,14 @@ Value shapeOf(const TableColumn& column, std::uint8_t part) {
 }  // namespace
 
 Value Names::importValue(const ImportValue& asked, const Place& place) {
-  const std::string name = fmt::format("{}.{}", asked.import, asked.value);
+  const auto name = [&] { return fmt::format("{}.{}", asked.import, asked.value); };
   const auto refuse = [&](Code code, std::string message, std::string expected, std::string hint) {
     report(model_, code, place, std::move(message),
            {.expected = std::move(expected), .hint = std::move(hint), .resource = std::string(asked.import)});
     return Value{};
   };
   if (!follows)
-    return refuse(Code::badTime, fmt::format("'{}' is known only while the graph runs", name), "",
+    return refuse(Code::badTime, fmt::format("'{}' is known only while the graph runs", name()), "",
                   "values of imports may stand only in \"parameters\" of passes");
   const FoundValue found = findValue(model_, scope_, asked);
   if (found.entity == kNone) {
@@ -374,24 +381,24 @@ Value Names::importValue(const ImportValue& asked, const Place& place) {
     return {};
   }
   if (!found.type) return {};
-  std::vector<std::string> known;
-  for (const TableColumn& column : found.type->columns) known.push_back(column.name);
-  if (!found.told)
+  if (!found.told) {
+    const std::vector<std::string> known = namesOf(found.type->columns);
     return refuse(Code::unknownVariable, fmt::format("'{}' has no value '{}'", asked.import, asked.value),
                   known.empty() ? "an import with values, such as '@camera'"
                                 : fmt::format("{}", fmt::join(known, ", ")),
                   text::nearestHint(std::string(asked.value), known));
+  }
   const Entity& entity = model_.entities[found.entity];
   if (!entity.exists && !absent)
     return refuse(Code::emptyImport, fmt::format("'{}' is not there", asked.import), "",
-                  fmt::format("write 'has({}) ? {} : …'", asked.import, name));
+                  fmt::format("write 'has({}) ? {} : …'", asked.import, name()));
   if (entity.count > 0 && asked.row >= entity.count && !absent)
     return refuse(Code::missingSubresource, fmt::format("'{}' has no row {}", asked.import, asked.row),
                   fmt::format("a row from 0 to {}", entity.count - 1), "");
   Value value = shapeOf(*found.told, asked.part);
   return value.type != Value::Type::none
              ? value
-             : refuse(Code::operandsDoNotFit, fmt::format("'{}' is a matrix", name), "a number or a list",
+             : refuse(Code::operandsDoNotFit, fmt::format("'{}' is a matrix", name()), "a number or a list",
                       "a matrix stands alone in a parameter");
 }
 
@@ -431,18 +438,17 @@ std::nullopt_t refuse(Names& names, Code code, const Expr& expr, std::string mes
 
 }  // namespace
 
-std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absent, const char* what) {
+std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absent, Called what) {
   if (!expr.present()) return absent;
   const Value value = expr.evaluate(names, names.model().diagnostics);
   if (value.type == Value::Type::none) return std::nullopt;
   if (value.isNumeric()) return value.truth();
-  return refuse(names, Code::wrongValueType, expr, fmt::format("{} is no condition", what),
+  return refuse(names, Code::wrongValueType, expr, fmt::format("{} is no condition", what.text()),
                 "true, false or a number", value);
 }
 
 std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::int64_t absent,
-                                          std::int64_t low, std::int64_t high, const char* what,
-                                          bool floors) {
+                                          std::int64_t low, std::int64_t high, Called what, bool floors) {
   if (!expr.present()) return absent;
   const Value value = expr.evaluate(names, names.model().diagnostics);
   if (value.type == Value::Type::none) return std::nullopt;
@@ -451,29 +457,31 @@ std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::i
   if (whole && number >= static_cast<double>(low) && number <= static_cast<double>(high))
     return static_cast<std::int64_t>(number);
   return refuse(names, whole ? Code::numberOutOfRange : Code::wrongValueType, expr,
-                fmt::format("{} is {}", what, whole ? "out of its range" : "not a whole number"),
+                fmt::format("{} is {}", what.text(), whole ? "out of its range" : "not a whole number"),
                 fmt::format("a whole number from {} to {}", low, high), value);
 }
 
 std::optional<Counts> evaluateCounts(Names& names, const Expr& expr, std::span<const std::uint64_t> bounds,
-                                     const std::string& what, const char* expected) {
+                                     Called what, const char* expected) {
   const Value value = expr.evaluate(names, names.model().diagnostics);
   if (value.type == Value::Type::none) return std::nullopt;
   const bool list = value.type == Value::Type::list;
   if (!value.isNumeric() && (!list || value.count < 2 || value.count > bounds.size()))
     return refuse(
-        names, Code::wrongValueType, expr, what + " is no size", expected, value,
+        names, Code::wrongValueType, expr, what.text() + " is no size", expected, value,
         names.scope().resources.contains(value.symbol) ? fmt::format("write 'size({})'", value.symbol) : "");
   Counts counts{.size = list ? value.count : 1u};
   const std::uint64_t bound = bounds[counts.size - 1];
   for (std::size_t i = 0; i < counts.size; ++i) {
     const double count = value.v[i];
-    const bool mayBeNone = bounds.size() == 1 || countsElements(names.model(), names.scope(), expr);
-    const bool low = count < 0 || (expr.isConstant() ? count < 1 : count == 0 && !mayBeNone);
+    const bool low =
+        count < 0 || (expr.isConstant() ? count < 1
+                                        : count == 0 && bounds.size() > 1 &&
+                                              !countsElements(names.model(), names.scope(), expr));
     if (!std::isfinite(count) || low || count > static_cast<double>(bound)) {
       return refuse(
-          names, Code::numberOutOfRange, expr, what + " is out of its range", fmt::format("1 to {}", bound),
-          value,
+          names, Code::numberOutOfRange, expr, what.text() + " is out of its range",
+          fmt::format("1 to {}", bound), value,
           expr.isConstant() ? "" : fmt::format("it is computed: write 'max(…, 1)' or 'min(…, {})'", bound));
     }
     counts.each[i] = static_cast<std::uint64_t>(std::max(1.0, std::floor(count)));
@@ -486,12 +494,12 @@ std::array<std::uint32_t, 2> screenOf(Model& model, Scope& scope) {
   const IncludeDesc& include = *scope.stanza->include;
   if (!include.screen.present()) return screenOf(model, *scope.parent);
   if (scope.screenState == Progress::done || scope.screenState == Progress::failed) return scope.screen;
-  const Evaluation evaluation(model, scope.screenState, "the screen of '" + include.as + "'",
-                              include.screen.place());
+  const Called screen{"the screen of '{}'", include.as};
+  const Evaluation evaluation(model, scope.screenState, screen, include.screen.place());
   if (!evaluation.good()) return scope.screen;
   constexpr std::uint64_t kBounds[] = {kMaxSize, kMaxSize};
   Names names(model, *scope.parent);
-  const auto size = evaluateCounts(names, include.screen, kBounds, "the screen of '" + include.as + "'",
+  const auto size = evaluateCounts(names, include.screen, kBounds, screen,
                                    "a number, or a list of 2, such as \"screen/2\"");
   if (size)
     for (const std::size_t i : {0, 1})

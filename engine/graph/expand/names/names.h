@@ -36,7 +36,9 @@ void applyDisable(Model& model, const Disable& disable);
 // is sampled: an input, or the resource itself; null when none does.
 std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool import,
                          const RefDesc** sample = nullptr);
-// The same, but reports W040 or W043, with the nearest name. `who`: "pass 'blur'"; `verb`: "reads"; `pass`: "blur".
+// "pass 'blur'" of the name of a pass, else `user`, such as "present".
+std::string whoIs(std::string_view user, std::string_view pass);
+// The same as findEntity(), but reports W040 or W043, with the nearest name. `who` and `pass`: see whoIs(); `verb`: "reads".
 std::uint32_t findEntityOrReport(Model& model, Scope& scope, const RefDesc& ref, std::string_view who,
                                  std::string_view verb, std::string_view pass = {},
                                  const RefDesc** sample = nullptr);
@@ -71,6 +73,9 @@ Variable findVariableFrom(Scope& scope, std::string_view name);
 // dotted name ends in it.
 std::vector<std::uint32_t> parametersMeant(const Model& model, std::string_view prefix,
                                            std::string_view name);
+// Notes what the expressions and references of all files name, whatever the conditions say now; parameters that decide more
+// than the values of uniforms become structural. Called once, by buildScopes() (mentions.cpp).
+void noteMentions(Model& model);
 // Marks every parameter that `expr` depends on, directly or through lets, as structural.
 void markStructural(Model& model, Scope& scope, const Expr& expr);
 // True when the expression contains age(), perhaps through a let.
@@ -84,6 +89,13 @@ bool countsElements(Model& model, Scope& scope, const Expr& expr);
 void checkExpr(Model& model, Scope& scope, const Expr& expr, std::span<const RangeDesc> repeat = {});
 
 // ---- values (names.cpp) ----
+
+template <class T>
+std::vector<std::string> namesOf(const std::vector<T>& things) {
+  std::vector<std::string> names;
+  for (const T& thing : things) names.push_back(thing.name);
+  return names;
+}
 
 // The EvalScope of expansion: answers for names in expressions of one scope.
 class Names final : public EvalScope {
@@ -131,10 +143,10 @@ class Names final : public EvalScope {
 bool isMatrix(Model& model, Scope& scope, const Expr& expr);
 
 // Evaluation with the expected type held: nullopt after a report, which calls it `what`. An absent expression yields `absent`.
-std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absent, const char* what);
+std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absent, Called what);
 // A whole number from `low` to `high`, floored first when `floors`.
 std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::int64_t absent,
-                                          std::int64_t low, std::int64_t high, const char* what,
+                                          std::int64_t low, std::int64_t high, Called what,
                                           bool floors = false);
 // A number, or a list of up to as many as there are bounds, floored, each from 1 to the bound for so many numbers. 0 is a
 // mistake, but for the count of an empty list and the computed size of a buffer; what is computed between 0 and 1 is 1.
@@ -143,7 +155,7 @@ struct Counts {
   std::array<std::uint64_t, 3> each{1, 1, 1};
 };
 std::optional<Counts> evaluateCounts(Names& names, const Expr& expr, std::span<const std::uint64_t> bounds,
-                                     const std::string& what, const char* expected);
+                                     Called what, const char* expected);
 
 // What `screen` means in a file, in pixels.
 std::array<std::uint32_t, 2> screenOf(Model& model, Scope& scope);

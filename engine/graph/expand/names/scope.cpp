@@ -23,7 +23,12 @@ void addParameter(Model& model, Scope& scope, const ParameterDesc& desc, std::st
   const auto index = static_cast<std::uint32_t>(model.parameters.size());
   model.parametersByLeaf[desc.name].push_back(index);
   // A variant is chosen before the first frame.
-  model.parameters.push_back({&desc, std::move(path), desc.initial, desc.define, desc.initialPlace});
+  model.parameters.push_back({.desc = &desc,
+                              .path = std::move(path),
+                              .value = desc.initial,
+                              .scope = &scope,
+                              .structural = desc.define,
+                              .valuePlace = desc.initialPlace});
   const std::string_view name = std::string_view(model.parameters.back().path).substr(scope.prefix.size());
   scope.variables.try_emplace(name, Variable{Variable::Kind::parameter, index});
 }
@@ -51,16 +56,19 @@ const ImportType* importTypeOf(const Model& model, const GraphDesc& file, std::s
 // An input takes the whole of a resource.
 void checkBind(Model& model, Scope& scope, const IncludeDesc& include, const std::string& name,
                const RefDesc& ref) {
-  std::vector<std::string> inputs;
-  for (const ResourceDesc& resource : include.graph->resources)
-    if (isInput(resource)) inputs.push_back(resource.name);
   if (includeBound(scope, name, ref)) return;
+  const auto& resources = include.graph->resources;
+  const auto found = std::ranges::find(resources, name, &ResourceDesc::name);
   // A file that cannot be read was reported: it may be what is bound.
-  if (!scope.broken && std::ranges::find(inputs, name) == inputs.end() &&
-      !importTypeOf(model, *include.graph, name))
+  if (!scope.broken && (found == resources.end() || !isInput(*found)) &&
+      !importTypeOf(model, *include.graph, name)) {
+    std::vector<std::string> inputs;
+    for (const ResourceDesc& resource : resources)
+      if (isInput(resource)) inputs.push_back(resource.name);
     report(model, Code::badBind, ref.place,
            fmt::format("include '{}' binds '{}', which is no input of '{}'", include.as, name, include.file),
            {.hint = text::nearestHint(name, inputs)});
+  }
   if (!isWhole(ref))
     report(model, Code::badBind, ref.place,
            fmt::format("include '{}' binds '{}' to more than a name", include.as, name),
@@ -114,8 +122,10 @@ void buildScope(Model& model, Scope& scope) {
     if (model.stopped) return;
     if (pass.include || !scope.passes.try_emplace(pass.name, &pass).second) continue;  // W009 of the reader
     for (const PassParameterDesc& parameter : pass.parameters)
-      if (parameter.declared)
+      if (parameter.declared) {
         addParameter(model, scope, *parameter.declared, scope.prefix + pass.name + "." + parameter.name);
+        model.parameters.back().named = true;
+      }
   }
   for (const PassDesc& pass : desc.passes)  // when all includes are known
     if (pass.include && pass.include->graph)
@@ -172,7 +182,7 @@ void reportToInclude(Model& model) {
 void followList(Model& model, std::uint32_t index, std::uint64_t& count) {
   Entity& entity = model.entities[index];
   if (entity.kind != ResourceDesc::Kind::alternatives || entity.state == Progress::failed) return;
-  const Evaluation evaluation(model, entity.state, "'" + entity.name + "'", entity.desc->place,
+  const Evaluation evaluation(model, entity.state, {"'{}'", entity.name}, entity.desc->place,
                               ~std::size_t{0});
   if (!evaluation.good()) return;
   for (const std::uint32_t candidate : entity.candidates) {
@@ -225,27 +235,6 @@ void spread(Model& model, bool Let::*flag, Holds&& holds) {
   }
 }
 
-// What decides more than the values of uniforms, everything but these and lets, makes the parameters that it reads structural.
-void markAllStructural(Model& model) {
-  for (Scope& scope : model.scopes) {
-    std::vector<const Expr*> values;
-    for (const NamedExpr& let : scope.desc->lets) values.push_back(&let.expr);
-    for (const PassDesc& pass : scope.desc->passes)
-      for (const PassParameterDesc& parameter : pass.parameters)
-        for (const Expr& value : parameter.values()) values.push_back(&value);
-    std::ranges::sort(values);
-    const auto mark = [&](const Expr& expr) {
-      if (!std::ranges::binary_search(values, &expr)) markStructural(model, scope, expr);
-    };
-    visitMentions(*scope.desc, mark, [](const RefDesc&) {});
-  }
-  spread(model, &Let::live, [&](const Let& let) {
-    return anyVariable(model, *let.scope, let.desc->expr, [&](const Variable& used) {
-      return used.kind == Variable::Kind::parameter && !model.parameters[used.index].structural;
-    });
-  });
-}
-
 }  // namespace
 
 void buildScopes(Model& model) {
@@ -260,7 +249,12 @@ void buildScopes(Model& model) {
   for (std::size_t i = 1; i < model.scopes.size(); ++i) checkBoundImports(model, model.scopes[i]);
   reportToInclude(model);
   spread(model, &Let::dynamic, [](const Let& let) { return let.desc->expr.dynamic(); });
-  markAllStructural(model);
+  noteMentions(model);
+  spread(model, &Let::live, [&](const Let& let) {
+    return anyVariable(model, *let.scope, let.desc->expr, [&](const Variable& used) {
+      return used.kind == Variable::Kind::parameter && !model.parameters[used.index].structural;
+    });
+  });
   linkAlternatives(model);
 }
 
@@ -317,7 +311,7 @@ std::uint32_t followInput(Model& model, std::uint32_t index) {
   Entity& entity = model.entities[index];
   if (entity.kind != ResourceDesc::Kind::input) return index;
   if (entity.state == Progress::done || entity.state == Progress::failed) return entity.bound;
-  const Evaluation evaluation(model, entity.state, "'" + entity.name + "'", entity.desc->place);
+  const Evaluation evaluation(model, entity.state, {"'{}'", entity.name}, entity.desc->place);
   if (!evaluation.good()) return kNone;
   entity.bound = boundTo(model, entity, index);
   entity.state = entity.bound == kNone ? Progress::failed : Progress::done;
@@ -353,11 +347,11 @@ Scope& scopeOf(Scope& scope, std::string_view& name) {
 }
 
 Scope* includeBound(Scope& scope, std::string_view input, const RefDesc& ref) {
-  const std::string whole = ref.name + ".";
-  std::string_view rest = whole;
-  Scope& in = scopeOf(scope, rest);
-  const bool named = rest.empty() && input == std::string_view(ref.name).substr(ref.name.rfind('.') + 1);
-  return named && !scope.resources.contains(ref.name) && !ref.import && isWhole(ref) ? &in : nullptr;
+  std::string_view name = ref.name;
+  Scope& in = scopeOf(scope, name);
+  const auto include = name == input ? in.includes.find(name) : in.includes.end();
+  const bool whole = include != in.includes.end() && !ref.import && isWhole(ref);
+  return whole && !scope.resources.contains(ref.name) ? include->second : nullptr;
 }
 
 std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool import,
@@ -470,16 +464,21 @@ std::string hintForResource(const Model& model, const Scope& scope, std::string_
 
 }  // namespace
 
+std::string whoIs(std::string_view user, std::string_view pass) {
+  return pass.empty() ? std::string(user) : fmt::format("pass '{}'", pass);
+}
+
 std::uint32_t findEntityOrReport(Model& model, Scope& scope, const RefDesc& ref, std::string_view who,
                                  std::string_view verb, std::string_view pass, const RefDesc** sample) {
   const std::string& name = ref.name;
-  const bool import = ref.import, own = scope.resources.contains(name);
+  const bool import = ref.import;
   const std::size_t before = model.diagnostics.errorCount();
   const std::uint32_t found = findEntity(model, scope, name, import, sample);
   if (found != kNone || isOver(model) || model.diagnostics.errorCount() > before) return found;
   if (!import && mendDeclarations(model))
     return findEntityOrReport(model, scope, ref, who, verb, pass, sample);
   // Its declaration was reported, or it is an input with nothing behind it, which was.
+  const bool own = scope.resources.contains(name);
   if (isUnread(scope, name) || (!import && own)) return kNone;
   std::string hint = !import ? hintForResource(model, scope, name)
                      : own   ? fmt::format("'{}' is a resource of this graph: write it without the @", name)
@@ -494,7 +493,8 @@ std::uint32_t findEntityOrReport(Model& model, Scope& scope, const RefDesc& ref,
   }
   const std::string written = (import ? "@" : "") + name;
   report(model, import ? Code::unknownImport : Code::unknownResource, ref.place,
-         fmt::format("{} {} the unknown {} '{}'", who, verb, import ? "import" : "resource", written),
+         fmt::format("{} {} the unknown {} '{}'", whoIs(who, pass), verb, import ? "import" : "resource",
+                     written),
          {.hint = std::move(hint), .resource = written, .pass = std::string(pass)});
   return kNone;
 }
