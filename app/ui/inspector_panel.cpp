@@ -163,7 +163,7 @@ void InspectorPanel::chooseView(const FlatResource& resource) {
   }
   flow(em * 4);
   if (ImGui::Button("Fit")) statistics_ = inspector_.measure();
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("the range of what is there (waits for the GPU)");
+  tooltip("the range of what is there (waits for the GPU)");
   if (ImGui::IsItemDeactivated() && statistics_) {
     view_.low =
         static_cast<float>(*std::min_element(statistics_->low.begin(), statistics_->low.begin() + channels));
@@ -186,12 +186,11 @@ void InspectorPanel::chooseView(const FlatResource& resource) {
   ImGui::Checkbox("sRGB", &view_.encode);
   flow(em * 5);
   ImGui::Checkbox("marks", &view_.highlight);
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("NaN magenta, infinite cyan; striped: yellow above the range, blue below");
+  tooltip("NaN magenta, infinite cyan; striped: yellow above the range, blue below");
   if (depth) {
     flow(em * 7);
     if (ImGui::Checkbox("distance", &view_.depth) && view_.depth) view_.high = std::max(view_.high, 50.0f);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("reversed depth d as near / d, in world units");
+    tooltip("reversed depth d as near / d, in world units");
   }
   flow(em * 6);
   if (ImGui::Button("1:1")) {

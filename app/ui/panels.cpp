@@ -112,11 +112,7 @@ void Panels::drawMenu(text::Diagnostics& diagnostics) {
   if (!ImGui::BeginMainMenuBar()) return;
   if (ImGui::BeginMenu("Panels")) {
     for (std::size_t i = 0; i < kTitles.size(); ++i)
-      if (ImGui::MenuItem(kTitles[i], nullptr, open_[i])) {
-        open_[i] = !open_[i];
-        latest_ = static_cast<Panel>(i);
-        arrange_ = true;
-      }
+      if (ImGui::MenuItem(kTitles[i], nullptr, open_[i])) toggle(kNames[i]);
     ImGui::Separator();
     if (ImGui::MenuItem("Arrange")) arrange_ = true;
     ImGui::EndMenu();
