@@ -58,19 +58,19 @@ class StanzaMaker {
       if (isNeeded(shader, declared)) add(declared, last, !source.interfaceWith({}).find(declared.name));
     const glsl::Conditions conditions = glsl::conditionsOf(source.text);
     // `compiled`: nothing compiles without.
-    const auto define = [&](std::string_view word, bool compiled) {
+    const auto define = [&](std::string_view word, int value, bool compiled) {
       const bool own = conditions.made.contains(word) || word.starts_with("HAS_") ||
                        word.starts_with("GL_") || word.starts_with("__");
-      if (!own && made_.pass["defines"].emplace(word, 1).second && compiled)
-        made_.request.defines.push_back({std::string(word), "1"});
+      if (!own && made_.pass["defines"].emplace(word, value).second && compiled)
+        made_.request.defines.push_back({std::string(word), std::to_string(value)});
     };
-    for (const auto* words : {&conditions.valued, &conditions.tested})
-      for (const glsl::Token& word : *words) define(word.text, shader.live.contains(word.text));
     const std::set used(conditions.used.begin(), conditions.used.end());
     for (const std::string_view word : used)  // that are written as macros are: LAMP_TILE
       if (word.size() > 1 && std::isupper(static_cast<unsigned char>(word[0])) && !shader.find(word) &&
           std::ranges::none_of(word, [](unsigned char c) { return std::islower(c); }))
-        define(word, true);
+        define(word, 4, true);  // often a count
+    for (const auto* words : {&conditions.valued, &conditions.tested})
+      for (const glsl::Token& word : *words) define(word.text, 1, shader.live.contains(word.text));
   }
 
  private:
