@@ -10,6 +10,7 @@
 #include "deferred/gbuffer.glsl"
 #include "deferred/shading_model.glsl"
 
+#define HAS_SKY_TURN 1
 layout(std140) uniform Parameters { float thickness; float roughest; float sky_turn; };
 #include "shading/ambient.glsl"
 #include "shading/lobe.glsl"
