@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Holds README.md, CONTRIBUTING.md, docs/*.md, docs/tutorials/*.md and docs/gallery/*.md against the program: every fenced snippet is executed or compared.
+PAGE may be a folder. Of pages of graphs/cookbook the commands run small, on a copy of their folder that lies elsewhere.
 
 Usage: docs_test.py SOURCE_DIR BINARY_DIR [--part PART...] [--clone] [PAGE...]
 
@@ -93,6 +94,15 @@ class Sandbox:
         result = subprocess.run(["bash", "-euo", "pipefail", "-c", script], cwd=self.root, env=self.env, text=True,
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=600)
         return None if result.returncode == 0 else f"exit {result.returncode}\n{result.stdout[-3000:]}"
+
+    def copied(self, script, entry):
+        """The commands of a page of the cookbook: on a copy of its folder, with nothing of it left where it was, and small."""
+        copy = f"graphs/own/{entry}"
+        if not (self.root / copy).exists():
+            (self.root / "graphs/own").mkdir(exist_ok=True)
+            (self.root / "graphs/cookbook" / entry).rename(self.root / copy)
+        script = re.sub(r" --size \d+x\d+", "", script).replace(f"graphs/cookbook/{entry}/", f"{copy}/")
+        return re.sub(r"^(\./run render .*)$", r"mkdir -p out; \1 --size 64x36", script, flags=re.M)
 
     def weft(self, *args):
         result = subprocess.run([WEFT, *args], cwd=self.root, env=self.env, capture_output=True, text=True, timeout=300)
@@ -268,7 +278,7 @@ def main():
     skip_what_cannot_run()
     if OPTIONS.clone:
         return run_in_clone()
-    pages = [TOP / p for p in OPTIONS.pages] or [TOP / "README.md", TOP / "CONTRIBUTING.md", *(page for folder in ("docs", "docs/tutorials", "docs/gallery") for page in sorted((TOP / folder).glob("*.md")))]
+    pages = [page for p in OPTIONS.pages for page in (sorted((TOP / p).rglob("*.md")) if (TOP / p).is_dir() else [TOP / p])] or [TOP / "README.md", TOP / "CONTRIBUTING.md", *(page for folder in ("docs", "docs/tutorials", "docs/gallery") for page in sorted((TOP / folder).glob("*.md")))]
     problems, counts = [], {}
     with tempfile.TemporaryDirectory() as temporary:
         folder = pathlib.Path(temporary)
@@ -287,7 +297,8 @@ def main():
                     continue
                 line = text.count("\n", 0, match.start()) + 1
                 counts[language] = counts.get(language, 0) + 1
-                problem = check_block(language, info.strip(), match.group(2), sandbox, here, number)
+                body = sandbox.copied(match.group(2), page.parent.name) if sandbox and page.is_relative_to(TOP / "graphs/cookbook") else match.group(2)
+                problem = check_block(language, info.strip(), body, sandbox, here, number)
                 if problem:
                     problems.append(f"{name}:{line}: {problem}")
     if TOP / "docs/overview.md" in pages and "pages" in WANTED:

@@ -3,7 +3,7 @@
 
     moves.py WEFT [--all] [--only PART] [--seed N] [--pictures N] [--jobs N]
 
-Takes every pass and include of every file of graphs/ and tests/golden, and moves it to every other place in its file, as an author does: by its text. The
+Takes every pass and include of every file of graphs/, its cookbook and tests/golden, and moves it to every other place in its file, as an author does: by its text. The
 graph that has the file as a part is then planned anew. One of three things must hold: the graph is refused with a coded error; or each pass that ran before
 still runs, and each slot that it read still has something; or a warning names the pass that no longer reaches the picture, or the slot. Every file is tried with the
 defaults of its graph and with every switch on, in a scene that has everything. Without --all a sample of the moves is tried. --pictures: so many moves that are
@@ -173,6 +173,7 @@ def main():
     roots = [TOP / f"graphs/{name}.json" for name in ROOTS] + sorted(TOP.glob("tests/golden/*.json"))
     roots = [r for r in roots if r.exists() and not r.name.endswith(".cases.json")]
     roots += sorted(p for p in TOP.glob("graphs/*.json") if p not in roots)  # what is part of another graph is no root of its own
+    roots += sorted(TOP.glob("graphs/cookbook/*/*.json"))
     parts = {root: parts_of(root) for root in roots}
     owner = {}
     for root in roots:
