@@ -9,11 +9,15 @@ namespace weft::scene {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr std::size_t kMinRows = 1024;     // that are worth a task
 constexpr std::size_t kMinSkins = 4;       // the same
 constexpr std::size_t kBoxes = 4096;       // that are added up together, on however many threads
 constexpr std::size_t kLittleWork = 4096;  // nodes and rows: below, threads cost more than they bring
+
+// Its joints place it then, and not its node.
+bool isSkinned(const Scene& scene, const MeshInstance& instance) {
+  return instance.skin.valid() && scene.meshes.rows()[instance.mesh.index].skinned;
+}
 
 }  // namespace
 
@@ -26,43 +30,37 @@ void MeshFrame::rebuild(const Scene& scene) {
     bool moves = false;
     for (const NodeId joint : skin.joints) {
       jointNodes_.push_back(joint.index);
-      assert(jointNodes_.back() != kNone && "joints are nodes of the scene");
+      assert(joint.valid() && "joints are nodes of the scene");
       moves = moves || transforms_.isMoving(jointNodes_.back());
     }
     skinMoves_.push_back(moves ? 1 : 0);
   }
   joints_.assign(jointNodes_.size(), {});
 
-  facts_.clear();
-  for (const MeshInstance& instance : scene.meshInstances.rows()) {
-    InstanceFacts facts;
-    facts.node = instance.node.index;
-    facts.mesh = instance.mesh.index;
-    facts.material = instance.material.index;
-    facts.skin = instance.skin.index;
-    assert(facts.node != kNone && facts.mesh != kNone && facts.material != kNone &&
-           "an instance names rows of its scene");
-    if (!scene.meshes.rows()[facts.mesh].skinned) facts.skin = kNone;
-    facts.moving = facts.skin != kNone ? skinMoves_[facts.skin] != 0 : transforms_.isMoving(facts.node);
-    facts_.push_back(facts);
-  }
-
   tables_.assign(1, {});
   tables_[0].generation = ++count_;
   tableOf_.clear();
 }
 
+bool MeshFrame::isMoving(const Scene& scene, const MeshInstance& instance) const {
+  assert(instance.node.valid() && instance.mesh.valid() && instance.material.valid() &&
+         "an instance names rows of its scene");
+  return isSkinned(scene, instance) ? skinMoves_[instance.skin.index] != 0
+                                    : transforms_.isMoving(instance.node.index);
+}
+
 void MeshFrame::addList(const Scene& scene, const Selection& list) {
   const Members members(list, scene);
+  const std::span<const MeshInstance> all = scene.meshInstances.rows();
   std::vector<std::uint32_t> instances;
-  for (std::size_t row = 0; row < facts_.size(); ++row)
-    if (members.has(scene.meshInstances.rows()[row])) instances.push_back(static_cast<std::uint32_t>(row));
-  std::ranges::stable_sort(instances, {}, [&](std::uint32_t row) { return facts_[row].mesh; });
+  for (std::size_t row = 0; row < all.size(); ++row)
+    if (members.has(all[row])) instances.push_back(static_cast<std::uint32_t>(row));
+  std::ranges::stable_sort(instances, {}, [&](std::uint32_t row) { return all[row].mesh; });
   auto found = std::ranges::find(tables_, instances, &ListTable::instances);
   if (found == tables_.end()) {
     ListTable& table = tables_.emplace_back();
     for (std::size_t row = 0; row < instances.size(); ++row)
-      if (facts_[instances[row]].moving) table.moving.push_back(static_cast<std::uint32_t>(row));
+      if (isMoving(scene, all[instances[row]])) table.moving.push_back(static_cast<std::uint32_t>(row));
     table.rows.resize(instances.size());
     table.bounds.resize(instances.size());
     table.instances = std::move(instances);
@@ -87,18 +85,18 @@ void MeshFrame::fillJoints(const Scene& scene, bool all) {
 }
 
 void MeshFrame::fillRow(const Scene& scene, ListTable& table, std::uint32_t row) const {
-  const InstanceFacts& facts = facts_[table.instances[row]];
-  const Mesh& mesh = scene.meshes.rows()[facts.mesh];
+  const MeshInstance& instance = scene.meshInstances.rows()[table.instances[row]];
+  const Mesh& mesh = scene.meshes.rows()[instance.mesh.index];
   MeshRow& out = table.rows[row];
-  out.material = facts.material;
-  out.mesh = facts.mesh;
-  if (facts.skin == kNone) {
-    out.transform = transforms_.now()[facts.node];
-    out.previous_transform = transforms_.previous()[facts.node];
+  out.material = instance.material.index;
+  out.mesh = instance.mesh.index;
+  if (!isSkinned(scene, instance)) {
+    out.transform = transforms_.now()[instance.node.index];
+    out.previous_transform = transforms_.previous()[instance.node.index];
     table.bounds[row] = transformBox(out.transform, mesh.bounds);
     return;
   }
-  out.first_joint = firstJoint_[facts.skin];
+  out.first_joint = firstJoint_[instance.skin.index];
   Box box;
   for (std::size_t j = 0; j < mesh.jointBounds.size(); ++j)
     box.add(transformBox(joints_[out.first_joint + j].now, mesh.jointBounds[j]));
@@ -148,21 +146,19 @@ void MeshFrame::fillLights(const Scene& scene, bool all) {
   if (all) {
     lamps_.assign(lamps.begin(), lamps.end());
     sun_ = scene.sun;
-    lampNodes_.clear();
-    for (const Lamp& lamp : lamps) lampNodes_.push_back(lamp.node.index);
-    sunNode_ = sun_ ? sun_->node.index : kNone;
-    const auto moves = [&](std::uint32_t node) { return node != kNone && transforms_.isMoving(node); };
-    lightsMove_ = moves(sunNode_) || std::ranges::any_of(lampNodes_, moves);
+    const auto moves = [&](NodeId node) { return node.valid() && transforms_.isMoving(node.index); };
+    lightsMove_ = (sun_ && moves(sun_->node)) || std::ranges::any_of(lamps, moves, &Lamp::node);
   }
   if (!all && !lightsMove_) return;
   lightsGeneration_ = count_;
   for (std::size_t i = 0; i < lamps_.size(); ++i) {
-    if (lampNodes_[i] == kNone) continue;
-    const glm::mat4& node = transforms_.now()[lampNodes_[i]];
+    if (!lamps[i].node.valid()) continue;
+    const glm::mat4& node = transforms_.now()[lamps[i].node.index];
     lamps_[i].position = glm::vec3(node * glm::vec4(lamps[i].position, 1));
     lamps_[i].direction = turnDirection(node, lamps[i].direction);
   }
-  if (sunNode_ != kNone) sun_->direction = turnDirection(transforms_.now()[sunNode_], scene.sun->direction);
+  if (sun_ && sun_->node.valid())
+    sun_->direction = turnDirection(transforms_.now()[sun_->node.index], scene.sun->direction);
 }
 
 void MeshFrame::update(const Scene& scene, std::uint64_t sceneGeneration, double time, double previousTime,
@@ -181,14 +177,11 @@ void MeshFrame::update(const Scene& scene, std::uint64_t sceneGeneration, double
   std::size_t work = transforms_.movingCount();
   for (const ListTable& table : tables_) work += another ? table.rows.size() : table.moving.size();
   many_ = work >= kLittleWork;
-  using Moment = WorldTransforms::Moment;
-  both(
-      many_, [&] { transforms_.place(scene, Moment::now, many_); },
-      [&] { transforms_.place(scene, Moment::previous, many_); });
+  transforms_.place(scene, many_);
   fillJoints(scene, another);
   fillRows(scene, another);
-  both(
-      many_, [&] { fillBounds(scene, time, another); }, [&] { fillLights(scene, another); });
+  fillBounds(scene, time, another);
+  fillLights(scene, another);
   sceneGeneration_ = sceneGeneration;
   time_ = time;
   previousTime_ = previousTime;

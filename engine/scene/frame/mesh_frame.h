@@ -64,12 +64,9 @@ class MeshFrame {
     std::vector<Box> bounds;
     std::uint64_t generation = 0;  // 0: its rows are not filled yet
   };
-  struct InstanceFacts {
-    std::uint32_t node = 0, mesh = 0, material = 0, skin = 0;  // rows; skin may be none
-    bool moving = false;
-  };
   const ListTable& tableOf(DrawList list) const { return tables_[tableOf_[static_cast<std::size_t>(list)]]; }
   void rebuild(const Scene& scene);
+  bool isMoving(const Scene& scene, const MeshInstance& instance) const;
   void addList(const Scene& scene, const Selection& list);
   void fillJoints(const Scene& scene, bool all);
   void fillRow(const Scene& scene, ListTable& table, std::uint32_t row) const;
@@ -81,8 +78,7 @@ class MeshFrame {
   std::uint64_t sceneGeneration_ = 0;  // 0: none yet
   double time_ = 0, previousTime_ = 0;
   WorldTransforms transforms_;
-  std::vector<InstanceFacts> facts_;  // by row of Scene::meshInstances
-  std::vector<ListTable> tables_{1};  // the first is empty
+  std::vector<ListTable> tables_{1};                                                 // the first is empty
   std::vector<std::uint32_t> tableOf_ = std::vector<std::uint32_t>(kDrawListCount);  // by list
   std::vector<std::uint32_t> firstJoint_;                                            // by row of Scene::skins
   std::vector<std::uint32_t> jointNodes_;  // rows, of all skins one after another
@@ -92,8 +88,6 @@ class MeshFrame {
   bool spheresMove_ = false;
   std::vector<Lamp> lamps_;
   std::optional<Sun> sun_;
-  std::vector<std::uint32_t> lampNodes_;  // parallel to lamps_: rows, or none
-  std::uint32_t sunNode_ = 0;
   bool lightsMove_ = false;
   std::uint64_t lightsGeneration_ = 0;
   Box sphereBounds_, bounds_;

@@ -3,18 +3,10 @@
 #pragma once
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 
 #include <cstddef>
 
 namespace weft::scene {
-
-template <class First, class Second>
-void both(bool many, const First& first, const Second& second) {
-  if (many) return tbb::parallel_invoke(first, second);
-  first();
-  second();
-}
 
 // Calls `run(from, to)` for ranges of at least `least` that make up 0 to `count`.
 template <class Run>

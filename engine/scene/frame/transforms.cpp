@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "engine/scene/frame/parallel.h"
 
@@ -69,13 +70,15 @@ float animationTime(const Animation& animation, double time) {
   return static_cast<float>(local < 0 ? local + duration : local);
 }
 
-void applyAnimation(const Animation& animation, double time, std::span<const std::uint32_t> rows,
-                    std::span<Transform> locals) {
+namespace {
+
+// Writes the properties that an animation moves.
+void applyAnimation(const Animation& animation, double time, std::span<Transform> locals) {
   const float at = animationTime(animation, time);
   for (std::size_t i = 0; i < animation.tracks->tracks.size(); ++i) {
     const ModelTrack& track = animation.tracks->tracks[i];
     const glm::vec4 v = sampleTrack(track, at);
-    Transform& local = locals[rows[i]];
+    Transform& local = locals[animation.nodes[i].index];
     if (track.path == TrackPath::rotation)
       local.rotation = glm::quat(v.w, v.x, v.y, v.z);
     else
@@ -83,34 +86,29 @@ void applyAnimation(const Animation& animation, double time, std::span<const std
   }
 }
 
+}  // namespace
+
 void WorldTransforms::rebuild(const Scene& scene) {
   const std::span<const Node> nodes = scene.nodes.rows();
-  parents_.resize(nodes.size());
   moves_.assign(nodes.size(), 0);
   now_.locals.resize(nodes.size());
-  animatedRows_.clear();
   animationsApart_ = true;
   std::vector<std::uint32_t> movers(nodes.size(), kNoNode);  // the last animation of each node
-  for (const Animation& animation : scene.animations.rows()) {
-    std::vector<std::uint32_t>& rows = animatedRows_.emplace_back();
-    for (const NodeId id : animation.nodes) {
-      rows.push_back(id.index);
-      assert(rows.back() != kNoNode && "an animation moves nodes of its scene");
-      const auto mine = static_cast<std::uint32_t>(animatedRows_.size());
-      std::uint32_t& mover = movers[rows.back()];
+  for (std::uint32_t mine = 0; mine < scene.animations.size(); ++mine)
+    for (const NodeId node : scene.animations.rows()[mine].nodes) {
+      assert(node.valid() && "an animation moves nodes of its scene");
+      const std::uint32_t mover = std::exchange(movers[node.index], mine);
       animationsApart_ = animationsApart_ && (mover == kNoNode || mover == mine);
-      mover = mine;
-      moves_[rows.back()] = 1;
+      moves_[node.index] = 1;
     }
-  }
   moving_.clear();
   for (std::size_t row = 0; row < nodes.size(); ++row) {
     const Node& node = nodes[row];
-    parents_[row] = node.parent.index;
-    assert((parents_[row] == kNoNode || parents_[row] < row) && "parents stand before their children");
+    const NodeId parent = node.parent;
+    assert((!parent.valid() || parent.index < row) && "parents stand before their children");
     now_.locals[row] = node.local;
     if (node.spin != glm::vec3(0) || node.velocity != glm::vec3(0)) moves_[row] = 1;
-    if (parents_[row] != kNoNode && moves_[parents_[row]] != 0) moves_[row] = 1;
+    if (parent.valid() && moves_[parent.index] != 0) moves_[row] = 1;
     if (moves_[row] != 0) moving_.push_back(static_cast<std::uint32_t>(row));
   }
   previous_.locals = now_.locals;
@@ -120,8 +118,8 @@ void WorldTransforms::rebuild(const Scene& scene) {
   parts_ = {moving_.size()};
   std::uint32_t leastParent = kNoNode;
   for (std::size_t i = moving_.size(); i-- > 0;) {
-    const std::uint32_t parent = parents_[moving_[i]];
-    if (parent != kNoNode && moves_[parent] != 0) leastParent = std::min(leastParent, parent);
+    const NodeId parent = nodes[moving_[i]].parent;
+    if (parent.valid() && moves_[parent.index] != 0) leastParent = std::min(leastParent, parent.index);
     if (leastParent >= moving_[i] && parts_.back() - i >= kMinPart) parts_.push_back(i);
   }
   if (parts_.back() != 0) parts_.push_back(0);
@@ -132,14 +130,14 @@ void WorldTransforms::animateAt(const Scene& scene, At& at, bool many) const {
   const std::span<const Animation> animations = scene.animations.rows();
   forRanges(many, animations.size(), animationsApart_ ? kMinAnimations : animations.size(),
             [&](std::size_t from, std::size_t to) {
-              for (std::size_t i = from; i < to; ++i)
-                applyAnimation(animations[i], at.time, animatedRows_[i], at.locals);
+              for (std::size_t i = from; i < to; ++i) applyAnimation(animations[i], at.time, at.locals);
             });
 }
 
 void WorldTransforms::placeRow(const Scene& scene, At& at, std::uint32_t row) const {
-  const glm::mat4 local = matrixOf(moved(scene.nodes.rows()[row], at.locals[row], at.time));
-  at.world[row] = parents_[row] == kNoNode ? local : at.world[parents_[row]] * local;
+  const Node& node = scene.nodes.rows()[row];
+  const glm::mat4 local = matrixOf(moved(node, at.locals[row], at.time));
+  at.world[row] = node.parent.valid() ? at.world[node.parent.index] * local : local;
 }
 
 void WorldTransforms::prepare(const Scene& scene, std::uint64_t sceneGeneration, double time,
@@ -170,14 +168,15 @@ void WorldTransforms::prepare(const Scene& scene, std::uint64_t sceneGeneration,
   previous_.time = previousTime;
 }
 
-void WorldTransforms::place(const Scene& scene, Moment moment, bool many) {
-  At& at = of(moment);
-  if (!at.due) return;
-  animateAt(scene, at, many);
-  forRanges(many, parts_.size() - 1, 1, [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = parts_[from]; i < parts_[to]; ++i) placeRow(scene, at, moving_[i]);
-  });
-  at.updates += moving_.size();
+void WorldTransforms::place(const Scene& scene, bool many) {
+  for (At* at : {&now_, &previous_}) {
+    if (!at->due) continue;
+    animateAt(scene, *at, many);
+    forRanges(many, parts_.size() - 1, 1, [&](std::size_t from, std::size_t to) {
+      for (std::size_t i = parts_[from]; i < parts_[to]; ++i) placeRow(scene, *at, moving_[i]);
+    });
+    placed_ += moving_.size();
+  }
 }
 
 }  // namespace weft::scene

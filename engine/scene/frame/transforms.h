@@ -19,17 +19,11 @@ glm::vec4 sampleTrack(const assets::ModelTrack& track, float time);
 // Where `time` of the scene is in an animation that plays round and round.
 float animationTime(const Animation& animation, double time);
 
-// Writes the properties that an animation moves. `rows[i]` is the row of animation.nodes[i].
-void applyAnimation(const Animation& animation, double time, std::span<const std::uint32_t> rows,
-                    std::span<Transform> locals);
-
 class WorldTransforms {
  public:
-  // prepare(), then place() of each moment, the two in any order or at once, each on `many` threads or one. Nothing happens for a generation and times that
-  // are those of the last call.
-  enum class Moment : std::uint8_t { now, previous };
+  // prepare(), then place(), on `many` threads or one. Nothing happens for a generation and times that are those of the last call.
   void prepare(const Scene& scene, std::uint64_t sceneGeneration, double time, double previousTime);
-  void place(const Scene& scene, Moment moment, bool many = false);
+  void place(const Scene& scene, bool many = false);
 
   // One matrix per row of Scene::nodes.
   std::span<const glm::mat4> now() const { return now_.world; }
@@ -39,7 +33,7 @@ class WorldTransforms {
   // How many rows can.
   std::size_t movingCount() const { return moving_.size(); }
   // How many times a node was placed since this was made. For tests and measurements.
-  std::uint64_t updates() const { return placed_ + now_.updates + previous_.updates; }
+  std::uint64_t updates() const { return placed_; }
 
  private:
   struct At {
@@ -47,23 +41,19 @@ class WorldTransforms {
     std::vector<Transform> locals;  // with what animations make of them
     double time = 0;
     bool due = false;  // to be placed by the steps
-    std::uint64_t updates = 0;
   };
   void rebuild(const Scene& scene);
   void animateAt(const Scene& scene, At& at, bool many) const;
   void placeRow(const Scene& scene, At& at, std::uint32_t row) const;
-  At& of(Moment moment) { return moment == Moment::now ? now_ : previous_; }
 
   std::uint64_t generation_ = 0;  // of the scene; 0: none yet
   At now_, previous_;
-  std::vector<std::uint32_t> parents_;  // rows, or kNone
   std::vector<std::uint8_t> moves_;
   std::vector<std::uint32_t> moving_;  // rows that move, ascending
   std::vector<std::size_t>
       parts_;  // of moving_, which need nothing of each other: where each begins, and the end
-  std::vector<std::vector<std::uint32_t>> animatedRows_;  // per animation, parallel to its tracks
-  bool animationsApart_ = true;                           // no two move the same node
-  std::uint64_t placed_ = 0;                              // when the scene was another
+  bool animationsApart_ = true;  // no two move the same node
+  std::uint64_t placed_ = 0;
 };
 
 }  // namespace weft::scene
