@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 # The public headers: these, and what they include. The others may change with any commit.
 set(weft_public graph/read/read.h graph/expand/expand.h graph/compile/compile.h graph/print/print.h)
 if(WEFT_GL)
-  list(APPEND weft_public gl/context/context.h imports/import_registry.h passes/pass_registry.h scene/files/scene_file.h runtime/frame/renderer.h)
+  list(APPEND weft_public gl/context/context.h scene/files/scene_file.h runtime/frame/renderer.h)
 endif()
 list(TRANSFORM weft_public PREPEND engine/)
 set(weft_headers)

@@ -43,13 +43,12 @@ SUB_ROOMS = {
     },
     "assets": {
         "images": set(),
-        "loading": set(),
-        "environments": {"images", "loading"},
+        "loading": {"images"},
         ".": {"images"},
-        "models/parts": {".", "images", "loading"},
+        "models/parts": {".", "images"},
         "models/gltf": {".", "models/parts"},
         "models/assimp": {".", "models/parts"},
-        "models": {".", "images", "loading", "models/parts", "models/gltf", "models/assimp"},
+        "models": {".", "images", "models/parts", "models/gltf", "models/assimp"},
     },
     "scene": {".": set(), "frame": {"."}, "models": {".", "frame"}, "files": {".", "frame", "models"}},
     "gl": {

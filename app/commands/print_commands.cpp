@@ -19,7 +19,7 @@
 #include "engine/graph/print/explain.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/read/read.h"
-#include "engine/runtime/imports/registry.h"
+#include "engine/runtime/frame/renderer.h"
 #include "engine/text/files/file.h"
 #include "engine/text/json/dom.h"
 #include "engine/text/json/layout.h"

@@ -75,7 +75,7 @@ void runFrames(DeviceSession& session, runtime::World& world, const Options& opt
     run.last = renderer.frame(world, runtime::headlessFrame(world, frame, options.fps, options.pointer),
                               diagnostics);
     renderer.dropUploaded(world);
-    session.context->debugLog().drain(diagnostics);
+    session.context->drainMessages(diagnostics);
     if (done == 1) {
       glFinish();
       run.firstSeconds = now() - before;
@@ -88,7 +88,7 @@ void runFrames(DeviceSession& session, runtime::World& world, const Options& opt
       run.writer.save(renderer, *outputNameOf(run.output, frame), diagnostics);
   }
   if (!items.empty()) capture.stop(execution);
-  session.context->debugLog().drain(diagnostics);
+  session.context->drainMessages(diagnostics);
   run.writer.tell(diagnostics);
 }
 

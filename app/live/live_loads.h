@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/environments/environment_map.h"
+#include "engine/assets/images/image.h"
 #include "engine/assets/loading/loader.h"
 #include "engine/imports/environment/environment.h"
 #include "engine/scene/files/scene_file.h"

@@ -8,8 +8,6 @@
 #include "engine/graph/expand/expand.h"
 #include "engine/graph/read/read.h"
 #include "engine/runtime/frame/renderer.h"
-#include "engine/runtime/imports/registry.h"
-#include "engine/runtime/prepare/program_check.h"
 #include "engine/runtime/prepare/program_request.h"
 #include "engine/text/files/file.h"
 #include "engine/text/nearest.h"

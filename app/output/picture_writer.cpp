@@ -72,10 +72,7 @@ bool PictureWriter::save(runtime::Renderer& renderer, const std::string& path,
                          text::Diagnostics& diagnostics) {
   const bool values = pictureKindOf(path) == ".exr";
   bool good = false;
-  if (!values && renderer.presentsBytes()) {  // they hold no such values, and are read faster
-    const auto image = renderer.readPresented8();
-    good = image && savePng(path, *image, diagnostics);
-  } else if (const auto image = renderer.readPresentedFloat()) {
+  if (const auto image = renderer.readPresentedFloat()) {
     look(*image, renderer, path);
     good = values ? makeFolderOf(path, diagnostics) && assets::saveExr(path, *image, diagnostics)
                   : savePng(path, runtime::toBytes(*image), diagnostics);

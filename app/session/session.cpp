@@ -6,11 +6,11 @@
 #include <future>
 
 #include "app/output/standard_streams.h"
-#include "engine/assets/environments/environment_map.h"
+#include "engine/assets/images/image.h"
 #include "engine/gl/objects/objects.h"
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/read/read.h"
-#include "engine/runtime/imports/registry.h"
+#include "engine/runtime/frame/renderer.h"
 #include "engine/scene/files/scene_file.h"
 #include "engine/text/files/file.h"
 #include "engine/text/json/report.h"

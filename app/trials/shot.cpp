@@ -61,26 +61,27 @@ std::optional<Shot> takeShot(gl::Context& context, const Options& options, const
     return next == wish.frames.end() ? std::uint64_t{last} + 1 : *next;
   };
   PictureWriter writer;
-  std::optional<runtime::Poison> poison;
-  if (wish.poison) poison.emplace(execution, *wish.poison);
   for (std::uint64_t frame = first; frame <= last; frame = frameAfter(frame)) {
     const auto number = static_cast<std::uint32_t>(frame);
     const bool shown = std::ranges::find(wish.frames, number) != wish.frames.end();
     runtime::StepWatch watch;
-    if (poison) watch.before = [&](std::uint32_t step) { poison->fill(step); };
+    if (wish.poison)
+      watch.before = [&](std::uint32_t step) { runtime::fillWithPoison(execution, step, *wish.poison); };
     const bool recorded = wish.records && (shown || frame == first);
-    if (recorded && !poison) watch.before = [&](std::uint32_t step) { recorder.prepare(execution, step); };
+    if (recorded && !wish.poison)
+      watch.before = [&](std::uint32_t step) { recorder.prepare(execution, step); };
     if (recorded) watch.after = [&](std::uint32_t step) { recorder.look(execution, step); };
     execution.watch(std::move(watch));
     renderer.frame(world, runtime::headlessFrame(world, number, options.fps, options.pointer), diagnostics);
-    context.debugLog().drain(diagnostics);
+    context.drainMessages(diagnostics);
     if (diagnostics.hasErrors()) return std::nullopt;
     if (auto steps = recorder.take(); !steps.empty())
       shot.records.frames.push_back({number, std::move(steps)});
     if (!shown) continue;
-    if (wish.records && !wish.poison && !renderer.presentsBytes())  // 8 bits hold no NaN
-      if (const auto values = renderer.readPresentedFloat()) writer.look(*values, renderer, options.graph);
-    if (auto picture = renderer.readPresented8()) shot.pictures[number] = std::move(*picture);
+    const auto picture = renderer.readPresentedFloat();
+    if (!picture) continue;
+    if (wish.records && !wish.poison) writer.look(*picture, renderer, options.graph);
+    shot.pictures[number] = runtime::toBytes(*picture);
   }
   writer.tell(diagnostics);
   execution.watch({});

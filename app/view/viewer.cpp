@@ -421,7 +421,7 @@ void Viewer::saveLast() {
 }
 
 void Viewer::tellFrame() {
-  session_.context->debugLog().drain(diagnostics_);
+  session_.context->drainMessages(diagnostics_);
   if (diagnostics_.empty()) return;
   log_.addPast(diagnostics_);
   broken_ |= report(diagnostics_) != 0;

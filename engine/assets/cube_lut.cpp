@@ -19,11 +19,7 @@ using Words = std::vector<std::string_view>;
 
 Words splitWords(std::string_view line) {
   Words words;
-  for (std::size_t at = 0; (at = line.find_first_not_of(" \t\r", at)) != std::string_view::npos;) {
-    const std::size_t end = std::min(line.find_first_of(" \t\r", at), line.size());
-    words.push_back(line.substr(at, end - at));
-    at = end;
-  }
+  for (auto word = text::takeWord(line); !word.empty(); word = text::takeWord(line)) words.push_back(word);
   return words;
 }
 
@@ -104,11 +100,8 @@ std::optional<CubeLut> readCubeLut(std::string_view text, const std::string& nam
   CubeLut lut;
   Problem problem;
   std::uint32_t line = 0;
-  for (std::size_t at = 0; at < text.size() && problem.message.empty(); ++line) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    problem = readLine(splitWords(text.substr(at, end - at)), lut);
-    at = end + 1;
-  }
+  for (; !text.empty() && problem.message.empty(); ++line)
+    problem = readLine(splitWords(text::takeLine(text)), lut);
   if (problem.message.empty()) problem = checkWhole(lut);
   if (problem.message.empty()) return lut;
   diagnostics.error(text::Code::notACubeTable, {name, line}, problem.message).found = problem.found;

@@ -5,8 +5,10 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "engine/glsl/interface.h"
+#include "engine/text/chars.h"
 #include "engine/text/files/file.h"
 #include "engine/text/hash.h"
 #include "engine/text/limits.h"
@@ -142,8 +144,7 @@ class IncludeExpander {
     std::string_view guard;  // the X of a first directive #ifndef X, until the next directive
     std::size_t at = 0;
     for (std::uint32_t line = 1; !text.empty(); ++line) {
-      const std::string_view code = text.substr(0, text.find('\n'));
-      text.remove_prefix(std::min(code.size() + 1, text.size()));
+      const std::string_view code = text::takeLine(text);
       while (at < tokens.size() && tokens[at].line < line) ++at;
       const auto wordAt = [&](std::size_t i) {
         return i < tokens.size() && tokens[i].line == line ? tokens[i].text : std::string_view();

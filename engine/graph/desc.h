@@ -13,8 +13,6 @@
 #include <vector>
 
 #include "engine/graph/language/expr.h"
-#include "engine/graph/language/keys.h"
-#include "engine/graph/language/value.h"
 #include "engine/text/diagnostic.h"
 
 namespace weft::graph {
@@ -270,6 +268,20 @@ struct GraphDesc {
   std::vector<std::string> files;  // this file, what it extends, its presets and all that is below, to watch
   FileTexts texts;                 // of the graph that was asked for: all these files; included ones: some
   std::string top;  // the overlay or preset that lies over all others; "" when nothing lies over this file
+};
+
+// What a person names to look at in a graph that runs: engine/graph/pick/pick.h.
+struct Pick {
+  std::string text;           // as written
+  std::string name;           // of a resource, or any unique suffix: "hdr", "maps[2]"
+  std::uint32_t version = 0;  // k of #k, from 1; 0: the last
+  std::uint32_t mip = 0;
+  std::uint32_t layer = 0;    // array layer, cube * 6 + face, or slice of a 3D texture
+  std::uint32_t history = 0;  // n of @-n
+  bool stencil = false;
+  std::string pass;      // after which to look, or any unique suffix; "": the last that writes it
+  std::string option{};  // that names it, for messages: "-o"
+  friend bool operator==(const Pick&, const Pick&) = default;
 };
 
 }  // namespace weft::graph

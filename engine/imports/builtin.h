@@ -1,7 +1,6 @@
 // The imports that come with Weft. Each is in a folder of its own, or in tables, which alone knows its name.
 #pragma once
 
-#include "engine/graph/plug_ins.h"
 #include "engine/imports/import.h"
 
 namespace weft::imports {
@@ -18,6 +17,5 @@ std::unique_ptr<Import> makeCamera();
 std::unique_ptr<Import> makeCubeLut();
 std::unique_ptr<Import> makeImage();
 std::unique_ptr<Import> makeCut();
-std::unique_ptr<Import> makeMouse();
 
 }  // namespace weft::imports

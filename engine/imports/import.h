@@ -14,7 +14,6 @@
 
 #include "engine/gl/objects/objects.h"
 #include "engine/graph/registry.h"
-#include "engine/imports/camera_views.h"
 #include "engine/imports/row_table.h"
 #include "engine/imports/world.h"
 #include "engine/scene/camera.h"
@@ -46,9 +45,7 @@ class Provider {
   // row.
   virtual bool value(const Frame&, const ViewPart&, std::uint32_t /*column*/, Numbers&) { return false; }
   // Valid until the next call.
-  virtual const scene::ViewData& view(const Frame& frame, const ViewPart& part) {
-    return frame.camera.view(frame, part.width, part.height);
-  }
+  virtual const scene::ViewData& view(const Frame& frame, const ViewPart& part);
   // Another number whenever the import has changed, and only then: then `on_change` passes run, and histories that it resets
   // begin again. Unless overridden, it changes in every frame, as for what moves all the time.
   virtual std::uint64_t generation(const Frame& frame) { return frame.number; }
@@ -84,17 +81,9 @@ class Providers {
 // What a request is made for: the view that it names, or the scene's camera as it is, in a picture of one pixel.
 class NamedView {
  public:
-  explicit NamedView(const graph::ImportRequest& request) {
-    if (const graph::ImportRequest* view = request.named("view")) view_ = {*view, graph::keyOf(*view)};
-  }
-  const scene::ViewData& view(const Frame& frame) const {
-    return view_ ? frame.providers.of(view_->first, view_->second).view(frame, {})
-                 : frame.camera.view(frame, 1, 1);
-  }
-  std::uint64_t generation(const Frame& frame) const {
-    return view_ ? frame.providers.of(view_->first, view_->second).generation(frame)
-                 : frame.camera.generation(frame);
-  }
+  explicit NamedView(const graph::ImportRequest& request);
+  const scene::ViewData& view(const Frame& frame) const;
+  std::uint64_t generation(const Frame& frame) const;
 
  private:
   std::optional<std::pair<graph::ImportRequest, std::uint64_t>> view_;
@@ -125,6 +114,12 @@ class ImportOf : public Import {
     else
       return std::make_unique<Made>();
   }
+};
+
+// The imports an engine knows, by name. An embedder adds its own before reading graphs.
+class ImportRegistry : public graph::PlugIns<Import> {
+ public:
+  static ImportRegistry builtin();
 };
 
 // For reflect().

@@ -1,9 +1,7 @@
 #include "engine/imports/mesh_draws.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <span>
 
 namespace weft::imports {
 

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/graph/registry.h"
 #include "engine/imports/material_textures.h"
 #include "engine/imports/mesh_draws.h"
 #include "engine/imports/row_table.h"

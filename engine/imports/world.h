@@ -4,15 +4,11 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "engine/assets/environments/environment_map.h"
 #include "engine/assets/images/image.h"
 #include "engine/scene/scene.h"
-#include "engine/text/diagnostic.h"
 
 namespace weft::imports {
 

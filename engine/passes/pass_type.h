@@ -6,7 +6,6 @@
 #include <glad/gl.h>
 
 #include <cstdint>
-#include <memory>
 
 #include "engine/graph/flat_graph.h"
 #include "engine/graph/registry.h"
@@ -62,6 +61,12 @@ class PassType {
   virtual ~PassType() = default;
   virtual graph::PassType reflect() const = 0;
   virtual void execute(const PassContext& context) const = 0;
+};
+
+// The pass types an engine knows, by name. An embedder adds its own before reading graphs.
+class PassRegistry : public graph::PlugIns<PassType> {
+ public:
+  static PassRegistry builtin();
 };
 
 }  // namespace weft::passes

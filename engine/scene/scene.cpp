@@ -1,6 +1,5 @@
 #include "engine/scene/scene.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace weft::scene {

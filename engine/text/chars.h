@@ -30,6 +30,19 @@ constexpr std::string_view trimmed(std::string_view text) {
   while (!text.empty() && isSpace(text.back())) text.remove_suffix(1);
   return text;
 }
+// The next line of a text, without its end; `text` goes on behind it.
+constexpr std::string_view takeLine(std::string_view& text) {
+  const std::string_view line = text.substr(0, text.find('\n'));
+  text.remove_prefix(std::min(line.size() + 1, text.size()));
+  return line;
+}
+// The next word of a text, which goes on behind it; "" at the end.
+constexpr std::string_view takeWord(std::string_view& text) {
+  while (!text.empty() && isSpace(text.front())) text.remove_prefix(1);
+  const std::string_view word = text.substr(0, text.find_first_of(" \t\r\n"));
+  text.remove_prefix(word.size());
+  return word;
+}
 // All of a text as a finite number.
 template <class T>
 std::optional<T> numberIn(std::string_view text) {

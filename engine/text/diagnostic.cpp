@@ -6,7 +6,6 @@
 #include <mutex>
 #include <tuple>
 #include <unordered_set>
-#include <utility>
 
 #include "engine/text/printable.h"
 

@@ -2,11 +2,9 @@
 // mistaken: a name of more than kLongestName bytes has no nearest one, and only the first 1,000 candidates are compared.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace weft::text {
 

@@ -6,6 +6,8 @@ source=$1 binary=$2
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cmake --install "$binary" --prefix "$folder/prefix" >"$folder/log" || { cat "$folder/log"; exit 1; }
+# The public headers are few: who adds one shows why an embedder needs it.
+[ "$(find "$folder/prefix/include/weft/engine" -name '*.h' | wc -l)" -le 25 ] || { echo "more than 25 public headers" >&2; exit 1; }
 cmake -S "$source/tests/docs/embed" -B "$folder/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$folder/prefix" >"$folder/log"
 cmake --build "$folder/build" >"$folder/log" || { cat "$folder/log"; exit 1; }
 "$folder/build/embed" | tee "$folder/plan"

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "engine/gl/context/context.h"
+#include "engine/gl/context/debug.h"
 #include "engine/gl/objects/objects.h"
 
 namespace weft::gl::test {

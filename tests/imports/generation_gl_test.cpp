@@ -1,5 +1,5 @@
 // The generation of an import moves when its value does, and only then: all that are built in, one by one.
-#include "engine/imports/import_registry.h"
+#include "engine/imports/import.h"
 #include "tests/runtime/stage.h"
 #include "tests/temporary_folder.h"
 

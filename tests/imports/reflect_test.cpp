@@ -7,7 +7,7 @@
 
 #include "engine/assets/images/image.h"
 #include "engine/imports/files.h"
-#include "engine/imports/import_registry.h"
+#include "engine/imports/import.h"
 #include "tests/temporary_folder.h"
 
 using namespace weft;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "engine/passes/pass_registry.h"
+#include "engine/passes/pass_type.h"
 
 using namespace weft;
 using namespace weft::passes;

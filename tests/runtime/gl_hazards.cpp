@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/gl/context/debug.h"
 #include "engine/gl/programs/program.h"
 #include "engine/glsl/tokens.h"
 

@@ -6,6 +6,8 @@
 #include <cassert>
 #include <utility>
 
+#include "engine/gl/context/debug.h"
+
 namespace weft::runtime::test {
 
 namespace {

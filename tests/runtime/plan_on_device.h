@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/runtime/frame/device.h"
-#include "engine/runtime/frame/prepared_plan.h"
+#include "engine/runtime/frame/execution.h"
 
 namespace weft::runtime::test {
 

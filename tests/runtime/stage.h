@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/gl/context/context.h"
+#include "engine/gl/context/debug.h"
 #include "engine/imports/world.h"
 #include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/renderer.h"

@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "engine/gl/context/debug.h"
 #include "tests/skip.h"
 
 namespace weft::theory {
@@ -69,7 +70,7 @@ Picture Lab::read(const std::string& resource, std::uint32_t mip, std::uint32_t 
   INFO(resource);
   REQUIRE(texture.id != 0);
   const gl::Extent extent = gl::extentOf(texture.desc, mip);
-  return {extent.width, extent.height, gl::floatChannelsOf(texture.desc.format),
+  return {extent.width, extent.height, gl::clientFormatOf(texture.desc.format).channels,
           gl::readFloats(texture, mip, layer)};
 }
 

@@ -10,7 +10,7 @@
 
 #include "engine/graph/expand/expand.h"
 #include "engine/graph/read/read.h"
-#include "engine/passes/pass_registry.h"
+#include "engine/passes/pass_type.h"
 #include "tests/temporary_folder.h"
 #include "tests/theory/lab.h"
 

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -41,6 +42,34 @@ std::optional<ImageF> decodeEnvironment(std::string_view bytes, const std::strin
                                         text::Diagnostics& diagnostics);
 // The cleaning step alone: the color channels of `image`, RGB or RGBA and equirectangular, in place.
 void sanitizeRadiance(ImageF& image, const std::string& name, text::Diagnostics& diagnostics);
+
+// Progress and cancellation of a load.
+enum class LoadStage : std::uint8_t { idle, waiting, reading, decoding, converting };
+
+// Told how far a load is: the stage, and how much of it is done (0 to 1; a stage that cannot tell says 0 and
+// then the next stage begins). False gives up. Called on the thread that loads, often.
+using LoadObserver = std::function<bool(LoadStage stage, double done)>;
+
+// Never the same twice.
+std::uint64_t newEnvironmentId();
+
+// An environment as the GPU takes it: equirectangular RGBA halves. Row 0 is +Y; alpha is 1; every value is finite and not negative.
+struct EnvironmentMap {
+  std::uint32_t width = 0, height = 0;
+  std::vector<std::uint16_t>
+      texels{};  // width * height * 4 binary16; empty in what stands for a map that a GPU has
+  std::uint64_t id = newEnvironmentId();  // of the picture: a copy, with or without texels, has the same
+};
+
+// Empty after errors, and without any when `observer` gave up.
+std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, text::Diagnostics& diagnostics,
+                                                 const LoadObserver& observer = {});
+
+// Whether a name is that of an environment, by its end: .hdr or .exr.
+bool isEnvironmentName(const std::string& name);
+
+// A picture that decodeEnvironment gives, 3 or 4 channels, rounded to halves (half.h).
+EnvironmentMap toEnvironmentMap(const ImageF& image);
 
 // What a channel is in the file: .png .jpg .tga of 8 bits, .png of 16 bits, .hdr and .exr.
 enum class StoredType : std::uint8_t { byte, word, real };

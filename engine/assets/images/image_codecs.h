@@ -26,12 +26,11 @@ std::optional<ImageHeader> readHdrHeader(std::string_view bytes, const std::stri
                                          text::Diagnostics& diagnostics);
 std::optional<ImageHeader> readExrHeader(std::string_view bytes, const std::string& name,
                                          text::Diagnostics& diagnostics);
-// `channels` 1 to 4, or 0 for what the file has; T is std::uint8_t or std::uint16_t, whatever the file has.
+// Of bytes whose header was read, .exr aside. `channels` 1 to 4, or 0 for what the file has; T is std::uint8_t, std::uint16_t or float,
+// whatever the file has.
 template <class T>
 std::optional<ImageOf<T>> decodePicture(std::string_view bytes, int channels, const std::string& name,
                                         text::Diagnostics& diagnostics);
-std::optional<ImageF> decodeHdr(std::string_view bytes, const std::string& name,
-                                text::Diagnostics& diagnostics);
 std::optional<ImageF> decodeExr(std::string_view bytes, const std::string& name,
                                 text::Diagnostics& diagnostics);
 

@@ -169,23 +169,6 @@ std::optional<ImageHeader> readStbHeader(std::string_view bytes, const std::stri
   return header;
 }
 
-// `load` is the library's function for T.
-template <class T, class Load>
-std::optional<ImageOf<T>> decode(std::string_view bytes, const ImageHeader& header, int channels,
-                                 const std::string& name, Diagnostics& diagnostics, const Load& load) {
-  int width = 0, height = 0, stored = 0;
-  const std::unique_ptr<T, decltype(&stbi_image_free)> texels(
-      load(stbData(bytes), stbSize(bytes), &width, &height, &stored, channels), &stbi_image_free);
-  if (!texels) {
-    reportUnreadable(diagnostics, name, fmt::format("its texels are not valid ({})", stbi_failure_reason()));
-    return {};
-  }
-  const auto count = static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height) *
-                     static_cast<std::size_t>(channels);
-  return ImageOf<T>{header.width, header.height, channels,
-                    std::vector<T>(texels.get(), texels.get() + count)};
-}
-
 void appendBytes(void* out, void* bytes, int count) {
   static_cast<std::string*>(out)->append(static_cast<const char*>(bytes), static_cast<std::size_t>(count));
 }
@@ -213,27 +196,35 @@ std::optional<ImageHeader> readPictureHeader(std::string_view bytes, const std::
   return {};
 }
 
-std::optional<ImageF> decodeHdr(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
-  const std::optional<ImageHeader> header = readHdrHeader(bytes, name, diagnostics);
-  if (!header) return {};
-  return decode<float>(bytes, *header, 3, name, diagnostics, stbi_loadf_from_memory);
-}
-
 template <class T>
 std::optional<ImageOf<T>> decodePicture(std::string_view bytes, int channels, const std::string& name,
                                         Diagnostics& diagnostics) {
-  const std::optional<ImageHeader> header = readPictureHeader(bytes, name, diagnostics);
-  if (!header) return {};
-  if (channels == 0) channels = header->channels;
+  int width = 0, height = 0, stored = 0;
+  const auto load = [&](auto* function) {
+    return function(stbData(bytes), stbSize(bytes), &width, &height, &stored, channels);
+  };
+  T* read = nullptr;
   if constexpr (sizeof(T) == 1)
-    return decode<T>(bytes, *header, channels, name, diagnostics, stbi_load_from_memory);
+    read = load(stbi_load_from_memory);
+  else if constexpr (sizeof(T) == 2)
+    read = load(stbi_load_16_from_memory);
   else
-    return decode<T>(bytes, *header, channels, name, diagnostics, stbi_load_16_from_memory);
+    read = load(stbi_loadf_from_memory);
+  const std::unique_ptr<T, decltype(&stbi_image_free)> texels(read, &stbi_image_free);
+  if (!texels) {
+    reportUnreadable(diagnostics, name, fmt::format("its texels are not valid ({})", stbi_failure_reason()));
+    return {};
+  }
+  if (channels == 0) channels = stored;
+  const auto count =
+      static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(channels);
+  return ImageOf<T>{width, height, channels, std::vector<T>(texels.get(), texels.get() + count)};
 }
 
 template std::optional<Image8> decodePicture(std::string_view, int, const std::string&, Diagnostics&);
 template std::optional<ImageOf<std::uint16_t>> decodePicture(std::string_view, int, const std::string&,
                                                              Diagnostics&);
+template std::optional<ImageF> decodePicture(std::string_view, int, const std::string&, Diagnostics&);
 
 std::string encodePng8(int width, int height, int channels, std::span<const std::uint8_t> texels) {
   assert(width > 0 && height > 0 && channels >= 1 && channels <= 4);

@@ -13,7 +13,7 @@
 #include <string>
 #include <thread>
 
-#include "engine/assets/loading/load_observer.h"
+#include "engine/assets/images/image.h"
 #include "engine/text/diagnostic.h"
 
 namespace weft::assets {

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "engine/assets/images/image_codecs.h"
-#include "engine/assets/models/assimp/assimp_model.h"
-#include "engine/assets/models/gltf/gltf.h"
+#include "engine/assets/models/assimp/model_check.h"
+#include "engine/assets/models/gltf/gltf_document.h"
 #include "engine/assets/models/parts/mesh_builder.h"
 #include "engine/assets/models/parts/model_files.h"
 

@@ -1,4 +1,4 @@
-// Model files to Model: .gltf and .glb (engine/assets/models/gltf/gltf.h), .obj and .fbx (through Assimp). Everything that a model
+// Model files to Model: .gltf and .glb (engine/assets/models/gltf), .obj and .fbx (through Assimp). Everything that a model
 // names is looked for in its own folder and nowhere else. Failures are values: W164 (cannot be read), W165 (a value that
 // cannot be), W166 (a file outside the folder), W201 (too many bytes, vertices or texels); warnings W167 (a
 // texture is missing) and W168 (a part was left out). Thread safe: no state is shared between calls.
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/loading/load_observer.h"
+#include "engine/assets/images/image.h"
 #include "engine/assets/model.h"
 #include "engine/text/diagnostic.h"
 

@@ -8,6 +8,7 @@
 #include <array>
 
 #include "engine/gl/context/context_backends.h"
+#include "engine/gl/context/debug.h"
 #include "engine/text/chars.h"
 #include "engine/text/hash.h"
 
@@ -90,6 +91,14 @@ OpenedContext open(const Attempt& attempt, const ContextOptions& options,
 
 }  // namespace
 
+Context::Context() : debugLog_(std::make_unique<DebugLog>()) {}
+
+Context::~Context() = default;
+
+void Context::drainMessages(text::Diagnostics& diagnostics) {
+  debugLog_->drain(diagnostics);
+}
+
 const char* nameOf(Backend backend) {
   for (const auto& [value, name] : kBackends)
     if (value == backend) return name;
@@ -118,7 +127,7 @@ std::unique_ptr<Context> createContext(const ContextOptions& options, text::Diag
       failures.push_back(fmt::format("{}: is a software rasterizer", opened.platform));
       continue;
     }
-    if (options.debug) opened.context->debugLog_.install();
+    if (options.debug) opened.context->debugLog_->install();
     setConventions();
     return std::move(opened.context);
   }

@@ -12,7 +12,6 @@
 #include <string>
 #include <string_view>
 
-#include "engine/gl/context/debug.h"
 #include "engine/text/diagnostic.h"
 
 namespace weft::gl {
@@ -55,9 +54,11 @@ struct Size {
   std::uint32_t width = 0, height = 0;
 };
 
+class DebugLog;
+
 class Context {
  public:
-  virtual ~Context() = default;
+  virtual ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
@@ -69,13 +70,14 @@ class Context {
   virtual float contentScale() const { return 1.0f; }
 
   const DeviceInfo& device() const { return device_; }
-  DebugLog& debugLog() { return debugLog_; }
-  const DebugLog& debugLog() const { return debugLog_; }
+  DebugLog& debugLog() { return *debugLog_; }
+  // Adds a W120 for each message of the driver that is new since the last call.
+  void drainMessages(text::Diagnostics& diagnostics);
 
  protected:
-  Context() = default;
+  Context();
   DeviceInfo device_;
-  DebugLog debugLog_;
+  std::unique_ptr<DebugLog> debugLog_;
   friend std::unique_ptr<Context> createContext(const ContextOptions& options,
                                                 text::Diagnostics& diagnostics);
 };

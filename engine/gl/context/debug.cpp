@@ -59,7 +59,6 @@ void DebugLog::install() {
 void DebugLog::record(GLenum type, GLenum severity, std::string_view text) {
   while (!text.empty() && (text.back() == '\n' || text.back() == '\0' || text.back() == ' '))
     text.remove_suffix(1);
-  const std::lock_guard lock(mutex_);
   for (Message& m : messages_)
     if (m.type == type && m.severity == severity && m.text == text) {
       ++m.count;
@@ -72,7 +71,6 @@ void DebugLog::record(GLenum type, GLenum severity, std::string_view text) {
 }
 
 void DebugLog::drain(text::Diagnostics& diagnostics) {
-  const std::lock_guard lock(mutex_);
   for (; drained_ < messages_.size(); ++drained_) {
     const Message& m = messages_[drained_];
     const bool error = m.severity == GL_DEBUG_SEVERITY_HIGH || m.type == GL_DEBUG_TYPE_ERROR;
@@ -87,16 +85,12 @@ void DebugLog::drain(text::Diagnostics& diagnostics) {
 }
 
 void DebugLog::clear() {
-  const std::lock_guard lock(mutex_);
   messages_.clear();
   drained_ = 0;
 }
 
 DebugGroup::DebugGroup(DebugLog& log, std::string_view name) : log_(log) {
-  {
-    const std::lock_guard lock(log_.mutex_);
-    log_.groups_.push_back(name);
-  }
+  log_.groups_.push_back(name);
   static const GLsizei limit = greatestLength(GL_MAX_DEBUG_MESSAGE_LENGTH);
   glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, std::min(static_cast<GLsizei>(name.size()), limit),
                    name.data());
@@ -104,7 +98,6 @@ DebugGroup::DebugGroup(DebugLog& log, std::string_view name) : log_(log) {
 
 DebugGroup::~DebugGroup() {
   glPopDebugGroup();
-  const std::lock_guard lock(log_.mutex_);
   log_.groups_.pop_back();
 }
 

@@ -6,7 +6,6 @@
 #include <glad/gl.h>
 
 #include <cstdint>
-#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,7 +14,7 @@
 
 namespace weft::gl {
 
-// Messages of one context. Safe to be called from a driver's thread.
+// Messages of one context. The driver says them on the thread of the call that they are about.
 class DebugLog {
  public:
   DebugLog() = default;
@@ -41,7 +40,6 @@ class DebugLog {
     std::string group;  // innermost debug group when it was first raised (the pass), or empty
     std::uint64_t count = 1;
   };
-  std::mutex mutex_;
   std::vector<Message> messages_;
   std::size_t drained_ = 0;
   std::vector<std::string_view> groups_;

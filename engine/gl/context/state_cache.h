@@ -7,7 +7,6 @@
 #include <glad/gl.h>
 
 #include <array>
-#include <cstdint>
 #include <optional>
 #include <vector>
 

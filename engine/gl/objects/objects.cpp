@@ -440,9 +440,18 @@ FormatClass classOf(GLenum format) {
   return FormatClass::floating;
 }
 
-std::uint32_t floatChannelsOf(GLenum internalFormat) {
-  const FormatClass kind = classOf(internalFormat);
-  return kind == FormatClass::depth || kind == FormatClass::depth_stencil ? 1 : 4;
+ClientFormat clientFormatOf(GLenum internalFormat) {
+  switch (classOf(internalFormat)) {
+    case FormatClass::depth:
+    case FormatClass::depth_stencil:
+      return {GL_DEPTH_COMPONENT, GL_FLOAT, 1};
+    case FormatClass::unsigned_integer:
+      return {GL_RGBA_INTEGER, GL_UNSIGNED_INT, 4};
+    case FormatClass::signed_integer:
+      return {GL_RGBA_INTEGER, GL_INT, 4};
+    default:
+      return {};
+  }
 }
 
 void uploadTexture(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format,
@@ -468,25 +477,14 @@ std::vector<std::byte> readTexture(const TextureRef& texture, std::uint32_t mip,
 
 std::vector<float> readFloats(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer) {
   const Extent extent = extentOf(texture.desc, mip);
-  std::vector<float> texels(std::size_t{extent.width} * extent.height * floatChannelsOf(texture.desc.format));
-  const auto bytes = static_cast<GLsizei>(texels.size() * sizeof(float));
-  switch (classOf(texture.desc.format)) {
-    case FormatClass::floating:
-      getLayer(texture, mip, layer, GL_RGBA, GL_FLOAT, bytes, texels.data());
-      break;
-    case FormatClass::depth:
-    case FormatClass::depth_stencil:
-      getLayer(texture, mip, layer, GL_DEPTH_COMPONENT, GL_FLOAT, bytes, texels.data());
-      break;
-    case FormatClass::unsigned_integer:
-      getLayer(texture, mip, layer, GL_RGBA_INTEGER, GL_UNSIGNED_INT, bytes, texels.data());
-      for (float& texel : texels) texel = static_cast<float>(std::bit_cast<std::uint32_t>(texel));
-      break;
-    case FormatClass::signed_integer:
-      getLayer(texture, mip, layer, GL_RGBA_INTEGER, GL_INT, bytes, texels.data());
-      for (float& texel : texels) texel = static_cast<float>(std::bit_cast<std::int32_t>(texel));
-      break;
-  }
+  const ClientFormat client = clientFormatOf(texture.desc.format);
+  std::vector<float> texels(std::size_t{extent.width} * extent.height * client.channels);
+  getLayer(texture, mip, layer, client.format, client.type,
+           static_cast<GLsizei>(texels.size() * sizeof(float)), texels.data());
+  if (client.type == GL_UNSIGNED_INT)
+    for (float& texel : texels) texel = static_cast<float>(std::bit_cast<std::uint32_t>(texel));
+  if (client.type == GL_INT)
+    for (float& texel : texels) texel = static_cast<float>(std::bit_cast<std::int32_t>(texel));
   return texels;
 }
 

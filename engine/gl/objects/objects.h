@@ -243,8 +243,12 @@ std::vector<std::byte> readTexture(const TextureRef& texture, std::uint32_t mip,
 // The same as floats, four per texel (missing channels 0, alpha 1); depth formats: one per texel; integer
 // formats are converted from their exact values.
 std::vector<float> readFloats(const TextureRef& texture, std::uint32_t mip = 0, std::uint32_t layer = 0);
-// Floats per texel of readFloats: 4, or 1 for depth.
-std::uint32_t floatChannelsOf(GLenum internalFormat);
+// As what texels of an internal format are read: as numbers of 32 bits, `channels` a texel: 4, or 1 for depth.
+struct ClientFormat {
+  GLenum format = GL_RGBA, type = GL_FLOAT;
+  std::uint32_t channels = 4;
+};
+ClientFormat clientFormatOf(GLenum internalFormat);
 // The buffer was created with GL_DYNAMIC_STORAGE_BIT.
 void uploadBuffer(GLuint buffer, std::uint64_t offset, std::span<const std::byte> data);
 std::vector<std::byte> readBuffer(GLuint buffer, std::uint64_t offset, std::uint64_t bytes);

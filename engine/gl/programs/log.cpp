@@ -84,8 +84,8 @@ bool isOrnament(std::string_view text) {
 }
 
 std::string_view lineOf(std::string_view text, std::uint32_t number) {
-  for (; number > 1; --number) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
-  return text.substr(0, text.find('\n'));
+  for (; number > 1; --number) text::takeLine(text);
+  return text::takeLine(text);
 }
 
 bool isName(std::string_view text) {
@@ -181,8 +181,7 @@ std::size_t mapLog(std::string_view log, const glsl::ShaderSource& source, text:
   static const text::FileName kDefines = "<defines>";
   std::vector<LogMessage> messages;
   while (!log.empty()) {
-    const std::string_view raw = trim(log.substr(0, log.find('\n')));
-    log.remove_prefix(std::min(log.find('\n'), log.size() - 1) + 1);
+    const std::string_view raw = trim(text::takeLine(log));
     if (isOrnament(raw)) continue;
     const std::optional<LogPrefix> prefix = prefixOf(raw);
     if (!prefix && !messages.empty()) {

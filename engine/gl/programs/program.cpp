@@ -129,7 +129,7 @@ void readUniforms(GLuint program, Reflection& out) {
 }
 
 void assignUnits(GLuint program, std::vector<OpaqueUniform>& uniforms) {
-  std::sort(uniforms.begin(), uniforms.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  std::ranges::sort(uniforms, {}, &OpaqueUniform::name);
   std::uint32_t next = 0;
   std::vector<GLint> units;
   for (OpaqueUniform& uniform : uniforms) {
@@ -183,13 +183,10 @@ std::vector<Block> readBlocks(GLuint program, bool storage) {
     glGetProgramResourceiv(program, interface, i, 1, &property, variables, nullptr, indices.data());
     for (const GLint index : indices)
       block.members.push_back(readMember(program, storage, static_cast<GLuint>(index), block.name));
-    std::sort(block.members.begin(), block.members.end(), [](const auto& a, const auto& b) {
-      return std::tie(a.offset, a.name) < std::tie(b.offset, b.name);
-    });
+    std::ranges::sort(block.members, {}, [](const BlockMember& m) { return std::tie(m.offset, m.name); });
     found.emplace_back(std::move(block), i);
   }
-  std::sort(found.begin(), found.end(),
-            [](const auto& a, const auto& b) { return a.first.name < b.first.name; });
+  std::ranges::sort(found, {}, [](const auto& each) -> const std::string& { return each.first.name; });
   std::vector<Block> blocks;
   for (auto& [block, index] : found) {
     block.binding = static_cast<std::uint32_t>(blocks.size());
@@ -211,7 +208,7 @@ std::vector<Interface> readInterface(GLuint program, GLenum interface) {
     if (location < 0 || name.starts_with("gl_")) continue;
     found.push_back({withoutIndex(std::move(name)), static_cast<GLenum>(type), location});
   }
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.location < b.location; });
+  std::ranges::sort(found, {}, &Interface::location);
   return found;
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "engine/graph/expand/passes.h"
+#include "engine/graph/language/keys.h"
 #include "engine/text/chars.h"
 #include "engine/text/nearest.h"
 #include "engine/text/words/foreign_words.h"

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "engine/graph/language/expr.h"
-#include "engine/graph/language/value.h"
 #include "engine/text/diagnostic.h"
 
 namespace weft::graph {

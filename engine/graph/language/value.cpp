@@ -1,11 +1,11 @@
-#include "engine/graph/language/value.h"
-
+// Declared in expr.h.
 #include <fmt/format.h>
 
 #include <charconv>
 #include <cmath>
 #include <system_error>
 
+#include "engine/graph/language/expr.h"
 #include "engine/graph/language/names.h"
 
 namespace weft::graph {

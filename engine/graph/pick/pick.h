@@ -1,4 +1,4 @@
-// What a person names to look at in a graph that runs: `hdr`, `hdr#1`, `glow.mip[2]`, `sky.face[4]`, `depth.stencil`, `adapted@-1`,
+// Picks (desc.h), what a person names to look at in a graph that runs: `hdr`, `hdr#1`, `glow.mip[2]`, `sky.face[4]`, `depth.stencil`, `adapted@-1`,
 // `hdr after bloom`; found in a flat graph, and kept alive.
 #pragma once
 
@@ -12,19 +12,6 @@
 #include "engine/text/diagnostic.h"
 
 namespace weft::graph {
-
-struct Pick {
-  std::string text;           // as written
-  std::string name;           // of a resource, or any unique suffix: "hdr", "maps[2]"
-  std::uint32_t version = 0;  // k of #k, from 1; 0: the last
-  std::uint32_t mip = 0;
-  std::uint32_t layer = 0;    // array layer, cube * 6 + face, or slice of a 3D texture
-  std::uint32_t history = 0;  // n of @-n
-  bool stencil = false;
-  std::string pass;      // after which to look, or any unique suffix; "": the last that writes it
-  std::string option{};  // that names it, for messages: "-o"
-  friend bool operator==(const Pick&, const Pick&) = default;
-};
 
 // name ["#" k] { ".mip[" i "]" | ".layer[" i "]" | ".face[" i "]" | ".stencil" } ["@-" n] [" after " pass]. Nothing when `text` is
 // spelled in another way.

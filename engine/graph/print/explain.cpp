@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "engine/graph/language/keys.h"
 #include "engine/graph/subresource.h"
 
 namespace weft::graph {

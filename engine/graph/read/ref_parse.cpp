@@ -7,6 +7,7 @@
 #include <charconv>
 #include <utility>
 
+#include "engine/graph/language/keys.h"
 #include "engine/graph/language/names.h"
 #include "engine/graph/subresource.h"
 #include "engine/text/nearest.h"

@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "engine/graph/language/value.h"
+#include "engine/graph/language/expr.h"
 
 namespace weft::graph {
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "engine/imports/builtin.h"
+#include "engine/imports/camera_views.h"
 #include "engine/text/nearest.h"
 
 namespace weft::imports {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "engine/assets/environments/environment_map.h"
+#include "engine/assets/images/image.h"
 #include "engine/gl/objects/objects.h"
 #include "engine/imports/import.h"
 #include "engine/text/diagnostic.h"

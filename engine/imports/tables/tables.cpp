@@ -1,10 +1,13 @@
-// The imports that are tables of the scene: spheres and meshes of draw lists, and joints, vertex colors, materials and ground.
+// The imports that are tables of the scene: spheres and meshes of draw lists, and joints, vertex colors, materials and ground;
+// and the mouse.
 #include <array>
+#include <bit>
 #include <span>
 
 #include "engine/imports/builtin.h"
 #include "engine/imports/material_textures.h"
 #include "engine/imports/scene_tables.h"
+#include "engine/text/hash.h"
 
 namespace weft::imports {
 
@@ -95,6 +98,7 @@ class TableProvider : public Provider {
   }
   std::uint64_t generation(const Frame& frame) override { return Table::generation(frame); }
   bool isStill(const World& world) const override { return Table::isStill(world); }
+  bool followsPointer() const override { return std::is_same_v<typename Table::Row, Pointer>; }
 
  private:
   RowTable<typename Table::Row> table_{Table::reflect().name, Table::columns()};
@@ -215,6 +219,34 @@ struct Ground : SceneTable<scene::Ground> {
   static auto rows(const Frame& frame) { return std::array{frame.world.scene().ground.value_or(Row{})}; }
 };
 
+struct Mouse {
+  using Row = Pointer;
+  static ImportType reflect() {
+    return {
+        .name = "mouse",
+        .doc =
+            "Where the mouse points in the presented picture, and its left button: one row. Points are in "
+            "pixels from the lower left corner, as gl_FragCoord counts them."};
+  }
+  static Columns<Row> columns() {
+    return {column<Row, &Row::position>("position", "pixels, where it was last over the picture"),
+            column<Row, &Row::dragged>("dragged", "pixels, where it was last while the button was held"),
+            column<Row, &Row::pressed>("pressed", "pixels, where the button last went down"),
+            column<Row, &Row::down>("down", "1 while the button is held, else 0"),
+            column<Row, &Row::clicked>("clicked", "1 in the frame in which the button went down, else 0")};
+  }
+  static ImportFacts facts(const WorldFacts&) { return {.exists = true, .count = 1, .changing = true}; }
+  static auto rows(const Frame& frame) { return std::array{frame.input.pointer}; }
+  static std::uint64_t generation(const Frame& frame) {
+    const Pointer& p = frame.input.pointer;
+    std::uint64_t hash = text::kHashSeed + (p.down ? 2 : 0) + (p.clicked ? 1 : 0);
+    for (const glm::vec2 at : {p.position, p.dragged, p.pressed})
+      for (const float c : {at.x, at.y}) hash = text::hashCombine(hash, std::bit_cast<std::uint32_t>(c));
+    return hash;
+  }
+  static bool isStill(const World&) { return false; }
+};
+
 }  // namespace
 
 void addTables(graph::PlugIns<Import>& imports) {
@@ -224,6 +256,7 @@ void addTables(graph::PlugIns<Import>& imports) {
   imports.add(std::make_unique<TableImport<Joints>>());
   imports.add(std::make_unique<TableImport<VertexColors>>());
   imports.add(std::make_unique<TableImport<Ground>>());
+  imports.add(std::make_unique<TableImport<Mouse>>());
 }
 
 }  // namespace weft::imports

@@ -115,7 +115,7 @@ bool FrameCadence::sweep(bool ahead) {
   return again;
 }
 
-void FrameCadence::settle(const std::vector<std::uint64_t>& own,
+void FrameCadence::decide(const std::vector<std::uint64_t>& own,
                           const std::vector<std::uint64_t>& generations, bool ahead) {
   for (Group& group : groups_) group.wants = group.blocked = group.started = false;
   for (std::size_t s = 0; s < run_.size(); ++s) {
@@ -157,15 +157,10 @@ void FrameCadence::takeTurn(Group& group, bool whole) {
   group.finished = true;
 }
 
-void FrameCadence::decide(const std::vector<std::uint64_t>& own,
-                          const std::vector<std::uint64_t>& generations) {
-  settle(own, generations, false);
-}
-
 bool FrameCadence::decideAhead(const std::vector<std::uint64_t>& own,
                                const std::vector<std::uint64_t>& generations) {
   if (plan_.groups.ofResource.empty()) return false;
-  settle(own, generations, true);
+  decide(own, generations, true);
   for (std::uint32_t group = 0; group < groups_.size(); ++group)
     if (groups_[group].sliced && groups_[group].finished) return true;
   std::fill(run_.begin(), run_.end(), std::uint8_t{0});

@@ -40,7 +40,9 @@ class FrameCadence {
   }
   // Takes `own[step]` and `generations[resource]` as they are before the frame. Afterwards runs(step) and slices(step)
   // give the result.
-  void decide(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& generations);
+  void decide(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& generations) {
+    decide(own, generations, false);
+  }
   // Decides a round ahead of the frame, in which time-sliced groups run whole. Of the other passes only those run that are
   // not `always` and that a group may wait for. False, and nothing runs, when no time-sliced group has to.
   bool decideAhead(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& generations);
@@ -81,7 +83,7 @@ class FrameCadence {
   bool wants(std::size_t step, const std::vector<std::uint64_t>& own,
              const std::vector<std::uint64_t>& generations) const;
   bool isInside(std::size_t step, std::uint32_t resource) const;
-  void settle(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& generations,
+  void decide(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& generations,
               bool ahead);
   bool sweep(bool ahead);
   void takeTurn(Group& group, bool whole);

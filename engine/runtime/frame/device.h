@@ -9,9 +9,9 @@
 #include "engine/gl/objects/timers.h"
 #include "engine/gl/programs/program_cache.h"
 #include "engine/passes/draw/geometry.h"
+#include "engine/runtime/frame/renderer.h"
 #include "engine/runtime/imports/imports.h"
-#include "engine/runtime/imports/registry.h"
-#include "engine/runtime/prepare/sampler_cache.h"
+#include "engine/runtime/storage/caches.h"
 
 namespace weft::runtime {
 

@@ -8,21 +8,40 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "engine/graph/plan.h"
 #include "engine/runtime/cadence/cadence.h"
 #include "engine/runtime/frame/device.h"
-#include "engine/runtime/frame/prepared_plan.h"
 #include "engine/runtime/frame/publications.h"
 #include "engine/runtime/frame/read_back.h"
 #include "engine/runtime/frame/step_runner.h"
+#include "engine/runtime/prepare/prepared_pass.h"
+#include "engine/runtime/storage/resource_pool.h"
 #include "engine/runtime/uniforms/frame_uniforms.h"
 
 namespace weft::runtime {
 
 struct FrameReport;  // renderer.h
+
+// Whether shader files are read again for passes that do not change.
+enum class ShaderFiles : std::uint8_t { read, keep };
+
+// A plan that can run on a device: its storage, and for each step what runs it.
+struct PreparedPlan {
+  std::shared_ptr<const graph::Plan> plan;
+  std::unique_ptr<ResourcePool> pool;
+  std::vector<PreparedPass> passes;  // per step, of the variant in use; at first the one for large ages
+  std::uint32_t passesPrepared = 0;  // how many were prepared for this plan; the others were kept
+};
+
+// Prepares a plan beside the one that runs, and shares with it storage that fits and passes that are the same. A pass that
+// differs from those of `before` (which may be null), or has other storage, is prepared. Empty after errors.
+std::optional<PreparedPlan> preparePlan(Device& device, std::shared_ptr<const graph::Plan> plan,
+                                        const PreparedPlan* before, ShaderFiles files,
+                                        text::Diagnostics& diagnostics);
 
 // Functions that are called around the steps of a frame while it runs, to look at results: `before` right before a step that
 // runs, when its barriers are issued and its clears are not yet made; `after` right after a step, also when it was skipped,

@@ -1,7 +1,5 @@
 #include "engine/runtime/frame/gl_state.h"
 
-#include "engine/runtime/storage/formats.h"
-
 namespace weft::runtime {
 
 void openMasks(gl::StateCache& states) {

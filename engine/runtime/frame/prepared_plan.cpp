@@ -1,13 +1,11 @@
-#include "engine/runtime/frame/prepared_plan.h"
-
+// Declared in execution.h.
 #include <algorithm>
 #include <cassert>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 
-#include "engine/runtime/prepare/prepared_pass.h"
-#include "engine/runtime/prepare/program_check.h"
+#include "engine/runtime/frame/execution.h"
 #include "engine/runtime/prepare/program_request.h"
 
 namespace weft::runtime {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <unordered_map>
 #include <utility>
 
 #include "engine/graph/pick/pick.h"
@@ -209,16 +210,8 @@ double Publications::ageOf(std::uint32_t r) const {
 void Publications::continueGenerations(const Publications& before) {
   for (std::uint64_t& generation : generations_) generation += before.nextGeneration_;
   nextGeneration_ += before.nextGeneration_;
-  std::unordered_map<std::string_view, std::size_t> resourceOf;
-  const auto& theirs = before.plan_.graph->resourceNames;
-  for (std::size_t r = 0; r < theirs.size(); ++r) resourceOf[theirs[r]] = r;
-  for (std::size_t r = 0; r < generations_.size(); ++r) {
-    const GpuResource& resource = pool_[r];
-    if (resource.fresh || resource.serial == 0) continue;
-    const auto old = resourceOf.find(plan_.graph->resourceNames[r]);
-    if (old != resourceOf.end() && before.pool_[old->second].serial == resource.serial)
-      generations_[r] = before.generations_[old->second];
-  }
+  for (std::size_t r = 0; r < generations_.size(); ++r)
+    if (pool_[r].before != kNone) generations_[r] = before.generations_[pool_[r].before];
 }
 
 // A group counts as published when everything that it writes is.

@@ -16,7 +16,7 @@
 #include "engine/gl/objects/objects.h"
 #include "engine/graph/plan.h"
 #include "engine/runtime/prepare/prepared_pass.h"
-#include "engine/runtime/storage/framebuffer_cache.h"
+#include "engine/runtime/storage/caches.h"
 #include "engine/runtime/storage/resource_pool.h"
 #include "engine/text/diagnostic.h"
 

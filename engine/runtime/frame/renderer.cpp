@@ -4,13 +4,14 @@
 #include <cmath>
 #include <filesystem>
 #include <set>
+#include <type_traits>
 
-#include "engine/graph/compile/compile.h"
 #include "engine/graph/read/read.h"
+#include "engine/imports/files.h"
+#include "engine/passes/draw/geometry.h"
 #include "engine/runtime/frame/device.h"
 #include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/gl_state.h"
-#include "engine/runtime/storage/formats.h"
 #include "engine/text/files/file.h"
 
 namespace weft::runtime {
@@ -34,6 +35,45 @@ std::vector<std::string> shaderRootsOf(std::span<const std::string> files, const
       roots.push_back(text);
   }
   return roots;
+}
+
+namespace {
+
+// The registry of another world. The plug-ins cannot change, and many words say what they are.
+void changeWorld(graph::Registry& registry, const PlugIns& plugIns, const imports::WorldFacts& facts,
+                 imports::Files* files) {
+  registry.drawLists = scene::drawListNames();
+  registry.things.clear();
+  std::map<std::uint8_t, std::uint64_t> unusual;  // by their lists
+  const auto look = [&](const auto& row) {
+    if (row.lists != 0 && row.lists != std::remove_cvref_t<decltype(row)>{}.lists) ++unusual[row.lists];
+  };
+  if (const scene::Scene* scene = facts.things.get()) {
+    std::ranges::for_each(scene->spheres.rows(), look);
+    std::ranges::for_each(scene->meshInstances.rows(), look);
+  }
+  for (const auto& [mask, count] : unusual) {
+    graph::Registry::Things& things = registry.things.emplace_back();
+    things.count = count;
+    for (std::size_t i = 0; i < registry.drawLists.size(); ++i)
+      if ((mask >> i & 1u) != 0) things.lists.push_back(registry.drawLists[i]);
+  }
+  registry.factsOf = [imports = plugIns.imports, facts, files](const graph::ImportRequest& request) {
+    imports::Files once;
+    return imports->find(request.type)->facts(request, facts, files ? *files : once);
+  };
+}
+
+}  // namespace
+
+graph::Registry makeRegistry(const PlugIns& plugIns, const imports::WorldFacts& facts,
+                             imports::Files* files) {
+  graph::Registry registry;
+  registry.passTypes = plugIns.passTypes->reflect();
+  registry.imports = plugIns.imports->reflect();
+  registry.geometries = passes::reflectGeometries();
+  changeWorld(registry, plugIns, facts, files);
+  return registry;
 }
 
 Renderer::Renderer(gl::Context& context, const std::string& graphPath, Options options)
@@ -183,7 +223,7 @@ std::optional<assets::ImageF> Renderer::readPresentedFloat() {
   const gl::TextureRef texture = execution_ ? execution_->presented() : gl::TextureRef{};
   if (texture.id == 0) return std::nullopt;
   const gl::Extent extent = gl::extentOf(texture.desc, 0);
-  const std::size_t channels = gl::floatChannelsOf(texture.desc.format);
+  const std::size_t channels = gl::clientFormatOf(texture.desc.format).channels;
   return assets::ImageF{static_cast<int>(extent.width), static_cast<int>(extent.height),
                         static_cast<int>(channels),
                         flipped<float>(gl::readFloats(texture), extent.width * channels)};
@@ -202,20 +242,9 @@ assets::Image8 toBytes(const assets::ImageF& picture) {
   return image;
 }
 
-bool Renderer::presentsBytes() {
-  return execution_ && execution_->presented().id != 0 && execution_->presented().desc.format == GL_RGBA8;
-}
-
 std::optional<assets::Image8> Renderer::readPresented8() {
-  if (!presentsBytes()) {
-    const auto picture = readPresentedFloat();
-    return picture ? std::optional(toBytes(*picture)) : std::nullopt;
-  }
-  const gl::TextureRef texture = execution_->presented();
-  const gl::Extent extent = gl::extentOf(texture.desc, 0);
-  return assets::Image8{static_cast<int>(extent.width), static_cast<int>(extent.height), 4,
-                        flipped<std::uint8_t>(gl::readTexture(texture, 0, 0, GL_RGBA, GL_UNSIGNED_BYTE),
-                                              std::size_t{extent.width} * 4)};
+  const auto picture = readPresentedFloat();
+  return picture ? std::optional(toBytes(*picture)) : std::nullopt;
 }
 
 void Renderer::present(std::uint32_t width, std::uint32_t height) {

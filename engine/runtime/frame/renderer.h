@@ -16,8 +16,9 @@
 #include "engine/gl/objects/objects.h"
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/expand/expand.h"
+#include "engine/imports/import.h"
 #include "engine/imports/world.h"
-#include "engine/runtime/imports/registry.h"
+#include "engine/passes/pass_type.h"
 
 namespace weft::runtime {
 
@@ -25,6 +26,18 @@ using imports::FrameInput;
 using imports::headlessFrame;
 using imports::World;
 
+// What graphs may name: pass types and imports, of plug-ins that an embedder may add to. Never null.
+struct PlugIns {
+  std::shared_ptr<const passes::PassRegistry> passTypes =
+      std::make_shared<const passes::PassRegistry>(passes::PassRegistry::builtin());
+  std::shared_ptr<const imports::ImportRegistry> imports =
+      std::make_shared<const imports::ImportRegistry>(imports::ImportRegistry::builtin());
+};
+
+// These and the draw lists of a world: a graph is checked by them on a machine without OpenGL. `files` keeps what imports
+// were read from, and must outlive the registry; without, it is read whenever it is asked for.
+graph::Registry makeRegistry(const PlugIns& plugIns, const imports::WorldFacts& facts,
+                             imports::Files* files = nullptr);
 // What a frame did.
 struct FrameReport {
   std::uint32_t passesRun = 0, passesSkipped = 0, barriers = 0;
@@ -89,8 +102,6 @@ class Renderer {
 
   // The presented picture with its top row first. Empty when the graph presents nothing.
   std::optional<assets::Image8> readPresented8();
-  // Whether the picture is stored in 8 bits, which have neither NaN nor infinity.
-  bool presentsBytes();
   std::optional<assets::ImageF> readPresentedFloat();
   // Copies the presented texture to framebuffer 0 (a window's), bit for bit when the sizes agree. Leaves framebuffer 0
   // bound, after releaseBindings() (gl_state.h).

@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "engine/gl/context/debug.h"
 #include "engine/runtime/frame/gl_state.h"
 #include "engine/runtime/storage/formats.h"
 

@@ -8,7 +8,7 @@
 #include "engine/graph/plan.h"
 #include "engine/runtime/frame/device.h"
 #include "engine/runtime/prepare/prepared_pass.h"
-#include "engine/runtime/storage/framebuffer_cache.h"
+#include "engine/runtime/storage/caches.h"
 #include "engine/runtime/storage/resource_pool.h"
 #include "engine/runtime/uniforms/frame_uniforms.h"
 #include "engine/text/diagnostic.h"

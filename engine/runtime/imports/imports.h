@@ -2,20 +2,16 @@
 // hands it the frame. Outlives plans.
 #pragma once
 
-#include <glad/gl.h>
-
 #include <cstdint>
 #include <deque>
 #include <memory>
-#include <span>
 #include <string>
-#include <vector>
 
 #include "engine/gl/objects/objects.h"
 #include "engine/graph/flat_graph.h"
 #include "engine/imports/camera_views.h"
 #include "engine/imports/files.h"
-#include "engine/imports/import_registry.h"
+#include "engine/imports/import.h"
 #include "engine/imports/scene_tables.h"
 #include "engine/text/diagnostic.h"
 

@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <numeric>
 #include <utility>
-
-#include "engine/graph/pick/pick.h"
 
 namespace weft::runtime {
 

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/images/image.h"
 #include "engine/graph/pick/pick.h"
 #include "engine/runtime/inspection/inspector.h"
 

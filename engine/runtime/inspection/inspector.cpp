@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -216,40 +217,33 @@ std::string InspectTexel::text() const {
 }
 
 std::uint32_t Inspector::numbers() const {
-  return stencil_ ? 1 : std::min(channels_, gl::floatChannelsOf(picture_.desc().format));
+  return stencil_ ? 1 : std::min(channels_, gl::clientFormatOf(picture_.desc().format).channels);
 }
 
 std::vector<double> Inspector::read(std::uint32_t x, std::uint32_t y, std::uint32_t width,
                                     std::uint32_t height) const {
-  const std::size_t texels = std::size_t{width} * height, count = numbers();
-  std::vector<double> out;
-  out.reserve(texels * count);
-  // `mask`: of the bits of a number that count; `first`: of the numbers of a texel.
-  const auto take = [&]<class T>(T mask, GLenum format, GLenum type, std::size_t stride, std::size_t first) {
-    std::vector<T> data(texels * stride);
-    glGetTextureSubImage(picture_.id(), 0, static_cast<GLint>(x), static_cast<GLint>(y), 0,
-                         static_cast<GLsizei>(width), static_cast<GLsizei>(height), 1, format, type,
-                         static_cast<GLsizei>(data.size() * sizeof(T)), data.data());
-    for (std::size_t i = 0; i < texels; ++i)
-      for (std::size_t c = first; c < first + count; ++c) {
-        T number = data[i * stride + c];
-        if constexpr (std::is_integral_v<T>) number &= mask;
-        out.push_back(static_cast<double>(number));
-      }
-  };
-  const gl::FormatClass kind = gl::classOf(picture_.desc().format);
-  if (stencil_ && picture_.desc().format == GL_DEPTH32F_STENCIL8)
-    take(std::uint32_t{0xff}, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, 2, 1);
+  const GLenum format = picture_.desc().format;
+  gl::ClientFormat client = gl::clientFormatOf(format);
+  if (stencil_ && format == GL_DEPTH32F_STENCIL8)
+    client = {GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, 2};
   else if (stencil_)
-    take(std::uint32_t{0xff}, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, 1, 0);
-  else if (kind == gl::FormatClass::depth || kind == gl::FormatClass::depth_stencil)
-    take(0.0f, GL_DEPTH_COMPONENT, GL_FLOAT, 1, 0);
-  else if (kind == gl::FormatClass::unsigned_integer)
-    take(~std::uint32_t{0}, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 4, 0);
-  else if (kind == gl::FormatClass::signed_integer)
-    take(std::int32_t{-1}, GL_RGBA_INTEGER, GL_INT, 4, 0);
-  else
-    take(0.0f, GL_RGBA, GL_FLOAT, 4, 0);
+    client = {GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, 1};
+  const std::size_t texels = std::size_t{width} * height;
+  std::vector<std::uint32_t> words(texels * client.channels);
+  glGetTextureSubImage(picture_.id(), 0, static_cast<GLint>(x), static_cast<GLint>(y), 0,
+                       static_cast<GLsizei>(width), static_cast<GLsizei>(height), 1, client.format,
+                       client.type, static_cast<GLsizei>(words.size() * 4), words.data());
+  const auto numberOf = [&](std::uint32_t word) -> double {
+    if (stencil_) return word & 0xff;
+    if (client.type == GL_FLOAT) return static_cast<double>(std::bit_cast<float>(word));
+    return client.type == GL_INT ? std::bit_cast<std::int32_t>(word) : static_cast<double>(word);
+  };
+  std::vector<double> out;
+  out.reserve(texels * numbers());
+  const std::size_t first = stencil_ ? client.channels - 1 : 0;  // stencil comes last
+  for (std::size_t i = 0; i < texels; ++i)
+    for (std::size_t c = first; c < first + numbers(); ++c)
+      out.push_back(numberOf(words[i * client.channels + c]));
   return out;
 }
 

@@ -39,24 +39,24 @@ std::optional<PoisonPattern> findPoison(std::string_view name) {
   return std::nullopt;
 }
 
-void Poison::fill(std::uint32_t step) const {
+void fillWithPoison(Execution& execution, std::uint32_t step, PoisonPattern pattern) {
   constexpr GLbitfield kTransfer =
       GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT;
-  const graph::Plan& plan = execution_.plan();
+  const graph::Plan& plan = execution.plan();
   glMemoryBarrier(kTransfer);
   for (std::uint32_t r = 0; r < plan.graph->resources.size(); ++r) {
     const graph::FlatResource& desc = plan.graph->resources[r];
     if (plan.firstStep[r] != step || plan.persistent[r] || graph::isImported(desc)) continue;
     if (desc.kind == graph::ResourceKind::buffer) {
       std::uint64_t offset = 0;
-      const BufferRef buffer = execution_.buffer(r, offset);
-      const double value = pattern_ == PoisonPattern::nan ? std::numeric_limits<double>::quiet_NaN() : 30000;
+      const BufferRef buffer = execution.buffer(r, offset);
+      const double value = pattern == PoisonPattern::nan ? std::numeric_limits<double>::quiet_NaN() : 30000;
       if (buffer.id) clearBuffer(buffer.id, offset, buffer.bytes, graph::Value::number(value));
       continue;
     }
-    const gl::TextureRef texture = execution_.texture(r);
+    const gl::TextureRef texture = execution.texture(r);
     if (texture.id == 0) continue;
-    const graph::Value value = graph::Value::number(valueFor(desc.format, pattern_));
+    const graph::Value value = graph::Value::number(valueFor(desc.format, pattern));
     for (std::uint32_t mip = 0; mip < desc.mips; ++mip)
       clearTexture(texture, desc.format, mip, 0, desc.layers, value);
   }

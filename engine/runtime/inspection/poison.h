@@ -20,16 +20,7 @@ enum class PoisonPattern : std::uint8_t {
 const char* nameOf(PoisonPattern pattern);
 std::optional<PoisonPattern> findPoison(std::string_view name);
 
-class Poison {
- public:
-  // `execution` must outlive this.
-  Poison(Execution& execution, PoisonPattern pattern) : execution_(execution), pattern_(pattern) {}
-  // To be called in StepWatch::before.
-  void fill(std::uint32_t step) const;
-
- private:
-  Execution& execution_;
-  PoisonPattern pattern_;
-};
+// To be called in StepWatch::before.
+void fillWithPoison(Execution& execution, std::uint32_t step, PoisonPattern pattern);
 
 }  // namespace weft::runtime

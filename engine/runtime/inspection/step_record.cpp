@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <utility>
 
 #include "engine/graph/pick/pick.h"
 #include "engine/runtime/frame/gl_state.h"
-#include "engine/runtime/storage/formats.h"
 #include "engine/runtime/storage/resource_pool.h"
 #include "engine/text/hash.h"
 
@@ -27,33 +25,8 @@ std::uint64_t hashOf(const void* data, std::size_t bytes, std::uint64_t hash) {
   return text::hashCombine(hash, rest + bytes);
 }
 
-bool isInteger(GLenum format) {
-  const gl::FormatClass kind = gl::classOf(format);
-  return kind == gl::FormatClass::unsigned_integer || kind == gl::FormatClass::signed_integer;
-}
-
-}  // namespace
-
-double differenceOf(const Signature& a, const Signature& b) {
-  float largest = 1e-6f;
-  const auto measure = [&](const auto& values) {
-    for (const float v : values) largest = std::max(largest, std::abs(v));
-  };
-  measure(a.parts);
-  measure(b.parts);
-  double worst = std::abs(static_cast<double>(a.broken) - static_cast<double>(b.broken));
-  const auto compare = [&](float x, float y) {
-    // A part that is nearly black says little, so none counts as less than a sixteenth of the brightest.
-    const float size = std::max({std::abs(x), std::abs(y), largest / 16});
-    worst = std::max(worst, static_cast<double>(std::abs(x - y) / size));
-  };
-  for (std::size_t i = 0; i < a.parts.size(); ++i) compare(a.parts[i], b.parts[i]);
-  for (std::size_t i = 0; i < a.channels.size(); ++i) compare(a.channels[i], b.channels[i]);
-  return worst;
-}
-
 // The sums of one resource, over all that the step wrote of it.
-struct StepRecorder::Sum {
+struct RecordSum {
   static constexpr std::size_t kParts = Signature::kSide * Signature::kSide;
   std::uint64_t hash = text::kHashSeed;
   std::array<double, kParts> parts{};
@@ -98,7 +71,7 @@ struct StepRecorder::Sum {
 };
 
 // The mean of the samples, through a texture of one sample.
-std::vector<float> StepRecorder::readSamples(const gl::TextureRef& texture) {
+std::vector<float> readSamples(const gl::TextureRef& texture) {
   text::Diagnostics ignored;
   const auto resolved = gl::Texture::create(
       {.format = texture.desc.format, .width = texture.desc.width, .height = texture.desc.height}, "record",
@@ -107,15 +80,14 @@ std::vector<float> StepRecorder::readSamples(const gl::TextureRef& texture) {
   return gl::readFloats(resolved->ref());
 }
 
-std::vector<float> StepRecorder::readLayer(const gl::TextureRef& texture, std::uint32_t mip,
-                                           std::uint32_t layer, std::uint64_t& hash) {
+std::vector<float> readRecorded(const gl::TextureRef& texture, std::uint32_t mip, std::uint32_t layer,
+                                std::uint64_t& hash) {
   std::vector<float> values = texture.desc.target == GL_TEXTURE_2D_MULTISAMPLE
                                   ? readSamples(texture)
                                   : gl::readFloats(texture, mip, layer);
-  if (isInteger(texture.desc.format) && texture.desc.samples <= 1) {  // floats do not hold all of them
-    const bool isSigned = gl::classOf(texture.desc.format) == gl::FormatClass::signed_integer;
-    const std::vector<std::byte> exact =
-        gl::readTexture(texture, mip, layer, GL_RGBA_INTEGER, isSigned ? GL_INT : GL_UNSIGNED_INT);
+  const gl::ClientFormat client = gl::clientFormatOf(texture.desc.format);
+  if (client.type != GL_FLOAT && texture.desc.samples <= 1) {  // floats do not hold all whole numbers
+    const std::vector<std::byte> exact = gl::readTexture(texture, mip, layer, client.format, client.type);
     hash = hashOf(exact.data(), exact.size(), hash);
   } else {
     hash = hashOf(values.data(), values.size() * sizeof(float), hash);
@@ -123,7 +95,7 @@ std::vector<float> StepRecorder::readLayer(const gl::TextureRef& texture, std::u
   return values;
 }
 
-void StepRecorder::add(Execution& execution, const graph::FlatUse& use, Sum& sum) {
+void addWrite(Execution& execution, const graph::FlatUse& use, RecordSum& sum) {
   const graph::FlatResource& desc = execution.plan().graph->resources[use.resource];
   if (desc.kind == graph::ResourceKind::buffer) {
     std::uint64_t offset = 0;
@@ -136,17 +108,37 @@ void StepRecorder::add(Execution& execution, const graph::FlatUse& use, Sum& sum
   const gl::TextureRef texture = execution.texture(use.resource);
   if (texture.id == 0) return;
   sum.texture = true;
-  const std::uint32_t stride = gl::floatChannelsOf(texture.desc.format);
+  const std::uint32_t stride = gl::clientFormatOf(texture.desc.format).channels;
   for (std::uint32_t mip = use.mip; mip < use.mip + use.mips; ++mip) {
     const gl::Extent extent = gl::extentOf(texture.desc, mip);
     const bool volume = desc.target == graph::Target::texture_3d;
     const std::uint32_t first = volume ? 0 : use.layer, count = volume ? extent.layers : use.layers;
     for (std::uint32_t layer = first; layer < first + count; ++layer) {
-      const std::vector<float> values = readLayer(texture, mip, layer, sum.hash);
+      const std::vector<float> values = readRecorded(texture, mip, layer, sum.hash);
       if (values.size() < std::size_t{extent.width} * extent.height * stride) continue;
       sum.addLayer(values, extent.width, extent.height, stride);
     }
   }
+}
+
+}  // namespace
+
+double differenceOf(const Signature& a, const Signature& b) {
+  float largest = 1e-6f;
+  const auto measure = [&](const auto& values) {
+    for (const float v : values) largest = std::max(largest, std::abs(v));
+  };
+  measure(a.parts);
+  measure(b.parts);
+  double worst = std::abs(static_cast<double>(a.broken) - static_cast<double>(b.broken));
+  const auto compare = [&](float x, float y) {
+    // A part that is nearly black says little, so none counts as less than a sixteenth of the brightest.
+    const float size = std::max({std::abs(x), std::abs(y), largest / 16});
+    worst = std::max(worst, static_cast<double>(std::abs(x - y) / size));
+  };
+  for (std::size_t i = 0; i < a.parts.size(); ++i) compare(a.parts[i], b.parts[i]);
+  for (std::size_t i = 0; i < a.channels.size(); ++i) compare(a.channels[i], b.channels[i]);
+  return worst;
 }
 
 void StepRecorder::prepare(Execution& execution, std::uint32_t step) {
@@ -173,12 +165,12 @@ void StepRecorder::look(Execution& execution, std::uint32_t step) {
   const graph::FlatGraph& graph = *plan.graph;
   const std::uint32_t index = plan.steps[step].pass;
   glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-  std::vector<std::pair<std::string, Sum>> sums;  // in the order of the slots
+  std::vector<std::pair<std::string, RecordSum>> sums;  // in the order of the slots
   plan.forEachWrite(step, [&](const graph::FlatUse& use) {
     const std::string name(graph::sharedName(graph.resourceNames[use.resource]));
-    auto sum = std::ranges::find(sums, name, &std::pair<std::string, Sum>::first);
-    if (sum == sums.end()) sum = sums.emplace(sums.end(), name, Sum{});
-    add(execution, use, sum->second);
+    auto sum = std::ranges::find(sums, name, &std::pair<std::string, RecordSum>::first);
+    if (sum == sums.end()) sum = sums.emplace(sums.end(), name, RecordSum{});
+    addWrite(execution, use, sum->second);
   });
   for (const auto& [name, sum] : sums)
     records_.push_back({.pass = graph.passNames[index],

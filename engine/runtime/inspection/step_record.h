@@ -42,12 +42,6 @@ class StepRecorder {
   std::vector<StepRecord> take() { return std::exchange(records_, {}); }
 
  private:
-  struct Sum;
-  std::vector<float> readLayer(const gl::TextureRef& texture, std::uint32_t mip, std::uint32_t layer,
-                               std::uint64_t& hash);
-  std::vector<float> readSamples(const gl::TextureRef& texture);
-  void add(Execution& execution, const graph::FlatUse& use, Sum& sum);
-
   std::vector<StepRecord> records_;
 };
 

@@ -20,9 +20,9 @@
 #include "engine/imports/row_table.h"
 #include "engine/imports/scene_tables.h"
 #include "engine/passes/draw/geometry.h"
-#include "engine/passes/pass_registry.h"
-#include "engine/runtime/prepare/sampler_cache.h"
+#include "engine/passes/pass_type.h"
 #include "engine/runtime/storage/block_writer.h"
+#include "engine/runtime/storage/caches.h"
 #include "engine/runtime/storage/resource_pool.h"
 #include "engine/text/diagnostic.h"
 

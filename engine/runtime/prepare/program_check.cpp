@@ -1,5 +1,3 @@
-#include "engine/runtime/prepare/program_check.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

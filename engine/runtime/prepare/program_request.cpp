@@ -1,8 +1,6 @@
 #include "engine/runtime/prepare/program_request.h"
 
-#include <algorithm>
-#include <string>
-
+#include "engine/glsl/tokens.h"
 #include "engine/imports/scene_tables.h"
 
 namespace weft::runtime {

@@ -11,7 +11,6 @@
 #include "engine/gl/programs/program.h"
 #include "engine/graph/flat_graph.h"
 #include "engine/scene/camera.h"
-#include "engine/text/diagnostic.h"
 
 namespace weft::runtime {
 

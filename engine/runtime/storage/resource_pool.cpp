@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <atomic>
 #include <string_view>
 #include <unordered_map>
@@ -107,6 +106,7 @@ std::unique_ptr<ResourcePool> ResourcePool::create(const Plan& plan, const Resou
   auto pool = std::make_unique<ResourcePool>();
   pool->resources_.resize(plan.graph->resources.size());
   pool->names_ = plan.graph->resourceNames;
+  if (before) pool->findNames(*before);
   if (!pool->createTextures(plan, before, diagnostics) || !pool->createArena(plan, before, diagnostics) ||
       !pool->createBuffers(plan, before, diagnostics))
     return nullptr;
@@ -128,18 +128,24 @@ std::unique_ptr<ResourcePool> ResourcePool::create(const Plan& plan, const Resou
   return pool;
 }
 
+void ResourcePool::findNames(const ResourcePool& before) {
+  std::unordered_map<std::string_view, std::uint32_t> byName;
+  for (std::uint32_t r = 0; r < before.names_.size(); ++r) byName[before.names_[r]] = r;
+  for (std::size_t r = 0; r < names_.size(); ++r)
+    if (const auto old = byName.find(names_[r]); old != byName.end()) resources_[r].before = old->second;
+}
+
 // What was published lies in the shared storage.
 void ResourcePool::continueFrom(const ResourcePool& before) {
-  std::unordered_map<std::uint64_t, const GpuResource*> bySerial;
-  for (const GpuResource& old : before.resources_) bySerial[old.serial] = &old;
   for (GpuResource& mine : resources_) {
-    if (mine.fresh || mine.serial == 0) continue;
-    const auto old = bySerial.find(mine.serial);
-    if (old == bySerial.end() || old->second->copies != mine.copies) continue;
-    mine.current = old->second->current;
-    mine.publications = old->second->publications;
-    mine.resets = old->second->resets;
-    mine.publishedAt = old->second->publishedAt;
+    if (mine.before == kNone) continue;
+    const GpuResource& old = before.resources_[mine.before];
+    if (mine.fresh || mine.serial == 0 || old.serial != mine.serial) mine.before = kNone;
+    if (mine.before == kNone || old.copies != mine.copies) continue;
+    mine.current = old.current;
+    mine.publications = old.publications;
+    mine.resets = old.resets;
+    mine.publishedAt = old.publishedAt;
   }
 }
 
@@ -162,17 +168,14 @@ void ResourcePool::fill(const Plan& plan, std::uint32_t resource, const graph::V
 // fits.
 void ResourcePool::shareTextures(const Plan& plan, const std::vector<std::string>& owners,
                                  const ResourcePool& before, Textures& textures) const {
-  std::unordered_map<std::string_view, const GpuResource*> byName;
   std::unordered_set<const PhysicalTexture*> shared;
-  for (std::size_t r = 0; r < before.resources_.size(); ++r)
-    if (before.resources_[r].texture) byName[before.names_[r]] = &before.resources_[r];
   const auto share = [&](std::size_t s, const std::shared_ptr<PhysicalTexture>& old) {
     if (!textures[s] && old && old->fits(plan.storages[s], owners[s]) && shared.insert(old.get()).second)
       textures[s] = old;
   };
   for (std::size_t r = 0; r < resources_.size(); ++r)
-    if (const std::uint32_t s = plan.storageOf[r]; s != kNone)
-      if (const auto old = byName.find(names_[r]); old != byName.end()) share(s, old->second->texture);
+    if (const std::uint32_t s = plan.storageOf[r], old = resources_[r].before; s != kNone && old != kNone)
+      share(s, before.resources_[old].texture);
   for (std::size_t s = 0; s < textures.size(); ++s)
     for (std::size_t r = 0; r < before.resources_.size() && !textures[s]; ++r)
       share(s, before.resources_[r].texture);
@@ -241,11 +244,6 @@ bool ResourcePool::createArena(const Plan& plan, const ResourcePool* before, tex
 
 bool ResourcePool::createBuffers(const Plan& plan, const ResourcePool* before,
                                  text::Diagnostics& diagnostics) {
-  std::unordered_map<std::string_view, std::shared_ptr<PhysicalBuffer>> byName;  // persistent ones
-  if (before)
-    for (std::size_t r = 0; r < before->resources_.size(); ++r)
-      if (const auto& old = before->resources_[r].buffer; old && old != before->arena_)
-        byName[before->names_[r]] = old;
   for (std::size_t r = 0; r < resources_.size(); ++r) {
     const FlatResource& desc = plan.graph->resources[r];
     GpuResource& mine = resources_[r];
@@ -257,9 +255,9 @@ bool ResourcePool::createBuffers(const Plan& plan, const ResourcePool* before,
       mine.fresh = !before || before->arena_ != arena_;
     } else {
       mine.copies = plan.copiesOf(static_cast<std::uint32_t>(r));
-      const auto old = byName.find(names_[r]);
-      mine.fresh = old == byName.end() || !fits(*old->second, mine.copies, desc.bytes);
-      mine.buffer = mine.fresh ? createBuffer(mine.copies, desc.bytes, names_[r], diagnostics) : old->second;
+      const auto old = mine.before == kNone ? nullptr : before->resources_[mine.before].buffer;
+      mine.fresh = !old || old == before->arena_ || !fits(*old, mine.copies, desc.bytes);
+      mine.buffer = mine.fresh ? createBuffer(mine.copies, desc.bytes, names_[r], diagnostics) : old;
       if (!mine.buffer) return false;
     }
     mine.serial = mine.buffer->serial;

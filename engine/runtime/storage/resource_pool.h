@@ -68,7 +68,8 @@ struct GpuResource {
   std::uint64_t serial = 0;  // identity of the storage
   std::uint64_t publications = 0;
   double publishedAt = -std::numeric_limits<double>::infinity();
-  bool fresh = true;  // storage was made for this plan: contents undefined
+  bool fresh = true;                    // storage was made for this plan: contents undefined
+  std::uint32_t before = graph::kNone;  // in the pool before: the one of that name that lies where this lies
   const gl::TextureRef& importedFor(std::uint32_t reader) const {
     return publisher != graph::kNone && publisher == reader ? imported : shown;
   }
@@ -109,6 +110,7 @@ class ResourcePool {
                      const ResourcePool& before, Textures& textures) const;
   bool createArena(const graph::Plan& plan, const ResourcePool* before, text::Diagnostics& diagnostics);
   bool createBuffers(const graph::Plan& plan, const ResourcePool* before, text::Diagnostics& diagnostics);
+  void findNames(const ResourcePool& before);
   void continueFrom(const ResourcePool& before);
 
   std::vector<GpuResource> resources_;

@@ -1,14 +1,11 @@
 #include "engine/runtime/uniforms/frame_uniforms.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
-#include <string>
 #include <utility>
 
 #include "engine/graph/expand/names/settings.h"
 #include "engine/passes/compute/work_groups.h"
-#include "engine/runtime/prepare/prepared_pass.h"
 #include "engine/runtime/storage/block_writer.h"
 #include "engine/text/hash.h"
 

@@ -6,7 +6,6 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "engine/scene/scene.h"

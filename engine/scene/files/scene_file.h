@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/assets/environments/environment_map.h"
+#include "engine/assets/images/image.h"
 #include "engine/scene/scene.h"
 #include "engine/text/diagnostic.h"
 

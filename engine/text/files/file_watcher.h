@@ -5,7 +5,6 @@
 // write to a network mount.
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <set>
 #include <string>

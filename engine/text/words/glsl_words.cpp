@@ -4,17 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "engine/text/chars.h"
+
 namespace weft::text {
 
 namespace {
 
 std::vector<std::string_view> wordsOf(std::string_view all) {
   std::vector<std::string_view> words;
-  for (std::size_t at = 0; at < all.size();) {
-    const std::size_t end = std::min(all.find(' ', at), all.size());
-    words.push_back(all.substr(at, end - at));
-    at = end + 1;
-  }
+  while (!all.empty()) words.push_back(takeWord(all));
   return words;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/gl/context/context.h"
+#include "engine/gl/context/debug.h"
 #include "engine/gl/objects/objects.h"
 
 using namespace weft::gl;

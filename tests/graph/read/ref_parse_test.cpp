@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/graph/language/keys.h"
+
 using namespace weft::graph;
 using weft::text::Code;
 using weft::text::Diagnostics;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/gl/context/context.h"
+#include "engine/gl/context/debug.h"
 #include "engine/runtime/frame/renderer.h"
 #include "engine/scene/files/scene_file.h"
 

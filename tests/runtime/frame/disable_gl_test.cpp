@@ -5,6 +5,7 @@
 #include <map>
 #include <sstream>
 
+#include "engine/gl/context/debug.h"
 #include "tests/runtime/stage.h"
 
 using namespace weft;

@@ -13,7 +13,7 @@
 #include "engine/graph/expand/expand.h"
 #include "engine/graph/read/read.h"
 #include "engine/imports/world.h"
-#include "engine/runtime/imports/registry.h"
+#include "engine/runtime/frame/renderer.h"
 #include "engine/scene/files/scene_file.h"
 
 using namespace weft;

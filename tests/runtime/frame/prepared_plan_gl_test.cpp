@@ -1,7 +1,7 @@
 // What a plan that is prepared shares with the one that runs, which stays as it was whatever happens.
 #include <algorithm>
 
-#include "engine/runtime/frame/prepared_plan.h"
+#include "engine/runtime/frame/execution.h"
 #include "tests/runtime/plan_on_device.h"
 #include "tests/runtime/stage.h"
 #include "tests/temporary_folder.h"

@@ -91,10 +91,9 @@ TEST_CASE("a hash does not depend on what a pass leaves out of a buffer") {
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   StepRecorder recorder;
   const auto hashOver = [&](PoisonPattern pattern, bool prepared) {
-    const Poison poison(stage.execution(), pattern);
     stage.execution().watch({.before =
                                  [&](std::uint32_t step) {
-                                   poison.fill(step);
+                                   fillWithPoison(stage.execution(), step, pattern);
                                    if (prepared) recorder.prepare(stage.execution(), step);
                                  },
                              .after = [&](std::uint32_t step) { recorder.look(stage.execution(), step); }});
@@ -115,10 +114,9 @@ TEST_CASE("poison is what a pass finds, and no pass of a sound graph shows it") 
     const auto expected = gl::readFloats(stage.execution().presented());
     for (const PoisonPattern pattern : {PoisonPattern::nan, PoisonPattern::large}) {
       const graph::Plan& plan = stage.execution().plan();
-      const Poison poison(stage.execution(), pattern);
       std::size_t poisoned = 0;
       stage.execution().watch({.before = [&](std::uint32_t step) {
-        poison.fill(step);
+        fillWithPoison(stage.execution(), step, pattern);
         for (std::uint32_t r = 0; r < plan.graph->resources.size(); ++r) {
           const graph::FlatResource& desc = plan.graph->resources[r];
           const bool floats = desc.format == graph::Format::rgba32f || desc.format == graph::Format::rgba16f;

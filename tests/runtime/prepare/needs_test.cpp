@@ -22,7 +22,6 @@
 #include "engine/graph/read/read.h"
 #include "engine/imports/world.h"
 #include "engine/runtime/frame/renderer.h"
-#include "engine/runtime/imports/registry.h"
 #include "engine/runtime/prepare/program_request.h"
 #include "engine/scene/files/scene_file.h"
 

@@ -2,7 +2,7 @@
 #include <array>
 #include <set>
 
-#include "engine/runtime/prepare/sampler_cache.h"
+#include "engine/runtime/storage/caches.h"
 #include "tests/runtime/stage.h"
 
 using namespace weft;

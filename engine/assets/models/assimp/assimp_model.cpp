@@ -1,5 +1,3 @@
-#include "engine/assets/models/assimp/assimp_model.h"
-
 #include <assimp/GltfMaterial.h>
 #include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>

@@ -9,6 +9,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "engine/text/chars.h"
+
 namespace weft::assets {
 
 namespace {
@@ -17,20 +19,11 @@ constexpr std::size_t kLongestLine = 65536;
 constexpr std::size_t kMaxCorners = 4096;  // of one face: Assimp cuts ears, which costs their square
 constexpr std::size_t kDeepest = 64;
 
-std::string_view nextWord(std::string_view& line) {
-  const std::size_t from = line.find_first_not_of(" \t\r");
-  if (from == std::string_view::npos) return line = {};
-  line.remove_prefix(from);
-  const std::string_view word = line.substr(0, line.find_first_of(" \t\r"));
-  line.remove_prefix(word.size());
-  return word;
-}
-
 // Up to a comment.
 std::size_t countWords(std::string_view line) {
   line = line.substr(0, line.find('#'));
   std::size_t words = 0;
-  while (!nextWord(line).empty()) ++words;
+  while (!text::takeWord(line).empty()) ++words;
   return words;
 }
 
@@ -70,15 +63,13 @@ ModelProblem circleProblem() {
 
 ModelProblem checkObj(std::string_view bytes, ModelCounts& counts) {
   std::uint32_t number = 0;
-  for (std::size_t at = 0; at < bytes.size();) {
-    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
-    std::string_view line = bytes.substr(at, end - at);
-    at = end + 1;
+  while (!bytes.empty()) {
+    std::string_view line = text::takeLine(bytes);
     ++number;
     if (line.size() > kLongestLine)
       return {"a line of it is too long", fmt::format("lines of at most {} bytes", kLongestLine),
               fmt::format("{} bytes", line.size()), number};
-    const std::string_view key = nextWord(line);
+    const std::string_view key = text::takeWord(line);
     if (key != "v" && key != "f") continue;
     const std::size_t words = countWords(line);
     if (key == "v") {
@@ -201,10 +192,8 @@ ModelProblem checkTextFbx(std::string_view bytes) {
   std::vector<std::pair<std::int64_t, std::int64_t>> edges;
   std::size_t depth = 0;
   std::uint32_t number = 0;
-  for (std::size_t at = 0; at < bytes.size();) {
-    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
-    std::string_view line = bytes.substr(at, end - at);
-    at = end + 1;
+  while (!bytes.empty()) {
+    std::string_view line = text::takeLine(bytes);
     ++number;
     bool quoted = false;
     for (const char c : line) {
@@ -215,7 +204,7 @@ ModelProblem checkTextFbx(std::string_view bytes) {
         return {"its records nest too deeply", fmt::format("at most {} levels", kDeepest), "more", number};
       if (c == '}' && depth > 0) --depth;
     }
-    if (nextWord(line) != "C:") continue;
+    if (text::takeWord(line) != "C:") continue;
     const std::size_t first = line.find(','),
                       second = first == std::string_view::npos ? first : line.find(',', first + 1);
     if (second == std::string_view::npos) continue;

@@ -8,6 +8,9 @@
 #include <string>
 #include <string_view>
 
+#include "engine/assets/model.h"
+#include "engine/assets/models/parts/model_files.h"
+
 namespace weft::assets {
 
 // What is wrong with a file; `message` is empty when nothing is.
@@ -25,5 +28,9 @@ struct ModelCounts {
 ModelProblem checkObj(std::string_view bytes, ModelCounts& counts);
 ModelProblem checkFbx(std::string_view bytes, ModelCounts& counts);
 bool isBinaryFbx(std::string_view bytes);
+
+// Wavefront OBJ and FBX to a Model, through Assimp. `obj`: else FBX. False after errors, or when `observer` gave up.
+bool readWithAssimp(std::string bytes, bool obj, ModelFiles& files, const LoadObserver& observer,
+                    text::Diagnostics& diagnostics, Model& model);
 
 }  // namespace weft::assets

@@ -1,5 +1,3 @@
-#include "engine/assets/models/gltf/gltf.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>

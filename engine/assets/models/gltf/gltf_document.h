@@ -107,4 +107,9 @@ class GltfDocument {
   std::vector<std::string> buffers_;
 };
 
+// The file as a Model. Left out, with W168: points and lines, the motion of morph targets, further uv sets, a second sun; in silence:
+// cameras. False after errors, or when `observer` gave up.
+bool readGltf(std::string bytes, ModelFiles& files, const LoadObserver& observer,
+              text::Diagnostics& diagnostics, Model& model);
+
 }  // namespace weft::assets

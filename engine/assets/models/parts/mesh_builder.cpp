@@ -10,7 +10,6 @@
 #include <unordered_map>
 
 #include "engine/assets/models/parts/model_files.h"
-#include "engine/text/hash.h"
 #include "engine/text/limits.h"
 
 namespace weft::assets {

@@ -10,7 +10,6 @@
 
 #include "engine/text/files/file.h"
 #include "engine/text/json/report.h"
-#include "engine/text/limits.h"
 
 namespace weft::assets {
 

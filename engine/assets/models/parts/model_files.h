@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/assets/loading/load_observer.h"
+#include "engine/assets/images/image.h"
 #include "engine/text/diagnostic.h"
 #include "engine/text/limits.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/loading/load_observer.h"
+#include "engine/assets/images/image.h"
 #include "engine/assets/model.h"
 #include "engine/text/diagnostic.h"
 

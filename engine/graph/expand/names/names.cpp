@@ -10,6 +10,7 @@
 
 #include "engine/graph/desc_walk.h"
 #include "engine/graph/language/expr_node.h"
+#include "engine/graph/language/keys.h"
 #include "engine/graph/subresource.h"
 #include "engine/text/json/report.h"
 #include "engine/text/limits.h"

@@ -8,8 +8,6 @@
 #include <vector>
 
 #include "engine/graph/desc.h"
-#include "engine/graph/language/value.h"
-#include "engine/graph/pick/pick.h"
 #include "engine/text/diagnostic.h"
 
 namespace weft::graph {

@@ -1,14 +1,43 @@
-// Sampler objects, found by what a slot asks for. Equal requests share one object, which outlives the plan.
+// Framebuffers and samplers, found by what is asked for: no author names them.
 #pragma once
 
+#include <algorithm>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/gl/objects/objects.h"
-#include "engine/graph/flat_graph.h"
 #include "engine/runtime/storage/formats.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::runtime {
 
+// By their attachments, which are derived from slots. Lives no longer than the textures that are attached.
+class FramebufferCache {
+ public:
+  // The GL name; 0 after an error. `raster`: of one without attachments.
+  GLuint get(std::span<const gl::Attachment> attachments, const std::string& label,
+             text::Diagnostics& diagnostics, const gl::Raster& raster = {}) {
+    for (const Entry& entry : entries_)
+      if (std::ranges::equal(entry.attachments, attachments) && entry.raster == raster)
+        return entry.framebuffer.id();
+    auto made = gl::Framebuffer::create(attachments, label, diagnostics, raster);
+    if (!made) return 0;
+    entries_.push_back({{attachments.begin(), attachments.end()}, raster, std::move(*made)});
+    return entries_.back().framebuffer.id();
+  }
+
+ private:
+  struct Entry {
+    std::vector<gl::Attachment> attachments;
+    gl::Raster raster;
+    gl::Framebuffer framebuffer;
+  };
+  std::vector<Entry> entries_;
+};
+
+// Equal requests share one object, which outlives the plan.
 class SamplerCache {
  public:
   // The GL name of the sampler. `mipmapped`: the view has more than one level. `texels` is the kind of the texture's texels,

@@ -11,8 +11,8 @@
 #include <sstream>
 #include <thread>
 
-#include "engine/assets/environments/environment_map.h"
 #include "engine/assets/images/half.h"
+#include "engine/assets/images/image.h"
 #include "engine/text/files/file.h"
 #include "tests/assets/images/save_hdr.h"
 #include "tests/load_image.h"

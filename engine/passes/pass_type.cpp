@@ -1,4 +1,4 @@
-#include "engine/passes/pass_registry.h"
+#include "engine/passes/pass_type.h"
 
 #include "engine/passes/builtin.h"
 
