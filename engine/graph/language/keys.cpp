@@ -41,8 +41,9 @@ void addKeys(Shape& shape, const Json& object) {
     const Shape& of = shapeOfJson(value);
     shape.keys.push_back({key, value.at("description").get_ref<const std::string&>(), false, of.words, &of});
   }
-  for (const Json& key : object.value("required", none))
-    std::ranges::find(shape.keys, key.get<std::string>(), &KeySpec::key)->required = true;
+  for (const Json& from : {object, object.value("then", Json::object())})
+    for (const Json& key : from.value("required", none))
+      std::ranges::find(shape.keys, key.get<std::string>(), &KeySpec::key)->required = true;
 }
 
 Shape makeShape(const Json& json) {

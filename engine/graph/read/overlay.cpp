@@ -120,6 +120,11 @@ bool declares(std::string_view section, const JsonMember& entry) {
   return initial && (!initial->is(Type::string) || entry.value.find("choices") || entry.value.find("type"));
 }
 
+// The same of a stanza; its type may be that of a set.
+bool declaresPass(const JsonValue& stanza) {
+  return stanza.find("type") || stanza.find("include") || stanza.find("use");
+}
+
 class Applier {
  public:
   Applier(SourceLoader& loader, Source& target, text::Diagnostics& diagnostics)
@@ -309,22 +314,17 @@ class Applier {
       const JsonValue* set = sets->find(name.text);
       const auto changes = [&](const JsonMember& group) {
         const JsonValue* found = over.find(group.key);
-        return found &&
-               (!found->is(Type::object) || std::ranges::any_of(found->members, [&](const auto& member) {
-                 return group.value.find(member.key) != nullptr;
-               }));
+        return found && (!found->is(Type::object) || !isGroup(group.key) ||
+                         std::ranges::any_of(found->members, [&](const auto& member) {
+                           return group.value.find(member.key) != nullptr;
+                         }));
       };
       if (!set || std::ranges::none_of(set->members, changes)) {
         kept.push_back(name);
         continue;
       }
       if (!loader_.mayShare(*set, over.place)) return;
-      for (const JsonMember& group : set->members)
-        if (JsonMember* there = memberOf(own, group.key))
-          there->value.members.insert(there->value.members.begin(), group.value.members.begin(),
-                                      group.value.members.end());
-        else
-          own.members.push_back(group);
+      addSet(own, *set, [](const JsonMember&) {});
     }
     JsonMember& left = *memberOf(own, "use");
     if (kept.empty())
@@ -509,7 +509,7 @@ class Applier {
                         ? "name a pass of its own file, or remove it and write a new one here"
                         : fmt::format("call it '{}{}'", whole, said_.pass.substr(said_.pass.rfind('.') + 1)));
     }
-    return stanza.find("type") || stanza.find("include") ||
+    return declaresPass(stanza) ||
            refuse(named ? *named : stanza, fmt::format("pass '{}' is not there to be moved", said_.pass),
                   meantBy(said_.pass, "passes").hint);
   }
@@ -525,7 +525,7 @@ class Applier {
                                               remove ? "removed" : "changed, and a new one needs a place"));
       if (!remove) d.expected = "the name of a pass, or \"before\" or \"after\" one";
       d.hint = meant.hint;
-      if (!remove && (stanza.find("type") || stanza.find("include")) && meant.whole.empty())
+      if (!remove && declaresPass(stanza) && meant.whole.empty())
         passesOf(target_).push_back(withoutPlace(stanza, said_.pass));
       return;
     }

@@ -2,6 +2,7 @@
 // of a tree that fits the schema (shape.h). What is absent was reported there, or may be: it yields the absent value silently.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -82,6 +83,11 @@ std::optional<ParameterDesc> readParameter(ReadContext& context, const JsonMembe
 // A number, a boolean, a word or path, a list of two to four numbers; nothing, without a report, for anything else.
 std::optional<Value> valueOf(const JsonValue& value);
 std::optional<ResourceDesc> readResource(ReadContext& context, const JsonMember& member);
+// Puts what a set holds in front of what a pass stanza has. Calls both(member) for each member of the stanza whose key the set has,
+// too, and which is not a group, such as slots: it stays as it is.
+void addSet(JsonValue& stanza, const JsonValue& set, const std::function<void(const JsonMember&)>& both);
+// Whether a key of passes holds members that sets and passes share: slots, parameters, defines, state.
+bool isGroup(std::string_view key);
 // With what it uses of `sets`, those of its file. Include stanzas come back with include->graph still null.
 std::optional<PassDesc> readPass(ReadContext& context, const JsonValue& value, const JsonValue& sets);
 

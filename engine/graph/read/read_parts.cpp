@@ -428,8 +428,9 @@ bool readRepeat(ReadContext& context, const JsonValue* repeat, PassDesc& out) {
   return all;
 }
 
-void readSlots(ReadContext& context, const JsonValue& slots, Access access, ReadContext::Seen& names,
-               PassDesc& out) {
+// `own`: those that the stanza has, without its sets; null when it has none.
+void readSlots(ReadContext& context, const JsonValue& slots, Access access, const JsonValue* own,
+               ReadContext::Seen& names, PassDesc& out) {
   for (const JsonMember& slot : slots.members) {
     bool good = context.checkName(slot.key, slot.place, {"a slot", true});
     good = context.checkFresh(names, slot.key, slot.place, kSharedName) && good;
@@ -442,7 +443,8 @@ void readSlots(ReadContext& context, const JsonValue& slots, Access access, Read
                  fmt::format("the slot '{}' has a '?' in \"write\"", slot.key))
           .hint =
           "leave the '?' out: what a pass writes is always there, and costs nothing where nobody reads it";
-    if (good && ref) out.slots.push_back({slot.key, slot.place, access, *std::move(ref)});
+    const bool ofSet = !own || !own->find(slot.key);
+    if (good && ref) out.slots.push_back({slot.key, slot.place, access, *std::move(ref), ofSet});
   }
 }
 
@@ -476,7 +478,7 @@ void readParameters(ReadContext& context, const JsonValue& value, ReadContext::S
   }
 }
 
-void readState(ReadContext& context, const JsonValue& value, ReadContext::Seen& keys, PassDesc& out) {
+void readState(ReadContext& context, const JsonValue& value, PassDesc& out) {
   const auto add = [&](std::string name, const JsonMember& member) {
     // A word of another API is often no expression: ">=".
     const std::string hint =
@@ -494,34 +496,45 @@ void readState(ReadContext& context, const JsonValue& value, ReadContext::Seen& 
     if (!member.value.is(Type::object)) return add(name, member);
     for (const JsonMember& each : member.value.members) self(self, name + "." + each.key, each);
   };
+  ReadContext::Seen keys;
   for (const JsonMember& member : membersIn(value, "state"))
     if (context.checkFresh(keys, member.key, member.place, "the state")) addAll(addAll, member.key, member);
 }
 
-// The sets that a pass uses, and the pass itself: what each of them holds is what the pass has.
-std::vector<const JsonValue*> partsOf(ReadContext& context, const JsonValue& pass, const JsonValue& sets,
-                                      PassDesc& out) {
-  std::vector<const JsonValue*> parts;
-  const JsonValue* use = valueIn(pass, "use");
-  for (const JsonValue& name : use ? stringsOf(*use) : std::span<const JsonValue>()) {
+// The pass as if it said what its sets hold. Nothing after a report: without one of its sets it is another pass.
+std::optional<JsonValue> withSets(ReadContext& context, const JsonValue& pass, const JsonValue& sets,
+                                  PassDesc& out) {
+  std::vector<const JsonMember*> used;
+  const std::span<const JsonValue> names = stringsOf(*pass.find("use"));
+  for (const JsonValue& name : names) {
     if (name.is(Type::absent)) continue;
     const auto set = std::ranges::find(sets.members, name.text, &JsonMember::key);
     if (set == sets.members.end()) {
-      std::vector<std::string> names;
-      for (const JsonMember& each : sets.members) names.push_back(each.key);
+      std::vector<std::string> known;
+      for (const JsonMember& each : sets.members) known.push_back(each.key);
       auto& d = context.error(Code::unknownSet, name, fmt::format("\"sets\" has no '{}'", name.text));
       d.expected = "the name of a set of this file";
-      d.hint = text::nearestHint(name.text, names);
-    } else if (std::ranges::find(parts, &set->value) != parts.end()) {
+      d.hint = text::nearestHint(name.text, known);
+    } else if (std::ranges::find(used, &*set) != used.end()) {
       context.error(Code::duplicateName, name, fmt::format("the set '{}' is used twice", name.text)).hint =
           "name it once";
-    } else {
+    } else if (!set->value.is(Type::absent)) {
       out.uses.push_back({name.text, name.place, set->place});
-      parts.push_back(&set->value);
+      used.push_back(&*set);
     }
   }
-  parts.push_back(&pass);
-  return parts;
+  if (names.empty() || used.size() < names.size()) return std::nullopt;
+  JsonValue whole = pass;
+  for (auto set = used.rbegin(); set != used.rend(); ++set)
+    addSet(whole, (*set)->value, [&](const JsonMember& member) {
+      context
+          .error(Code::duplicateName, member.place, fmt::format("the key '{}' is declared twice", member.key))
+          .hint = fmt::format("leave one out: the set '{}' has it, too", (*set)->key);
+    });
+  if (!whole.find("type"))
+    context.error(Code::missingKey, pass.place, "neither the pass nor a set that it uses has a \"type\"")
+        .hint = "add \"type\": \"fullscreen\", or what kind of pass it is";
+  return whole;
 }
 
 void readGeometry(ReadContext& context, const JsonValue& value, PassDesc& out) {
@@ -554,8 +567,8 @@ void readUpdate(ReadContext& context, const JsonValue& value, PassDesc& out) {
   out.period = call->arguments[0];
 }
 
-// False when the pass cannot be used.
-bool readPassInto(ReadContext& context, const JsonValue& value, const JsonValue& sets, PassDesc& out) {
+// False when the pass cannot be used. `own`: the stanza without what it has of sets.
+bool readPassInto(ReadContext& context, const JsonValue& value, const JsonValue& own, PassDesc& out) {
   for (const TextKey& each : kPassTexts)
     if (const JsonValue* found = value.find(each.key)) {
       out.*each.text = found->text;
@@ -580,24 +593,38 @@ bool readPassInto(ReadContext& context, const JsonValue& value, const JsonValue&
   out.view = context.ref(value, "view");
   readGeometry(context, value, out);
   const bool indexed = readRepeat(context, value.find("repeat"), out);
-  const JsonValue* use = valueIn(value, "use");
-  ReadContext::Seen names, states;  // slots, parameters and defines share one namespace
-  for (const JsonValue* part : partsOf(context, value, sets, out)) {
-    for (SlotDesc& slot : out.slots) slot.ofSet = true;
-    for (const JsonMember& member : part->members)  // in file order
-      for (const Access access : {Access::read, Access::write, Access::modify})
-        if (member.key == nameOf(access)) readSlots(context, member.value, access, names, out);
-    readParameters(context, *part, names, out);
-    readState(context, *part, states, out);
-  }
-  // As if the pass said all of it: what it reads stands together, and so on.
+  ReadContext::Seen names;                        // slots, parameters and defines share one namespace
+  for (const JsonMember& member : value.members)  // in file order
+    for (const Access access : {Access::read, Access::write, Access::modify})
+      if (member.key == nameOf(access))
+        readSlots(context, member.value, access, own.find(member.key), names, out);
+  readParameters(context, value, names, out);
+  readState(context, value, out);
   if (!out.uses.empty()) std::ranges::stable_sort(out.slots, {}, &SlotDesc::access);
-  // Without one of its sets it is another pass.
-  const bool whole = out.uses.size() == (use ? stringsOf(*use).size() : 0);
-  return indexed && whole && !out.name.empty() && value.find("type");
+  return indexed && !out.name.empty() && value.find("type");
 }
 
 }  // namespace
+
+bool isGroup(std::string_view key) {
+  constexpr std::string_view kGroups[] = {"read", "write", "modify", "parameters", "defines", "state"};
+  return std::ranges::find(kGroups, key) != std::end(kGroups);
+}
+
+void addSet(JsonValue& stanza, const JsonValue& set, const std::function<void(const JsonMember&)>& both) {
+  const std::vector<KeySpec>& known = shapeOf("set").keys;
+  for (const JsonMember& member : set.members) {
+    if (std::ranges::find(known, member.key, &KeySpec::key) == known.end()) continue;
+    JsonMember* there = memberOf(stanza, member.key);
+    if (!there)
+      stanza.members.push_back(member);
+    else if (isGroup(member.key))
+      there->value.members.insert(there->value.members.begin(), member.value.members.begin(),
+                                  member.value.members.end());
+    else
+      both(*there);
+  }
+}
 
 std::optional<PassDesc> readPass(ReadContext& context, const JsonValue& value, const JsonValue& sets) {
   PassDesc out;
@@ -608,7 +635,9 @@ std::optional<PassDesc> readPass(ReadContext& context, const JsonValue& value, c
     readInclude(context, value, out);
     good = !out.name.empty();
   } else if (good) {
-    good = readPassInto(context, value, sets, out);
+    const bool uses = valueIn(value, "use") != nullptr;
+    const std::optional<JsonValue> whole = uses ? withSets(context, value, sets, out) : std::nullopt;
+    good = readPassInto(context, whole ? *whole : value, value, out) && whole.has_value() == uses;
   }
   for (const char* key : {"before", "after"})
     if (const JsonValue* beside = valueIn(value, key)) out.beside = {beside->text, *key == 'a'};

@@ -31,7 +31,7 @@ constexpr std::array<KeySpec, 1> kInput{{{"inputs", ""}}};  // of a resource tha
 
 // Which words of other programs are looked up for the keys of an object.
 std::optional<Foreign> foreignOf(const Shape& shape) {
-  if (shape.kind == "pass") return Foreign::pass_key;
+  if (shape.kind == "pass" || shape.kind == "set") return Foreign::pass_key;
   if (shape.kind == "parameter") return Foreign::value_key;
   if (shape.kind == "texture") return Foreign::texture_key;
   return shape.kind == "state" ? std::optional(Foreign::state_key) : std::nullopt;
@@ -222,7 +222,9 @@ class ShapeCheck {
     if (mends_) return;
     for (const std::span<const KeySpec> keys : lists)
       for (const KeySpec& spec : keys)
-        if (spec.required && !object.find(spec.key) && std::ranges::find(meant, spec.key) == meant.end())
+        if (const bool ofSet = spec.key == "type" && object.find("use");  // the reader looks there
+            spec.required && !ofSet && !object.find(spec.key) &&
+            std::ranges::find(meant, spec.key) == meant.end())
           said_
               .error(Code::missingKey, object.place, fmt::format("'{}' lacks the key \"{}\"", what, spec.key))
               .hint = fmt::format("\"{}\": {}", spec.key, spec.doc);

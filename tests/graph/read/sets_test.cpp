@@ -66,6 +66,22 @@ TEST_CASE("sets: a pass has its own and what its sets have, for each index of it
   CHECK(graph.uses[above.firstUse].mip == 2);
 }
 
+TEST_CASE("sets: a pass has any key of them but its name and its condition") {
+  const Expanded e = expandText(R"J({
+    "resources": { "hdr": { "texture": "rgba16f", "size": 8, "mips": 4, "clear": 0 } },
+    "sets": { "levels": { "repeat": { "i": [1, 3] }, "update": "on_change", "read": { "above": "hdr.mip[i-1]" } },
+              "quads": { "type": "draw", "shader": "balls/flat", "geometry": "quad", "instances": 3, "side_effect": true } },
+    "passes": [ { "name": "down", "use": ["quads", "levels"], "modify": { "radiance": "hdr.mip[i]" } } ],
+    "present": "hdr.mip[0..]" })J");
+  REQUIRE_MESSAGE(e.text() == "", e.text());
+  CHECK(e.names() == "down[1] down[2] down[3]");
+  CHECK(slotsOf(e, "down[2]") == "above radiance");
+  CHECK(e.spec("down[1]").type == "draw");
+  CHECK(e.spec("down[1]").instances == 3);
+  CHECK(e.graph->passes[0].cadence == Cadence::on_change);
+  CHECK(e.graph->passes[0].sideEffect);
+}
+
 TEST_CASE("sets: mistakes in one are told once, whoever uses it, and where it stands") {
   const auto errors = [](const std::string& sets, const std::string& use) {
     text::Diagnostics diagnostics;
@@ -120,6 +136,11 @@ TEST_CASE("sets: overlays change a set for all that use it, and what a pass has 
   CHECK(one.define("one", "ROUND") == "1");
   CHECK(one.spec("one").state.colors.empty());
   CHECK(one.spec("two").state.colors.size() == 1);
+  const Expanded typed = over(
+      R"J("sets": { "small": { "type": "draw", "list": "spheres", "geometry": "quad" } }, "passes": [ { "after": "two",
+      "name": "three", "shader": "balls/flat", "use": ["small", "ball"] }, { "name": "three", "geometry": "octagon" } ])J");
+  CHECK(typed.spec("three").geometry == "octagon");
+  CHECK(typed.spec("three").list == "spheres");
   const Expanded fresh = over(
       R"J("sets": { "front": { "state": { "cull": "front" } } }, "passes": [ { "after": "two", "name": "three",
       "type": "draw", "shader": "balls/flat", "list": "spheres", "geometry": "quad", "use": ["ball", "front"] } ])J");
