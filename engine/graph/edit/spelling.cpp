@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "engine/graph/language/names.h"
-#include "engine/text/json/dom.h"
 #include "engine/text/json/edit.h"
 
 namespace weft::graph {
@@ -18,114 +18,212 @@ namespace {
 
 using text::JsonMember;
 using text::JsonValue;
-using Type = JsonValue::Type;
 
-// One walk over a text, whose changes are made at its end.
-class Rewriter {
+constexpr std::size_t kMaxWritten = std::size_t{16} << 20;  // bytes of passes that are like others
+
+// A value as it is written, whose members or items can be moved with their comments.
+struct Part {
+  std::string key;          // of a member
+  std::string before = {};  // in front of it: blanks and comments, without the comma
+  std::string head = {};    // the key as it is written, up to the value
+  std::string text = {};    // of a number, a word or a string
+  std::string word = {};    // what a string says
+  char open = '\0';         // of an object or a list
+  std::vector<Part> parts = {};
+  std::string behind = {};  // in front of the closing bracket
+
+  Part* find(std::string_view wanted) {
+    const auto found = std::ranges::find(parts, wanted, &Part::key);
+    return found == parts.end() ? nullptr : &*found;
+  }
+  bool says(std::string_view wanted, std::string_view written) {
+    const Part* part = find(wanted);
+    return part && part->text == written;
+  }
+};
+
+class Reader {
  public:
-  explicit Rewriter(std::string_view text) : text_(text), tree_(text::parseJsonTree(text)) {
-    if (const JsonValue* resources = tree_.root.find("resources"))
-      for (const JsonMember& member : resources->members) {
-        names_.insert(member.key);
-        if (isOptional(member)) optional_.insert(member.key);
-      }
-  }
+  explicit Reader(std::string_view text) : text_(text), tree_(text::parseJsonTree(text)) {}
 
-  std::string withSlots() {
-    const JsonValue *resources = tree_.root.find("resources"), *passes = tree_.root.find("passes");
-    if (!resources || resources->members.empty() || !passes) return std::string(text_);
-    for (const JsonValue& stanza : passes->items)
-      if (const JsonValue* slots = stanza.find("read"))
-        for (const JsonMember& slot : slots->members)
-          if (slot.value.is(Type::string)) mendSlot(stanza, slot);
-    const std::size_t end = resources->members.back().value.end;
-    edits_[end] = {end, lists_};
-    return edited();
+  Part whole() const {
+    Part root = partOf(tree_.root);
+    root.before = of(0, tree_.root.begin);
+    return root;
   }
-
-  std::string withInputs() {
-    const auto section = std::ranges::find(tree_.root.members, "resources", &JsonMember::key);
-    if (section == tree_.root.members.end()) return std::string(text_);
-    const JsonValue& resources = section->value;
-    std::vector<std::string> inputs, others;
-    std::size_t behind = resources.begin + 1;
-    for (const JsonMember& member : resources.members) {
-      const std::size_t from = std::exchange(behind, member.value.end);
-      // What stands in front of it, but for the comma.
-      std::string text(text_.substr(from, member.begin - from));
-      if (const std::size_t comma = text.find(','); comma < text.find('/')) text.erase(comma, 1);
-      const JsonValue* input = member.value.find("input");
-      const bool moves = input && input->is(Type::string);
-      text += moves ? inputText(member) : text_.substr(member.begin, member.value.end - member.begin);
-      (moves ? inputs : others).push_back(std::move(text));
-    }
-    if (inputs.empty()) return std::string(text_);
-    std::string made = fmt::format("\"inputs\": [{}\n]", fmt::join(inputs, ","));
-    if (!others.empty())
-      made += fmt::format(",\n\"resources\": {{{}{}", fmt::join(others, ","),
-                          text_.substr(behind, resources.end - behind));
-    edits_[section->begin] = {resources.end, std::move(made)};
-    return edited();
-  }
+  std::string_view behindWhole() const { return text_.substr(tree_.root.end); }
 
  private:
-  static bool isOptional(const JsonMember& resource) {
-    const JsonValue* optional = resource.value.find("optional");
-    return resource.value.find("input") && optional && optional->flag;
+  std::string of(std::size_t begin, std::size_t end) const {
+    return std::string(text_.substr(begin, end - begin));
   }
 
-  std::string inputText(const JsonMember& member) const {
-    const std::string name = text::quoteJson(member.key + (isOptional(member) ? " ?" : ""));
-    std::vector<std::string_view> rest;
-    for (const JsonMember& each : member.value.members)
-      if (each.key != "input" && each.key != "optional")
-        rest.push_back(text_.substr(each.begin, each.value.end - each.begin));
-    return rest.empty() ? name : fmt::format("{{ {}: {{ {} }} }}", name, fmt::join(rest, ", "));
+  std::string withoutComma(std::size_t begin, std::size_t end) const {
+    for (std::size_t at = begin; at < end; ++at)
+      if (const std::size_t behind = tree_.behindComment(at); behind > at)
+        at = behind - 1;
+      else if (text_[at] == ',')
+        return of(begin, at) + of(at + 1, end);
+    return of(begin, end);
   }
 
-  void mendSlot(const JsonValue& stanza, const JsonMember& slot) {
-    std::string_view ref = trimmed(slot.value.text);
-    const bool may = ref.ends_with('?');
-    if (may) ref = trimmed(ref.substr(0, ref.size() - 1));
-    const std::string_view name = dottedNameIn(ref);
-    const std::size_t at = ref.find(" if ");
-    const JsonValue* pass = stanza.find("name");
-    std::string mended(ref);
-    if (at != std::string_view::npos) {
-      if (name.empty() || !pass || stanza.find("repeat")) return;
-      // The list has the name of the slot, if it is free.
-      std::string list = names_.contains(slot.key) ? pass->text + "_" + slot.key : slot.key;
-      while (!names_.insert(list).second) list += "_";
-      lists_ += fmt::format(",\n{}: [{}]", text::quoteJson(list),
-                            text::quoteJson(fmt::format("{} if {}", name, trimmed(ref.substr(at + 4)))));
-      mended = list + std::string(ref.substr(name.size(), at - name.size())) + (may ? " ?" : "");
-    } else if (!may || !optional_.contains(std::string(name))) {
-      return;
+  Part partOf(const JsonValue& value) const {
+    Part part{.key = {}, .word = value.text};
+    if (!value.is(JsonValue::Type::object) && !value.is(JsonValue::Type::array)) {
+      part.text = of(value.begin, value.end);
+      return part;
     }
-    edits_[slot.value.begin] = {slot.value.end, text::quoteJson(mended)};
-  }
-
-  std::string edited() const {
-    std::string out(text_);
-    for (auto edit = edits_.rbegin(); edit != edits_.rend(); ++edit)
-      out.replace(edit->first, edit->second.first - edit->first, edit->second.second);
-    return out;
+    part.open = text_[value.begin];
+    std::size_t behind = value.begin + 1;
+    const auto add = [&](const JsonValue& child, std::size_t begin, std::string key) {
+      Part& made = part.parts.emplace_back(partOf(child));
+      made.key = std::move(key);
+      made.before = withoutComma(std::exchange(behind, child.end), begin);
+      made.head = of(begin, child.begin);
+    };
+    for (const JsonMember& member : value.members) add(member.value, member.begin, member.key);
+    for (const JsonValue& item : value.items) add(item, item.begin, "");
+    part.behind = of(behind, value.end - 1);
+    return part;
   }
 
   std::string_view text_;
   text::JsonTree tree_;
-  std::set<std::string> names_, optional_;                            // of resources; of optional inputs
-  std::string lists_;                                                 // of alternatives, to be added
-  std::map<std::size_t, std::pair<std::size_t, std::string>> edits_;  // begin: end, what stands there then
 };
+
+std::string textOf(const Part& part) {
+  if (part.open == '\0') return part.text;
+  std::string all(1, part.open);
+  for (const Part& each : part.parts)
+    all += (&each == part.parts.data() ? "" : ",") + each.before + each.head + textOf(each);
+  return all + part.behind + (part.open == '{' ? '}' : ']');
+}
+
+std::string headOf(std::string_view key) {
+  return text::quoteJson(key) + ": ";
+}
+
+// `own` over what it is like: objects merge, null takes away, anything else replaces. What is taken over stands where "like" does,
+// else first. `other` is the pass `name`, or what it has under `group`.
+Part laidOver(const Part& own, Part other, const std::string& name, std::string_view group) {
+  constexpr std::string_view kOwn[] = {"name", "before", "after", "remove"};
+  const auto refer = [&](std::string_view in, Part& part) {  // a parameter is declared once
+    if (in != "parameters" || part.open != '{') return;
+    part.open = '\0';
+    part.text = fmt::format("\"${}.{}\"", name, part.key);
+  };
+  std::vector<Part> taken;
+  for (Part& part : other.parts) {
+    const bool stays = group.empty() && std::ranges::find(kOwn, part.key) != std::end(kOwn);
+    if (stays || std::ranges::find(own.parts, part.key, &Part::key) != own.parts.end()) continue;
+    part.before = " ";
+    refer(group, part);
+    for (Part& each : part.parts) refer(group.empty() ? part.key : "", each);
+    taken.push_back(part);
+  }
+  Part made{.key = own.key, .before = own.before, .head = own.head, .open = '{', .behind = own.behind};
+  if (!group.empty()) made.parts = taken;
+  for (const Part& part : own.parts) {
+    const Part* below = other.find(part.key);
+    if (group.empty() && part.key == "like") {
+      if (!taken.empty()) taken.front().before = part.before;
+      made.parts.insert(made.parts.end(), taken.begin(), taken.end());
+    } else if (below && below->open == '{' && part.open == '{') {
+      Part held = laidOver(part, *below, name, part.key);
+      if (!held.parts.empty()) made.parts.push_back(std::move(held));
+    } else if (part.text != "null") {
+      made.parts.push_back(part);
+    }
+  }
+  return made;
+}
+
+void writePassesWhole(Part& passes) {
+  std::map<std::string, const Part*> whole;  // passes above, by name
+  std::size_t written = 0;
+  for (Part& stanza : passes.parts) {
+    const Part *name = stanza.find("name"), *like = stanza.find("like");
+    const auto above = like ? whole.find(like->word) : whole.end();
+    if (above != whole.end() && (written += textOf(*above->second).size()) <= kMaxWritten)
+      stanza = laidOver(stanza, *above->second, like->word, "");
+    if (name = stanza.find("name"); name && stanza.find("type")) whole.try_emplace(name->word, &stanza);
+  }
+}
+
+// The '?' and the `if` of slots that read.
+void mendSlots(Part& resources, Part& passes) {
+  std::set<std::string> names, optional;
+  for (Part& part : resources.parts) {
+    names.insert(part.key);
+    if (part.find("input") && part.says("optional", "true")) optional.insert(part.key);
+  }
+  for (Part& stanza : passes.parts) {
+    Part* slots = stanza.find("read");
+    if (!slots) continue;
+    for (Part& slot : slots->parts) {
+      std::string_view ref = trimmed(slot.word);
+      const bool may = ref.ends_with('?');
+      if (may) ref = trimmed(ref.substr(0, ref.size() - 1));
+      const std::string name(dottedNameIn(ref));
+      const std::size_t at = ref.find(" if ");
+      const Part* pass = stanza.find("name");
+      std::string mended(ref);
+      if (at != std::string_view::npos) {
+        if (name.empty() || !pass || stanza.find("repeat")) continue;
+        // The list has the name of the slot, if it is free.
+        std::string list = names.contains(slot.key) ? pass->word + "_" + slot.key : slot.key;
+        while (!names.insert(list).second) list += "_";
+        resources.parts.push_back(
+            {.key = list,
+             .before = "\n",
+             .head = headOf(list),
+             .text = fmt::format("[{}]",
+                                 text::quoteJson(name + " if " + std::string(trimmed(ref.substr(at + 4)))))});
+        mended = list + std::string(ref.substr(name.size(), at - name.size())) + (may ? " ?" : "");
+      } else if (!may || !optional.contains(name)) {
+        continue;
+      }
+      slot.text = text::quoteJson(mended);
+    }
+  }
+}
+
+void moveInputs(Part& root) {
+  const auto section = std::ranges::find(root.parts, "resources", &Part::key);
+  if (section == root.parts.end()) return;
+  Part inputs{.key = "inputs", .before = section->before, .head = headOf("inputs"), .open = '['};
+  std::vector<Part> others;
+  for (Part& part : section->parts) {
+    const Part* input = part.find("input");
+    if (!input || !input->text.starts_with('"')) {
+      others.push_back(std::move(part));
+      continue;
+    }
+    part.head = text::quoteJson(part.key + (part.says("optional", "true") ? " ?" : ""));
+    std::erase_if(part.parts, [](const Part& each) { return each.key == "input" || each.key == "optional"; });
+    std::string rest = part.parts.empty() ? "" : fmt::format(": {}", textOf(part));
+    inputs.parts.push_back({.key = {},
+                            .before = part.before,
+                            .text = rest.empty() ? part.head : fmt::format("{{ {}{} }}", part.head, rest)});
+  }
+  if (inputs.parts.empty()) return;
+  inputs.behind = section->before = "\n";
+  section->parts = std::move(others);
+  const auto place = root.parts.insert(section, std::move(inputs));
+  if (place[1].parts.empty()) root.parts.erase(place + 1);
+}
 
 }  // namespace
 
 std::string withNewSpelling(std::string_view text) {
   if (!text::JsonEdit(text)) return std::string(text);
-  const std::string whole = withWholePasses(text);
-  const std::string slots = Rewriter(whole).withSlots();
-  return Rewriter(slots).withInputs();
+  const Reader reader(text);
+  Part root = reader.whole();
+  Part *resources = root.find("resources"), *passes = root.find("passes");
+  if (passes) writePassesWhole(*passes);
+  if (passes && resources && !resources->parts.empty()) mendSlots(*resources, *passes);
+  moveInputs(root);
+  return root.before + textOf(root) + std::string(reader.behindWhole());
 }
 
 }  // namespace weft::graph

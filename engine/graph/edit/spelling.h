@@ -6,13 +6,10 @@
 
 namespace weft::graph {
 
-// Writes each pass that is "like" one above it out whole (whole_passes.cpp): what it has of the other stands in the place of "like";
-// of the comments only those between the keys of the other are lost.
-std::string withWholePasses(std::string_view text);
-
-// That, and moves inputs from "resources" to "inputs", with their comments; takes away each '?' at a slot that reads an optional input; makes
-// alternatives of an `if` at a slot that reads, except in a pass with "repeat". What it cannot decide, and a text with mistakes,
-// stays as it is.
+// Writes each pass that is "like" one above it out whole: what it has of the other stands in the place of "like", without comments.
+// Moves inputs from "resources" to "inputs", with their comments; takes away each '?' at a slot that reads an optional input;
+// makes alternatives of an `if` at a slot that reads, except in a pass with "repeat". What it cannot decide, and a text with
+// mistakes, stays as it is.
 std::string withNewSpelling(std::string_view text);
 
 }  // namespace weft::graph

@@ -54,46 +54,32 @@ struct TextEdit {
   std::string path, text;
 };
 
-// The files from the graph's own down to the one that declares something: prefix of names and description.
-using Chain = std::vector<std::pair<std::string, const GraphDesc*>>;
-
-// Calls visit(chain) for the graph and for every file that it includes.
+// Calls visit(prefix of its names, file) for the graph and then for every file that it includes.
 template <class Visit>
-void eachFile(Chain& chain, const Visit& visit) {
-  const auto [prefix, desc] = chain.back();
-  visit(std::as_const(chain));
-  for (const PassDesc& pass : desc->passes)
-    if (pass.include && pass.include->graph) {
-      chain.emplace_back(prefix + pass.include->as + ".", pass.include->graph.get());
-      eachFile(chain, visit);
-      chain.pop_back();
-    }
+void eachFile(const GraphDesc& desc, const Visit& visit, const std::string& prefix = "") {
+  visit(prefix, desc);
+  for (const PassDesc& pass : desc.passes)
+    if (pass.include && pass.include->graph)
+      eachFile(*pass.include->graph, visit, prefix + pass.include->as + ".");
 }
 
 // Calls visit(full name, pass) for every pass and include of the graph and of what it includes.
 template <class Visit>
 void eachPass(const GraphDesc& desc, const Visit& visit) {
-  Chain whole = {{"", &desc}};
-  eachFile(whole, [&](const Chain& chain) {
-    for (const PassDesc& pass : chain.back().second->passes) visit(chain.back().first + pass.name, pass);
+  eachFile(desc, [&](const std::string& prefix, const GraphDesc& file) {
+    for (const PassDesc& pass : file.passes) visit(prefix + pass.name, pass);
   });
 }
 
-struct DeclaredParameter {
-  Chain chain;
-  const ParameterDesc* desc = nullptr;
-};
-
-DeclaredParameter findDeclared(const GraphDesc& desc, const std::string& path) {
-  DeclaredParameter found;
-  Chain whole = {{"", &desc}};
-  eachFile(whole, [&](const Chain& chain) {
-    const auto look = [&](const ParameterDesc& parameter, const std::string& prefix) {
-      if (prefix + parameter.name == path) found = {chain, &parameter};
-    };
-    const auto& [prefix, file] = chain.back();
-    for (const ParameterDesc& parameter : file->parameters) look(parameter, prefix);
-    for (const PassDesc& pass : file->passes)
+// The declaration of a parameter, by its full name.
+const ParameterDesc* findDeclared(const GraphDesc& desc, const std::string& path) {
+  const ParameterDesc* found = nullptr;
+  const auto look = [&](const ParameterDesc& parameter, const std::string& prefix) {
+    if (prefix + parameter.name == path) found = &parameter;
+  };
+  eachFile(desc, [&](const std::string& prefix, const GraphDesc& file) {
+    for (const ParameterDesc& parameter : file.parameters) look(parameter, prefix);
+    for (const PassDesc& pass : file.passes)
       for (const PassParameterDesc& parameter : pass.parameters)
         if (parameter.declared) look(*parameter.declared, prefix + pass.name + ".");
   });
@@ -175,24 +161,13 @@ void addEdit(std::vector<TextEdit>& edits, const FileTexts& texts, const std::st
 std::vector<TextEdit> editsOfParameter(const GraphDesc& desc, std::span<const std::string> presets,
                                        const FileTexts& texts, const ParameterSpec& wanted,
                                        std::span<const std::string> paths) {
-  const DeclaredParameter found = findDeclared(desc, wanted.path);
-  if (!found.desc) return {};
+  const ParameterDesc* found = findDeclared(desc, wanted.path);
+  if (!found) return {};
   std::vector<TextEdit> edits;
-  // The outermost file has the last word, and in it the last entry.
-  const SetDesc* deciding = nullptr;
-  for (const auto& [prefix, file] : found.chain) {
-    std::vector<std::string> names;
-    for (const std::string& path : paths)
-      if (path.starts_with(prefix)) names.push_back(path.substr(prefix.size()));
-    for (auto set = file->sets.rbegin(); set != file->sets.rend() && !deciding; ++set)
-      if (const auto means = suffixMatches(names, set->name);
-          means.size() == 1 && prefix + names[means[0]] == wanted.path)
-        deciding = &*set;
-  }
   // A path is written from the folder of the file it stands in.
   const auto valueIn = [&](const std::string& path) {
     Value value = wanted.value;
-    if (found.desc->type != ParameterDesc::Type::file || value.symbol.empty()) return value;
+    if (found->type != ParameterDesc::Type::file || value.symbol.empty()) return value;
     if (std::filesystem::path(value.symbol).is_absolute()) return value;
     const std::filesystem::path whole = text::absolutePath(value.symbol);
     value.symbol =
@@ -208,9 +183,18 @@ std::vector<TextEdit> editsOfParameter(const GraphDesc& desc, std::span<const st
     const std::string name = shortest(wanted.path, paths);
     addEdit(edits, texts, path, [&](const std::string& text) { return putInSet(text, name, valueIn(path)); });
   };
-  if (deciding) put(deciding->valuePlace);
+  // The outermost file has the last word, and in it the last entry.
+  eachFile(desc, [&](const std::string& prefix, const GraphDesc& file) {
+    std::vector<std::string> names;
+    for (const std::string& path : paths)
+      if (path.starts_with(prefix)) names.push_back(path.substr(prefix.size()));
+    for (auto set = file.sets.rbegin(); set != file.sets.rend(); ++set)
+      if (const auto means = suffixMatches(names, set->name);
+          means.size() == 1 && prefix + names[means[0]] == wanted.path)
+        put(set->valuePlace);
+  });
   if (const auto overlay = overlayOf(desc, presets)) putSet(*overlay);
-  put(found.desc->initialPlace);
+  put(found->initialPlace);
   putSet(desc.path);
   return edits;
 }

@@ -20,34 +20,44 @@ using text::Code;
 
 namespace {
 
+// Smallest k >= 0 with 2^k >= x, for x > 0. Exact.
+double log2ceil(double x) {
+  if (x <= 1) return 0;
+  if (std::isinf(x)) return x;
+  int exponent = 0;
+  const double mantissa = std::frexp(x, &exponent);  // x = mantissa * 2^exponent, mantissa in [0.5, 1)
+  return mantissa == 0.5 ? exponent - 1 : exponent;
+}
+
 // In the order of ExprOp, from `component` on.
-constexpr OpInfo kOps[] = {{".", 8},
-                           {"-", 7},
-                           {"!", 7},
-                           {"+", 5},
-                           {"-", 5},
-                           {"*", 6},
-                           {"/", 6},
-                           {"%", 6},
-                           {"==", 4},
-                           {"!=", 4},
-                           {"<", 4},
-                           {"<=", 4},
-                           {">", 4},
-                           {">=", 4},
-                           {"&&", 3},
-                           {"||", 2},
-                           {"?", 1},
-                           {"min", 0, 2, 8},
-                           {"max", 0, 2, 8},
-                           {"ceil", 0, 1, 1},
-                           {"floor", 0, 1, 1},
-                           {"log2ceil", 0, 1, 1},
-                           {"pow2ceil", 0, 1, 1},
-                           {"abs", 0, 1, 1},
-                           {"round", 0, 1, 1},
-                           {"pow2", 0, 1, 1},
-                           {"log2", 0, 1, 1}};
+constexpr OpInfo kOps[] = {
+    {".", 8},
+    {"-", 7, 0, 0, [](double a, double) { return -a; }},
+    {"!", 7},
+    {"+", 5, 0, 0, [](double a, double b) { return a + b; }},
+    {"-", 5, 0, 0, [](double a, double b) { return a - b; }},
+    {"*", 6, 0, 0, [](double a, double b) { return a * b; }},
+    {"/", 6, 0, 0, [](double a, double b) { return b == 0 ? NAN : a / b; }},
+    {"%", 6, 0, 0, [](double a, double b) { return b == 0 ? NAN : a - b * std::floor(a / b); }},
+    {"==", 4},
+    {"!=", 4},
+    {"<", 4, 0, 0, [](double a, double b) { return a < b ? 1.0 : 0.0; }},
+    {"<=", 4, 0, 0, [](double a, double b) { return a <= b ? 1.0 : 0.0; }},
+    {">", 4, 0, 0, [](double a, double b) { return a > b ? 1.0 : 0.0; }},
+    {">=", 4, 0, 0, [](double a, double b) { return a >= b ? 1.0 : 0.0; }},
+    {"&&", 3},
+    {"||", 2},
+    {"?", 1},
+    {"min", 0, 2, 8, [](double a, double b) { return b < a ? b : a; }},
+    {"max", 0, 2, 8, [](double a, double b) { return b > a ? b : a; }},
+    {"ceil", 0, 1, 1, [](double a, double) { return std::ceil(a); }},
+    {"floor", 0, 1, 1, [](double a, double) { return std::floor(a); }},
+    {"log2ceil", 0, 1, 1, [](double a, double) { return a > 0 ? log2ceil(a) : NAN; }},
+    {"pow2ceil", 0, 1, 1, [](double a, double) { return a <= 1 ? 1 : std::exp2(log2ceil(a)); }},
+    {"abs", 0, 1, 1, [](double a, double) { return std::fabs(a); }},
+    {"round", 0, 1, 1, [](double a, double) { return std::round(a); }},
+    {"pow2", 0, 1, 1, [](double a, double) { return std::exp2(a); }},
+    {"log2", 0, 1, 1, [](double a, double) { return a > 0 ? std::log2(a) : NAN; }}};
 constexpr auto kFirstOp = static_cast<std::size_t>(ExprOp::component);
 static_assert(std::size(kOps) == static_cast<std::size_t>(kLastOp) - kFirstOp + 1);
 
@@ -322,68 +332,6 @@ std::string hintForWord(EvalScope& scope, const Value& value) {
 
 namespace {
 
-// ---- numbers ----
-
-// Smallest k >= 0 with 2^k >= x, for x > 0. Exact.
-double log2ceil(double x) {
-  if (x <= 1) return 0;
-  if (std::isinf(x)) return x;
-  int exponent = 0;
-  const double mantissa = std::frexp(x, &exponent);  // x = mantissa * 2^exponent, mantissa in [0.5, 1)
-  return mantissa == 0.5 ? exponent - 1 : exponent;
-}
-
-// The result of an arithmetic operator or function for one component; `b` is ignored where there is one operand. NaN marks a
-// domain error.
-double combine(ExprOp op, double a, double b) {
-  switch (op) {
-    case ExprOp::add:
-      return a + b;
-    case ExprOp::subtract:
-      return a - b;
-    case ExprOp::multiply:
-      return a * b;
-    case ExprOp::divide:
-      return b == 0 ? NAN : a / b;
-    case ExprOp::modulo:
-      return b == 0 ? NAN : a - b * std::floor(a / b);
-    case ExprOp::minimum:
-      return b < a ? b : a;
-    case ExprOp::maximum:
-      return b > a ? b : a;
-    case ExprOp::negate:
-      return -a;
-    case ExprOp::ceil:
-      return std::ceil(a);
-    case ExprOp::floor:
-      return std::floor(a);
-    case ExprOp::log2ceil:
-      return a > 0 ? log2ceil(a) : NAN;
-    case ExprOp::pow2ceil:
-      return a <= 1 ? 1 : std::exp2(log2ceil(a));
-    case ExprOp::abs:
-      return std::fabs(a);
-    case ExprOp::round:
-      return std::round(a);
-    case ExprOp::pow2:
-      return std::exp2(a);
-    case ExprOp::log2:
-      return a > 0 ? std::log2(a) : NAN;
-    case ExprOp::less:
-      return a < b ? 1 : 0;
-    case ExprOp::less_equal:
-      return a <= b ? 1 : 0;
-    case ExprOp::greater:
-      return a > b ? 1 : 0;
-    case ExprOp::greater_equal:
-      return a >= b ? 1 : 0;
-    default:
-      return NAN;
-  }
-}
-
-// ---- values ----
-
 // What an operand is, for messages: "the number 2", "a list of 2", "the word 'fill'".
 std::string describe(const Value& value) {
   if (value.type == Value::Type::number) return fmt::format("the number {}", toText(value));
@@ -606,7 +554,7 @@ class Evaluator {
         return misfit(operand->type == Value::Type::symbol ? *node.children[operand == &left ? 0 : 1] : node,
                       fmt::format("'{}' compares numbers only", infoOf(node.op).spelling), "a number",
                       *operand);
-    return Value::boolean(combine(node.op, left.v[0], right.v[0]) != 0);
+    return Value::boolean(infoOf(node.op).apply(left.v[0], right.v[0]) != 0);
   }
 
   Value apply(const ExprNode& node, const Value& left, const Value& right) {
@@ -616,13 +564,14 @@ class Evaluator {
       return fail(Code::operandsDoNotFit, node,
                   fmt::format("'{}' of two lists that differ in length", infoOf(node.op).spelling), "",
                   "lists of one length", operands());
+    const auto combine = infoOf(node.op).apply;
     Value out;
     out.type = listLeft || listRight ? Value::Type::list : Value::Type::number;
     out.count = listLeft ? left.count : listRight ? right.count : std::uint8_t{1};
     for (std::size_t i = 0; i < out.count; ++i) {
       const double a = left.v[listLeft ? i : 0];
       const double b = right.v[listRight ? i : 0];
-      out.v[i] = combine(node.op, a, b);
+      out.v[i] = combine(a, b);
       // Infinite ages pass through; a NaN, or an infinity made of finite operands, does not.
       if (std::isnan(out.v[i]) || (!std::isfinite(out.v[i]) && isFinite(left) && isFinite(right)))
         return fail(Code::noFiniteResult, node,

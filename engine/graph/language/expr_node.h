@@ -81,11 +81,13 @@ constexpr int kMaxExprHeight = 200;
 // all its terms wherever it is used, because the expression is evaluated as a tree.
 constexpr std::uint32_t kMaxFoldedTerms = 10'000;
 
-// Spelling and precedence of operators, from `component` on; of functions how many operands they take.
+// Spelling and precedence of operators, from `component` on; of functions how many operands they take. `apply` is what arithmetic
+// and comparisons yield for numbers: NaN outside of their domain; the second is ignored where there is one operand.
 struct OpInfo {
   const char* spelling;
   std::uint8_t precedence;  // 0: no operator; larger binds tighter
   std::uint8_t least = 0, most = 0;
+  double (*apply)(double, double) = nullptr;
 };
 OpInfo infoOf(ExprOp op);
 // The operator or function among [first, last] with that spelling; `constant` when there is none.

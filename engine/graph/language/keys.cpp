@@ -136,14 +136,8 @@ std::span<const std::string_view> stateWords(std::string_view path) {
 }
 
 const std::span<const KeySpec> kGraphKeys = shapeOfGraph().keys;
-const std::span<const KeySpec> kParameterKeys = shapeOf("parameter").keys;
-const std::span<const KeySpec> kTextureKeys = shapeOf("texture").keys;
-const std::span<const KeySpec> kBufferKeys = shapeOf("buffer").keys;
-const std::span<const KeySpec> kImportKeys = shapeOf("import").keys;
-const std::span<const KeySpec> kInputKeys = shapeOf("input").keys;
 const std::span<const KeySpec> kPassKeys = shapeOf("pass").keys;
 const std::span<const KeySpec> kIncludeKeys = shapeOf("include").keys;
-const std::span<const KeySpec> kShaderKeys = shapeOf("shaders").keys;
 const std::span<const KeySpec> kStateKeys = shapeOf("state").keys;
 const std::span<const KeySpec> kPlaceKeys = keysOfPlaces();
 

@@ -46,14 +46,8 @@ struct Shape {
 const Shape& shapeOf(std::string_view kind);
 
 extern const std::span<const KeySpec> kGraphKeys;
-extern const std::span<const KeySpec> kParameterKeys;
-extern const std::span<const KeySpec> kTextureKeys;
-extern const std::span<const KeySpec> kBufferKeys;
-extern const std::span<const KeySpec> kImportKeys;  // and the arguments of the import's type
-extern const std::span<const KeySpec> kInputKeys;
 extern const std::span<const KeySpec> kPassKeys;
 extern const std::span<const KeySpec> kIncludeKeys;
-extern const std::span<const KeySpec> kShaderKeys;  // of a draw that names two
 extern const std::span<const KeySpec> kStateKeys;
 // Of "cull", "blend.SLOT", "blend.SLOT.source", "stencil.back.pass"; null when there is none.
 const KeySpec* findStateKey(std::string_view path);

@@ -165,8 +165,7 @@ std::optional<FoundPick> findPick(const FlatGraph& graph, const Pick& pick, text
   std::vector<std::string> writers;
   std::vector<FoundPick> written;
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
-    const FlatPass& pass = graph.passes[p];
-    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
+    for (const std::uint32_t u : graph.usesOf(p)) {
       const FlatUse& use = graph.uses[u];
       const FoundPick found{use.resource, p};
       if (use.access == Access::read || !isMeant(use.resource)) continue;
@@ -195,15 +194,10 @@ void keepPicks(FlatGraph& graph, std::span<const Pick> picks, text::Diagnostics&
   for (const Pick& pick : picks) {
     const std::optional<FoundPick> found = findPick(graph, pick, diagnostics);
     if (!found) continue;
-    for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
-      FlatPass& pass = graph.passes[p];
-      for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
-        FlatUse& use = graph.uses[u];
-        if (use.resource != found->resource || use.access == Access::read) continue;
-        use.keep = true;
-        pass.sideEffect = true;
-      }
-    }
+    for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
+      for (const std::uint32_t u : graph.usesOf(p))
+        if (FlatUse& use = graph.uses[u]; use.resource == found->resource && use.access != Access::read)
+          use.keep = graph.passes[p].sideEffect = true;
   }
 }
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <utility>
 
 #include "engine/graph/language/keys.h"
@@ -14,10 +13,6 @@
 namespace weft::graph {
 
 namespace {
-
-std::span<const FlatUse> usesOf(const FlatGraph& graph, std::uint32_t pass) {
-  return std::span(graph.uses).subspan(graph.passes[pass].firstUse, graph.passes[pass].useCount);
-}
 
 // "step 3", "steps 2..end"
 std::string stepsText(const Plan& plan, std::uint32_t r) {
@@ -129,9 +124,10 @@ std::string Explainer::whyPass(std::uint32_t pass) const {
       return fmt::format("runs: '{}' is presented", resourceName(shown));
     if (const Dependency* edge = findEdge(Type::read_after_write, true))
       return fmt::format("runs: '{}' reads '{}'", graph_.passNames[edge->to], resourceName(edge->resource));
-    for (const FlatUse& use : usesOf(graph_, pass))
-      if (graph_.resources[use.resource].history > 0 && plan_.writes(step, use.resource))
-        return fmt::format("runs: a later frame reads '{}'", resourceName(use.resource));
+    for (const std::uint32_t u : graph_.usesOf(pass))
+      if (const std::uint32_t r = graph_.uses[u].resource;
+          graph_.resources[r].history > 0 && plan_.writes(step, r))
+        return fmt::format("runs: a later frame reads '{}'", resourceName(r));
     return "runs";
   }
   if (const Dependency* edge = findEdge(Type::read_after_write, false))
@@ -141,9 +137,9 @@ std::string Explainer::whyPass(std::uint32_t pass) const {
     if (const Dependency* edge = findEdge(Type::write_after_write, toLive))
       return fmt::format("culled: '{}' overwrites '{}' before anything reads it", graph_.passNames[edge->to],
                          resourceName(edge->resource));
-  for (const FlatUse& use : usesOf(graph_, pass))
-    if (use.access != Access::read)
-      return fmt::format("culled: nothing reads '{}'", resourceName(use.resource));
+  for (const std::uint32_t u : graph_.usesOf(pass))
+    if (graph_.uses[u].access != Access::read)
+      return fmt::format("culled: nothing reads '{}'", resourceName(graph_.uses[u].resource));
   return "culled: it writes nothing and has no side effect";
 }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "engine/graph/language/names.h"
 #include "engine/graph/language/suffix.h"
 #include "engine/graph/read/lists.h"
 #include "engine/graph/read/read_context.h"
@@ -102,12 +103,8 @@ JsonValue withoutPlace(JsonValue stanza, std::string_view name) {
 std::vector<std::string> writtenBy(const JsonValue& stanza) {
   std::vector<std::string> names;
   for (const char* key : {"write", "modify"})
-    for (const JsonMember& slot : membersIn(stanza, key)) {
-      std::string name = slot.value.text.substr(0, slot.value.text.find_first_of(" [@"));
-      for (const std::string_view part : {".mip", ".layer", ".face", ".stencil"})
-        if (name.ends_with(part)) name.resize(name.size() - part.size());
-      names.push_back(std::move(name));
-    }
+    for (const JsonMember& slot : membersIn(stanza, key))
+      names.emplace_back(dottedNameIn(trimmed(slot.value.text)));
   return names;
 }
 

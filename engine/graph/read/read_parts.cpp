@@ -428,10 +428,11 @@ bool readRepeat(ReadContext& context, const JsonValue* repeat, PassDesc& out) {
   return all;
 }
 
-// `own`: those that the stanza has, without its sets; null when it has none.
-void readSlots(ReadContext& context, const JsonValue& slots, Access access, const JsonValue* own,
+// `own`: those that the stanza has, without its sets; null when it has none. `ofSet`: of its sets, else of itself.
+void readSlots(ReadContext& context, const JsonValue& slots, Access access, const JsonValue* own, bool ofSet,
                ReadContext::Seen& names, PassDesc& out) {
   for (const JsonMember& slot : slots.members) {
+    if (ofSet == (own && own->find(slot.key))) continue;
     bool good = context.checkName(slot.key, slot.place, {"a slot", true});
     good = context.checkFresh(names, slot.key, slot.place, kSharedName) && good;
     std::optional<RefDesc> ref = context.refOf(slot.value);
@@ -443,7 +444,6 @@ void readSlots(ReadContext& context, const JsonValue& slots, Access access, cons
                  fmt::format("the slot '{}' has a '?' in \"write\"", slot.key))
           .hint =
           "leave the '?' out: what a pass writes is always there, and costs nothing where nobody reads it";
-    const bool ofSet = !own || !own->find(slot.key);
     if (good && ref) out.slots.push_back({slot.key, slot.place, access, *std::move(ref), ofSet});
   }
 }
@@ -593,11 +593,12 @@ bool readPassInto(ReadContext& context, const JsonValue& value, const JsonValue&
   out.view = context.ref(value, "view");
   readGeometry(context, value, out);
   const bool indexed = readRepeat(context, value.find("repeat"), out);
-  ReadContext::Seen names;                        // slots, parameters and defines share one namespace
-  for (const JsonMember& member : value.members)  // in file order
-    for (const Access access : {Access::read, Access::write, Access::modify})
-      if (member.key == nameOf(access))
-        readSlots(context, member.value, access, own.find(member.key), names, out);
+  ReadContext::Seen names;  // slots, parameters and defines share one namespace
+  for (const bool ofSet : {true, false})
+    for (const JsonMember& member : value.members)  // in file order
+      for (const Access access : {Access::read, Access::write, Access::modify})
+        if (member.key == nameOf(access))
+          readSlots(context, member.value, access, own.find(member.key), ofSet, names, out);
   readParameters(context, value, names, out);
   readState(context, value, out);
   if (!out.uses.empty()) std::ranges::stable_sort(out.slots, {}, &SlotDesc::access);

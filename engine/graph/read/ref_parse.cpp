@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <utility>
 
 #include "engine/graph/language/keys.h"
@@ -45,18 +46,13 @@ std::size_t closingBracket(string_view text, std::size_t open) {
 
 // "0, 0, 0, 1", or one number for all four.
 std::optional<BorderColor> parseColor(string_view list) {
+  const Value value = parseValue(fmt::format("[{}]", list));
+  if (value.type != Value::Type::list || (value.count != 1 && value.count != 4)) return {};
   BorderColor color{};
-  std::size_t count = 0;
-  for (bool more = true; more; ++count) {
-    const std::size_t comma = std::min(list.find(','), list.size());
-    const auto number = parseNumber(list.substr(0, comma));
-    if (!number || count == color.size() || std::abs(*number) > std::numeric_limits<float>::max()) return {};
-    color[count] = static_cast<float>(*number);
-    more = comma < list.size();
-    list.remove_prefix(more ? comma + 1 : comma);
-  }
-  if (count == 1) color.fill(color[0]);
-  return count == 1 || count == 4 ? std::optional(color) : std::nullopt;
+  for (std::size_t i = 0; i < color.size(); ++i)
+    color[i] = static_cast<float>(value.v[value.count == 1 ? 0 : i]);
+  return std::ranges::all_of(color, [](float x) { return std::isfinite(x); }) ? std::optional(color)
+                                                                              : std::nullopt;
 }
 
 class RefParser {

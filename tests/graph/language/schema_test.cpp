@@ -34,16 +34,16 @@ std::vector<Host> hosts() {
   return {
       {"graph", kGraphKeys, [](const Json& o) { return o; }, {{"passes", Json::array()}}},
       {"parameter",
-       kParameterKeys,
+       shapeOf("parameter").keys,
        [](const Json& o) {
          return Json{{"passes", Json::array()}, {"parameters", {{"p", o}}}};
        },
        {{"default", 1}}},
-      {"texture", kTextureKeys, wrapResource, {{"texture", "r8"}, {"size", 1}, {"history", 1}}},
-      {"buffer", kBufferKeys, wrapResource, {{"buffer", 16}, {"history", 1}}},
-      {"import", kImportKeys, wrapResource, {{"import", "camera"}}},
+      {"texture", shapeOf("texture").keys, wrapResource, {{"texture", "r8"}, {"size", 1}, {"history", 1}}},
+      {"buffer", shapeOf("buffer").keys, wrapResource, {{"buffer", 16}, {"history", 1}}},
+      {"import", shapeOf("import").keys, wrapResource, {{"import", "camera"}}},
       {"input",
-       kInputKeys,
+       shapeOf("input").keys,
        [](const Json& o) {
          return Json{{"passes", Json::array()}, {"inputs", Json::array({Json{{"r", o}}})}};
        },

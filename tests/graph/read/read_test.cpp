@@ -79,8 +79,11 @@ TEST_CASE("the project's graphs and the graphs in its documentation read without
 TEST_CASE("graph-format.md names every key of the format") {
   std::ifstream in(WEFT_SOURCE_DIR "/docs/graph-format.md");
   const std::string page{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  for (const auto keys : {kGraphKeys, kParameterKeys, kTextureKeys, kBufferKeys, kImportKeys, kInputKeys,
-                          kPassKeys, kIncludeKeys, kStateKeys, kPlaceKeys})
+  for (const auto keys :
+       {kGraphKeys, std::span<const KeySpec>(shapeOf("parameter").keys),
+        std::span<const KeySpec>(shapeOf("texture").keys), std::span<const KeySpec>(shapeOf("buffer").keys),
+        std::span<const KeySpec>(shapeOf("import").keys), std::span<const KeySpec>(shapeOf("input").keys),
+        kPassKeys, kIncludeKeys, kStateKeys, kPlaceKeys})
     for (const KeySpec& spec : keys) {
       const std::string key(spec.key);
       CHECK_MESSAGE((page.find("`" + key + "`") != std::string::npos ||
