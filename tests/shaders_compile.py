@@ -87,7 +87,8 @@ def passes_of(graph):
             stanza[group] = by_name(stanza.get(group, {}))
         for name in [used] if isinstance(used, str) else used:
             for group, held in sets[name].items():
-                stanza[group] = {**by_name(held), **stanza.get(group, {})}
+                shared = group in ("read", "write", "modify", "parameters", "defines", "state")
+                stanza[group] = {**by_name(held), **stanza.get(group, {})} if shared else held
         if "shader" in stanza:
             yield stanza, desc
 

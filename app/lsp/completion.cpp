@@ -265,7 +265,7 @@ class Completer {
 
   void value() {
     const auto& way = spot_.keys;
-    const bool item = way.back() == "[]", pass = spot_.stanza() && way.size() > 2;
+    const bool item = way.back() == "[]", pass = (spot_.stanza() || way[0] == "sets") && way.size() > 2;
     const std::string_view key = item && way.size() > 1 ? way[way.size() - 2] : way.back();
     const Shapes shapes = shapesAt(spot_);
     for (const Json* shape : shapes)

@@ -170,7 +170,7 @@ std::optional<Location> fileAt(const Workspace& workspace, const Text& text, std
     std::string path = pathBeside(text.path(), named);
     return workspace.texts().of(path) ? std::optional(Location{std::move(path), {}}) : std::nullopt;
   }
-  if (spot.stanza() && way.size() > 2 && way[2] == "shader")
+  if ((spot.stanza() || way[0] == "sets") && way.size() > 2 && way[2] == "shader")
     for (const std::string& shader : {named, named + ".frag.glsl"})
       if (const auto path = workspace.sources(workspace.shaderFolders(text)).locate(shader))
         return Location{pathKey(*path), {}};

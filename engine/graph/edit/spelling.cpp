@@ -191,14 +191,13 @@ void mendSlots(Part& resources, Part& passes) {
 void moveInputs(Part& root) {
   const auto section = std::ranges::find(root.parts, "resources", &Part::key);
   if (section == root.parts.end()) return;
+  const auto first = std::ranges::stable_partition(section->parts, [](Part& part) {
+                       const Part* input = part.find("input");
+                       return !input || !input->text.starts_with('"');
+                     }).begin();
+  if (first == section->parts.end()) return;
   Part inputs{.key = "inputs", .before = section->before, .head = headOf("inputs"), .open = '['};
-  std::vector<Part> others;
-  for (Part& part : section->parts) {
-    const Part* input = part.find("input");
-    if (!input || !input->text.starts_with('"')) {
-      others.push_back(std::move(part));
-      continue;
-    }
+  for (Part& part : std::ranges::subrange(first, section->parts.end())) {
     part.head = text::quoteJson(part.key + (part.says("optional", "true") ? " ?" : ""));
     std::erase_if(part.parts, [](const Part& each) { return each.key == "input" || each.key == "optional"; });
     std::string rest = part.parts.empty() ? "" : fmt::format(": {}", textOf(part));
@@ -206,9 +205,8 @@ void moveInputs(Part& root) {
                             .before = part.before,
                             .text = rest.empty() ? part.head : fmt::format("{{ {}{} }}", part.head, rest)});
   }
-  if (inputs.parts.empty()) return;
   inputs.behind = section->before = "\n";
-  section->parts = std::move(others);
+  section->parts.erase(first, section->parts.end());
   const auto place = root.parts.insert(section, std::move(inputs));
   if (place[1].parts.empty()) root.parts.erase(place + 1);
 }

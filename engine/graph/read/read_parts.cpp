@@ -431,8 +431,10 @@ bool readRepeat(ReadContext& context, const JsonValue* repeat, PassDesc& out) {
 // `own`: those that the stanza has, without its sets; null when it has none. `ofSet`: of its sets, else of itself.
 void readSlots(ReadContext& context, const JsonValue& slots, Access access, const JsonValue* own, bool ofSet,
                ReadContext::Seen& names, PassDesc& out) {
-  for (const JsonMember& slot : slots.members) {
-    if (ofSet == (own && own->find(slot.key))) continue;
+  const std::size_t shared = slots.members.size() - (own ? own->members.size() : 0);  // they are in front
+  const std::size_t end = ofSet ? shared : slots.members.size();
+  for (std::size_t i = ofSet ? 0 : shared; i < end; ++i) {
+    const JsonMember& slot = slots.members[i];
     bool good = context.checkName(slot.key, slot.place, {"a slot", true});
     good = context.checkFresh(names, slot.key, slot.place, kSharedName) && good;
     std::optional<RefDesc> ref = context.refOf(slot.value);

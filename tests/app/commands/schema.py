@@ -23,6 +23,7 @@ CANNOT_SAY = {
     "w012_define_of_glsl.json": "the reserved words of GLSL",
     "w012_define_of_a_function.json": "the functions of GLSL",
     "w012_reserved_define.json": "names that the engine defines",
+    "w005_set_without_type.json": "what the sets of a pass hold",
     "w012_two_underscores.json": "names that GLSL keeps for itself",
     "w012_word_of_glsl.json": "the reserved words of GLSL",
     "w012_list.json": "what an item of a list may be follows from the key",
