@@ -22,7 +22,7 @@ IMPLIED = {"g++", "cmake", "ninja-build", "python3", "xauth", "libegl-mesa0", "l
 def sought(top: pathlib.Path) -> dict:
     """What is looked for, and where: in the program, else in the tests."""
     found = {}
-    for path in [*top.glob("CMakeLists.txt"), *(p for f in ("engine", "app", "cmake", "tests") for p in (top / f).rglob("*"))]:
+    for path in [*top.glob("CMakeLists.txt"), *(p for f in ("engine", "importers", "app", "cmake", "tests") for p in (top / f).rglob("*"))]:
         if path.name != "CMakeLists.txt" and path.suffix not in {".cmake", ".py", ".sh", ".md"}:
             continue
         text = re.sub(r"^\s*#.*", "", path.read_text(), flags=re.M)

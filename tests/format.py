@@ -8,7 +8,7 @@ import subprocess
 import sys
 
 VERSION = "14"  # of Debian 12
-FOLDERS = ("engine", "app", "tests")
+FOLDERS = ("engine", "importers", "app", "tests")
 
 
 def main() -> int:

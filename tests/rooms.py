@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Holds every #include of engine/ and app/ against the tables below: rooms (folders of engine/, and app) and sub-rooms (folders inside a
-room, along its pipeline), and finds circles of #includes and headers without #pragma once. In engine/, app/, tests/ and shaders/ every
+"""Holds every #include of engine/, importers/ and app/ against the tables below: rooms (folders of engine/, importers and app) and sub-rooms (folders inside a
+room, along its pipeline), and finds circles of #includes and headers without #pragma once. In engine/, importers/, app/, tests/ and shaders/ every
 folder has less than 25 source files, and every source file at most 800 lines. A .cpp file of engine/ or app/ without a header of its own
 shows which header declares its functions: the only one of its folder that it includes, or "Declared in x.h" in its first comment. An
 import in a folder of its own (lamps/lamps.cpp) is declared in the builtin.h above.
@@ -21,7 +21,8 @@ ROOMS = {
     "passes": {"text", "graph", "glsl", "gl", "scene", "assets"},
     "imports": {"text", "graph", "glsl", "gl", "assets", "scene"},
     "runtime": {"text", "graph", "glsl", "gl", "assets", "scene", "passes", "imports"},
-    "app": {"text", "graph", "glsl", "gl", "assets", "scene", "passes", "imports", "runtime"},
+    "importers": {"text", "graph", "glsl", "assets"},
+    "app": {"text", "graph", "glsl", "gl", "assets", "scene", "passes", "imports", "runtime", "importers"},
 }
 # Sub-rooms and which others of their room each may include. "." is the door: files in the room's own folder. Each line may name
 # earlier lines only, so that no arrow runs upward.
@@ -66,7 +67,6 @@ SUB_ROOMS = {
         "inspection": {"frame", "storage", "prepare"},
     },
     "app": {
-        "import": set(),
         "output": set(),
         "session": {"output"},
         "live": {"session", "output"},
@@ -74,7 +74,7 @@ SUB_ROOMS = {
         "view": {"session", "output", "live", "ui"},
         "lsp": {"session", "output"},
         "trials": {"session", "output"},
-        "commands": {"import", "session", "output", "live", "trials"},
+        "commands": {"session", "output", "live", "trials"},
         ".": {"session", "output", "commands", "view", "lsp"},
     },
 }
@@ -86,7 +86,7 @@ UNDECLARED = {"app/main.cpp", "engine/assets/images/stb_implementation.cpp"}
 # Third-party headers by prefix, and the rooms that may name them (directly).
 OUTSIDE = {
     "fmt/": set(ROOMS),
-    "nlohmann/": {"text", "graph", "assets", "scene", "app"},
+    "nlohmann/": {"text", "graph", "assets", "scene", "importers", "app"},
     "glad/": {"gl", "passes", "imports", "runtime"},
     "EGL/": {"gl"},
     "GL/": {"gl"},
@@ -112,8 +112,8 @@ def room_of(name: str) -> tuple[str, str] | None:
     parts = name.split("/")
     if parts[0] == "engine" and len(parts) > 2:
         return parts[1], "/".join(parts[2:-1]) or "."
-    if parts[0] == "app" and len(parts) > 1:
-        return "app", "/".join(parts[1:-1]) or "."
+    if parts[0] in ("app", "importers") and len(parts) > 1:
+        return parts[0], "/".join(parts[1:-1]) or "."
     return None
 
 
@@ -191,7 +191,7 @@ def check_sizes(top: pathlib.Path) -> tuple[list[str], dict[str, int]]:
     """Problems, and the number of source files of each folder."""
     problems: list[str] = []
     per_folder: dict[str, int] = {}
-    for room in ("engine", "app", "tests", "shaders"):
+    for room in ("engine", "importers", "app", "tests", "shaders"):
         for path in sorted((top / room).rglob("*")):
             if path.suffix not in SOURCES:
                 continue
@@ -209,7 +209,7 @@ def main() -> int:
     problems, arrows = check_tables(), set()
     edges: dict[str, list[str]] = {}
     texts: dict[str, str] = {}
-    for path in sorted([*(top / "engine").rglob("*"), *(top / "app").rglob("*")]):
+    for path in sorted([path for room in ("engine", "importers", "app") for path in (top / room).rglob("*")]):
         if path.suffix not in {".h", ".cpp"}:
             continue
         name, text = path.relative_to(top).as_posix(), path.read_text()

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "app/commands/commands.h"
-#include "app/import/import.h"
 #include "app/output/output_files.h"
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
@@ -23,6 +22,7 @@
 #include "engine/text/json/edit.h"
 #include "engine/text/json/layout.h"
 #include "engine/text/printable.h"
+#include "importers/import.h"
 
 namespace weft::app {
 

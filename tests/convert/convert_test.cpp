@@ -1,4 +1,4 @@
-// Whole files through app/import: those of tests/convert become graphs that Weft reads, with the lines of the
+// Whole files through importers: those of tests/convert become graphs that Weft reads, with the lines of the
 // original; broken ones give the diagnostic that bad/manifest.json promises, at its place.
 #include <algorithm>
 #include <set>

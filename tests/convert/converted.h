@@ -1,4 +1,4 @@
-// What the tests of app/import share: files of tests/convert, and conversion of text in memory.
+// What the tests of importers share: files of tests/convert, and conversion of text in memory.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -13,11 +13,11 @@
 #include <string_view>
 #include <vector>
 
-#include "app/import/import.h"
 #include "engine/graph/desc.h"
 #include "engine/graph/expand/expand.h"
 #include "engine/graph/read/read.h"
 #include "engine/text/diagnostic.h"
+#include "importers/import.h"
 #include "tests/graph/test_registry.h"
 
 namespace weft::importing::test {

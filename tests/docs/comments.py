@@ -6,7 +6,7 @@ import pathlib
 import re
 import sys
 
-FOLDERS = ("engine", "app", "shaders", "graphs", "tests/docs/embed")
+FOLDERS = ("engine", "importers", "app", "shaders", "graphs", "tests/docs/embed")
 SUFFIXES = {".h", ".cpp", ".glsl", ".json"}
 COMMENT = re.compile(r'"(?:\\.|[^"\\\n])*"|//([^\n]*)')
 NAME = re.compile(r"(?<![\w./*-])[\w*][\w./*-]*\.(?:h|cpp|glsl|json|md|py)\b(?!\.?\w)")
@@ -15,7 +15,7 @@ OUTSIDE = {"linux/magic.h", "GL/gl.h", "osmesa.h"}  # headers of the system and 
 
 def main() -> int:
     top = pathlib.Path(sys.argv[1])
-    parts = ("app", "cmake", "docs", "engine", "graphs", "materials", "scenes", "shaders", "tests", "words")
+    parts = ("app", "cmake", "docs", "engine", "graphs", "importers", "materials", "scenes", "shaders", "tests", "words")
     files = [f"/{path.relative_to(top).as_posix()}" for part in parts for path in (top / part).rglob("*") if path.is_file()]
     files += [f"/{path.name}" for path in top.iterdir() if path.is_file()]
     known, problems, names = {file.rsplit("/", 1)[1] for file in files}, [], 0

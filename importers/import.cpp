@@ -1,9 +1,9 @@
-#include "app/import/import.h"
+#include "importers/import.h"
 
 #include <filesystem>
 
-#include "app/import/text.h"
 #include "engine/text/files/file.h"
+#include "importers/text.h"
 
 namespace weft::importing {
 

@@ -9,8 +9,6 @@
 #include <memory>
 #include <sstream>
 
-#include "app/import/import.h"
-#include "app/import/text.h"
 #include "engine/assets/images/half.h"
 #include "engine/graph/language/names.h"
 #include "engine/text/chars.h"
@@ -18,6 +16,8 @@
 #include "engine/text/printable.h"
 #include "engine/text/words/glsl_words.h"
 #include "import_glsl.h"
+#include "importers/import.h"
+#include "importers/text.h"
 
 namespace weft::importing {
 

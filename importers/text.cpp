@@ -1,4 +1,4 @@
-#include "app/import/text.h"
+#include "importers/text.h"
 
 #include <fmt/format.h>
 

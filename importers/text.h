@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/import/import.h"
 #include "engine/glsl/tokens.h"
+#include "importers/import.h"
 
 namespace weft::importing {
 
@@ -65,7 +65,7 @@ class GlslText {
 std::string identifierOf(std::string_view text);
 // `wanted`, or with a number behind it where `used` has it; from then on `used` has it.
 std::string freshName(std::set<std::string, std::less<>>& used, const std::string& wanted);
-// `text` with every NAME of `words` replaced by its value; for the templates in app/import/glsl.
+// `text` with every NAME of `words` replaced by its value; for the templates in importers/glsl.
 std::string fillTemplate(std::string text,
                          std::initializer_list<std::pair<std::string_view, std::string_view>> words);
 // The block of a shader's uniforms; nothing without `members`.

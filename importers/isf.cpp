@@ -8,8 +8,6 @@
 #include <memory>
 #include <set>
 
-#include "app/import/import.h"
-#include "app/import/text.h"
 #include "engine/graph/language/expr.h"
 #include "engine/graph/language/names.h"
 #include "engine/text/chars.h"
@@ -17,6 +15,8 @@
 #include "engine/text/nearest.h"
 #include "engine/text/words/glsl_words.h"
 #include "import_glsl.h"
+#include "importers/import.h"
+#include "importers/text.h"
 
 namespace weft::importing {
 
