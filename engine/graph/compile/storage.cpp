@@ -4,6 +4,7 @@
 // coloring by start is optimal). Declared in steps.h.
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <map>
 
 #include "engine/graph/compile/steps.h"
@@ -17,8 +18,12 @@ constexpr std::uint64_t kAlignment = 256;
 
 // Two textures share a class when each can be a view of the other: ARB_texture_view compatible formats, equal
 // sizes, and targets of one family (2D, arrays and cubes are; 3D and multisample stand alone).
-using ClassKey =
-    std::array<std::uint64_t, 3>;  // width, height; depth, layers, mips; samples, family, view class
+struct ClassKey {
+  std::uint64_t area = 0;   // width, height
+  std::uint64_t parts = 0;  // depth, layers, mips
+  std::uint64_t kind = 0;   // samples, family, view class
+  friend auto operator<=>(const ClassKey&, const ClassKey&) = default;
+};
 
 ClassKey keyOf(const FlatResource& r) {
   const std::uint64_t family = r.target == Target::texture_3d               ? 1
@@ -147,7 +152,7 @@ class Placer {
   // The map has all classes, `recent_` by a hash the last ones: most textures of a graph are of a few.
   std::uint32_t findClass(const FlatResource& r) {
     const ClassKey key = keyOf(r);
-    std::uint32_t& recent = recent_[((key[0] ^ key[1] << 7 ^ key[2]) * 0x9e3779b97f4a7c15u) >> 58];
+    std::uint32_t& recent = recent_[((key.area ^ key.parts << 7 ^ key.kind) * 0x9e3779b97f4a7c15u) >> 58];
     if (recent < classes_.size() && classes_[recent].key == key) return recent;
     recent = table_.try_emplace(key, static_cast<std::uint32_t>(classes_.size())).first->second;
     if (recent == classes_.size()) classes_.push_back({.key = key, .bytes = r.bytes});
