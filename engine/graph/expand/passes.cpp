@@ -261,7 +261,7 @@ class PassWalk {
       if (work.state == State::empty && !work.reads())
         wouldUse(model_, WouldUse{});  // who knows what reads it at another size
       else if (work.isConnected() && work.reads())
-        wouldUse(model_, {WouldUse::Why::off, work.entity, work.firstElement, work.elementCount, work.use});
+        wouldUse(model_, {work});
       else if (work.isConnected())
         record(work, kNone, index);
     if (!context.ranges || !stanza.sound) return;
@@ -277,8 +277,8 @@ class PassWalk {
     const auto needs = [&](const SlotWork& other) {
       return other.slot->access != Access::write && other.use.history == 0 && other.overlaps(work);
     };
-    model_.writes.push_back({work.entity, work.firstElement, work.elementCount, work.use, model_.position,
-                             pass, disabled, work.whole, std::ranges::any_of(slots_, needs)});
+    model_.writes.push_back(
+        {work, model_.position, pass, disabled, work.whole, std::ranges::any_of(slots_, needs)});
   }
 
   // The slot as the executor needs it, with its uses in element order. Reads and modifies take the current resource. False

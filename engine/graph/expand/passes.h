@@ -56,7 +56,7 @@ struct Leaf {
 };
 
 // A slot of one pass instance.
-struct SlotWork {
+struct SlotWork : Part {
   enum class State : std::uint8_t {
     connected,
     absent,   // optional without a version
@@ -66,10 +66,8 @@ struct SlotWork {
   };
   const SlotDesc* slot = nullptr;
   State state = State::failed;
-  std::uint32_t entity = kNone, firstElement = 0, elementCount = 1;
   bool array = false;                 // the whole of an array
   bool whole = false;                 // no selector: all sub-resources
-  FlatUse use;                        // everything but the resource
   const RefDesc* sampling = nullptr;  // where `sampler` is said
   Sampler sampler;
   BorderColor border{};
@@ -78,10 +76,6 @@ struct SlotWork {
 
   bool isConnected() const { return state == State::connected; }
   bool reads() const { return slot->access == Access::read; }
-  bool overlaps(const SlotWork& other) const {
-    return entity == other.entity && firstElement < other.firstElement + other.elementCount &&
-           other.firstElement < firstElement + elementCount && overlap(use, other.use);
-  }
 };
 
 struct SlotContext {

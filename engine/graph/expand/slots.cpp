@@ -139,7 +139,7 @@ void noteOff(const SlotContext& context, const Leaf& leaf, const RefDesc& ref) {
   if (!placeSelection(off, leaf, ref, work) || !work.isConnected()) return;
   work.use.kind = Kind::copy;
   work.use.history = static_cast<std::uint8_t>(leaf.history);
-  wouldUse(context.model, {WouldUse::Why::off, work.entity, work.firstElement, work.elementCount, work.use});
+  wouldUse(context.model, {work});
 }
 
 // All concrete candidates of a reference whose conditions hold, in order; the others are noted. `leaf` says what `ref` means, and what
@@ -278,8 +278,7 @@ struct SlotChoice {
   }
 
   void note(const SlotWork& work, WouldUse::Why why) const {
-    if (context.versions)
-      wouldUse(context.model, {why, work.entity, work.firstElement, work.elementCount, work.use});
+    if (context.versions) wouldUse(context.model, {work, why});
   }
   // The alternatives from `first` on, which are off.
   void noteOthers(std::size_t first) const {

@@ -56,10 +56,9 @@ Mistiming findMistiming(const FlatGraph& graph, std::uint32_t pass, std::uint32_
 }
 
 void fail(Model& model, std::uint32_t pass, std::uint32_t resource, std::string message, std::string hint) {
-  auto& d = model.diagnostics.error(Code::badSlices, model.graph.specs[pass].place, std::move(message));
-  d.pass = model.graph.passNames[pass];
-  d.resource = model.graph.resourceNames[resource];
-  d.hint = std::move(hint);
+  const FlatGraph& graph = model.graph;
+  report(model, Code::badSlices, graph.specs[pass].place, std::move(message),
+         {.hint = std::move(hint), .resource = graph.resourceNames[resource], .pass = graph.passNames[pass]});
 }
 
 // Follows what `group` writes through passes that are not of it: where it comes back to the group, neither could ever end.
@@ -151,13 +150,10 @@ void warnCadence(Model& model) {
     const FlatUse& read = graph.uses[found.use];
     std::string name = graph.resourceNames[read.resource];
     if (read.history > 0) name += fmt::format("@-{}", read.history);
-    auto& d = model.diagnostics.warning(
-        Code::cadenceMisfit, spec.place,
-        fmt::format("pass '{}' runs {}: it reads '{}'{}", spec.name,
-                    once ? "once" : "in every frame, though it says \"on_change\"", name, found.why));
-    d.pass = spec.name;
-    d.resource = name;
-    d.hint = found.hint;
+    warn(model, Code::cadenceMisfit, spec.place,
+         fmt::format("pass '{}' runs {}: it reads '{}'{}", spec.name,
+                     once ? "once" : "in every frame, though it says \"on_change\"", name, found.why),
+         {.hint = found.hint, .resource = name, .pass = spec.name});
   }
 }
 

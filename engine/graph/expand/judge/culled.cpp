@@ -16,24 +16,16 @@ namespace weft::graph::expansion {
 
 namespace {
 
-// A read or write of a texture or buffer at a position in declared order: elements of an array, and a rectangle of each.
-struct Line {
-  std::uint32_t position = 0, entity = kNone, firstElement = 0, elementCount = 1;
-  FlatUse rect;
-  std::uint32_t who = kNone;
+// A read or write of a texture or buffer at a position in declared order.
+struct Line : Part {
+  std::uint32_t position = 0, who = kNone;
 };
 
 // Of a use of the graph.
 Line lineOf(const Model& model, std::uint32_t use, std::uint32_t who) {
   const FlatUse& rect = model.graph.uses[use];
   const auto [entity, element] = model.elementOf[rect.resource];
-  return {model.positionOf[model.graph.links.passOf[use]], entity, element, 1, rect, who};
-}
-
-// Of a WriteRecord or a WouldUse.
-template <class What>
-Line lineOf(const What& what, std::uint32_t who) {
-  return {what.position, what.entity, what.firstElement, what.elementCount, what.rect, who};
+  return {{entity, element, 1, rect}, model.positionOf[model.graph.links.passOf[use]], who};
 }
 
 bool isOwn(const Model& model, std::uint32_t entity) {
@@ -48,7 +40,7 @@ void eachOffWrite(const Model& model, F&& f) {
   for (const WriteRecord& write : model.writes)
     if (write.pass == kNone) f(write);
   for (const WouldUse& would : model.would)
-    if (would.rect.access != Access::read) f(would);
+    if (would.use.access != Access::read) f(would);
 }
 
 // What is alive: `live` in the graph. `ever`, if everything that is disabled or whose condition is false were there, too: a disabled
@@ -87,16 +79,16 @@ Reach findReach(const Model& model) {
   }
   const auto add = [&](Line line) {
     // It may test the depth, or read the storage, that it modifies; color it only draws over.
-    line.rect.keep = line.rect.access == Access::modify && line.rect.kind != Kind::color;
-    if (line.rect.access == Access::write) line.rect.access = Access::modify;  // it removes nothing now
+    line.use.keep = line.use.access == Access::modify && line.use.kind != Kind::color;
+    if (line.use.access == Access::write) line.use.access = Access::modify;  // it removes nothing now
     lines.push_back(line);
   };
-  eachOffWrite(model, [&](const auto& what) { add(lineOf(what, kNone)); });
+  eachOffWrite(model, [&](const auto& what) { add({what, what.position}); });
   for (const WouldUse& would : model.would)
     if (would.entity == kNone)
       kept.insert(would.position);
-    else if (would.rect.access == Access::read)
-      add(lineOf(would, kNone));
+    else if (would.use.access == Access::read)
+      add({would, would.position});
   std::ranges::stable_sort(lines, {}, &Line::position);
   std::vector<std::uint32_t> useOf;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -105,7 +97,7 @@ Reach findReach(const Model& model) {
       whole.passes.push_back({.firstUse = static_cast<std::uint32_t>(whole.uses.size()),
                               .sideEffect = kept.contains(line.position)});
     for (std::uint32_t e = 0; isOwn(model, line.entity) && e < line.elementCount; ++e) {
-      whole.uses.push_back(line.rect);
+      whole.uses.push_back(line.use);
       whole.uses.back().resource = resourceOf[line.entity] + line.firstElement + e;
       useOf.push_back(line.who);
       ++whole.passes.back().useCount;
@@ -164,10 +156,7 @@ class Lines {
     const auto found = lines_.find(at.entity);
     if (found == lines_.end()) return;
     for (const Line& line : found->second)
-      if ((below ? line.position > at.position : line.position < at.position) &&
-          line.firstElement < at.firstElement + at.elementCount &&
-          at.firstElement < line.firstElement + line.elementCount && overlap(line.rect, at.rect))
-        f(line);
+      if ((below ? line.position > at.position : line.position < at.position) && line.overlaps(at)) f(line);
   }
 
  private:
@@ -195,13 +184,13 @@ void addMissedParts(const Model& model, std::uint32_t use, std::uint32_t slot, s
     if (writer != kNone) return;
     const auto [mip, layer, plane] = subresourceAt(s, shape);
     if (s == next && mip > 0) {
-      ++missed.back().line.rect.mips;
+      ++missed.back().line.use.mips;
     } else {
       Line part = whole;
-      part.rect.mip = static_cast<std::uint16_t>(mip);
-      part.rect.layer = static_cast<std::uint16_t>(layer);
-      part.rect.mips = part.rect.layers = 1;
-      part.rect.planes = static_cast<std::uint8_t>(1u << plane);
+      part.use.mip = static_cast<std::uint16_t>(mip);
+      part.use.layer = static_cast<std::uint16_t>(layer);
+      part.use.mips = part.use.layers = 1;
+      part.use.planes = static_cast<std::uint8_t>(1u << plane);
       missed.push_back({part, slot, WouldUse::Why::zero, pass, " of " + subresourceText(shape, s)});
     }
     next = s + 1;
@@ -216,7 +205,7 @@ std::vector<Missed> findMissedReads(const Model& model) {
     const auto at = std::ranges::lower_bound(model.positionOf, would.position);
     if (at == model.positionOf.end() || *at != would.position) continue;
     const auto pass = static_cast<std::uint32_t>(at - model.positionOf.begin());
-    missed.push_back({lineOf(would, pass), would.slot, would.why, pass});
+    missed.push_back({{would, would.position, pass}, would.slot, would.why, pass});
   }
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
     for (std::uint32_t s = 0; s < graph.specs[p].slotCount; ++s) {
@@ -345,11 +334,8 @@ void report(Model& model, const Loss& loss, bool runs, const std::vector<std::st
       break;
   }
   addNames(message, "with it:", others);
-  auto& d = model.diagnostics.warning(overwritten ? Code::culledOverwritten : Code::culledUnread, spec.place,
-                                      std::move(message));
-  d.pass = spec.name;
-  d.resource = resource;
-  d.hint = std::move(hint);
+  warn(model, overwritten ? Code::culledOverwritten : Code::culledUnread, spec.place, std::move(message),
+       {.hint = std::move(hint), .resource = resource, .pass = spec.name});
 }
 
 void warnOfLosses(Model& model, const Reach& reach, const std::vector<Missed>& missed) {
@@ -460,7 +446,7 @@ void warnMisplaced(Model& model, const Reach& reach, const std::vector<Missed>& 
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
     for (const std::uint32_t u : graph.usesOf(p))
       if (!reach.isLost(p) && graph.uses[u].access != Access::read) writers.add(model, lineOf(model, u, p));
-  eachOffWrite(model, [&](const auto& what) { off.add(model, lineOf(what, 0)); });
+  eachOffWrite(model, [&](const auto& what) { off.add(model, {what, what.position, 0}); });
   // What stands on the wrong side of the same entry is one mistake.
   struct Mistake {
     std::pair<std::string, std::string> entries;  // of reader and writer
@@ -499,11 +485,11 @@ void warnMisplaced(Model& model, const Reach& reach, const std::vector<Missed>& 
                                       part);
     addNames(message, "likewise", others);
     addNames(message, "culled:", findCulled(graph, reach, entries.second, below));
-    auto& d = model.diagnostics.warning(Code::readBeforeWrite, slot.place, std::move(message));
-    d.pass = spec.name;
-    d.resource = resource;
-    d.hint = fmt::format("move '{}' above '{}', or read '{}@-1' for what it was in the frame before",
-                         entries.second, entries.first, resource);
+    warn(model, Code::readBeforeWrite, slot.place, std::move(message),
+         {.hint = fmt::format("move '{}' above '{}', or read '{}@-1' for what it was in the frame before",
+                              entries.second, entries.first, resource),
+          .resource = resource,
+          .pass = spec.name});
   }
 }
 
@@ -513,10 +499,8 @@ void warnUnread(Model& model) {
   FlatGraph& graph = model.graph;
   if (graph.present.resource == kNone && graph.outputs.empty() &&
       std::ranges::none_of(graph.passes, &FlatPass::sideEffect)) {
-    auto& d = model.diagnostics.warning(Code::nothingPresented, model.desc.place,
-                                        "the graph shows nothing: no pass will run");
-    d.hint = "say \"present\" with the texture to show";
-    return;
+    return warn(model, Code::nothingPresented, model.desc.place, "the graph shows nothing: no pass will run",
+                {.hint = "say \"present\" with the texture to show"});
   }
   const Reach reach = findReach(model);
   const std::vector<Missed> missed = findMissedReads(model);

@@ -23,7 +23,7 @@ bool touches(const Model& model, const WriteRecord& write, const MissingRead::Wa
   if (write.entity != wanted.entity || wanted.element < write.firstElement ||
       wanted.element >= write.firstElement + write.elementCount)
     return false;
-  return holds(write.rect, subresourceAt(wanted.subresource, model.entities[wanted.entity].shape));
+  return holds(write.use, subresourceAt(wanted.subresource, model.entities[wanted.entity].shape));
 }
 
 std::string rangeText(const EmptyRepeat& empty) {
@@ -310,12 +310,9 @@ void reportMissingReads(Model& model) {
   // Nobody needs what it would write, and yet nobody writes a range to have nothing.
   for (const EmptyRepeat& empty : model.emptied) {
     if (!empty.mistake || isOver(model) || !emptied.insert(empty.pass).second) continue;
-    auto& d = model.diagnostics.warning(
-        Code::culledUnread, empty.place,
-        fmt::format("pass '{}' is not there once: its \"repeat\" is empty", empty.pass));
-    d.pass = empty.pass;
-    d.found = rangeText(empty);
-    d.hint = rangeHint(empty);
+    warn(model, Code::culledUnread, empty.place,
+         fmt::format("pass '{}' is not there once: its \"repeat\" is empty", empty.pass),
+         {.found = rangeText(empty), .hint = rangeHint(empty), .pass = empty.pass});
   }
 }
 

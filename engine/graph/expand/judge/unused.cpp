@@ -20,12 +20,10 @@ bool isOnTop(const Scope& scope, const Place& place) {
   return scope.desc->top.empty() || (place.file && *place.file == scope.desc->top);
 }
 
-text::Diagnostic& warnAt(Model& model, const Place& place, std::string message, std::string hint,
-                         const std::string& resource = "") {
-  auto& d = model.diagnostics.warning(Code::unusedDeclaration, place, std::move(message));
-  d.hint = std::move(hint);
-  d.resource = resource;
-  return d;
+void warnAt(Model& model, const Place& place, std::string message, std::string hint,
+            const std::string& resource = "") {
+  warn(model, Code::unusedDeclaration, place, std::move(message),
+       {.hint = std::move(hint), .resource = resource});
 }
 
 // Whether an instance of a file that is included more than once is named, too, when `own` is not.

@@ -33,6 +33,13 @@ class MentionWalk {
       for (const NamedExpr& argument : resource.import.arguments)
         if (argument.expr.present() && argument.expr.root()->op == ExprOp::identifier)
           mark(find(scope, argument.expr.root()->name, true), false);
+    for (const SetDesc& set : desc.sets)
+      if (parametersMeant(model_, scope.prefix, set.name).empty())
+        model_.unknownVariables.emplace_back(&scope,
+                                             std::string_view(set.name).substr(set.name.rfind('.') + 1));
+    if (scope.parent)
+      for (const ResourceDesc& input : desc.resources)
+        if (input.kind == ResourceDesc::Kind::input) askForInput(scope, input);
     for (const PassDesc& pass : desc.passes) {
       if (!pass.list.empty()) mark(find(scope, pass.list, true), false);
       if (pass.include)
@@ -58,20 +65,51 @@ class MentionWalk {
         parameter.named = true;
         parameter.structural = parameter.structural || structural;
       }
+      if (found.kind == Variable::Kind::none) model_.unknownVariables.emplace_back(&scope, name);
       if (found.kind == Variable::Kind::ambiguous)
         for (const std::uint32_t each : parametersMeant(model_, scope.prefix, name))
           model_.parameters[each].named = true;
     }
-    for (const auto& [fact, name] : expr.facts()) mark(find(scope, name, false), false);
+    for (const auto& [fact, name] : expr.facts()) {
+      const std::uint32_t found = find(scope, name, false);
+      if (found != kNone)
+        mark(found, false);
+      else if (!name.starts_with('@') && (fact != Fact::has || !findAskedPass(scope, name).first))
+        ask(scope, name, 1);
+    }
   }
 
   void add(Scope& scope, const RefDesc& ref) {
-    const std::uint32_t found = mark(find(scope, ref.name, ref.import), ref.history > 0);
+    const std::uint32_t named = find(scope, ref.name, ref.import), found = mark(named, ref.history > 0);
+    if (named == kNone && !ref.import) ask(scope, ref.name, 1);
     if (found == kNone || ref.import) return;
     Entity& entity = model_.entities[found];
     entity.levels.add(ref.mip);
     entity.layers.add(ref.layer);
     entity.ofArray.add(ref.element ? &*ref.element : nullptr, ref.element ? &*ref.element : nullptr);
+  }
+
+  // Nothing has the name.
+  void ask(Scope& scope, std::string_view name, int times) {
+    const Scope& in = scopeOf(scope, name);
+    model_.unknown[{&in, std::string(name.substr(0, name.find('.')))}] += times;
+  }
+
+  // The includer is asked for what it does not bind.
+  void askForInput(const Scope& scope, const ResourceDesc& input) {
+    Scope& parent = *scope.parent;
+    const auto& binds = scope.stanza->include->binds;
+    if (std::ranges::any_of(binds, [&](const auto& bind) { return bind.first == input.name; })) return;
+    bool whole = false;  // an include is bound
+    const auto askIn = [&](Scope& in, bool needed) {
+      if (!in.resources.contains(input.name)) ask(in, input.name, needed && !input.optional ? 1 : 0);
+    };
+    for (const auto& [own, ref] : binds)
+      if (Scope* const include = includeBound(parent, own, ref)) {
+        whole = true;
+        askIn(*include, true);
+      }
+    askIn(parent, !whole);
   }
 
   // What a name means as it is written: an input is itself. kNone for what no file declares.

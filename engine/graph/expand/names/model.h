@@ -17,6 +17,7 @@
 #include "engine/graph/expand/names/settings.h"
 #include "engine/graph/flat_graph.h"
 #include "engine/graph/registry.h"
+#include "engine/graph/subresource.h"
 #include "engine/graph/versions/version_walk.h"
 #include "engine/text/diagnostic.h"
 
@@ -143,10 +144,18 @@ struct DisableRule {
   std::string instance;  // full instance name, or empty: all repeats
 };
 
-// A write of a pass, enabled or not, in declared order: for messages that say which pass would have written something.
-struct WriteRecord {
+// What is used of a texture, buffer or import: elements of an array, and a rectangle of each.
+struct Part {
   std::uint32_t entity = kNone, firstElement = 0, elementCount = 1;
-  FlatUse rect;
+  FlatUse use;  // everything but the resource
+  bool overlaps(const Part& other) const {
+    return entity == other.entity && firstElement < other.firstElement + other.elementCount &&
+           other.firstElement < firstElement + elementCount && overlap(use, other.use);
+  }
+};
+
+// A write of a pass, enabled or not, in declared order: for messages that say which pass would have written something.
+struct WriteRecord : Part {
   std::uint32_t position = 0;
   std::uint32_t pass = kNone;      // of FlatGraph::passes when enabled
   std::uint32_t disabled = kNone;  // of FlatGraph::disabled otherwise
@@ -156,16 +165,13 @@ struct WriteRecord {
 
 // A read or write that is not in the graph. It would be there if a pass or a condition that is switched off now were not, or
 // if there were something to read.
-struct WouldUse {
+struct WouldUse : Part {  // of no entity: whatever the pass does, it counts
   enum class Why : std::uint8_t {
     off,    // of a disabled pass, or its condition is false
     empty,  // an optional slot or an alternative that nothing wrote so far
     zero    // it reads what "clear" says: nothing wrote it so far
   };
   Why why = Why::off;
-  std::uint32_t entity = kNone;  // kNone: whatever the pass does, it counts
-  std::uint32_t firstElement = 0, elementCount = 1;
-  FlatUse rect;
   std::uint32_t position = kNone;  // of the instance, in declared order; kNone: after all passes
   std::uint32_t slot = kNone;      // of the pass, when it is enabled
 };
@@ -225,7 +231,12 @@ struct Model {
   std::vector<ElementOf> elementOf{};  // per FlatResource
   // What names of `name.…` begin with where the file includes nothing under it: one report is enough.
   std::set<std::pair<const Scope*, std::string>> unincluded{};
-  std::deque<Expr> matrixColumns{};    // of parameters that are a matrix of an import
+  std::deque<Expr> matrixColumns{};  // of parameters that are a matrix of an import
+  // What the files ask for and nothing has. Of resources the first part of what is left of the name in the scope that should have
+  // it, and how often; who can do without asks 0 times. Of variables who asks, once for each
+  // expression and "set".
+  std::map<std::pair<const Scope*, std::string>, int> unknown{};
+  std::vector<std::pair<const Scope*, std::string_view>> unknownVariables{};
   std::deque<std::string> misspelt{};  // names that files use of what is declared under a misspelt one
   bool mended = false;                 // mendDeclarations() was called
   bool incomplete = false;             // the reader left something out for its mistakes
@@ -249,6 +260,7 @@ struct Says {
 };
 // Reports an error; returns false, so that a check can end with it.
 bool report(Model& model, Code code, const Where& place, std::string message, Says says = {});
+void warn(Model& model, Code code, const Where& place, std::string message, Says says = {});
 
 // What messages call a thing: a format with perhaps one name in it, "the size of '{}'". The name outlives it.
 struct Called {

@@ -4,11 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <utility>
 
-#include "engine/graph/desc_walk.h"
 #include "engine/graph/language/expr_node.h"
 #include "engine/graph/language/keys.h"
 #include "engine/graph/subresource.h"
@@ -27,8 +25,10 @@ void stopAt(Model& model, const Where& place, std::string message, std::uint64_t
     text::reportLimit(model.diagnostics, place, std::move(message), bound, counts);
 }
 
-bool report(Model& model, Code code, const Where& place, std::string message, Says says) {
-  model.diagnostics.add({.code = code,
+static void say(Model& model, text::Severity severity, Code code, const Where& place, std::string message,
+                Says says) {
+  model.diagnostics.add({.severity = severity,
+                         .code = code,
                          .message = std::move(message),
                          .place = place,
                          .pass = std::move(says.pass),
@@ -36,7 +36,15 @@ bool report(Model& model, Code code, const Where& place, std::string message, Sa
                          .expected = std::move(says.expected),
                          .found = std::move(says.found),
                          .hint = std::move(says.hint)});
+}
+
+bool report(Model& model, Code code, const Where& place, std::string message, Says says) {
+  say(model, text::Severity::error, code, place, std::move(message), std::move(says));
   return false;
+}
+
+void warn(Model& model, Code code, const Where& place, std::string message, Says says) {
+  say(model, text::Severity::warning, code, place, std::move(message), std::move(says));
 }
 
 std::string Called::text() const {
@@ -84,20 +92,8 @@ std::optional<Value> letValue(Model& model, Let& let) {
   return let.value;
 }
 
-int timesNamed(const Expr& expr, std::string_view name) {
-  if (std::ranges::find(variablesOf(expr), name) == variablesOf(expr).end()) return 0;
-  const std::string text = expr.text(), variable = fmt::format("${}", name);
-  int times = 0;
-  for (std::size_t at = text.find(variable); at != std::string::npos; at = text.find(variable, at + 1)) {
-    const std::size_t end = at + variable.size();
-    times += end == text.size() || (text[end] != '.' && text[end] != '_' && !std::isalnum(text[end] & 0x7f));
-  }
-  return times;
-}
+}  // namespace
 
-// What a name that nothing has stands for when it is the declaration of a parameter or let, an edit away, that is misspelt:
-// nothing reads it under its own name, and `name` is asked for more than once. That is one mistake, at the declaration.
-// Files ask for what they declare, what those declare that include them, and what those declare that they include.
 Variable declarationMeant(Model& model, Scope& user, std::string_view name) {
   const auto sees = [](const Scope& a, const Scope& b) {
     return a.prefix.starts_with(b.prefix) || b.prefix.starts_with(a.prefix);
@@ -108,20 +104,14 @@ Variable declarationMeant(Model& model, Scope& user, std::string_view name) {
       return each.first.find('.') == std::string_view::npos && text::editDistance(each.first, name, 1) <= 1;
     });
     if (near == from.variables.end()) continue;
-    const auto [declared, meant] = *near;
-    int asked = 0, read = 0;
-    const auto see = [&](const Expr& expr) {
-      if (!expr.present()) return;
-      asked += timesNamed(expr, name);
-      read += timesNamed(expr, declared);
-    };
-    for (const Scope& scope : model.scopes)
-      if (sees(scope, from)) visitMentions(*scope.desc, see, [](const RefDesc&) {});
-    if (read > 0 || asked < 2) continue;
+    const Variable meant = near->second;
+    const auto asks = [&](const auto& asked) { return asked.second == name && sees(*asked.first, from); };
+    const auto asked = std::ranges::count_if(model.unknownVariables, asks);
     const bool let = meant.kind == Variable::Kind::let;
+    if (asked < 2 || (let ? model.lets[meant.index].named : model.parameters[meant.index].named)) continue;
     report(model, Code::unknownVariable,
            let ? model.lets[meant.index].desc->place : model.parameters[meant.index].desc->place,
-           fmt::format("nothing reads '${}', and '${}' is asked for {} times", declared, name, asked),
+           fmt::format("nothing reads '${}', and '${}' is asked for {} times", near->first, name, asked),
            {.hint = fmt::format("did you mean '{}'?", name)});
     // In the file of the declaration, and where it is found from below.
     from.variables.try_emplace(model.misspelt.emplace_back(name), meant);
@@ -130,8 +120,6 @@ Variable declarationMeant(Model& model, Scope& user, std::string_view name) {
   }
   return {};
 }
-
-}  // namespace
 
 std::optional<Value> Names::variable(std::string_view name) {
   Variable found = findVariable(model_, scope_, name);

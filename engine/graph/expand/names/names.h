@@ -67,7 +67,12 @@ std::vector<std::string> resourceNames(const Model& model, const Scope& scope);
 bool isUnread(const Scope& from, std::string_view name);
 
 Variable findVariable(Model& model, Scope& scope, std::string_view name);
-// The same without the files that are included below: a name of this file or of one that includes it.
+// What a name that nothing has stands for when it is the declaration of a parameter or let, an edit away, that is misspelt:
+// nothing reads it under its own name, and more than one expression or "set" asks for `name`. That is one mistake, at the declaration, where it
+// is reported.
+// Files ask for what they declare, what those declare that include them, and what those declare that they include.
+Variable declarationMeant(Model& model, Scope& user, std::string_view name);
+// findVariable() without the files that are included below: a name of this file or of one that includes it.
 Variable findVariableFrom(Scope& scope, std::string_view name);
 // The parameters, of those whose path begins with `prefix`, that `name` may mean: the one that is called so, else all whose
 // dotted name ends in it.

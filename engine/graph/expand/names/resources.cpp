@@ -535,7 +535,7 @@ void wouldUse(Model& model, std::uint32_t index, Access access, int history) {
   if (!own || entity.state != Progress::done) return;
   FlatUse whole = wholeUse(0, entity.shape, Kind::copy, access);
   whole.history = static_cast<std::uint8_t>(history);
-  wouldUse(model, {.entity = index, .elementCount = std::max(1u, entity.arrayCount), .rect = whole});
+  wouldUse(model, {{index, 0, std::max(1u, entity.arrayCount), whole}});
 }
 
 }  // namespace weft::graph::expansion

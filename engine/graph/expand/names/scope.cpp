@@ -6,7 +6,6 @@
 #include <tuple>
 #include <utility>
 
-#include "engine/graph/desc_walk.h"
 #include "engine/graph/expand/names/names.h"
 #include "engine/graph/language/suffix.h"
 #include "engine/text/limits.h"
@@ -246,10 +245,10 @@ void buildScopes(Model& model) {
     model.imports.emplace(type.name, static_cast<std::uint32_t>(model.entities.size()));
     model.entities.push_back({.kind = ResourceDesc::Kind::import, .scope = &root, .name = "@" + type.name});
   }
+  noteMentions(model);
   for (std::size_t i = 1; i < model.scopes.size(); ++i) checkBoundImports(model, model.scopes[i]);
   reportToInclude(model);
   spread(model, &Let::dynamic, [](const Let& let) { return let.desc->expr.dynamic(); });
-  noteMentions(model);
   spread(model, &Let::live, [&](const Let& let) {
     return anyVariable(model, *let.scope, let.desc->expr, [&](const Variable& used) {
       return used.kind == Variable::Kind::parameter && !model.parameters[used.index].structural;
@@ -381,59 +380,20 @@ std::vector<std::string> resourceNames(const Model& model, const Scope& scope) {
   return names;
 }
 
-namespace {
-
-// How often files ask for a resource, by the scope that should have it and the first part of its name there. Who can do without,
-// asks 0 times.
-using Mentions = std::map<std::pair<const Scope*, std::string>, int>;
-
-Mentions mentionsOf(Model& model) {
-  Mentions mentions;
-  const auto mention = [&](Scope& from, std::string_view name, int times) {
-    const Scope& in = scopeOf(from, name);
-    mentions[{&in, std::string(firstPart(name))}] += times;
-  };
-  for (Scope& scope : model.scopes) {
-    const auto addRef = [&](const RefDesc& ref) { mention(scope, ref.name, ref.import ? 0 : 1); };
-    const auto addExpr = [&](const Expr& expr) {
-      for (const auto& [fact, name] : expr.facts())
-        if (!name.starts_with('@') && (fact != Fact::has || !findAskedPass(scope, name).first))
-          mention(scope, name, 1);
-    };
-    visitMentions(*scope.desc, addExpr, addRef);
-    if (!scope.parent) continue;
-    const auto& binds = scope.stanza->include->binds;
-    for (const auto& [input, ref] : binds) mention(*scope.parent, ref.name, ref.import ? 0 : 1);
-    std::vector<Scope*> whole;  // includes that are bound
-    for (const auto& [input, ref] : binds)
-      if (Scope* include = includeBound(*scope.parent, input, ref)) whole.push_back(include);
-    for (const ResourceDesc& input : scope.desc->resources)
-      if (input.kind == ResourceDesc::Kind::input &&
-          std::ranges::none_of(binds, [&](const auto& bind) { return bind.first == input.name; })) {
-        mention(*scope.parent, input.name, input.optional || !whole.empty() ? 0 : 1);
-        for (Scope* include : whole) mention(*include, input.name, input.optional ? 0 : 1);
-      }
-  }
-  return mentions;
-}
-
-}  // namespace
-
 bool mendDeclarations(Model& model) {
   constexpr std::size_t kShortest = 3;  // shorter names are near to each other by chance
   if (std::exchange(model.mended, true)) return false;
-  const Mentions mentions = mentionsOf(model);
   for (Scope& scope : model.scopes) {
     std::vector<std::string> unknown;  // in the order of the alphabet
-    for (auto at = mentions.lower_bound({&scope, ""}); at != mentions.end() && at->first.first == &scope;
-         ++at)
-      if (const std::string& name = at->first.second;
-          at->second > 1 && name.size() >= kShortest && !scope.resources.contains(name) &&
-          !scope.includes.contains(name) && !isUnread(scope, name))
+    for (auto at = model.unknown.lower_bound({&scope, ""});
+         at != model.unknown.end() && at->first.first == &scope; ++at)
+      if (const std::string& name = at->first.second; at->second > 1 && name.size() >= kShortest &&
+                                                      !scope.includes.contains(name) &&
+                                                      !isUnread(scope, name))
         unknown.push_back(name);
     for (const ResourceDesc& resource : scope.desc->resources) {
       if (isOver(model)) return true;
-      if (mentions.contains({&scope, resource.name})) continue;
+      if (model.entities[scope.resources.at(resource.name)].named) continue;
       const auto meant = std::ranges::find_if(
           unknown, [&](const std::string& name) { return text::editDistance(name, resource.name, 1) <= 1; });
       if (meant == unknown.end()) continue;

@@ -97,11 +97,16 @@ void reportAmbiguous(Model& model, const std::vector<std::string>& meant, std::s
 
 // Gives the parameter of `scope`, or of a file that it includes, whose name ends in `wanted` a value; to one that is a file
 // `path`, if there is one. Null after a report.
-Parameter* applySet(Model& model, const Scope& scope, const std::string& wanted, const Value& value,
+Parameter* applySet(Model& model, Scope& scope, const std::string& wanted, const Value& value,
                     const std::optional<std::string>& path, const Where& by) {
-  const std::vector<std::uint32_t> found = parametersMeant(model, scope.prefix, wanted);
+  std::vector<std::uint32_t> found = parametersMeant(model, scope.prefix, wanted);
+  if (found.empty() && isUnread(scope, wanted)) return nullptr;
+  if (found.empty())
+    if (const Variable meant =
+            declarationMeant(model, scope, std::string_view(wanted).substr(wanted.rfind('.') + 1));
+        meant.kind == Variable::Kind::parameter)
+      found = {meant.index};
   if (found.size() != 1) {
-    if (found.empty() && isUnread(scope, wanted)) return nullptr;
     std::vector<std::string> names;
     for (std::uint32_t i = 0; i < model.parameters.size(); ++i)
       if (const std::string& full = model.parameters[i].path;
