@@ -219,22 +219,30 @@ struct SlotChoice {
       // Those behind one that is there by a condition, or from outside, are off as long as it is.
       byCondition = byCondition || leaves[i].conditional || import;
       if (found.complete && found.real) {
-        if (byCondition || !context.versions) noteOthers(i + 1);
+        if (byCondition || !context.versions)
+          for (std::size_t other = i + 1; other < leaves.size(); ++other)
+            noteOff(context, leaves[other], slot.ref);
         return work;
       }
       onlyImports = onlyImports && import;
-      if (slot.access == Access::read)
-        note(work, found.complete && !slot.ref.optional ? WouldUse::Why::zero : WouldUse::Why::empty);
+      if (slot.access == Access::read && context.versions)
+        wouldUse(context.model,
+                 {work, found.complete && !slot.ref.optional ? WouldUse::Why::zero : WouldUse::Why::empty});
       if (found.complete && !zero) zero = work;
       if (!first) first = std::move(work);
     }
     if (zero && !slot.ref.optional) return *zero;
     SlotWork work = first.value_or(none());
-    leaveEmpty(work,
-               leaves.empty() ? MissingRead::Cause::condition
-               : onlyImports  ? MissingRead::Cause::import
-                              : MissingRead::Cause::version,
-               context.versions);
+    // A mistake, unless the slot says that it can do without.
+    const bool missing = context.versions && !slot.ref.optional;
+    work.state = missing ? State::missing : State::absent;
+    using Cause = MissingRead::Cause;
+    if (missing)
+      context.model.missing.push_back({leaves.empty() ? Cause::condition
+                                       : onlyImports  ? Cause::import
+                                                      : Cause::version,
+                                       pass, context.model.position, slot.name, slot.ref, false, slot.access,
+                                       std::move(wanted)});
     return work;
   }
 
@@ -275,22 +283,6 @@ struct SlotChoice {
       all.complete = all.complete && check.complete;
     }
     return all;
-  }
-
-  void note(const SlotWork& work, WouldUse::Why why) const {
-    if (context.versions) wouldUse(context.model, {work, why});
-  }
-  // The alternatives from `first` on, which are off.
-  void noteOthers(std::size_t first) const {
-    for (std::size_t i = first; i < leaves.size(); ++i) noteOff(context, leaves[i], slot.ref);
-  }
-
-  // Nothing is there: a mistake when it is `needed`, and the slot does not say that it can do without.
-  void leaveEmpty(SlotWork& work, MissingRead::Cause cause, bool needed) {
-    work.state = needed && !slot.ref.optional ? State::missing : State::absent;
-    if (work.state == State::missing && context.versions)
-      context.model.missing.push_back(
-          {cause, pass, context.model.position, slot.name, slot.ref, false, slot.access, std::move(wanted)});
   }
 };
 

@@ -32,6 +32,22 @@ TEST_CASE("values that do not fit are reported where they stand") {
   CHECK(expandFile(folder.file("base.json"), {folder.file("none.json")}).has(Code::unreadableFile));
 }
 
+TEST_CASE("a misspelt parameter that an expression and a set name is one mistake, at its declaration") {
+  const Folder folder;
+  const std::string base = folder.write("misspelt.json", R"({
+    "parameters": { "gian": { "type": "float", "default": 1 } },
+    "resources": { "out": { "texture": "rgba8", "size": 4 } },
+    "passes": [ { "name": "a", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "color": "out" },
+                  "parameters": { "gain": "$gain" } } ],
+    "present": "out" })");
+  const Expanded e = expandFile(base, {folder.write("p.json", R"({ "set": { "gain": 2 } })")});
+  REQUIRE_MESSAGE(e.diagnostics.size() == 1, e.text());
+  const text::Diagnostic& d = e.diagnostics.items()[0];
+  CHECK(d.code == Code::unknownVariable);
+  CHECK(*d.place.file == base);
+  CHECK(d.place.line == 2);
+}
+
 TEST_CASE("what does not fit its base") {
   const Folder folder;
   const auto said = [&](const std::string& keys) { return wrong(folder.over(keys)); };

@@ -21,7 +21,8 @@ namespace {
 
 class MentionWalk {
  public:
-  explicit MentionWalk(Model& model) : model_(model), behind_(model.entities.size(), kUnknown) {}
+  MentionWalk(Model& model, bool asks)
+      : model_(model), asks_(asks), behind_(model.entities.size(), kUnknown) {}
 
   void add(Scope& scope) {
     const GraphDesc& desc = *scope.desc;
@@ -33,13 +34,7 @@ class MentionWalk {
       for (const NamedExpr& argument : resource.import.arguments)
         if (argument.expr.present() && argument.expr.root()->op == ExprOp::identifier)
           mark(find(scope, argument.expr.root()->name, true), false);
-    for (const SetDesc& set : desc.sets)
-      if (parametersMeant(model_, scope.prefix, set.name).empty())
-        model_.unknownVariables.emplace_back(&scope,
-                                             std::string_view(set.name).substr(set.name.rfind('.') + 1));
-    if (scope.parent)
-      for (const ResourceDesc& input : desc.resources)
-        if (input.kind == ResourceDesc::Kind::input) askForInput(scope, input);
+    if (asks_) askForOthers(scope);
     for (const PassDesc& pass : desc.passes) {
       if (!pass.list.empty()) mark(find(scope, pass.list, true), false);
       if (pass.include)
@@ -49,6 +44,18 @@ class MentionWalk {
 
  private:
   static constexpr std::uint32_t kUnknown = kNone - 1;
+
+  // What no expression and no reference asks for.
+  void askForOthers(Scope& scope) {
+    const GraphDesc& desc = *scope.desc;
+    for (const SetDesc& set : desc.sets)
+      if (parametersMeant(model_, scope.prefix, set.name).empty())
+        model_.unknownVariables.emplace_back(&scope,
+                                             std::string_view(set.name).substr(set.name.rfind('.') + 1));
+    if (scope.parent)
+      for (const ResourceDesc& input : desc.resources)
+        if (input.kind == ResourceDesc::Kind::input) askForInput(scope, input);
+  }
 
   void add(Scope& scope, const Expr& expr, bool structural) {
     if (!expr.present() || expr.isConstant()) return;
@@ -65,7 +72,7 @@ class MentionWalk {
         parameter.named = true;
         parameter.structural = parameter.structural || structural;
       }
-      if (found.kind == Variable::Kind::none) model_.unknownVariables.emplace_back(&scope, name);
+      if (asks_ && found.kind == Variable::Kind::none) model_.unknownVariables.emplace_back(&scope, name);
       if (found.kind == Variable::Kind::ambiguous)
         for (const std::uint32_t each : parametersMeant(model_, scope.prefix, name))
           model_.parameters[each].named = true;
@@ -91,6 +98,7 @@ class MentionWalk {
 
   // Nothing has the name.
   void ask(Scope& scope, std::string_view name, int times) {
+    if (!asks_) return;
     const Scope& in = scopeOf(scope, name);
     model_.unknown[{&in, std::string(name.substr(0, name.find('.')))}] += times;
   }
@@ -157,13 +165,15 @@ class MentionWalk {
   }
 
   Model& model_;
+  const bool asks_;                    // notes what nothing has
   std::vector<std::uint32_t> behind_;  // per entity: of an input
 };
 
 }  // namespace
 
-void noteMentions(Model& model) {
-  MentionWalk walk(model);
+void noteMentions(Model& model, bool unknown) {
+  if (unknown && std::exchange(model.unknownNoted, true)) return;
+  MentionWalk walk(model, unknown);
   for (Scope& scope : model.scopes) walk.add(scope);
 }
 

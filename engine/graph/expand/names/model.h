@@ -201,6 +201,14 @@ struct MissingRead {
   std::vector<Wanted> wanted;
 };
 
+// What messages call a thing: a format with perhaps one name in it, "the size of '{}'". The name outlives it.
+struct Called {
+  const char* format;
+  std::string_view name;
+  Called(const char* text, std::string_view of = {}) : format(text), name(of) {}  // NOLINT: a text calls it
+  std::string text() const;
+};
+
 struct Model {
   const GraphDesc& desc;
   const Registry& registry;
@@ -233,10 +241,10 @@ struct Model {
   std::set<std::pair<const Scope*, std::string>> unincluded{};
   std::deque<Expr> matrixColumns{};  // of parameters that are a matrix of an import
   // What the files ask for and nothing has. Of resources the first part of what is left of the name in the scope that should have
-  // it, and how often; who can do without asks 0 times. Of variables who asks, once for each
-  // expression and "set".
+  // it, and how often; who can do without asks 0 times. Of variables who asks, once for each expression and "set".
   std::map<std::pair<const Scope*, std::string>, int> unknown{};
   std::vector<std::pair<const Scope*, std::string_view>> unknownVariables{};
+  bool unknownNoted = false;
   std::deque<std::string> misspelt{};  // names that files use of what is declared under a misspelt one
   bool mended = false;                 // mendDeclarations() was called
   bool incomplete = false;             // the reader left something out for its mistakes
@@ -244,10 +252,10 @@ struct Model {
   std::set<std::uint32_t> leftOut{};
   bool toInclude =
       false;  // the file that was opened has inputs: it is to be included, and its own names are not all
-  std::uint32_t position = 0;               // of the instance being expanded
-  std::uint32_t slot = kNone;               // of it, while it is resolved
-  std::vector<struct Called> evaluating{};  // what is being evaluated now, for the path of a cycle
-  bool stopped = false;                     // a bound was exceeded and reported: nothing more is expanded
+  std::uint32_t position = 0;        // of the instance being expanded
+  std::uint32_t slot = kNone;        // of it, while it is resolved
+  std::vector<Called> evaluating{};  // what is being evaluated now, for the path of a cycle
+  bool stopped = false;              // a bound was exceeded and reported: nothing more is expanded
 };
 
 bool isOver(const Model& model);  // nothing more is worth expanding
@@ -261,14 +269,6 @@ struct Says {
 // Reports an error; returns false, so that a check can end with it.
 bool report(Model& model, Code code, const Where& place, std::string message, Says says = {});
 void warn(Model& model, Code code, const Where& place, std::string message, Says says = {});
-
-// What messages call a thing: a format with perhaps one name in it, "the size of '{}'". The name outlives it.
-struct Called {
-  const char* format;
-  std::string_view name;
-  Called(const char* text, std::string_view of = {}) : format(text), name(of) {}  // NOLINT: a text calls it
-  std::string text() const;
-};
 
 // Lives while a definition (a let, a size, what an input stands for, a list of alternatives) is evaluated for another.
 // `state` is that of the definition. It is not good when the definition is being evaluated already (W050: "a -> b -> a"), or

@@ -98,6 +98,7 @@ Variable declarationMeant(Model& model, Scope& user, std::string_view name) {
   const auto sees = [](const Scope& a, const Scope& b) {
     return a.prefix.starts_with(b.prefix) || b.prefix.starts_with(a.prefix);
   };
+  noteMentions(model, true);
   for (Scope& from : model.scopes) {
     if (!sees(from, user)) continue;
     const auto near = std::ranges::find_if(from.variables, [&](const auto& each) {

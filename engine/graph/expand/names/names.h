@@ -68,19 +68,17 @@ bool isUnread(const Scope& from, std::string_view name);
 
 Variable findVariable(Model& model, Scope& scope, std::string_view name);
 // What a name that nothing has stands for when it is the declaration of a parameter or let, an edit away, that is misspelt:
-// nothing reads it under its own name, and more than one expression or "set" asks for `name`. That is one mistake, at the declaration, where it
-// is reported.
-// Files ask for what they declare, what those declare that include them, and what those declare that they include.
+// nothing reads it under its own name, and more than one expression or "set" asks for `name`. That is one mistake, which is
+// reported at the declaration. Files ask for what they declare, what those declare that include them, and what those declare that they include.
 Variable declarationMeant(Model& model, Scope& user, std::string_view name);
-// findVariable() without the files that are included below: a name of this file or of one that includes it.
-Variable findVariableFrom(Scope& scope, std::string_view name);
 // The parameters, of those whose path begins with `prefix`, that `name` may mean: the one that is called so, else all whose
 // dotted name ends in it.
 std::vector<std::uint32_t> parametersMeant(const Model& model, std::string_view prefix,
                                            std::string_view name);
 // Notes what the expressions and references of all files name, whatever the conditions say now; parameters that decide more
-// than the values of uniforms become structural. Called once, by buildScopes() (mentions.cpp).
-void noteMentions(Model& model);
+// than the values of uniforms become structural. buildScopes() calls it; whoever finds a mistake, again for what nothing has,
+// Model::unknown, which is noted once (mentions.cpp).
+void noteMentions(Model& model, bool unknown = false);
 // Marks every parameter that `expr` depends on, directly or through lets, as structural.
 void markStructural(Model& model, Scope& scope, const Expr& expr);
 // True when the expression contains age(), perhaps through a let.

@@ -245,10 +245,10 @@ void buildScopes(Model& model) {
     model.imports.emplace(type.name, static_cast<std::uint32_t>(model.entities.size()));
     model.entities.push_back({.kind = ResourceDesc::Kind::import, .scope = &root, .name = "@" + type.name});
   }
-  noteMentions(model);
   for (std::size_t i = 1; i < model.scopes.size(); ++i) checkBoundImports(model, model.scopes[i]);
   reportToInclude(model);
   spread(model, &Let::dynamic, [](const Let& let) { return let.desc->expr.dynamic(); });
+  noteMentions(model);
   spread(model, &Let::live, [&](const Let& let) {
     return anyVariable(model, *let.scope, let.desc->expr, [&](const Variable& used) {
       return used.kind == Variable::Kind::parameter && !model.parameters[used.index].structural;
@@ -383,6 +383,7 @@ std::vector<std::string> resourceNames(const Model& model, const Scope& scope) {
 bool mendDeclarations(Model& model) {
   constexpr std::size_t kShortest = 3;  // shorter names are near to each other by chance
   if (std::exchange(model.mended, true)) return false;
+  noteMentions(model, true);
   for (Scope& scope : model.scopes) {
     std::vector<std::string> unknown;  // in the order of the alphabet
     for (auto at = model.unknown.lower_bound({&scope, ""});
@@ -509,7 +510,8 @@ bool isUnread(const Scope& from, std::string_view name) {
 
 // ---- variables ----
 
-Variable findVariableFrom(Scope& from, std::string_view name) {
+// A name of this file or of one that includes it.
+static Variable findVariableFrom(Scope& from, std::string_view name) {
   for (Scope* scope = &from; scope; scope = scope->parent) {
     if (const auto own = scope->variables.find(name); own != scope->variables.end()) return own->second;
     Scope* at = scope;
