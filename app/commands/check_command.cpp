@@ -187,7 +187,7 @@ Checked checkOnce(const CheckOptions& options) {
   const bool over = diagnostics.contains(text::Code::limitExceeded);
   const auto desc =
       vary || !(checked.plan || over) ? graph::readGraph(options.graph, options.presets, again) : nullptr;
-  if (desc && !checked.plan) {
+  if (desc && !checked.plan && options.shaders) {
     checked.shaders.setRoots(desc->files);
     checked.shaders.checkFiles(*desc, diagnostics);
   }

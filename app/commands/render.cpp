@@ -220,13 +220,18 @@ std::string fileNameOf(const runtime::CaptureItem& item, const graph::Plan& plan
 std::vector<Part> matchingParts(const DumpOptions& options, const graph::Plan& plan,
                                 text::Diagnostics& diagnostics) {
   std::vector<std::string> names;
-  for (const std::string& name : plan.graph->resourceNames) names.emplace_back(graph::sharedName(name));
-  for (const std::string& pattern : options.patterns)
+  for (const std::string& name : plan.graph->resourceNames)
+    if (!name.starts_with('@')) names.emplace_back(graph::sharedName(name));
+  for (const std::string& pattern : options.patterns) {
+    const bool unread = !graph::suffixMatches(names, pattern).empty();
     if (runtime::captureItems(plan, {&pattern, 1}).empty())
       diagnostics
           .error(text::Code::unknownResource, text::placeOfOption(pattern),
-                 fmt::format("no pass that runs writes a resource '{}'", pattern))
-          .hint = graph::suffixHint(pattern, names);
+                 unread ? fmt::format("'{}' is not attached in a pass that runs: nobody reads it", pattern)
+                        : fmt::format("no pass that runs writes a resource '{}'", pattern))
+          .hint = unread ? fmt::format("`weft render -o {}=FILE` reads it", pattern)
+                         : graph::suffixHint(pattern, names);
+  }
   std::vector<Part> parts;
   for (const runtime::CaptureItem& item : runtime::captureItems(plan, options.patterns)) {
     const std::string stem = options.folder + "/" + fileNameOf(item, plan);

@@ -65,13 +65,15 @@ std::vector<std::string> below(std::span<const std::string> folders, const std::
   return paths;
 }
 
-// For a file that is not there: one of the same name in another folder or of another stage, else the nearest of `names`.
+// For a file that is not there: one of the same name in another folder or of another stage, else one of nearly the same stem.
 std::string hintForFile(const std::string& name, const std::vector<std::string>& names) {
   const std::string stem = name.substr(0, name.find('.', name.rfind('/') + 1)) + ".";
   for (const std::string& each : names)
     if (each.ends_with("/" + name) || name.ends_with("/" + each) || each.starts_with(stem))
       return "did you mean '" + each + "'?";
-  return text::nearestHint(name, names);
+  const std::string near = text::nearestName(name, names);
+  const bool isNear = !near.empty() && text::editDistance(name, near, name.size()) <= stem.size() / 3;
+  return isNear ? "did you mean '" + near + "'?" : "";
 }
 
 // The file name of `#include "name"`, from what follows the word, or nullopt.

@@ -306,7 +306,8 @@ struct ClearSpec {
 
 struct DisabledPass {
   std::string name;
-  std::string why;  // "--disable fxaa", "enabled: $bloom is false"
+  std::string why;      // "--disable fxaa", "enabled: $bloom is false"
+  bool absent = false;  // a level or layer that it uses is not there at this size
 };
 
 // A value of an import that parameters follow while the plan runs. In folded expressions its key is its index here plus the number

@@ -152,7 +152,9 @@ TEST_CASE("a missing shader is reported at the one who named it, a directory as 
   CHECK_FALSE(loader.load("sky", diagnostics, graph));
   CHECK_FALSE(loader.load("project/sky/sky.frag.glsl", diagnostics, graph));
   CHECK_FALSE(loader.load("void main() { discard; }", diagnostics, graph));
-  REQUIRE(diagnostics.size() == 4);
+  CHECK_FALSE(loader.load("far/up.frag.glsl", diagnostics, graph));
+  REQUIRE(diagnostics.size() == 5);
+  CHECK(diagnostics.items()[4].hint.empty());  // all shaders end alike
   CHECK(diagnostics.items()[2].hint == "did you mean 'sky/sky.frag.glsl'?");
   CHECK(diagnostics.items()[0].code == Code::unreadableShader);
   CHECK(*diagnostics.items()[0].place.file == "studio.json");
@@ -205,9 +207,9 @@ TEST_CASE("a shader's path leads where it says, until reading is confined") {
     CHECK(diagnostics.items()[0].message.starts_with("'" + folder.at(told.c_str()) + "'"));
     diagnostics.clear();
   }
-  CHECK_FALSE(loader.load("b.frag.glsl", diagnostics));
+  CHECK_FALSE(loader.load("gon.frag.glsl", diagnostics));
   CHECK(diagnostics.items()[0].code == Code::unreadableShader);
-  CHECK(diagnostics.items()[0].hint == "did you mean 'a.frag.glsl'?");
+  CHECK(diagnostics.items()[0].hint == "did you mean 'gone.frag.glsl'?");
   weft::text::resetFileAccess();
 }
 

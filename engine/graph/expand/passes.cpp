@@ -249,13 +249,13 @@ class PassWalk {
     if (why.empty())
       emit(stanza, context);
     else
-      disable(stanza, context, why);
+      disable(stanza, context, {name_, why, enabled && gone});
     if (model_.diagnostics.errorCount() > before && !names.indices.empty()) stanza.failed = true;
   }
 
-  void disable(const StanzaWalk& stanza, const SlotContext& context, const std::string& why) {
+  void disable(const StanzaWalk& stanza, const SlotContext& context, DisabledPass pass) {
     const auto index = static_cast<std::uint32_t>(graph_.disabled.size());
-    graph_.disabled.push_back({name_, why});
+    graph_.disabled.push_back(std::move(pass));
     if (stanza.desc.sideEffect) wouldUse(model_, WouldUse{});
     for (const SlotWork& work : slots_)
       if (work.state == State::empty && !work.reads())

@@ -1,6 +1,9 @@
 #include "engine/graph/language/suffix.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 
 #include "engine/text/nearest.h"
 
@@ -36,19 +39,19 @@ std::string suffixHint(std::string_view wanted, std::span<const std::string> nam
   for (const std::string& name : names)
     for (std::size_t dot = name.find('.'); dot != std::string::npos; dot = name.find('.', dot + 1))
       ends.push_back(name.substr(dot + 1));
-  const std::vector<std::size_t> ending = suffixMatches(names, wanted);
-  if (const std::string near = ending.empty() ? text::nearestName(wanted, ends) : names[ending[0]];
+  std::vector<std::size_t> ending = suffixMatches(names, wanted);
+  if (ending.empty()) ending = suffixMatches(names, wanted.substr(wanted.rfind('.') + 1));
+  const auto far = [&](std::size_t i) { return text::editDistance(wanted, names[i], 16); };
+  if (const std::string near = ending.empty() ? text::nearestName(wanted, ends)
+                                              : names[*std::ranges::min_element(ending, {}, far)];
       !near.empty())
     return fmt::format("did you mean '{}'?", near);
   // A suffix is whole parts between dots; part of a part may be what was meant.
-  std::string holding;
-  int many = 0;
+  std::vector<std::string> holding;
   for (const std::string& name : names)
-    if (wanted.size() >= 3 && name.find(wanted) != std::string::npos && many < 5) {
-      holding += fmt::format("{}'{}'", many ? ", " : "", name);
-      ++many;
-    }
-  if (many > 0) return fmt::format("names that hold it: {}", holding);
+    if (wanted.size() >= 3 && name.find(wanted) != std::string::npos && holding.size() < 5)
+      holding.push_back(name);
+  if (!holding.empty()) return fmt::format("names that hold it: '{}'", fmt::join(holding, "', '"));
   return text::nearestHint(wanted, ends);
 }
 

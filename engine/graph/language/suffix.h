@@ -19,8 +19,8 @@ std::vector<std::size_t> suffixMatches(std::span<const std::string> names, std::
 // The longest suffix of both.
 std::string commonSuffix(std::string_view a, std::string_view b);
 
-// The name that ends in `wanted`, else the nearest of the names and of their last parts, as a hint; "" when nothing is near
-// and the list is long.
+// The name that ends in `wanted`, else in its last part, else the nearest of the names and of their last parts, as a hint; ""
+// when nothing is near and the list is long.
 std::string suffixHint(std::string_view wanted, std::span<const std::string> names);
 
 }  // namespace weft::graph

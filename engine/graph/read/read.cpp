@@ -91,7 +91,7 @@ class GraphReader {
             .hint = member.value.is(Type::object) ? "what passes share is declared under \"sets\"" : "";
     }
     for (const JsonMember& member : membersIn(root, "sets"))
-      if (context.checkName(member.key, member.place, {"a set"}))
+      if (context.checkName(member.key, member.place, {.noun = "a set", .ofFile = true}))
         graph->slotSets.emplace_back(member.key, member.place);
     readPasses(context, source, root, *graph);
     graph->present = context.ref(root, "present");
@@ -148,7 +148,7 @@ class GraphReader {
         graph.unread.push_back(member.key);
     }
     for (const JsonMember& member : membersIn(root, "let")) {
-      bool good = context.checkName(member.key, member.place, {"a \"let\""});
+      bool good = context.checkName(member.key, member.place, {.noun = "a \"let\"", .ofFile = true});
       good = context.checkFresh(seen, member.key, member.place, "the variable") && good;
       Expr expr = context.exprOf(member.value);
       if (good && expr.present())

@@ -77,6 +77,8 @@ bool ReadContext::checkName(std::string_view name, const Place& place, const Nam
     d.found = fmt::format("{} bytes", name.size());
   } else if (!why.empty()) {
     d.hint = "choose another here and in the shader";
+  } else if (named.ofFile && name.find('.') != std::string_view::npos) {
+    d.hint = "only an overlay, a file that \"extends\" this one, changes what an include has";
   }
   return false;
 }

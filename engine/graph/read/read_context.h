@@ -27,6 +27,7 @@ struct Named {
   bool inShader = false;     // slots, parameters and defines of passes are spelled alike in shaders
   bool isDefine = false;     // it hides functions, too
   bool underscores = false;  // "__" may be in it, as importers keep the names of parameters
+  bool ofFile = false;       // an overlay may change one of an included file
 };
 
 class ReadContext {

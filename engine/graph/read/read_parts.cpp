@@ -138,7 +138,7 @@ std::optional<ParameterDesc> readParameter(ReadContext& context, const JsonMembe
   ParameterDesc out;
   out.name = member.key;
   out.place = member.place;
-  const bool named = context.checkName(member.key, member.place, {"a parameter"});
+  const bool named = context.checkName(member.key, member.place, {.noun = "a parameter", .ofFile = true});
   out.label = textIn(object, "label");
   out.doc = textIn(object, "doc");
   if (const JsonValue* define = valueIn(object, "define")) out.define = define->flag;
@@ -332,7 +332,7 @@ std::optional<ResourceDesc> readResource(ReadContext& context, const JsonMember&
   ResourceDesc out;
   out.name = member.key;
   out.place = member.place;
-  const bool named = context.checkName(member.key, member.place, {"a resource"});
+  const bool named = context.checkName(member.key, member.place, {.noun = "a resource", .ofFile = true});
   const bool good = !member.value.is(Type::absent) && readResourceInto(context, member.value, out);
   context.resource.clear();
   return named && good ? std::optional(std::move(out)) : std::nullopt;
@@ -579,7 +579,7 @@ bool readPassInto(ReadContext& context, const JsonValue& value, const JsonValue&
   // The rest of a stanza whose name cannot be one is checked too. Nothing refers to passes by slots, so no second mistake comes
   // of another name.
   if (const JsonValue* name = valueIn(value, "name");
-      name && !context.checkName(out.name, name->place, {"a pass"})) {
+      name && !context.checkName(out.name, name->place, {.noun = "a pass", .ofFile = true})) {
     out.name.insert(0, "_");
     for (char& c : out.name)
       if (!isIdentChar(c)) c = '_';

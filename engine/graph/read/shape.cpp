@@ -98,14 +98,15 @@ class ShapeCheck {
     if (!value.is(Type::object) || kinds == 1) {
       checkValue(value, shapeOf("resource"), member.key, "a resource");
     } else if (!mends_) {
-      said_
-          .error(kinds == 0 ? Code::missingKey : Code::keysExclude, value,
-                 fmt::format("the resource '{}' {}", member.key,
-                             kinds == 0 ? "does not say what it is" : "is of two kinds at once"))
-          .hint =
-          value.find("input")
-              ? fmt::format("write \"inputs\": [\"{}\"] beside \"resources\"; `weft format` does", member.key)
-              : "say one of \"texture\", \"buffer\" and \"import\"";
+      if (kinds > 0 || member.key.find('.') == std::string::npos)  // else its name is the mistake
+        said_
+            .error(kinds == 0 ? Code::missingKey : Code::keysExclude, value,
+                   fmt::format("the resource '{}' {}", member.key,
+                               kinds == 0 ? "does not say what it is" : "is of two kinds at once"))
+            .hint = value.find("input")
+                        ? fmt::format("write \"inputs\": [\"{}\"] beside \"resources\"; `weft format` does",
+                                      member.key)
+                        : "say one of \"texture\", \"buffer\" and \"import\"";
       drop(value);
     }
     said_.resource.clear();
@@ -224,6 +225,7 @@ class ShapeCheck {
       for (const KeySpec& spec : keys)
         if (const bool ofSet = spec.key == "type" && object.find("use");  // the reader looks there
             spec.required && !ofSet && !object.find(spec.key) &&
+            stanzaName(object).find('.') == std::string::npos &&
             std::ranges::find(meant, spec.key) == meant.end())
           said_
               .error(Code::missingKey, object.place, fmt::format("'{}' lacks the key \"{}\"", what, spec.key))

@@ -209,6 +209,8 @@ def check_missing_shader(weft, report):
         done = run(weft, "check", "--no-shaders", graph, "--format", "json")
         report.check(done.code == 0 and json.loads(done.out)["not_looked_at"] == ["shader 'tone.frag.glsl' not found"], done.out)
         report.check("not looked at" not in run(weft, "check", "--no-shaders", GLOW).out, "a graph whose shaders are there")
+        graph.write_text(TONES.replace('"glow": "a"', '"glow": "aa"'))
+        report.check(run(weft, "check", "--no-shaders", graph).codes() == ["W040"], "an error of the graph makes one of its shaders")
 
 
 def check_present(weft, report):

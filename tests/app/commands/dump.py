@@ -147,7 +147,8 @@ def check_mistakes(bench):
     refuses("W040", ["'hd-r' cannot name a resource", "did you mean 'hdr'", "./a=b.png"], "render", "-o", f"hd-r={file}")
     refuses("W040", ["'hdr.mip[x]' cannot name a resource", "'glow.mip[2]'"], "render", "-o", f"hdr.mip[x]={file}")
     refuses("W040", ["'nothing*'"], "dump", "nothing*", "-o", bench.folder / "none")
-    refuses("W040", ["no pass that runs writes", "'chain'"], "dump", "hdr", "chain", "-o", bench.folder / "none")
+    refuses("W040", ["nobody reads it", "'chain'"], "dump", "hdr", "chain", "-o", bench.folder / "none")
+    refuses("W040", ["nobody reads it", "render -o ids="], "dump", "ids", "-o", bench.folder / "none")  # its pass runs
     refuses(None, ["NAME=FILE"], "render", "-o", "a.png", "-o", "b.png", exit_code=2)
     refuses(None, ["-o FILE"], "render", "--present", "hdr", "-o", f"ids={file}", exit_code=2)
     refuses(None, ["--present takes"], "render", "--present", "hdr.mip[x]", "-o", file, exit_code=2)

@@ -115,4 +115,5 @@ TEST_CASE("bind takes all that an include has of the inputs, but for what is nam
   CHECK(but.useText("draw.p", "b") == "c");
   CHECK(maps(R"J(["light", "a"])J").useText("draw.p", "a") == "a");
   CHECK(maps("{}").has(Code::unboundInput));
+  CHECK(maps("{}").of(Code::unboundInput).hint.find("draw.b'") == std::string::npos);  // itself
 }

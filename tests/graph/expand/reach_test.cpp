@@ -78,6 +78,16 @@ TEST_CASE("what feeds only what is switched off is no mistake, by whatever it is
               pass("show", R"J("read": { "s": "hdr" }, "write": { "r": "ldr" })J")},
              with({}, {"mix"}))
             .text() == "");
+  // Whether or not another pass stands in the place of the one that is off.
+  const std::string use =
+      pass("use", R"J("enabled": "$on", "read": { "g": "glow", "s": "hdr" }, "write": { "r": "ldr" })J");
+  CHECK(tell({kSky, kBloom, use,
+              pass("else", R"J("enabled": "!$on", "read": { "s": "hdr" }, "write": { "r": "ldr" })J")},
+             with({{"on", "false"}}), rest)
+            .text() == "");
+  CHECK(tell({kSky, kBloom, pass("first", R"J("read": { "s": "hdr" }, "write": { "r": "ldr" })J"), use},
+             with({{"on", "false"}}), rest)
+            .text() == "");
   // But what would not be read either, if it were there, is.
   const Expanded e =
       tell({kSky, kShow, pass("late", R"J("read": { "g": "glow?" }, "modify": { "r": "hdr" })J"), kBloom},
@@ -107,6 +117,40 @@ TEST_CASE("an optional slot that a pass below would fill, and what is no such sl
   CHECK(
       tell({kSky, pass("early", R"J("write": { "r": "glow" })J"), kShow, kBloom, flare}, with({}, {"early"}))
           .text() == "");
+}
+
+TEST_CASE("a chain by alternatives begins with what is there before its first link") {
+  const auto told = [](const std::string& passes) {
+    return expandText(R"J({ "resources": { "start": { "texture": "rgba8", "size": 8 },
+      "hdr": { "texture": "rgba8", "size": 8 }, "light": ["hdr", "start"] }, "passes": [ )J" +
+                      pass("begin", R"J("write": { "r": "start" })J") + ", " + passes +
+                      R"J( ], "present": "light" })J");
+  };
+  const auto link = [](const std::string& name) {
+    return pass(name, R"J("read": { "s": "light" }, "write": { "r": "hdr" })J");
+  };
+  CHECK(told(link("one") + ", " + link("two") + ", " + link("three")).text() == "");
+  // What begins it anew throws away what was there.
+  const Expanded anew = told(link("one") + ", " + pass("new", R"J("write": { "r": "hdr" })J"));
+  CHECK(anew.of(text::Code::culledOverwritten).pass == "one");
+}
+
+TEST_CASE("no fix is one that takes away what is needed, or switches on what is on") {
+  const auto told = [](const std::string& mips, const std::string& show) {
+    return expandText(
+        R"J({ "resources": { "glow": { "texture": "rgba8", "size": 8, "mips": )J" + mips +
+        R"J( }, "ldr": { "texture": "rgba8", "size": 8 } }, "passes": [ )J" +
+        pass("first", R"J("write": { "r": "glow.mip[0]" })J") + ", " +
+        pass("down", R"J("repeat": { "i": [1, "mips(glow)-1"] },
+                        "read": { "s": "glow.mip[i-1]" }, "write": { "r": "glow.mip[i]" })J") +
+        ", " + pass("show", R"J("read": { "s": "glow.mip[)J" + show + R"J(]" }, "write": { "r": "ldr" })J") +
+        R"J( ], "present": "ldr" })J");
+  };
+  CHECK(told("3", "2").text() == "");
+  const Expanded last = told("3", "1");  // of its repeats, one is lost
+  CHECK(last.of(text::Code::culledUnread).hint.find("disable") == std::string::npos);
+  const Expanded small = told("9", "5");  // 8 texels have 4 levels
+  CHECK(small.of(text::Code::disabledWriter).hint.find("enable") == std::string::npos);
 }
 
 TEST_CASE("what \"clear\" says in place of what is drawn below; a chain that begins so is meant") {

@@ -97,13 +97,14 @@ TEST_CASE("an alternative with a condition is told behind one that is always the
 }
 
 TEST_CASE("things of the scene in a list that no pass draws") {
-  const auto said = [](const std::string& list, const std::string& top) {
+  const auto said = [](const std::string& list, const std::string& top, const std::string& reads = "") {
     text::Diagnostics diagnostics;
     const std::string text =
         R"J({ )J" + top +
         R"J( "name": "lit", "resources": { "out": { "texture": "rgba8", "size": 8, "clear": 0 } }, "passes": [
     { "name": "p", "type": "draw", "shader": "a", "list": ")J" +
-        list + R"J(", "geometry": "quad", "modify": { "r": "out" } } ], "present": "out" })J";
+        list + R"J(", "geometry": "quad", )J" + reads +
+        R"J( "modify": { "r": "out" } } ], "present": "out" })J";
     const auto desc = readGraphText(text, "lit.json", diagnostics);
     REQUIRE_MESSAGE(desc, diagnostics.text());
     Registry registry = testRegistry();
@@ -119,6 +120,9 @@ TEST_CASE("things of the scene in a list that no pass draws") {
         "the scene has 2 things in the list 'transparent_spheres', which no pass of 'lit' draws");
   CHECK(warningsOf(said("transparent_spheres", ""), Code::unusedDeclaration) ==
         1);  // spheres, shadow_casters
+  // What reads the rows of a list may show them in a way of its own.
+  CHECK(warningsOf(said("transparent_spheres", "", R"J("read": ["@spheres"],)J"), Code::unusedDeclaration) ==
+        0);
 }
 
 TEST_CASE("a range that is empty by mistake is told, whatever its bounds are, and no other one") {

@@ -1,6 +1,7 @@
 // What a name of a person leads to in a graph with versions and elements.
 #include <doctest/doctest.h>
 
+#include "engine/graph/language/suffix.h"
 #include "engine/graph/pick/pick.h"
 #include "tests/graph/expand/support.h"
 
@@ -32,6 +33,13 @@ std::string foundBy(const Expanded& expanded, const char* text) {
 }
 
 }  // namespace
+
+TEST_CASE("a name with the same last word is nearer than one with the same first word") {
+  const std::vector<std::string> names{"studio.hdr", "studio.post.glow.ldr", "studio.post.ldr"};
+  CHECK(suffixHint("studio.ldr", names).find("'studio.post.ldr'") != std::string::npos);
+  CHECK(suffixHint("ldr", names).find("'studio.post.ldr'") != std::string::npos);
+  CHECK(suffixHint("studio.hrd", names).find("'studio.hdr'") != std::string::npos);
+}
 
 TEST_CASE("a pass behind a name chooses the version that it wrote") {
   const Expanded expanded = chain();

@@ -44,14 +44,13 @@ void eachOffWrite(const Model& model, F&& f) {
 }
 
 // What is alive: `live` in the graph. `ever`, if everything that is disabled or whose condition is false were there, too: a disabled
-// pass writes without removing what was there before. `now`, of that, without what only later frames read.
+// pass is never culled then, and removes nothing. `now`, of that, without what only later frames read.
 struct Reach {
   Liveness live, ever, now;
   bool isLost(std::uint32_t pass) const { return live.pass[pass] == 0 && ever.pass[pass] == 0; }
-  // A write that nobody sees; that only later frames see.
-  bool isUnseen(std::uint32_t use) const { return live.use[use] == 0 && ever.use[use] == 0; }
+  // A write that only later frames see; that, or nobody sees it.
   bool isLate(std::uint32_t use) const { return live.use[use] != 0 && now.use[use] == 0; }
-  bool isGone(std::uint32_t use) const { return isUnseen(use) || isLate(use); }
+  bool isGone(std::uint32_t use) const { return live.use[use] == 0 ? ever.use[use] == 0 : now.use[use] == 0; }
 };
 
 Reach findReach(const Model& model) {
@@ -81,6 +80,7 @@ Reach findReach(const Model& model) {
     // It may test the depth, or read the storage, that it modifies; color it only draws over.
     line.use.keep = line.use.access == Access::modify && line.use.kind != Kind::color;
     if (line.use.access == Access::write) line.use.access = Access::modify;  // it removes nothing now
+    if (!std::ranges::binary_search(model.positionOf, line.position)) kept.insert(line.position);
     lines.push_back(line);
   };
   eachOffWrite(model, [&](const auto& what) { add({what, what.position}); });
@@ -302,6 +302,9 @@ std::map<std::uint32_t, Loss> findLosses(const Model& model, const Reach& reach,
 void report(Model& model, const Loss& loss, bool runs, const std::vector<std::string_view>& others) {
   const FlatGraph& graph = model.graph;
   const PassSpec& spec = graph.specs[loss.pass];
+  // Not what makes something else besides, itself or in its other repeats.
+  const std::string orDisable =
+      runs || spec.name != spec.declared ? "" : fmt::format(", or disable '{}'", spec.name);
   const std::string resource =
       loss.use == kNone ? "" : model.entities[model.elementOf[graph.uses[loss.use].resource].entity].name;
   const std::string by = loss.by == kNone ? "" : graph.passNames[loss.by];
@@ -317,16 +320,15 @@ void report(Model& model, const Loss& loss, bool runs, const std::vector<std::st
       message += fmt::format(": '{}' overwrites '{}' before anybody reads it", by, resource);
       hint = graph.uses[loss.use].access == Access::modify
                  ? fmt::format("move '{}' above '{}', or read '{}' in between", other, lost, resource)
-                 : fmt::format("read '{}' in '{}', or use \"modify\" there, or disable '{}'", resource, by,
-                               spec.declared);
+                 : fmt::format("read '{}' in '{}', or use \"modify\" there{}", resource, by, orDisable);
       break;
     case Reason::readerAbove:
       message += fmt::format(": '{}', which reads '{}', stands above it", by, resource);
-      hint = fmt::format("move '{}' above '{}', or disable '{}'", lost, other, spec.declared);
+      hint = fmt::format("move '{}' above '{}'{}", lost, other, orDisable);
       break;
     case Reason::unread:
       message += ": nobody reads what it writes";
-      hint = fmt::format("read '{}' in a later pass, or disable '{}'", resource, spec.declared);
+      hint = fmt::format("read '{}' in a later pass{}", resource, orDisable);
       break;
     case Reason::writesNothing:
       message += ": it writes nothing";
@@ -437,8 +439,8 @@ std::vector<std::string_view> findCulled(const FlatGraph& graph, const Reach& re
 }
 
 // Not where the writer below is lost (it is told with its reader) or is another repeat of the same stanza, where a pass
-// above that would write it is switched off, or where the writer runs, needs what the reader makes, and the reader only
-// begins with what "clear" says.
+// above that would write it is switched off, or where the writer runs, needs what the reader makes, and the reader begins
+// a chain with another alternative or what "clear" says.
 void warnMisplaced(Model& model, const Reach& reach, const std::vector<Missed>& missed) {
   const FlatGraph& graph = model.graph;
   if (missed.empty()) return;
@@ -460,8 +462,8 @@ void warnMisplaced(Model& model, const Reach& reach, const std::vector<Missed>& 
     const std::uint32_t reader = miss.pass, writer = writers.nearest(miss.line, true);
     if (writer == kNone || reach.live.pass[reader] == 0 || off.nearest(miss.line, false) != kNone) continue;
     const std::string &name = graph.specs[reader].declared, &other = graph.specs[writer].declared;
-    if (name == other || (miss.why == WouldUse::Why::zero && reach.live.pass[writer] != 0 &&
-                          findNeeded(graph, writer)[reader]))
+    const bool begins = graph.slots[graph.specs[reader].firstSlot + miss.slot].useCount > 0;
+    if (name == other || (begins && reach.live.pass[writer] != 0 && findNeeded(graph, writer)[reader]))
       continue;
     auto entries = entriesOf(name, other);
     auto at = std::ranges::find(mistakes, entries, &Mistake::entries);

@@ -254,7 +254,7 @@ void report(Model& model, const Liveness& live, const std::vector<Cause>& reads)
         (shown == kNone || std::ranges::any_of(model.writes, remains)))
       cause.fixes.insert(cause.fixes.begin(), fmt::format("disable '{}' too", fmt::join(passes, "' and '")));
     const auto isSwitch = [&](const Disable& each) { return sourceOf(each) == cause.disabled->why; };
-    if (std::ranges::none_of(model.settings.disables, isSwitch))
+    if (!cause.disabled->absent && std::ranges::none_of(model.settings.disables, isSwitch))
       cause.fixes.insert(cause.fixes.begin(), fmt::format("enable '{}'", cause.disabled->name));
   }
   model.diagnostics.add(

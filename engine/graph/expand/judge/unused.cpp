@@ -161,6 +161,8 @@ void warnOfSceneLists(Model& model) {
   for (const ImportSpec& import : model.graph.imports) {
     if (import.kind == ImportKind::list) return;  // it chooses things by more than their lists
     const ImportType* type = findImportType(model.registry, import.request.type);
+    if (std::ranges::count(model.registry.drawLists, import.request.type) > 0)
+      drawn.insert(import.request.type);  // its rows
     for (std::size_t i = 0; type && i < import.request.arguments.size() && i < type->arguments.size(); ++i)
       if (type->arguments[i].drawList) drawn.insert(import.request.arguments[i].second.symbol);
   }

@@ -374,9 +374,9 @@ std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool
 
 std::vector<std::string> resourceNames(const Model& model, const Scope& scope) {
   std::vector<std::string> names;
-  for (const Entity& entity : model.entities)
-    if (entity.desc && entity.name.starts_with(scope.prefix))
-      names.push_back(entity.name.substr(scope.prefix.size()));
+  for (const Entity& each : model.entities)
+    if (each.desc && each.name.starts_with(scope.prefix) && (each.scope == &scope || !isInput(*each.desc)))
+      names.push_back(each.name.substr(scope.prefix.size()));
   return names;
 }
 
