@@ -35,7 +35,7 @@ def printed(weft, entry):
     options = [word for option in ("set", "disable") for value in entry.get(option, []) for word in (f"--{option}", value)]
     done = subprocess.run([weft, "check", "--no-shaders", entry["file"], *options], cwd=BAD, capture_output=True, text=True,
                           env={**os.environ, "WEFT_DATA": str(TOP)})
-    said = re.findall(r"^\S.*\n(?: .*\n)*", done.stdout + done.stderr, re.M)  # many files name shaders that are not there, too
+    said = re.findall(r"^\S.*\n(?: .*\n)*", done.stdout + done.stderr, re.M)
     of_code = [text.rstrip("\n") for text in said if f"[{entry['code']}]: " in text.partition("\n")[0]]
     return of_code[0] if len(of_code) == 1 else None
 
