@@ -11,6 +11,7 @@
 #include "engine/graph/read/overlay.h"
 #include "engine/graph/read/read_context.h"
 #include "engine/graph/read/shape.h"
+#include "engine/text/nearest.h"
 
 namespace weft::graph {
 
@@ -158,19 +159,45 @@ class GraphReader {
     }
   }
 
+  // The sets of a file. One that no pass uses, and that several passes call nearly so, is misspelt where it is declared: that is said
+  // once, and the passes have it.
+  static JsonValue setsOf(ReadContext& context, const JsonValue& root) {
+    const JsonValue *passes = valueIn(root, "passes"), *declared = valueIn(root, "sets");
+    if (!passes || !declared) return {};
+    JsonValue sets = *declared;
+    std::map<std::string, int> uses;
+    for (const JsonValue& stanza : passes->items)
+      if (const JsonValue* use = valueIn(stanza, "use"))
+        for (const JsonValue& name : stringsOf(*use)) ++uses[name.text];
+    for (JsonMember& set : sets.members) {
+      if (uses.contains(set.key)) continue;
+      std::vector<std::string> missing;
+      for (const auto& [name, count] : uses)
+        if (count > 1 && !sets.find(name)) missing.push_back(name);
+      const std::string meant = text::nearestName(set.key, missing);
+      if (meant.empty()) continue;
+      context
+          .error(Code::unknownSet, set.place,
+                 fmt::format("no pass uses the set '{}', and {} use '{}'", set.key, uses[meant], meant))
+          .hint = fmt::format("did you mean '{}'?", meant);
+      set.key = meant;
+    }
+    return sets;
+  }
+
   void readPasses(ReadContext& context, const Source& source, const JsonValue& root, GraphDesc& graph) {
-    static const JsonValue none;
-    const JsonValue *passes = valueIn(root, "passes"), *sets = valueIn(root, "sets");
+    const JsonValue* const passes = valueIn(root, "passes");
+    const JsonValue sets = setsOf(context, root);
     ReadContext::Seen seen;
     for (std::size_t i = 0; passes && i < passes->items.size() && context.goesOn(); ++i) {
       const JsonValue& stanza = passes->items[i];
-      std::optional<PassDesc> pass = readPass(context, stanza, sets ? *sets : none);
+      std::optional<PassDesc> pass = readPass(context, stanza, sets);
       const JsonValue* name = source.root.find("passes")->items[i].find("name");
       if (name && name->is(Type::string) && (!pass || (!pass->include && pass->name != name->text)))
         graph.unread.push_back(name->text);
       if (!pass) continue;
       for (const auto& use : pass->uses)
-        if (!loader_.mayShare(*sets->find(use.name), stanza.place)) return;
+        if (!loader_.mayShare(*sets.find(use.name), stanza.place)) return;
       context.pass = pass->name;
       context.checkFresh(seen, pass->name, pass->namePlace, "pass");
       context.pass.clear();

@@ -140,7 +140,14 @@ def judge(before, after):
     """What was lost without a word: passes, slots."""
     if after.refused:
         return [] if after.coded else [("refused without a code", after.said[:200])]
-    lost = [("pass", name) for name, count in before.runs.items() if after.runs.get(name, 0) < count and not after.names(name)]
+
+    def told(name, seen=frozenset()):
+        """It is named; or all that read what it wrote do not run either, and are told of: one mistake, one message."""
+        made = {resource for resource, writers in before.writers.items() if name in writers}
+        readers = {stanza for stanza, slots in before.reads.items() if stanza != name and made & set(slots.values())} - seen
+        return after.names(name) or bool(readers) and all(reader not in after.runs and told(reader, seen | {name}) for reader in readers)
+
+    lost = [("pass", name) for name, count in before.runs.items() if after.runs.get(name, 0) < count and not told(name)]
     for name, slots in before.reads.items():
         if name not in after.runs:
             continue
