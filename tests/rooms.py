@@ -38,7 +38,7 @@ SUB_ROOMS = {
         "expand/judge": {".", "language", "versions", "expand/names"},
         "expand": {".", "language", "versions", "pick", "expand/names", "expand/judge"},
         "compile": {".", "versions"},
-        "print": {".", "language", "compile"},
+        "print": {".", "language", "pick", "compile"},
         "edit": {".", "language", "read", "expand/names", "expand"},
         "survey": {".", "language", "expand"},
     },

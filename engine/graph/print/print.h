@@ -19,8 +19,8 @@ std::string dumpText(const Plan& plan, bool explain = false);
 // barriers and resources have a "why".
 std::string dumpJson(const Plan& plan, bool explain = false);
 
-// A Graphviz graph: live passes as boxes in execution order, culled ones gray, resources as ellipses, histories dashed,
-// barrier bits under the pass they come before. For `dot -Tsvg`.
+// A Graphviz graph, for `dot -Tsvg`: passes as boxes, those of an include in a box of its own and repeats as one, culled ones gray;
+// an ellipse for each version of a resource, green for what no pass makes; histories dashed.
 std::string dumpDot(const Plan& plan);
 
 // A line for each difference: passes added, removed and moved, barrier bits, textures and bytes; "" when the plans do the
