@@ -13,9 +13,9 @@ int main(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == weft::gl::kTrialWord) weft::gl::runTrial(argc - 1, argv + 1);
   prepareStreams();
   CommandLine line;
-  for (const auto add :
-       {addRender, addView, addCheck, addPlan, addExplain, addDiff, addParams, addPresets, addTest, addAblate,
-        addFuzz, addDump, addFormat, addNew, addImport, addLsp, addBench, addSchema, addTypes})
+  for (const auto add : {addRender, addView,    addCheck, addPlan,   addExplain, addDiff, addReport,
+                         addParams, addPresets, addTest,  addAblate, addFuzz,    addDump, addFormat,
+                         addNew,    addImport,  addLsp,   addBench,  addSchema,  addTypes})
     add(line);
   return finishStreams(line.run(argc, argv));
 }

@@ -4,9 +4,10 @@
 #include <algorithm>
 
 #include "app/commands/commands.h"
+#include "app/output/page.h"
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
-#include "app/trials/report_page.h"
+#include "app/trials/shot.h"
 #include "engine/text/printable.h"
 
 namespace weft::app {
@@ -76,22 +77,21 @@ std::vector<std::string> cellsOf(const Ablation& row) {
   return cells;
 }
 
-std::string pageOf(const std::vector<Ablation>& rows, const std::vector<std::string>& titles,
-                   const std::string& graph, const std::string& sum, const assets::Image8& picture) {
-  std::string page = pageHead("weft ablate") +
-                     fmt::format("<h1>{}: what each pass costs and does</h1>\n<p>{}</p>\n{}\n<table>\n<tr>",
-                                 escapeHtml(graph), sum, imageTag(picture, "the whole frame"));
-  for (const std::string& title : titles) page += "<th>" + title + "</th>";
-  page += "<th>without it</th><th>difference</th></tr>\n";
-  for (const Ablation& row : rows) {
-    page += "<tr>";
-    for (const std::string& cell : cellsOf(row)) page += "<td>" + escapeHtml(cell) + "</td>";
-    page += row.needed.empty()
-                ? fmt::format("<td>{}</td><td>{}</td></tr>\n", imageTag(row.picture, "without it"),
-                              row.difference ? imageTag(assets::colorFlip(row.difference->map), "FLIP") : "")
-                : fmt::format("<td colspan=\"6\">{}</td></tr>\n", escapeHtml(row.needed));
-  }
-  return page + "</table>\n</body></html>\n";
+// For the page: the table with pictures.
+nlohmann::ordered_json ablationOf(const std::vector<Ablation>& rows, const std::vector<std::string>& titles,
+                                  const std::string& graph, const std::string& sum,
+                                  const assets::Image8& picture) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Ablation& row : rows)
+    list.push_back({{"cells", cellsOf(row)},
+                    {"needed", row.needed},
+                    {"picture", row.needed.empty() ? pictureAddress(row.picture) : ""},
+                    {"flip", row.difference ? pictureAddress(assets::colorFlip(row.difference->map)) : ""}});
+  return {{"graph", graph},
+          {"sum", sum},
+          {"titles", titles},
+          {"picture", pictureAddress(picture)},
+          {"rows", list}};
 }
 
 std::string jsonOf(const std::vector<Ablation>& rows, const Shot& whole) {
@@ -131,7 +131,10 @@ int ablate(gl::Context& context, const AblateOptions& options, const runtime::Wo
   const std::vector<std::string> titles{"pass",  "own ms", "saved ms", "saved bytes",
                                         "steps", "FLIP",   "at most"};
   if (options.format == "html")
-    return print(pageOf(rows, titles, options.graph, sum, whole->pictures.begin()->second)), 0;
+    if (const auto page = pageOf(
+            {{"ablation", ablationOf(rows, titles, options.graph, sum, whole->pictures.begin()->second)}},
+            "weft ablate", diagnostics))
+      return print(*page), 0;
   std::vector<std::vector<std::string>> table{titles};
   for (const Ablation& row : rows) table.push_back(cellsOf(row));
   print(sum + "\n\n");

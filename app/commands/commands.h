@@ -11,6 +11,7 @@ void addCheck(CommandLine& line);
 void addPlan(CommandLine& line);
 void addExplain(CommandLine& line);
 void addDiff(CommandLine& line);
+void addReport(CommandLine& line);
 void addTest(CommandLine& line);
 void addAblate(CommandLine& line);
 void addFuzz(CommandLine& line);

@@ -6,11 +6,11 @@
 
 #include "app/commands/commands.h"
 #include "app/output/output_files.h"
+#include "app/output/page.h"
 #include "app/output/picture_writer.h"
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
 #include "app/trials/case_run.h"
-#include "app/trials/report_page.h"
 #include "engine/text/files/file.h"
 #include "engine/text/printable.h"
 
@@ -115,6 +115,25 @@ void leaveFiles(const std::string& folder, const TestCase& test, const CaseResul
   }
 }
 
+// For the page: of the cases that failed, pictures and goldens.
+nlohmann::ordered_json casesOf(const std::vector<std::pair<TestCase, CaseResult>>& results) {
+  nlohmann::ordered_json cases = nlohmann::ordered_json::array();
+  for (const auto& [test, result] : results) {
+    auto& each = cases.emplace_back();
+    each = {{"name", test.name}, {"graph", test.options.graph}, {"state", wordOf(result.state)}};
+    if (result.state != State::different && result.state != State::broken) continue;
+    each.update({{"lines", result.lines}, {"first", result.first ? result.first->text() : ""}});
+    for (const CaseResult::Pair& pair : result.pairs)
+      each["pairs"].push_back(
+          {{"frame", pair.frame},
+           {"golden", pair.golden},
+           {"picture", pictureAddress(pair.picture)},
+           {"expected", pictureAddress(pair.expected)},
+           {"flip", pair.map.errors.empty() ? "" : pictureAddress(assets::colorFlip(pair.map))}});
+  }
+  return cases;
+}
+
 int runTest(TestOptions& options) {
   text::Diagnostics diagnostics;
   const Cases chosen = chooseCases(options, diagnostics);
@@ -143,10 +162,11 @@ int runTest(TestOptions& options) {
   print(fmt::format("{}: {}\n", text::counted(cases.size(), "case"), sum));
   if (!options.output.empty())
     for (const auto& [test, result] : results) leaveFiles(options.output, test, result, diagnostics);
-  const OutputFile page{"--report", options.report, OutputFile::Over::file};
-  if (!options.report.empty() && checkDistinct({&page, 1}, diagnostics) &&
+  const OutputFile output{"--report", options.report, OutputFile::Over::file};
+  if (!options.report.empty() && checkDistinct({&output, 1}, diagnostics) &&
       makeFolderOf(options.report, diagnostics))
-    text::writeFile(options.report, reportPage(results), diagnostics);
+    if (const auto page = pageOf({{"cases", casesOf(results)}}, "weft test", diagnostics))
+      text::writeFile(options.report, *page, diagnostics);
   const bool written = report(diagnostics) == 0;
   if (runner.lacksContext()) return 3;
   if (counts[static_cast<std::size_t>(State::broken)] > 0 || !written) return 2;

@@ -45,7 +45,7 @@ CTEST = "ctest"  # comes with cmake
 WEFT = BINARY / "app/weft"
 FENCE = re.compile(r"^```([^\n`]*)\n(.*?)^```[ ]*$", re.M | re.S)
 LANGUAGES = {"sh", "json", "glsl", "cpp", "cmake", "text"}
-DATA = ("graphs", "shaders", "materials", "scenes", "docs", "tests", "app/commands")
+DATA = ("graphs", "shaders", "materials", "scenes", "docs", "tests", "app/commands", "app/report")
 
 RUN = """#!/usr/bin/env bash
 case "${{1:-}}" in

@@ -187,7 +187,7 @@ def run_on_device(sheet, folder, other, shown, runs, texture):
     sheet.graph("check all", "check --all")
     # What presents nothing cannot be shown or compared.
     for column, command, more in (("render", "render", ["--quiet", "-o", f"{folder}/picture.png"]), ("fuzz", "fuzz", ["--runs", "1"]),
-                                  ("ablate", "ablate", ["--repeats", "1"]), ("bisect", "bisect", [])):
+                                  ("report", "report", ["-o", f"{folder}/page.html"]), ("ablate", "ablate", ["--repeats", "1"]), ("bisect", "bisect", [])):
         sheet.graph(column, command, *more, *SMALL, code=0 if shown else WRONG.get(column, 1))
     check_case(sheet, folder, "test picture", {"size": SMALL[1]}, shown)
     check_view(sheet, True)

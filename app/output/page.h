@@ -1,0 +1,24 @@
+// One HTML page with everything in it: app/report/page.html with its style, its script and the data that the script draws. `weft
+// report` writes one of a frame, `weft test` one of the cases that failed, `weft ablate` one of what each pass does.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "engine/assets/images/image.h"
+#include "engine/text/diagnostic.h"
+
+namespace weft::app {
+
+std::string encodeBase64(std::string_view bytes);
+// The address of a picture that is in the page, without alpha, as a screen shows it; "" for no picture.
+std::string pictureAddress(const assets::Image8& image);
+
+// The page that draws `report`: {"command", "states", …} of a frame, {"cases"} or {"ablation"}; app/report/page.js says what is in
+// them. Nothing after W150, when a file of the page is not there.
+std::optional<std::string> pageOf(const nlohmann::ordered_json& report, std::string_view title,
+                                  text::Diagnostics& diagnostics);
+
+}  // namespace weft::app

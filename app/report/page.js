@@ -1,0 +1,504 @@
+// The page of `weft report`: draws itself from the JSON in it (app/commands/report_command.cpp says what that holds), with nothing from elsewhere.
+// Of one or two states, a graph and what it is compared with, one is shown at a time. `weft test` and `weft ablate` have pages of their own.
+"use strict";
+const report = JSON.parse(document.getElementById("report").textContent);
+const COLUMN = 60, ROW = 20;
+
+// ---- elements ----
+
+function add(parent, tag, attributes = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [key, value] of Object.entries(attributes)) {
+    if (key === "class") element.className = value;
+    else if (key.startsWith("on")) element[key] = value;
+    else if (value !== undefined && value !== false) element.setAttribute(key, value);
+  }
+  element.append(...children);
+  if (parent) parent.append(element);
+  return element;
+}
+function addSvg(parent, tag, attributes, title) {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+  if (title) element.append(Object.assign(document.createElementNS("http://www.w3.org/2000/svg", "title"), { textContent: title }));
+  parent.append(element);
+  return element;
+}
+const mebibytes = (bytes) => (bytes < 1048576 ? (bytes / 1024).toFixed(1) + " KiB" : (bytes / 1048576).toFixed(1) + " MiB");
+const counted = (n, word) => `${n} ${word}${n === 1 ? "" : word.endsWith("s") ? "es" : "s"}`;
+const inOrder = (list, key) => [...list].sort((a, b) => key(a) - key(b));
+
+function copyButton(parent, text, label) {
+  const button = add(parent, "button", { class: "chip copy", "aria-label": "copy " + label, onclick: async () => {
+    try { await navigator.clipboard.writeText(text); } catch { const area = add(document.body, "textarea"); area.value = text; area.select(); document.execCommand("copy"); area.remove(); }
+    button.textContent = "copied";
+    setTimeout(() => { button.textContent = "copy"; }, 1200);
+  } }, "copy");
+}
+
+// ---- what is known of a state, found once ----
+
+const withoutIndex = (name) => name.replace(/\[[^\]]*\]$/, "");
+const effectOf = (name) => (name.includes(".") ? name.slice(0, name.lastIndexOf(".")) : "");
+const lastWord = (name) => name.slice(effectOf(name).length).replace(/^\./, "");
+
+function indexState(state) {
+  const steps = state.plan.steps;
+  state.stepOf = new Map(steps.map((step, t) => [step.pass, t]));
+  state.resourceOf = new Map(state.plan.resources.map((resource) => [resource.name, resource]));
+  // Rows: resources that a step touches, those of one storage together, in the order in which they are first touched.
+  const touched = state.plan.resources.filter((resource) => resource.steps);
+  const first = new Map();
+  for (const resource of touched) {
+    const key = resource.storage ?? resource.name;
+    first.set(key, Math.min(first.get(key) ?? Infinity, resource.steps[0]));
+    resource.place = () => first.get(key);
+  }
+  state.rows = inOrder(inOrder(touched, (resource) => resource.steps[0]), (resource) => resource.place());
+  state.rowOf = new Map(state.rows.map((resource, r) => [resource.name, r]));
+  const lying = new Map();
+  for (const resource of touched) if (resource.storage !== undefined) lying.set(resource.storage, (lying.get(resource.storage) ?? 0) + 1);
+  state.isShared = (resource) => (lying.get(resource.storage) ?? 0) > 1;
+  // Columns: runs of one pass in a row are one column until it is opened.
+  state.open = new Set();
+  state.columnsOf = () => {
+    const columns = [];
+    steps.forEach((step, t) => {
+      const name = withoutIndex(step.pass), last = columns.at(-1);
+      if (last && last.name === name && !state.open.has(name)) last.steps.push(t);
+      else columns.push({ name, steps: [t], label: state.open.has(name) ? lastWord(step.pass) : lastWord(name) });
+    });
+    return columns;
+  };
+  // Who made what a step reads, and who reads what it makes: whose ranges of a resource touch, the last before and those before the next.
+  const overlaps = (a, b) => a.resource === b.resource && (a.range === b.range || !a.range.includes(".mip[", a.resource.length) || !b.range.includes(".mip[", b.resource.length));
+  state.sourcesOf = (t) => steps[t].uses.filter((use) => use.access !== "write").map((use) => {
+    for (let s = t - 1; s >= 0; --s) if (steps[s].uses.some((made) => made.access !== "read" && overlaps(made, use))) return { use, step: s };
+    return { use, step: undefined };
+  });
+  state.readersOf = (t) => {
+    const found = [];
+    steps.forEach((step, s) => { if (s > t) for (const source of state.sourcesOf(s)) if (source.step === t) found.push({ use: source.use, step: s }); });
+    return found;
+  };
+}
+let state, selected = 0, selectedRow;
+
+// ---- top ----
+
+function drawTop() {
+  const top = add(null, "header"), plan = state.plan, bad = state.messages.filter((m) => m.severity === "error").length, warned = state.messages.filter((m) => m.severity === "warning").length;
+  add(top, "h1", {}, state.title);
+  if (report.states.length > 1)
+    report.states.forEach((each, i) => add(top, "button", { class: "chip", "aria-pressed": String(each === state), onclick: () => { state = each; selected = Math.min(selected, state.plan.steps.length - 1); draw(); } }, i ? "after" : "before"));
+  add(top, "span", { class: "quiet" }, state.facts.join(" · "));
+  const nan = state.outputs.flat().reduce((sum, output) => sum + (output.nan ?? 0) + (output.infinite ?? 0), 0);
+  add(top, "span", {}, `${plan.steps.length} run · ${plan.culled.length} culled · ${plan.disabled.length} off · ${mebibytes(plan.bytes.allocated)} (${mebibytes(plan.bytes.declared)} unshared)` +
+    (state.times ? ` · ${state.times.reduce((a, b) => a + b, 0).toFixed(1)} ms` : ""));
+  if (bad) add(top, "button", { class: "chip bad", onclick: () => showTab("Messages") }, counted(bad, "error"));
+  if (warned) add(top, "button", { class: "chip", onclick: () => showTab("Messages") }, counted(warned, "warning"));
+  if (nan) add(top, "span", { class: "bad" }, `${nan} NaN or infinite`);
+  add(top, "code", { class: "command", title: report.command }, report.command);
+  copyButton(top, report.command, "the command");
+  drawSearch(top);
+  return top;
+}
+
+// ---- search ----
+
+function searchable() {
+  const found = [];
+  state.plan.steps.forEach((step, t) => found.push({ text: step.pass, kind: "pass", go: () => select(t) }));
+  for (const pass of [...state.plan.culled, ...state.plan.disabled]) found.push({ text: pass.pass, kind: "does not run: " + pass.why, go: () => showTab("Messages") });
+  state.rows.forEach((resource, r) => found.push({ text: resource.name, kind: resource.shape, go: () => selectRow(r) }));
+  for (const parameter of state.parameters) {
+    const user = state.passes.findIndex((pass) => pass.parameters.some((each) => each.path === parameter.name));
+    found.push({ text: parameter.name, kind: `parameter = ${parameter.value}`, go: () => user >= 0 && select(user) });
+  }
+  for (const file of new Set(state.passes.flatMap((pass) => [...pass.shader, pass.place.split(":")[0]])))
+    found.push({ text: file, kind: "file", go: () => select(state.passes.findIndex((pass) => pass.shader.includes(file) || pass.place.startsWith(file + ":"))) });
+  return found;
+}
+
+function drawSearch(parent) {
+  const box = add(parent, "div", { class: "search" });
+  const input = add(box, "input", { type: "search", placeholder: "search  /", role: "combobox", "aria-label": "search passes, resources, parameters and files", "aria-expanded": "false", "aria-controls": "found", "aria-autocomplete": "list" });
+  const list = add(box, "div", { class: "found", role: "listbox", id: "found", "aria-label": "found", hidden: "" });
+  let hits = [], at = 0;
+  const show = () => {
+    const words = input.value.toLowerCase().split(/\s+/).filter(Boolean);
+    hits = words.length ? searchable().filter((each) => words.every((word) => each.text.toLowerCase().includes(word))).slice(0, 40) : [];
+    at = Math.min(at, Math.max(hits.length - 1, 0));
+    list.replaceChildren();
+    hits.forEach((hit, i) => add(list, "div", { role: "option", id: "hit" + i, "aria-selected": String(i === at), onmousedown: (event) => { event.preventDefault(); choose(i); } }, hit.text, add(null, "span", { class: "quiet" }, "  " + hit.kind)));
+    list.hidden = !hits.length;
+    input.setAttribute("aria-expanded", String(hits.length > 0));
+    if (hits.length) input.setAttribute("aria-activedescendant", "hit" + at); else input.removeAttribute("aria-activedescendant");
+  };
+  const choose = (i) => { const hit = hits[i]; input.value = ""; show(); if (hit) hit.go(); };
+  input.oninput = () => { at = 0; show(); };
+  input.onblur = () => { list.hidden = true; };
+  input.onkeydown = (event) => {
+    if (event.key === "ArrowDown" || event.key === "ArrowUp") { at = (at + (event.key === "ArrowDown" ? 1 : hits.length - 1)) % Math.max(hits.length, 1); show(); event.preventDefault(); }
+    else if (event.key === "Enter") choose(at);
+    else if (event.key === "Escape") { input.value = ""; show(); input.blur(); }
+    event.stopPropagation();
+  };
+}
+
+// ---- left: the picture and the effects ----
+
+function drawTree() {
+  const side = add(null, "nav", { "aria-label": "effects" });
+  if (state.picture) add(side, "img", { class: "wide", src: state.picture.png, alt: "the presented picture" });
+  const root = { name: "", children: new Map(), steps: [] };
+  state.plan.steps.forEach((step, t) => {
+    let node = root;
+    for (const word of effectOf(step.pass).split(".").filter(Boolean)) {
+      if (!node.children.has(word)) node.children.set(word, { name: (node.name && node.name + ".") + word, children: new Map(), steps: [] });
+      node = node.children.get(word);
+    }
+    node.steps.push(t);
+  });
+  const weightOf = (t) => state.times ? state.times[t] : [...new Set(state.plan.steps[t].uses.filter((use) => use.access !== "read").map((use) => use.resource))].reduce((sum, name) => sum + (state.resourceOf.get(name)?.bytes ?? 0), 0);
+  const all = (node) => [...node.steps, ...[...node.children.values()].flatMap(all)];
+  const weigh = (steps) => steps.reduce((sum, t) => sum + weightOf(t), 0), whole = weigh(all(root)) || 1;
+  const drawNode = (parent, node) => {
+    for (const child of node.children.values()) {
+      const steps = all(child), details = add(parent, "details", { open: node === root ? "" : undefined });
+      const line = add(add(details, "summary"), "span", { class: "row", style: "display: inline-flex; width: calc(100% - 1.2em)" });
+      add(line, "span", {}, `${lastWord(child.name)} ${steps.length}`);
+      add(line, "span", { class: "part", style: `width: ${Math.round(90 * weigh(steps) / whole)}px`, title: state.times ? "share of the time" : "share of the bytes written" });
+      drawNode(details, child);
+    }
+    const names = new Map();
+    for (const t of node.steps) { const name = withoutIndex(state.plan.steps[t].pass); names.set(name, [...(names.get(name) ?? []), t]); }
+    for (const [name, steps] of names) add(parent, "button", { class: "line", "data-step": steps.join(" "), onclick: () => select(steps[0]) }, lastWord(name) + (steps.length > 1 ? ` ×${steps.length}` : ""));
+  };
+  const tree = add(side, "div", { class: "tree" });
+  drawNode(tree, root);
+  for (const [list, word] of [[state.plan.culled, "culled"], [state.plan.disabled, "off"]]) {
+    if (!list.length) continue;
+    const details = add(tree, "details");
+    add(details, "summary", {}, `${list.length} ${word}`);
+    for (const pass of list) add(details, "p", {}, pass.pass, " ", add(null, "span", { class: "quiet" }, pass.why.replace(/^(culled|enabled): /, "")));
+  }
+  return side;
+}
+
+// ---- middle: the matrix ----
+
+function drawMatrix() {
+  const matrix = add(null, "section", { class: "matrix", "aria-label": "steps and resources", tabindex: "0" }), columns = state.columnsOf();
+  state.columns = columns;
+  const key = (color, word) => [add(null, "span", { class: "key", style: `background: var(${color})` }), ` ${word} `];
+  add(matrix, "div", { class: "corner" }, add(null, "p", { class: "quiet" }, ...key("--read", "read"), ...key("--write", "write"), "(both: modify)"), add(null, "p", { class: "quiet" }, ...key("--life", "alive"), ...key("--kept", "kept"), ...key("--barrier", "barrier")),
+    add(null, "p", { class: "quiet" }, "arrows walk, / searches"));
+  const heads = add(matrix, "div", { class: "columns" }), slowest = state.times ? Math.max(...columns.map((column) => column.steps.reduce((sum, t) => sum + state.times[t], 0))) : 1;
+  let effect;
+  columns.forEach((column, c) => {
+    const own = effectOf(column.name), begins = own !== effect, last = column.steps.at(-1), output = state.outputs[last][0];
+    effect = own;
+    const head = add(heads, "button", { class: "column", "data-step": column.steps.join(" "), tabindex: "-1", title: `${column.name}\n${state.plan.steps[last].why}`, onclick: () => select(last) });
+    add(head, "span", { class: "effect" + (own ? " on" : "") }, begins ? own : "\u00a0");
+    if (output) add(head, "img", { src: output.png, alt: "" }); else add(head, "span", { class: "none" });
+    add(head, "span", { class: "bar", style: `width: ${state.times ? Math.round(56 * column.steps.reduce((sum, t) => sum + state.times[t], 0) / slowest) : 0}px` });
+    add(head, "span", { class: "name" }, column.label + (column.steps.length > 1 ? ` ×${column.steps.length}` : ""));
+    if (column.steps.length > 1 || state.open.has(column.name)) head.ondblclick = () => { state.open.has(column.name) ? state.open.delete(column.name) : state.open.add(column.name); draw(); };
+    column.x = c * COLUMN;
+  });
+  const names = add(matrix, "div", { class: "rows" });
+  state.rows.forEach((resource, r) => add(names, "button", { class: state.isShared(resource) ? "shared" : "", tabindex: "-1", title: `${resource.shape}\n${resource.why}`, onclick: () => selectRow(r) },
+    resource.name, add(null, "span", { class: "quiet" }, ` ${resource.format ?? (resource.imported ? "import" : "buffer")} ${resource.size ? resource.size.join("x") : ""} ${resource.bytes ? mebibytes(resource.bytes) : ""}`)));
+  const width = columns.length * COLUMN, height = Math.max(state.rows.length, 1) * ROW;
+  const cells = addSvg(matrix, "svg", { class: "cells", width, height, role: "img", "aria-label": "which step reads and writes which resource; the panel at the right says it in words" });
+  const columnOfStep = [];
+  columns.forEach((column, c) => column.steps.forEach((t) => { columnOfStep[t] = c; }));
+  state.columnMark = addSvg(cells, "rect", { class: "mark", x: 0, y: 0, width: COLUMN, height });
+  state.rowMark = addSvg(cells, "rect", { class: "mark", x: 0, y: -ROW, width, height: ROW });
+  state.rows.forEach((resource, r) => {
+    const from = columnOfStep[Math.min(resource.steps[0], columnOfStep.length - 1)], to = columnOfStep[Math.min(resource.steps[1], columnOfStep.length - 1)];
+    const kept = resource.persistent || resource.history;
+    if (kept) addSvg(cells, "rect", { class: "kept", x: 0, y: r * ROW + 7, width, height: 6 });
+    if (!resource.imported) addSvg(cells, "rect", { class: kept ? "kept" : "life", x: from * COLUMN, y: r * ROW + 5, width: (to - from + 1) * COLUMN, height: 10 });
+    addSvg(cells, "line", { class: "grid", x1: 0, x2: width, y1: (r + 1) * ROW, y2: (r + 1) * ROW });
+  });
+  columns.forEach((column, c) => {
+    const uses = column.steps.flatMap((t) => state.plan.steps[t].uses), why = column.steps.flatMap((t) => [...(state.plan.steps[t].why_barriers ?? []), ...(state.plan.steps[t].why_barriers_after_clears ?? [])]);
+    for (const name of new Set(uses.map((use) => use.resource))) {
+      const r = state.rowOf.get(name), of = uses.filter((use) => use.resource === name);
+      if (r === undefined) continue;
+      const reads = of.some((use) => use.access !== "write" && !use.history), writes = of.some((use) => use.access !== "read"), old = of.some((use) => use.history);
+      const title = of.slice(0, 6).map((use) => `${use.access} ${use.range} as ${use.kind}` + (use.slot ? ` (${use.slot})` : "")).join("\n"), x = c * COLUMN + 14, y = r * ROW + 3;
+      const cell = addSvg(cells, "g", {}, title);
+      if (reads) addSvg(cell, "rect", { class: "read", x, y, width: writes ? 16 : 32, height: 14, rx: 2 });
+      if (writes) addSvg(cell, "rect", { class: "write", x: reads ? x + 16 : x, y, width: reads ? 16 : 32, height: 14, rx: 2 });
+      if (old) addSvg(cell, "path", { class: "history", d: `M${x - 2} ${y + 7}h-9m4 -4l-4 4l4 4` });
+    }
+    if (why.length) addSvg(cells, "line", { class: "tick", x1: c * COLUMN + 1, x2: c * COLUMN + 1, y1: 0, y2: height }, why.join("\n"));
+  });
+  cells.onclick = (event) => {
+    const at = cells.getBoundingClientRect(), c = Math.floor((event.clientX - at.left) / COLUMN), r = Math.floor((event.clientY - at.top) / ROW);
+    if (columns[c]) select(columns[c].steps.at(-1));
+    if (state.rows[r]) selectRow(r, true);
+  };
+  matrix.onkeydown = (event) => {
+    const c = columnOfStep[selected] ?? 0, step = { ArrowRight: 1, ArrowLeft: -1 }[event.key], row = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (step && columns[c + step]) select(columns[c + step].steps.at(-1));
+    if (row) selectRow(Math.min(Math.max((selectedRow ?? -1) + row, 0), state.rows.length - 1), true);
+    if (step || row) event.preventDefault();
+  };
+  return matrix;
+}
+
+// ---- below: flow, memory, difference, messages ----
+
+let tab = "Flow";
+const TABS = { Flow: drawFlow, Memory: drawMemory, Difference: drawDifference, Messages: drawMessages };
+
+function drawLower() {
+  const lower = add(null, "section", { class: "lower", "aria-label": "more views" }), tabs = add(lower, "div", { class: "tabs", role: "tablist" });
+  const names = Object.keys(TABS).filter((name) => (name !== "Flow" || state.flow) && (name !== "Difference" || report.states.length > 1));
+  if (!names.includes(tab)) tab = names[0];
+  names.forEach((name, i) => add(tabs, "button", { role: "tab", id: "tab" + name, "aria-selected": String(name === tab), "aria-controls": "tabpanel", tabindex: name === tab ? "0" : "-1", onclick: () => showTab(name),
+    onkeydown: (event) => { const to = names[(i + ({ ArrowRight: 1, ArrowLeft: -1 }[event.key] ?? 0) + names.length) % names.length]; if (to !== name) { showTab(to); document.getElementById("tab" + to).focus(); } } }, name));
+  TABS[tab](add(lower, "div", { role: "tabpanel", id: "tabpanel", "aria-labelledby": "tab" + tab, tabindex: "0" }));
+  return lower;
+}
+function showTab(name) { tab = name; document.querySelector(".lower").replaceWith(drawLower()); markFlow(); }
+
+function drawFlow(panel) {
+  panel.classList.add("flow");
+  panel.innerHTML = state.flow;
+  const svg = panel.querySelector("svg");
+  svg.setAttribute("width", svg.viewBox.baseVal.width);
+  svg.removeAttribute("height");
+  svg.setAttribute("role", "img");
+  svg.setAttribute("aria-label", "passes and versions of resources, left to right");
+  for (const node of panel.querySelectorAll("g.node")) {
+    const t = state.stepOf.get(node.id) ?? state.plan.steps.findIndex((step) => withoutIndex(step.pass) === node.id);
+    if (t >= 0) { node.style.cursor = "pointer"; node.onclick = () => select(t); }
+  }
+  markFlow();
+}
+function markFlow() {
+  const name = state.plan.steps[selected]?.pass ?? "";
+  for (const node of document.querySelectorAll(".flow g.node")) {
+    const chosen = node.id === withoutIndex(name);
+    node.classList.toggle("chosen", chosen);
+    if (chosen) node.scrollIntoView({ block: "center", inline: "center" });
+  }
+}
+
+function drawMemory(panel) {
+  const steps = state.plan.steps.length, wide = Math.max(500, Math.min(1600, steps * 18)), unit = wide / (steps + 1), left = 190;
+  const svg = addSvg(panel, "svg", { class: "cells", width: left + wide, height: state.plan.storages.length * 18 + 4, role: "img", "aria-label": "each texture and the steps in which resources lie in it" });
+  state.plan.storages.forEach((storage, s) => {
+    const text = addSvg(svg, "text", { x: 0, y: s * 18 + 13, "font-size": 11, fill: "currentColor" });
+    text.textContent = `${storage.format} ${storage.width}x${storage.height} ${mebibytes(storage.bytes)}`;
+    for (const resource of state.plan.resources.filter((each) => each.storage === s && each.steps)) {
+      const [from, to] = storage.persistent ? [0, steps] : resource.steps;
+      addSvg(svg, "rect", { class: storage.persistent ? "kept" : "life", x: left + from * unit, y: s * 18 + 2, width: Math.max((to - from + 1) * unit - 2, 3), height: 14, rx: 2 }, `${resource.name}\n${resource.why}`);
+      const name = addSvg(svg, "text", { x: left + from * unit + 3, y: s * 18 + 13, "font-size": 10, fill: "currentColor" });
+      name.textContent = resource.name;
+    }
+  });
+  add(panel, "p", {}, `${mebibytes(state.plan.bytes.allocated)} in ${counted(state.plan.storages.length, "texture")}; without sharing ${mebibytes(state.plan.bytes.declared)}; no order of the passes needs less than ${mebibytes(state.plan.bytes.lower_bound)}.`);
+}
+
+function wipe(parent, before, after, word) {
+  const box = add(parent, "div", { class: "wipe" });
+  add(box, "img", { class: "wide", src: before, alt: word + " before" });
+  const over = add(box, "img", { class: "wide", src: after, alt: word + " after" });
+  const clip = (share) => { over.style.clipPath = `inset(0 0 0 ${share}%)`; };
+  add(box, "input", { type: "range", min: "0", max: "100", value: "50", "aria-label": "wipe between before and after", oninput: (event) => clip(event.target.value) });
+  clip(50);
+}
+
+function drawDifference(panel) {
+  const [before, after] = report.states, list = add(panel, "pre", {});
+  list.textContent = report.difference.length ? report.difference.join("\n") : "the plans do the same";
+  if (report.pictures) add(panel, "p", {}, report.pictures);
+  if (before.picture && after.picture) wipe(panel, before.picture.png, after.picture.png, "picture");
+}
+
+function drawMessages(panel) {
+  for (const message of state.messages) {
+    add(panel, "p", { class: message.severity === "error" ? "bad" : "" }, `${message.place ? message.place + ": " : ""}${message.severity}[${message.code}]: ${message.message}`);
+    for (const key of ["expected", "found", "fix"]) if (message[key]) add(panel, "p", { class: "quiet" }, `    ${key}: ${message[key]}`);
+  }
+  if (!state.messages.length) add(panel, "p", { class: "good" }, "no errors and no warnings");
+  for (const pass of [...state.plan.culled, ...state.plan.disabled]) add(panel, "p", { class: "quiet" }, `${pass.pass}: ${pass.why}`);
+}
+
+// ---- right: the selected pass or resource ----
+
+function link(parent, t, rest = "") {
+  const item = add(parent, "li");
+  add(item, "button", { class: "chip", onclick: () => select(t) }, state.plan.steps[t].pass);
+  item.append(" " + rest);
+}
+
+// IEEE 754 binary16.
+function numberOfHalf(half) {
+  const exponent = (half >> 10) & 31, fraction = half & 1023, sign = half & 0x8000 ? -1 : 1;
+  if (exponent === 31) return fraction ? NaN : sign * Infinity;
+  return sign * (exponent ? (1 + fraction / 1024) * 2 ** (exponent - 15) : fraction * 2 ** -24);
+}
+function valuesOf(grid) {
+  const { buffer } = Uint8Array.from(atob(grid.values), (c) => c.charCodeAt(0));
+  return grid.half ? Array.from(new Uint16Array(buffer), numberOfHalf) : Array.from(new Float32Array(buffer));
+}
+
+function drawOutput(parent, outputs) {
+  const box = add(parent, "div"), show = (output) => {
+    box.replaceChildren();
+    const image = add(box, "img", { class: "wide", src: output.png, alt: output.name });
+    if (outputs.length > 1) {
+      const strip = add(box, "div", { class: "strip" });
+      for (const each of outputs) add(strip, "button", { "aria-pressed": String(each === output), "aria-label": each.name, title: each.name, onclick: () => show(each) }, add(null, "img", { src: each.png, alt: "" }));
+    }
+    add(box, "p", { class: "quiet" }, `${output.name}, ${output.size.join("x")}` + (output.shown ? `, shown from ${output.shown.join(" to ")}` : ""));
+    if (output.low) {
+      const table = add(box, "table");
+      for (const [word, values] of [["min", output.low], ["max", output.high], ["mean", output.mean]]) { const row = add(table, "tr"); add(row, "th", { scope: "row" }, word); for (const value of values) add(row, "td", { class: "number" }, String(+value.toPrecision(6))); }
+      if (output.nan || output.infinite) add(box, "p", { class: "bad" }, `${output.nan} NaN, ${output.infinite} infinite`);
+    }
+    if (!output.grid) return;
+    const loupe = add(box, "div", { class: "loupe" }), zoom = add(loupe, "canvas", { width: 9, height: 9, role: "img", "aria-label": "loupe" }), text = add(loupe, "code", {}, "point at the picture: its texels");
+    const values = valuesOf(output.grid), { width, height, channels, every } = output.grid, paint = zoom.getContext("2d");
+    image.onmousemove = (event) => {
+      const at = image.getBoundingClientRect(), u = (event.clientX - at.left) / at.width, v = (event.clientY - at.top) / at.height;
+      const x = Math.min(Math.max(Math.floor(u * output.size[0] / every), 0), width - 1), y = Math.min(Math.max(Math.floor((1 - v) * output.size[1] / every), 0), height - 1);
+      paint.imageSmoothingEnabled = false;
+      paint.clearRect(0, 0, 9, 9);
+      paint.drawImage(image, Math.floor(u * image.naturalWidth) - 4, Math.floor(v * image.naturalHeight) - 4, 9, 9, 0, 0, 9, 9);
+      text.textContent = `(${x * every}, ${y * every}): ${values.slice((y * width + x) * channels, (y * width + x + 1) * channels).map((value) => +value.toPrecision(7)).join(", ")}`;
+    };
+  };
+  show(outputs[0]);
+}
+
+function drawSelected() {
+  const side = add(null, "aside", { "aria-label": "selected", "aria-live": "polite" });
+  if (selectedRow !== undefined && state.rows[selectedRow]) {
+    const resource = state.rows[selectedRow];
+    add(side, "h2", {}, resource.name);
+    add(side, "p", {}, resource.shape);
+    add(side, "p", { class: "quiet" }, resource.why);
+    for (const [word, accesses] of [["written by", ["write", "modify"]], ["read by", ["read"]]]) {
+      add(side, "h3", {}, word);
+      const list = add(side, "ul");
+      state.plan.steps.forEach((step, t) => { for (const use of step.uses) if (use.resource === resource.name && accesses.includes(use.access)) link(list, t, `${use.access} ${use.range.slice(resource.name.length)} as ${use.kind}`); });
+    }
+    return side;
+  }
+  const step = state.plan.steps[selected], pass = state.passes[selected], outputs = state.outputs[selected];
+  if (!step) { add(side, "p", {}, "no pass runs"); return side; }
+  add(side, "h2", {}, step.pass);
+  add(side, "p", { class: "quiet" }, `step ${selected}, ${pass.type}, ${step.update}` + (step.framebuffer ? `, ${step.framebuffer.size.join("x")}` : "") + (state.times ? `, ${state.times[selected].toFixed(3)} ms` : ""));
+  if (outputs.length) drawOutput(side, outputs);
+  add(side, "h3", {}, "why it runs, and why here");
+  add(side, "p", {}, step.why.replace(/^runs: /, ""));
+  if (step.why_here) add(side, "p", {}, step.why_here);
+  const sources = state.sourcesOf(selected), readers = state.readersOf(selected);
+  if (sources.length) { add(side, "h3", {}, "reads"); const list = add(side, "ul"); for (const { use, step: from } of sources) from === undefined ? add(list, "li", {}, `${use.range} (${use.slot ?? use.kind})`) : link(list, from, `${use.range} (${use.slot ?? use.kind})`); }
+  if (readers.length) { add(side, "h3", {}, "read by"); const list = add(side, "ul"); for (const { use, step: to } of readers) link(list, to, use.range); }
+  const barriers = [...(step.why_barriers ?? []), ...(step.why_barriers_after_clears ?? [])];
+  if (barriers.length) { add(side, "h3", {}, "barriers before it"); for (const why of barriers) add(side, "p", {}, why); }
+  if (pass.parameters.length) {
+    add(side, "h3", {}, "parameters");
+    const table = add(side, "table");
+    for (const parameter of pass.parameters) {
+      const row = add(table, "tr"), known = state.parameters.find((each) => each.name === parameter.path);
+      add(row, "th", { scope: "row" }, parameter.name);
+      add(row, "td", {}, parameter.value);
+      const cell = add(row, "td");
+      if (known) { add(cell, "span", { class: "quiet" }, known.from + " "); copyButton(cell, `--set ${known.name}=${known.value}`, `--set of ${known.name}`); }
+    }
+  }
+  add(side, "h3", {}, "files");
+  for (const file of [pass.place, ...pass.shader]) { const line = add(side, "p", {}, add(null, "code", {}, file), " "); copyButton(line, file, file); }
+  return side;
+}
+
+// ---- selection ----
+
+function mark() {
+  for (const element of document.querySelectorAll("[data-step]")) element.setAttribute("aria-current", String(element.dataset.step.split(" ").includes(String(selected))));
+  const column = state.columns.find((each) => each.steps.includes(selected));
+  if (column) {
+    state.columnMark.setAttribute("x", column.x);
+    document.querySelector(".column[aria-current=true]").scrollIntoView({ block: "nearest", inline: "nearest" });
+  }
+  document.querySelectorAll(".rows button").forEach((button, r) => button.setAttribute("aria-current", String(r === selectedRow)));
+  state.rowMark.setAttribute("y", (selectedRow ?? -1) * ROW);
+  document.querySelector("aside").replaceWith(drawSelected());
+  markFlow();
+}
+function select(t) {
+  if (!(t >= 0)) return;
+  selected = t;
+  selectedRow = undefined;
+  history.replaceState(null, "", "#" + encodeURIComponent(state.plan.steps[t].pass));
+  mark();
+}
+function selectRow(r) { selectedRow = r; mark(); }
+function fromAddress() {
+  const t = state.stepOf.get(decodeURIComponent(location.hash.slice(1)));
+  if (t !== undefined) selected = t;
+}
+function draw() {
+  document.querySelectorAll("header, nav, main, aside").forEach((element) => element.remove());
+  document.body.append(drawTop(), drawTree(), add(null, "main", {}, drawMatrix(), drawLower()), drawSelected());
+  mark();
+}
+
+function drawFrame() {
+  report.states.forEach(indexState);
+  state = report.states.at(-1);
+  onhashchange = () => { fromAddress(); mark(); };
+  onkeydown = (event) => { if (event.key === "/" && !/INPUT|TEXTAREA/.test(document.activeElement.tagName)) { document.querySelector(".search input").focus(); event.preventDefault(); } };
+  state.plan.steps.forEach((step, t) => { if (step.uses.some((use) => use.access !== "read" && (use.range === state.plan.present || use.resource === state.plan.present))) selected = t; });
+  fromAddress();
+  draw();
+}
+
+// ---- the pages of weft test and weft ablate ----
+
+function drawCases() {
+  document.body.classList.add("plain");
+  const page = add(document.body, "main"), failed = report.cases.filter((each) => each.lines);
+  add(page, "h1", {}, `weft test: ${failed.length} of ${counted(report.cases.length, "case")} failed`);
+  for (const each of failed) {
+    add(page, "h2", { id: each.name }, `${each.name}: ${each.graph}`);
+    if (each.first) add(page, "p", { class: "bad" }, `first that differs: ${each.first}`);
+    for (const line of each.lines) add(page, "p", {}, line);
+    if (!each.pairs) continue;
+    for (const pair of each.pairs) {
+      const row = add(page, "div", { class: "pair" }), figure = (source, caption) => source && add(row, "figure", {}, add(null, "img", { class: "wide", src: source, alt: caption }), add(null, "figcaption", { class: "quiet" }, caption));
+      figure(pair.picture, `picture, frame ${pair.frame}`);
+      figure(pair.expected, `golden: ${pair.golden}`);
+      figure(pair.flip, "FLIP: black 0, yellow 1");
+      if (pair.picture && pair.expected) wipe(page, pair.expected, pair.picture, pair.golden);
+    }
+  }
+}
+
+function drawAblation() {
+  const { graph, sum, titles, picture, rows } = report.ablation, page = add(document.body, "main");
+  document.body.classList.add("plain");
+  add(page, "h1", {}, `${graph}: what each pass costs and does`);
+  add(page, "p", {}, sum);
+  add(page, "img", { class: "wide", src: picture, alt: "the whole frame" });
+  const table = add(page, "table"), heads = add(table, "tr");
+  for (const title of [...titles, "without it", "difference"]) add(heads, "th", { scope: "col" }, title);
+  for (const row of rows) {
+    const line = add(table, "tr");
+    for (const cell of row.cells) add(line, "td", {}, cell);
+    if (row.needed) add(line, "td", { colspan: 6 }, row.needed);
+    else for (const [source, word] of [[row.picture, "without it"], [row.flip, "difference"]]) add(line, "td", {}, add(null, "img", { src: source, alt: word, width: 160 }));
+  }
+}
+
+if (report.cases) drawCases(); else if (report.ablation) drawAblation(); else drawFrame();
