@@ -8,6 +8,7 @@ wrong names; many messages. A run that hangs is ended by its limit, and is a fai
 import json
 import os
 import pathlib
+import shlex
 import subprocess
 import sys
 import threading
@@ -89,7 +90,7 @@ def pipes(weft, folder, report):
             report.check(done.code == expected and "pipe, which" not in done.err, f"a graph through a pipe: {done.code}\n{done.err}")
         writer.join(LIMIT)
     count_run()
-    command = f"exec {weft} plan <(cat {folder}/good.json)"
+    command = f"exec {shlex.quote(str(weft))} plan <(cat {shlex.quote(str(folder))}/good.json)"
     done = subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True, text=True, timeout=LIMIT)
     report.check(done.returncode == 0 and "plan g" in done.stdout, f"plan <(generate): {done.returncode}\n{done.stderr}")
 
