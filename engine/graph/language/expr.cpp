@@ -122,13 +122,6 @@ ExprPtr makeConstant(Value value, text::Place place) {
 
 namespace {
 
-// Calls f for the node and everything below it.
-template <class F>
-void visitNodes(const ExprNode& node, const F& f) {
-  f(node);
-  for (const ExprPtr& child : node.children) visitNodes(*child, f);
-}
-
 // Canonical text; parentheses only where the grammar needs them. `outer` is the precedence of the
 // surroundings.
 void print(const ExprNode& node, int outer, std::string& out) {

@@ -100,6 +100,13 @@ std::string hintForWord(EvalScope& scope, const Value& value);
 // "size", "mips", "count", "has", "age", "format"; "" for a value of an import.
 const char* nameOf(Fact fact);
 
+// Calls f for the node and everything below it.
+template <class F>
+void visitNodes(const ExprNode& node, const F& f) {
+  f(node);
+  for (const ExprPtr& child : node.children) visitNodes(*child, f);
+}
+
 // A node over `children`, with height and dynamic filled in. The caller has checked the height.
 ExprPtr makeNode(ExprOp op, text::Place place, std::vector<ExprPtr> children);
 ExprPtr makeConstant(Value value, text::Place place);

@@ -72,7 +72,11 @@ class MentionWalk {
         parameter.named = true;
         parameter.structural = parameter.structural || structural;
       }
-      if (asks_ && found.kind == Variable::Kind::none) model_.unknownVariables.emplace_back(&scope, name);
+      if (asks_ && found.kind == Variable::Kind::none)
+        visitNodes(*expr.root(), [&](const ExprNode& node) {
+          if (node.op == ExprOp::variable && node.name == name)
+            model_.unknownVariables.emplace_back(&scope, name);
+        });
       if (found.kind == Variable::Kind::ambiguous)
         for (const std::uint32_t each : parametersMeant(model_, scope.prefix, name))
           model_.parameters[each].named = true;
@@ -108,16 +112,12 @@ class MentionWalk {
     Scope& parent = *scope.parent;
     const auto& binds = scope.stanza->include->binds;
     if (std::ranges::any_of(binds, [&](const auto& bind) { return bind.first == input.name; })) return;
-    bool whole = false;  // an include is bound
-    const auto askIn = [&](Scope& in, bool needed) {
-      if (!in.resources.contains(input.name)) ask(in, input.name, needed && !input.optional ? 1 : 0);
+    const auto askIn = [&](Scope& in) {
+      if (!in.resources.contains(input.name)) ask(in, input.name, input.optional ? 0 : 1);
     };
     for (const auto& [own, ref] : binds)
-      if (Scope* const include = includeBound(parent, own, ref)) {
-        whole = true;
-        askIn(*include, true);
-      }
-    askIn(parent, !whole);
+      if (Scope* const include = includeBound(parent, own, ref)) askIn(*include);
+    askIn(parent);
   }
 
   // What a name means as it is written: an input is itself. kNone for what no file declares.
