@@ -236,11 +236,11 @@ struct SlotChoice {
     // A mistake, unless the slot says that it can do without.
     const bool missing = context.versions && !slot.ref.optional;
     work.state = missing ? State::missing : State::absent;
-    using Cause = MissingRead::Cause;
+    using Why = MissingRead::Cause;
     if (missing)
-      context.model.missing.push_back({leaves.empty() ? Cause::condition
-                                       : onlyImports  ? Cause::import
-                                                      : Cause::version,
+      context.model.missing.push_back({leaves.empty() ? Why::condition
+                                       : onlyImports  ? Why::import
+                                                      : Why::version,
                                        pass, context.model.position, slot.name, slot.ref, false, slot.access,
                                        std::move(wanted)});
     return work;
