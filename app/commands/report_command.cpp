@@ -2,12 +2,10 @@
 // style and script, and the data that the script draws.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 
 #include "app/commands/commands.h"
 #include "app/output/output_files.h"
@@ -173,20 +171,21 @@ Json messagesOf(const text::Diagnostics& diagnostics) {
   return all;
 }
 
-// What Graphviz makes of the plan, as SVG; "" without Graphviz.
+// What Graphviz makes of the plan, as SVG; "" without Graphviz. The file between has no name that anybody could take.
 std::string flowOf(const graph::Plan& plan) {
-  const std::string file =
-      (std::filesystem::temp_directory_path() / fmt::format("weft-{}.dot", getpid())).string();
-  text::Diagnostics ignored;
-  if (!text::writeFile(file, graph::dumpDot(plan), ignored)) return "";
+  std::FILE* const file = std::tmpfile();
+  if (!file) return "";
+  const std::string dot = graph::dumpDot(plan);
+  std::fwrite(dot.data(), 1, dot.size(), file);
+  std::fflush(file);
+  std::rewind(file);
   std::string svg;
-  if (FILE* const pipe = popen(fmt::format("dot -Tsvg '{}' 2>/dev/null", file).c_str(), "r")) {
+  if (std::FILE* const pipe = popen(fmt::format("dot -Tsvg 2>/dev/null <&{}", fileno(file)).c_str(), "r")) {
     char part[4096];
-    for (std::size_t n; (n = fread(part, 1, sizeof part, pipe)) > 0;) svg.append(part, n);
+    for (std::size_t n; (n = std::fread(part, 1, sizeof part, pipe)) > 0;) svg.append(part, n);
     if (pclose(pipe) != 0) svg.clear();
   }
-  std::error_code none;
-  std::filesystem::remove(file, none);
+  std::fclose(file);
   const std::size_t begin = svg.find("<svg");
   return begin == std::string::npos ? "" : svg.substr(begin);
 }
@@ -246,8 +245,9 @@ std::optional<Drawn> stateOf(gl::Context& context, const Options& options, std::
                 [&](const runtime::CaptureItem& item) { return ++count[item.step] > kPicturesOfStep; });
   Json outputs(state.plan->steps.size(), Json::array());
   runtime::Capture capture(renderer.device());
-  for (std::uint32_t frame = execution.remembers(world) ? 0 : options.lastFrame; frame <= options.lastFrame;
-       ++frame) {
+  for (std::uint64_t number = execution.remembers(world) ? 0 : options.lastFrame; number <= options.lastFrame;
+       ++number) {
+    const auto frame = static_cast<std::uint32_t>(number);
     if (frame == options.lastFrame)
       capture.start(execution, items, [&](std::size_t i, runtime::Inspector& inspector) {
         if (inspector.picture().id != 0)
