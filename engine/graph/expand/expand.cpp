@@ -78,19 +78,21 @@ void resolveOutputs(Model& model) {
         continue;
       }
       // A version zero alone is nothing to read back.
-      bool written = true;
+      std::uint32_t missing = kNone;
       if (use->history == 0)
-        model.versions.forEachRun(*use, [&](std::uint32_t writer, std::uint32_t, std::uint32_t) {
-          written = written && writer != kNone;
-          return written;
+        model.versions.forEachRun(*use, [&](std::uint32_t writer, std::uint32_t first, std::uint32_t) {
+          if (writer == kNone) missing = first;
+          return missing == kNone;
         });
-      if (written) {
+      if (missing == kNone) {
         model.graph.outputs.push_back(*use);
         model.graph.outputNames.push_back(name);
       } else if (!ref.optional) {
-        report(model, Code::nobodyWrites, ref.place,
-               fmt::format("output '{}' reads '{}', of which no pass writes a part", name, ref.text),
-               {.hint = "end the reference with '?' to leave the output out when nothing writes it"});
+        const Model::ElementOf& element = model.elementOf[use->resource];
+        model.missing.push_back({.position = model.position,
+                                 .slot = name,
+                                 .ref = ref,
+                                 .wanted = {{element.entity, element.element, missing, *use}}});
       }
     }
 }

@@ -22,31 +22,32 @@ namespace {
 
 // Values as other formats spell them, and what is said of each. "$1" is the first group.
 struct Spelling {
-  const char *theirs, *hint;
+  std::regex theirs;
+  const char* hint;
 };
-constexpr Spelling kSpellings[] = {
-    {"#[0-9a-fA-F]{3,8}", "a color is a list of numbers, which Weft takes as they are, such as [1, 0.5, 0]"},
-    {R"(([\d.]+)%)", "write the part of what it is: 'screen*0.5' for 50%"},
-    {R"((.*[*/])([\d.]+)%)", "write '$1 0.5' for 50%"},
-    {R"(([\d.]+)\s*[xX,]\s*([\d.]+))", "write [$1, $2]"},
-    {R"(([\d.]+)x)", "write 'screen*$1'"},
-    {R"(([\d.]+)[KM]i?B)", "sizes of buffers are bytes: write $1*1024, or $1*1048576"},
-    {R"(([\d.]+)[A-Za-z]+)", "numbers have no unit and no ending: write $1"},
-    {R"((.*)px)", "texels have no unit: write '$1'"},
-    {R"(\w+\[(\d+)\])", "sizes of buffers are bytes: write $1*4 for that many words"},
-    {R"(width\s*,\s*height)", "write 'screen'"},
-    {R"(width\s*/\s*([\d.]+)\s*,.*)", "write 'screen/$1'"},
-    {R"((.*)\.width)", "a size has .x and .y: write '$1.x'"},
-    {R"((.*)\.height)", "a size has .x and .y: write '$1.y'"}};
 
 // What to write for a value in another format's spelling: "50%", "1920x1080", "512px", a color of the web; "" for anything else.
 std::string hintForSize(std::string_view text) {
   constexpr std::size_t kLongest = 80;  // a longer text is no slip of this kind
   if (text.size() > kLongest) return {};
+  static const Spelling kSpellings[] = {
+      {std::regex("#[0-9a-fA-F]{3,8}"),
+       "a color is a list of numbers, which Weft takes as they are, such as [1, 0.5, 0]"},
+      {std::regex(R"(([\d.]+)%)"), "write the part of what it is: 'screen*0.5' for 50%"},
+      {std::regex(R"((.*[*/])([\d.]+)%)"), "write '$1 0.5' for 50%"},
+      {std::regex(R"(([\d.]+)\s*[xX,]\s*([\d.]+))"), "write [$1, $2]"},
+      {std::regex(R"(([\d.]+)x)"), "write 'screen*$1'"},
+      {std::regex(R"(([\d.]+)[KM]i?B)"), "sizes of buffers are bytes: write $1*1024, or $1*1048576"},
+      {std::regex(R"(([\d.]+)[A-Za-z]+)"), "numbers have no unit and no ending: write $1"},
+      {std::regex(R"((.*)px)"), "texels have no unit: write '$1'"},
+      {std::regex(R"(\w+\[(\d+)\])"), "sizes of buffers are bytes: write $1*4 for that many words"},
+      {std::regex(R"(width\s*,\s*height)"), "write 'screen'"},
+      {std::regex(R"(width\s*/\s*([\d.]+)\s*,.*)"), "write 'screen/$1'"},
+      {std::regex(R"((.*)\.width)"), "a size has .x and .y: write '$1.x'"},
+      {std::regex(R"((.*)\.height)"), "a size has .x and .y: write '$1.y'"}};
   std::cmatch found;
   for (const auto& [theirs, hint] : kSpellings)
-    if (std::regex_match(text.data(), text.data() + text.size(), found, std::regex(theirs)))
-      return found.format(hint);
+    if (std::regex_match(text.data(), text.data() + text.size(), found, theirs)) return found.format(hint);
   return {};
 }
 

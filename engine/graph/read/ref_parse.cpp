@@ -241,7 +241,10 @@ class RefParser {
     if (filters) ref_.sampler.linear = word == "linear";
     if (wraps) ref_.sampler.wrap = static_cast<Wrap>(sampler - 2);
     if ((word == "border" || word == "compare") && !takeArguments(word, wordAt)) return false;
-    if (ref_.kind && *ref_.kind != Kind::sampled && (filtered_ || wrapped_ || ref_.sampler.compare))
+    // A blit has a filter, and samples nothing.
+    const bool mayFilter = !ref_.kind || *ref_.kind == Kind::sampled || *ref_.kind == Kind::copy;
+    const bool maySample = !ref_.kind || *ref_.kind == Kind::sampled;
+    if ((filtered_ && !mayFilter) || ((wrapped_ || ref_.sampler.compare) && !maySample))
       return fail(wordAt, "filters belong to sampled textures only", "drop the kind or the filter");
     return true;
   }

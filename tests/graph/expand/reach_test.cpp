@@ -222,7 +222,7 @@ TEST_CASE("an output is a reader; one that nothing writes is an error, or left o
   };
   CHECK(told("counts").text() == "");
   CHECK(told("counts?", with({}, {"count"})).graph->outputs.empty());
-  CHECK(told("counts", with({}, {"count"})).has(text::Code::nobodyWrites));
+  CHECK(told("counts", with({}, {"count"})).has(text::Code::disabledWriter));
 }
 
 TEST_CASE(

@@ -93,6 +93,7 @@ TEST_CASE("history, words, conditions, optional") {
   CHECK(parse("map as compare").sampler.linear);
   CHECK(!parse("map as nearest compare").sampler.linear);
   CHECK(parse("map as sampled linear").kind == Kind::sampled);
+  CHECK(parse("hdr as copy linear").sampler.linear);  // a blit's filter, as expanded graphs say it
   CHECK(parse("glow.mip[0]?").optional);
   const RefDesc bloom = parse("glow.mip[0] if $bloom ?");
   CHECK(bloom.optional);

@@ -145,17 +145,14 @@ struct Cause {
 };
 
 Cause ofDisabled(const Model& model, const MissingRead& missing, const WriteRecord& write,
-                 const std::string& orClear) {
+                 const std::string& orElse) {
   const DisabledPass& disabled = model.graph.disabled[write.disabled];
   Cause cause{.code = Code::disabledWriter,
               .tail = fmt::format(", but pass '{}' that would write it is disabled ({})", disabled.name,
                                   disabled.why),
               .disabled = &disabled};
-  if (missing.pass == kNone && missing.slot != "present")
-    cause.fixes.emplace_back("end the reference with '?' to leave the output out when nothing writes it");
-  else if (missing.pass != kNone && missing.access == Access::read)
-    cause.fixes.emplace_back(kMayBeEmpty);
-  cause.fixes.push_back(orClear);
+  if (missing.pass != kNone && missing.access == Access::read) cause.fixes.emplace_back(kMayBeEmpty);
+  cause.fixes.push_back(orElse);
   return cause;
 }
 
@@ -163,7 +160,10 @@ Cause ofDisabled(const Model& model, const MissingRead& missing, const WriteReco
 Cause causeOf(const Model& model, const MissingRead& missing, const Writers& writers,
               const std::string& cycle) {
   const FlatGraph& graph = model.graph;
-  const std::string orClear = fmt::format("give '{}' a \"clear\"", resourceOf(model, missing));
+  // What is cleared alone is nothing to read back.
+  const std::string orElse = missing.pass == kNone && missing.slot != "present"
+                                 ? "end the reference with '?' to leave the output out when nothing writes it"
+                                 : fmt::format("give '{}' a \"clear\"", resourceOf(model, missing));
   // What was there in the frame before. A first value has no earlier publication: nothing comes before it.
   const std::string orBefore =
       missing.first ? "name another texture or buffer as \"first\""
@@ -180,15 +180,15 @@ Cause causeOf(const Model& model, const MissingRead& missing, const Writers& wri
     return Cause{
         Code::disabledWriter,
         fmt::format(", but pass '{}' that would write it is removed", removed->name),
-        {fmt::format("let another pass write '{}' before it", resourceOf(model, missing)), orClear},
+        {fmt::format("let another pass write '{}' before it", resourceOf(model, missing)), orElse},
         place.file ? fmt::format("\"remove\" at {}:{}:{}", *place.file, place.line, place.column) : ""};
   }
-  if (writers.disabledEarlier) return ofDisabled(model, missing, *writers.disabledEarlier, orClear);
+  if (writers.disabledEarlier) return ofDisabled(model, missing, *writers.disabledEarlier, orElse);
   if (const EmptyRepeat* empty = writers.empty)
     return Cause{Code::disabledWriter,
                  fmt::format(", but pass '{}' that would write it is not there once: its \"repeat\" is empty",
                              empty->pass),
-                 {rangeHint(*empty), orClear},
+                 {rangeHint(*empty), orElse},
                  rangeText(*empty)};
   if (writers.enabledLater && missing.pass != kNone) {
     if (!cycle.empty())
@@ -196,7 +196,7 @@ Cause causeOf(const Model& model, const MissingRead& missing, const Writers& wri
     const PassSpec& later = graph.specs[writers.enabledLater->pass];
     return Cause{Code::readBeforeWrite,
                  fmt::format(" before pass '{}' writes it", later.name),
-                 {fmt::format("move '{}' before it", later.declared), modifies ? orClear : orBefore}};
+                 {fmt::format("move '{}' before it", later.declared), modifies ? orElse : orBefore}};
   }
   // A pass reads what it writes itself, and neither is a whole resource: there is no earlier version of it.
   if (writers.self && !writers.self->whole && missing.access == Access::read)
@@ -208,16 +208,16 @@ Cause causeOf(const Model& model, const MissingRead& missing, const Writers& wri
                      missing.ref.name),
          orBefore}};
   if (writers.disabledLater && !writers.self)
-    return ofDisabled(model, missing, *writers.disabledLater, orClear);
+    return ofDisabled(model, missing, *writers.disabledLater, orElse);
   Cause cause{Code::readBeforeWrite, ", which nothing wrote before"};
   if (missing.pass == kNone && missing.slot == "present")
     cause = {Code::presentsUnwritten, ", which no pass writes", {"name a texture that the last pass writes"}};
   else if (modifies && graph.specs[missing.pass].geometry.empty())  // a draw covers a part
-    cause.fixes = {"use \"write\" if the pass covers everything", orClear};
+    cause.fixes = {"use \"write\" if the pass covers everything", orElse};
   else if (modifies || writers.selfElsewhere)
-    cause.fixes = {orClear, orBefore};
+    cause.fixes = {orElse, orBefore};
   else
-    cause = {Code::nobodyWrites, ", which no pass writes", {"let a pass before it write it", orClear}};
+    cause = {Code::nobodyWrites, ", which no pass writes", {"let a pass before it write it", orElse}};
   cause.unwritten = true;
   return cause;
 }
