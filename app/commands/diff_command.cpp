@@ -10,6 +10,7 @@
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
 #include "app/trials/divergence.h"
+#include "app/trials/frame_page.h"
 #include "app/trials/shot.h"
 #include "engine/graph/print/print.h"
 #include "engine/text/printable.h"
@@ -20,23 +21,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct DiffOptions : Options {
-  std::string other, format = "text", output;
+struct DiffOptions : OtherOptions {
+  std::string format = "text", output;
   bool render = false;
-  std::vector<graph::Setting> otherSets;
-  std::vector<graph::Disable> otherDisables;
-  std::vector<std::string> otherPresets;
+  bool wantsPage() const { return output.ends_with(".html"); }
 };
-
-Options otherOf(const DiffOptions& options) {
-  Options other = options;
-  if (!options.other.empty()) other.graph = options.other;
-  other.sets.insert(other.sets.end(), options.otherSets.begin(), options.otherSets.end());
-  other.disables.insert(other.disables.end(), options.otherDisables.begin(), options.otherDisables.end());
-  other.presets.insert(other.presets.end(), options.otherPresets.begin(), options.otherPresets.end());
-  other.finish();
-  return other;
-}
 
 // The same frame of both: pictures, how they differ, and the first pass whose output does.
 struct ShotPair {
@@ -117,7 +106,7 @@ void leavePictures(const DiffOptions& options, const ShotPair& pair, text::Diagn
 }
 
 int renderBoth(gl::Context& context, const DiffOptions& options, std::span<const Options, 2> sides,
-               const runtime::World& world, text::Diagnostics& diagnostics) {
+               runtime::World& world, text::Diagnostics& diagnostics) {
   const ShotWish wish{.frames = {options.lastFrame}, .records = true};
   auto before = takeShot(context, sides[0], world, wish, diagnostics);
   auto after = before ? takeShot(context, sides[1], world, wish, diagnostics) : std::nullopt;
@@ -126,14 +115,17 @@ int renderBoth(gl::Context& context, const DiffOptions& options, std::span<const
   pair.first = findDivergence(pair.before.records, pair.after.records);
   pair.difference = comparePictures(pair.pictureAfter(), pair.pictureBefore());
   const std::string plans = graph::diffText(*pair.before.plan, *pair.after.plan);
-  if (!options.output.empty()) leavePictures(options, pair, diagnostics);
+  if (options.wantsPage())
+    writeFramePage(context, options.typed, sides, 0, options.output, world, diagnostics);
+  else if (!options.output.empty())
+    leavePictures(options, pair, diagnostics);
   if (diagnostics.hasErrors()) return 2;
   print(textOf(options, plans, &pair));
   return plans.empty() && pair.same() ? 0 : 1;
 }
 
 int runDiff(DiffOptions& options) {
-  const Options sides[] = {options, otherOf(options)};
+  const Options sides[] = {options, options.otherSide()};
   if (options.render)
     return runOnDevice({&sides[0], &sides[1]}, 2,
                        [&](auto& session, auto& world, text::Diagnostics& diagnostics) {
@@ -162,19 +154,14 @@ void addDiff(CommandLine& line) {
       "diff", "say how the plan of another graph differs: passes, barriers, bytes; exit 1 when it does",
       runDiff);
   options.addGraph(command);
-  addPath(command, "other", options.other, "the other graph file (default: the same, in other settings)");
-  addSets(command, "--other-set", options.otherSets, "set a parameter in the other graph alone; repeatable");
-  addDisables(command, "--other-disable", options.otherDisables,
-              "disable a pass in the other graph alone; repeatable");
-  addPath(command, "--other-preset", options.otherPresets,
-          "lay an overlay over the other graph alone; repeatable");
+  options.addOther(command);
   options.addPointer(command);
   options.addBackend(command);
   CLI::Option* render =
       command.add_flag("--render", options.render,
                        "render both: how the pictures differ, and the first pass whose output does");
   addPath(command, "-o,--output", options.output,
-          "folder for before.png, after.png and their difference (with --render)", "FOLDER")
+          "folder for before.png, after.png and their difference, or a page, .html (with --render)", "PATH")
       ->needs(render);
   options.addFrame(command)->needs(render);
   addChoice(command, "--format", options.format, "text or json", {"text", "json"});

@@ -1,8 +1,8 @@
-// The page of `weft report`: draws itself from the JSON in it (app/commands/report_command.cpp says what that holds), with nothing from elsewhere.
+// The page of `weft report`: draws itself from the JSON in it (app/trials/frame_page.cpp says what that holds), with nothing from elsewhere.
 // Of one or two states, a graph and what it is compared with, one is shown at a time. `weft test` and `weft ablate` have pages of their own.
 "use strict";
 const report = JSON.parse(document.getElementById("report").textContent);
-const COLUMN = 60, ROW = 20;
+const COLUMN = 56, ROW = 20;
 
 // ---- elements ----
 
@@ -55,20 +55,34 @@ function indexState(state) {
     resource.place = () => first.get(key);
   }
   state.rows = inOrder(inOrder(touched, (resource) => resource.steps[0]), (resource) => resource.place());
-  state.rowOf = new Map(state.rows.map((resource, r) => [resource.name, r]));
   const lying = new Map();
   for (const resource of touched) if (resource.storage !== undefined) lying.set(resource.storage, (lying.get(resource.storage) ?? 0) + 1);
   state.isShared = (resource) => (lying.get(resource.storage) ?? 0) > 1;
-  // Columns: runs of one pass in a row are one column until it is opened.
-  state.open = new Set();
+  // Groups of a step, outermost first: its effects, and the pass itself where it is repeated. A folded group is one column; those are
+  // folded at first that are repeats or do not run in every frame.
+  const times = new Map();
+  for (const step of steps) times.set(withoutIndex(step.pass), (times.get(withoutIndex(step.pass)) ?? 0) + 1);
+  state.groupsOf = (t) => {
+    const name = withoutIndex(steps[t].pass), words = name.split(".");
+    return words.slice(0, times.get(name) > 1 ? words.length : -1).map((_, i) => words.slice(0, i + 1).join("."));
+  };
+  state.folded = new Set([...times.keys()].filter((name) => times.get(name) > 1));
+  const always = new Set(steps.flatMap((step, t) => (step.update === "always" ? state.groupsOf(t) : [])));
+  steps.forEach((_, t) => { for (const group of state.groupsOf(t)) if (!always.has(group)) state.folded.add(group); });
   state.columnsOf = () => {
     const columns = [];
     steps.forEach((step, t) => {
-      const name = withoutIndex(step.pass), last = columns.at(-1);
-      if (last && last.name === name && !state.open.has(name)) last.steps.push(t);
-      else columns.push({ name, steps: [t], label: state.open.has(name) ? lastWord(step.pass) : lastWord(name) });
+      const groups = state.groupsOf(t), at = groups.findIndex((group) => state.folded.has(group)), fold = groups[at], last = columns.at(-1);
+      if (fold && last?.fold === fold) last.steps.push(t);
+      else columns.push({ fold, groups: fold ? groups.slice(0, at + 1) : groups, name: fold ?? step.pass, steps: [t] });
     });
     return columns;
+  };
+  // Rows that are not within one folded effect.
+  state.rowsOf = (columns) => {
+    const columnsOfName = new Map();
+    for (const column of columns) for (const t of column.steps) for (const use of steps[t].uses) columnsOfName.set(use.resource, (columnsOfName.get(use.resource) ?? new Set()).add(column));
+    return state.rows.filter((resource) => { const of = [...(columnsOfName.get(resource.name) ?? [])]; return of.length !== 1 || of[0].steps.length === 1 || times.has(of[0].fold) || resource.name === state.plan.present; });
   };
   // Who made what a step reads, and who reads what it makes: whose ranges of a resource touch, the last before and those before the next.
   const overlaps = (a, b) => a.resource === b.resource && (a.range === b.range || !a.range.includes(".mip[", a.resource.length) || !b.range.includes(".mip[", b.resource.length));
@@ -82,7 +96,7 @@ function indexState(state) {
     return found;
   };
 }
-let state, selected = 0, selectedRow;
+let state, selected = 0, selectedResource;
 
 // ---- top ----
 
@@ -90,14 +104,13 @@ function drawTop() {
   const top = add(null, "header"), plan = state.plan, bad = state.messages.filter((m) => m.severity === "error").length, warned = state.messages.filter((m) => m.severity === "warning").length;
   add(top, "h1", {}, state.title);
   if (report.states.length > 1)
-    report.states.forEach((each, i) => add(top, "button", { class: "chip", "aria-pressed": String(each === state), onclick: () => { state = each; selected = Math.min(selected, state.plan.steps.length - 1); draw(); } }, i ? "after" : "before"));
+    report.states.forEach((each, i) => add(top, "button", { class: "chip", "aria-pressed": String(each === state), onclick: () => { const at = state.plan.steps[selected]?.pass; state = each; selected = state.stepOf.get(at) ?? Math.min(selected, state.plan.steps.length - 1); draw(); } }, i ? "after" : "before"));
   add(top, "span", { class: "quiet" }, state.facts.join(" · "));
   const nan = state.outputs.flat().reduce((sum, output) => sum + (output.nan ?? 0) + (output.infinite ?? 0), 0);
   add(top, "span", {}, `${plan.steps.length} run · ${plan.culled.length} culled · ${plan.disabled.length} off · ${mebibytes(plan.bytes.allocated)} (${mebibytes(plan.bytes.declared)} unshared)` +
     (state.times ? ` · ${state.times.reduce((a, b) => a + b, 0).toFixed(1)} ms` : ""));
-  if (bad) add(top, "button", { class: "chip bad", onclick: () => showTab("Messages") }, counted(bad, "error"));
-  if (warned) add(top, "button", { class: "chip", onclick: () => showTab("Messages") }, counted(warned, "warning"));
-  if (nan) add(top, "span", { class: "bad" }, `${nan} NaN or infinite`);
+  for (const [n, word] of [[bad, "error"], [warned, "warning"]]) add(top, "button", { class: n ? "chip bad" : "chip quiet", onclick: () => showTab("Messages") }, counted(n, word));
+  add(top, "button", { class: nan ? "chip bad" : "chip quiet", onclick: () => select(state.outputs.findIndex((outputs) => outputs.some((output) => output.nan || output.infinite))) }, `${nan} NaN`);
   add(top, "code", { class: "command", title: report.command }, report.command);
   copyButton(top, report.command, "the command");
   drawSearch(top);
@@ -110,7 +123,7 @@ function searchable() {
   const found = [];
   state.plan.steps.forEach((step, t) => found.push({ text: step.pass, kind: "pass", go: () => select(t) }));
   for (const pass of [...state.plan.culled, ...state.plan.disabled]) found.push({ text: pass.pass, kind: "does not run: " + pass.why, go: () => showTab("Messages") });
-  state.rows.forEach((resource, r) => found.push({ text: resource.name, kind: resource.shape, go: () => selectRow(r) }));
+  for (const resource of state.rows) found.push({ text: resource.name, kind: resource.shape, go: () => selectResource(resource) });
   for (const parameter of state.parameters) {
     const user = state.passes.findIndex((pass) => pass.parameters.some((each) => each.path === parameter.name));
     found.push({ text: parameter.name, kind: `parameter = ${parameter.value}`, go: () => user >= 0 && select(user) });
@@ -148,6 +161,9 @@ function drawSearch(parent) {
 
 // ---- left: the picture and the effects ----
 
+const timeOf = (t) => state.times[t];
+const bytesOf = (t) => [...new Set(state.plan.steps[t].uses.filter((use) => use.access !== "read").map((use) => use.resource))].reduce((sum, name) => sum + (state.resourceOf.get(name)?.bytes ?? 0), 0);
+
 function drawTree() {
   const side = add(null, "nav", { "aria-label": "effects" });
   if (state.picture) add(side, "img", { class: "wide", src: state.picture.png, alt: "the presented picture" });
@@ -160,15 +176,16 @@ function drawTree() {
     }
     node.steps.push(t);
   });
-  const weightOf = (t) => state.times ? state.times[t] : [...new Set(state.plan.steps[t].uses.filter((use) => use.access !== "read").map((use) => use.resource))].reduce((sum, name) => sum + (state.resourceOf.get(name)?.bytes ?? 0), 0);
   const all = (node) => [...node.steps, ...[...node.children.values()].flatMap(all)];
-  const weigh = (steps) => steps.reduce((sum, t) => sum + weightOf(t), 0), whole = weigh(all(root)) || 1;
+  const bars = state.times ? [["time", timeOf, "part"], ["bytes written", bytesOf, "part bytes"]] : [["bytes written", bytesOf, "part bytes"]];
+  const weigh = (steps, weight) => steps.reduce((sum, t) => sum + weight(t), 0), whole = bars.map(([, weight]) => weigh(all(root), weight) || 1);
   const drawNode = (parent, node) => {
     for (const child of node.children.values()) {
-      const steps = all(child), details = add(parent, "details", { open: node === root ? "" : undefined });
+      const steps = all(child), kept = steps.every((t) => state.plan.steps[t].update !== "always"), details = add(parent, "details", { open: node === root && !kept });
       const line = add(add(details, "summary"), "span", { class: "row", style: "display: inline-flex; width: calc(100% - 1.2em)" });
-      add(line, "span", {}, `${lastWord(child.name)} ${steps.length}`);
-      add(line, "span", { class: "part", style: `width: ${Math.round(90 * weigh(steps) / whole)}px`, title: state.times ? "share of the time" : "share of the bytes written" });
+      add(line, "span", {}, `${lastWord(child.name)} ${steps.length}`, kept ? add(null, "span", { class: "quiet" }, " kept") : "");
+      const both = add(line, "span", { class: "parts" });
+      bars.forEach(([word, weight, look], i) => { const share = weigh(steps, weight) / whole[i]; add(both, "span", { class: look, style: `width: ${Math.round(90 * share)}px`, title: `${Math.round(100 * share)} % of the ${word}` }); });
       drawNode(details, child);
     }
     const names = new Map();
@@ -188,35 +205,54 @@ function drawTree() {
 
 // ---- middle: the matrix ----
 
+// What a state has that the other has not: a pass that came or went, or whose outputs are others.
+function markOf(steps) {
+  const twin = report.states.find((each) => each !== state);
+  if (!twin) return "";
+  const marks = steps.map((t) => {
+    const s = twin.stepOf.get(state.plan.steps[t].pass);
+    return s === undefined ? (state === report.states[0] ? "−" : "+") : JSON.stringify(state.outputs[t]) === JSON.stringify(twin.outputs[s]) ? "" : "≠";
+  });
+  return marks.find((mark) => mark) ?? "";
+}
+const MARKS = { "+": "came", "−": "went", "≠": "writes another picture" };
+
 function drawMatrix() {
-  const matrix = add(null, "section", { class: "matrix", "aria-label": "steps and resources", tabindex: "0" }), columns = state.columnsOf();
-  state.columns = columns;
+  const matrix = add(null, "section", { class: "matrix", "aria-label": "steps and resources", tabindex: "0" }), columns = state.columnsOf(), rows = state.rowsOf(columns);
+  Object.assign(state, { columns, shown: rows });
   const key = (color, word) => [add(null, "span", { class: "key", style: `background: var(${color})` }), ` ${word} `];
   add(matrix, "div", { class: "corner" }, add(null, "p", { class: "quiet" }, ...key("--read", "read"), ...key("--write", "write"), "(both: modify)"), add(null, "p", { class: "quiet" }, ...key("--life", "alive"), ...key("--kept", "kept"), ...key("--barrier", "barrier")),
-    add(null, "p", { class: "quiet" }, "arrows walk, / searches"));
-  const heads = add(matrix, "div", { class: "columns" }), slowest = state.times ? Math.max(...columns.map((column) => column.steps.reduce((sum, t) => sum + state.times[t], 0))) : 1;
-  let effect;
+    add(null, "p", { class: "quiet" }, "← frame before, ▌ shared storage"), add(null, "p", { class: "quiet" }, "arrows walk, Enter folds, / searches"));
+  const heads = add(matrix, "div", { class: "heads" }), deepest = Math.min(Math.max(0, ...columns.map((column) => column.groups.length)), 4);
+  for (let depth = 0; depth < deepest; ++depth) {
+    const line = add(heads, "div", { class: "columns" });
+    for (let c = 0, end; c < columns.length; c = end) {
+      const group = columns[c].groups[depth];
+      for (end = c + 1; end < columns.length && columns[end].groups[depth] === group;) ++end;
+      const folded = state.folded.has(group), style = `width: ${(end - c) * COLUMN}px`;
+      if (group) add(line, "button", { class: "group", style, tabindex: "-1", title: group, "aria-expanded": String(!folded), onclick: () => toggle(group) }, `${folded ? "▸" : "▾"} ${lastWord(group)}`);
+      else add(line, "span", { class: "group", style });
+    }
+  }
+  const line = add(heads, "div", { class: "columns" }), weight = state.times ? timeOf : bytesOf, weigh = (column) => column.steps.reduce((sum, t) => sum + weight(t), 0), most = Math.max(...columns.map(weigh)) || 1;
   columns.forEach((column, c) => {
-    const own = effectOf(column.name), begins = own !== effect, last = column.steps.at(-1), output = state.outputs[last][0];
-    effect = own;
-    const head = add(heads, "button", { class: "column", "data-step": column.steps.join(" "), tabindex: "-1", title: `${column.name}\n${state.plan.steps[last].why}`, onclick: () => select(last) });
-    add(head, "span", { class: "effect" + (own ? " on" : "") }, begins ? own : "\u00a0");
+    const last = column.steps.at(-1), output = state.outputs[last][0], mark = markOf(column.steps);
+    const head = add(line, "button", { class: "column", "data-step": column.steps.join(" "), tabindex: "-1", title: `${column.name}${mark && "\n" + MARKS[mark]}\n${state.plan.steps[last].why}`, onclick: () => select(last) });
     if (output) add(head, "img", { src: output.png, alt: "" }); else add(head, "span", { class: "none" });
-    add(head, "span", { class: "bar", style: `width: ${state.times ? Math.round(56 * column.steps.reduce((sum, t) => sum + state.times[t], 0) / slowest) : 0}px` });
-    add(head, "span", { class: "name" }, column.label + (column.steps.length > 1 ? ` ×${column.steps.length}` : ""));
-    if (column.steps.length > 1 || state.open.has(column.name)) head.ondblclick = () => { state.open.has(column.name) ? state.open.delete(column.name) : state.open.add(column.name); draw(); };
+    add(head, "span", { class: state.times ? "bar" : "bar bytes", style: `width: ${Math.round((COLUMN - 4) * weigh(column) / most)}px` });
+    add(head, "span", { class: "name" }, mark && add(null, "b", {}, mark + " "), lastWord(column.name) + (column.steps.length > 1 ? ` ×${column.steps.length}` : ""));
     column.x = c * COLUMN;
   });
   const names = add(matrix, "div", { class: "rows" });
-  state.rows.forEach((resource, r) => add(names, "button", { class: state.isShared(resource) ? "shared" : "", tabindex: "-1", title: `${resource.shape}\n${resource.why}`, onclick: () => selectRow(r) },
-    resource.name, add(null, "span", { class: "quiet" }, ` ${resource.format ?? (resource.imported ? "import" : "buffer")} ${resource.size ? resource.size.join("x") : ""} ${resource.bytes ? mebibytes(resource.bytes) : ""}`)));
-  const width = columns.length * COLUMN, height = Math.max(state.rows.length, 1) * ROW;
+  for (const resource of rows) add(names, "button", { class: state.isShared(resource) ? "shared" : "", tabindex: "-1", title: `${resource.name}\n${resource.shape}\n${resource.why}`, onclick: () => selectResource(resource) },
+    add(null, "span", {}, resource.name), add(null, "span", { class: "quiet" }, `${resource.format ?? (resource.imported ? "import" : "buffer")} ${resource.size ? resource.size.join("x") : ""} ${resource.bytes ? mebibytes(resource.bytes) : ""}`));
+  const width = columns.length * COLUMN, height = Math.max(rows.length, 1) * ROW;
   const cells = addSvg(matrix, "svg", { class: "cells", width, height, role: "img", "aria-label": "which step reads and writes which resource; the panel at the right says it in words" });
-  const columnOfStep = [];
+  const columnOfStep = [], rowOf = new Map(rows.map((resource, r) => [resource.name, r]));
   columns.forEach((column, c) => column.steps.forEach((t) => { columnOfStep[t] = c; }));
   state.columnMark = addSvg(cells, "rect", { class: "mark", x: 0, y: 0, width: COLUMN, height });
   state.rowMark = addSvg(cells, "rect", { class: "mark", x: 0, y: -ROW, width, height: ROW });
-  state.rows.forEach((resource, r) => {
+  rows.forEach((resource, r) => {
     const from = columnOfStep[Math.min(resource.steps[0], columnOfStep.length - 1)], to = columnOfStep[Math.min(resource.steps[1], columnOfStep.length - 1)];
     const kept = resource.persistent || resource.history;
     if (kept) addSvg(cells, "rect", { class: "kept", x: 0, y: r * ROW + 7, width, height: 6 });
@@ -226,29 +262,49 @@ function drawMatrix() {
   columns.forEach((column, c) => {
     const uses = column.steps.flatMap((t) => state.plan.steps[t].uses), why = column.steps.flatMap((t) => [...(state.plan.steps[t].why_barriers ?? []), ...(state.plan.steps[t].why_barriers_after_clears ?? [])]);
     for (const name of new Set(uses.map((use) => use.resource))) {
-      const r = state.rowOf.get(name), of = uses.filter((use) => use.resource === name);
+      const r = rowOf.get(name), of = uses.filter((use) => use.resource === name);
       if (r === undefined) continue;
       const reads = of.some((use) => use.access !== "write" && !use.history), writes = of.some((use) => use.access !== "read"), old = of.some((use) => use.history);
-      const title = of.slice(0, 6).map((use) => `${use.access} ${use.range} as ${use.kind}` + (use.slot ? ` (${use.slot})` : "")).join("\n"), x = c * COLUMN + 14, y = r * ROW + 3;
+      const title = of.slice(0, 6).map((use) => `${use.access} ${use.range} as ${use.kind}` + (use.slot ? ` (${use.slot})` : "")).join("\n"), x = c * COLUMN + 12, y = r * ROW + 3;
       const cell = addSvg(cells, "g", {}, title);
       if (reads) addSvg(cell, "rect", { class: "read", x, y, width: writes ? 16 : 32, height: 14, rx: 2 });
       if (writes) addSvg(cell, "rect", { class: "write", x: reads ? x + 16 : x, y, width: reads ? 16 : 32, height: 14, rx: 2 });
-      if (old) addSvg(cell, "path", { class: "history", d: `M${x - 2} ${y + 7}h-9m4 -4l-4 4l4 4` });
+      if (old) addSvg(cell, "path", { class: "history", d: `M${x - 1} ${y + 7}h-9m4 -4l-4 4l4 4` });
     }
     if (why.length) addSvg(cells, "line", { class: "tick", x1: c * COLUMN + 1, x2: c * COLUMN + 1, y1: 0, y2: height }, why.join("\n"));
   });
+  // What is not in the row or the column under the pointer is dimmed.
+  const dim = addSvg(cells, "path", { class: "dim", d: "" });
+  const cellAt = (event) => { const at = cells.getBoundingClientRect(); return [Math.floor((event.clientX - at.left) / COLUMN), Math.floor((event.clientY - at.top) / ROW)]; };
+  cells.onmousemove = (event) => {
+    const [c, r] = cellAt(event), x = c * COLUMN, y = r * ROW;
+    dim.setAttribute("d", `M0 0H${x}V${y}H0zM${x + COLUMN} 0H${width}V${y}H${x + COLUMN}zM0 ${y + ROW}H${x}V${height}H0zM${x + COLUMN} ${y + ROW}H${width}V${height}H${x + COLUMN}z`);
+  };
+  cells.onmouseleave = () => dim.setAttribute("d", "");
   cells.onclick = (event) => {
-    const at = cells.getBoundingClientRect(), c = Math.floor((event.clientX - at.left) / COLUMN), r = Math.floor((event.clientY - at.top) / ROW);
+    const [c, r] = cellAt(event);
     if (columns[c]) select(columns[c].steps.at(-1));
-    if (state.rows[r]) selectRow(r, true);
+    if (event.shiftKey && rows[r]) selectResource(rows[r]);
   };
   matrix.onkeydown = (event) => {
+    if (event.target !== matrix) return;
     const c = columnOfStep[selected] ?? 0, step = { ArrowRight: 1, ArrowLeft: -1 }[event.key], row = { ArrowDown: 1, ArrowUp: -1 }[event.key];
     if (step && columns[c + step]) select(columns[c + step].steps.at(-1));
-    if (row) selectRow(Math.min(Math.max((selectedRow ?? -1) + row, 0), state.rows.length - 1), true);
-    if (step || row) event.preventDefault();
+    if (row) selectResource(rows[Math.min(Math.max(rows.indexOf(selectedResource) + row, 0), rows.length - 1)]);
+    if (event.key === "Enter" && columns[c]?.groups.length) toggle(columns[c].groups.at(-1));
+    if (step || row || event.key === "Enter") event.preventDefault();
   };
   return matrix;
+}
+
+// Folds a group of steps, or opens it.
+function toggle(group) {
+  state.folded.has(group) ? state.folded.delete(group) : state.folded.add(group);
+  const old = document.querySelector(".matrix"), hadFocus = old.contains(document.activeElement), { scrollLeft, scrollTop } = old, fresh = drawMatrix();
+  old.replaceWith(fresh);
+  fresh.scrollTo(scrollLeft, scrollTop);
+  if (hadFocus) fresh.focus();
+  mark();
 }
 
 // ---- below: flow, memory, difference, messages ----
@@ -258,7 +314,7 @@ const TABS = { Flow: drawFlow, Memory: drawMemory, Difference: drawDifference, M
 
 function drawLower() {
   const lower = add(null, "section", { class: "lower", "aria-label": "more views" }), tabs = add(lower, "div", { class: "tabs", role: "tablist" });
-  const names = Object.keys(TABS).filter((name) => (name !== "Flow" || state.flow) && (name !== "Difference" || report.states.length > 1));
+  const names = Object.keys(TABS).filter((name) => (name !== "Difference" || report.states.length > 1));
   if (!names.includes(tab)) tab = names[0];
   names.forEach((name, i) => add(tabs, "button", { role: "tab", id: "tab" + name, "aria-selected": String(name === tab), "aria-controls": "tabpanel", tabindex: name === tab ? "0" : "-1", onclick: () => showTab(name),
     onkeydown: (event) => { const to = names[(i + ({ ArrowRight: 1, ArrowLeft: -1 }[event.key] ?? 0) + names.length) % names.length]; if (to !== name) { showTab(to); document.getElementById("tab" + to).focus(); } } }, name));
@@ -268,23 +324,33 @@ function drawLower() {
 function showTab(name) { tab = name; document.querySelector(".lower").replaceWith(drawLower()); markFlow(); }
 
 function drawFlow(panel) {
+  const [whole, effects] = state.flow, open = wholeFlow || !effects;
+  if (!whole) { add(panel, "p", {}, "Graphviz lays out the flow. It was not there when this page was written."); return; }
   panel.classList.add("flow");
-  panel.innerHTML = state.flow;
-  const svg = panel.querySelector("svg");
+  const show = (yes, name) => { wholeFlow = yes; showTab("Flow"); if (name) select(state.plan.steps.findIndex((step) => step.pass.startsWith(name + "."))); };
+  if (effects) add(panel, "button", { class: "chip", onclick: () => show(!open) }, open ? "▾ fold the effects" : "▸ open the effects");
+  const svg = add(panel, "div", {});
+  svg.innerHTML = open ? whole : effects;
+  drawSvg(panel, panel.querySelector("svg"), open, show);
+}
+let wholeFlow = false;
+function drawSvg(panel, svg, open, show) {
   svg.setAttribute("width", svg.viewBox.baseVal.width);
   svg.removeAttribute("height");
   svg.setAttribute("role", "img");
   svg.setAttribute("aria-label", "passes and versions of resources, left to right");
   for (const node of panel.querySelectorAll("g.node")) {
     const t = state.stepOf.get(node.id) ?? state.plan.steps.findIndex((step) => withoutIndex(step.pass) === node.id);
-    if (t >= 0) { node.style.cursor = "pointer"; node.onclick = () => select(t); }
+    const effect = t < 0 && state.plan.steps.some((step) => step.pass.startsWith(node.id + "."));
+    if (t >= 0 || effect) { node.style.cursor = "pointer"; node.onclick = () => (effect ? show(true, node.id) : select(t)); }
   }
+  if (open) for (const cluster of panel.querySelectorAll("g.cluster > text")) { cluster.style.cursor = "pointer"; cluster.onclick = () => show(false); }
   markFlow();
 }
 function markFlow() {
   const name = state.plan.steps[selected]?.pass ?? "";
   for (const node of document.querySelectorAll(".flow g.node")) {
-    const chosen = node.id === withoutIndex(name);
+    const chosen = node.id === withoutIndex(name) || (!wholeFlow && node.id === name.split(".")[0]);
     node.classList.toggle("chosen", chosen);
     if (chosen) node.scrollIntoView({ block: "center", inline: "center" });
   }
@@ -313,13 +379,21 @@ function wipe(parent, before, after, word) {
   const clip = (share) => { over.style.clipPath = `inset(0 0 0 ${share}%)`; };
   add(box, "input", { type: "range", min: "0", max: "100", value: "50", "aria-label": "wipe between before and after", oninput: (event) => clip(event.target.value) });
   clip(50);
+  return box;
 }
 
 function drawDifference(panel) {
-  const [before, after] = report.states, list = add(panel, "pre", {});
-  list.textContent = report.difference.length ? report.difference.join("\n") : "the plans do the same";
-  if (report.pictures) add(panel, "p", {}, report.pictures);
-  if (before.picture && after.picture) wipe(panel, before.picture.png, after.picture.png, "picture");
+  const [before, after] = report.states, left = add(panel, "div"), right = add(panel, "div");
+  panel.classList.add("difference");
+  const pairs = [["the picture", before.picture, after.picture]];
+  after.plan.steps.forEach((step, t) => { const s = before.stepOf.get(step.pass), [a, b] = [before.outputs[s]?.[0], after.outputs[t][0]]; if (a && b && JSON.stringify(a) !== JSON.stringify(b)) pairs.push([step.pass, a, b]); });
+  const choice = add(left, "select", { "aria-label": "what to compare", onchange: () => show(pairs[choice.selectedIndex]) });
+  for (const [name] of pairs) add(choice, "option", {}, name);
+  const show = ([name, a, b]) => { left.querySelector(".wipe")?.remove(); if (a?.png && b?.png) wipe(left, a.png, b.png, name); };
+  show(pairs[0]);
+  if (report.pictures) add(right, "p", {}, report.pictures);
+  if (pairs.length > 1) add(right, "p", {}, "first pass that writes another picture: ", add(null, "button", { class: "chip", onclick: () => { select(state.stepOf.get(pairs[1][0])); choice.selectedIndex = 1; show(pairs[1]); } }, pairs[1][0]));
+  add(right, "pre", {}, report.difference.length ? report.difference.join("\n") : "the plans do the same");
 }
 
 function drawMessages(panel) {
@@ -379,10 +453,12 @@ function drawOutput(parent, outputs) {
   show(outputs[0]);
 }
 
+function editorTemplate() { try { return localStorage.getItem("weft editor") ?? ""; } catch { return ""; } }
+
 function drawSelected() {
   const side = add(null, "aside", { "aria-label": "selected", "aria-live": "polite" });
-  if (selectedRow !== undefined && state.rows[selectedRow]) {
-    const resource = state.rows[selectedRow];
+  if (selectedResource) {
+    const resource = selectedResource;
     add(side, "h2", {}, resource.name);
     add(side, "p", {}, resource.shape);
     add(side, "p", { class: "quiet" }, resource.why);
@@ -418,7 +494,12 @@ function drawSelected() {
     }
   }
   add(side, "h3", {}, "files");
-  for (const file of [pass.place, ...pass.shader]) { const line = add(side, "p", {}, add(null, "code", {}, file), " "); copyButton(line, file, file); }
+  const template = editorTemplate(), addressOf = (file) => template && template.replace("{file}", file.replace(/:\d+$/, "")).replace("{line}", file.match(/\d+$/)?.[0] ?? 1);
+  for (const file of [pass.place, ...pass.shader]) {
+    const line = add(side, "p", {}, add(null, "code", {}, template ? add(null, "a", { href: addressOf(file) }, file) : file), " ");
+    copyButton(line, file, file);
+  }
+  const input = add(add(side, "label", { class: "quiet editor" }, "links for an editor "), "input", { value: template, placeholder: "vscode://file/home/me/weft/{file}:{line}", onchange: () => { try { localStorage.setItem("weft editor", input.value); } catch {} mark(); } });
   return side;
 }
 
@@ -431,24 +512,28 @@ function mark() {
     state.columnMark.setAttribute("x", column.x);
     document.querySelector(".column[aria-current=true]").scrollIntoView({ block: "nearest", inline: "nearest" });
   }
-  document.querySelectorAll(".rows button").forEach((button, r) => button.setAttribute("aria-current", String(r === selectedRow)));
-  state.rowMark.setAttribute("y", (selectedRow ?? -1) * ROW);
+  const r = state.shown.indexOf(selectedResource), written = state.plan.steps[selected]?.uses.find((use) => use.access !== "read")?.resource;
+  const buttons = document.querySelectorAll(".rows button");
+  buttons.forEach((button, i) => button.setAttribute("aria-current", String(i === r)));
+  buttons[r >= 0 ? r : state.shown.findIndex((resource) => resource.name === written)]?.scrollIntoView({ block: "nearest" });
+  state.rowMark.setAttribute("y", r * ROW);
   document.querySelector("aside").replaceWith(drawSelected());
   markFlow();
 }
 function select(t) {
   if (!(t >= 0)) return;
   selected = t;
-  selectedRow = undefined;
+  selectedResource = undefined;
   history.replaceState(null, "", "#" + encodeURIComponent(state.plan.steps[t].pass));
   mark();
 }
-function selectRow(r) { selectedRow = r; mark(); }
+function selectResource(resource) { selectedResource = resource; mark(); }
 function fromAddress() {
   const t = state.stepOf.get(decodeURIComponent(location.hash.slice(1)));
   if (t !== undefined) selected = t;
 }
 function draw() {
+  selectedResource = undefined;
   document.querySelectorAll("header, nav, main, aside").forEach((element) => element.remove());
   document.body.append(drawTop(), drawTree(), add(null, "main", {}, drawMatrix(), drawLower()), drawSelected());
   mark();

@@ -22,6 +22,17 @@ std::string shown(const std::string& text) {
   return text::shortened(text::printable(text));
 }
 
+// As a shell takes it.
+std::string quoted(const std::string& word) {
+  const bool plain = !word.empty() && std::ranges::all_of(word, [](unsigned char c) {
+    return std::isalnum(c) ||
+           std::string_view("_-./=,:+@%").find(static_cast<char>(c)) != std::string_view::npos;
+  });
+  std::string out;
+  for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
+  return plain ? word : "'" + out + "'";
+}
+
 // Names of commands before 0.2, and what they are now.
 const std::map<std::string, std::vector<std::string>> kOldNames{{"dot", {"plan", "--format=dot"}},
                                                                 {"expand", {"plan", "--format=expanded"}},
@@ -118,6 +129,8 @@ int CommandLine::run(int argc, char** argv) {
       words.erase(words.begin());
       words.insert(words.begin(), old->second.begin(), old->second.end());
     }
+  typed_ = "weft";
+  for (const std::string& word : words) typed_ += " " + quoted(word);
   try {
     app_.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError& error) {
@@ -128,7 +141,7 @@ int CommandLine::run(int argc, char** argv) {
     printError(fmt::format("weft {}: {}\n", command.get_name(), shown(wrong)));
     return 2;
   }
-  for (const char* folder : {"graphs", "shaders", "scenes", "materials", "app/commands"})
+  for (const char* folder : {"graphs", "shaders", "scenes", "materials", "app/commands", "app/report"})
     text::allowFolder(dataFolder() + "/" + folder);
   return run_();
 }

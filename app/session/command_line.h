@@ -28,8 +28,11 @@ class CommandLine {
     const auto options = std::make_shared<O>();
     CLI::App& command = *app_.add_subcommand(name, doc);
     command.callback([this, options, action] {
-      run_ = [options, action] {
-        if constexpr (std::is_base_of_v<Options, O>) options->finish();
+      run_ = [this, options, action] {
+        if constexpr (std::is_base_of_v<Options, O>) {
+          options->typed = typed_;
+          options->finish();
+        }
         return action(*options);
       };
     });
@@ -41,6 +44,7 @@ class CommandLine {
 
  private:
   CLI::App app_;
+  std::string typed_;         // as a shell takes it
   std::function<int()> run_;  // the command that was chosen
 };
 

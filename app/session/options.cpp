@@ -46,6 +46,24 @@ CLI::Option* Options::addGraph(CLI::App& command) {
   return file;
 }
 
+void OtherOptions::addOther(CLI::App& command) {
+  addPath(command, "other", other, "the other graph file (default: the same, in other settings)");
+  addSets(command, "--other-set", otherSets, "set a parameter in the other graph alone; repeatable");
+  addDisables(command, "--other-disable", otherDisables,
+              "disable a pass in the other graph alone; repeatable");
+  addPath(command, "--other-preset", otherPresets, "lay an overlay over the other graph alone; repeatable");
+}
+
+Options OtherOptions::otherSide() const {
+  Options side = *this;
+  if (!other.empty()) side.graph = other;
+  side.sets.insert(side.sets.end(), otherSets.begin(), otherSets.end());
+  side.disables.insert(side.disables.end(), otherDisables.begin(), otherDisables.end());
+  side.presets.insert(side.presets.end(), otherPresets.begin(), otherPresets.end());
+  side.finish();
+  return side;
+}
+
 void Options::addSize(CLI::App& command) {
   addTaken(
       command, "--size", [this](const std::string& text) { return takeSize(text, width, height); }, "WxH",

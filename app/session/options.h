@@ -23,6 +23,7 @@ namespace weft::app {
 constexpr const char* kVersion = "0.1.0";
 
 struct Options {
+  std::string typed;               // the command line, as a shell takes it
   std::string graph;               // path of the graph file
   std::string scene, environment;  // empty: the bundled spheres, no environment
   std::string camera, materials;   // empty: the scene's first camera, the materials it names
@@ -53,6 +54,20 @@ struct Options {
 
   // Once all is read: names of presets become files.
   void finish();
+};
+
+// Of a graph and of another, which may be the same file under other settings.
+struct OtherOptions : Options {
+  std::string other;  // a path; empty: the same graph
+  std::vector<graph::Setting> otherSets;
+  std::vector<graph::Disable> otherDisables;
+  std::vector<std::string> otherPresets;
+
+  void addOther(CLI::App& command);
+  bool hasOther() const {
+    return !other.empty() || !otherSets.empty() || !otherDisables.empty() || !otherPresets.empty();
+  }
+  Options otherSide() const;
 };
 
 // A file or a folder on the command line; `type` is FILE or FOLDER.

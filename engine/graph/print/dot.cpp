@@ -30,11 +30,6 @@ std::string quotedDot(const std::string& text) {
   return out + "\"";
 }
 
-// "post.bloom.glow_down" of "post.bloom.glow_down[3]": repeats are one node.
-std::string folded(const std::string& pass) {
-  return pass.substr(0, pass.find('['));
-}
-
 std::size_t prefixLength(const std::string& name) {
   const std::size_t dot = name.rfind('.');
   return dot == std::string::npos ? 0 : dot + 1;
@@ -59,7 +54,7 @@ struct Cluster {
 
 class DotWriter {
  public:
-  explicit DotWriter(const Plan& plan) : plan_(plan), graph_(*plan.graph) {}
+  DotWriter(const Plan& plan, bool effects) : plan_(plan), graph_(*plan.graph), effects_(effects) {}
 
   std::string write() {
     for (const Step& step : plan_.steps) ++folds_[folded(graph_.passNames[step.pass])];
@@ -69,7 +64,7 @@ class DotWriter {
       if (seen.insert(name).second) addPass(name);
       for (const std::uint32_t u : graph_.usesOf(step.pass)) addUse(name, u);
     }
-    for (std::size_t pass = 0; pass < graph_.passNames.size(); ++pass)
+    for (std::size_t pass = 0; pass < graph_.passNames.size() && !effects_; ++pass)
       if (const std::string name = folded(graph_.passNames[pass]);
           plan_.stepOf[pass] == kNone && seen.insert(name).second)
         addNode(name, name, name.substr(prefixLength(name)), "shape=box, style=filled, fillcolor=gray93");
@@ -88,6 +83,11 @@ class DotWriter {
   }
 
  private:
+  // "post.bloom.glow_down" of "post.bloom.glow_down[3]": repeats are one node. "post" where an effect is one.
+  std::string folded(const std::string& pass) const {
+    return pass.substr(0, pass.find_first_of(effects_ ? ".[" : "["));
+  }
+
   // In the cluster of `owner`, the name of a pass.
   void addNode(const std::string& owner, const std::string& id, const std::string& label,
                const std::string& look) {
@@ -121,6 +121,7 @@ class DotWriter {
     addNode(owner, id, label,
             owner.empty() ? "shape=ellipse, style=filled, fillcolor=palegreen"
                           : "shape=ellipse, style=filled, fillcolor=lightblue");
+    if (!owner.empty()) addEdge(owner, id, "");
     return id;
   }
 
@@ -141,7 +142,7 @@ class DotWriter {
       });
       if (!found) addEdge(version(kNone, use.resource), pass, look);
     }
-    if (use.access != Access::read) addEdge(pass, version(u, use.resource), "");
+    if (use.access != Access::read && !effects_) version(u, use.resource);
   }
 
   void addEnd(const std::string& id, const std::string& label, const FlatUse& use, std::uint32_t link) {
@@ -153,6 +154,7 @@ class DotWriter {
 
   const Plan& plan_;
   const FlatGraph& graph_;
+  const bool effects_;
   Cluster root_;
   std::map<std::string, std::size_t> folds_, made_;  // steps of a pass; versions of a resource so far
   std::set<std::string> versions_, known_;
@@ -161,8 +163,8 @@ class DotWriter {
 
 }  // namespace
 
-std::string dumpDot(const Plan& plan) {
-  return DotWriter(plan).write();
+std::string dumpDot(const Plan& plan, bool effects) {
+  return DotWriter(plan, effects).write();
 }
 
 }  // namespace weft::graph

@@ -203,10 +203,17 @@ std::string Explainer::whyStorage(std::uint32_t resource) const {
         return fmt::format("its own: '{}' does not write it in every frame",
                            graph_.passNames[plan_.steps[step].pass]);
   }
+  constexpr std::size_t kNamed = 8;
   std::vector<std::string> others;
+  std::size_t more = 0;
   for (std::uint32_t q = 0; q < graph_.resources.size(); ++q)
-    if (q != resource && plan_.firstStep[q] != kNone && shareStorage(plan_, resource, q))
-      others.push_back(fmt::format("'{}' ({})", graph_.resourceNames[q], stepsText(plan_, q)));
+    if (q != resource && plan_.firstStep[q] != kNone && shareStorage(plan_, resource, q)) {
+      if (others.size() < kNamed)
+        others.push_back(fmt::format("'{}' ({})", graph_.resourceNames[q], stepsText(plan_, q)));
+      else
+        ++more;
+    }
+  if (more > 0) others.push_back(fmt::format("{} more", more));
   return others.empty()
              ? "its own: nothing else of its class fits before or after"
              : fmt::format("shared with {}, none of which lives while it does", fmt::join(others, ", "));

@@ -20,8 +20,9 @@ std::string dumpText(const Plan& plan, bool explain = false);
 std::string dumpJson(const Plan& plan, bool explain = false);
 
 // A Graphviz graph, for `dot -Tsvg`: passes as boxes, those of an include in a box of its own and repeats as one, culled ones gray;
-// an ellipse for each version of a resource, green for what no pass makes; histories dashed.
-std::string dumpDot(const Plan& plan);
+// an ellipse for each version of a resource, green for what no pass makes; histories dashed. With `effects`, each include of the graph
+// is one box, with the versions that others read.
+std::string dumpDot(const Plan& plan, bool effects = false);
 
 // A line for each difference: passes added, removed and moved, barrier bits, textures and bytes; "" when the plans do the
 // same. Passes and resources are the same when their names are. Pictures and shaders are not compared.

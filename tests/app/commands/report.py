@@ -6,6 +6,7 @@
 import json
 import pathlib
 import re
+import shlex
 import sys
 import tempfile
 
@@ -40,6 +41,15 @@ def main():
         compared = data_of(both)
         lines = run(weft, "diff", "graphs/studio.json", "graphs/glow.json", *small).out.splitlines()
         report.check(done.code == 0 and compared["difference"] == lines and "FLIP" in compared["pictures"], f"the difference: {compared['difference'][:5]}, `weft diff` says {lines[:5]}")
+        lines = compared["difference"], compared["pictures"]
+        page = pathlib.Path(folder, "a folder", "it's.html")
+        done = run(weft, "diff", "--render", "graphs/studio.json", "graphs/glow.json", *small, "-o", page)
+        compared = data_of(page)
+        report.check(done.code == 1 and (compared["difference"], compared["pictures"]) == lines, f"the page of `diff`: {done.code} {done.err}\n{compared['difference'][:5]}")
+        report.check(shlex.split(compared["command"]) == ["weft", "diff", "--render", "graphs/studio.json", "graphs/glow.json", *small, "-o", str(page)], f"the command: {compared['command']}")
+        done = run(weft, "report", "graphs/glow.json", "--other-set", "bloom=false", *small, "-o", both)
+        lines = run(weft, "diff", "graphs/glow.json", "--other-set", "bloom=false", *small).out.splitlines()
+        report.check(done.code == 0 and lines and data_of(both)["difference"] == lines, f"a graph in other settings: {done.err}\n{lines}")
         done = run(weft, "report", "tests/bad_graphs/w040_picture_file.json", *small, "-o", pathlib.Path(folder, "bad.html"))
         report.check(done.code == 1 and not pathlib.Path(folder, "bad.html").exists(), f"of a broken graph: {done.code}\n{done.err}")
         kept = pathlib.Path(folder, "graph.json")

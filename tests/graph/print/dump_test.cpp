@@ -189,5 +189,9 @@ TEST_CASE(
   CHECK(dot.find("label=\"blur\", shape=box, style=filled, fillcolor=gray93") != std::string::npos);
   CHECK(dot.find("style=dashed") != std::string::npos);
   CHECK(dot.find("-> \":present\"") != std::string::npos);
+  for (std::string& name : b.graph.passNames) name = "effect." + name;
+  const std::string effects = dumpDot(b.compiled(), true);
+  CHECK(effects.find(fmt::format("label=\"effect x{}\"", b.compiled().steps.size())) != std::string::npos);
+  CHECK(effects.find("blur") == std::string::npos);
   CHECK(dot.substr(dot.size() - 2) == "}\n");
 }
