@@ -6,11 +6,15 @@
 #include "app/output/standard_streams.h"
 #include "app/session/command_line.h"
 #include "app/view/viewer.h"
+#include "engine/assets/models/apart/model_apart.h"
 #include "engine/gl/programs/program_cache.h"
 
 int main(int argc, char** argv) {
   using namespace weft::app;
-  if (argc > 1 && std::string_view(argv[1]) == weft::gl::kTrialWord) weft::gl::runTrial(argc - 1, argv + 1);
+  const std::string_view first = argc > 1 ? argv[1] : "";
+  if (first == weft::gl::kTrialWord) weft::gl::runTrial(argc - 1, argv + 1);
+  if (first == weft::assets::kModelWord) weft::assets::runModelReader();
+  weft::assets::readModelsApart({"/proc/self/exe"});
   prepareStreams();
   CommandLine line;
   for (const auto add : {addRender, addView,    addCheck, addPlan,   addExplain, addDiff, addReport,

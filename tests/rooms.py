@@ -49,7 +49,8 @@ SUB_ROOMS = {
         "models/parts": {".", "images"},
         "models/gltf": {".", "models/parts"},
         "models/assimp": {".", "models/parts"},
-        "models": {".", "images", "models/parts", "models/gltf", "models/assimp"},
+        "models/apart": {".", "models/parts", "models/assimp"},
+        "models": {".", "images", "models/parts", "models/gltf", "models/apart"},
     },
     "scene": {".": set(), "frame": {"."}, "models": {".", "frame"}, "files": {".", "frame", "models"}},
     "gl": {
@@ -91,7 +92,7 @@ OUTSIDE = {
     "EGL/": {"gl"},
     "GL/": {"gl"},
     "GLFW/": {"gl", "app"},
-    "stb_": {"assets"}, "stb/": {"assets"}, "tinyexr": {"assets"}, "assimp/": {"assets"},
+    "stb_": {"assets"}, "stb/": {"assets"}, "OpenEXR/": {"assets"}, "assimp/": {"assets"},
     "glm/": {"assets", "scene", "passes", "imports", "runtime", "app"},
     "CLI/": {"app"}, "imgui": {"app"}, "benchmark/": {"app"}, "tbb/": {"assets", "scene"},
 }

@@ -1,8 +1,10 @@
-// .cube color tables (Adobe "Cube LUT Specification" 1.0): 1D or 3D of any legal size, DOMAIN_MIN/MAX,
-// comments. The first mistake is W154 with its line; an unreadable file is W001.
+// .cube color tables (Adobe "Cube LUT Specification" 1.0): 1D or 3D of any legal size, DOMAIN_MIN/MAX, comments; and what DaVinci
+// Resolve writes besides: a 1D table (a shaper) before the 3D one, input ranges, and the video range of LUT_IN_VIDEO_RANGE and
+// LUT_OUT_VIDEO_RANGE. The first mistake is W154 with its line; an unreadable file is W001.
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,6 +20,7 @@ struct CubeLut {
   std::array<float, 3> domainMin{0, 0, 0};  // input that hits the first entry
   std::array<float, 3> domainMax{1, 1, 1};  // input that hits the last entry
   std::vector<float> texels;                // RGB triples, red fastest, size or size^3 of them; finite
+  std::shared_ptr<const CubeLut> shaper{};  // 1D: what is looked up in this table is looked up in that one first
 };
 
 std::optional<CubeLut> loadCubeLut(const std::string& path, text::Diagnostics& diagnostics);

@@ -52,6 +52,31 @@ TEST_CASE("a 1D table, without a final newline, from a file") {
   CHECK(diagnostics.contains(text::Code::unreadableFile));
 }
 
+TEST_CASE(
+    "what programs write: a byte order mark, a title without quotes, curves before a cube, video range") {
+  text::Diagnostics diagnostics;
+  std::string text =
+      "\xef\xbb\xbfTITLE Log To Screen\nLUT_IN_VIDEO_RANGE\nLUT_OUT_VIDEO_RANGE\nLUT_1D_SIZE "
+      "3\nLUT_1D_INPUT_RANGE 0 2\n"
+      "LUT_3D_SIZE 2\nLUT_3D_INPUT_RANGE 0 4\n0 0 0\n1 1 1\n4 4 4\n";
+  for (int i = 0; i < 8; ++i)
+    text += i == 7 ? "0.91886608 0.91886608 0.91886608\n" : "0.06256109 0.06256109 0.06256109\n";
+  const auto lut = read(text, diagnostics);
+  REQUIRE_MESSAGE(lut, diagnostics.text());
+  CHECK(lut->dimensions == 3);
+  CHECK(lut->domainMax[0] == 4);
+  REQUIRE(lut->shaper);
+  CHECK(lut->shaper->dimensions == 1);
+  CHECK(lut->shaper->texels == std::vector<float>{0, 0, 0, 1, 1, 1, 4, 4, 4});
+  // 64 of 1023 is black, 940 white: ITU-R BT.709.
+  CHECK(lut->shaper->domainMin[0] == doctest::Approx(-64.0 / 876));
+  CHECK(lut->shaper->domainMax[0] == doctest::Approx((2 * 1023 - 64.0) / 876));
+  CHECK(lut->texels[0] == doctest::Approx(0).epsilon(1e-5));
+  CHECK(lut->texels[21] == doctest::Approx(1).epsilon(1e-5));
+  CHECK(failureOf("LUT_1D_SIZE 2\nLUT_3D_SIZE 2\n0 0 0\n1 1 1\n0 0 0\n").message.find("10 rows") !=
+        std::string::npos);
+}
+
 TEST_CASE("every mistake names its line") {
   CHECK(failureOf("").message.find("neither") != std::string::npos);
   CHECK(failureOf("LUT_3D_SIZE 2\n0 0 0\n").message.find("8 rows") != std::string::npos);

@@ -126,6 +126,25 @@ TEST_CASE("a 1D table is a curve per channel, linear between entries, at every s
   CHECK(largestError(render(folder.write("tent.cube", curves(3, 0, 1, tent))), tent) < 1);
 }
 
+TEST_CASE("curves before a cube are looked up first, each with its own domain") {
+  const TemporaryFolder folder;
+  const auto turned = [](Rgb c) { return Rgb{c.b, c.r, 1 - c.g}; };
+  for (const auto& [entries, size] : {std::pair{2, 2}, {2, 9}, {5000, 5}, {65536, 17}}) {
+    CAPTURE(entries);
+    CAPTURE(size);
+    const double power = entries == 2 ? 1 : 2;
+    std::string text = fmt::format(
+        "LUT_1D_SIZE {}\nLUT_1D_INPUT_RANGE 0 1\nLUT_3D_SIZE {}\nLUT_3D_INPUT_RANGE 0 2\n", entries, size);
+    for (int i = 0; i < entries; ++i)
+      text += fmt::format("{0} {0} {0}\n", 2 * std::pow(i / (entries - 1.0), power));
+    const std::string whole = cube(size, 0, 1, turned);
+    text += whole.substr(whole.find('\n', whole.find("DOMAIN_MAX")) + 1);
+    CHECK(largestError(render(folder.write("shaper.cube", text)), [&](Rgb c) {
+            return turned({std::pow(c.r, power), std::pow(c.g, power), std::pow(c.b, power)});
+          }) < 1);
+  }
+}
+
 TEST_CASE("a table that cannot be used is an error of the graph, before anything runs") {
   const TemporaryFolder folder;
   const auto codesOf = [](const std::string& file) {

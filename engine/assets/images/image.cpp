@@ -156,6 +156,31 @@ ImageF linearize(const ImageOf<T>& encoded) {
   return image;
 }
 
+// A picture as it stands upright.
+template <class T>
+std::optional<ImageOf<T>> decodeUpright(std::string_view bytes, int channels, const std::string& name,
+                                        Diagnostics& diagnostics) {
+  std::optional<ImageOf<T>> stored = decodePicture<T>(bytes, channels, name, diagnostics);
+  const int orientation = orientationOf(bytes);
+  if (!stored || orientation == 1) return stored;
+  const bool mirrorsX = orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8;
+  const bool mirrorsY = orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7;
+  const auto size = static_cast<std::size_t>(stored->channels);
+  ImageOf<T> image{stored->width, stored->height, stored->channels, std::vector<T>(stored->texels.size())};
+  if (orientation >= 5) std::swap(image.width, image.height);
+  auto* out = image.texels.data();
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x, out += size) {
+      int column = orientation >= 5 ? y : x, row = orientation >= 5 ? x : y;
+      if (mirrorsX) column = stored->width - 1 - column;
+      if (mirrorsY) row = stored->height - 1 - row;
+      const auto texel = static_cast<std::size_t>(row) * static_cast<std::size_t>(stored->width) +
+                         static_cast<std::size_t>(column);
+      std::copy_n(&stored->texels[texel * size], size, out);
+    }
+  return image;
+}
+
 std::optional<ImageHeader> readHeader(std::string_view bytes, const std::string& name,
                                       Diagnostics& diagnostics) {
   const ImageKind kind = kindOfName(name);
@@ -164,9 +189,11 @@ std::optional<ImageHeader> readHeader(std::string_view bytes, const std::string&
   else if (bytes.empty())
     reportUnreadable(diagnostics, name, "the file is empty");
   if (kind == ImageKind::unknown || bytes.empty()) return {};
-  return kind == ImageKind::hdr   ? readHdrHeader(bytes, name, diagnostics)
-         : kind == ImageKind::exr ? readExrHeader(bytes, name, diagnostics)
-                                  : readPictureHeader(bytes, name, diagnostics);
+  if (kind == ImageKind::hdr) return readHdrHeader(bytes, name, diagnostics);
+  if (kind == ImageKind::exr) return readExrHeader(bytes, name, diagnostics);
+  std::optional<ImageHeader> header = readPictureHeader(bytes, name, diagnostics);
+  if (header && orientationOf(bytes) >= 5) std::swap(header->width, header->height);
+  return header;
 }
 
 }  // namespace
@@ -183,10 +210,10 @@ std::optional<ImageF> decodeImage(std::string_view bytes, const std::string& nam
     return encoded ? std::optional(linearize(*encoded)) : std::nullopt;
   };
   if (header->type == StoredType::byte)
-    return linear(decodePicture<std::uint8_t>(bytes, 0, name, diagnostics));
+    return linear(decodeUpright<std::uint8_t>(bytes, 0, name, diagnostics));
   if (header->type == StoredType::word)
-    return linear(decodePicture<std::uint16_t>(bytes, 0, name, diagnostics));
-  return kindOfName(name) == ImageKind::hdr ? decodePicture<float>(bytes, 3, name, diagnostics)
+    return linear(decodeUpright<std::uint16_t>(bytes, 0, name, diagnostics));
+  return kindOfName(name) == ImageKind::hdr ? decodeHdr(bytes, name, diagnostics)
                                             : decodeExr(bytes, name, diagnostics);
 }
 
@@ -198,7 +225,7 @@ std::optional<Image8> loadImage8(const std::string& path, int channels, Diagnost
     return {};
   }
   return readHeader(*bytes, path, diagnostics)
-             ? decodePicture<std::uint8_t>(*bytes, channels, path, diagnostics)
+             ? decodeUpright<std::uint8_t>(*bytes, channels, path, diagnostics)
              : std::nullopt;
 }
 
@@ -296,9 +323,9 @@ std::optional<StoredImage> loadStored(const std::string& path, bool srgb, Diagno
     return StoredImage{*header, turnedOver(std::span(picture->texels), header->height)};
   };
   if (header->type == StoredType::byte)
-    return stored(decodePicture<std::uint8_t>(*bytes, 4, path, diagnostics));
+    return stored(decodeUpright<std::uint8_t>(*bytes, 4, path, diagnostics));
   if (header->type == StoredType::word)
-    return stored(decodePicture<std::uint16_t>(*bytes, 4, path, diagnostics));
+    return stored(decodeUpright<std::uint16_t>(*bytes, 4, path, diagnostics));
   std::optional<ImageF> picture = decodeImage(*bytes, path, diagnostics);
   if (picture) picture = widenToRgba(std::move(*picture));
   return stored(picture);

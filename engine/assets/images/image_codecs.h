@@ -26,11 +26,16 @@ std::optional<ImageHeader> readHdrHeader(std::string_view bytes, const std::stri
                                          text::Diagnostics& diagnostics);
 std::optional<ImageHeader> readExrHeader(std::string_view bytes, const std::string& name,
                                          text::Diagnostics& diagnostics);
-// Of bytes whose header was read, .exr aside. `channels` 1 to 4, or 0 for what the file has; T is std::uint8_t, std::uint16_t or float,
-// whatever the file has.
+// How a .jpg or .png lies as the camera held it, 1 to 8 (JEITA CP-3451, Exif 2.3, tag 0x0112); 1, as stored, where the file says
+// nothing that can be read.
+int orientationOf(std::string_view bytes);
+// As stored, of bytes whose header was read. `channels` 1 to 4, or 0 for what the file has; T is std::uint8_t or std::uint16_t, whatever
+// the file has.
 template <class T>
 std::optional<ImageOf<T>> decodePicture(std::string_view bytes, int channels, const std::string& name,
                                         text::Diagnostics& diagnostics);
+std::optional<ImageF> decodeHdr(std::string_view bytes, const std::string& name,
+                                text::Diagnostics& diagnostics);
 std::optional<ImageF> decodeExr(std::string_view bytes, const std::string& name,
                                 text::Diagnostics& diagnostics);
 

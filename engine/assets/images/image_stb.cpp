@@ -1,4 +1,4 @@
-// .hdr, .png, .jpg and .tga through stb_image and stb_image_write. Declared in image_codecs.h and image.h.
+// .png, .jpg and .tga through stb_image and stb_image_write. Declared in image_codecs.h and image.h.
 #include <fmt/format.h>
 #include <stb/stb_image.h>
 #include <stb/stb_image_resize.h>
@@ -19,8 +19,7 @@ using text::Diagnostics;
 
 namespace {
 
-// What stb_image does not survive or lets pass. Files that end early: it fills what is missing with zeros (.hdr at a line's
-// start, .jpg) or leaves it uninitialized (.tga). Huffman tables of more than 256 codes in a .jpg: it writes beyond its arrays
+// What stb_image does not survive or lets pass. Files that end early: it fills what is missing with zeros (.jpg) or leaves it uninitialized (.tga). Huffman tables of more than 256 codes in a .jpg: it writes beyond its arrays
 // (the packaged version of 2022-09 does; found by the fuzz test). So the structure of a file is walked before it is decoded.
 // Each check returns "" for a complete file, else what is wrong, to stand after "path: ".
 
@@ -30,51 +29,6 @@ std::uint8_t byteAt(std::string_view bytes, std::size_t i) {
 
 std::string endsEarly(std::size_t line, std::size_t lines) {
   return fmt::format("the file ends in line {} of {}", line + 1, lines);
-}
-
-// Ward, "Real Pixels", Graphics Gems II: text header, empty line, "-Y height +X width", then lines of four
-// RLE planes.
-std::string checkHdr(std::string_view bytes) {
-  std::size_t at = bytes.find("\n\n");
-  if (at == std::string_view::npos) return "the header has no end";
-  at += 2;
-  const std::size_t end = bytes.find('\n', at);
-  if (end == std::string_view::npos) return "the resolution line is missing";
-  const std::string_view line = bytes.substr(at, end - at);
-  std::size_t width = 0, height = 0;
-  const std::size_t x = line.find(" +X ");
-  if (!line.starts_with("-Y ") || x == std::string_view::npos)
-    return "the resolution line is not '-Y height +X width'";
-  std::from_chars(line.data() + 3, line.data() + x, height);
-  std::from_chars(line.data() + x + 4, line.data() + line.size(), width);
-  at = end + 1;
-  const auto isRle = [&] {
-    return width >= 8 && width < 32768 && at + 4 <= bytes.size() && byteAt(bytes, at) == 2 &&
-           byteAt(bytes, at + 1) == 2 && byteAt(bytes, at + 2) < 128;
-  };
-  if (!isRle()) {
-    if (bytes.size() - at < width * height * 4) return endsEarly((bytes.size() - at) / (width * 4), height);
-    return "";
-  }
-  for (std::size_t y = 0; y < height; ++y) {
-    if (at + 4 > bytes.size()) return endsEarly(y, height);
-    if (!isRle() || (std::size_t{byteAt(bytes, at + 2)} << 8 | byteAt(bytes, at + 3)) != width)
-      return fmt::format("line {} of {} has a wrong header", y + 1, height);
-    at += 4;
-    for (int plane = 0; plane < 4; ++plane) {
-      for (std::size_t done = 0; done < width;) {
-        if (at + 2 > bytes.size()) return endsEarly(y, height);
-        const std::size_t code = byteAt(bytes, at);
-        const std::size_t run = code > 128 ? code - 128 : code;
-        if (run == 0 || done + run > width)
-          return fmt::format("line {} of {} has a wrong run length", y + 1, height);
-        done += run;
-        at += 1 + (code > 128 ? 1 : run);
-      }
-    }
-    if (at > bytes.size()) return endsEarly(y, height);
-  }
-  return "";
 }
 
 // A file that stb_image takes for a JPEG; checkJpeg() comes before any call to stb_image with it.
@@ -163,9 +117,7 @@ std::optional<ImageHeader> readStbHeader(std::string_view bytes, const std::stri
     reportUnreadable(diagnostics, name, problem);
     return {};
   }
-  header.type = stbi_is_hdr_from_memory(stbData(bytes), stbSize(bytes))      ? StoredType::real
-                : stbi_is_16_bit_from_memory(stbData(bytes), stbSize(bytes)) ? StoredType::word
-                                                                             : StoredType::byte;
+  if (stbi_is_16_bit_from_memory(stbData(bytes), stbSize(bytes))) header.type = StoredType::word;
   return header;
 }
 
@@ -175,25 +127,50 @@ void appendBytes(void* out, void* bytes, int count) {
 
 }  // namespace
 
-std::optional<ImageHeader> readHdrHeader(std::string_view bytes, const std::string& name,
-                                         Diagnostics& diagnostics) {
-  if (bytes.size() <= 0x7fffffffu && !stbi_is_hdr_from_memory(stbData(bytes), stbSize(bytes))) {
-    reportUnreadable(diagnostics, name, "it does not begin as a Radiance picture (#?RADIANCE)");
-    return {};
-  }
-  return readStbHeader(bytes, name, diagnostics, [&] { return checkHdr(bytes); });
-}
-
 std::optional<ImageHeader> readPictureHeader(std::string_view bytes, const std::string& name,
                                              Diagnostics& diagnostics) {
   const bool jpeg = isJpeg(bytes), png = bytes.starts_with("\x89PNG");
   std::string problem = jpeg ? checkJpeg(bytes) : "";
-  if (stbi_is_hdr_from_memory(stbData(bytes), stbSize(bytes)))
-    problem = "it holds a Radiance picture; rename it to .hdr";
+  if (bytes.starts_with("#?")) problem = "it holds a Radiance picture; rename it to .hdr";
   if (problem.empty())
     return readStbHeader(bytes, name, diagnostics, [&] { return jpeg || png ? "" : checkTga(bytes); });
   reportUnreadable(diagnostics, name, problem);
   return {};
+}
+
+// In a .jpg it is in the segment APP1, in a .png in the chunk eXIf; there a list of entries of 12 bytes.
+int orientationOf(std::string_view bytes) {
+  std::string_view exif;
+  if (bytes.starts_with("\x89PNG")) {
+    for (std::size_t at = 8; at + 12 <= bytes.size() && exif.empty();) {
+      std::size_t size = 0;
+      for (std::size_t i = 0; i < 4; ++i) size = size << 8 | byteAt(bytes, at + i);
+      if (bytes.substr(at + 4, 4) == "eXIf") exif = bytes.substr(at + 8, size);
+      at += size + 12;
+    }
+  } else if (bytes.starts_with("\xff\xd8")) {
+    for (std::size_t at = 2; at + 4 <= bytes.size() && bytes[at] == '\xff' && bytes[at + 1] != '\xda';) {
+      const std::string_view segment =
+          bytes.substr(at + 4, (std::size_t{byteAt(bytes, at + 2)} << 8 | byteAt(bytes, at + 3)) - 2);
+      if (bytes[at + 1] == '\xe1' && segment.starts_with("Exif"))
+        exif = segment.substr(std::min<std::size_t>(6, segment.size()));
+      at += segment.size() + 4;
+    }
+  }
+  const bool little = exif.starts_with("II");
+  const auto number = [&](std::size_t at, std::size_t count) {
+    std::size_t value = 0;
+    for (std::size_t i = 0; i < count && at + count <= exif.size(); ++i)
+      value |= std::size_t{byteAt(exif, at + i)} << 8 * (little ? i : count - 1 - i);
+    return value;
+  };
+  const std::size_t list = number(4, 4);
+  for (std::size_t entry = 0; entry < number(list, 2); ++entry)
+    if (const std::size_t at = list + 2 + 12 * entry; number(at, 2) == 0x0112) {
+      const std::size_t value = number(at + 8, 2);
+      return value >= 1 && value <= 8 ? static_cast<int>(value) : 1;
+    }
+  return 1;
 }
 
 template <class T>
@@ -206,10 +183,8 @@ std::optional<ImageOf<T>> decodePicture(std::string_view bytes, int channels, co
   T* read = nullptr;
   if constexpr (sizeof(T) == 1)
     read = load(stbi_load_from_memory);
-  else if constexpr (sizeof(T) == 2)
-    read = load(stbi_load_16_from_memory);
   else
-    read = load(stbi_loadf_from_memory);
+    read = load(stbi_load_16_from_memory);
   const std::unique_ptr<T, decltype(&stbi_image_free)> texels(read, &stbi_image_free);
   if (!texels) {
     reportUnreadable(diagnostics, name, fmt::format("its texels are not valid ({})", stbi_failure_reason()));
@@ -224,7 +199,6 @@ std::optional<ImageOf<T>> decodePicture(std::string_view bytes, int channels, co
 template std::optional<Image8> decodePicture(std::string_view, int, const std::string&, Diagnostics&);
 template std::optional<ImageOf<std::uint16_t>> decodePicture(std::string_view, int, const std::string&,
                                                              Diagnostics&);
-template std::optional<ImageF> decodePicture(std::string_view, int, const std::string&, Diagnostics&);
 
 std::string encodePng8(int width, int height, int channels, std::span<const std::uint8_t> texels) {
   assert(width > 0 && height > 0 && channels >= 1 && channels <= 4);

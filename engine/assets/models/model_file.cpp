@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "engine/assets/images/image_codecs.h"
-#include "engine/assets/models/assimp/model_check.h"
+#include "engine/assets/models/apart/model_apart.h"
 #include "engine/assets/models/gltf/gltf_document.h"
 #include "engine/assets/models/parts/mesh_builder.h"
 #include "engine/assets/models/parts/model_files.h"
@@ -32,7 +32,7 @@ std::optional<Model> loadModel(const std::string& path, text::Diagnostics& diagn
   } else if (auto bytes = mine.readModel()) {
     good = kind == ".gltf" || kind == ".glb"
                ? readGltf(std::move(*bytes), mine, observer, diagnostics, model)
-               : readWithAssimp(std::move(*bytes), kind == ".obj", mine, observer, diagnostics, model);
+               : readApart(std::move(*bytes), kind == ".obj", mine, observer, diagnostics, model);
   }
   model.files = mine.files();
   if (files) *files = model.files;

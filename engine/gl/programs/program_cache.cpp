@@ -63,7 +63,7 @@ void appendFor(const ProgramRequest& request, const Diagnostics& from, Diagnosti
 
 ProgramCache::ProgramCache(const DeviceInfo& device, glsl::SourceLoader& loader, Options options)
     : device_(device), loader_(loader), options_(std::move(options)) {
-  trials_ = {.command = options_.trial, .all = options_.trialSeconds};
+  trials_ = {.command = options_.trial, .seconds = options_.trialSeconds};
   if (!device_.hasProgramBinaries) options_.folder.clear();
   std::error_code ignored;  // a folder that cannot be made is a cache that always misses
   if (!options_.folder.empty()) std::filesystem::create_directories(options_.folder, ignored);

@@ -22,7 +22,7 @@
 namespace weft::gl {
 
 // ---- trials: shader_trial.cpp ----
-// Compiles a program in a process of its own first. A driver that crashes, takes all memory or never ends then harms
+// Compiles a program in a process of its own first (engine/text/apart.h). A driver that crashes, takes all memory or never ends then harms
 // only that process. The process is this executable again, started with kTrialWord, or one that an embedder names. It
 // opens a context of the same driver, compiles, links, and makes the driver generate machine code by a draw or a
 // dispatch that covers nothing, so that no loop of the shader runs. Which programs are tried: glsl::isUnusual().
@@ -32,16 +32,16 @@ constexpr const char* kTrialWord = "try-program";
 
 constexpr std::uint64_t kMaxTrialBytes = 768ull << 20;  // that a program may take to compile
 
-// What trials may cost together, in seconds of processor time.
 struct Trials {
   std::vector<std::string>
       command;  // the executable and what comes before kTrialWord; empty: nothing is tried
-  double all = 0, spent = 0;
+  std::uint64_t seconds =
+      0;              // of processor time, that each may take: no verdict hangs on what was tried before
+  bool died = false;  // from then on nothing is tried: a graph of such shaders is not waited for
 };
 
-// False after an error (W204): the driver did not survive the program, or no time is left to try it. True also when no
-// process or context could be had: then nothing is known. The process is gone when this returns: it is ended when the time
-// is spent, or when it has said nothing for six times that by the clock.
+// False after an error (W204): the driver did not survive the program, or another one before. True also when no process or context
+// could be had: then nothing is known.
 bool survivesTrial(Trials& trials, const DeviceInfo& device, std::span<const StageSource> stages,
                    std::span<const glsl::Define> defines, std::span<const std::string> outputs,
                    text::Diagnostics& diagnostics);
@@ -84,10 +84,10 @@ struct ProgramCacheStats {
 class ProgramCache {
  public:
   struct Options {
-    std::size_t capacity = 128;        // above it, variants that nobody holds are forgotten
-    std::string folder;                // of binaries, made when absent; "": no disk cache
-    std::vector<std::string> trial{};  // as Trials::command
-    double trialSeconds = static_cast<double>(text::raised(5));  // for all trials of a graph
+    std::size_t capacity = 128;                    // above it, variants that nobody holds are forgotten
+    std::string folder;                            // of binaries, made when absent; "": no disk cache
+    std::vector<std::string> trial{};              // as Trials::command
+    std::uint64_t trialSeconds = text::raised(5);  // of processor time, for one shader
     std::uint64_t folderBytes =
         256ull << 20;  // see pruneBinaries(); looked at with the first binary that is written
   };
@@ -97,8 +97,8 @@ class ProgramCache {
   // The variant, or null after errors. It stays valid when evicted or when its sources change.
   std::shared_ptr<const Variant> get(const ProgramRequest& request, text::Diagnostics& diagnostics);
 
-  // A graph begins to load: trials have all of their time again.
-  void startTrials() { trials_.spent = 0; }
+  // A graph begins to load: its unusual shaders are tried.
+  void startTrials() { trials_.died = false; }
 
   const ProgramCacheStats& stats() const { return stats_; }
 

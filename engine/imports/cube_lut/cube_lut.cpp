@@ -16,18 +16,47 @@ namespace {
 
 constexpr std::uint32_t kRow = 1024, kLeast = 8;  // entries; what the alpha of a 1D table needs
 
-// The size of the texture: 3D, size^3, or for three curves rows of 1024 entries. Those have two slices,
-// because a 3D texture of one would be taken for a 2D one; the second is as the first.
+// The size of the texture: 3D, size^3, and slices for the curves of a shaper behind them; of three curves alone rows of 1024
+// entries. Those have two slices, because a 3D texture of one would be taken for a 2D one.
 gl::Extent lutExtent(const assets::CubeLut& lut) {
   const auto n = static_cast<std::uint32_t>(lut.size);
-  if (lut.dimensions == 3) return {n, n, n};
-  return {std::clamp(n, kLeast, kRow), (n + kRow - 1) / kRow, 2};
+  if (lut.dimensions == 1) return {std::clamp(n, kLeast, kRow), (n + kRow - 1) / kRow, 2};
+  const std::uint32_t curves =
+      lut.shaper ? std::max(static_cast<std::uint32_t>(lut.shaper->size), kLeast) : 0;
+  return {n, n, n + (curves + n * n - 1) / (n * n)};
 }
 
-// RGBA16F, red along x. Alpha carries the domain. 3D: in the eight corners that every size has, the minimum
-// of red, green and blue in texels (0,0,0), (0,1,0), (0,0,1), the maximum one step along x from each. 1D:
-// minimum and maximum in the first six texels, then how often 1024 goes into the number of entries, then the
-// rest.
+// One slice of curves, from entry `first` on. The alpha of the first six entries has the minimum and the maximum of red, green
+// and blue, then comes how often 1024 goes into the number of entries, then the rest.
+void fillCurves(std::span<float> slice, const assets::CubeLut& lut, std::size_t first) {
+  std::vector<float> numbers;
+  for (std::size_t c = 0; c < 3; ++c) numbers.insert(numbers.end(), {lut.domainMin[c], lut.domainMax[c]});
+  for (const int part : {lut.size / static_cast<int>(kRow), lut.size % static_cast<int>(kRow)})
+    numbers.push_back(static_cast<float>(part));
+  for (std::size_t i = 0; i * 4 < slice.size(); ++i) {
+    const std::size_t entry = std::min(first + i, static_cast<std::size_t>(lut.size) - 1);
+    for (std::size_t c = 0; c < 3; ++c) slice[i * 4 + c] = lut.texels[entry * 3 + c];
+    slice[i * 4 + 3] = first + i < numbers.size() ? numbers[first + i] : 1;
+  }
+}
+
+// One slice of a cube. In the eight corners that every size has, alpha has the minimum of red, green and blue in texels (0,0,0),
+// (0,1,0), (0,0,1), the maximum one step along x from each.
+void fillCube(std::span<float> slice, const assets::CubeLut& lut, std::size_t z) {
+  const auto n = static_cast<std::size_t>(lut.size);
+  for (std::size_t i = 0; i < n * n; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) slice[i * 4 + c] = lut.texels[(z * n * n + i) * 3 + c];
+    slice[i * 4 + 3] = 1;
+  }
+  const auto domain = [&](std::size_t texel, std::size_t channel) {
+    slice[texel * 4 + 3] = lut.domainMin[channel];
+    slice[texel * 4 + 7] = lut.domainMax[channel];
+  };
+  if (z == 0) domain(0, 0), domain(n, 1);
+  if (z == 1) domain(0, 2);
+}
+
+// RGBA16F, red along x.
 std::optional<gl::Texture> makeLutTexture(const assets::CubeLut& lut, const std::string& label,
                                           text::Diagnostics& diagnostics) {
   const gl::Extent extent = lutExtent(lut);
@@ -39,31 +68,14 @@ std::optional<gl::Texture> makeLutTexture(const assets::CubeLut& lut, const std:
                              .layers = 1};
   auto texture = gl::Texture::create(desc, label, diagnostics);
   if (!texture) return std::nullopt;
-  const std::size_t n = extent.width, area = n * extent.height, entries = lut.texels.size() / 3;
+  const std::size_t area = std::size_t{extent.width} * extent.height;
+  const std::uint32_t cubes = lut.dimensions == 3 ? static_cast<std::uint32_t>(lut.size) : 0;
   std::vector<float> slice(area * 4);
   for (std::uint32_t z = 0; z < extent.layers; ++z) {
-    const std::size_t first = lut.dimensions == 3 ? z * area : 0;
-    for (std::size_t i = 0; i < area; ++i) {
-      const std::size_t entry = std::min(first + i, entries - 1);
-      std::copy_n(lut.texels.begin() + static_cast<std::ptrdiff_t>(entry * 3), 3,
-                  slice.begin() + static_cast<std::ptrdiff_t>(i * 4));
-      slice[i * 4 + 3] = 1;
-    }
-    const auto alpha = [&](std::size_t texel) -> float& { return slice[texel * 4 + 3]; };
-    const auto domain = [&](std::size_t texel, std::size_t channel) {
-      alpha(texel) = lut.domainMin[channel];
-      alpha(texel + 1) = lut.domainMax[channel];
-    };
-    if (lut.dimensions == 1) {
-      for (std::size_t channel = 0; channel < 3; ++channel) domain(channel * 2, channel);
-      alpha(6) = static_cast<float>(lut.size / static_cast<int>(kRow));
-      alpha(7) = static_cast<float>(lut.size % static_cast<int>(kRow));
-    } else if (z == 0) {
-      domain(0, 0);
-      domain(n, 1);
-    } else if (z == 1) {
-      domain(0, 2);
-    }
+    if (z < cubes)
+      fillCube(slice, lut, z);
+    else
+      fillCurves(slice, lut.shaper ? *lut.shaper : lut, (z - cubes) * area);
     gl::uploadTexture(texture->ref(), 0, z, GL_RGBA, GL_FLOAT, std::as_bytes(std::span(slice)));
   }
   return texture;

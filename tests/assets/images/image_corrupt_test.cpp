@@ -138,7 +138,8 @@ TEST_CASE("absurd sizes in a header are refused before anything is allocated") {
   CHECK(failureOf(folder.write("c.hdr", hdr("-Y 0 +X 10"))).code == text::Code::badImageSize);
   CHECK(failureOf(folder.write("d.hdr", hdr("-Y 16384 +X 8192"))).code == text::Code::unreadableImage);
   CHECK(failureOf(folder.write("e.hdr", hdr("+X 4 -Y 4"))).code == text::Code::unreadableImage);
-  CHECK(failureOf(folder.write("f.hdr", hdr("-Y -4 +X -4"))).code == text::Code::badImageSize);
+  CHECK(failureOf(folder.write("f.hdr", hdr("-Y -4 +X -4"))).code == text::Code::unreadableImage);
+  CHECK(failureOf(folder.write("g.hdr", hdr("+X 4 -X 4"))).code == text::Code::unreadableImage);
 }
 
 TEST_CASE(

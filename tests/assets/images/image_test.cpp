@@ -92,6 +92,121 @@ TEST_CASE("Radiance keeps values to its 8-bit mantissa, narrow (flat) and wide (
   }
 }
 
+TEST_CASE("Radiance in all eight orientations, and with the run lengths of before 1991") {
+  // Texel (x, y) of the upright picture, 3 x 2, is red x + 1 and green y + 1.
+  const auto texel = [](int x, int y) {
+    return std::string(
+        {static_cast<char>(128 + x), static_cast<char>(128 + y), '\0', static_cast<char>(136)});
+  };
+  text::Diagnostics diagnostics;
+  for (const char* size : {"-Y 2 +X 3", "-Y 2 -X 3", "+Y 2 +X 3", "+Y 2 -X 3", "+X 3 -Y 2", "-X 3 -Y 2",
+                           "+X 3 +Y 2", "-X 3 +Y 2"}) {
+    CAPTURE(size);
+    std::string bytes = std::string("#?RGBE\n# made by hand\n\n") + size + "\n";
+    // "Radiance File Formats": the first axis is the one of scanlines; -Y goes down, +X to the right.
+    const bool columns = size[1] == 'X', turnedFirst = size[0] != (columns ? '+' : '-'),
+               turnedSecond = size[5] != (columns ? '-' : '+');
+    const int lines = columns ? 3 : 2, length = columns ? 2 : 3;
+    for (int i = 0; i < lines; ++i)
+      for (int j = 0; j < length; ++j) {
+        const int first = turnedFirst ? lines - 1 - i : i, second = turnedSecond ? length - 1 - j : j;
+        bytes += columns ? texel(first, second) : texel(second, first);
+      }
+    const auto image = decodeImage(bytes, "a.hdr", diagnostics);
+    REQUIRE_MESSAGE(image, diagnostics.text());
+    REQUIRE(image->width == 3);
+    REQUIRE(image->height == 2);
+    for (std::size_t i = 0; i < 6; ++i) {
+      CHECK(image->texels[i * 3] == static_cast<float>(128 + i % 3));
+      CHECK(image->texels[i * 3 + 1] == static_cast<float>(128 + i / 3));
+    }
+  }
+  // 300 = 44 + 256 repeats.
+  const std::string runs = texel(1, 2) + std::string("\1\1\1\54\1\1\1\1", 8) + texel(3, 4);
+  const auto image = decodeImage("#?RADIANCE\n\n-Y 1 +X 302\n" + runs, "a.hdr", diagnostics);
+  REQUIRE_MESSAGE(image, diagnostics.text());
+  CHECK(image->texels[3 * 300] == 129.0f);
+  CHECK(image->texels[3 * 301] == 131.0f);
+}
+
+TEST_CASE("Radiance: what EXPOSURE and COLORCORR multiplied in is taken out; XYZ becomes RGB") {
+  text::Diagnostics diagnostics;
+  const auto texelOf = [&](const std::string& header, const std::string& texel) {
+    const auto image = decodeImage("#?RADIANCE\n" + header + "\n-Y 1 +X 1\n" + texel, "a.hdr", diagnostics);
+    REQUIRE_MESSAGE(image, diagnostics.text());
+    return image->texels;
+  };
+  const std::string twos("\x80\x80\x80\x82", 4);
+  CHECK(texelOf("FORMAT=32-bit_rle_rgbe\n", twos) == std::vector<float>{2, 2, 2});
+  CHECK(texelOf("EXPOSURE= 4\nEXPOSURE=0.25\nEXPOSURE=0.5\nCOLORCORR= 1 2 4\n", twos) ==
+        std::vector<float>{4, 2, 1});
+  // The white D65 of CIE 15 (0.9505, 1, 1.089), half as bright, in mantissas over 2^7.
+  const std::vector<float> white = texelOf("FORMAT=32-bit_rle_xyze\n", std::string("\x7a\x80\x8b\x80", 4));
+  for (const float c : white) CHECK(c == doctest::Approx(0.5).epsilon(0.01));
+  for (const char* wrong : {"EXPOSURE=0\n", "EXPOSURE=x\n", "COLORCORR=1 1\n", "FORMAT=32-bit_rle_lab\n"})
+    CHECK_FALSE(decodeImage(std::string("#?RADIANCE\n") + wrong + "\n-Y 1 +X 1\nabcd", "a.hdr", diagnostics));
+}
+
+TEST_CASE("a .jpg and a .png stand upright, as their Exif orientation says") {
+  const TemporaryFolder folder;
+  // Exif 2.3, table of tag 0x0112: where the first row and the first column as stored are seen.
+  struct Seen {
+    bool columns, fromRight,
+        fromBottom;  // the first row is seen as a column; as seen, the first texel is at the right, the bottom
+  };
+  const Seen seen[8] = {{false, false, false}, {false, true, false}, {false, true, true},
+                        {false, false, true},  {true, false, false}, {true, true, false},
+                        {true, true, true},    {true, false, true}};
+  constexpr int kWide = 32,
+                kHigh = 16;  // as stored: the first quarter white, the rest of the first half row red
+  std::vector<std::uint8_t> texels(kWide * kHigh * 3, 0);
+  for (int y = 0; y < kHigh / 2; ++y)
+    for (int x = 0; x < kWide; ++x)
+      for (int c = 0; c < 3; ++c)
+        texels[static_cast<std::size_t>((y * kWide + x) * 3 + c)] = x < kWide / 2 || c == 0 ? 255 : 0;
+  std::string jpeg;
+  stbi_write_jpg_to_func(
+      [](void* out, void* data, int count) {
+        static_cast<std::string*>(out)->append(static_cast<char*>(data), static_cast<std::size_t>(count));
+      },
+      &jpeg, kWide, kHigh, 3, texels.data(), 95);
+  const std::string png = encodePng8(kWide, kHigh, 3, texels);
+  for (int orientation = 1; orientation <= 8; ++orientation) {
+    const char value = static_cast<char>(orientation);
+    const std::string big =
+        std::string("MM\0\x2a\0\0\0\x8\0\x1\x1\x12\0\x3\0\0\0\x1\0", 19) + value + std::string(6, '\0');
+    const std::string little =
+        std::string("II\x2a\0\x8\0\0\0\x1\0\x12\x1\x3\0\x1\0\0\0", 18) + value + std::string(7, '\0');
+    const std::string inJpeg = jpeg.substr(0, 2) + std::string("\xff\xe1\0\x22", 4) +
+                               std::string("Exif\0\0", 6) + big + jpeg.substr(2);
+    const std::string inPng = png.substr(0, 33) + std::string("\0\0\0\x1a", 4) + "eXIf" + little +
+                              std::string(4, '\0') + png.substr(33);
+    for (const auto& [name, bytes] : {std::pair{"a.jpg", inJpeg}, {"a.png", inPng}}) {
+      CAPTURE(name);
+      CAPTURE(orientation);
+      text::Diagnostics diagnostics;
+      const std::string path = folder.write(name, bytes);
+      const auto image = loadImage8(path, 3, diagnostics);
+      REQUIRE_MESSAGE(image, diagnostics.text());
+      const Seen& want = seen[orientation - 1];
+      REQUIRE(image->width == (want.columns ? kHigh : kWide));
+      REQUIRE(image->height == (want.columns ? kWide : kHigh));
+      const auto header = loadHeader(path, diagnostics);
+      REQUIRE(header);
+      CHECK(header->width == image->width);
+      const auto colorAt = [&](bool right, bool bottom) {
+        const int x = image->width * (right ? 3 : 1) / 4, y = image->height * (bottom ? 3 : 1) / 4;
+        const std::uint8_t* color = &image->texels[static_cast<std::size_t>((y * image->width + x) * 3)];
+        return color[0] < 128 ? 'k' : color[1] < 128 ? 'r' : 'w';
+      };
+      CHECK(colorAt(want.fromRight, want.fromBottom) == 'w');
+      // The other half of the first row lies along it.
+      CHECK(colorAt(want.columns ? want.fromRight : !want.fromRight,
+                    want.columns ? !want.fromBottom : want.fromBottom) == 'r');
+    }
+  }
+}
+
 TEST_CASE("an environment becomes RGBA, finite and non-negative, and says how much was replaced") {
   const TemporaryFolder folder;
   text::Diagnostics diagnostics;

@@ -91,6 +91,11 @@ bool ModelFiles::hasBeside(const std::string& name) const {
   return !target.empty() && text::mayRead(target) && std::filesystem::is_regular_file(target, ec);
 }
 
+void ModelFiles::takeOver(std::vector<std::string> files) {
+  files_ = std::move(files);
+  text::noteRead(files_);
+}
+
 bool ModelFiles::count(std::uint64_t bytes, const Place& place) {
   bytes_ += bytes;
   if (bytes_ <= text::raised(kMaxModelBytes)) return true;

@@ -45,6 +45,8 @@ class ModelFiles {
   // Whether there is such a file in the folder; nothing is said.
   bool hasBeside(const std::string& name) const;
 
+  // What another process read for this one.
+  void takeOver(std::vector<std::string> files);
   // Counts bytes that are not files of their own against the limit. False after W201.
   bool count(std::uint64_t bytes, const text::Place& place);
 
