@@ -52,7 +52,7 @@ HOSTILE = [
 ]
 # What a message says of the limit.
 SAYS = {"a sum": "at most 500 brackets", "two megabytes": "at most 1048576 bytes", "brackets": "--limit 2",
-        "long work": "at most 5 s of processor time for all unusual shaders"}
+        "long work": "at most 5 s of processor time for an unusual shader"}
 
 
 def graph(shader, **keys):
