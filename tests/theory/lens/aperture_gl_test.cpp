@@ -58,6 +58,7 @@ std::vector<glm::dvec2> placesOn(const Lens& lens, double radius) {
 
 Radiance throughLens(const View& view, const Lens& lens, const Sets& sets) {
   Setup setup = sceneOf(view, view.finer, sets);
+  setup.graph = "tests/theory/lens/sharp.json";
   setup.disables = {"post"};
   const glm::dvec3 axis = glm::normalize(setup.camera.target - setup.camera.position);
   const glm::dvec3 right = glm::normalize(glm::cross(axis, glm::dvec3(0, 1, 0))),
@@ -80,7 +81,7 @@ Radiance throughLens(const View& view, const Lens& lens, const Sets& sets) {
   const int finer = static_cast<int>(view.finer);
   for (std::size_t i = 0; i < places.size(); ++i) {
     lab.frame(static_cast<std::uint32_t>(i));
-    const Picture sharp = lab.read("panels");
+    const Picture sharp = lab.read("sharp");
     // What is in focus moved by this many of the finer pixels against the lens's place.
     const int dx = static_cast<int>(std::lround(places[i].x * pixelsAtFocus)),
               dy = static_cast<int>(std::lround(places[i].y * pixelsAtFocus));

@@ -156,13 +156,14 @@ Radiance throughShutter(const Scene& scene, double turn, double degrees, OnePict
   Setup setup = sceneOf();
   const double open = kFrame * degrees / 360, step = open / kMoments, first = -open / 2 + step / 2;
   setup.balls = ballsAt(scene, first, step / kFrame);
+  setup.graph = "tests/theory/lens/sharp.json";
   setup.disables = {"post"};
   for (int i = 0; i < kMoments; ++i) setup.path.push_back(poseAt(i * kFrame, first + i * step, turn));
   Lab lab(setup);
   Radiance sum(std::size_t{kWidth} * kHeight * 3);
   for (int i = 0; i < kMoments; ++i) {
     lab.frame(static_cast<std::uint32_t>(i));
-    const Picture sharp = lab.read("panels");
+    const Picture sharp = lab.read("sharp");
     judge.add(first + i * step, setup.path[std::size_t(i)], sharp, 1.0 / kMoments);
     for (std::uint32_t y = 0; y < kHeight; ++y)
       for (std::uint32_t x = 0; x < kWidth; ++x)
