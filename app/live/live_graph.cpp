@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "app/session/session.h"
-#include "engine/graph/edit/write_back.h"
 #include "engine/graph/language/suffix.h"
 #include "engine/imports/environment/environment.h"
 #include "engine/scene/files/scene_file.h"
@@ -34,7 +33,8 @@ LiveGraph::LiveGraph(const Options& options, runtime::Renderer& renderer, runtim
     : renderer_(renderer),
       world_(std::move(world)),
       settings_(std::move(settings)),
-      scene_(scenePathOf(options), sceneChoiceOf(options), world_.scene().files) {
+      scene_(scenePathOf(options), sceneChoiceOf(options), world_.scene().files),
+      presetFolder_(presetFolders(options.presetFolder).front()) {
   if (world_.scene().cameras.rows().empty()) scene_.outdate();
   if (world_.environmentPending())
     environment_.request(options.environment);
@@ -201,8 +201,10 @@ bool LiveGraph::tryWorld(runtime::World world, text::Diagnostics& diagnostics) {
   return true;
 }
 
-void LiveGraph::stepEnvironment(int by) {
-  if (environment_.step(by)) watch();
+bool LiveGraph::stepEnvironment(int by) {
+  if (!environment_.step(by)) return false;
+  watch();
+  return true;
 }
 
 bool LiveGraph::resize(std::uint32_t width, std::uint32_t height, text::Diagnostics& diagnostics) {
@@ -229,11 +231,22 @@ bool LiveGraph::trySettings(graph::Settings settings, text::Diagnostics& diagnos
 
 bool LiveGraph::setParameter(const std::string& name, const graph::Value& value,
                              text::Diagnostics& diagnostics) {
-  if (trySetLive(name, value)) return true;
-  graph::Settings settings = settings_;
-  forget(settings, name);
-  settings.sets.emplace_back(name, value, graph::Origin::panel);
-  return trySettings(std::move(settings), diagnostics);
+  Moment before = changing_ == name ? Moment{} : now();
+  if (!trySetLive(name, value)) {
+    graph::Settings settings = settings_;
+    forget(settings, name);
+    settings.sets.emplace_back(name, value, graph::Origin::panel);
+    if (!trySettings(std::move(settings), diagnostics)) return false;
+  }
+  remember(std::move(before), name);
+  return true;
+}
+
+bool LiveGraph::change(graph::Settings settings, text::Diagnostics& diagnostics) {
+  Moment before = now();
+  if (!trySettings(std::move(settings), diagnostics)) return false;
+  remember(std::move(before));
+  return true;
 }
 
 bool LiveGraph::trySetLive(const std::string& name, const graph::Value& value) {
@@ -257,7 +270,7 @@ bool LiveGraph::trySetLive(const std::string& name, const graph::Value& value) {
 bool LiveGraph::resetParameter(const std::string& name, text::Diagnostics& diagnostics) {
   graph::Settings settings = settings_;
   std::erase_if(settings.sets, [&](const auto& set) { return graph::hasSuffix(name, set.name); });
-  return trySettings(std::move(settings), diagnostics);
+  return change(std::move(settings), diagnostics);
 }
 
 bool LiveGraph::isChanged(const std::string& parameter) const {
@@ -265,23 +278,11 @@ bool LiveGraph::isChanged(const std::string& parameter) const {
                              [&](const auto& set) { return graph::hasSuffix(parameter, set.name); });
 }
 
-bool LiveGraph::writeBack(std::vector<std::string>& files, text::Diagnostics& diagnostics) {
-  ++changes_;
-  if (!renderer_.desc()) return false;
-  const graph::Registry registry = runtime::makeRegistry(renderer_.device().plugIns, world_.facts());
-  const auto plan =
-      graph::planWriteBack(*renderer_.desc(), renderer_.presets(), registry, settings_, diagnostics);
-  if (!plan || !graph::saveWriteBack(*plan, diagnostics)) return false;
-  for (const graph::WriteBack::File& file : plan->files) files.push_back(file.path);
-  settings_ = plan->rest;
-  return load(diagnostics);
-}
-
 bool LiveGraph::setEnabled(const std::string& pass, bool enabled, text::Diagnostics& diagnostics) {
   graph::Settings settings = settings_;
   std::erase_if(settings.disables, [&](const graph::Disable& each) { return each.name == pass; });
   if (!enabled) settings.disables.emplace_back(pass, graph::Origin::panel);
-  return trySettings(std::move(settings), diagnostics);
+  return change(std::move(settings), diagnostics);
 }
 
 }  // namespace weft::app

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/live/live_loads.h"
 #include "app/session/options.h"
+#include "engine/graph/edit/write_back.h"
 #include "engine/graph/expand/expand.h"
 #include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/renderer.h"
@@ -41,8 +43,8 @@ class LiveGraph {
   bool pollEnvironment(text::Diagnostics& diagnostics);
   // After a frame: frees what the GPU has.
   void dropUploaded() { renderer_.dropUploaded(world_); }
-  // Asks for the next (1) or previous (-1) environment of the folder.
-  void stepEnvironment(int by);
+  // Asks for the next (1) or previous (-1) environment of the folder. False when there is no other.
+  bool stepEnvironment(int by);
   // The size of the screen. False when it is what it was.
   bool resize(std::uint32_t width, std::uint32_t height, text::Diagnostics& diagnostics);
   // These take the full name of a parameter, of a pass. A live parameter is set at once; everything else takes another
@@ -53,9 +55,26 @@ class LiveGraph {
   // Goes back to what the files say, instead of what setParameter() said. False after errors.
   bool resetParameter(const std::string& name, text::Diagnostics& diagnostics);
   bool isChanged(const std::string& parameter) const;
-  // Writes changed parameters and disabled passes into the files they come from (engine/graph/edit/write_back.h);
-  // `files` are those that were written. False after errors: nothing was.
-  bool writeBack(std::vector<std::string>& files, text::Diagnostics& diagnostics);
+  // How many changes made here are in no file.
+  std::size_t unsaved() const;
+  // What writing changed parameters and disabled passes into the files they come from would do. Nothing after errors.
+  std::optional<graph::WriteBack> planWrites(text::Diagnostics& diagnostics);
+  // Does it. False after errors, and nothing was written: also when a file is Weft's own (isWefts).
+  bool write(const graph::WriteBack& plan, text::Diagnostics& diagnostics);
+  // Whether a file belongs to what is installed, and is never written here.
+  static bool isWefts(const std::string& file);
+  // Writes what was changed into a new preset of the user's, and lays that over the graph. The file; nothing after errors.
+  std::optional<std::string> savePreset(const std::string& name, text::Diagnostics& diagnostics);
+  // Takes back the last change of a parameter, a pass or the presets, or the last write into files; and does it again. A row of
+  // changes of one parameter up to endChange() is one. False when there is none, and after errors.
+  bool undo(text::Diagnostics& diagnostics) { return travel(undo_, redo_, diagnostics); }
+  bool redo(text::Diagnostics& diagnostics) { return travel(redo_, undo_, diagnostics); }
+  bool canUndo() const { return !undo_.empty(); }
+  bool canRedo() const { return !redo_.empty(); }
+  void endChange() { changing_.clear(); }
+  // Another graph, scene or environment, or one more preset: what the file holds decides. False, with the reason, and nothing has
+  // changed. A scene or an environment is read beside the frames.
+  bool open(const std::string& file, text::Diagnostics& diagnostics);
 
   // Everything that was read, or missed.
   std::vector<std::string> files() const;
@@ -85,6 +104,19 @@ class LiveGraph {
   bool trySetLive(const std::string& name, const graph::Value& value);
   bool trySettings(graph::Settings settings, text::Diagnostics& diagnostics);
   void watch(text::Diagnostics* diagnostics = nullptr);
+  bool change(graph::Settings settings, text::Diagnostics& diagnostics);
+  // What ran before a change, and what is to be written to have it again.
+  struct Moment {
+    std::string graph;
+    std::vector<std::string> presets;
+    graph::Settings settings;
+    graph::WriteBack files;
+  };
+  Moment now() const;
+  // After a change. `name`: of the parameter that may go on changing.
+  void remember(Moment before, const std::string& name = {});
+  bool travel(std::vector<Moment>& from, std::vector<Moment>& to, text::Diagnostics& diagnostics);
+  bool takeUp(Moment moment, text::Diagnostics& diagnostics);
 
   runtime::Renderer& renderer_;
   runtime::World world_;
@@ -92,6 +124,7 @@ class LiveGraph {
   graph::Settings lost_;  // that the files, as they are, do not take: tried again at each load
   LiveScene scene_;
   LiveEnvironment environment_;
+  std::string presetFolder_;
   text::FileWatcher watcher_;
   bool expectsScene_ = false;  // the world's stands in for it
   bool graphStale_ = false, good_ = false, environmentGood_ = true;
@@ -99,6 +132,8 @@ class LiveGraph {
   std::string changedEnvironment_;    // to be loaded again, or empty
   double changedAt_ = 0, quiet_ = 0;  // seconds
   std::uint64_t switches_ = 0, livesSet_ = 0, changes_ = 0;
+  std::vector<Moment> undo_, redo_;
+  std::string changing_;  // the parameter whose changes are one
 };
 
 }  // namespace weft::app

@@ -28,10 +28,12 @@ LiveScene::LiveScene(std::string path, scene::SceneChoice choice, std::vector<st
     : path_(std::move(path)),
       choice_(std::move(choice)),
       files_(std::move(files)),
-      loader_([chosen = choice_](const std::string& file, text::Diagnostics& diagnostics,
-                                 const assets::LoadObserver& observer) -> std::shared_ptr<const void> {
+      loader_([first = path_, chosen = choice_](
+                  const std::string& file, text::Diagnostics& diagnostics,
+                  const assets::LoadObserver& observer) -> std::shared_ptr<const void> {
         auto loaded = std::make_shared<Loaded>();
-        loaded->scene = scene::loadScene(file, diagnostics, &loaded->files, chosen, observer);
+        loaded->scene = scene::loadScene(file, diagnostics, &loaded->files,
+                                         file == first ? chosen : scene::SceneChoice{}, observer);
         return loaded;
       }) {}
 

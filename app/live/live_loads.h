@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/assets/images/image.h"
@@ -34,6 +35,13 @@ class LiveScene {
   // Everything that was read or should have been, also after errors: what to watch.
   const std::vector<std::string>& files() const { return files_; }
 
+  // Another file from now on, as when the one before had changed.
+  void choose(std::string path) {
+    path_ = std::move(path);
+    files_ = {path_};
+    choice_ = {};
+    outdate();
+  }
   // To be called when the files have changed since they were read: what arrived, or is on its way, is out of date.
   void outdate();
   bool outdated() const { return outdated_; }
@@ -66,7 +74,7 @@ class LiveScene {
   void take(std::shared_ptr<const Loaded> loaded, text::Diagnostics diagnostics);
 
   std::string path_;
-  scene::SceneChoice choice_;
+  scene::SceneChoice choice_;  // of the first file
   std::vector<std::string> files_;
   bool outdated_ = false;
   std::optional<bool> slow_;  // as the files are; empty: nobody asked

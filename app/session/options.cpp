@@ -32,7 +32,10 @@ bool readPair(std::string_view text, char separator, Number& a, Number& b) {
 CLI::Option* Options::addGraph(CLI::App& command) {
   CLI::Option* file = addPath(command, "graph", graph, "graph file (JSON)")->required();
   addPath(command, "--scene", scene, "scene file (default: the bundled scenes/spheres.json)");
-  command.add_option("--camera", camera, "camera of the scene to look through (default: its first)");
+  command.add_option(
+      "--camera", camera,
+      "camera of the scene to look through (default: its first), or a place and what it looks at: "
+      "X,Y,Z,X,Y,Z, then degrees and the near plane, as the viewer prints them (C)");
   addPath(command, "--materials", materials,
           "material library for the scene's grid, instead of the one it names");
   addPath(command, "--environment", environment,

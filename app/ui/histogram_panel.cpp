@@ -64,6 +64,11 @@ bool drawLuminance(runtime::Execution& execution) {
 
 void Panels::drawHistogram() {
   if (drawLuminance(*renderer_.execution())) return;
+  // Again after a while, so that a picture at rest has its own; in idle mode that is drawn for longer.
+  if (ImGui::GetTime() - counted_ > 0.1) {
+    histogram_.update(renderer_.execution()->presented());
+    counted_ = ImGui::GetTime();
+  }
   ImGui::TextDisabled("the picture as presented, 8-bit values");
   static constexpr const char* kNames[] = {"red", "green", "blue", "luminance"};
   static constexpr ImU32 kColors[] = {IM_COL32(220, 60, 60, 255), IM_COL32(60, 200, 80, 255),

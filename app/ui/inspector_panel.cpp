@@ -37,6 +37,21 @@ void slide(const char* label, std::uint32_t& value, std::uint32_t count) {
     value = static_cast<std::uint32_t>(x);
 }
 
+// After a pass that writes the resource: with a level and a layer that it writes.
+runtime::InspectTarget targetAfter(const graph::Plan& plan, std::uint32_t resource, const std::string& pass) {
+  runtime::InspectTarget target{.resource = plan.graph->resourceNames[resource], .pass = pass};
+  for (const graph::FlatUse& use : plan.graph->uses) {
+    const auto at = static_cast<std::size_t>(&use - plan.graph->uses.data());
+    if (use.resource != resource || use.access == graph::Access::read ||
+        plan.graph->passNames[plan.graph->links.passOf[at]] != pass)
+      continue;
+    target.mip = use.mip;
+    target.layer = use.layer;
+    break;
+  }
+  return target;
+}
+
 // The next item on this line when it fits, else on the next.
 void flow(float width) {
   ImGui::SameLine();
@@ -60,15 +75,23 @@ void InspectorPanel::beforeFrame(bool wanted) {
     if (plan.graph->present.resource != graph::kNone)
       target_.resource = plan.graph->resourceNames[plan.graph->present.resource];
   }
-  if (target_.resource != shown_) {
-    const std::uint32_t shown = indexOf(plan, target_.resource);
-    if (shown != graph::kNone) view_.encode = runtime::Inspector::viewOf(plan.graph->resources[shown]).encode;
-    shown_ = target_.resource;
-  }
   found_ = inspector_.watch(*execution, target_);
   if (!found_ && !target_.pass.empty()) {
     target_.pass.clear();
     found_ = inspector_.watch(*execution, target_);
+  }
+  if (watched_ == target_) return;
+  watched_ = target_;
+  copiesBefore_ = inspector_.copies();
+  statistics_.reset();
+}
+
+void InspectorPanel::select(const graph::Plan& plan, std::uint32_t pass) {
+  for (const std::uint32_t u : plan.graph->usesOf(pass)) {
+    const graph::FlatUse& use = plan.graph->uses[u];
+    if (use.access == graph::Access::read || !canShow(plan, use.resource)) continue;
+    target_ = targetAfter(plan, use.resource, plan.graph->passNames[pass]);
+    return;
   }
 }
 
@@ -79,7 +102,6 @@ void InspectorPanel::release() {
 void InspectorPanel::draw(text::Diagnostics& diagnostics) {
   const graph::Plan& plan = renderer_.execution()->plan();
   const runtime::InspectTarget before = target_;
-  const std::uint64_t copies = inspector_.copies();
   chooseTarget(plan);
   const std::uint32_t index = indexOf(plan, target_.resource);
   if (index == graph::kNone || !found_) {
@@ -89,29 +111,35 @@ void InspectorPanel::draw(text::Diagnostics& diagnostics) {
   }
   const FlatResource& resource = plan.graph->resources[index];
   choosePart(resource);
+  const bool arrived = target_ == watched_ && inspector_.copies() > copiesBefore_;
   if (resource.kind == ResourceKind::buffer) {
     drawNumbers();
   } else {
-    chooseView(resource);
-    drawPicture(diagnostics);
+    const auto [at, first] = looks_.try_emplace(target_.resource);
+    Look& look = at->second;
+    if (first) look.view = runtime::Inspector::viewOf(resource);
+    if (!look.ranged && arrived) look = {.view = inspector_.fittedView(), .ranged = true};
+    chooseView(resource, look);
+    drawPicture(look, diagnostics);
   }
-  wantsFrame_ = !(target_ == before) || copies == 0;
+  wantsFrame_ = !(target_ == before) || !arrived;
 }
 
 void InspectorPanel::chooseTarget(const graph::Plan& plan) {
   const graph::FlatGraph& graph = *plan.graph;
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 13);
   if (ImGui::BeginCombo("##resource", target_.resource.c_str(), ImGuiComboFlags_HeightLarge)) {
+    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+    filter_.Draw("search", -4 * ImGui::GetFontSize());
     for (std::uint32_t r = 0; r < graph.resources.size(); ++r) {
-      if (!canShow(plan, r)) continue;
+      if (!canShow(plan, r) || !filter_.PassFilter(graph.resourceNames[r].c_str())) continue;
       const bool current = graph.resourceNames[r] == target_.resource;
       if (ImGui::Selectable(
               fmt::format("{}  ({})", graph.resourceNames[r], describe(graph.resources[r])).c_str(),
               current) &&
-          !current) {
+          !current)
         target_ = {.resource = graph.resourceNames[r]};
-        statistics_.reset();
-      }
+      if (current && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY();
     }
     ImGui::EndCombo();
   }
@@ -124,7 +152,8 @@ void InspectorPanel::chooseTarget(const graph::Plan& plan) {
   const std::string shown = "after " + (target_.pass.empty() ? writers.back() : target_.pass);
   if (ImGui::BeginCombo("##pass", shown.c_str(), ImGuiComboFlags_HeightLarge)) {
     for (const std::string& writer : writers)
-      if (ImGui::Selectable(writer.c_str(), writer == target_.pass)) target_.pass = writer;
+      if (ImGui::Selectable(writer.c_str(), writer == target_.pass))
+        target_ = targetAfter(plan, index, writer);
     ImGui::EndCombo();
   }
 }
@@ -139,74 +168,78 @@ void InspectorPanel::choosePart(const FlatResource& resource) {
   const bool cube =
       resource.target == graph::Target::texture_cube || resource.target == graph::Target::texture_cube_array;
   slide(volume ? "slice" : cube ? "face" : "layer", target_.layer, slices);
-  slide("frames ago", target_.history, resource.history + 1u);
+  slide("publications before", target_.history, resource.history + 1u);
   if (graph::hasStencil(resource.format)) ImGui::Checkbox("stencil", &target_.stencil);
 }
 
-void InspectorPanel::chooseView(const FlatResource& resource) {
+void InspectorPanel::chooseView(const FlatResource& resource, Look& look) {
+  runtime::InspectView& view = look.view;
   const float em = ImGui::GetFontSize();
   const bool depth = graph::isDepth(resource.format);
-  const int channels = depth ? 1 : graph::infoOf(resource.format).channels;
+  const int channels = channels_ = depth ? 1 : graph::infoOf(resource.format).channels;
   if (channels > 1) {
     static constexpr const char* kChannels[] = {"RGB", "R", "G", "B", "A"};
-    int channel = std::min(static_cast<int>(view_.channel), channels);
+    int channel = std::min(static_cast<int>(view.channel), channels);
     ImGui::SetNextItemWidth(em * 4);
     if (ImGui::Combo("##channel", &channel, kChannels, channels + 1))
-      view_.channel = static_cast<runtime::InspectChannel>(channel);
+      view.channel = static_cast<runtime::InspectChannel>(channel);
     ImGui::SameLine();
   }
-  float range[2] = {view_.low, view_.high};
+  float range[2] = {view.low, view.high};
   ImGui::SetNextItemWidth(em * 10);
   if (ImGui::DragFloat2("range", range, 0.01f, 0, 0, "%.4g")) {
-    view_.low = range[0];
-    view_.high = range[1];
+    view.low = range[0];
+    view.high = range[1];
   }
   flow(em * 4);
-  if (ImGui::Button("Fit")) statistics_ = inspector_.measure();
-  tooltip("the range of what is there (waits for the GPU)");
-  if (ImGui::IsItemDeactivated() && statistics_) {
-    view_.low =
+  if (ImGui::Button("fit range") && (statistics_ = inspector_.measure())) {
+    view.low =
         static_cast<float>(*std::min_element(statistics_->low.begin(), statistics_->low.begin() + channels));
-    view_.high = static_cast<float>(
+    view.high = static_cast<float>(
         *std::max_element(statistics_->high.begin(), statistics_->high.begin() + channels));
-    view_.ev = 0;
-    view_.depth = false;
+    view.ev = 0;
+    view.depth = false;
   }
-  flow(em * 7);
+  tooltip("to what is there (waits for the GPU)");
+  flow(em * 4);
   if (ImGui::Button("0..1")) {
-    view_.low = 0;
-    view_.high = 1;
-    view_.ev = 0;
+    view.low = 0;
+    view.high = 1;
+    view.ev = 0;
   }
   flow(em * 10);
   ImGui::SetNextItemWidth(em * 6);
-  ImGui::SliderFloat("EV", &view_.ev, -10, 10, "%.1f");
-  ImGui::Checkbox("false color", &view_.falseColor);
+  ImGui::SliderFloat("EV", &view.ev, -10, 10, "%.1f");
+  ImGui::Checkbox("false color", &view.falseColor);
   flow(em * 5);
-  ImGui::Checkbox("sRGB", &view_.encode);
-  flow(em * 5);
-  ImGui::Checkbox("marks", &view_.highlight);
+  ImGui::Checkbox("sRGB", &view.encode);
+  flow(em * 12);
+  ImGui::Checkbox("show NaN and clipping", &view.highlight);
   tooltip("NaN magenta, infinite cyan; striped: yellow above the range, blue below");
   if (depth) {
     flow(em * 7);
-    if (ImGui::Checkbox("distance", &view_.depth) && view_.depth) view_.high = std::max(view_.high, 50.0f);
+    if (ImGui::Checkbox("distance", &view.depth) && view.depth) view.high = std::max(view.high, 50.0f);
     tooltip("reversed depth d as near / d, in world units");
   }
   flow(em * 6);
-  if (ImGui::Button("1:1")) {
-    view_.texelsPerPixel = 1;
-    view_.x = view_.y = 0;
+  if (ImGui::Button("100 %")) {
+    look.moved = true;
+    view.texelsPerPixel = 1;
+    view.x = view.y = 0;
   }
   flow(em * 5);
-  if (ImGui::Button("Whole")) fit_ = true;
-  if (statistics_)
-    ImGui::TextDisabled("%s", fmt::format("mean {:.4g}, {:.4g}, {:.4g}, {:.4g}; {} NaN, {} infinite",
-                                          statistics_->mean[0], statistics_->mean[1], statistics_->mean[2],
-                                          statistics_->mean[3], statistics_->nan, statistics_->infinite)
-                                  .c_str());
+  if (ImGui::Button("whole")) look.moved = false;
+  if (!statistics_) return;
+  std::string means;
+  for (int c = 0; c < channels; ++c)
+    means += fmt::format("{}{:.4g}", c ? ", " : "", statistics_->mean[static_cast<std::size_t>(c)]);
+  ImGui::TextDisabled(
+      "%s",
+      fmt::format("mean {}; {} NaN, {} infinite", means, statistics_->nan, statistics_->infinite).c_str());
 }
 
-void InspectorPanel::drawPicture(text::Diagnostics& diagnostics) {
+void InspectorPanel::drawPicture(Look& look, text::Diagnostics& diagnostics) {
+  runtime::InspectView& view = look.view;
   const gl::TextureRef picture = inspector_.picture();
   const float line = ImGui::GetTextLineHeightWithSpacing();
   ImVec2 area = ImGui::GetContentRegionAvail();
@@ -217,13 +250,10 @@ void InspectorPanel::drawPicture(text::Diagnostics& diagnostics) {
     return;
   }
   const double width = picture.desc.width, height = picture.desc.height;
-  const std::string part = fmt::format("{} {}x{}", target_.resource, width, height);
-  if (fit_ || part != fitted_) {
-    view_.texelsPerPixel = std::max(width / area.x, height / area.y);
-    view_.x = (width - area.x * view_.texelsPerPixel) / 2;
-    view_.y = (height - area.y * view_.texelsPerPixel) / 2;
-    fitted_ = part;
-    fit_ = false;
+  if (!look.moved) {
+    view.texelsPerPixel = std::max(width / area.x, height / area.y);
+    view.x = (width - area.x * view.texelsPerPixel) / 2;
+    view.y = (height - area.y * view.texelsPerPixel) / 2;
   }
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("canvas", area,
@@ -231,28 +261,33 @@ void InspectorPanel::drawPicture(text::Diagnostics& diagnostics) {
   const ImGuiIO& io = ImGui::GetIO();
   const double px = io.MousePos.x - corner.x, py = corner.y + area.y - io.MousePos.y;  // from the lower left
   if (ImGui::IsItemActive()) {
-    view_.x -= io.MouseDelta.x * view_.texelsPerPixel;
-    view_.y += io.MouseDelta.y * view_.texelsPerPixel;
+    look.moved |= io.MouseDelta.x != 0 || io.MouseDelta.y != 0;
+    view.x -= io.MouseDelta.x * view.texelsPerPixel;
+    view.y += io.MouseDelta.y * view.texelsPerPixel;
   }
   const bool hovered = ImGui::IsItemHovered();
   if (hovered && io.MouseWheel != 0) {
-    const double before = view_.texelsPerPixel;
-    view_.texelsPerPixel = std::clamp(before * std::pow(0.8, io.MouseWheel), 1.0 / 64, 64.0);
-    view_.x += px * (before - view_.texelsPerPixel);
-    view_.y += py * (before - view_.texelsPerPixel);
+    look.moved = true;
+    const double before = view.texelsPerPixel;
+    view.texelsPerPixel = std::clamp(before * std::pow(0.8, io.MouseWheel), 1.0 / 64, 64.0);
+    view.x += px * (before - view.texelsPerPixel);
+    view.y += py * (before - view.texelsPerPixel);
   }
-  const GLuint canvas = inspector_.draw(view_, static_cast<std::uint32_t>(area.x),
+  const GLuint canvas = inspector_.draw(view, static_cast<std::uint32_t>(area.x),
                                         static_cast<std::uint32_t>(area.y), diagnostics);
   const ImVec2 end(corner.x + area.x, corner.y + area.y);
   if (canvas)
     ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(canvas)),
                                          corner, end, {0, 1}, {1, 0});
-  const double tx = std::floor(view_.x + px * view_.texelsPerPixel),
-               ty = std::floor(view_.y + py * view_.texelsPerPixel);
-  std::string text = fmt::format("{:.0f} %; values under the cursor", 100 / view_.texelsPerPixel);
+  const double tx = std::floor(view.x + px * view.texelsPerPixel),
+               ty = std::floor(view.y + py * view.texelsPerPixel);
+  std::string text = fmt::format("{:.0f} %; point at a texel for its value", 100 / view.texelsPerPixel);
   if (hovered && tx >= 0 && ty >= 0 && tx < width && ty < height)
     if (const auto texel = inspector_.texel(static_cast<std::uint32_t>(tx), static_cast<std::uint32_t>(ty)))
-      text = fmt::format("[{:.0f}, {:.0f}] = {}", tx, ty, texel->text());
+      text = fmt::format("[{:.0f}, {:.0f}] = {}{}", tx, ty, texel->text(),
+                         view.depth && texel->value[0] > 0
+                             ? fmt::format(", distance {:.4g}", view.nearPlane / texel->value[0])
+                             : "");
   ImGui::TextUnformatted(text.c_str());
 }
 

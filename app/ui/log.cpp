@@ -30,6 +30,11 @@ void Log::dismiss() {
   dismissedPast_ = topics_[kPast].items.size();
 }
 
+std::size_t Log::errors() const {
+  const auto isError = [](const text::Diagnostic* each) { return each->severity == text::Severity::error; };
+  return static_cast<std::size_t>(std::ranges::count_if(shown(true), isError));
+}
+
 std::vector<const text::Diagnostic*> Log::shown(bool all) const {
   std::array<std::size_t, kTopicCount> order = {kFiles, kEnvironment, kChange, kPast};
   std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return topics_[a].said > topics_[b].said; });

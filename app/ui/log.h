@@ -18,6 +18,7 @@ class Log {
   void set(Topic topic, std::vector<text::Diagnostic> items);
   void addPast(const text::Diagnostics& diagnostics);  // keeps the last hundred
   void dismiss();                                      // all there is now
+  std::size_t errors() const;                          // that are not dismissed
   // What is not dismissed: errors, warnings, notes; within each the newest topic first, a topic's in their
   // order, the past backwards. Without `all`, only what stands on screen while the panels are hidden.
   std::vector<const text::Diagnostic*> shown(bool all) const;

@@ -3,8 +3,20 @@
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+#include <imgui_freetype.h>
+#include <imgui_internal.h>
+
+#include <cmath>
+#include <filesystem>
 
 namespace weft::app::ui {
+
+namespace {
+
+constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";  // of fonts-dejavu-core
+constexpr float kFontPixels = 14;                                                 // at scale 1
+
+}  // namespace
 
 std::unique_ptr<Overlay> Overlay::create(GLFWwindow* window, float scale) {
   IMGUI_CHECKVERSION();
@@ -12,21 +24,39 @@ std::unique_ptr<Overlay> Overlay::create(GLFWwindow* window, float scale) {
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
   io.LogFilename = nullptr;
-  if (!ImGui_ImplGlfw_InitForOpenGL(window, true) || !ImGui_ImplOpenGL3_Init("#version 450 core"))
+  io.ConfigInputTextCursorBlink = false;
+  io.Fonts->FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
+  if (!ImGui_ImplGlfw_InitForOpenGL(window, false) || !ImGui_ImplOpenGL3_Init("#version 450 core"))
     return nullptr;
-  std::unique_ptr<Overlay> overlay(new Overlay);
+  std::unique_ptr<Overlay> overlay(new Overlay(window));
   overlay->setScale(scale);
   return overlay;
 }
 
+float Overlay::textSize(float scale) {
+  return std::round(kFontPixels * scale);
+}
+
 void Overlay::setScale(float scale) {
-  ImGui::GetIO().FontGlobalScale = scale;
+  // Text is drawn anew at its size, not stretched: Latin, Greek, Cyrillic and the signs of mathematics. Without the font, the one
+  // that Dear ImGui brings is stretched.
+  static constexpr ImWchar kScripts[] = {0x20, 0x52f, 0x1e00, 0x22ff, 0x25a0, 0x25ff, 0};
+  ImGuiIO& io = ImGui::GetIO();
+  io.Fonts->Clear();
+  std::error_code ignored;
+  const bool own = std::filesystem::exists(kFont, ignored) &&
+                   io.Fonts->AddFontFromFileTTF(kFont, textSize(scale), nullptr, kScripts);
+  if (!own) io.Fonts->AddFontDefault();
+  io.FontGlobalScale = own ? 1 : scale;
+  ImGui_ImplOpenGL3_DestroyFontsTexture();  // made anew by the next frame
+  ImGui_ImplOpenGL3_DestroyDeviceObjects();
   ImGuiStyle& style = ImGui::GetStyle();
   style = ImGuiStyle();  // sizes cannot be scaled back
   ImGui::StyleColorsDark();
   style.ScaleAllSizes(scale);
-  style.WindowRounding = 3;
-  style.Colors[ImGuiCol_WindowBg].w = 0.88f;
+  style.WindowBorderSize = 0;
+  style.Colors[ImGuiCol_WindowBg].w = 1;
+  style.Colors[ImGuiCol_TextDisabled] = {0.66f, 0.66f, 0.66f, 1};
 }
 
 void Overlay::setMouseEnabled(bool enabled) {
@@ -41,10 +71,39 @@ Overlay::~Overlay() {
   ImGui::DestroyContext();
 }
 
+void Overlay::takeKey(int key, int scancode, int action, int mods) {
+  ImGui_ImplGlfw_KeyCallback(window_, key, scancode, action, mods);
+}
+
+void Overlay::takeCharacter(unsigned codepoint) {
+  ImGui_ImplGlfw_CharCallback(window_, codepoint);
+}
+
+void Overlay::takeWheel(double x, double y) {
+  ImGui_ImplGlfw_ScrollCallback(window_, x, y);
+}
+
+void Overlay::takeButton(int button, bool down) {
+  if (button >= 0 && button < 3) down_[button] = down;
+}
+
+void Overlay::takeMove(double x, double y) {
+  x_ = static_cast<float>(x);
+  y_ = static_cast<float>(y);
+  inside_ = true;
+}
+
+void Overlay::takeLeave() {
+  inside_ = down_[0] || down_[1] || down_[2];
+}
+
 void Overlay::begin() {
   if (std::exchange(begun_, true)) return;
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  ImGuiIO& io = ImGui::GetIO();
+  io.MousePos = inside_ ? ImVec2(x_, y_) : ImVec2(-FLT_MAX, -FLT_MAX);
+  for (std::size_t i = 0; i < 3; ++i) io.MouseDown[i] = down_[i];
   ImGui::NewFrame();
 }
 
@@ -67,8 +126,15 @@ std::optional<std::pair<int, int>> Overlay::releasedMouse() const {
 bool Overlay::wantsMouse() const {
   return ImGui::GetIO().WantCaptureMouse;
 }
+
 bool Overlay::wantsKeys() const {
   return ImGui::GetIO().WantTextInput;
+}
+
+bool Overlay::closePopup() {
+  if (ImGui::GetCurrentContext()->OpenPopupStack.empty()) return false;
+  ImGui::ClosePopupToLevel(0, true);
+  return true;
 }
 
 }  // namespace weft::app::ui

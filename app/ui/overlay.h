@@ -1,6 +1,6 @@
-// Dear ImGui over framebuffer 0 of a GLFW window. Installs its callbacks behind those that the window has, which go on being
-// called; they ask wantsMouse() and wantsKeys() whether an event is theirs. Draws with state of its own and puts back what it
-// found.
+// Dear ImGui over framebuffer 0 of a GLFW window. Installs no callbacks: who has the events hands them over, so that each layout of
+// the panels sees at most one change of each key and button (Dear ImGui 1.86 looks at states alone). Draws with state of its own and
+// puts back what it found.
 #pragma once
 
 #include <memory>
@@ -13,18 +13,27 @@ namespace weft::app::ui {
 
 class Overlay {
  public:
-  // `window` must be current, have its callbacks, and outlive this. Null when there is no OpenGL loader for
-  // it.
+  // `window` must be current and outlive this. Null when there is no OpenGL loader for it.
   static std::unique_ptr<Overlay> create(GLFWwindow* window, float scale);
   ~Overlay();
   Overlay(const Overlay&) = delete;
   Overlay& operator=(const Overlay&) = delete;
 
-  // Panels are made between the two; end() draws them. Framebuffer 0 must be bound. begin() takes the events that have come:
-  // wantsMouse() knows of them from then on. It does nothing between the two; without panels, call skip() instead of end().
+  // Before begin(): what GLFW's callbacks said.
+  void takeKey(int key, int scancode, int action, int mods);
+  void takeCharacter(unsigned codepoint);
+  void takeWheel(double x, double y);
+  void takeButton(int button, bool down);
+  void takeMove(double x, double y);
+  void takeLeave();
+
+  // Panels are made between the two; end() draws them. Framebuffer 0 must be bound. begin() shows the panels the events that were
+  // taken: wantsMouse() knows of them from then on. It does nothing between the two; without a picture of the panels, call skip()
+  // instead of end().
   void begin();
   void end();
   void skip();
+  static float textSize(float scale);  // pixels
   // Sizes of text and widgets, 1 at 96 dots an inch. Between frames.
   void setScale(float scale);
   // Off: panels ignore the mouse, wherever it is (it is captured).
@@ -35,10 +44,15 @@ class Overlay {
 
   bool wantsMouse() const;
   bool wantsKeys() const;  // a text field has the keyboard
+  // Closes the list or menu that is open, between begin() and end(). False when there is none.
+  bool closePopup();
 
  private:
-  Overlay() = default;
+  explicit Overlay(GLFWwindow* window) : window_(window) {}
 
+  GLFWwindow* window_;
+  float x_ = 0, y_ = 0;
+  bool inside_ = false, down_[3] = {};
   bool begun_ = false;  // between begin() and end()
 };
 

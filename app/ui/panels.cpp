@@ -1,18 +1,31 @@
 #include "app/ui/panels.h"
 
 #include <algorithm>
-
-#include "app/output/standard_streams.h"
-#include "engine/text/printable.h"
+#include <cmath>
+#include <utility>
 
 namespace weft::app::ui {
 
 namespace {
 
-constexpr std::array<const char*, 6> kNames = {"parameters", "passes",  "inspector",
-                                               "profiler",   "storage", "histogram"};
-constexpr std::array<const char*, 6> kTitles = {"Parameters",     "Passes",  "Texture inspector",
-                                                "Frame profiler", "Storage", "Histogram"};
+constexpr std::array<const char*, 7> kTitles = {"Parameters", "Passes",    "Selected", "Times",
+                                                "Storage",    "Histogram", "Messages"};
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoSavedSettings;
+constexpr double kTipSeconds = 0.4;
+double g_still = 0;  // seconds for which the mouse has not moved, nor had a button down
+
+ImVec4 colorOf(text::Severity severity) {
+  return severity == text::Severity::error     ? ImVec4(1, 0.45f, 0.4f, 1)
+         : severity == text::Severity::warning ? ImVec4(1, 0.85f, 0.4f, 1)
+                                               : ImVec4(0.7f, 0.7f, 0.7f, 1);
+}
+
+void beginFixed(const char* name, float x, float y, float width, float height) {
+  ImGui::SetNextWindowPos({x, y});
+  ImGui::SetNextWindowSize({width, height});
+  ImGui::Begin(name, nullptr, kFixed);
+}
 
 }  // namespace
 
@@ -21,7 +34,7 @@ void tooltip(const std::string& text) {
 }
 
 void tooltip(const std::string& text, bool hovered) {
-  if (!hovered || text.empty()) return;
+  if (!hovered || text.empty() || g_still < kTipSeconds) return;
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(ImGui::GetFontSize() * 30);
   ImGui::TextUnformatted(text.c_str());
@@ -31,7 +44,8 @@ void tooltip(const std::string& text, bool hovered) {
 
 bool beginTable(const char* id, std::initializer_list<const char*> titles, int stretched,
                 ImGuiTableFlags flags) {
-  if (!ImGui::BeginTable(id, static_cast<int>(titles.size()), flags | ImGuiTableFlags_SizingFixedFit))
+  if (!ImGui::BeginTable(id, static_cast<int>(titles.size()),
+                         flags | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_Resizable))
     return false;
   ImGui::TableSetupScrollFreeze(0, 1);
   for (const char* title : titles)
@@ -45,10 +59,11 @@ void cell(const std::string& text) {
   ImGui::TextUnformatted(text.c_str());
 }
 
-Panels::Panels(LiveGraph& live, runtime::Renderer& renderer, Log& log)
+Panels::Panels(LiveGraph& live, runtime::Renderer& renderer, Log& log, std::function<void(const char*)> act)
     : live_(live),
       renderer_(renderer),
       log_(log),
+      act_(std::move(act)),
       profiler_(renderer.device().timers),
       inspector_(renderer) {}
 
@@ -56,114 +71,123 @@ Panels::~Panels() {
   inspector_.release();
 }
 
-bool Panels::toggle(std::string_view panel) {
-  for (std::size_t i = 0; i < kNames.size(); ++i)
-    if (panel == kNames[i]) {
-      open_[i] = !open_[i] || !visible;
-      latest_ = static_cast<Panel>(i);
-      visible = true;
-      arrange_ = true;
-      return true;
-    }
-  return false;
+void Panels::open(std::string_view tab) {
+  for (std::size_t i = 0; i < kTabCount; ++i)
+    if (tab == names()[i]) wanted_ = static_cast<Tab>(i);
+  visible_ = true;
 }
 
 std::vector<std::string> Panels::names() {
-  return {kNames.begin(), kNames.end()};
+  std::vector<std::string> names(kTitles.begin(), kTitles.end());
+  for (std::string& name : names) name[0] = static_cast<char>(name[0] + 'a' - 'A');
+  return names;
+}
+
+// The column takes the right side, the strip what is below the picture, the line the lower end. Where the window is not wide there is no
+// strip, and the column has all tabs.
+void Panels::measure(float textSize, float width, float height) {
+  em_ = textSize;
+  width_ = width;
+  height_ = height;
+  column_ = visible() ? std::round(std::min(29 * em_, width * 0.5f)) : 0;
+  line_ = visible() ? std::round(std::min(2 * em_, height * 0.2f)) : 0;
+  strip_ = visible() && wide() ? std::round(std::min(13 * em_, height * 0.3f)) : 0;
+}
+
+Panels::Area Panels::picture() const {
+  const auto pixels = [](float length) { return static_cast<std::uint32_t>(std::max(1.0f, length)); };
+  return {0, static_cast<std::uint32_t>(line_ + strip_), pixels(width_ - column_),
+          pixels(height_ - line_ - strip_)};
 }
 
 void Panels::beforeFrame() {
-  inspector_.beforeFrame(visible && open_[kInspector]);
+  inspector_.beforeFrame(shows(kSelected));
   profiler_.begin();
 }
 
 void Panels::afterFrame() {
-  if (!renderer_.execution()) return;
-  profiler_.end(renderer_.execution()->plan());
-  if (visible && open_[kHistogram]) histogram_.update(renderer_.execution()->presented());
+  if (renderer_.execution()) profiler_.end(renderer_.execution()->plan());
 }
 
-void Panels::draw(const runtime::FrameReport& report, text::Diagnostics& diagnostics) {
-  if (explained_ != live_.switches() || !explainer_) {
+bool Panels::wantsFrame() const {
+  const bool unmeasured = renderer_.device().timers.enabled() &&
+                          (profiler_.history().empty() || profiler_.history().back().passes.empty());
+  return unmeasured || (shows(kSelected) && inspector_.wantsFrame());
+}
+
+bool Panels::wantsLayout() const {
+  return visible() && g_still < kTipSeconds;
+}
+
+void Panels::draw(const runtime::FrameReport& report, const LoopState& state,
+                  text::Diagnostics& diagnostics) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool still = io.MouseDelta.x == 0 && io.MouseDelta.y == 0 && !ImGui::IsAnyMouseDown();
+  g_still = still ? g_still + static_cast<double>(io.DeltaTime) : 0;
+  if (!ImGui::IsAnyItemActive()) live_.endChange();
+  if (live_.running() && (explained_ != live_.switches() || !explainer_)) {
     explainer_ = std::make_unique<graph::Explainer>(renderer_.execution()->plan());
+    rows_ = passRowsOf(*renderer_.desc(), renderer_.execution()->plan());
     explained_ = live_.switches();
   }
-  if (visible) {
-    drawMenu(diagnostics);
-    arrange();
-    for (std::size_t i = 0; i < kPanelCount; ++i) {
-      if (begin(static_cast<Panel>(i))) {
-        if (i == kParameters) drawParameters(report, diagnostics);
-        if (i == kPasses) drawPasses(diagnostics);
-        if (i == kInspector) inspector_.draw(diagnostics);
-        if (i == kProfiler) drawProfiler();
-        if (i == kStorage) drawStorage();
-        if (i == kHistogram) drawHistogram();
-      }
-      if (open_[i]) ImGui::End();
+  const std::size_t errors = log_.errors();
+  if (std::exchange(errors_, errors) < errors && wide() && visible()) wanted_ = kMessages;
+  if (visible() && live_.running()) {
+    beginFixed("column", width_ - column_, 0, column_, height_ - line_);
+    drawTabs(0, 0, wide() ? kTimes : kTabCount, report, diagnostics);
+    ImGui::End();
+    if (strip_ > 0) {
+      beginFixed("strip", 0, height_ - line_ - strip_, width_ - column_, strip_);
+      drawTabs(1, kTimes, kTabCount, report, diagnostics);
+      ImGui::End();
     }
-    arrange_ = false;
+    wanted_.reset();
   }
-  drawLog();
+  if (visible()) drawLine(state);
+  if (!shows(kMessages) || !live_.running()) drawAlarm();
   drawLoading();
+  drawQuestion(diagnostics);
+  if (visible()) return;
+  ImGui::SetNextWindowPos({width_, 0}, ImGuiCond_Always, {1, 0});
+  ImGui::Begin("button", nullptr, kFixed | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_AlwaysAutoResize);
+  if (ImGui::SmallButton("Panels")) act_("panels");
+  ImGui::End();
 }
 
-void Panels::drawMenu(text::Diagnostics& diagnostics) {
-  if (!ImGui::BeginMainMenuBar()) return;
-  if (ImGui::BeginMenu("Panels")) {
-    for (std::size_t i = 0; i < kTitles.size(); ++i)
-      if (ImGui::MenuItem(kTitles[i], nullptr, open_[i])) toggle(kNames[i]);
-    ImGui::Separator();
-    if (ImGui::MenuItem("Arrange")) arrange_ = true;
-    ImGui::EndMenu();
+void Panels::drawTabs(std::size_t place, std::size_t first, std::size_t end,
+                      const runtime::FrameReport& report, text::Diagnostics& diagnostics) {
+  if (!ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyScroll)) return;
+  for (std::size_t i = first; i < end; ++i) {
+    const ImGuiTabItemFlags flags = wanted_ == static_cast<Tab>(i) ? ImGuiTabItemFlags_SetSelected : 0;
+    if (!ImGui::BeginTabItem(kTitles[i], nullptr, flags)) continue;
+    shown_[place] = static_cast<Tab>(i);
+    ImGui::BeginChild(kTitles[i]);
+    drawTab(static_cast<Tab>(i), report, diagnostics);
+    ImGui::EndChild();
+    ImGui::EndTabItem();
   }
-  if (ImGui::BeginMenu("Files")) {
-    const graph::Settings& settings = live_.settings();
-    const bool any = !settings.sets.empty() || !settings.disables.empty();
-    if (ImGui::MenuItem("Write changes into the files", "F8", false, any)) writeBack(diagnostics);
-    ImGui::EndMenu();
-  }
-  if (!said_.empty()) ImGui::TextDisabled("%s", said_.c_str());
-  ImGui::EndMainMenuBar();
+  ImGui::EndTabBar();
 }
 
-// Columns: parameters and passes at the sides, others one below the other between them; where the window is
-// narrow, the two share the left side. Below all of it stands the log.
-void Panels::arrange() {
-  const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  if (screen.x != width_ || screen.y != height_) arrange_ = true;
-  width_ = screen.x;
-  height_ = screen.y;
-  if (!arrange_) return;
-  const float gap = 6, top = ImGui::GetFrameHeight() + gap, em = ImGui::GetFontSize();
-  const float bottom = screen.y - logHeight() - 2 * gap;  // the log's, also while there is none
-  const float height = std::max(bottom - top, 4 * em);
-  std::vector<Panel> others;
-  for (const Panel panel : {kInspector, kProfiler, kStorage, kHistogram})
-    if (open_[panel]) others.push_back(panel);
-  // Where there is no room for all, the one opened last stays longest.
-  while (others.size() > 1 &&
-         height / static_cast<float>(others.size() + (open_[kInspector] ? 1 : 0)) < 10 * em) {
-    const auto first = std::ranges::find_if(others, [&](Panel panel) { return panel != latest_; });
-    open_[*first] = false;
-    others.erase(first);
-  }
-  const bool narrow = screen.x < 88 * em && !others.empty();
-  const float side = std::min(narrow ? screen.x * 0.42f : 29 * em, screen.x * 0.45f);
-  const bool below = narrow && open_[kParameters] && open_[kPasses];  // the passes, below the parameters
-  const float each = below ? (height - gap) / 2 : height;
-  places_[kParameters] = {gap, top, side, each};
-  places_[kPasses] = {narrow ? gap : screen.x - gap - side, below ? top + each + gap : top, side, each};
-  const float left = open_[kParameters] || (narrow && open_[kPasses]) ? side + 2 * gap : gap;
-  const float right = screen.x - (open_[kPasses] && !narrow ? side + 2 * gap : gap);
-  float shares = 0, y = top;
-  const auto shareOf = [](Panel panel) { return panel == kInspector ? 2.0f : 1.0f; };
-  for (const Panel panel : others) shares += shareOf(panel);
-  const float room = height - gap * (static_cast<float>(others.size()) - 1);
-  for (const Panel panel : others) {
-    const float share = room * shareOf(panel) / shares;
-    places_[panel] = {left, y, right - left, share};
-    y += share + gap;
+void Panels::drawTab(Tab tab, const runtime::FrameReport& report, text::Diagnostics& diagnostics) {
+  if (explained_ != live_.switches()) return;  // a parameter has just replaced the plan: in the next frame
+  switch (tab) {
+    case kParameters:
+      return drawParameters(report, diagnostics);
+    case kPasses:
+      return drawPasses(diagnostics);
+    case kSelected:
+      return inspector_.draw(diagnostics);
+    case kTimes:
+      return drawProfiler();
+    case kStorage:
+      return drawStorage();
+    case kHistogram:
+      return drawHistogram();
+    case kMessages:
+      return drawMessages(true);
+    case kTabCount:
+      return;
   }
 }
 
@@ -174,72 +198,87 @@ bool Panels::measureBox() {
   return measure;
 }
 
-bool Panels::begin(Panel panel) {
-  if (!open_[panel]) return false;
-  const ImGuiCond when = arrange_ ? ImGuiCond_Always : ImGuiCond_Appearing;
-  const Place& place = places_[panel];
-  ImGui::SetNextWindowPos({place.x, place.y}, when);
-  ImGui::SetNextWindowSize({place.width, place.height}, when);
-  bool stays = true;
-  const bool shown = ImGui::Begin(kTitles[panel], &stays);
-  if (!stays) {
-    ImGui::End();
-    open_[panel] = false;
-    return false;
+void Panels::drawLine(const LoopState& state) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em_ / 2, em_ / 4});
+  beginFixed("line", 0, height_ - line_, width_, line_);
+  ImGui::PopStyleVar();
+  const auto button = [&](const char* title, const char* action, const char* tip) {
+    ImGui::SameLine();
+    if (ImGui::SmallButton(title)) act_(action);
+    tooltip(tip);
+  };
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(fmt::format("frame {:<6} {:8.2f} s", state.frame, state.time).c_str());
+  button(state.paused ? "run" : "pause", "pause", "time stands still, or goes on (T)");
+  button("step", "step", "one frame of 1/60 s, while it stands still (.)");
+  button("0 s", "reset_time", "time begins anew (Home)");
+  ImGui::SameLine();
+  const double ms = profiler_.median();
+  ImGui::TextUnformatted(ms > 0 ? fmt::format("{:.1f} ms", ms).c_str() : "- ms");
+  tooltip("median of the last 30 frames that were drawn");
+  if (!state.modes.empty()) {
+    ImGui::SameLine();
+    ImGui::TextColored({1, 0.6f, 0.4f, 1}, "%s", state.modes.c_str());
   }
-  return shown;
-}
-
-void Panels::writeBack(text::Diagnostics& diagnostics) {
-  std::vector<std::string> files;
-  if (live_.writeBack(files, diagnostics)) {
-    said_ = files.empty() ? "the files say so already" : "wrote";
-    for (const std::string& file : files) said_ += " " + file;
-    print(text::printable(said_) + "\n");
-    flushPrinted();
-  } else {
-    said_ = "nothing was written: see the log";
+  if (const std::size_t unsaved = live_.unsaved()) {
+    button(fmt::format("{} unsaved", unsaved).c_str(), "write_back",
+           "shows what would be written where (F8)");
   }
+  const std::vector<const text::Diagnostic*> messages = log_.shown(true);
+  const bool error = !messages.empty() && messages.front()->severity == text::Severity::error;
+  const std::string said =
+      state.said.empty() || error ? messages.empty() ? "" : text::format(*messages.front()) : state.said;
+  if (!said.empty()) {
+    ImGui::SameLine();
+    if (ImGui::SmallButton("copy")) ImGui::SetClipboardText(said.c_str());
+    ImGui::SameLine();
+    if (error) ImGui::PushStyleColor(ImGuiCol_Text, colorOf(text::Severity::error));
+    ImGui::TextUnformatted(said.substr(0, said.find('\n')).c_str());
+    if (error) ImGui::PopStyleColor();
+    tooltip(said);
+  }
+  ImGui::End();
 }
 
-float Panels::logHeight() const {
-  return std::max(64.0f, std::min(ImGui::GetIO().DisplaySize.y * 0.2f, ImGui::GetFontSize() * 9));
-}
-
-void Panels::drawLog() {
-  const std::vector<const text::Diagnostic*> shown = log_.shown(visible);
-  if (shown.empty()) return;
-  const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  const ImGuiStyle& style = ImGui::GetStyle();
+void Panels::drawMessages(bool all) {
   const char* const lastGood =
       !live_.running() ? "Nothing to show yet; the picture comes when the files are saved without errors:"
       : live_.good()   ? nullptr
                        : "This is the last good picture; the files on disk have errors:";
-  // The first error is to be read whole, message and fix.
-  float height = logHeight();
-  if (shown.front()->severity == text::Severity::error) {
-    const float wrap = std::max(1.0f, screen.x - 16 - 2 * style.WindowPadding.x - style.ScrollbarSize);
-    float wanted = ImGui::GetFrameHeight() + 2 * style.WindowPadding.y + style.ItemSpacing.y;
-    if (lastGood) wanted += ImGui::CalcTextSize(lastGood, nullptr, false, wrap).y + style.ItemSpacing.y;
-    wanted += ImGui::CalcTextSize(text::format(*shown.front()).c_str(), nullptr, false, wrap).y;
-    height = std::max(height, std::min(wanted, screen.y * 0.6f));
-  }
-  ImGui::SetNextWindowPos({8, screen.y - height - 8}, ImGuiCond_Always);
-  ImGui::SetNextWindowSize({screen.x - 16, height}, ImGuiCond_Always);
-  bool stays = true;
-  ImGui::Begin("Log", &stays,
-               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse);
   ImGui::PushTextWrapPos(0);
   if (lastGood) ImGui::TextColored({1, 0.7f, 0.3f, 1}, "%s", lastGood);
-  for (const text::Diagnostic* each : shown) {
-    const ImVec4 color = each->severity == text::Severity::error     ? ImVec4(1, 0.45f, 0.4f, 1)
-                         : each->severity == text::Severity::warning ? ImVec4(1, 0.85f, 0.4f, 1)
-                                                                     : ImVec4(0.7f, 0.7f, 0.7f, 1);
-    ImGui::PushStyleColor(ImGuiCol_Text, color);
-    ImGui::TextUnformatted(text::format(*each).c_str());
+  int id = 0;
+  for (const text::Diagnostic* each : log_.shown(all)) {
+    const std::string text = text::format(*each);
+    ImGui::PushID(id++);
+    if (ImGui::SmallButton("copy")) ImGui::SetClipboardText(text.c_str());
+    ImGui::SameLine();
+    ImGui::PushStyleColor(ImGuiCol_Text, colorOf(each->severity));
+    ImGui::TextUnformatted(text.c_str());
     ImGui::PopStyleColor();
+    ImGui::PopID();
   }
   ImGui::PopTextWrapPos();
+}
+
+void Panels::drawAlarm() {
+  const std::vector<const text::Diagnostic*> shown = log_.shown(false);
+  if (shown.empty()) return;
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float width = width_ - column_ - em_;
+  // The first error is to be read whole, message and fix.
+  float height = 4 * em_;
+  if (shown.front()->severity == text::Severity::error) {
+    const float wrap = std::max(1.0f, width - 6 * em_ - 2 * style.WindowPadding.x - style.ScrollbarSize);
+    height += 3 * em_ + ImGui::CalcTextSize(text::format(*shown.front()).c_str(), nullptr, false, wrap).y;
+  }
+  height = std::min(height, (height_ - line_ - strip_) * 0.6f);
+  ImGui::SetNextWindowPos({em_ / 2, height_ - line_ - strip_ - height - em_ / 2});
+  ImGui::SetNextWindowSize({width, height});
+  bool stays = true;
+  ImGui::Begin("Messages", &stays,
+               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse);
+  drawMessages(false);
   ImGui::End();
   if (!stays) log_.dismiss();
 }
@@ -247,14 +286,10 @@ void Panels::drawLog() {
 void Panels::drawLoading() {
   const std::optional<LoadStatus> all[] = {live_.environment().status(), live_.scene().status()};
   if (!all[0] && !all[1]) return;
-  const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  const float width = std::min(420.0f * ImGui::GetIO().FontGlobalScale, screen.x - 16);
-  // Between the panels, which end at three quarters, and the log.
-  ImGui::SetNextWindowPos({screen.x * 0.5f, screen.y * 0.8f - 12}, ImGuiCond_Always, {0.5f, 1});
-  ImGui::SetNextWindowSize({width, 0}, ImGuiCond_Always);
-  ImGui::Begin("Loading", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
-                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoSavedSettings);
+  const float room = width_ - column_, width = std::min(30 * em_, room - em_);
+  ImGui::SetNextWindowPos({room / 2, (height_ - line_ - strip_) * 0.9f}, ImGuiCond_Always, {0.5f, 1});
+  ImGui::SetNextWindowSize({width, 0});
+  ImGui::Begin("Loading", nullptr, kFixed | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing);
   for (const auto& status : all) {
     if (!status) continue;
     ImGui::TextUnformatted(fmt::format("{}: {}", status->name, status->stage).c_str());

@@ -1,5 +1,7 @@
-// The viewer's panels: parameters, passes, texture inspector, frame profiler, storage, histogram, log. Each is made anew
-// every frame from what it shows and keeps what a person chose in it; changes go straight into the LiveGraph.
+// What stands around the picture in the viewer: a column with parameters, passes and what is selected, a strip below with times,
+// storage, histogram and messages, and a line with the state of the loop. Each is made anew every frame from what it shows and keeps
+// what a person chose in it; changes go straight into the LiveGraph. Nothing but lists that open, the help and questions covers
+// the picture.
 #pragma once
 
 #include <fmt/format.h>
@@ -7,7 +9,9 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +20,7 @@
 
 #include "app/live/live_graph.h"
 #include "app/ui/log.h"
+#include "app/ui/pass_rows.h"
 #include "engine/graph/print/explain.h"
 #include "engine/runtime/inspection/frame_profiler.h"
 #include "engine/runtime/inspection/inspector.h"
@@ -23,10 +28,11 @@
 
 namespace weft::app::ui {
 
-// Of the last item, where the mouse is over it.
+// Of the last item, when the mouse rests over it.
 void tooltip(const std::string& text);
 void tooltip(const std::string& text, bool hovered);
-// A table with a row of titles, of which the one that stretches takes what the others leave. False where none of it is seen.
+// A table with a row of titles, of which the one that stretches takes what the others leave; all can be widened. False where none of
+// it is seen.
 bool beginTable(const char* id, std::initializer_list<const char*> titles, int stretched,
                 ImGuiTableFlags flags);
 void cell(const std::string& text);  // the next one of a table
@@ -42,99 +48,150 @@ std::string shapeText(const Texture& texture) {
   return text;
 }
 
-// The texture inspector's window: which resource, where in the frame, which part, how shown; zoom, pan and the value under the
-// cursor.
+// What is selected: which resource, where in the frame, which part, how shown; zoom, pan and the value under the cursor.
 class InspectorPanel {
  public:
   explicit InspectorPanel(runtime::Renderer& renderer) : renderer_(renderer), inspector_(renderer.device()) {}
 
-  // To be called before each frame. `wanted`: the window is open.
+  // To be called before each frame. `wanted`: it is on the screen.
   void beforeFrame(bool wanted);
-  // Draws the contents of the window.
   void draw(text::Diagnostics& diagnostics);
   void release();
   bool wantsFrame() const { return wantsFrame_; }  // something else is to be copied
+  // What a pass writes first, after that pass.
+  void select(const graph::Plan& plan, std::uint32_t pass);
 
  private:
+  // How a resource is shown.
+  struct Look {
+    runtime::InspectView view;
+    bool ranged = false;  // the range was fitted, or chosen
+    bool moved = false;   // the zoom was chosen; else the whole is shown
+  };
   void chooseTarget(const graph::Plan& plan);
   void choosePart(const graph::FlatResource& resource);
-  void chooseView(const graph::FlatResource& resource);
-  void drawPicture(text::Diagnostics& diagnostics);
+  void chooseView(const graph::FlatResource& resource, Look& look);
+  void drawPicture(Look& look, text::Diagnostics& diagnostics);
   void drawNumbers();
 
   runtime::Renderer& renderer_;
   runtime::Inspector inspector_;
-  runtime::InspectTarget target_;
-  runtime::InspectView view_;
-  std::string shown_;   // resource of the last frame
-  std::string fitted_;  // resource and part that the zoom was fitted to
-  bool found_ = false, fit_ = true, wantsFrame_ = false;
+  runtime::InspectTarget target_, watched_;
+  std::map<std::string, Look> looks_;  // by resource
+  ImGuiTextFilter filter_;
+  std::uint64_t copiesBefore_ = 0;  // when what is watched changed
+  bool found_ = false, wantsFrame_ = false;
   std::optional<runtime::InspectStatistics> statistics_;
+  int channels_ = 4;
   int numbers_ = 0;  // buffers: 0 float, 1 hexadecimal, 2 unsigned, 3 signed
+};
+
+// What the line at the bottom says of the loop.
+struct LoopState {
+  std::uint32_t frame = 0;
+  double time = 0;  // seconds
+  bool paused = false;
+  std::string modes;  // "REC 12, FLY"
+  std::string said;   // what was done last
 };
 
 class Panels {
  public:
-  Panels(LiveGraph& live, runtime::Renderer& renderer, Log& log);
+  // `act` runs an action of the viewer (app/view/key_bindings.h).
+  Panels(LiveGraph& live, runtime::Renderer& renderer, Log& log, std::function<void(const char*)> act);
   ~Panels();
   Panels(const Panels&) = delete;
   Panels& operator=(const Panels&) = delete;
 
-  bool visible = true;
-
-  // Shows or hides one by its name, as kPanels has them. False for another name.
-  bool toggle(std::string_view panel);
+  // Shows or hides them all. At first they are there where the window is wide enough for a picture beside them.
+  void toggle() { visible_ = !visible(); }
+  // Brings one to the front by its name, which names() has.
+  void open(std::string_view tab);
   static std::vector<std::string> names();
+  // The height of text in pixels, and the size of the window; to be called before the functions below.
+  void measure(float textSize, float width, float height);
+  // Pixels of the window, from its lower left corner, that are the picture's.
+  struct Area {
+    std::uint32_t x = 0, y = 0, width = 1, height = 1;
+  };
+  Area picture() const;
 
-  // Around Renderer::frame().
+  // Around a frame, with its time on the screen.
   void beforeFrame();
   void afterFrame();
   // Between Overlay::begin() and end(). `diagnostics` gets what a change that was made here led to.
-  void draw(const runtime::FrameReport& report, text::Diagnostics& diagnostics);
+  void draw(const runtime::FrameReport& report, const LoopState& state, text::Diagnostics& diagnostics);
 
-  void drawLog();  // alone, where there is nothing to draw panels of
+  // In idle mode: what was chosen shows only in another frame of the graph; in another layout of the panels.
+  bool wantsFrame() const;
+  bool wantsLayout() const;
 
-  // In idle mode: what was chosen shows only in another frame of the graph.
-  bool wantsFrame() const { return visible && open_[kInspector] && inspector_.wantsFrame(); }
-
-  // Writes what was changed here into the files; says what it wrote in the log.
-  void writeBack(text::Diagnostics& diagnostics);
+  // Shows what F8 would write; once that is on the screen, writes it. What there is to say of it.
+  std::string writeBack(text::Diagnostics& diagnostics);
+  // Asks whether to close with changes that are in no file.
+  void askToLeave() { question_ = Question::leave; }
+  // False when there is no question to close.
+  bool closeQuestion() { return std::exchange(question_, Question::none) != Question::none; }
 
  private:
-  enum Panel : std::size_t { kParameters, kPasses, kInspector, kProfiler, kStorage, kHistogram, kPanelCount };
+  enum Tab : std::size_t {
+    kParameters,
+    kPasses,
+    kSelected,
+    kTimes,
+    kStorage,
+    kHistogram,
+    kMessages,
+    kTabCount
+  };
+  enum class Question : std::uint8_t { none, write, leave };
 
-  void drawMenu(text::Diagnostics& diagnostics);
-  void arrange();
-  bool begin(Panel panel);
+  bool wide() const { return width_ >= 78.5f * em_; }  // 1,100 pixels at scale 1
+  bool visible() const { return visible_.value_or(wide()); }
+  bool shows(Tab tab) const { return visible() && (shown_[0] == tab || (wide() && shown_[1] == tab)); }
+  void drawTabs(std::size_t place, std::size_t first, std::size_t end, const runtime::FrameReport& report,
+                text::Diagnostics& diagnostics);
+  void drawTab(Tab tab, const runtime::FrameReport& report, text::Diagnostics& diagnostics);
   void drawPasses(text::Diagnostics& diagnostics);
+  void drawPassRow(std::size_t row, text::Diagnostics& diagnostics);
   void drawParameters(const runtime::FrameReport& report, text::Diagnostics& diagnostics);
   void drawProfiler();
   void drawStorage();
   void drawHistogram();
-  void drawLoading();       // what is being loaded, whether or not the panels are visible
-  float logHeight() const;  // while nothing in the log asks for more
-  bool measureBox();        // whether each pass is measured
+  void drawMessages(bool all);
+  void drawAlarm();  // messages that cannot wait, where their tab is not there
+  void drawLine(const LoopState& state);
+  void drawLoading();  // what is being loaded
+  void drawQuestion(text::Diagnostics& diagnostics);
+  void drawWrites(text::Diagnostics& diagnostics);
+  bool measureBox();  // whether each pass is measured
 
   LiveGraph& live_;
   runtime::Renderer& renderer_;
   Log& log_;
+  std::function<void(const char*)> act_;
   runtime::FrameProfiler profiler_;
   InspectorPanel inspector_;
   runtime::PictureHistogram histogram_;
+  double counted_ = -1;                          // seconds: when the histogram was made
   std::unique_ptr<graph::Explainer> explainer_;  // of the plan of `explained_`
+  std::vector<PassRow> rows_;                    // of the same
   std::uint64_t explained_ = 0;
 
-  struct Place {
-    float x = 0, y = 0, width = 0, height = 0;
-  };
-  std::array<bool, kPanelCount> open_{true, true};
-  std::array<Place, kPanelCount> places_{};
-  Panel latest_ = kPasses;        // shown or hidden last
-  float width_ = 0, height_ = 0;  // of the window when it was arranged
-  bool arrange_ = true;           // places are to be taken in this frame
-  ImGuiTextFilter filter_;        // of the parameters
-  std::string said_;              // what the menu did last
-  int stacked_ = 0;               // profiler: 0 GPU times, 1 CPU times
+  std::optional<bool> visible_;  // as a person chose it
+  std::array<Tab, 2> shown_{kParameters, kTimes};
+  std::optional<Tab> wanted_;  // to be brought to the front
+  float em_ = 14, width_ = 0, height_ = 0;
+  float column_ = 0, strip_ = 0, line_ = 0;  // pixels; 0: not there
+  std::size_t errors_ = 0;                   // in the log, when it was looked at last
+  Question question_ = Question::none;
+  std::optional<graph::WriteBack> writes_;
+  char preset_[64] = {};
+  std::string answer_;      // what a question led to
+  ImGuiTextFilter filter_;  // of the parameters
+  ImGuiTextFilter passFilter_;
+  std::uint32_t selected_ = graph::kNone;  // a row
+  int stacked_ = 0;                        // profiler: 0 GPU times, 1 CPU times
 };
 
 }  // namespace weft::app::ui

@@ -112,13 +112,18 @@ std::optional<Value> edit(const char* label, const ParameterDesc& desc, const Va
 void Panels::drawParameters(const runtime::FrameReport& report, text::Diagnostics& diagnostics) {
   const graph::FlatGraph& graph = *renderer_.execution()->plan().graph;
   const std::span<const Value> values = renderer_.execution()->uniforms().parameters();
-  ImGui::PushTextWrapPos(0);
-  ImGui::Text("%ux%u, %.1f ms a frame, %u passes run, %u skipped", live_.settings().screenWidth,
-              live_.settings().screenHeight, 1e3 / std::max(1e-3f, ImGui::GetIO().Framerate),
-              report.passesRun, report.passesSkipped);
-  ImGui::TextDisabled("%s", renderer_.graphPath().c_str());
-  ImGui::PopTextWrapPos();
-  filter_.Draw("search", -4 * ImGui::GetFontSize());
+  ImGui::TextWrapped("%ux%u, %u of %u passes ran", live_.settings().screenWidth,
+                     live_.settings().screenHeight, report.passesRun,
+                     report.passesRun + report.passesSkipped);
+  ImGui::BeginDisabled(!live_.canUndo());
+  if (ImGui::Button("undo")) act_("undo");
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!live_.canRedo());
+  if (ImGui::Button("redo")) act_("redo");
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  filter_.Draw("search", -4 * em_);
   ImGui::BeginChild("list");
   std::optional<Value> changedTo;
   std::string changed, reset, scope = "\n";
@@ -160,11 +165,14 @@ void Panels::drawParameters(const runtime::FrameReport& report, text::Diagnostic
     hovered |= ImGui::IsItemHovered();
     clicked |= ImGui::IsItemClicked(ImGuiMouseButton_Right);
     if (tweaked) ImGui::PopStyleColor();
-    tooltip(label + "\n" + parameter.path + " = " + graph::toText(now) +
-                (parameter.structural ? "\nchanges the plan" : "") +
-                (parameter.desc.doc.empty() ? "" : "\n") + parameter.desc.doc +
-                (tweaked ? "\n* changed here; right click: as the files say" : ""),
-            hovered);
+    const ParameterDesc& desc = parameter.desc;
+    tooltip(
+        label + "\n" + parameter.path + " = " + graph::toText(now) +
+            (desc.min && desc.max ? fmt::format("\n{} to {}; Ctrl click types a value", *desc.min, *desc.max)
+                                  : "") +
+            (parameter.structural ? "\nmakes another plan" : "") + (desc.doc.empty() ? "" : "\n") + desc.doc +
+            (tweaked ? "\n* changed here; a right click goes back to what the files say" : ""),
+        hovered);
     if (tweaked && clicked) reset = parameter.path;
     ImGui::PopID();
   }

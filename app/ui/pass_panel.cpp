@@ -1,11 +1,11 @@
-// Passes in the order they run; below, those that do not, and why. Declared in panels.h.
+// The passes in the order of the files, effects with a box for all that they include. A row stays where it is, whether it runs or
+// not. Declared in panels.h.
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include <string>
 
 #include "app/ui/panels.h"
-#include "app/ui/pass_switch.h"
 
 namespace weft::app::ui {
 
@@ -20,68 +20,115 @@ std::string sliceText(const runtime::SliceRange& range) {
 }  // namespace
 
 void Panels::drawPasses(text::Diagnostics& diagnostics) {
-  if (explained_ != live_.switches()) return;  // a parameter has just replaced the plan: in the next frame
+  const bool profile = measureBox();
+  ImGui::SameLine();
+  passFilter_.Draw("search", -4 * em_);
+  constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
+  if (!(profile
+            ? beginTable("passes", {"in the order of the files", "state   ", "GPU ms", "CPU ms"}, 0, kFlags)
+            : beginTable("passes", {"in the order of the files", "state   "}, 0, kFlags)))
+    return;
+  std::vector<std::size_t> seen;
+  ImGuiStorage& closed = *ImGui::GetStateStorage();
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    if (passFilter_.IsActive() && !passFilter_.PassFilter(rows_[row].name.c_str())) continue;
+    seen.push_back(row);
+    if (!passFilter_.IsActive() && closed.GetBool(ImGui::GetID(rows_[row].name.c_str())))
+      row = rows_[row].end - 1;
+  }
+  const std::uint64_t changes = live_.changes();
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(seen.size()));
+  while (clipper.Step())
+    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd && live_.changes() == changes; ++i)
+      drawPassRow(seen[static_cast<std::size_t>(i)], diagnostics);
+  clipper.End();
+  ImGui::EndTable();
+}
+
+void Panels::drawPassRow(std::size_t index, text::Diagnostics& diagnostics) {
+  const PassRow& row = rows_[index];
   runtime::Execution& execution = *renderer_.execution();
   const graph::Plan& plan = execution.plan();
-  const graph::FlatGraph& graph = *plan.graph;
-  const gl::PassTimers& timers = renderer_.device().timers;
-  const bool profile = measureBox();
-  std::string pass;  // to turn on or off when all is drawn
-  bool enable = false;
-
-  constexpr const char* kOrder = "in the order they run";
-  if (profile ? beginTable("passes", {kOrder, "", "GPU ms", "CPU ms"}, 0, ImGuiTableFlags_RowBg)
-              : beginTable("passes", {kOrder, ""}, 0, ImGuiTableFlags_RowBg)) {
-    ImGuiListClipper clipper;
-    clipper.Begin(static_cast<int>(plan.steps.size()));
-    while (clipper.Step())
-      for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
-        const auto step = static_cast<std::size_t>(row);
-        const std::uint32_t index = plan.steps[step].pass;
-        const std::string& name = graph.passNames[index];
-        const bool ran = execution.steps().ran(step);
-        const std::string slice = ran ? sliceText(execution.steps().slices(step)) : "";
-        ImGui::PushID(row);
-        ImGui::TableNextRow();
-        ImGui::TableNextColumn();
-        bool on = true;
-        if (!ran) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-        if (ImGui::Checkbox(name.c_str(), &on)) pass = switchNameOf(graph, index);
-        if (!ran) ImGui::PopStyleColor();
-        const bool timed = profile && step < timers.results().size() && timers.results()[step].ran;
-        tooltip(name + "\n" + (slice.empty() ? "" : "slice " + slice + " of its work in this frame\n") +
-                explainer_->whyPass(index) + "\n" + explainer_->whyHere(index) +
-                (ran ? "" : "\nkept: nothing it depends on has changed since it ran"));
-        ImGui::TableNextColumn();
-        ran ? ImGui::TextUnformatted(slice.empty() ? "ran" : slice.c_str()) : ImGui::TextDisabled("kept");
-        if (timed) cell(fmt::format("{:6.2f}", timers.results()[step].gpu));
-        if (timed) cell(fmt::format("{:6.2f}", timers.results()[step].cpu));
-        ImGui::PopID();
+  const std::string parameter = switchParameterOf(row, *plan.graph), by = disabledBy(row, live_.settings());
+  // What its instances did in this frame.
+  std::string state = row.on == 0 ? "off" : "", tip = row.name;
+  double gpu = 0, cpu = 0;
+  bool ran = false, timed = false;
+  for (std::size_t i = index; i < row.end; ++i)
+    for (const std::uint32_t pass : rows_[i].passes) {
+      const std::uint32_t step = plan.stepOf[pass];
+      if (step == graph::kNone) {
+        if (state.empty() && !row.effect()) state = "culled";
+        continue;
       }
-    ImGui::EndTable();
-  }
-
-  const auto listIdle = [&](const std::string& name, const std::string& why, const std::string& option) {
-    bool off = false;
-    ImGui::PushID(name.c_str());
-    ImGui::BeginDisabled(option.empty());
-    if (ImGui::Checkbox(name.c_str(), &off)) {
-      pass = option;
-      enable = true;
+      const bool now = execution.steps().ran(step);
+      ran |= now;
+      if (now && !row.effect()) state = sliceText(execution.steps().slices(step));
+      const auto times = renderer_.device().timers.results();
+      if (step >= times.size() || !times[step].ran) continue;
+      timed = true;
+      gpu += times[step].gpu;
+      cpu += times[step].cpu;
     }
-    ImGui::EndDisabled();
-    ImGui::Indent();
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    ImGui::TextWrapped("%s", why.c_str());
-    ImGui::PopStyleColor();
-    ImGui::Unindent();
-    ImGui::PopID();
-  };
-  for (std::uint32_t i = 0; i < graph.passes.size(); ++i)
-    if (plan.stepOf[i] == graph::kNone) listIdle(graph.passNames[i], explainer_->whyPass(i), {});
-  for (const graph::DisabledPass& each : graph.disabled)
-    listIdle(each.name, each.why, disabledBy(each, live_.settings()));
-  if (!pass.empty()) live_.setEnabled(pass, enable, diagnostics);
+  if (state.empty()) state = ran ? "ran" : "kept";
+  ImGuiStorage& closed = *ImGui::GetStateStorage();
+  const ImGuiID key = ImGui::GetID(row.name.c_str());
+  ImGui::PushID(row.name.c_str());
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  if (row.depth > 0) ImGui::Indent(static_cast<float>(row.depth) * em_);
+  // Off, on, or some of what it includes.
+  unsigned box = row.on == 0 ? 0 : row.off == 0 ? 3 : 1;
+  const bool fixed = row.on == 0 && by.empty() && parameter.empty();
+  ImGui::BeginDisabled(fixed);
+  const bool clicked = ImGui::CheckboxFlags("##on", &box, 3u);
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  if (!ran) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  const std::string label = row.effect()            ? (closed.GetBool(key) ? "+ " : "- ") + row.label
+                            : row.passes.size() > 1 ? fmt::format("{} x{}", row.label, row.passes.size())
+                                                    : row.label;
+  if (ImGui::Selectable(label.c_str(), selected_ == index)) {
+    selected_ = static_cast<std::uint32_t>(index);
+    if (row.effect()) {
+      closed.SetBool(key, !closed.GetBool(key));
+    } else if (!row.passes.empty() && plan.stepOf[row.passes.front()] != graph::kNone) {
+      inspector_.select(plan, row.passes.front());
+      wanted_ = kSelected;
+    }
+  }
+  const bool hovered = ImGui::IsItemHovered();
+  if (!ran) ImGui::PopStyleColor();
+  if (row.depth > 0) ImGui::Unindent(static_cast<float>(row.depth) * em_);
+  if (hovered) {
+    if (!row.passes.empty())
+      tip += "\n" + explainer_->whyPass(row.passes.front()) + "\n" + explainer_->whyHere(row.passes.front());
+    if (state == "kept") tip += "\nkept: nothing it depends on has changed since it ran";
+    if (!by.empty() && row.on == 0)
+      tip += "\noff: '" + by + "' is disabled here; the box takes that back";
+    else if (!parameter.empty())
+      tip += "\noff: needs " + parameter + " = true; the box sets it";
+    else if (!row.why.empty())
+      tip += "\noff: " + row.why;
+    if (row.desc->place.file)
+      tip += fmt::format("\n{}:{}", std::string(*row.desc->place.file), row.desc->place.line);
+    tooltip(tip, true);
+  }
+  cell(state);
+  if (timed && renderer_.device().timers.enabled()) {
+    cell(fmt::format("{:6.2f}", gpu));
+    cell(fmt::format("{:6.2f}", cpu));
+  }
+  ImGui::PopID();
+  if (!clicked) return;
+  if (row.on > 0)
+    live_.setEnabled(row.effect() ? row.name : switchNameOf(*plan.graph, row.passes.front()), false,
+                     diagnostics);
+  else if (!by.empty())
+    live_.setEnabled(by, true, diagnostics);
+  else
+    live_.setParameter(parameter, graph::Value::boolean(true), diagnostics);
 }
 
 }  // namespace weft::app::ui

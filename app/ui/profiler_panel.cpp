@@ -1,4 +1,4 @@
-// The last frames as stacked bars, one color per pass; the passes by their mean time below.
+// The last frames as stacked bars, one color per pass; the passes by their median time below.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -16,8 +16,6 @@ namespace weft::app::ui {
 
 namespace {
 
-constexpr std::size_t kAveraged = 30;  // frames
-
 ImU32 colorOf(const std::string& name) {
   const std::uint64_t hash = text::hashBytes(name, text::kHashSeed);
   return ImColor::HSV(static_cast<float>(hash % 997) / 997.0f, 0.55f,
@@ -34,24 +32,29 @@ double totalOf(const runtime::FrameProfile& profile, bool gpu) {
   return total;
 }
 
-struct Mean {
-  double gpu = 0, cpu = 0;
+struct Median {
+  std::vector<double> gpu, cpu;  // of the frames in which the pass ran, of the last kAveraged
 };
 
-std::vector<std::pair<std::string, Mean>> meansOf(const std::deque<runtime::FrameProfile>& history,
-                                                  bool gpu) {
-  std::map<std::string, Mean> byName;
-  const std::size_t count = std::min(kAveraged, history.size());
-  for (std::size_t f = history.size() - count; f < history.size(); ++f)
+// The slowest first.
+std::vector<std::pair<std::string, std::pair<double, double>>> mediansOf(
+    const std::deque<runtime::FrameProfile>& history, bool gpu) {
+  std::map<std::string, Median> byName;
+  for (std::size_t f = history.size() - std::min(runtime::FrameProfiler::kAveraged, history.size());
+       f < history.size(); ++f)
     for (std::size_t step = 0; step < history[f].passes.size() && step < history[f].names->size(); ++step) {
-      Mean& mean = byName[(*history[f].names)[step]];
-      mean.gpu += timeOf(history[f].passes[step], true) / static_cast<double>(count);
-      mean.cpu += timeOf(history[f].passes[step], false) / static_cast<double>(count);
+      if (!history[f].passes[step].ran) continue;
+      Median& median = byName[(*history[f].names)[step]];
+      median.gpu.push_back(history[f].passes[step].gpu);
+      median.cpu.push_back(history[f].passes[step].cpu);
     }
-  std::vector<std::pair<std::string, Mean>> means(byName.begin(), byName.end());
-  std::ranges::stable_sort(means, std::greater(),
-                           [&](const auto& named) { return gpu ? named.second.gpu : named.second.cpu; });
-  return means;
+  std::vector<std::pair<std::string, std::pair<double, double>>> medians;
+  for (const auto& [name, times] : byName)
+    medians.emplace_back(name, std::pair(runtime::FrameProfiler::medianOf(times.gpu),
+                                         runtime::FrameProfiler::medianOf(times.cpu)));
+  std::ranges::stable_sort(medians, std::greater(),
+                           [&](const auto& named) { return gpu ? named.second.first : named.second.second; });
+  return medians;
 }
 
 }  // namespace
@@ -104,22 +107,19 @@ void Panels::drawProfiler() {
   draw.AddText({corner.x + 4, corner.y + 2}, IM_COL32(230, 230, 230, 255),
                fmt::format("{:.1f} ms", highest).c_str());
 
-  if (!measure) {
-    ImGui::TextDisabled("P measures each pass");
-    return;
-  }
-  if (!beginTable("means", {"mean of the last 30 frames", "GPU ms", "CPU ms"}, 0,
+  if (!measure) return;
+  if (!beginTable("means", {"median of the last 30 frames in which it ran", "GPU ms", "CPU ms"}, 0,
                   ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg))
     return;
-  for (const auto& [name, mean] : meansOf(history, gpu)) {
+  for (const auto& [name, median] : mediansOf(history, gpu)) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::PushStyleColor(ImGuiCol_Text, colorOf(name));
     ImGui::Bullet();
     ImGui::PopStyleColor();
     ImGui::TextUnformatted(name.c_str());
-    cell(fmt::format("{:7.2f}", mean.gpu));
-    cell(fmt::format("{:7.2f}", mean.cpu));
+    cell(fmt::format("{:7.2f}", median.first));
+    cell(fmt::format("{:7.2f}", median.second));
   }
   ImGui::EndTable();
 }

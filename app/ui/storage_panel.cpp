@@ -48,7 +48,6 @@ std::vector<Row> rowsOf(const graph::Plan& plan) {
 }  // namespace
 
 void Panels::drawStorage() {
-  if (explained_ != live_.switches()) return;  // a parameter has just replaced the plan: in the next frame
   const graph::Plan& plan = renderer_.execution()->plan();
   const graph::FlatGraph& graph = *plan.graph;
   ImGui::PushTextWrapPos(0);

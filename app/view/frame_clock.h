@@ -1,6 +1,6 @@
 // The time that frames see. Runs with the wall clock, stands still while nothing is drawn, skips most of what a frame takes
 // that did more than its picture, and advances by a fixed step per frame while a recording is on, however long the frames
-// take.
+// take. A person can hold it, go on by a frame, and begin anew.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace weft::app {
 
 class FrameClock {
  public:
-  static constexpr double kWorkStep = 0.05;  // seconds
+  static constexpr double kWorkStep = 0.05, kHeldStep = 1.0 / 60;  // seconds
 
   struct Tick {
     double time = 0, delta = 0;  // seconds since the start, since the frame before
@@ -28,7 +28,8 @@ class FrameClock {
       last_ = {base_ + frames_ / fps_, 1 / fps_};
       ++frames_;
     } else {
-      last_ = {last_.time + passed, passed};
+      if (paused_) passed = std::exchange(step_, false) ? kHeldStep : 0;
+      last_ = std::exchange(anew_, false) ? Tick{} : Tick{last_.time + passed, passed};
     }
     return last_;
   }
@@ -48,13 +49,19 @@ class FrameClock {
     frames_ = 0;
   }
   bool fixed() const { return fps_ > 0; }
+  // Time stands still, but for steps. A recording goes on.
+  void pause(bool on) { paused_ = on; }
+  bool paused() const { return paused_; }
+  void step() { paused_ = step_ = true; }
+  // The next frame is at 0.
+  void begin() { anew_ = true; }
   Tick last() const { return last_; }
 
  private:
   Tick last_;
   double wall_ = 0, base_ = 0, fps_ = 0;
   std::uint32_t frames_ = 0;
-  bool started_ = false, worked_ = false;
+  bool started_ = false, worked_ = false, paused_ = false, step_ = false, anew_ = false;
 };
 
 // Whether the picture has come to rest, for idle mode: looks at it now and then until several looks in a row, spread over

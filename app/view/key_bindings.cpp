@@ -9,38 +9,41 @@ namespace weft::app {
 namespace {
 
 // clang-format off
+constexpr WithKey kAlone = WithKey::nothing;
 constexpr KeyBinding kBindings[] = {
-    {0, false, "", "left drag", "turn around the scene"},
-    {0, false, "", "Ctrl left drag", "the same, where the graph reads the mouse"},
-    {0, false, "", "right drag", "slide sideways"},
-    {0, false, "", "wheel", "nearer and farther; flying: faster and slower"},
-    {GLFW_KEY_F, false, "fly", "F", "fly, with the mouse captured; again: back to turning"},
-    {0, false, "", "W A S D", "flying: forward, left, back, right"},
-    {0, false, "", "E Q", "flying: up, down"},
-    {0, false, "", "Shift", "flying: four times as fast"},
-    {GLFW_KEY_B, false, "head_bob", "B", "flying: head-bob on and off"},
-    {GLFW_KEY_R, false, "reset_camera", "R", "the scene's camera again"},
-    {GLFW_KEY_1, false, "camera_1", "1 ... 9", "cameras of the scene, in the order of its file"},
-    {GLFW_KEY_PAGE_DOWN, false, "next_environment", "PgDn PgUp", "next and previous environment of the folder"},
-    {GLFW_KEY_PAGE_UP, false, "previous_environment", "", ""},
-    {GLFW_KEY_SPACE, false, "panels", "Space", "show or hide the panels"},
-    {GLFW_KEY_F1, false, "help", "F1", "show or hide this help"},
-    {GLFW_KEY_F2, false, "panel_parameters", "F2 F3", "parameters; passes"},
-    {GLFW_KEY_F3, false, "panel_passes", "", ""},
-    {GLFW_KEY_F4, false, "panel_inspector", "F4", "texture inspector"},
-    {GLFW_KEY_F5, false, "panel_profiler", "F5", "frame profiler"},
-    {GLFW_KEY_F6, false, "panel_storage", "F6", "storage over the steps of the frame"},
-    {GLFW_KEY_F7, false, "panel_histogram", "F7", "histogram of the picture"},
-    {GLFW_KEY_F8, false, "write_back", "F8", "write what was changed here into the files"},
-    {GLFW_KEY_P, false, "profile", "P", "measure each pass (slower on software)"},
-    {GLFW_KEY_V, false, "vsync", "V", "wait for the screen's refresh, or not"},
-    {GLFW_KEY_I, false, "idle", "I", "idle mode: draw only when something changed"},
-    {GLFW_KEY_MINUS, false, "render_scale_down", "- =", "render with fewer or more pixels than the window has"},
-    {GLFW_KEY_EQUAL, false, "render_scale_up", "", ""},
-    {GLFW_KEY_F10, false, "record", "F10", "start or stop recording every frame, at a fixed step"},
-    {GLFW_KEY_F12, false, "screenshot", "F12", "save the picture as weft_<frame>.png"},
-    {GLFW_KEY_F12, true, "screenshot_exr", "Shift F12", "save its values as weft_<frame>.exr"},
-    {GLFW_KEY_ESCAPE, false, "close", "Esc", "flying: let go of the mouse; else close"},
+    {0, kAlone, "", "left drag", "turn around the scene"},
+    {0, kAlone, "", "Ctrl left drag", "the same, where the graph reads the mouse"},
+    {0, kAlone, "", "right drag", "slide sideways"},
+    {0, kAlone, "", "wheel", "nearer and farther; flying: faster and slower"},
+    {'F', kAlone, "fly", "F", "fly, with the mouse captured; again: back to turning"},
+    {0, kAlone, "", "W A S D", "flying: forward, left, back, right (places of a US keyboard)"},
+    {0, kAlone, "", "E Q", "flying: up, down"},
+    {0, kAlone, "", "Shift", "flying: four times as fast"},
+    {'B', kAlone, "head_bob", "B", "flying: head-bob on and off"},
+    {'R', kAlone, "reset_camera", "R", "the first camera again"},
+    {'1', kAlone, "camera_1", "1 ... 9", "cameras of the scene: the one it began with, the others in the order of its file"},
+    {'C', kAlone, "copy_command", "C", "copy and print the command that renders what is seen"},
+    {GLFW_KEY_PAGE_DOWN, kAlone, "next_environment", "PgDn PgUp", "next and previous environment of the folder"},
+    {GLFW_KEY_PAGE_UP, kAlone, "previous_environment", "", ""},
+    {GLFW_KEY_SPACE, kAlone, "panels", "Space", "show or hide the panels"},
+    {GLFW_KEY_F1, kAlone, "help", "F1", "show or hide this help"},
+    {'Z', WithKey::control, "undo", "Ctrl Z", "take back the last change"},
+    {'Y', WithKey::control, "redo", "Ctrl Y", "make it again"},
+    {GLFW_KEY_F8, kAlone, "write_back", "F8", "show what would be written into which file; again: write it"},
+    {'T', kAlone, "pause", "T", "time stands still, or goes on"},
+    {'.', kAlone, "step", ".", "one frame of 1/60 s, and time stands still"},
+    {GLFW_KEY_HOME, kAlone, "reset_time", "Home", "time begins anew"},
+    {'P', kAlone, "profile", "P", "measure each pass (slower on software)"},
+    {'V', kAlone, "vsync", "V", "wait for the screen's refresh, or not"},
+    {'I', kAlone, "idle", "I", "idle mode: draw only when something changed"},
+    {'-', kAlone, "render_scale_down", "- =", "render with fewer or more pixels than the picture has"},
+    {'=', kAlone, "render_scale_up", "", ""},
+    {'+', kAlone, "render_scale_up", "", ""},
+    {GLFW_KEY_F10, kAlone, "record", "F10", "start or stop recording every frame, at a fixed step"},
+    {GLFW_KEY_F12, kAlone, "screenshot", "F12", "save the picture as weft_<frame>.png"},
+    {GLFW_KEY_F12, WithKey::shift, "screenshot_exr", "Shift F12", "save its values as weft_<frame>.exr"},
+    {GLFW_KEY_ESCAPE, kAlone, "close", "Esc", "close what is on top: a list, the help, a question, a flight, then the window"},
+    {GLFW_KEY_ESCAPE, WithKey::shift, "close_at_once", "Shift Esc", "close the window without writing anything"},
 };
 // clang-format on
 
@@ -50,15 +53,15 @@ std::span<const KeyBinding> keyBindings() {
   return kBindings;
 }
 
-std::string actionOf(int key, bool shift) {
-  if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9) return fmt::format("camera_{}", key - GLFW_KEY_0);
-  std::string without;
+std::string actionOf(int key, WithKey with) {
+  if (key >= '1' && key <= '9' && with != WithKey::control) return fmt::format("camera_{}", key - '0');
+  std::string alone;
   for (const KeyBinding& binding : kBindings) {
-    if (binding.key != key) continue;
-    if (binding.shift == shift) return binding.action;
-    if (!binding.shift) without = binding.action;
+    if (binding.key != key || !*binding.action) continue;
+    if (binding.with == with) return binding.action;
+    if (binding.with == kAlone && with == WithKey::shift) alone = binding.action;
   }
-  return without;
+  return alone;
 }
 
 }  // namespace weft::app

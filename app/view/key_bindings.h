@@ -2,14 +2,17 @@
 // whoever does something registers it under that name; the help and the table in docs/viewer.md are made of the same rows.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 
 namespace weft::app {
 
+enum class WithKey : std::uint8_t { nothing, shift, control };
+
 struct KeyBinding {
-  int key;             // GLFW_KEY_…
-  bool shift;          // with the shift key; without, the key does so in any case where it has no other row
+  int key;             // its letter on the user's keyboard, upper case, or GLFW_KEY_…
+  WithKey with;        // without anything, the key does so with Shift, too, where that has no other row
   const char* action;  // name; empty: only listed
   const char* keys;    // as a person reads it; empty: listed by the row before
   const char* does;
@@ -18,6 +21,6 @@ struct KeyBinding {
 std::span<const KeyBinding> keyBindings();
 
 // The action of a key that was pressed, empty when it has none.
-std::string actionOf(int key, bool shift);
+std::string actionOf(int key, WithKey with);
 
 }  // namespace weft::app

@@ -81,14 +81,14 @@ int runView(ViewOptions& options) {
   {
     LiveGraph live(files, session->renderer, std::move(*world), std::move(settings));
     if (later) live.expectScene();
+    Viewer viewer(options, *session, live);
     // With a number of frames to draw there is nobody who could save a file.
     if (!live.load(diagnostics) && (options.maxFrames || !canBeFixed(options, diagnostics)))
       return report(diagnostics);
     const OutputFile outputs[] = {{"--screenshot", outputNameOf(options.screenshot, last).value_or("")},
                                   {"--record", options.record}};
     if (!checkDistinct(outputs, diagnostics, live.files())) return report(diagnostics);
-    Viewer viewer(options, *session, live, std::move(diagnostics));
-    code = viewer.run();
+    code = viewer.run(std::move(diagnostics));
     if (options.stats) {
       stats = statsOf(*session, {{"frames", viewer.frames()}, {"redraws", viewer.redraws()}});
       stats["live_values_set"] = live.livesSet();
@@ -116,12 +116,13 @@ void addView(CommandLine& line) {
                    "open the window when the environment is there, not before");
   command
       .add_option("--panels", options.panels,
-                  "show (or hide) at the start: parameters, passes, inspector, profiler, storage, histogram")
+                  "bring to the front at the start: parameters, passes, selected, times, storage, histogram, "
+                  "messages")
       ->delimiter(',')
       ->check(CLI::IsMember(ui::Panels::names()));
   command.add_flag("--events", options.events,
                    "say on standard output what happens, a line each, for scripts");
-  command.add_flag("!--no-ui", options.ui, "no panels over the picture");
+  command.add_flag("!--no-ui", options.ui, "the picture alone, without panels");
   addPath(command, "--screenshot", options.screenshot,
           "picture to write of the last frame before closing, .png or .exr");
   addPath(command, "--record", options.record,

@@ -76,15 +76,14 @@ void drawHelp() {
 
 }  // namespace
 
-Viewer::Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& live, text::Diagnostics said)
+Viewer::Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& live)
     : options_(options),
       session_(session),
       window_(static_cast<GLFWwindow*>(session.context->window())),
       renderer_(session.renderer),
       live_(live),
       input_(window_),
-      panels_(live, session.renderer, log_),
-      diagnostics_(std::move(said)),
+      panels_(live, session.renderer, log_, [this](const char* action) { act(action); }),
       renderScale_(options.renderScale),
       vsync_(options.vsync),
       idle_(options.idle) {
@@ -93,39 +92,102 @@ Viewer::Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& li
   input_.setOverlay(overlay_.get());
   addActions();
   renderer_.device().timers.setEnabled(options.profile);
-  for (const std::string& panel : options.panels) panels_.toggle(panel);
+  for (const std::string& panel : options.panels) panels_.open(panel);
+  if (!overlay_) return;
+  overlay_->begin();
+  ImGui::SetNextWindowPos({ImGui::GetIO().DisplaySize.x / 2, ImGui::GetIO().DisplaySize.y / 2}, 0,
+                          {0.5f, 0.5f});
+  ImGui::Begin("loading", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::TextUnformatted(fmt::format("{}: its shaders are being compiled", options.graph).c_str());
+  ImGui::End();
+  overlay_->end();
+  glfwSwapBuffers(window_);
 }
 
 void Viewer::addActions() {
   gl::PassTimers& timers = renderer_.device().timers;
   actions_ = {{"help", [this] { help_ = !help_; }},
-              {"panels", [this] { panels_.visible = !panels_.visible; }},
+              {"panels", [this] { panels_.toggle(); }},
               {"profile", [&timers] { timers.setEnabled(!timers.enabled()); }},
               {"fly", [this] { toggleFlight(); }},
               {"head_bob", [this] { rig_.headBob = !rig_.headBob; }},
               {"reset_camera", [this] { lookThrough(0); }},
-              {"next_environment", [this] { live_.stepEnvironment(1); }},
-              {"previous_environment", [this] { live_.stepEnvironment(-1); }},
+              {"copy_command",
+               [this] {
+                 told_ = command();
+                 print(text::printable(told_) + "\n");
+                 flushPrinted();
+                 glfwSetClipboardString(window_, told_.c_str());
+               }},
+              {"next_environment", [this] { stepEnvironment(1); }},
+              {"previous_environment", [this] { stepEnvironment(-1); }},
+              {"undo", [this] { told_ = live_.undo(diagnostics_) ? "taken back" : "nothing to take back"; }},
+              {"redo", [this] { told_ = live_.redo(diagnostics_) ? "made again" : "nothing to make again"; }},
+              {"pause", [this] { clock_.pause(!clock_.paused()); }},
+              {"step", [this] { clock_.step(); }},
+              {"reset_time", [this] { clock_.begin(); }},
               {"vsync", [this] { glfwSwapInterval((vsync_ = !vsync_) ? 1 : 0); }},
               {"idle", [this] { idle_ = !idle_; }},
               {"render_scale_down", [this] { renderScale_ = std::max(renderScale_ - 0.25, 0.25); }},
               {"render_scale_up", [this] { renderScale_ = std::min(renderScale_ + 0.25, 2.0); }},
               {"record", [this] { toggleRecording(); }},
-              {"write_back", [this] { panels_.writeBack(diagnostics_); }},
+              {"write_back", [this] { told_ = panels_.writeBack(diagnostics_); }},
               {"screenshot", [this] { screenshot_ = ".png"; }},
               {"screenshot_exr", [this] { screenshot_ = ".exr"; }},
-              {"close", [this] {
-                 if (input_.captured())
-                   toggleFlight();
-                 else
-                   glfwSetWindowShouldClose(window_, GLFW_TRUE);
+              {"close", [this] { close(); }},
+              {"close_at_once", [this] {
+                 leave_ = true;
+                 glfwSetWindowShouldClose(window_, GLFW_TRUE);
                }}};
   for (std::size_t i = 0; i < 9; ++i)
     actions_[fmt::format("camera_{}", i + 1)] = [this, i] { lookThrough(i); };
-  for (const std::string& panel : ui::Panels::names())
-    actions_["panel_" + panel] = [this, panel] { panels_.toggle(panel); };
   for ([[maybe_unused]] const KeyBinding& binding : keyBindings())
     assert((!*binding.action || actions_.contains(binding.action)) && "every key does something");
+}
+
+void Viewer::act(const std::string& action) {
+  const std::uint64_t changes = live_.changes();
+  actions_.find(action)->second();
+  say(fmt::format("action {}", action));
+  rest_.disturb();
+  if (live_.changes() != changes) tell(diagnostics_, log_, ui::Log::kChange);
+}
+
+void Viewer::close() {
+  if (overlay_ && overlay_->closePopup()) return;
+  if (std::exchange(help_, false) || panels_.closeQuestion()) return;
+  if (input_.captured()) return toggleFlight();
+  glfwSetWindowShouldClose(window_, GLFW_TRUE);
+}
+
+void Viewer::stepEnvironment(int by) {
+  if (!live_.stepEnvironment(by)) told_ = "there is no other environment in the folder";
+}
+
+std::string Viewer::command() const {
+  const auto word = [](const std::string& text) {
+    const bool plain =
+        text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:=+") ==
+        std::string::npos;
+    return plain ? text : fmt::format("'{}'", text);
+  };
+  const graph::Settings& settings = live_.settings();
+  const scene::CameraPose pose = rig_.pose();
+  std::string text = fmt::format("weft render {} --size {}x{}", word(renderer_.graphPath()),
+                                 settings.screenWidth, settings.screenHeight);
+  const auto add = [&](const char* option, const std::string& value) {
+    if (!value.empty()) text += fmt::format(" --{} {}", option, word(value));
+  };
+  add("scene", live_.scene().path() == dataFolder() + "/scenes/spheres.json" ? "" : live_.scene().path());
+  add("materials", options_.materials);
+  add("environment", live_.environment().shown());
+  for (const std::string& preset : renderer_.presets()) add("preset", preset);
+  for (const graph::Setting& set : settings.sets)
+    add("set", set.name + "=" + (set.text.empty() ? graph::toText(set.value) : set.text));
+  for (const graph::Disable& disable : settings.disables) add("disable", disable.name);
+  add("camera", fmt::format("{},{},{},{},{},{},{},{}", pose.position.x, pose.position.y, pose.position.z,
+                            pose.target.x, pose.target.y, pose.target.z, pose.fovDegrees, pose.nearPlane));
+  return text;
 }
 
 const scene::Camera* Viewer::sceneCamera() const {
@@ -135,7 +197,10 @@ const scene::Camera* Viewer::sceneCamera() const {
 
 void Viewer::lookThrough(std::size_t camera) {
   const auto cameras = live_.world().scene().cameras.rows();
-  if (camera >= cameras.size()) return;
+  if (camera >= cameras.size()) {
+    told_ = fmt::format("the scene has {}", text::counted(cameras.size(), "camera"));
+    return;
+  }
   if (rig_.mode() == CameraRig::Mode::fly) toggleFlight();
   cameraName_ = camera == 0 ? "" : cameras[camera].name;
   rig_.jumpTo(scene::poseAt(cameras[camera], clock_.last().time));
@@ -162,10 +227,17 @@ void Viewer::say(std::string_view event) const {
   flushPrinted();
 }
 
-int Viewer::run() {
+int Viewer::run(text::Diagnostics said) {
+  diagnostics_ = std::move(said);
   tell(diagnostics_, log_, ui::Log::kFiles);
   if (!options_.record.empty()) toggleRecording();
-  while (!glfwWindowShouldClose(window_)) {
+  while (true) {
+    if (glfwWindowShouldClose(window_)) {
+      if (leave_ || !overlay_ || live_.unsaved() == 0) break;
+      glfwSetWindowShouldClose(window_, GLFW_FALSE);
+      panels_.askToLeave();
+      restless_ = kRestlessAfterEvent;
+    }
     input_.giveButton(readsMouse());  // before the first events, too: some came while files were loaded
     waitForEvents();
     const gl::Size size = session_.context->framebufferSize();
@@ -174,20 +246,14 @@ int Viewer::run() {
       clock_.skip(glfwGetTime());
       continue;
     }
-    if (overlay_) {
-      const float uiScale =
-          options_.uiScale > 0 ? static_cast<float>(options_.uiScale) : session_.context->contentScale();
-      if (std::exchange(uiScale_, uiScale) != uiScale) overlay_->setScale(uiScale);
-      overlay_->begin();
-    }
-    input_.decide(overlay_ && overlay_->wantsMouse());
+    takeInput(size);
     update(size);
     if (mustDraw()) {
-      frame(size);
+      frame();
     } else {
       clock_.skip(glfwGetTime());
       if (restless_ > 0)
-        redraw(size);
+        redraw();
       else if (overlay_)
         overlay_->skip();
     }
@@ -208,6 +274,31 @@ void Viewer::waitForEvents() {
     glfwPollEvents();
 }
 
+void Viewer::takeInput(gl::Size size) {
+  if (overlay_) {
+    const float uiScale =
+        options_.uiScale > 0 ? static_cast<float>(options_.uiScale) : session_.context->contentScale();
+    if (std::exchange(uiScale_, uiScale) != uiScale) overlay_->setScale(uiScale);
+    panels_.measure(ui::Overlay::textSize(uiScale_), static_cast<float>(size.width),
+                    static_cast<float>(size.height));
+  }
+  area_ = overlay_ ? panels_.picture() : ui::Panels::Area{0, 0, size.width, size.height};
+  input_.setPicture(glm::dvec2(area_.x, area_.y) / glm::dvec2(size.width, size.height),
+                    glm::dvec2(area_.width, area_.height) / glm::dvec2(size.width, size.height));
+  for (bool more = true; more;) {
+    more = input_.hand(readsMouse() && report_.passesRun + report_.passesSkipped > 0);
+    if (overlay_) overlay_->begin();
+    input_.decide(overlay_ && overlay_->wantsMouse());
+    for (const std::string& action : input_.takeActions()) act(action);
+    if (more && overlay_) drawUi(false);
+  }
+  for (const std::string& file : input_.takeDropped()) {
+    told_ = (live_.open(file, diagnostics_) ? "opened " : "not opened, see the messages: ") + file;
+    tell(diagnostics_, log_, ui::Log::kChange);
+    say("dropped " + text::printable(file));
+  }
+}
+
 void Viewer::update(gl::Size size) {
   if (std::exchange(inputs_, input_.events()) != input_.events()) restless_ = kRestlessAfterEvent;
   if (size.width != size_.width || size.height != size_.height)
@@ -218,7 +309,7 @@ void Viewer::update(gl::Size size) {
     const auto scaled = [&](std::uint32_t pixels) {
       return static_cast<std::uint32_t>(std::clamp(std::lround(pixels * renderScale_), 1l, 16384l));
     };
-    if (live_.resize(scaled(size.width), scaled(size.height), diagnostics_))
+    if (live_.resize(scaled(area_.width), scaled(area_.height), diagnostics_))
       tell(diagnostics_, log_, ui::Log::kChange);
   }
   bool looked = live_.poll(glfwGetTime(), diagnostics_);
@@ -240,12 +331,6 @@ void Viewer::update(gl::Size size) {
     restless_ = kRestlessAfterEvent;
     say("environment " + live_.environment().shown());
   }
-  const std::uint64_t changes = live_.changes();
-  for (const std::string& action : input_.takeActions()) {
-    actions_.find(action)->second();
-    say(fmt::format("action {}", action));
-  }
-  if (live_.changes() != changes) tell(diagnostics_, log_, ui::Log::kChange);
   if (rig_.mode() == CameraRig::Mode::fly && !input_.captured()) toggleFlight();  // the focus went elsewhere
   if (std::exchange(switches_, live_.switches()) != live_.switches()) rest_.disturb();
   if (std::exchange(livesSet_, live_.livesSet()) != live_.livesSet()) rest_.disturb();
@@ -253,7 +338,7 @@ void Viewer::update(gl::Size size) {
 }
 
 void Viewer::showState() {
-  std::string title = "weft: " + options_.graph;
+  std::string title = "weft: " + renderer_.graphPath();
   const auto add = [&](const std::string& mode) { title += " (" + mode + ")"; };
   if (!live_.running())
     add("waiting: the files have errors");
@@ -261,10 +346,6 @@ void Viewer::showState() {
     add("loading " + scene->name);
   else if (!live_.good())
     add("the files have errors");
-  if (recorder_.active()) add("recording, " + text::counted(recorder_.frames(), "frame"));
-  if (rig_.mode() == CameraRig::Mode::fly) add("flying, Esc lets go");
-  if (idle_) add("idle");
-  if (renderScale_ != 1) add(fmt::format("render scale {}", renderScale_));
   if (title == title_) return;
   title_ = title;
   glfwSetWindowTitle(window_, title_.c_str());
@@ -281,7 +362,7 @@ imports::Pointer Viewer::pointer() {
 
 bool Viewer::busy() {
   if (recorder_.active() || rig_.moving() || rig_.cuts() != cuts_ || input_.captured() ||
-      input_.movesCamera() || live_.environment().status() || live_.scene().loading())
+      input_.movesCamera() || input_.waiting() || live_.environment().status() || live_.scene().loading())
     return true;
   if (readsMouse() && pointer() != pointer_) return true;
   // What moves counts also while it pauses or is out of view, because it will go on.
@@ -300,7 +381,7 @@ bool Viewer::mustDraw() {
   return !rest_.resting();
 }
 
-void Viewer::frame(gl::Size size) {
+void Viewer::frame() {
   const FrameClock::Tick tick = clock_.tick(glfwGetTime());
   moveCamera(tick);
   runtime::FrameInput in;
@@ -316,20 +397,20 @@ void Viewer::frame(gl::Size size) {
   in.headless = !options_.record.empty() || (options_.waitForAssets && frame_ == 0);
   panels_.beforeFrame();
   report_ = renderer_.frame(live_.world(), in, diagnostics_);
-  panels_.afterFrame();
   // While an import is on its way no pass runs, and a click is kept for the frame in which one does.
   if (!readsMouse() || report_.passesRun + report_.passesSkipped > 0) input_.pointerShown();
   live_.dropUploaded();
   if (report_.slowRun > 0) clock_.worked();
   previousPose_ = in.pose;
   ++frame_;
-  show(size);
+  show();
+  panels_.afterFrame();
 }
 
-void Viewer::show(gl::Size size) {
+void Viewer::show() {
   recorder_.add(renderer_, diagnostics_);
   if (!recorder_.active() && clock_.fixed()) clock_.fix(0);  // it could not write
-  renderer_.present(size.width, size.height);
+  present();
   if (frame_ == options_.maxFrames) saveLast();
   finishFrame();
   if (!std::exchange(shown_, true)) say("shown");
@@ -365,10 +446,14 @@ void Viewer::judgeRest() {
                         : 0);
 }
 
-void Viewer::redraw(gl::Size size) {
+void Viewer::present() {
+  renderer_.present(area_.width, area_.height, area_.x, area_.y);
+}
+
+void Viewer::redraw() {
   --restless_;
   ++redraws_;
-  renderer_.present(size.width, size.height);
+  present();
   finishFrame();
 }
 
@@ -379,22 +464,29 @@ void Viewer::finishFrame() {
   glfwSwapBuffers(window_);
 }
 
-void Viewer::drawPanels() {
-  if (help_) return drawHelp();
-  if (live_.running())
-    panels_.draw(report_, diagnostics_);
-  else
-    panels_.drawLog();
-}
-
-void Viewer::drawUi() {
+void Viewer::drawUi(bool seen) {
   if (!overlay_) return;
   const std::uint64_t before = live_.changes();
   overlay_->begin();
-  drawPanels();
+  std::string modes;
+  const auto add = [&](const std::string& mode) { modes += (modes.empty() ? "" : "  ") + mode; };
+  if (recorder_.active()) add(fmt::format("REC {}", recorder_.frames()));
+  if (rig_.mode() == CameraRig::Mode::fly) add("FLY");
+  if (idle_) add("IDLE");
+  if (!vsync_) add("NO VSYNC");
+  if (renderScale_ != 1) add(fmt::format("scale {}", renderScale_));
+  panels_.draw(report_,
+               {.frame = frame_,
+                .time = clock_.last().time,
+                .paused = clock_.paused(),
+                .modes = modes,
+                .said = told_},
+               diagnostics_);
+  if (help_) drawHelp();
   const auto click = overlay_->releasedMouse();
-  overlay_->end();
+  seen ? overlay_->end() : overlay_->skip();
   if (panels_.wantsFrame()) rest_.disturb();
+  if (panels_.wantsLayout()) restless_ = std::max(restless_, 1);
   if (live_.changes() != before) {
     tell(diagnostics_, log_, ui::Log::kChange);
     say("change");
@@ -407,6 +499,7 @@ void Viewer::saveScreenshots() {
   const std::string name = screenshotName(frame_, screenshot_.c_str());
   screenshot_.clear();
   if (live_.running() && writer_.save(renderer_, name, diagnostics_)) {
+    told_ = "wrote " + name;
     print(fmt::format("wrote {}\n", text::printable(name)));
     flushPrinted();
   }

@@ -1,4 +1,4 @@
-// The viewer: a LiveGraph in a window, a camera, panels over the picture, and the loop that brings them together, frame
+// The viewer: a LiveGraph in a window, a camera, panels around the picture, and the loop that brings them together, frame
 // after frame. Each part is a file beside this one; what it can do on a key is an action.
 #pragma once
 
@@ -23,8 +23,8 @@ namespace weft::app {
 
 struct ViewOptions : Options {
   std::uint32_t maxFrames = 0;      // stop after this many frames; 0: until closed
-  std::vector<std::string> panels;  // shown or hidden at the start
-  bool ui = true;                   // panels over the picture
+  std::vector<std::string> panels;  // to the front at the start
+  bool ui = true;                   // panels around the picture
   std::string screenshot;           // written at the end
   std::string record;               // pattern of a recording from the first frame on; empty: none
   bool waitForAssets = false;       // before the first frame
@@ -36,14 +36,14 @@ struct ViewOptions : Options {
 
 class Viewer {
  public:
-  // `session` has a window, and outlives this. `live` was loaded, well or not, and said `said`.
-  Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& live, text::Diagnostics said);
+  // `session` has a window, and outlives this. Shows that `live` is being loaded, which is to be done before run().
+  Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& live);
   Viewer(const Viewer&) = delete;
   Viewer& operator=(const Viewer&) = delete;
 
   // Until the window is closed. The exit code: 0 when the files on disk were
-  // good in the end and nothing else failed.
-  int run();
+  // good in the end and nothing else failed. `said`: while `live` was loaded, well or not.
+  int run(text::Diagnostics said);
 
   // Frames of the graph, and times that only the panels over the last one were drawn anew.
   std::uint32_t frames() const { return frame_; }
@@ -51,6 +51,11 @@ class Viewer {
 
  private:
   void addActions();
+  void act(const std::string& action);
+  void close();
+  void stepEnvironment(int by);
+  // The command that renders what is seen.
+  std::string command() const;
   // The camera of the scene that is followed; the default one when it is gone. Null without a scene.
   const scene::Camera* sceneCamera() const;
   void lookThrough(std::size_t camera);
@@ -58,6 +63,8 @@ class Viewer {
   void toggleRecording();
 
   void waitForEvents();
+  // Events, a few at a time, each time with a layout of the panels that sees them.
+  void takeInput(gl::Size size);
   void update(gl::Size size);
   void showState();
   // Idle mode: whether something is under way that may not show for a while, and whether a frame is due.
@@ -67,14 +74,15 @@ class Viewer {
   bool readsMouse();
   imports::Pointer pointer();
   // May end without a picture, when files change meanwhile.
-  void frame(gl::Size size);
-  void show(gl::Size size);
+  void frame();
+  void show();
   void moveCamera(const FrameClock::Tick& tick);
   void judgeRest();
   // The last picture again, for the panels over it.
-  void redraw(gl::Size size);
-  void drawUi();
-  void drawPanels();
+  void redraw();
+  void present();
+  // `seen`: on the screen, not only for the events that wait.
+  void drawUi(bool seen = true);
   void finishFrame();
   void saveScreenshots();
   void saveLast();  // --screenshot, once
@@ -106,7 +114,8 @@ class Viewer {
   runtime::FrameReport report_;    // of the last frame
   text::Diagnostics diagnostics_;  // of what the loop is doing
   std::string screenshot_;         // extension of one that is wanted
-  std::string title_;
+  std::string title_, told_;       // the last: what was done, for the line at the bottom
+  ui::Panels::Area area_;          // of the picture, in pixels of the window
   std::uint32_t frame_ = 0, redraws_ = 0;
   std::uint64_t inputs_ = 0, switches_ = 0, livesSet_ = 0,
                 sceneReads_ = 0;  // when they were last looked at
@@ -115,9 +124,9 @@ class Viewer {
   gl::Size size_;  // of the window, as it was said last
   double renderScale_ = 1;
   bool vsync_ = true, idle_ = false, help_ = false, minimized_ = false;
-  bool resting_ = false, shown_ = false;  // as it was said last; a picture was
-  bool lastSaved_ = false;
-  bool broken_ = false;  // the driver or an output reported an error
+  bool resting_ = false, shown_ = false;    // as it was said last; a picture was
+  bool lastSaved_ = false, leave_ = false;  // --screenshot is done; the window closes whatever is unsaved
+  bool broken_ = false;                     // the driver or an output reported an error
 };
 
 // The command `weft view`.

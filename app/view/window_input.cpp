@@ -4,6 +4,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
 #include "app/ui/overlay.h"
@@ -18,23 +19,86 @@ WindowInput& WindowInput::of(GLFWwindow* window) {
 }
 
 WindowInput::WindowInput(GLFWwindow* window) : window_(window) {
+  using Kind = Event::Kind;
   glfwSetWindowUserPointer(window, this);
-  glfwSetKeyCallback(
-      window, [](GLFWwindow* w, int key, int, int action, int mods) { of(w).onKey(key, action, mods); });
-  glfwSetMouseButtonCallback(
-      window, [](GLFWwindow* w, int button, int action, int mods) { of(w).onButton(button, action, mods); });
-  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { of(w).onMove(x, y); });
-  glfwSetScrollCallback(window, [](GLFWwindow* w, double, double dy) { of(w).fresh_.wheel += dy; });
+  glfwSetInputMode(window, GLFW_STICKY_KEYS,
+                   GLFW_TRUE);  // a key that is tapped between two frames counts as held in one
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
+    of(w).queue_.push_back(
+        {.kind = Kind::key, .key = key, .scancode = scancode, .action = action, .mods = mods});
+  });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int mods) {
+    of(w).queue_.push_back({.kind = Kind::button, .key = button, .action = action, .mods = mods});
+  });
+  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+    of(w).queue_.push_back({.kind = Kind::move, .x = x, .y = y});
+  });
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
+    of(w).queue_.push_back({.kind = Kind::wheel, .x = x, .y = y});
+  });
+  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned codepoint) {
+    of(w).queue_.push_back({.kind = Kind::character, .codepoint = codepoint});
+  });
+  glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int entered) {
+    WindowInput& input = of(w);
+    if (!entered) input.queue_.push_back({.kind = Kind::leave});
+  });
+  glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+    of(w).dropped_.insert(of(w).dropped_.end(), paths, paths + count);
+  });
   glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
     WindowInput& input = of(w);
     if (!focused) input.capture(false);
   });
   // These events are only counted: a window that was covered or resized needs its picture again.
-  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned) { of(w); });
-  glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int) { of(w); });
   glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { of(w); });
   glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { of(w); });
   glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) { of(w); });
+}
+
+bool WindowInput::hand(bool oneClick) {
+  using Kind = Event::Kind;
+  std::optional<Kind> last;  // that is no movement
+  while (!queue_.empty()) {
+    const Event event = queue_.front();
+    const bool moves = event.kind == Kind::move || event.kind == Kind::leave;
+    // Letters go together, and so do steps of the wheel.
+    const bool joins = last == event.kind && (event.kind == Kind::character || event.kind == Kind::wheel);
+    if (last && !joins) return true;
+    if (oneClick && clicked_ && graphHasButton_ && event.kind == Kind::button && event.action == GLFW_PRESS)
+      return false;
+    queue_.pop_front();
+    take(event);
+    if (!moves) last = event.kind;
+  }
+  return false;
+}
+
+void WindowInput::take(const Event& event) {
+  switch (event.kind) {
+    case Event::Kind::move:
+      onMove(event.x, event.y);
+      if (overlay_) overlay_->takeMove(event.x, event.y);
+      return;
+    case Event::Kind::leave:
+      if (overlay_) overlay_->takeLeave();
+      return;
+    case Event::Kind::button:
+      onButton(event.key, event.action, event.mods);
+      if (overlay_) overlay_->takeButton(event.key, event.action == GLFW_PRESS);
+      return;
+    case Event::Kind::wheel:
+      fresh_.wheel += event.y;
+      if (overlay_) overlay_->takeWheel(event.x, event.y);
+      return;
+    case Event::Kind::key:
+      onKey(event.key, event.scancode, event.action, event.mods);
+      if (overlay_) overlay_->takeKey(event.key, event.scancode, event.action, event.mods);
+      return;
+    case Event::Kind::character:
+      if (overlay_) overlay_->takeCharacter(event.codepoint);
+      return;
+  }
 }
 
 void WindowInput::capture(bool on) {
@@ -50,9 +114,16 @@ void WindowInput::capture(bool on) {
   if (overlay_) overlay_->setMouseEnabled(!on);
 }
 
-void WindowInput::onKey(int key, int action, int mods) {
+// A key has the letter that it has on the user's keyboard, wherever that is; digits are also those keys that have them with Shift.
+void WindowInput::onKey(int key, int scancode, int action, int mods) {
   if (action != GLFW_PRESS || (overlay_ && overlay_->wantsKeys())) return;
-  std::string name = actionOf(key, (mods & GLFW_MOD_SHIFT) != 0);
+  const WithKey shift = mods & GLFW_MOD_SHIFT ? WithKey::shift : WithKey::nothing;
+  const char* letter = glfwGetKeyName(key, scancode);
+  const int written = letter && letter[0] && !letter[1] ? std::toupper(letter[0]) : key;
+  // Ctrl may be held for the mouse.
+  std::string name = mods & GLFW_MOD_CONTROL ? actionOf(written, WithKey::control) : "";
+  if (name.empty()) name = actionOf(written, shift);
+  if (name.empty() && key >= GLFW_KEY_1 && key <= GLFW_KEY_9) name = actionOf(key, shift);
   if (!name.empty()) actions_.push_back(std::move(name));
 }
 
@@ -85,9 +156,9 @@ glm::dvec2 WindowInput::place() const {
   int width = 0, height = 0;
   glfwGetWindowSize(window_, &width, &height);
   const glm::dvec2 size(std::max(width, 1), std::max(height, 1));
-  // The middle of the pixel that is pointed at; a drag may lead out of the window.
-  const glm::dvec2 at = glm::clamp((last_ + 0.5) / size, 0.0, 1.0);
-  return {at.x, 1 - at.y};
+  // The middle of the pixel that is pointed at; a drag may lead out of the picture.
+  const glm::dvec2 at = (last_ + 0.5) / size;
+  return glm::clamp((glm::dvec2(at.x, 1 - at.y) - corner_) / size_, 0.0, 1.0);
 }
 
 void WindowInput::point() {
@@ -125,11 +196,14 @@ void WindowInput::decide(bool panels) {
 
 CameraInput WindowInput::takeCamera() {
   CameraInput input = std::exchange(camera_, {});
-  if (!captured_ || (overlay_ && overlay_->wantsKeys())) return input;
+  // Asked in any case, so that no tap of before waits for a flight. The keys of flight are places.
   const auto down = [&](int key) { return glfwGetKey(window_, key) == GLFW_PRESS ? 1.0 : 0.0; };
-  input.move = {down(GLFW_KEY_D) - down(GLFW_KEY_A), down(GLFW_KEY_E) - down(GLFW_KEY_Q),
-                down(GLFW_KEY_W) - down(GLFW_KEY_S)};
-  input.fast = down(GLFW_KEY_LEFT_SHIFT) > 0;
+  const glm::dvec3 move = {down(GLFW_KEY_D) - down(GLFW_KEY_A), down(GLFW_KEY_E) - down(GLFW_KEY_Q),
+                           down(GLFW_KEY_W) - down(GLFW_KEY_S)};
+  const bool fast = down(GLFW_KEY_LEFT_SHIFT) > 0;
+  if (!captured_ || (overlay_ && overlay_->wantsKeys())) return input;
+  input.move = move;
+  input.fast = fast;
   return input;
 }
 

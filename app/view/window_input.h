@@ -1,8 +1,9 @@
-// The events of a GLFW window, kept until the loop asks for them: names of actions, held keys, what the mouse did over the
-// picture (what it did over a panel is the panel's), and the captured mouse of flight.
+// The events of a GLFW window, queued and handed over a few at a time, however long a frame takes: to the panels, and here as names
+// of actions, held keys, what the mouse did over the picture (what it did over a panel is the panel's), and the captured mouse of flight.
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -22,12 +23,22 @@ class Overlay;
 
 class WindowInput {
  public:
-  // Installs callbacks; before the overlay installs its own. `window` must outlive this.
+  // Installs callbacks. `window` must outlive this.
   explicit WindowInput(GLFWwindow* window);
   WindowInput(const WindowInput&) = delete;
   WindowInput& operator=(const WindowInput&) = delete;
 
   void setOverlay(ui::Overlay* overlay) { overlay_ = overlay; }
+  // Where in the window the picture is: shares of it, from its lower left corner.
+  void setPicture(glm::dvec2 corner, glm::dvec2 size) {
+    corner_ = corner;
+    size_ = size;
+  }
+
+  // Hands over the events that have come, up to the first that changes a key or button. True when more are waiting: for a layout of
+  // the panels that has seen these. `oneClick`: a click that the graph has not seen yet is not followed by another.
+  bool hand(bool oneClick);
+  bool waiting() const { return !queue_.empty(); }
 
   // While it is captured the cursor is gone, every movement turns, panels get none of it, and it moves
   // unaccelerated where the system can. Losing the focus lets go of it.
@@ -44,24 +55,34 @@ class WindowInput {
   void pointerShown() { clicked_ = false; }
   // The left button is the graph's, and turns the camera with Ctrl only.
   void giveButton(bool toGraph) { graphHasButton_ = toGraph; }
-  // To be called when the events of a frame have come and the overlay has seen them. `panels`: the mouse is theirs, and so is
-  // what it did, but for a drag that began over the picture.
+  // To be called after each hand(), when the overlay has seen the events. `panels`: the mouse is theirs, and so is what it did,
+  // but for a drag that began over the picture.
   void decide(bool panels);
   std::vector<std::string> takeActions() { return std::exchange(actions_, {}); }
+  std::vector<std::string> takeDropped() { return std::exchange(dropped_, {}); }  // paths of files
   // Counts every event of any kind: whether anything happened at all.
   std::uint64_t events() const { return events_; }
 
  private:
+  struct Event {
+    enum class Kind : std::uint8_t { move, leave, button, wheel, key, character } kind = Kind::move;
+    int key = 0, scancode = 0, action = 0, mods = 0;  // of a key or a button
+    unsigned codepoint = 0;
+    double x = 0, y = 0;
+  };
   static WindowInput& of(GLFWwindow* window);
-  void onKey(int key, int action, int mods);
+  void take(const Event& event);
+  void onKey(int key, int scancode, int action, int mods);
   void onButton(int button, int action, int mods);
   void onMove(double x, double y);
-  glm::dvec2 place() const;  // where the mouse is: 0 to 1 of the window from its lower left corner
+  glm::dvec2 place() const;  // where the mouse is: 0 to 1 of the picture from its lower left corner
   void point();
 
   GLFWwindow* window_;
   ui::Overlay* overlay_ = nullptr;
-  std::vector<std::string> actions_;
+  std::deque<Event> queue_;
+  std::vector<std::string> actions_, dropped_;
+  glm::dvec2 corner_{0}, size_{1};
   CameraInput camera_;
   CameraInput fresh_;  // of the mouse, since decide()
   glm::dvec2 last_{0};

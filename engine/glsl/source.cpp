@@ -122,7 +122,7 @@ class IncludeExpander {
 
   // The state of each file before it was read: what changes meanwhile is read again next time.
   const std::vector<FileStamp>& files() const { return files_; }
-  // Where includes that were not found would have been.
+  // Where includes were looked for in vain: those that were not found, and those that a later place has.
   const std::vector<std::string>& missing() const { return missing_; }
 
  private:
@@ -232,11 +232,17 @@ class IncludeExpander {
   std::optional<std::string> find(const std::string& name, const Place& place, const std::string& folder) {
     std::vector<std::string> folders = loader_.roots_;
     if (!folder.empty()) folders.insert(folders.begin(), folder);
-    const std::vector<std::string> candidates = below(folders, name);
+    std::vector<std::string> candidates = below(folders, name);
+    // A file that stands in for one of another root finds what lies beside that one.
+    for (const std::string& root : loader_.roots_)
+      if (const fs::path inRoot = fs::path(folder).lexically_relative(root);
+          !inRoot.empty() && *inRoot.begin() != "..")
+        std::ranges::move(below(loader_.roots_, (inRoot / name).string()), std::back_inserter(candidates));
     std::error_code ec;
-    for (const std::string& path : candidates)
+    for (const std::string& path : candidates) {
       if (text::mayRead(path) && (text::overlayOf(path) || fs::is_regular_file(path, ec))) return path;
-    missing_.insert(missing_.end(), candidates.begin(), candidates.end());
+      missing_.push_back(path);
+    }
     if (const auto outside = outsideOf(candidates)) {
       text::reportOutside(*outside, diagnostics_, place);
       return std::nullopt;
@@ -303,11 +309,12 @@ std::shared_ptr<const ShaderSource> SourceLoader::expand(const std::string& key,
   IncludeExpander expander(*this, found);
   auto source = expander.run(own, isFile ? folderOf(own.path) : "", text);
   const auto taken = std::span(expander.files()).subspan(isFile ? 0 : 1);
-  for (const FileStamp& file : taken) touched_.insert(file.path);
-  touched_.insert(expander.missing().begin(), expander.missing().end());
+  std::vector<FileStamp> stamps(taken.begin(), taken.end());
+  for (const std::string& path : expander.missing()) stamps.push_back({path});
+  for (const FileStamp& file : stamps) touched_.insert(file.path);
   diagnostics.append(found);
   if (found.hasErrors()) return nullptr;
-  return (cache_[key] = {std::move(source), {taken.begin(), taken.end()}}).source;
+  return (cache_[key] = {std::move(source), std::move(stamps)}).source;
 }
 
 const std::vector<std::string>& SourceLoader::names() {
@@ -315,13 +322,15 @@ const std::vector<std::string>& SourceLoader::names() {
   return *names_;
 }
 
-std::optional<std::string> SourceLoader::locate(const std::string& path) const {
+std::optional<std::string> SourceLoader::locate(const std::string& path,
+                                                std::set<std::string>* before) const {
   std::vector<std::string> candidates;
   if (!fs::path(path).is_absolute()) candidates = below(roots_, path);
   candidates.push_back(fs::path(path).lexically_normal().string());
   for (const std::string& each : candidates) {
     std::error_code ec;
     if (text::mayRead(each) && (text::overlayOf(each) || fs::exists(each, ec))) return each;
+    if (before) before->insert(each);
   }
   return std::nullopt;
 }
@@ -341,7 +350,7 @@ void SourceLoader::reportMissing(const std::string& path, Diagnostics& diagnosti
 
 std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, Diagnostics& diagnostics,
                                                        const Place& place) {
-  const std::optional<std::string> where = locate(path);
+  const std::optional<std::string> where = locate(path, &touched_);
   if (!where) {
     reportMissing(path, diagnostics, place);
     return nullptr;

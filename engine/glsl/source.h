@@ -64,7 +64,8 @@ std::vector<std::string> shadersBelow(std::span<const std::string> folders);
 // Reads, expands and caches. One per set of roots; not thread-safe.
 class SourceLoader {
  public:
-  // `roots` are searched in order for includes that are not found beside the including file.
+  // `roots` are searched in order for includes that are not found beside the including file; then, in order, the folders that
+  // have in them the place of that file in its own root.
   explicit SourceLoader(std::vector<std::string> roots) : roots_(std::move(roots)) {}
 
   // The stage file `path`, below the first root that has it, else as the path says. "../" and absolute paths may lead
@@ -77,8 +78,8 @@ class SourceLoader {
   // The same for text in memory, named `name` in messages; its includes are searched in the roots only.
   std::shared_ptr<const ShaderSource> loadText(std::string_view text, const std::string& name,
                                                text::Diagnostics& diagnostics);
-  // Where load() would find `path`, or nullopt.
-  std::optional<std::string> locate(const std::string& path) const;
+  // Where load() would find `path`, or nullopt. `before` gets the places where it was looked for in vain.
+  std::optional<std::string> locate(const std::string& path, std::set<std::string>* before = nullptr) const;
   // Forgets everything (files will be read again).
   void clear() {
     cache_.clear();
@@ -104,7 +105,7 @@ class SourceLoader {
   friend class IncludeExpander;
   struct Entry {
     std::shared_ptr<const ShaderSource> source;
-    std::vector<FileStamp> stamps;  // of the files that took part
+    std::vector<FileStamp> stamps;  // of the files that took part, and of places that were looked at before
   };
   std::shared_ptr<const ShaderSource> answer(const std::string& key);
   std::shared_ptr<const ShaderSource> expand(const std::string& key, const FileStamp& own,

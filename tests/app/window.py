@@ -66,9 +66,9 @@ class Session:
     def event(self, what, since=0):
         return self.line(r"event (\d+) (?:" + what + ")", since)
 
-    def leave(self, report, code=0):
-        """Closes the window as a person does; it is to end with `code`."""
-        self.key("Escape")
+    def leave(self, report, code=0, unsaved=False):
+        """Closes the window as a person does; it is to end with `code`. `unsaved`: changes made there are dropped."""
+        self.key("shift+Escape" if unsaved else "Escape")
         self.until(lambda: not self.alive())
         report.check(self.process.poll() == code, f"exit code {self.process.poll()}, not {code}\n{self.said()}")
 

@@ -63,6 +63,8 @@ OpenedContext openGlfw(const ContextOptions& options, std::vector<std::string>& 
   glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
+  glfwWindowHintString(GLFW_X11_CLASS_NAME, "weft");  // by which taskbars group windows
+  glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "weft");
   GLFWwindow* window = glfwCreateWindow(std::max(1, static_cast<int>(options.width)),
                                         std::max(1, static_cast<int>(options.height)), options.title.c_str(),
                                         nullptr, nullptr);

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/graph/edit/stanzas.h"
 #include "engine/graph/language/suffix.h"
 #include "engine/graph/read/read.h"
 #include "engine/text/files/file.h"
@@ -53,23 +54,6 @@ using text::JsonValue;
 struct TextEdit {
   std::string path, text;
 };
-
-// Calls visit(prefix of its names, file) for the graph and then for every file that it includes.
-template <class Visit>
-void eachFile(const GraphDesc& desc, const Visit& visit, const std::string& prefix = "") {
-  visit(prefix, desc);
-  for (const PassDesc& pass : desc.passes)
-    if (pass.include && pass.include->graph)
-      eachFile(*pass.include->graph, visit, prefix + pass.include->as + ".");
-}
-
-// Calls visit(full name, pass) for every pass and include of the graph and of what it includes.
-template <class Visit>
-void eachPass(const GraphDesc& desc, const Visit& visit) {
-  eachFile(desc, [&](const std::string& prefix, const GraphDesc& file) {
-    for (const PassDesc& pass : file.passes) visit(prefix + pass.name, pass);
-  });
-}
 
 // The declaration of a parameter, by its full name.
 const ParameterDesc* findDeclared(const GraphDesc& desc, const std::string& path) {

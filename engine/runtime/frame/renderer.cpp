@@ -247,7 +247,7 @@ std::optional<assets::Image8> Renderer::readPresented8() {
   return picture ? std::optional(toBytes(*picture)) : std::nullopt;
 }
 
-void Renderer::present(std::uint32_t width, std::uint32_t height) {
+void Renderer::present(std::uint32_t width, std::uint32_t height, std::uint32_t x, std::uint32_t y) {
   const gl::TextureRef texture = execution_ ? execution_->presented() : gl::TextureRef{};
   openMasks();
   releaseBindings();
@@ -266,8 +266,9 @@ void Renderer::present(std::uint32_t width, std::uint32_t height) {
   const gl::Extent from = gl::extentOf(texture.desc, 0);
   const bool same = from.width == width && from.height == height;
   glBlitNamedFramebuffer(presentSource_.id(), 0, 0, 0, static_cast<GLint>(from.width),
-                         static_cast<GLint>(from.height), 0, 0, static_cast<GLint>(width),
-                         static_cast<GLint>(height), GL_COLOR_BUFFER_BIT, same ? GL_NEAREST : GL_LINEAR);
+                         static_cast<GLint>(from.height), static_cast<GLint>(x), static_cast<GLint>(y),
+                         static_cast<GLint>(x + width), static_cast<GLint>(y + height), GL_COLOR_BUFFER_BIT,
+                         same ? GL_NEAREST : GL_LINEAR);
 }
 
 }  // namespace weft::runtime

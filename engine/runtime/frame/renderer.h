@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/assets/images/image.h"
@@ -69,6 +70,11 @@ class Renderer {
   Renderer(gl::Context& context, const std::string& graphPath, Options options);
   ~Renderer();
 
+  // Another graph and other overlays, from the next load() on.
+  void setFiles(std::string graphPath, std::vector<std::string> presets) {
+    graphPath_ = std::move(graphPath);
+    options_.presets = std::move(presets);
+  }
   // Reads the graph file again and switches to it. False after errors.
   bool load(const graph::Settings& settings, const World& world, text::Diagnostics& diagnostics);
   // Reads no file: runs the last description under other settings or in another world. Passes that do not change keep their
@@ -104,8 +110,8 @@ class Renderer {
   std::optional<assets::Image8> readPresented8();
   std::optional<assets::ImageF> readPresentedFloat();
   // Copies the presented texture to framebuffer 0 (a window's), bit for bit when the sizes agree. Leaves framebuffer 0
-  // bound, after releaseBindings() (gl_state.h).
-  void present(std::uint32_t width, std::uint32_t height);
+  // bound, after releaseBindings() (gl_state.h). `x`, `y`: its lower left corner there.
+  void present(std::uint32_t width, std::uint32_t height, std::uint32_t x = 0, std::uint32_t y = 0);
 
  private:
   bool switchTo(std::shared_ptr<const graph::GraphDesc> desc, ShaderFiles files,

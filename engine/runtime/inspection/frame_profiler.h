@@ -2,6 +2,8 @@
 // stay right when plans change in between.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <deque>
 #include <memory>
 #include <string>
@@ -21,7 +23,7 @@ struct FrameProfile {
 
 class FrameProfiler {
  public:
-  static constexpr std::size_t kFrames = 240;
+  static constexpr std::size_t kFrames = 240, kAveraged = 30;
   // `timers` must outlive this.
   explicit FrameProfiler(const gl::PassTimers& timers) : timers_(timers) {}
 
@@ -38,6 +40,19 @@ class FrameProfiler {
     if (timers_.enabled() && timers_.results().size() == names_->size())
       profile.passes.assign(timers_.results().begin(), timers_.results().end());
     if (history_.size() > kFrames) history_.pop_front();
+  }
+  // Of the last kAveraged frames; 0 before the first.
+  double median() const {
+    std::vector<double> times;
+    for (std::size_t f = history_.size() - std::min(history_.size(), kAveraged); f < history_.size(); ++f)
+      times.push_back(history_[f].ms);
+    return medianOf(times);
+  }
+  static double medianOf(std::vector<double> times) {
+    if (times.empty()) return 0;
+    const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+    std::ranges::nth_element(times, middle);
+    return *middle;
   }
   // The newest last.
   const std::deque<FrameProfile>& history() const { return history_; }

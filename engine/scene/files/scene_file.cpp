@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -64,6 +65,25 @@ Material readMaterial(SceneFields& fields) {
   fields.read("metallic", kUnit, material.metallic);
   fields.read("roughness", kUnit, material.roughness);
   return material;
+}
+
+// A view in numbers, as SceneChoice::camera has it; nothing when it is none.
+std::optional<CameraPose> poseOf(const std::string& text, CameraPose pose) {
+  double* const numbers[] = {&pose.position.x, &pose.position.y, &pose.position.z, &pose.target.x,
+                             &pose.target.y,   &pose.target.z,   &pose.fovDegrees, &pose.nearPlane};
+  const char *at = text.data(), *const end = at + text.size();
+  for (std::size_t i = 0; i < std::size(numbers); ++i) {
+    const auto [behind, error] = std::from_chars(at, end, *numbers[i]);
+    if (error != std::errc{} || !std::isfinite(*numbers[i])) return std::nullopt;
+    if (behind == end)
+      return i >= 5 && pose.position != pose.target && pose.fovDegrees > 0 && pose.fovDegrees < 180 &&
+                     pose.nearPlane > 0
+                 ? std::optional(pose)
+                 : std::nullopt;
+    if (*behind != ',') return std::nullopt;
+    at = behind + 1;
+  }
+  return std::nullopt;
 }
 
 class Reader {
@@ -168,6 +188,8 @@ class Reader {
   bool chooseCamera(const JsonValue& where) {
     std::vector<Camera> cameras(scene_.cameras.rows().begin(), scene_.cameras.rows().end());
     if (choice_.camera.empty()) return true;
+    if (const auto pose = poseOf(choice_.camera, cameras.empty() ? CameraPose{} : cameras.front().pose))
+      cameras.push_back({.name = choice_.camera, .pose = *pose});
     const auto chosen = std::ranges::find(cameras, choice_.camera, &Camera::name);
     if (chosen == cameras.end()) {
       std::vector<std::string> names;

@@ -16,7 +16,9 @@ namespace weft::scene {
 
 // What is chosen from outside the file. Empty: as the file says.
 struct SceneChoice {
-  std::string camera;  // becomes the first, the default one; unknown: W160
+  // Becomes the first, the default one; unknown: W160. A name, or a place to look from, a point to look at and, where they are not
+  // those of the first camera, degrees of view and the near plane: "X,Y,Z,X,Y,Z,60,0.1".
+  std::string camera;
   std::string
       materials;  // path of a library that takes the place of the grid's `materials`; without a grid: W161
 };

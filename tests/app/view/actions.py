@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What a person does in the viewer besides saving files: looks through cameras, turns, flies and lets go, switches a pass off in
-the panel, changes the render scale, records until the disk is full, lets it idle; starts with files that have errors and saves the
+"""What a person does in the viewer besides saving files: looks through cameras, turns, flies and lets go,
+changes the render scale, records until the disk is full, lets it idle; starts with files that have errors and saves the
 fix; keeps tweaks that a changed file no longer takes out of its way. At the end no GL object is left. The time from a save to the
 picture on the screen is measured and printed, not judged."""
 import os
@@ -10,7 +10,6 @@ import signal
 import sys
 import time
 
-from pictures import read_png
 from program import Report, run, temporary_folder
 from screen import Screen
 from window import Session, copy_of_tree, edit, inside_display, save
@@ -87,39 +86,6 @@ def look_around(live, eyes, report):
     for key in ("v", "v", "b", "b", "p", "p", "F1", "F1"):
         live.key(key)
     settles(live, first, report, "after switches that do not change pictures")
-    return first
-
-
-def switch_a_pass_off(live, first, screen, report):
-    """Finds a box in the right panel by trying: down the left edge of what is right of the middle."""
-    width, height = 640, 360
-
-    # Where the panels lie, the display shows them or the picture behind them.
-    picture = read_png(first.read_bytes())
-    places = [(x, y) for x in (20, 60, 100, width - 200, width - 120, width - 40) for y in range(40, 240, 10)]
-
-    def picture_shows():
-        rows = screen.read()[2]
-        return all(abs(a - b) <= 1 for x, y in places for a, b in zip(rows[y][3 * x:3 * x + 3], picture[y][x]))
-
-    report.check(live.until(lambda: not picture_shows()), "the panels do not show on the display")
-    live.act("space", "panels")
-    report.check(live.until(picture_shows), "the panels go away on the screen: they do not")
-    live.act("space", "panels")
-    report.check(live.until(lambda: not picture_shows()), "the panels do not come back")
-    tried = []
-    for x in (width - 288 - 8 + 20, width - 288 - 8 + 40):
-        for y in range(30, 260, 10):
-            if not live.click(x, y):
-                continue
-            tried.append((x, y))
-            shot = live.shot()
-            if not shot or shot.read_bytes() == first.read_bytes():
-                continue
-            report.check(live.alive(), f"a click at {x}, {y} ends the program")
-            live.tool("mousemove", "--window", live.window, 5, height - 5)
-            return True
-    return report.check(False, f"no click in the panel of passes changes the picture; something changed by {tried}\n{live.said()}")
 
 
 def record(live, report):
@@ -291,9 +257,7 @@ def main():
         live = Session(weft, folder, "--stats", graph="graphs/studio.json", size="640x360")
         try:
             report.check(live.open(), f"no window\n{live.said()}")
-            first = look_around(live, eyes, report)
-            if first:
-                switch_a_pass_off(live, first, screen, report)
+            look_around(live, eyes, report)
             idle(live, report)
             record(live, report)
             close(live, report, code=1)  # the full disk

@@ -93,17 +93,19 @@ def follows(live, report):
 def leaves_panels_alone(live, report):
     eyes = Eyes(live)
     move = lambda x, y: live.tool("mousemove", "--window", live.window, x, y)
-    move(WIDTH - 4, HEIGHT // 2)
-    before = eyes.until(position=at(WIDTH - 4, HEIGHT // 2))
+    line = 28  # pixels, below the picture
+    place = lambda x, y: (at(x, y)[0], at(x, y)[1] - line)
+    move(WIDTH // 2 - 4, HEIGHT // 2)
+    before = eyes.until(position=place(WIDTH // 2 - 4, HEIGHT // 2))
     if not report.check(before, f"a pointer beside the panels: {eyes.look()}"):
         return
-    move(60, 60)  # the panel of parameters is at the left
+    move(WIDTH - 20, 60)  # the panels are at the right
     live.shot()
-    live.click(60, 60)
+    live.click(WIDTH - 20, 60)
     seen = eyes.look()
     report.check(all(seen[key] == before[key] for key in before if key != "eye"), f"a click on a panel is the picture's: {before} {seen}")
-    move(WIDTH - 4, 20)
-    report.check(eyes.until(position=at(WIDTH - 4, 20), pressed=before["pressed"]), f"a pointer that left the panel: {eyes.look()}")
+    move(40, 20)
+    report.check(eyes.until(position=place(40, 20), pressed=before["pressed"]), f"a pointer that left the panel: {eyes.look()}")
 
 
 def wakes(live, report):

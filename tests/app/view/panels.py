@@ -1,44 +1,62 @@
 #!/usr/bin/env python3
-"""The viewer's panels in a window of a virtual display: each opens, at content scales 1 and 2, and the picture under them
-stays the same to the bit; a value and a pass changed on the command line are
-written into the files with F8, comments and all, and what was changed is the file's from then on. Whose a drag is, is judged where it begins,
-however fast the mouse got there; at rest in idle mode a drag turns the picture."""
+"""The viewer's panels in a window of a virtual display: each opens, at content scales 1 and 2, and the picture beside them is on the screen
+as F12 saves it, to the bit. A value and a pass changed on the command line are shown by F8 and written by the second, comments and
+all; Ctrl Z gives the files back byte for byte; files of the installation stay as they are. Esc closes what is on top, and asks
+before changes are lost. Events that come while a frame is drawn are all seen, in their order. Whose a drag is, is judged where it
+begins, however fast the mouse got there; at rest in idle mode a drag turns the picture."""
 import os
 import pathlib
 import re
 import signal
 import sys
 
+from pictures import read_png
 from program import Report, temporary_folder
+from screen import Screen
 from window import Session, copy_of_tree, inside_display
 
-KEYS = ["F4", "F5", "F6", "F7"]
+TABS = ["parameters", "passes", "selected", "times", "storage", "histogram", "messages"]
 
 
-def panels(weft, folder, report, scale):
-    live = Session(weft, folder, "--ui-scale", scale, "--panels", "inspector,profiler,storage,histogram")
-    try:
-        first = live.opened(report)
-        if not first:
-            return
-        for key in [*KEYS, "F2", "F3", "p", *KEYS, "F2", "F3"]:
-            live.key(key)
-            beside = live.shot()
-            report.check(beside and beside.read_bytes() == first.read_bytes(), f"scale {scale}: {key} changes the picture under the panels")
-        live.leave(report)
-        report.check(not live.said(), live.said())
-    finally:
-        live.stop()
+def panels(weft, folder, display, report, scale, size):
+    width, screen = int(size.split("x")[0]), Screen(display)
+    for pair in zip(TABS[:3], TABS[3:]) if scale == "1" else [TABS]:
+        live = Session(weft, folder, "--ui-scale", scale, "--idle", "--panels", ",".join(pair), graph="graphs/glow.json", size=size)
+        try:
+            if not report.check(live.open(40, 40) and live.rest(0), f"no picture at rest\n{live.said()}"):
+                continue
+            live.tool("mousemove", 1279, 1023)
+            live.act("p", "profile")
+            shot = live.shot()
+            picture = [bytes(value for texel in row for value in texel[:3]) for row in read_png(shot.read_bytes())]
+            report.check(len(picture[0]) // 3 < width, f"scale {scale}: the picture has the whole window")
+
+            def beside():
+                rows = screen.read()[2]
+                return all(bytes(rows[y][:len(row)]) == row for y, row in enumerate(picture))
+
+            report.check(live.until(beside), f"scale {scale}, {pair}: the picture on the screen is another, or covered")
+            live.act("p", "profile")
+            live.leave(report)
+            report.check(not live.said(), live.said())
+        finally:
+            live.stop()
 
 
 def write_back(weft, folder, report):
     composite, post = folder / "graphs/effects/composite.json", folder / "graphs/post.json"
     files = (composite, post)
     before = [path.read_text() for path in files]
-    live = Session(weft, folder, "--set", "exposure=1.25", "--set", "curve=aces", "--disable", "fxaa")
+    arguments = ("--set", "exposure=1.25", "--set", "curve=aces", "--disable", "fxaa")
+    live = Session(weft, folder, *arguments, data=False)
     try:
         if not report.check(live.open() and live.shot(), f"no picture\n{live.said()}"):
             return
+        live.act("F8", "write_back")
+        report.check([path.read_text() for path in files] == before, "the first F8 writes")
+        live.act("Escape", "close")
+        report.check(live.shot() and live.alive(), "Esc closes the window, not the question")
+        live.act("F8", "write_back")
         live.key("F8")
         report.check(live.until(lambda: all(path.read_text() != text for path, text in zip(files, before))), f"F8 writes nothing\n{live.said()}")
         expected = re.sub(r'("exposure": *\{[^}\n]*"default": )[-\d.]+', r"\g<1>1.25", before[0])
@@ -46,15 +64,77 @@ def write_back(weft, folder, report):
         report.check(composite.read_text() == expected, f"{composite.name} has\n{composite.read_text()}")
         changed = [a for a, b in zip(post.read_text().splitlines(), before[1].splitlines()) if a != b]
         report.check(len(changed) == 1 and "fxaa" in changed[0] and "false" in changed[0], f"other lines changed: {changed}")
+        live.act("ctrl+z", "undo")
+        report.check([path.read_text() for path in files] == before, "Ctrl Z does not give the files back")
         live.leave(report)
     finally:
         live.stop()
     for path, text in zip(files, before):
         path.write_text(text)
+    live = Session(weft, folder, *arguments)  # now they are Weft's own
+    try:
+        if report.check(live.open() and live.shot(), f"no picture\n{live.said()}"):
+            live.act("F8", "write_back")
+            live.act("F8", "write_back")
+            report.check("error[W196]" in live.said() and [path.read_text() for path in files] == before, "F8 writes over Weft's own files")
+            live.leave(report)
+    finally:
+        live.stop()
 
 
-def drag(live, start=(280, 5)):
-    """To the left; by default along the bar at the top, which does nothing where no menu stands."""
+def effects(weft, folder, report):
+    """A box of the passes turns off a whole effect. Two clicks and a key that come while the program stands still are three."""
+    live = Session(weft, folder, "--panels", "passes", "--idle", graph="graphs/pair.json", size="640x360")
+    try:
+        if not report.check(live.open(40, 40) and live.rest(0), f"no picture at rest\n{live.said()}"):
+            return
+        first = live.shot()
+        rows = [y for y in range(60, 200, 8) if live.click(331, y)]
+        report.check(rows, f"no box of the passes does anything\n{live.said()}")
+        live.tool("mousemove", "--window", live.window, 40, 40)
+        other = live.shot()
+        report.check(rows and other.read_bytes() != first.read_bytes(), "a box changes nothing")
+        before = live.mark()
+        live.act("Escape", "close")
+        report.check(live.alive() and live.shot(), "Esc ends the program with changes that are in no file")
+        live.act("Escape", "close")
+        for _ in rows:
+            live.act("ctrl+z", "undo")
+        report.check(live.until(lambda: live.shot().read_bytes() == first.read_bytes()), "Ctrl Z does not bring the picture back")
+        before = live.mark()
+        live.process.send_signal(signal.SIGSTOP)
+        for _ in range(3):
+            live.tool("mousemove", "--window", live.window, 331, rows[0])
+            live.tool("click", 1)
+            live.tool("key", "b")
+        live.process.send_signal(signal.SIGCONT)
+        report.check(live.until(lambda: sum(line.endswith("action head_bob") for line in live.lines()[before:]) == 3), "a key is lost")
+        changes = [line for line in live.lines()[before:] if line.endswith(" change")]
+        report.check(len(changes) == 3, f"three clicks while the program stands still are {len(changes)} changes")
+        live.leave(report, unsaved=True)
+    finally:
+        live.process.send_signal(signal.SIGCONT)
+        live.stop()
+
+
+PAIR = """{ "resources": { "ldr": { "texture": "rgba8", "size": "screen" }, "seen": { "texture": "rgba8", "size": "screen" } },
+  "passes": [
+    { "name": "base", "type": "fullscreen", "shader": "base.frag.glsl", "write": { "result": "ldr" } },
+    { "include": "tints.json", "as": "tints", "bind": { "ldr": "ldr" } },
+    { "name": "show", "type": "fullscreen", "shader": "tint.frag.glsl", "read": { "source": "ldr" }, "write": { "result": "seen" } } ],
+  "present": "seen" }
+"""
+TINTS = """{ "inputs": ["ldr"], "resources": { "mid": { "texture": "rgba8", "size": "screen" } },
+  "passes": [
+    { "name": "first", "type": "fullscreen", "shader": "tint.frag.glsl", "read": { "source": "ldr" }, "write": { "result": "mid" } },
+    { "name": "second", "type": "fullscreen", "shader": "tint.frag.glsl", "read": { "source": "mid" }, "write": { "result": "ldr" } } ] }
+"""
+BASE = "in vec2 uv;\nout vec4 result;\nvoid main() { result = vec4(uv, 0.25, 1.0); }\n"
+TINT = "uniform sampler2D source;\nout vec4 result;\nvoid main() { result = texelFetch(source, ivec2(gl_FragCoord.xy), 0).brga; }\n"
+
+
+def drag(live, start):
+    """To the left."""
     live.tool("mousemove", "--window", live.window, *start)
     live.tool("mousedown", 1)
     for x in (20, 40, 60):
@@ -73,7 +153,8 @@ def at_once(live, rest, start):
 
 
 def hidden(weft, folder, report):
-    live = Session(weft, folder, graph="graphs/glow.json")
+    picture, panel = (100, 100), (300, 172)  # the line at the bottom, where it does nothing
+    live = Session(weft, folder, "--panels", "parameters", graph="graphs/glow.json")
     try:
         if not report.check(live.open(), f"no window\n{live.said()}"):
             return
@@ -82,21 +163,22 @@ def hidden(weft, folder, report):
         turns = lambda: live.until(lambda: not same())
         if not report.check(first, f"no picture\n{live.said()}"):
             return
-        drag(live)
+        drag(live, panel)
         live.shot()
         report.check(same(), "a drag that begins in the panels turns the picture")
         for _ in range(8):
-            report.check(at_once(live, (160, 150), (280, 5)) and same(), "a drag that comes with the movement into the panels turns the picture")
-            report.check(at_once(live, (280, 5), (160, 150)) and turns(), "a drag that comes with the movement out of the panels is lost")
+            report.check(at_once(live, picture, panel) and same(), "a drag that comes with the movement into the panels turns the picture")
+            report.check(at_once(live, panel, picture) and turns(), "a drag that comes with the movement out of the panels is lost")
             live.act("r", "reset_camera")
             report.check(live.until(same), "the camera does not come back")
         live.act("space", "panels")
-        drag(live)
+        first = live.settled()
+        drag(live, panel)
         report.check(turns(), "a drag after the panels were hidden is lost")
         live.act("r", "reset_camera")
         report.check(live.until(same), "the camera does not come back")
         report.check(live.rest(live.key("i")), "idle mode never comes to rest")
-        drag(live)
+        drag(live, panel)
         report.check(turns(), "a drag does not wake idle mode")
         live.tool("mousemove", "--window", live.window, 160, 90)
         report.check(live.rest(live.key("r")), "idle mode does not come to rest again")
@@ -108,14 +190,19 @@ def hidden(weft, folder, report):
 
 def main():
     weft, report = os.path.abspath(sys.argv[1]), Report()
-    inside_display(report, weft, "none", __file__)
+    display = inside_display(report, weft, "none", __file__)
     with temporary_folder() as name:
         folder = pathlib.Path(name)
         copy_of_tree(folder)
-        for scale in ("1", "2"):
-            panels(weft, folder, report, scale)
-            for old in folder.glob("weft_*"):
-                old.unlink()
+        (folder / "graphs/pair.json").write_text(PAIR)
+        (folder / "graphs/tints.json").write_text(TINTS)
+        (folder / "shaders/base.frag.glsl").write_text(BASE)
+        (folder / "shaders/tint.frag.glsl").write_text(TINT)
+        panels(weft, folder, display, report, "1", "1100x400")
+        panels(weft, folder, display, report, "2", "1280x720")
+        for old in folder.glob("weft_*"):
+            old.unlink()
+        effects(weft, folder, report)
         write_back(weft, folder, report)
         hidden(weft, folder, report)
     report.end()

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "app/ui/log.h"
-#include "app/ui/pass_switch.h"
+#include "app/ui/pass_rows.h"
 #include "app/view/frame_clock.h"
 #include "app/view/key_bindings.h"
 
@@ -35,17 +35,19 @@ TEST_CASE("docs/viewer.md has the table of keys as it is") {
 }
 
 TEST_CASE("no key has two meanings, and each is found") {
-  std::set<std::pair<int, bool>> pressed;
+  std::set<std::pair<int, WithKey>> pressed;
   for (const KeyBinding& binding : keyBindings()) {
     CAPTURE(binding.action);
     CHECK((*binding.keys != 0) == (*binding.does != 0));
     if (!*binding.action) continue;
-    CHECK(pressed.insert({binding.key, binding.shift}).second);
-    CHECK(actionOf(binding.key, binding.shift) == binding.action);
+    CHECK(pressed.insert({binding.key, binding.with}).second);
+    CHECK(actionOf(binding.key, binding.with) == binding.action);
   }
-  CHECK(actionOf('9', false) == "camera_9");
-  CHECK(actionOf('W', false).empty());
-  CHECK(actionOf(-1, false).empty());
+  CHECK(actionOf('9', WithKey::nothing) == "camera_9");
+  CHECK(actionOf('F', WithKey::shift) == "fly");
+  CHECK(actionOf('F', WithKey::control).empty());
+  CHECK(actionOf('W', WithKey::nothing).empty());
+  CHECK(actionOf(-1, WithKey::nothing).empty());
 }
 
 TEST_CASE(
@@ -159,10 +161,27 @@ TEST_CASE("a box of the passes turns off what F8 can write, and turns it on agai
   CHECK(ui::switchNameOf(flat, 5) == "lit.down");
 
   graph::Settings settings;
-  settings.disables = {{"sky"}, {"balls", graph::Origin::panel}};
-  for (const graph::Disable& disable : settings.disables)
-    CHECK(ui::disabledBy({"lit." + disable.name, graph::sourceOf(disable)}, settings) == disable.name);
-  CHECK(ui::disabledBy({"lit.sky", "enabled: $sky is false"}, settings).empty());
+  settings.disables = {{"sky"}, {"balls", graph::Origin::panel}, {"fade"}};
+  const auto by = [&](const char* name) { return ui::disabledBy({.name = name}, settings); };
+  CHECK(by("lit.sky") == "sky");
+  CHECK(by("fade.old.balls") == "balls");
+  CHECK(by("fade.old.stars") == "fade");
+  CHECK(by("lit.stars").empty());
+}
+
+TEST_CASE("time that is held stands still but for steps, and can begin anew") {
+  FrameClock clock;
+  clock.tick(10);
+  CHECK(clock.tick(11).time == doctest::Approx(1));
+  clock.pause(true);
+  CHECK(clock.tick(12).delta == 0);
+  clock.step();
+  CHECK(clock.tick(13).time == doctest::Approx(1 + FrameClock::kHeldStep));
+  CHECK(clock.tick(14).delta == 0);
+  clock.begin();
+  CHECK(clock.tick(15).time == 0);
+  clock.pause(false);
+  CHECK(clock.tick(15.5).time == doctest::Approx(0.5));
 }
 
 }  // namespace weft::app

@@ -31,7 +31,7 @@ def session(weft, compare, folder, report):
         size = describe(first)
         report.check(size[:2] == (320, 180) and size[2] > 20 and size[3] > 10, f"first picture: {size}")
 
-        for key in ("F1", "p", "space", "F1", "p", "space", "r"):
+        for key in ("F1", "p", "F1", "p", "r"):
             live.key(key)
             beside = live.shot()
             report.check(beside and beside.read_bytes() == first.read_bytes(), f"{key} changes the picture under the panels")
@@ -72,7 +72,6 @@ def session(weft, compare, folder, report):
         same = live.shot()
         report.check(same and same.read_bytes() == apart.read_bytes(), "back again, the picture is another one")
 
-        live.act("space", "panels")  # no panel in the way
         live.tool("mousemove", "--window", live.window, 100, 90)
         live.tool("mousedown", 1)
         for x in range(110, 200, 10):

@@ -46,7 +46,7 @@ def find_grab(screen):
 
 def session(weft, folder, display, report, moves):
     """Counters of a session in which the slider was moved."""
-    live = Session(weft, folder, "--panels", "passes", "--stats", graph="slider.json", size="640x360", data=False)
+    live = Session(weft, folder, "--panels", "parameters", "--stats", graph="slider.json", size="640x360", data=False)
     screen = Screen(display)
     try:
         if not report.check(live.open() and live.shot(), f"no picture\n{live.said()}"):
@@ -55,7 +55,7 @@ def session(weft, folder, display, report, moves):
         if not report.check(grab, "no slider on the screen"):
             return None
         x, y = grab
-        look = (560, 300)  # of the picture, beside the panels
+        look = (100, 200)  # of the picture, beside the panels
         live.tool("mousemove", x + 40, y)
         # Beside the grab, which comes to the mouse: a change to wait for. On the grab, the press may change the value or not, and a wait that
         # takes its change for that of the first move sees each move one too early.
@@ -67,7 +67,7 @@ def session(weft, folder, display, report, moves):
                 return None
         if moves:
             live.tool("mouseup", 1)
-        live.leave(report)
+        live.leave(report, unsaved=moves > 0)
         text = live.said()
         return json.loads(text[text.index("{"):])
     finally:
@@ -77,7 +77,7 @@ def session(weft, folder, display, report, moves):
 def studio(weft, folder, display, report):
     """sky_rotation of graphs/studio.json, below the sliders of two parameters that change the plan. The viewer says of each frame in which
     a panel changed something; when each of these was a value that was set at once, none of them built a plan."""
-    live = Session(weft, folder, "--panels", "passes", "--stats", "--no-vsync", "--render-scale", "0.25", size="640x800", data=False,
+    live = Session(weft, folder, "--panels", "parameters", "--stats", "--no-vsync", "--render-scale", "0.25", size="640x800", data=False,
                    graph=TOP / "graphs/studio.json")
     screen = Screen(display)
     try:
@@ -94,7 +94,7 @@ def studio(weft, folder, display, report):
             if not report.check(live.event("change", before), f"studio, move {i}: no parameter changes\n{live.said()}"):
                 return
         live.tool("mouseup", 1)
-        live.leave(report)
+        live.leave(report, unsaved=True)
         changes = sum(line.endswith(" change") for line in live.lines())
         text = live.said()
         stats = json.loads(text[text.index("{"):])
