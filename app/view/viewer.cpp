@@ -124,8 +124,16 @@ void Viewer::addActions() {
               {"undo", [this] { told_ = live_.undo(diagnostics_) ? "taken back" : "nothing to take back"; }},
               {"redo", [this] { told_ = live_.redo(diagnostics_) ? "made again" : "nothing to make again"; }},
               {"pause", [this] { clock_.pause(!clock_.paused()); }},
-              {"step", [this] { clock_.step(); }},
-              {"reset_time", [this] { clock_.begin(); }},
+              {"step",
+               [this] {
+                 clock_.step();
+                 rest_.disturb();
+               }},
+              {"reset_time",
+               [this] {
+                 clock_.begin();
+                 rest_.disturb();
+               }},
               {"vsync", [this] { glfwSwapInterval((vsync_ = !vsync_) ? 1 : 0); }},
               {"idle", [this] { idle_ = !idle_; }},
               {"render_scale_down", [this] { renderScale_ = std::max(renderScale_ - 0.25, 0.25); }},
@@ -149,7 +157,6 @@ void Viewer::act(const std::string& action) {
   const std::uint64_t changes = live_.changes();
   actions_.find(action)->second();
   say(fmt::format("action {}", action));
-  rest_.disturb();
   if (live_.changes() != changes) tell(diagnostics_, log_, ui::Log::kChange);
 }
 
@@ -475,13 +482,10 @@ void Viewer::drawUi(bool seen) {
   if (idle_) add("IDLE");
   if (!vsync_) add("NO VSYNC");
   if (renderScale_ != 1) add(fmt::format("scale {}", renderScale_));
-  panels_.draw(report_,
-               {.frame = frame_,
-                .time = clock_.last().time,
-                .paused = clock_.paused(),
-                .modes = modes,
-                .said = told_},
-               diagnostics_);
+  panels_.draw(
+      report_,
+      {.frame = frame_, .time = clock_.last().time, .paused = clock_.paused(), .modes = modes, .said = told_},
+      diagnostics_);
   if (help_) drawHelp();
   const auto click = overlay_->releasedMouse();
   seen ? overlay_->end() : overlay_->skip();

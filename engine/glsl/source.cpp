@@ -350,11 +350,13 @@ void SourceLoader::reportMissing(const std::string& path, Diagnostics& diagnosti
 
 std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, Diagnostics& diagnostics,
                                                        const Place& place) {
-  const std::optional<std::string> where = locate(path, &touched_);
+  std::set<std::string> before;
+  const std::optional<std::string> where = locate(path, &before);
   if (!where) {
     reportMissing(path, diagnostics, place);
     return nullptr;
   }
+  touched_.merge(before);
   if (auto source = answer(*where)) return source;
   const FileStamp own = stampOf(*where);
   const std::uint64_t most = std::max<std::uint64_t>(kMaxText, text::raised(kMaxShaderBytes));

@@ -265,7 +265,7 @@ TEST_CASE("what was read, and what was looked for in vain, is what to watch") {
   loader.forgetTouched();
   CHECK_FALSE(loader.load("x/wants.glsl", diagnostics));
   CHECK(loader.touched() == Paths{root + "/x/wants.glsl", root + "/x/b.glsl", root + "/x/late.glsl",
-                                  root + "/late.glsl", other + "/late.glsl"});
+                                  root + "/late.glsl", other + "/late.glsl", other + "/x/late.glsl"});
   loader.forgetTouched();
   CHECK_FALSE(loader.load("y/none.glsl", diagnostics));
   CHECK(loader.touched() == Paths{root + "/y/none.glsl", other + "/y/none.glsl"});

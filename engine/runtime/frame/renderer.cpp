@@ -16,24 +16,36 @@
 
 namespace weft::runtime {
 
-std::vector<std::string> shaderRootsOf(std::span<const std::string> files, const std::string& dataFolder) {
-  std::vector<std::filesystem::path> candidates;
-  std::set<std::filesystem::path> folders;
+namespace {
+
+// Those that shaderRootsOf() looks at, whether or not they are there.
+std::vector<std::string> shaderFoldersOf(std::span<const std::string> files, const std::string& dataFolder) {
+  std::vector<std::string> folders;
+  const auto add = [&](const std::filesystem::path& folder) {
+    const std::string text = folder.lexically_normal().string();
+    if (text::mayRead(text) && std::ranges::find(folders, text) == folders.end()) folders.push_back(text);
+  };
+  std::set<std::filesystem::path> seen;
   for (const std::string& file : files) {
     const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-    if (!folders.insert(folder).second) continue;
-    candidates.push_back(folder / "shaders");
-    candidates.push_back(folder / ".." / "shaders");
+    if (!seen.insert(folder).second) continue;
+    add(folder / "shaders");
+    add(folder / ".." / "shaders");
   }
-  candidates.push_back(std::filesystem::path(dataFolder) / "shaders");
-  std::vector<std::string> roots;
-  for (const std::filesystem::path& candidate : candidates) {
-    std::error_code ignored;
-    const std::string text = candidate.lexically_normal().string();
-    if (text::mayRead(text) && std::filesystem::is_directory(candidate, ignored) &&
-        std::ranges::find(roots, text) == roots.end())
-      roots.push_back(text);
-  }
+  add(std::filesystem::path(dataFolder) / "shaders");
+  return folders;
+}
+
+bool isFolder(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(path, ignored);
+}
+
+}  // namespace
+
+std::vector<std::string> shaderRootsOf(std::span<const std::string> files, const std::string& dataFolder) {
+  std::vector<std::string> roots = shaderFoldersOf(files, dataFolder);
+  std::erase_if(roots, [](const std::string& root) { return !isFolder(root); });
   return roots;
 }
 
@@ -96,6 +108,9 @@ bool Renderer::load(const graph::Settings& settings, const World& world, text::D
   triedFiles_ = desc ? desc->files : std::vector<std::string>{graphPath_};
   refused_.clear();
   if (!desc) return false;
+  // A folder that comes may hold what is to be found before other files.
+  for (const std::string& folder : shaderFoldersOf(desc->files, options_.dataFolder))
+    if (!isFolder(folder)) triedFiles_.push_back(folder);
   const std::vector<std::string> running = device_->sources.roots();
   device_->sources.setRoots(shaderRootsOf(desc->files, options_.dataFolder));
   if (!said.hasErrors() && switchTo(desc, ShaderFiles::read, settings, world, diagnostics)) return true;

@@ -25,7 +25,7 @@ constexpr std::uint32_t kEvents = IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE | IN_
 
 bool holdsSomething(const std::string& path) {
   std::error_code ec;
-  return fs::is_regular_file(path, ec) && fs::file_size(path, ec) > 0 && !ec;
+  return fs::is_directory(path, ec) || (fs::is_regular_file(path, ec) && fs::file_size(path, ec) > 0 && !ec);
 }
 
 }  // namespace

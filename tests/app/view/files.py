@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What the viewer reads again. A file that became a pipe is refused on reload, the last good picture stays and Escape works; so does it
-while an environment's pipe has no writer."""
+while an environment's pipe has no writer. A shader that appears before the one in use is taken, and so is that one when it vanishes and
+comes back; what it includes is found beside the one it stands in for."""
 import os
 
 from window import Session, run_parts, save
@@ -39,4 +40,29 @@ def waits_for_a_pipe(weft, folder, report):
         live.stop()
 
 
-run_parts(__file__, becomes_a_pipe, waits_for_a_pipe)
+def appears_and_vanishes(weft, folder, report):
+    mine = folder / "mine"
+    mine.mkdir()
+    (mine / "glow.json").write_text('{ "extends": "../graphs/glow.json" }\n')
+    live = Session(weft, folder, "--no-ui", graph="mine/glow.json")
+    try:
+        if not report.check(live.open(), f"no window\n{live.said()}"):
+            return
+        first = live.settled()
+        own = mine / "shaders/composite/composite.frag.glsl"
+        text = (folder / "shaders/composite/composite.frag.glsl").read_text().replace("result = ", "result = vec4(0.2, 1.0, 0.2, 1.0) * ")
+        shot = lambda: live.shot().read_bytes()
+        own.parent.mkdir(parents=True)
+        own.write_text(text)
+        report.check(live.until(lambda: shot() != first.read_bytes()), f"a shader that appears is not seen\n{live.said()}")
+        green = live.settled().read_bytes()
+        own.unlink()
+        report.check(live.until(lambda: shot() == first.read_bytes()), f"a shader that vanishes is not seen\n{live.said()}")
+        own.write_text(text)
+        report.check(live.until(lambda: shot() == green), f"a shader that comes back is not seen\n{live.said()}")
+        live.leave(report)
+    finally:
+        live.stop()
+
+
+run_parts(__file__, becomes_a_pipe, waits_for_a_pipe, appears_and_vanishes)
