@@ -1,4 +1,8 @@
 // weft: the command line. Each command declares its own options; the one that is chosen runs, its exit code out.
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
 #include <string_view>
 
 #include "app/commands/commands.h"
@@ -9,12 +13,30 @@
 #include "engine/assets/models/apart/model_apart.h"
 #include "engine/gl/programs/program_cache.h"
 
+namespace {
+
+// What nobody caught, on whichever thread: as a rule memory that there is none of.
+[[noreturn]] void endAtOnce() {
+  const char* why = "an exception that nobody caught";
+  try {
+    if (std::current_exception()) throw;
+  } catch (const std::bad_alloc&) {
+    why = "out of memory";
+  } catch (...) {
+  }
+  std::fprintf(stderr, "weft: %s\n", why);
+  std::_Exit(2);
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace weft::app;
   const std::string_view first = argc > 1 ? argv[1] : "";
   if (first == weft::gl::kTrialWord) weft::gl::runTrial(argc - 1, argv + 1);
   if (first == weft::assets::kModelWord) weft::assets::runModelReader();
   weft::assets::readModelsApart({"/proc/self/exe"});
+  std::set_terminate(endAtOnce);
   prepareStreams();
   CommandLine line;
   for (const auto add : {addRender, addView,    addCheck, addPlan,   addExplain, addDiff, addReport,

@@ -272,7 +272,13 @@ std::optional<IsfHeader> readIsfHeader(std::string_view text, text::FileName fil
       json.begin(), json.begin() + static_cast<std::ptrdiff_t>(comment->first),
       [](char c) { return c != '\n'; }, ' ');
   const std::size_t errors = diagnostics.errorCount();
-  const auto root = text::parseJson(json, file, diagnostics);
+  // Vidvox's own collection has keys that stand twice: the first counts.
+  Diagnostics said;
+  const auto root = text::parseJson(json, file, said);
+  for (text::Diagnostic each : said.items()) {
+    if (each.code == Code::duplicateKey) each.severity = text::Severity::warning;
+    diagnostics.add(std::move(each));
+  }
   if (!root) return std::nullopt;
   if (!root->is(JsonType::object)) {
     refuse(diagnostics, Code::notIsf, root->place, "the first comment is no ISF header",

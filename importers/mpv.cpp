@@ -372,7 +372,8 @@ class MpvWriter {
         name_(options.name),
         diagnostics_(diagnostics),
         text_(translateText(file)),
-        used_(namesMentioned(text_)) {}
+        used_(namesMentioned(text_)),
+        definesTransfer_(GlslText(text_).declares("linearize") || GlslText(text_).declares("delinearize")) {}
 
   // Empty after errors.
   std::optional<Converted> run() {
@@ -661,6 +662,9 @@ class MpvWriter {
     for (const std::string& texture : texturesBound_)
       slots += fmt::format("\n#ifdef {}\nuniform sampler2D {};\n#endif\n", glsl::presenceDefineOf(texture),
                            texture);
+    // Unless the file has functions of these names.
+    if ((used_.contains("linearize") || used_.contains("delinearize")) && !definesTransfer_)
+      slots += templates::mpv_transfer;
     const auto add = [&](const std::string& file, const char* text) {
       texts.push_back({fmt::format("shaders/{}/{}", name_, file),
                        fillTemplate(text, {{"@NAME@", name_},
@@ -681,6 +685,7 @@ class MpvWriter {
   text::Diagnostics& diagnostics_;
   const std::string text_;                         // the shader, translated
   const std::set<std::string, std::less<>> used_;  // names that it mentions
+  const bool definesTransfer_;                     // functions that libplacebo would give
   std::set<std::string> bound_, texturesBound_;    // pictures that passes bind, textures of the file
   bool fragment_ = false, compute_ = false;        // some pass is
   Json parameters_ = Json::object(), resources_ = Json::object(), passes_ = Json::array();

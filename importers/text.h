@@ -52,6 +52,7 @@ class GlslText {
   void rename(std::string_view from, const std::string& to);
   // Names that the text declares outside its functions or by #define and that `taken` holds get a '_' behind them.
   void renameTaken(std::initializer_list<std::string_view> taken);
+  bool declares(std::string_view name) const { return outside_.contains(name); }
   std::string changed() const;
 
  private:

@@ -69,6 +69,7 @@ class ShaderCheck {
     for (const graph::Step& step : plan.steps) {
       if (text::enoughErrors(said)) break;
       const graph::PassSpec& spec = plan.graph->specs[step.pass];
+      passes.insert(spec.name.substr(0, spec.name.find('[')));
       const graph::PassType type = types_.find(spec.type)->reflect();
       if (type.shader == graph::ShaderShape::none) continue;
       const auto request = runtime::programRequestOf(*plan.graph, plan, step.pass, type);
@@ -115,8 +116,10 @@ class ShaderCheck {
     return made;
   }
 
-  std::set<std::string> files;     // that were read or looked for
-  std::set<std::string> variants;  // by what they are made of
+  std::set<std::string> files;       // that were read or looked for
+  std::set<std::string> variants;    // by what they are made of
+  std::set<std::string> passes;      // of live passes, without the index of a repeat
+  std::vector<std::string> neverOn;  // passes, after all variants
   text::Diagnostics
       unread;  // why shaders were not looked at (--no-shaders): they, or an include, are missing
 
@@ -162,6 +165,18 @@ class ShaderCheck {
   std::set<std::string> missing_;                           // files that `unread` is about
 };
 
+// Passes whose shaders no plan has: what switches them on is the size of a picture, or several parameters at once.
+void addNeverOn(const graph::GraphDesc& desc, const std::string& prefix, ShaderCheck& shaders) {
+  for (const graph::PassDesc& pass : desc.passes) {
+    const std::string name = prefix + pass.name;
+    if (pass.include) {
+      if (pass.include->graph) addNeverOn(*pass.include->graph, name + ".", shaders);
+    } else if (!pass.shader.empty() && pass.repeat.empty() && !shaders.passes.contains(name)) {
+      shaders.neverOn.push_back(name);
+    }
+  }
+}
+
 struct Checked {
   text::Diagnostics diagnostics{};
   std::shared_ptr<const graph::Plan> plan{};  // null after errors of the graph
@@ -201,6 +216,7 @@ Checked checkOnce(const CheckOptions& options) {
     checked.matrix =
         graph::tryMatrix(*desc, runtime::makeRegistry({}, facts), settingsOf(options, true), wanted);
   }
+  if (vary && options.allVariants && !diagnostics.hasErrors()) addNeverOn(*desc, "", checked.shaders);
   if (vary && options.matrix)
     for (const auto* told : {&checked.matrix->broken, &checked.matrix->lost})
       for (const graph::RefusedVariation& variation : *told)
@@ -263,6 +279,10 @@ int tellText(const CheckOptions& options, Checked& checked) {
   // A graph may be elsewhere than its shaders: no mistake, but then nobody has looked at them.
   for (const text::Diagnostic& each : checked.shaders.unread.items())
     if (code == 0) print(fmt::format("  not looked at: {}\n", text::printable(each.message)));
+  if (const auto& off = checked.shaders.neverOn; code == 0 && !off.empty())
+    print(text::printable(fmt::format("  not looked at: shaders of passes that stay off with this scene: {}",
+                                      fmt::join(off, ", "))) +
+          "\n");
   return code;
 }
 
@@ -289,6 +309,8 @@ Json documentOf(const CheckOptions& options, const Checked& checked) {
   if (checked.stanza) out["stanza"] = checked.stanza->pass;
   for (const text::Diagnostic& each : checked.shaders.unread.items())
     out["not_looked_at"].push_back(each.message);
+  for (const std::string& pass : checked.shaders.neverOn)
+    out["not_looked_at"].push_back(fmt::format("the shader of '{}'", pass));
   if (options.shaders) out["shader_variants"] = checked.shaders.variants.size();
   if (checked.matrix && options.matrix)
     out["matrix"] = {{"passes", checked.matrix->passes},
@@ -342,6 +364,15 @@ int runCheck(CheckOptions& options) {
 }
 
 }  // namespace
+
+text::Diagnostics checkGraph(const std::string& path) {
+  CheckOptions options;
+  options.graph = path;
+  text::Diagnostics said = checkOnce(options).diagnostics;
+  if (!said.contains(text::Code::noContext)) return said;
+  options.shaders = false;
+  return checkOnce(options).diagnostics;
+}
 
 void addCheck(CommandLine& line) {
   const auto [command, options] = line.add(

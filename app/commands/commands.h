@@ -1,7 +1,10 @@
 // One function per command, which adds it with its options to the command line.
 #pragma once
 
+#include <string>
+
 #include "app/session/command_line.h"
+#include "engine/text/diagnostic.h"
 
 namespace weft::app {
 
@@ -23,5 +26,8 @@ void addImport(CommandLine& line);
 void addSchema(CommandLine& line);
 void addTypes(CommandLine& line);
 void addBench(CommandLine& line);
+
+// What `weft check` says of a graph; of its shaders as much as can be said without OpenGL where there is none.
+text::Diagnostics checkGraph(const std::string& path);
 
 }  // namespace weft::app

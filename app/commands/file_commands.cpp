@@ -174,8 +174,8 @@ bool writeAll(const ImportOptions& options, const importing::Converted& made,
   const auto pathOf = [&](const auto& file) { return (fs::path(options.folder) / file.path).string(); };
   const auto over = options.overwrite ? OutputFile::Over::file : OutputFile::Over::nothing;
   std::vector<OutputFile> outputs;
-  for (const auto& text : made.texts) outputs.push_back({"-o", pathOf(text), over});
-  for (const auto& image : made.images) outputs.push_back({"-o", pathOf(image), over});
+  for (const auto& text : made.texts) outputs.push_back({"-o", pathOf(text), over, options.folder});
+  for (const auto& image : made.images) outputs.push_back({"-o", pathOf(image), over, options.folder});
   const auto writeText = [&](const auto& text) {
     return makeFolderOf(pathOf(text), diagnostics) && text::writeFile(pathOf(text), text.text, diagnostics);
   };
@@ -214,8 +214,11 @@ int runImport(ImportOptions& options) {
     wanted.images.emplace_back(image.substr(0, at), seenFrom(options.folder, image.substr(at + 1)));
   }
   const auto made = importing::convertFile(options.file, wanted, diagnostics);
-  if (made && writeAll(options, *made, diagnostics))
-    print(text::printable((fs::path(options.folder) / made->graph).string()) + "\n");
+  if (made && writeAll(options, *made, diagnostics)) {
+    const std::string graph = (fs::path(options.folder) / made->graph).string();
+    print(text::printable(graph) + "\n");
+    diagnostics.append(checkGraph(graph));
+  }
   return report(diagnostics);
 }
 

@@ -107,7 +107,8 @@ void leaveFiles(const std::string& folder, const TestCase& test, const CaseResul
   for (const CaseResult::Pair& pair : result.pairs) {
     if (!pair.failed) continue;
     const std::string stem = leftName(folder, test, pair.frame);
-    const OutputFile outputs[] = {{"-o", stem + ".png"}, {"-o", stem + "_flip.png"}};
+    const OutputFile outputs[] = {{"-o", stem + ".png", OutputFile::Over::file},
+                                  {"-o", stem + "_flip.png", OutputFile::Over::file}};
     if (!checkDistinct(outputs, diagnostics)) continue;
     const bool written = savePng(stem + ".png", pair.picture, diagnostics);
     if (written && !pair.map.errors.empty())

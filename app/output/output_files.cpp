@@ -35,6 +35,16 @@ bool fits(const std::string& pattern, const std::string& name) {
          name.substr(at, digits).find_first_not_of(" 0123456789") == std::string::npos;
 }
 
+// The link that a file is, or that a folder of it below `inside` is; or "".
+std::string linkOnTheWay(const std::string& file, const std::string& inside) {
+  std::error_code ec;
+  for (fs::path path = file; path.string().size() > inside.size(); path = path.parent_path()) {
+    if (fs::is_symlink(fs::symlink_status(path, ec))) return path.string();
+    if (inside.empty() || path == path.parent_path()) break;
+  }
+  return "";
+}
+
 }  // namespace
 
 std::optional<std::string> outputNameOf(const std::string& pattern, std::uint32_t frame) {
@@ -104,6 +114,12 @@ bool checkDistinct(std::span<const OutputFile> outputs, text::Diagnostics& diagn
     if (output.pattern.empty()) continue;
     std::error_code ec;
     const fs::file_status found = fs::status(output.pattern, ec);
+    if (output.over != OutputFile::Over::anything)
+      if (const std::string link = linkOnTheWay(output.pattern, output.inside); !link.empty()) {
+        refuseOutput(output.pattern, fmt::format("'{}' is a link, which is not followed", link),
+                     "remove it, or name another folder", diagnostics);
+        continue;
+      }
     if (fs::exists(found) && output.over == OutputFile::Over::nothing) {
       refuseOutput(output.pattern, "the file is there already", "remove it, or choose another name or folder",
                    diagnostics);

@@ -30,13 +30,14 @@ bool makeFolderOf(const std::string& path, text::Diagnostics& diagnostics);
 
 // What one option has a run write: a file, or the frames of a pattern.
 struct OutputFile {
-  // What may be there: anything; a plain file or nothing, for a name that the command makes up, so that no pipe is waited for and
-  // no device written to; nothing.
+  // What may be there: anything; a plain file or nothing, for a name that the command makes up, so that no pipe is waited for, no
+  // device written to, and no link followed that a stranger left; nothing.
   enum class Over { anything, file, nothing };
 
   std::string option;   // "-o", for messages
   std::string pattern;  // empty: nothing is written
   Over over = Over::anything;
+  std::string inside{};  // a folder that the person named: no folder below it may be a link, either
 };
 // Checks that no output is one of the files that were read so far, of `inputs`, or another output, however it is spelled and
 // whatever links lead to it; a pattern is that of every frame. False after W180.

@@ -77,7 +77,7 @@ CaseResult runPlan(const TestCase& test, bool accept, text::Diagnostics& diagnos
   const auto plan = planOf(test.options, diagnostics);
   if (!plan || diagnostics.hasErrors()) return result;
   const std::string text = graph::dumpText(*plan), file = test.planGolden();
-  const OutputFile written{"--accept", file};
+  const OutputFile written{"--accept", file, OutputFile::Over::file};
   if (accept && !checkDistinct({&written, 1}, diagnostics)) return result;
   text::Diagnostics ignored;  // what cannot be read is written anew
   const auto golden = isThere(file) ? text::readFile(file, accept ? ignored : diagnostics) : std::nullopt;
@@ -159,7 +159,8 @@ CaseResult CaseRunner::runPictures(const TestCase& test, bool accept, text::Diag
   const std::string record = test.recordFile();
   if (accept) {
     std::vector<OutputFile> outputs;
-    for (const std::string& file : test.acceptedFiles()) outputs.push_back({"--accept", file});
+    for (const std::string& file : test.acceptedFiles())
+      outputs.push_back({"--accept", file, OutputFile::Over::file});
     if (!checkDistinct(outputs, diagnostics)) return result;
     for (const auto& [frame, picture] : shot->pictures)
       if (!readMask(test, picture, diagnostics)) return result;

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <filesystem>
 
 #include "engine/gl/context/context_backends.h"
 #include "engine/gl/context/debug.h"
@@ -82,6 +84,21 @@ std::vector<Attempt> attemptsFor(Backend backend) {
   return {{backend}};
 }
 
+// cache-on-a-full-disk (workarounds.h). The folder is the one that Mesa takes, or the nearest above that is there.
+void checkRoomForCache() {
+  constexpr std::uintmax_t kRoom = 16 << 20;
+  namespace fs = std::filesystem;
+  fs::path folder;
+  for (const auto& [variable, below] :
+       {std::pair{"MESA_SHADER_CACHE_DIR", ""}, {"XDG_CACHE_HOME", ""}, {"HOME", ".cache"}})
+    if (const char* value = std::getenv(variable); value && folder.empty()) folder = fs::path(value) / below;
+  std::error_code ec;
+  folder = fs::absolute(folder.empty() ? "." : folder, ec);
+  while (!fs::exists(folder, ec) && folder != folder.parent_path()) folder = folder.parent_path();
+  const fs::space_info room = fs::space(folder, ec);
+  if (!ec && room.available < kRoom) ::setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
+}
+
 OpenedContext open(const Attempt& attempt, const ContextOptions& options,
                    std::vector<std::string>& failures) {
   if (attempt.backend == Backend::osmesa) return openOsmesa(options, failures);
@@ -112,6 +129,7 @@ std::optional<Backend> findBackend(std::string_view name) {
 }
 
 std::unique_ptr<Context> createContext(const ContextOptions& options, text::Diagnostics& diagnostics) {
+  [[maybe_unused]] static const bool checked = (checkRoomForCache(), true);
   std::vector<std::string> failures;
   for (const Attempt& attempt : attemptsFor(options.backend)) {
     OpenedContext opened = open(attempt, options, failures);

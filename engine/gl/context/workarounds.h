@@ -3,6 +3,9 @@
 // and watching the tests.
 #pragma once
 
+// cache-on-a-full-disk: Mesa maps the index of its shader cache, a file of 1.3 MB with holes, into memory: where the disk is full the
+// process ends with SIGBUS. So the cache is switched off where there is little room. Mesa 22.3.6, 2026-11-26.
+
 // timer-queries-lie: llvmpipe counts submission, not execution: a 250 ms draw reads 1 ms. Profile such
 // devices with the wall clock between glFinish. Mesa 22.3.6, 2026-11-21.
 

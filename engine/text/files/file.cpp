@@ -302,10 +302,12 @@ bool writeFile(const std::string& path, std::span<const char> bytes, Diagnostics
   const std::string temporary = special ? target : temporaryBeside(target);
   std::FILE* file = std::fopen(temporary.c_str(), "wb");
   if (!file) return fail(std::strerror(errno));
-  const bool written =
-      std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() && std::fflush(file) == 0;
-  const int error = errno;
-  std::fclose(file);
+  bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() && std::fflush(file) == 0;
+  int error = errno;
+  if (std::fclose(file) != 0 && written) {
+    written = false;
+    error = errno;
+  }
   ec.clear();
   if (written && fs::is_regular_file(before)) fs::permissions(temporary, before.permissions(), ec);
   ec.clear();

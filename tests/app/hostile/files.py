@@ -9,6 +9,7 @@ import json
 import os
 import pathlib
 import shlex
+import shutil
 import subprocess
 import sys
 import threading
@@ -315,9 +316,43 @@ def many(weft, folder, report):
     report.check(done and "W100" in done.codes() and hints >= 1000, f"1,000 missing shaders: {hints} hints\n{done and done.err[:800]}")
 
 
+def models(weft, folder, report):
+    """Files on which Assimp 5.2.5 dies, or takes gigabytes: one message each, and nothing of them is left."""
+    for path in sorted((TOP / "tests/app/hostile/models").glob("*.fbx")):
+        shutil.copy(path, folder)
+        done = limited(weft, "check", str(TOP / "graphs/deferred.json"), "--no-shaders", "--scene", path.name, folder=folder)
+        report.check(done and done.code == 1 and done.codes() == ["W164"], f"{path.name}: {done and (done.code, done.err[:500])}")
+
+
+def links(weft, folder, report):
+    """What a command fills by a name of its own is never a link that a stranger left."""
+    (folder / "strangers").mkdir()
+    write(folder / "victim", "precious")
+    write(folder / "strangers/good.json", graph())
+    write(folder / "strangers/shaders/good.frag.glsl", SHADER)
+    write(folder / "strangers/a.cases.json", {"cases": [{"name": "p", "graph": "good.json", "plan": True}]})
+    write(folder / "a.fs", '/*{ "INPUTS": [{ "NAME": "level", "TYPE": "float", "DEFAULT": 0.5 }], "CREDIT": "me", "CREDIT": "I" }*/\n'
+          "void main() { gl_FragColor = vec4(level); }\n")
+    for what, link, to, arguments in (("a golden", "strangers/p.txt", "../victim", ["test", "strangers", "--accept", "--confine", "strangers"]),
+                                      ("a graph", "made/a.json", "../victim", ["import", "a.fs", "-o", "made", "--overwrite"]),
+                                      ("a folder", "made/shaders", "..", ["import", "a.fs", "-o", "made", "--overwrite"])):
+        (folder / link).parent.mkdir(exist_ok=True)
+        (folder / link).symlink_to(to)
+        done = run(weft, *arguments, folder=folder)
+        kept = (folder / "victim").read_text() == "precious" and not (folder / "a").exists()
+        report.check(done.code in (1, 2) and "W180" in done.codes() and kept, f"{what} that is a link: {done.code}, {kept}\n{done.err}")
+        (folder / link).unlink()
+    done = run(weft, "import", "a.fs", "-o", "made", folder=folder)
+    report.check(done.code == 0 and done.codes() == [] and "warning[W006]" in done.err, f"a key that stands twice: {done.code}\n{done.err}")
+    write(folder / "large.fs", '/*{ "INPUTS": [], "PASSES": [{ "TARGET": "t", "WIDTH": "$WIDTH", "HEIGHT": "4294967295" }, {}] }*/\n'
+          "void main() { gl_FragColor = vec4(1.0); }\n")
+    done = run(weft, "import", "large.fs", "-o", "made", folder=folder)
+    report.check(done.code == 1 and "W048" in done.codes(), f"import of what check refuses: {done.code}\n{done.err}")
+
+
 def main():
     weft, report = os.path.abspath(sys.argv[1]), Report()
-    for part in [program_cache] if "--cache" in sys.argv else (pipes, large, confinement, forgery, many):
+    for part in [program_cache] if "--cache" in sys.argv else (pipes, large, confinement, forgery, many, models, links):
         with temporary_folder() as name:
             part(weft, pathlib.Path(name), report)
     report.end()

@@ -224,14 +224,17 @@ def check_files(weft, report, folder):
         report.check(refused.codes() == [code] and before == {f.name: f.read_bytes() for f in folder.iterdir() if f.is_file()}, f"{cases}: {refused.err}")
     write_cases(folder, [{**sky, "name": "elsewhere"}])
     test("--accept", code=0)
-    # A golden plan that cannot be read is written anew, as a picture is.
+    # A golden that is a link is not followed, and not written through; without it, it is written anew.
     write_cases(folder, [{"name": "plan", "graph": GLOW, "plan": True}])
     with temporary_folder() as elsewhere:
         (folder / "plan.txt").symlink_to(f"{elsewhere}/plan.txt")
         (folder / "plan.txt").write_text("another plan\n")
         test("--confine", folder, says="W200")
-        test("--accept", "--confine", folder, code=0, says="1 written")
-        test(code=0)
+        test("--accept", "--confine", folder, says="is a link")
+        report.check((folder / "plan.txt").read_text() == "another plan\n", "a golden was written through a link")
+    (folder / "plan.txt").unlink()
+    test("--accept", code=0, says="1 written")
+    test(code=0)
     (folder / "plan.txt").unlink()
 
     # Words of a person's own folder, and of the one where the command is started, are no presets of a case.
