@@ -174,11 +174,16 @@ class Completer {
 
   // Of a set: what the shaders of passes that use it have.
   void keysOfSet() {
-    const JsonValue* passes = text_.json().root.find("passes");
-    for (const JsonValue& stanza : passes ? passes->items : std::vector<JsonValue>())
-      if (const JsonValue* use = stanza.find("use");
-          use && std::ranges::count(graph::stringsOf(*use), spot_.keys[1], &JsonValue::text) > 0)
-        slotsIn(stanza, spot_.keys[2]);
+    const auto look = [&](const auto& self, const JsonValue& around) -> void {
+      const JsonValue* passes = around.find("passes");
+      for (const JsonValue& stanza : passes ? passes->items : std::vector<JsonValue>()) {
+        self(self, stanza);
+        if (const JsonValue* use = stanza.find("use");
+            use && std::ranges::count(graph::stringsOf(*use), spot_.keys[1], &JsonValue::text) > 0)
+          slotsIn(stanza, spot_.keys[2]);
+      }
+    };
+    look(look, text_.json().root);
   }
 
   void slotsIn(const JsonValue& stanza, std::string_view group) {

@@ -135,9 +135,11 @@ Json symbolsOf(const Text& text) {
         if (const JsonValue* kind = child.value.find(key)) detail = kind->text;
       children.push_back(symbol(text, child.key, detail, kVariable, rangeOf(child.value), inside(child)));
     }
-    for (const JsonValue& stanza : section.value.items) {
+    const auto addItem = [&](const auto& self, const JsonValue& stanza) -> void {
       if (!passes && stanza.is(Type::string))
         children.push_back(symbol(text, stanza.text, "", kVariable, rangeOf(stanza), inside(stanza)));
+      if (const JsonValue* members = passes ? stanza.find("passes") : nullptr)
+        for (const JsonValue& member : members->items) self(self, member);
       const bool include = stanza.find("include");
       const JsonValue* name = nullptr;
       for (const char* key : {"include", "as", "name"})
@@ -146,7 +148,8 @@ Json symbolsOf(const Text& text) {
         children.push_back(symbol(text, graph::stanzaName(stanza),
                                   textOf(stanza, include ? "include" : "type"),
                                   include ? kNamespace : kFunction, rangeOf(stanza), inside(*name)));
-    }
+    };
+    for (const JsonValue& item : section.value.items) addItem(addItem, item);
     Json group = symbol(text, section.key, "", kKey, rangeOf(section.value), inside(section));
     group["children"] = std::move(children);
     all.push_back(std::move(group));

@@ -86,6 +86,12 @@ Spot spotAt(const text::JsonTree& tree, std::size_t offset) {
       key = member.key;
     }
     if (next) spot.keys.push_back(key);
+    // A pass in a group counts as one of the file.
+    if (spot.keys.size() == 4 && spot.keys[0] == "passes" && spot.keys[2] == "passes" &&
+        spot.keys[3] == "[]") {
+      spot.keys.resize(2);
+      spot.values.erase(spot.values.begin() + 1, spot.values.begin() + 3);
+    }
   }
   return spot;
 }

@@ -191,6 +191,10 @@ struct PassDesc {
   Place shaderPlace;
   Expr enabled;  // absent: true
   std::vector<RangeDesc> repeat;
+  // Of the group that it stands in: its brace, and how many ranges are the group's, which come first. Neighbors of one group go
+  // through those together.
+  Place group{};
+  std::size_t looped = 0;
   std::vector<SlotDesc> slots;  // in file order
   std::vector<PassParameterDesc> parameters;
   std::vector<NamedExpr> defines;

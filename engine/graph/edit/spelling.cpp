@@ -152,6 +152,8 @@ void writePassesWhole(Part& passes) {
 
 // The '?' and the `if` of slots that read.
 void mendSlots(Part& resources, Part& passes) {
+  for (Part& stanza : passes.parts)
+    if (Part* members = stanza.find("passes")) mendSlots(resources, *members);
   std::set<std::string> names, optional;
   for (Part& part : resources.parts) {
     names.insert(part.key);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <span>
 
 #include "engine/text/limits.h"
 
@@ -70,31 +71,42 @@ class PassWalk {
 
   void walk(Scope& scope, const std::string& outerWhy) {
     const std::string& why = outerWhy.empty() ? scope.disabledBy : outerWhy;
-    std::vector<std::uint32_t> begins;  // the first pass of each stanza
-    for (const PassDesc& desc : scope.desc->passes) {
+    std::vector<Extent> extents;
+    for (std::span<const PassDesc> rest = scope.desc->passes; !rest.empty();) {
       if (isOver(model_)) return;
-      begins.push_back(static_cast<std::uint32_t>(graph_.passes.size()));
+      const PassDesc& desc = rest.front();
+      std::size_t count = 1;
+      while (count < rest.size() && desc.looped > 0 && rest[count].looped > 0 &&
+             rest[count].group == desc.group)
+        ++count;
+      const auto begin = static_cast<std::uint32_t>(graph_.passes.size());
       if (desc.include)
         walkInclude(scope, desc, why);
-      else if (scope.passes.find(desc.name)->second == &desc)
-        walkStanza(scope, desc, why);
+      else
+        walkStanzas(scope, rest.first(count), why);
+      extents.insert(extents.end(), count, {begin, static_cast<std::uint32_t>(graph_.passes.size()) - begin});
+      rest = rest.subspan(count);
     }
-    begins.push_back(static_cast<std::uint32_t>(graph_.passes.size()));
-    noteOrders(*scope.desc, begins);
+    noteOrders(*scope.desc, extents);
   }
 
  private:
+  // The passes of a stanza; where stanzas repeat together, those of all of them.
+  struct Extent {
+    std::uint32_t first = 0, count = 0;
+  };
+
   // What stanzas say of their place, unless an overlay has moved the other one across since.
-  void noteOrders(const GraphDesc& desc, const std::vector<std::uint32_t>& begins) {
+  void noteOrders(const GraphDesc& desc, const std::vector<Extent>& extents) {
     for (std::size_t own = 0; own < desc.passes.size(); ++own) {
       const std::optional<BesideDesc>& beside = desc.passes[own].beside;
       if (!beside) continue;
       const std::size_t other = static_cast<std::size_t>(
           std::ranges::find(desc.passes, beside->name, &PassDesc::name) - desc.passes.begin());
       const auto [from, to] = beside->after ? std::pair(other, own) : std::pair(own, other);
-      if (std::max(from, to) < desc.passes.size() && from < to)
+      if (std::max(from, to) < desc.passes.size() && from < to && extents[from].first < extents[to].first)
         graph_.orders.push_back(
-            {begins[from], begins[from + 1] - begins[from], begins[to], begins[to + 1] - begins[to]});
+            {extents[from].first, extents[from].count, extents[to].first, extents[to].count});
     }
   }
 
@@ -109,19 +121,30 @@ class PassWalk {
     if (enabled) walk(*child->second, why.empty() && !*enabled ? whyFalse(desc.enabled) : why);
   }
 
-  // ---- one stanza: its repeats ----
+  // ---- stanzas and their repeats ----
 
-  void walkStanza(Scope& scope, const PassDesc& desc, const std::string& why) {
-    StanzaWalk stanza{scope, desc,         findPassType(model_.registry, desc.type), scope.prefix + desc.name,
-                      why,   slotsOf(desc)};
-    if (stanza.slots > text::raised(kMaxSlotsOfPass))
-      return stopAt(model_, desc.place, fmt::format("pass '{}' has too many slots", stanza.declared),
-                    kMaxSlotsOfPass, "slots, parameters and defines of one pass");
+  // Of one stanza, or of several that repeat together.
+  void walkStanzas(Scope& scope, std::span<const PassDesc> descs, const std::string& why) {
     Names names(model_, scope);
     const std::size_t errors = model_.diagnostics.errorCount();
-    stanza.sound = checkStanza({model_, names, stanza.type, {}, stanza.declared}, desc);
-    if (stanza.type) repeat(stanza, names);
-    if (model_.diagnostics.errorCount() > errors) leaveOut(scope, desc);
+    std::vector<StanzaWalk> stanzas;
+    for (const PassDesc& desc : descs) {
+      if (scope.passes.find(desc.name)->second != &desc) continue;  // a name that another has
+      StanzaWalk stanza{.scope = scope,
+                        .desc = desc,
+                        .type = findPassType(model_.registry, desc.type),
+                        .declared = scope.prefix + desc.name,
+                        .why = why,
+                        .slots = slotsOf(desc)};
+      if (stanza.slots > text::raised(kMaxSlotsOfPass))
+        return stopAt(model_, desc.place, fmt::format("pass '{}' has too many slots", stanza.declared),
+                      kMaxSlotsOfPass, "slots, parameters and defines of one pass");
+      stanza.sound = checkStanza({model_, names, stanza.type, {}, stanza.declared}, desc);
+      if (stanza.type) stanzas.push_back(std::move(stanza));
+    }
+    if (!stanzas.empty()) repeat(stanzas, names);
+    if (model_.diagnostics.errorCount() > errors)
+      for (const PassDesc& desc : descs) leaveOut(scope, desc);
   }
 
   void leaveOut(Scope& scope, const PassDesc& desc) {
@@ -146,8 +169,14 @@ class PassWalk {
                    .pass = stanza.declared});
   }
 
-  void repeat(StanzaWalk& stanza, Names& names) {
+  void repeat(std::span<StanzaWalk> stanzas, Names& names) {
     const std::size_t depth = names.indices.size();
+    StanzaWalk& stanza = stanzas.front();
+    if (stanzas.size() > 1 && depth == stanza.desc.looped) {
+      for (StanzaWalk& each : stanzas)
+        if (!each.failed && !isOver(model_)) repeat({&each, 1}, names);
+      return;
+    }
     if (depth == stanza.desc.repeat.size()) {
       if (!mayMake(stanza, 1, stanza.desc.place)) return;
       ++made_;
@@ -165,24 +194,26 @@ class PassWalk {
              fmt::format("pass '{}' repeats '{}' in steps of 0", stanza.declared, range.index),
              {.expected = "a step that leads from the first to the last index"});
     if (!first || !last || !step || *step == 0) {
-      stanza.failed = true;
+      for (StanzaWalk& each : stanzas) each.failed = true;
       return;
     }
     const std::int64_t steps = (*last - *first) / *step + 1;
     // Each step makes a pass, or ends at an empty range within.
-    if (!mayMake(stanza, static_cast<std::uint64_t>(std::max<std::int64_t>(steps, 1)), range.place)) return;
+    const auto least = static_cast<std::uint64_t>(std::max<std::int64_t>(steps, 1));
+    if (!mayMake(stanza, least * stanzas.size(), range.place)) return;
     if (steps <= 0) {
-      ++made_;
-      noteEmptyRepeat(model_, stanza.scope, stanza.desc,
-                      {stanza.declared, range.index, *first, *last, *step, range.place,
-                       stanza.why.empty() && isEmptyByMistake(stanza.desc, range, *step)});
+      made_ += stanzas.size();
+      for (const StanzaWalk& each : stanzas)
+        noteEmptyRepeat(model_, each.scope, each.desc,
+                        {each.declared, range.index, *first, *last, *step, range.place,
+                         each.why.empty() && isEmptyByMistake(each.desc, range, *step)});
       return;
     }
     names.indices.push_back({range.index, 0});
-    for (std::int64_t i = *first; (*step > 0 ? i <= *last : i >= *last) && !stanza.failed && !isOver(model_);
-         i += *step) {
+    const auto goesOn = [&] { return !isOver(model_) && !std::ranges::all_of(stanzas, &StanzaWalk::failed); };
+    for (std::int64_t i = *first; (*step > 0 ? i <= *last : i >= *last) && goesOn(); i += *step) {
       names.indices.back().value = static_cast<double>(i);
-      repeat(stanza, names);
+      repeat(stanzas, names);
     }
     names.indices.pop_back();
   }

@@ -27,7 +27,7 @@ struct StateFiller {
     for (const NamedExpr& each : desc.state)
       if (!failed) add(each);
     if (failed) return;
-    checkDepth();
+    settleDepth();
     checkStencil();
     checkColors();
     checkSamples();
@@ -229,20 +229,19 @@ struct StateFiller {
     for (std::size_t i = 0; i < 4; ++i) (*state.viewport)[i] = static_cast<std::int32_t>(sides[i]);
   }
 
-  // ---- what would do nothing ----
-
-  void checkDepth() const {
+  // The nearer surface wins, where a pass does not say otherwise; what it writes as a whole it does not test.
+  void settleDepth() {
     const SlotWork* depth = nullptr;
-    bool writable = false;
+    bool writable = false, known = true;  // else a slot is empty, or reported
     for (const SlotWork& work : slots) {
-      if (work.entity == kNone) return;  // reported
-      if (work.use.kind != Kind::depth || (work.use.planes & 1) == 0) continue;
+      known = known && work.entity != kNone;
+      if (work.entity == kNone || work.use.kind != Kind::depth || (work.use.planes & 1) == 0) continue;
       depth = &work;
       writable = writable || !work.reads();
     }
     const NamedExpr *test = find("depth_test"), *write = find("depth_write"), *offset = find("offset");
     if (!depth) {
-      if (const NamedExpr* said = test ? test : write ? write : offset)
+      if (const NamedExpr* said = test ? test : write ? write : offset; said && known)
         error(said->place, fmt::format("says '{}' but has no depth attachment", said->name),
               {.hint = "add \"modify\": { \"depth\": \"depth\" }, or leave it out"});
       return;
@@ -253,15 +252,16 @@ struct StateFiller {
       error(write->place, fmt::format("writes depth, and its depth slot '{}' is only read", slot),
             {.hint = fmt::format("move '{}' to \"modify\", or leave \"depth_write\" out", slot)});
     const bool writes = writable && !(write && write->expr.isConstant() && !state.depthWrite);
-    if (!test || (test->expr.text() == "always" && !writes))
-      error(
-          depth->slot->place,
-          fmt::format("has the depth slot '{}' and {}", slot,
-                      test ? "neither tests nor writes it" : "no \"depth_test\""),
-          {.expected = "\"state\": { \"depth_test\": … }",
-           .hint =
-               "write \"depth_test\": \"greater\", by which the nearer surface wins, or leave the slot out"});
+    if (!test) {
+      state.depthTest = true;
+      state.depthCompare = depth->slot->access == Access::write ? Compare::always : Compare::greater;
+    } else if (test->expr.text() == "always" && !writes) {
+      error(depth->slot->place, fmt::format("has the depth slot '{}' and neither tests nor writes it", slot),
+            {.hint = "leave \"depth_test\" out, and the nearer surface wins, or leave the slot out"});
+    }
   }
+
+  // ---- what would do nothing ----
 
   void checkStencil() const {
     const SlotWork* slot = nullptr;

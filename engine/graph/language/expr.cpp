@@ -236,6 +236,13 @@ Expr Expr::listOf(std::vector<Expr> items, text::Place place) {
   return {makeNode(ExprOp::list, place, std::move(children)), place};
 }
 
+Expr Expr::both(const Expr& a, const Expr& b) {
+  const auto says = [](const Expr& expr) { return expr.isConstant() && expr.text() == "false"; };
+  if (!a.present() || says(b)) return b;
+  if (!b.present() || says(a)) return a;
+  return {makeNode(ExprOp::logical_and, a.place(), {a.root_, b.root_}), a.place()};
+}
+
 std::optional<Expr> Expr::parse(std::string_view text, const text::Place& place,
                                 text::Diagnostics& diagnostics) {
   ExprPtr root = parseExprTree(text, place, diagnostics);

@@ -111,6 +111,8 @@ class Expr {
   // A folded expression that is the value of one live parameter.
   static Expr parameter(std::uint32_t key, text::Place place);
   static Expr listOf(std::vector<Expr> items, text::Place place);
+  // `a && b`; where one of them is absent, or says that it is false, that is all there is to say.
+  static Expr both(const Expr& a, const Expr& b);
   // Parses `text`, which stands at `place` (the place of the string's first character after the quote).
   static std::optional<Expr> parse(std::string_view text, const text::Place& place,
                                    text::Diagnostics& diagnostics);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "engine/graph/language/names.h"
 #include "engine/graph/read/overlay.h"
@@ -26,21 +27,90 @@ std::string_view nameOf(std::string_view text, bool value) {
 
 class Lists {
  public:
-  explicit Lists(text::Diagnostics& diagnostics) : said_(diagnostics) {}
+  using MayShare = std::function<bool(const JsonValue&, const text::Place&)>;
+  Lists(const MayShare& mayShare, text::Diagnostics& diagnostics) : mayShare_(mayShare), said_(diagnostics) {}
 
   void run(JsonValue& root) {
-    if (JsonMember* passes = memberOf(root, "passes"))
-      for (JsonValue& stanza : passes->value.items) {
-        said_.pass = stanzaName(stanza);
-        inStanza(stanza);
-      }
-    said_.pass.clear();
+    if (JsonMember* passes = memberOf(root, "passes")) {
+      inPasses(passes->value);
+      said_.pass.clear();
+      spread(passes->value.items);
+    }
     if (JsonMember* sets = memberOf(root, "sets"))
       for (JsonMember& set : sets->value.members) inStanza(set.value);
     if (JsonMember* inputs = memberOf(root, "inputs")) moveInputs(root, *inputs);
   }
 
  private:
+  void inPasses(JsonValue& passes) {
+    for (JsonValue& stanza : passes.items) {
+      said_.pass = stanzaName(stanza);
+      inStanza(stanza);
+      if (JsonMember* members = memberOf(stanza, "passes")) inPasses(members->value);
+    }
+  }
+
+  // ---- groups ----
+
+  void spread(std::vector<JsonValue>& passes) {
+    for (JsonValue& stanza : std::exchange(passes, {})) {
+      JsonMember* members = memberOf(stanza, "passes");
+      if (!members) {
+        passes.push_back(std::move(stanza));
+        continue;
+      }
+      std::vector<JsonValue> made;
+      for (JsonValue& member : std::exchange(members->value.items, {})) {
+        if (!mayShare_(stanza, member.place)) return;
+        if (member.find("passes"))
+          said_.error(Code::keysExclude, member, "a group within a group").hint =
+              "end the outer group before it, and say what it says here, too";
+        else
+          made.push_back(member.is(Type::object) ? ofGroup(std::move(member), stanza) : member);
+      }
+      if (stanza.find("after")) std::ranges::reverse(made);  // each goes right behind that place
+      std::ranges::move(made, std::back_inserter(passes));
+    }
+  }
+
+  JsonValue ofGroup(JsonValue stanza, const JsonValue& group) {
+    said_.pass = stanzaName(stanza);
+    const auto both = [&](const JsonMember& member) {
+      said_
+          .error(Code::duplicateName, member.place, fmt::format("the key '{}' is declared twice", member.key))
+          .hint = "leave one out: the group that the pass stands in has it, too";
+    };
+    JsonMember together{"passes", group.place, {}};
+    together.value.type = Type::object;
+    together.value.place = group.place;
+    for (const JsonMember& member : group.members) {
+      JsonMember* own = memberOf(stanza, member.key);
+      if (member.key == "enabled" || member.key == "repeat")
+        together.value.members.push_back(member);
+      else if (member.key == "use" && own)
+        joinNames(own->value, member.value);
+      else if ((member.key == "before" || member.key == "after") && own)
+        both(*own);
+      else if (member.key == "use" || member.key == "before" || member.key == "after")
+        stanza.members.push_back(member);
+    }
+    addSet(stanza, group, both);
+    if (!together.value.members.empty()) stanza.members.push_back(std::move(together));
+    said_.pass.clear();
+    return stanza;
+  }
+
+  // Puts names, a string or a list of them, in front of others.
+  static void joinNames(JsonValue& own, const JsonValue& before) {
+    std::vector<JsonValue> names;
+    for (const JsonValue* each : {&before, static_cast<const JsonValue*>(&own)})
+      for (const JsonValue& name : stringsOf(*each)) names.push_back(name);
+    own.type = Type::array;
+    own.items = std::move(names);
+  }
+
+  // ---- lists ----
+
   void inStanza(JsonValue& stanza) {
     for (const char* key : {"read", "write", "modify", "bind", "parameters"})
       if (JsonMember* list = memberOf(stanza, key))
@@ -101,13 +171,15 @@ class Lists {
     std::erase_if(root.members, [](const JsonMember& member) { return member.key == "inputs"; });
   }
 
+  const MayShare& mayShare_;
   ReadContext said_;
 };
 
 }  // namespace
 
-void writeOutLists(JsonValue& root, text::Diagnostics& diagnostics) {
-  if (root.is(Type::object)) Lists(diagnostics).run(root);
+void writeOutLists(JsonValue& root, const std::function<bool(const JsonValue&, const text::Place&)>& mayShare,
+                   text::Diagnostics& diagnostics) {
+  if (root.is(Type::object)) Lists(mayShare, diagnostics).run(root);
 }
 
 }  // namespace weft::graph

@@ -117,9 +117,9 @@ bool declares(std::string_view section, const JsonMember& entry) {
   return initial && (!initial->is(Type::string) || entry.value.find("choices") || entry.value.find("type"));
 }
 
-// The same of a stanza; its type may be that of a set.
+// The same of a stanza; its type may be that of a set or of its shader.
 bool declaresPass(const JsonValue& stanza) {
-  return stanza.find("type") || stanza.find("include") || stanza.find("use");
+  return stanza.find("type") || stanza.find("include") || stanza.find("use") || stanza.find("shader");
 }
 
 class Applier {
@@ -482,7 +482,23 @@ class Applier {
       if (*moved.index < at) --at;
     }
     if (beside.index) placed.members.push_back(std::move(place));
+    if (at > 0 && at < items.size() && !joinGroup(placed, items[at - 1], items[at])) return;
     items.insert(items.begin() + static_cast<std::ptrdiff_t>(at), std::move(placed));
+  }
+
+  // What comes between two passes of a group that repeats is one of them. False after a report.
+  bool joinGroup(JsonValue& placed, const JsonValue& above, const JsonValue& below) {
+    const JsonValue *group = above.find("passes"), *other = below.find("passes");
+    if (!group || !other || !group->find("repeat") || group->place != other->place) return true;
+    const JsonValue* own = placed.find("passes");
+    if (!own) placed.members.push_back({"passes", group->place, *group});
+    if (!own || own->place == group->place) return true;
+    said_
+        .error(Code::passWithoutPlace, placed.place,
+               fmt::format("pass '{}', which stands in a group, comes between passes of another",
+                           stanzaName(placed)))
+        .hint = "move it before or after all passes that repeat together";
+    return false;
   }
 
   // Whether the pass can stand beside the anchor, in whose file it is then called `own`; false after a report.
@@ -592,7 +608,7 @@ bool isWholeGraph(const JsonValue& root) {
   const JsonValue* passes = root.find("passes");
   if (!passes || passes->items.empty()) return false;
   return std::ranges::all_of(passes->items, [](const JsonValue& stanza) {
-    return (stanza.find("type") || stanza.find("include")) && !stanza.find("before") && !stanza.find("after");
+    return declaresPass(stanza) && !stanza.find("before") && !stanza.find("after");
   });
 }
 
@@ -628,7 +644,8 @@ std::optional<JsonValue> SourceLoader::parse(const std::string& path, const text
   }
   std::optional<JsonValue> root = text::parseJson(*texts_[path], path, diagnostics_);
   if (root) mendKeys(*root, preset, diagnostics_);
-  if (root) writeOutLists(*root, diagnostics_);
+  const auto share = [this](const JsonValue& group, const Place& at) { return mayShare(group, at); };
+  if (root) writeOutLists(*root, share, diagnostics_);
   return root;
 }
 
@@ -647,7 +664,7 @@ bool SourceLoader::mayShare(const JsonValue& set, const text::Place& place) {
   shared_ += valuesOf(set);
   if (!tooMany_ && shared_ <= text::raised(kMaxShared)) return true;
   if (!std::exchange(tooMany_, true))
-    text::reportLimit(diagnostics_, place, "passes hold too much of sets", kMaxShared, "values");
+    text::reportLimit(diagnostics_, place, "passes hold too much of sets and groups", kMaxShared, "values");
   return false;
 }
 

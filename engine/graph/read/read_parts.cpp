@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <utility>
@@ -140,6 +141,11 @@ std::optional<ParameterDesc> readParameter(ReadContext& context, const JsonMembe
   out.place = member.place;
   const bool named = context.checkName(member.key, member.place, {.noun = "a parameter", .ofFile = true});
   out.label = textIn(object, "label");
+  if (out.label.empty()) {  // the name in words
+    out.label = member.key;
+    std::ranges::replace(out.label, '_', ' ');
+    out.label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(out.label[0])));
+  }
   out.doc = textIn(object, "doc");
   if (const JsonValue* define = valueIn(object, "define")) out.define = define->flag;
   out.min = numberIn(object, "min");
@@ -280,6 +286,12 @@ bool readInput(ReadContext& context, const JsonValue& input, ResourceDesc& out) 
   return true;
 }
 
+// What a texture that says no size has.
+Expr screenAt(const Place& place) {
+  text::Diagnostics none;
+  return Expr::parse("screen", place, none).value_or(Expr());
+}
+
 bool readResourceInto(ReadContext& context, const JsonValue& value, ResourceDesc& out) {
   using Kind = ResourceDesc::Kind;
   const std::string_view kind = kindOf(value);
@@ -322,6 +334,7 @@ bool readResourceInto(ReadContext& context, const JsonValue& value, ResourceDesc
   out.view = textIn(value, "view");
   if (out.view == "2d") out.view.clear();
   if (const JsonValue* view = value.find("view")) out.viewPlace = view->place;
+  if (kind == "texture" && !value.find("size")) out.size = screenAt(value.find("texture")->place);
   return kind == "buffer" ? out.bytes.present() : out.format.present() && out.size.present();
 }
 
@@ -371,6 +384,9 @@ void readInclude(ReadContext& context, const JsonValue& value, PassDesc& out) {
   include.file = file.text;
   include.filePlace = file.place;
   out.enabled = context.expr(value, "enabled");
+  if (const JsonValue* group = value.find("passes"); group && group->find("repeat"))
+    context.error(Code::keysExclude, file, "an include in a group that repeats").hint =
+        "let it stand outside the group, or say \"repeat\" at the passes of its file";
   include.screen = context.expr(value, "screen");
   for (const JsonMember& member : membersIn(value, "bind")) {
     const bool named = context.checkName(member.key, member.place, {"an input"});
@@ -420,12 +436,20 @@ bool readRanges(ReadContext& context, const JsonValue& ranges, ReadContext::Seen
   return all;
 }
 
-bool readRepeat(ReadContext& context, const JsonValue* repeat, PassDesc& out) {
-  ReadContext::Seen seen;
+bool readRepeat(ReadContext& context, const JsonValue* repeat, ReadContext::Seen& seen, PassDesc& out) {
   if (!repeat || !repeat->is(Type::array)) return !repeat || readRanges(context, *repeat, seen, out);
   bool all = true;
   for (const JsonValue& ranges : repeat->items) all = readRanges(context, ranges, seen, out) && all;
   return all;
+}
+
+// What holds for all passes of its group together.
+bool readGroup(ReadContext& context, const JsonValue& group, ReadContext::Seen& indices, PassDesc& out) {
+  out.group = group.place;
+  out.enabled = Expr::both(context.expr(group, "enabled"), out.enabled);
+  const bool good = readRepeat(context, group.find("repeat"), indices, out);
+  out.looped = out.repeat.size();
+  return good;
 }
 
 // `own`: those that the stanza has, without its sets; null when it has none. `ofSet`: of its sets, else of itself.
@@ -533,10 +557,20 @@ std::optional<JsonValue> withSets(ReadContext& context, const JsonValue& pass, c
           .error(Code::duplicateName, member.place, fmt::format("the key '{}' is declared twice", member.key))
           .hint = fmt::format("leave one out: the set '{}' has it, too", (*set)->key);
     });
-  if (!whole.find("type"))
-    context.error(Code::missingKey, pass.place, "neither the pass nor a set that it uses has a \"type\"")
-        .hint = "add \"type\": \"fullscreen\", or what kind of pass it is";
   return whole;
+}
+
+// What a pass without a "type" is.
+void inferType(ReadContext& context, const JsonValue& value, PassDesc& out) {
+  if (value.find("type")) return;
+  out.typePlace = out.shaderPlace;
+  if (value.find("shader"))
+    out.type = out.shader.ends_with(".comp.glsl")                              ? "compute"
+               : value.find("geometry") || !out.shader.ends_with(".frag.glsl") ? "draw"
+                                                                               : "fullscreen";
+  else if (textIn(value, "name").find('.') == std::string::npos)  // else its name is the mistake
+    context.error(Code::missingKey, value.place, "the pass has neither a \"type\" nor a \"shader\"").hint =
+        "add \"shader\", or what kind of pass it is: \"type\": \"mipmap\"";
 }
 
 void readGeometry(ReadContext& context, const JsonValue& value, PassDesc& out) {
@@ -588,13 +622,17 @@ bool readPassInto(ReadContext& context, const JsonValue& value, const JsonValue&
     out.vertexShader = textIn(*shaders, "vertex");
     out.shader = textIn(*shaders, "fragment");
   }
+  inferType(context, value, out);
   readUpdate(context, value, out);
   for (const auto& [key, flag] : kPassFlags)
     if (const JsonValue* found = valueIn(value, key)) out.*flag = found->flag;
   for (const auto& [key, member] : kPassValues) out.*member = context.expr(value, key);
   out.view = context.ref(value, "view");
   readGeometry(context, value, out);
-  const bool indexed = readRepeat(context, value.find("repeat"), out);
+  ReadContext::Seen indices;
+  const JsonValue* group = value.find("passes");
+  bool indexed = !group || readGroup(context, *group, indices, out);
+  indexed = readRepeat(context, value.find("repeat"), indices, out) && indexed;
   ReadContext::Seen names;  // slots, parameters and defines share one namespace
   for (const bool ofSet : {true, false})
     for (const JsonMember& member : value.members)  // in file order
@@ -604,7 +642,7 @@ bool readPassInto(ReadContext& context, const JsonValue& value, const JsonValue&
   readParameters(context, value, names, out);
   readState(context, value, out);
   if (!out.uses.empty()) std::ranges::stable_sort(out.slots, {}, &SlotDesc::access);
-  return indexed && !out.name.empty() && value.find("type");
+  return indexed && !out.name.empty() && (value.find("type") || !out.type.empty());
 }
 
 }  // namespace
@@ -636,6 +674,8 @@ std::optional<PassDesc> readPass(ReadContext& context, const JsonValue& value, c
   bool good = !value.is(Type::absent);
   if (good && value.find("include")) {
     readInclude(context, value, out);
+    if (const JsonValue* group = value.find("passes"))
+      out.enabled = Expr::both(context.expr(*group, "enabled"), out.enabled);
     good = !out.name.empty();
   } else if (good) {
     const bool uses = valueIn(value, "use") != nullptr;

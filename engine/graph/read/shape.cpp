@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <initializer_list>
+#include <iterator>
 #include <map>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/graph/desc_walk.h"
@@ -116,6 +118,7 @@ class ShapeCheck {
     if (stanza.is(Type::absent)) return;
     said_.pass = stanzaName(stanza);
     const auto says = [&](const char* key) { return stanza.find(key) != nullptr; };
+    if (mends_ && says("passes")) return checkGroup(stanza);
     if (mends_ && !says("include") && !says("type") && !says("shader"))
       checkKeys(stanza, {std::span(kIncludeKeys).first(1)}, "include");
     if (const JsonMember* like = mends_ ? nullptr : memberOf(stanza, "like")) {  // of the first edition
@@ -126,10 +129,32 @@ class ShapeCheck {
       return said_.pass.clear();
     }
     const Shape& shape = shapeOf(says("include") ? "include" : "pass");
+    const auto ofGroup = std::ranges::stable_partition(
+        stanza.members, [](const JsonMember& member) { return member.key != "passes"; });  // checked
+    std::vector<JsonMember> checked(ofGroup.begin(), ofGroup.end());
+    stanza.members.erase(ofGroup.begin(), ofGroup.end());
     if (stanza.is(Type::object))
       checkObject(stanza, shape, shape.kind, overlay_ ? kPlaceKeys : std::span<const KeySpec>());
     else
       checkValue(stanza, shape, shape.kind, shape.doc);
+    std::ranges::move(checked, std::back_inserter(stanza.members));
+    said_.pass.clear();
+  }
+
+  // What a group says is checked once, before each of its passes gets it; what does not fit goes.
+  void checkGroup(JsonValue& group) {
+    const Shape& shape = shapeOf("group");
+    const std::span<const KeySpec> places = overlay_ ? kPlaceKeys : std::span<const KeySpec>();
+    std::vector<JsonValue> members = std::exchange(memberOf(group, "passes")->value.items, {});
+    checkObject(group, shape, "group", places);
+    mends_ = false;
+    checkObject(group, shape, "group", places);
+    mends_ = true;
+    std::erase_if(group.members, [](const JsonMember& member) {
+      return member.value.is(Type::absent) && member.key != "passes";
+    });
+    for (JsonValue& stanza : members) checkPass(stanza);
+    memberOf(group, "passes")->value.items = std::move(members);
     said_.pass.clear();
   }
 
@@ -223,9 +248,7 @@ class ShapeCheck {
     if (mends_) return;
     for (const std::span<const KeySpec> keys : lists)
       for (const KeySpec& spec : keys)
-        if (const bool ofSet = spec.key == "type" && object.find("use");  // the reader looks there
-            spec.required && !ofSet && !object.find(spec.key) &&
-            stanzaName(object).find('.') == std::string::npos &&
+        if (spec.required && !object.find(spec.key) && stanzaName(object).find('.') == std::string::npos &&
             std::ranges::find(meant, spec.key) == meant.end())
           said_
               .error(Code::missingKey, object.place, fmt::format("'{}' lacks the key \"{}\"", what, spec.key))

@@ -16,6 +16,8 @@ constexpr int kStep = 2;
 constexpr int kMaxPadding = 12;
 // The member of the document whose numbers and words share lines.
 constexpr std::string_view kPacked = "\"set\": ";
+// The member of a stanza whose items stand below the other keys.
+constexpr std::string_view kGroup = "\"passes\": ";
 
 struct Comment {
   std::string_view text;  // with its slashes, without a line end
@@ -292,7 +294,9 @@ class Writer {
     else if (place.depth <= 1 || node.items.empty())
       block(node, place);
     else
-      hanging(node, place, node.kind == Node::Kind::object && !place.key.empty() && holdsObjects(node));
+      hanging(node, place,
+              !place.key.empty() && (place.key == kGroup || node.kind == Node::Kind::object) &&
+                  holdsObjects(node));
   }
 
   // Each entry on a line of its own; the closing bracket too.
@@ -356,13 +360,14 @@ class Writer {
   // of their own below the key, and the closing bracket behind the last.
   void hanging(const Node& node, const Place& place, bool rows) {
     const bool object = node.kind == Node::Kind::object;
-    const int bracket = rows ? place.indent : column(), indent = bracket + (object ? kStep : 1);
+    const bool isGroup = std::ranges::find(node.items, kGroup, &Item::key) != node.items.end();
+    const int bracket = rows ? place.indent : column(), indent = bracket + (object ? kStep : rows ? 0 : 1);
     out_ += !object ? "[" : rows ? "{" : "{ ";
     if (rows) newLine(indent);
     fill(node, {.depth = place.depth, .indent = indent, .tail = place.tail + (object ? 2 : 1), .key = {}},
-         rows                          ? Fill::rows
-         : place.key.empty() && object ? Fill::stanza
-                                       : Fill::packed);
+         rows                                      ? Fill::rows
+         : place.key.empty() && object && !isGroup ? Fill::stanza
+                                                   : Fill::packed);
     if (!node.dangling.empty() || (!node.items.empty() && endsLine(node.items.back()))) {
       newLine();
       for (const Comment& each : node.dangling) ownLine(each, indent);
@@ -394,8 +399,8 @@ class Writer {
         const bool ownLines = std::ranges::any_of(item.leading, &Comment::endsLine);
         const bool start = !started && starts(item);
         const bool row = object && (how == Fill::rows || head);
-        fresh = alone || blank || ownLines || row || start || !fits ||
-                column() + 1 + widthOf(item.line) + tail > kColumns;
+        fresh = alone || blank || ownLines || row || start ||
+                (item.key != kGroup && (!fits || column() + 1 + widthOf(item.line) + tail > kColumns));
         if (blank) newLine();
         if (fresh)
           newLine(place.indent);

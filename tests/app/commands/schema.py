@@ -24,6 +24,7 @@ CANNOT_SAY = {
     "w012_define_of_a_function.json": "the functions of GLSL",
     "w012_reserved_define.json": "names that the engine defines",
     "w005_set_without_type.json": "what the sets of a pass hold",
+    "w005_pass_without_type.json": "that a pass has a shader or a type, which a group may say for it",
     "w012_two_underscores.json": "names that GLSL keeps for itself",
     "w012_word_of_glsl.json": "the reserved words of GLSL",
     "w012_list.json": "what an item of a list may be follows from the key",
@@ -34,6 +35,7 @@ CANNOT_SAY = {
 }
 SEES = {
     "w007_deep.json": "it is a list, and a graph is an object",
+    "w014_group_in_group.json": "a group is no pass",
     "w014_two_kinds.json": "each kind of resource has keys of its own",
     "w019_remove.json": "the keys of an overlay do not stand in a graph without \"extends\"",
     "w026_every.json": "the words of \"update\"",

@@ -131,8 +131,8 @@ TEST_CASE(
   checkOne("\"default\": 0.9", "\"default\": \"#ffffff\"", missingKey, "a string as its default", "");
   checkOne("\"default\": \"soft\"", "\"default\": \"Soft\"", notAChoice, "not one of the choices",
            "\"soft\"");
-  checkOne("\"name\": \"paint\", \"type\": \"fullscreen\"", "\"name\": \"paint\"", missingKey,
-           "lacks the key \"type\"", "fullscreen");
+  checkOne("\"type\": \"fullscreen\", \"shader\": \"a.frag.glsl\"", "\"feedback\": false", missingKey,
+           "neither a \"type\" nor a \"shader\"", "\"type\"");
   checkOne("\"repeat\": { \"i\": [1, 3] }", "\"repeat\": { \"i\": 3 }", wrongType, "\"i\" has the wrong type",
            "");
   checkOne("\"repeat\": { \"i\": [1, 3] }", "\"repeat\": { \"i\": [1, \"glow.mips - 1\"] }", badExpression,

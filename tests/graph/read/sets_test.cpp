@@ -66,12 +66,12 @@ TEST_CASE("sets: a pass has its own and what its sets have, for each index of it
   CHECK(graph.uses[above.firstUse].mip == 2);
 }
 
-TEST_CASE("sets: a pass has any key of them but its name and its condition") {
+TEST_CASE("sets: a pass has any key of them that says what it does") {
   const Expanded e = expandText(R"J({
     "resources": { "hdr": { "texture": "rgba16f", "size": 8, "mips": 4, "clear": 0 } },
-    "sets": { "levels": { "repeat": { "i": [1, 3] }, "update": "on_change", "read": { "above": "hdr.mip[i-1]" } },
+    "sets": { "levels": { "update": "on_change", "read": { "above": "hdr.mip[i-1]" } },
               "quads": { "type": "draw", "shader": "balls/flat", "geometry": "quad", "instances": 3, "side_effect": true } },
-    "passes": [ { "name": "down", "use": ["quads", "levels"], "modify": { "radiance": "hdr.mip[i]" } } ],
+    "passes": [ { "name": "down", "use": ["quads", "levels"], "repeat": { "i": [1, 3] }, "modify": { "radiance": "hdr.mip[i]" } } ],
     "present": "hdr.mip[0..]" })J");
   REQUIRE_MESSAGE(e.text() == "", e.text());
   CHECK(e.names() == "down[1] down[2] down[3]");
