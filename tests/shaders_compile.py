@@ -77,17 +77,33 @@ def sets_of(graph):
     return {name: held for file in ([below] if isinstance(below, str) else below) for name, held in sets_of(graph.parent / file).items()} | desc.get("sets", {})
 
 
+SHARED = ("read", "write", "modify", "parameters", "defines", "state")
+
+
+def spread(stanzas):
+    """The passes of groups with what the group says, and all others."""
+    for group in stanzas:
+        for stanza in group.get("passes", [group]):
+            if stanza is not group:
+                for key, held in group.items():
+                    if key == "use":
+                        stanza[key] = [*([held] if isinstance(held, str) else held), *([stanza[key]] if isinstance(stanza.get(key), str) else stanza.get(key, []))]
+                    elif key != "passes":
+                        stanza[key] = {**by_name(held), **by_name(stanza.get(key, {}))} if key in SHARED else stanza.get(key, held)
+            yield stanza
+
+
 def passes_of(graph):
-    """Each with what it has of sets."""
+    """Each with what it has of sets and of its group."""
     desc = json.loads(strip_comments(graph.read_text()))
     sets = sets_of(graph)
-    for stanza in desc.get("passes", []):
+    for stanza in spread(desc.get("passes", [])):
         used = stanza.get("use", [])
         for group in ("read", "write", "modify", "parameters"):
             stanza[group] = by_name(stanza.get(group, {}))
         for name in [used] if isinstance(used, str) else used:
             for group, held in sets[name].items():
-                shared = group in ("read", "write", "modify", "parameters", "defines", "state")
+                shared = group in SHARED
                 stanza[group] = {**by_name(held), **stanza.get(group, {})} if shared else held
         if "shader" in stanza:
             yield stanza, desc
