@@ -213,7 +213,7 @@ def main():
             for stanza, desc in passes_of(graph):
                 name, where = stanza["shader"], f"{graph.relative_to(TOP)}: pass {stanza['name']}"
                 names = list(name.values()) if isinstance(name, dict) else [name]
-                if stanza["type"] == "draw" and not isinstance(name, dict):
+                if not isinstance(name, dict) and not name.endswith(".glsl"):
                     names = [f"{name}.vert.glsl", f"{name}.frag.glsl"]
                 for one in names:
                     path = find_shader(graph, one)

@@ -139,7 +139,7 @@ def check_json(body, info, sandbox, number):
         path = sandbox.root / f"graphs/snippet_{number}.json"
         path.write_text(body)
         shaders = [p["shader"] for p in value["passes"] if "shader" in p]
-        present = all(list((sandbox.root / "shaders").glob(s if p.get("type") != "draw" else s + ".*"))
+        present = all(list((sandbox.root / "shaders").glob(s if s.endswith(".glsl") else s + ".*"))
                       for p in value["passes"] if (s := p.get("shader")))
         return sandbox.weft("check", path, *([] if present and shaders else ["--no-shaders"]))
     if {"cameras", "grid", "spheres"} & set(value):
