@@ -352,7 +352,7 @@ function markFlow() {
   for (const node of document.querySelectorAll(".flow g.node")) {
     const chosen = node.id === withoutIndex(name) || (!wholeFlow && node.id === name.split(".")[0]);
     node.classList.toggle("chosen", chosen);
-    if (chosen) node.scrollIntoView({ block: "center", inline: "center" });
+    if (chosen) reveal(document.querySelector("[role=tabpanel]"), node);
   }
 }
 
@@ -505,17 +505,25 @@ function drawSelected() {
 
 // ---- selection ----
 
+// Scrolls `box`, and nothing around it, until `element` is in its middle; or with a `corner` of names that cover it, until it is in sight.
+function reveal(box, element, corner, across = true, down = true) {
+  if (!element) return;
+  const a = box.getBoundingClientRect(), b = element.getBoundingClientRect();
+  const by = (low, high, from, to, covered) => (corner ? Math.min(from - low - covered, 0) || Math.max(to - high, 0) : (from + to - low - high) / 2);
+  box.scrollBy(across ? by(a.left, a.right, b.left, b.right, corner?.offsetWidth) : 0, down ? by(a.top, a.bottom, b.top, b.bottom, corner?.offsetHeight) : 0);
+}
 function mark() {
+  const matrix = document.querySelector(".matrix");
   for (const element of document.querySelectorAll("[data-step]")) element.setAttribute("aria-current", String(element.dataset.step.split(" ").includes(String(selected))));
   const column = state.columns.find((each) => each.steps.includes(selected));
   if (column) {
     state.columnMark.setAttribute("x", column.x);
-    document.querySelector(".column[aria-current=true]").scrollIntoView({ block: "nearest", inline: "nearest" });
+    reveal(matrix, document.querySelector(".column[aria-current=true]"), matrix.querySelector(".corner"), true, false);
   }
   const r = state.shown.indexOf(selectedResource), written = state.plan.steps[selected]?.uses.find((use) => use.access !== "read")?.resource;
   const buttons = document.querySelectorAll(".rows button");
   buttons.forEach((button, i) => button.setAttribute("aria-current", String(i === r)));
-  buttons[r >= 0 ? r : state.shown.findIndex((resource) => resource.name === written)]?.scrollIntoView({ block: "nearest" });
+  reveal(matrix, buttons[r >= 0 ? r : state.shown.findIndex((resource) => resource.name === written)], matrix.querySelector(".corner"), false, true);
   state.rowMark.setAttribute("y", r * ROW);
   document.querySelector("aside").replaceWith(drawSelected());
   markFlow();

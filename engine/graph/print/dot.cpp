@@ -140,7 +140,9 @@ class DotWriter {
         if (folded(graph_.passNames[graph_.links.passOf[writer]]) != pass || use.history > 0)
           addEdge(version(writer, use.resource), pass, look);
       });
-      if (!found) addEdge(version(kNone, use.resource), pass, look);
+      // What a step clears and modifies was not there before.
+      if (!found && (use.access == Access::read || isImported(graph_.resources[use.resource])))
+        addEdge(version(kNone, use.resource), pass, look);
     }
     if (use.access != Access::read && !effects_) version(u, use.resource);
   }

@@ -73,7 +73,7 @@ async function session() {
   // the loupe
   await page.goto(address + "#post.fxaa.smooth");
   await page.locator("header button", { hasText: "after" }).click();
-  await page.locator("aside img").first().hover({ position: { x: 190, y: 40 } });
+  await page.locator("aside img").first().hover({ position: { x: 300, y: 40 } });
   seen.texel = await page.locator(".loupe code").innerText();
 
   // themes, print, accessibility

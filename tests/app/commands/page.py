@@ -68,6 +68,7 @@ def main():
         rows = read_png(picture.read_bytes())
         x, y, *texel = (float(number) for number in re.findall(r"[-+.\de]+", seen["texel"]))
         pixel = rows[len(rows) - 1 - int(y)][int(x)]
+        report.check(y > 45 and x > 45, f"right and above the middle: {seen['texel']}")
         report.check([round(255 * value) for value in texel[:3]] == list(pixel[:3]), f"the loupe says {seen['texel']}, the picture is {pixel}")
         report.check(min(seen["grounds"][0][:3]) > 200 and max(seen["grounds"][1][:3]) < 60, f"grounds, light and dark: {seen['grounds']}")
         report.check(seen["printed"] == [True, 0], f"printed: {seen['printed']}")
