@@ -15,6 +15,7 @@ OTHER_MEANINGS = {
     ("engine/assets/models/gltf/gltf.cpp", "meshes"): "a key of glTF",
     ("engine/assets/models/gltf/gltf.cpp", "materials"): "a key of glTF",
     ("engine/assets/models/gltf/gltf.cpp", "joints"): "a key of glTF",
+    ("engine/assets/models/gltf/gltf.cpp", "camera"): "a key of glTF",
     ("engine/scene/scene.cpp", "spheres"): "a draw list",
     ("engine/scene/files/scene_file.cpp", "spheres"): "a key of scene files",
     ("engine/scene/files/scene_file.cpp", "materials"): "a key of scene files",

@@ -50,7 +50,8 @@ SUB_ROOMS = {
         "models/gltf": {".", "models/parts"},
         "models/assimp": {".", "models/parts"},
         "models/apart": {".", "models/parts", "models/assimp"},
-        "models": {".", "images", "models/parts", "models/gltf", "models/apart"},
+        "models/obj": {".", "models/parts"},
+        "models": {".", "images", "models/parts", "models/gltf", "models/apart", "models/obj"},
     },
     "scene": {".": set(), "frame": {"."}, "models": {".", "frame"}, "files": {".", "frame", "models"}},
     "gl": {
@@ -92,7 +93,7 @@ OUTSIDE = {
     "EGL/": {"gl"},
     "GL/": {"gl"},
     "GLFW/": {"gl", "app"},
-    "stb_": {"assets"}, "stb/": {"assets"}, "OpenEXR/": {"assets"}, "assimp/": {"assets"},
+    "stb_": {"assets"}, "stb/": {"assets"}, "OpenEXR/": {"assets"}, "assimp/": {"assets"}, "draco/": {"assets"}, "meshoptimizer": {"assets"}, "webp/": {"assets"},
     "glm/": {"assets", "scene", "passes", "imports", "runtime", "app"},
     "CLI/": {"app"}, "imgui": {"app"}, "benchmark/": {"app"}, "tbb/": {"assets", "scene"},
 }

@@ -138,6 +138,7 @@ scene::CameraPose CameraRig::pose() const {
                           (glm::dvec3(0, kBobRise * std::sin(2 * now_.bobPhase), 0) +
                            right * (kBobSway * std::sin(now_.bobPhase)));
   scene::CameraPose pose = lens_;
+  pose.up = {0, 1, 0};
   pose.position = now_.eye + sway;
   pose.target = now_.pivot + sway;
   return pose;

@@ -57,6 +57,9 @@ struct Texture {
   std::uint64_t content = 0;            // hash of size, texels and srgb; equal contents are one row
 };
 
+// How a texture is looked up, in bits: wrap of u, of v, and whether texels are seen as they are where they are magnified.
+enum MapSampler : std::uint8_t { repeat = 0, clampU = 1, mirrorU = 2, clampV = 4, mirrorV = 8, nearest = 16 };
+
 struct Material {
   std::string name;
   glm::vec3 albedo{
@@ -73,10 +76,13 @@ struct Material {
   glm::vec3 specular{0};
   float shininess = 0;
   bool doubleSided = false;
+  bool unlit = false;  // shows `emissive` and its map alone; all else is black
   // Rows of the textures of the model, or of the scene, or kNoRow. Channels are those of glTF: roughness is g, metallic b,
   // occlusion r.
   std::uint32_t albedoMap = kNoRow, normalMap = kNoRow, metallicRoughnessMap = kNoRow, occlusionMap = kNoRow,
                 emissiveMap = kNoRow;
+
+  std::array<std::uint8_t, 5> samplers{};  // MapSampler, in the order of maps()
 
   std::array<std::uint32_t*, 5> maps() {
     return {&albedoMap, &normalMap, &metallicRoughnessMap, &occlusionMap, &emissiveMap};
@@ -148,6 +154,15 @@ struct ModelLight {
   float inner = 0, outer = 0;  // half angles of a spot's cones, radians
 };
 
+// At the origin of a node, looking along its -Z, with its +Y up.
+struct ModelCamera {
+  std::string name;
+  std::uint32_t node = 0;
+  double fovDegrees = 0;  // vertical; 0: orthographic
+  double height = 0;      // units, of an orthographic one
+  double nearPlane = 0.1;
+};
+
 struct ModelSkin {
   std::vector<std::uint32_t> joints;   // nodes
   std::vector<glm::mat4> inverseBind;  // parallel to joints: from the mesh to the joint
@@ -180,6 +195,7 @@ struct Model : MeshData {
   std::vector<ModelInstance> instances;
   std::vector<ModelSkin> skins;
   std::vector<ModelLight> lights;  // at most one sun
+  std::vector<ModelCamera> cameras;
   std::vector<std::shared_ptr<const ModelAnimation>> animations;
   std::vector<std::string> files;  // everything that was read or should have been, the model's own first
 };

@@ -23,7 +23,7 @@ struct MaterialArray {
 
 // At most kMaterialArrays, those with most texels first; none for a scene without textures. Each texture is in one.
 std::vector<MaterialArray> batchTextures(const scene::Scene& scene);
-// array << 16 | layer per row of Scene::textures.
+// layer | array << 16 per row of Scene::textures.
 std::vector<std::uint32_t> mapsOf(const std::vector<MaterialArray>& arrays, std::size_t textures);
 
 class MaterialTextures {

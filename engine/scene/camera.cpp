@@ -51,10 +51,9 @@ bool isMoving(const Camera& camera) {
 }
 
 glm::dmat4 viewMatrix(const CameraPose& pose) {
-  const double back = glm::normalize(pose.position - pose.target).y;
+  const double back = glm::dot(glm::normalize(pose.position - pose.target), pose.up);
   const bool vertical = std::abs(back) > 1 - 1e-12;
-  return glm::lookAt(pose.position, pose.target,
-                     vertical ? glm::dvec3(0, 0, back > 0 ? -1 : 1) : glm::dvec3(0, 1, 0));
+  return glm::lookAt(pose.position, pose.target, vertical ? glm::dvec3(0, 0, back > 0 ? -1 : 1) : pose.up);
 }
 
 // Upchurch and Desbrun, "Tightening the Precision of Perspective Rendering", 2012: reversed, far plane at

@@ -18,6 +18,7 @@ struct CameraPose {
   double fovDegrees = 60;      // vertical, over 0 and under 180
   double nearPlane = 0.1;      // world units, over 0
   double height = 0;  // over 0: orthographic, this many world units high, and kOrthographicReach of them deep
+  glm::dvec3 up{0, 1, 0};  // of the picture, as far as the direction leaves it free
   friend bool operator==(const CameraPose&, const CameraPose&) = default;
 };
 

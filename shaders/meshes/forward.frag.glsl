@@ -33,7 +33,7 @@ void main() {
 
   LightsSeen seen = lightsSeen(point);
   Ambient ambient = ambientOf(point, response, lobeOf(self.roughness, 0.0), seen);
-  vec3 light = lightOf(point, response, ambient, seen).radiance + self.emissive;
+  vec3 light = lightOf(point, response, ambient, seen).radiance * self.lit + self.emissive;
 #ifdef HAS_AIR
   light = mix(fog_light.rgb, light, throughFog(world_position - eye));
 #endif

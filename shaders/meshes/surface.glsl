@@ -26,6 +26,7 @@ struct MeshSurface {
   vec3 albedo;       // linear; F0 of a metal
   vec3 emissive;     // radiance, scene-referred
   float metallic, roughness, occlusion, alpha;
+  float lit;         // 0: it shows `emissive` alone
   float shininess;   // of Blinn–Phong; 0: none
 };
 
@@ -44,7 +45,6 @@ MeshSurface meshSurface() {
 #endif
   if (color.a < self.alpha_cutoff || (self.double_sided == 0u && !gl_FrontFacing)) discard;
 
-  if (!gl_FrontFacing) n = -n;
   if (self.normal_map != 0xffffffffu) {
     vec3 tilt = (texel[1].xyz * 2.0 - 1.0) * vec3(self.normal_scale, self.normal_scale, 1.0);
     vec3 t = world_tangent.xyz - n * dot(n, world_tangent.xyz);
@@ -53,11 +53,16 @@ MeshSurface meshSurface() {
       n = normalize(mat3(t, cross(n, t) * world_tangent.w, n) * tilt);
     }
   }
+  if (!gl_FrontFacing) n = -n;
   MeshSurface surface;
   surface.normal = n;
   surface.albedo = color.rgb;
   surface.alpha = color.a;
   surface.emissive = self.emissive * texel[4].rgb;
+  surface.lit = self.unlit == 0u ? 1.0 : 0.0;
+#ifdef HAS_VERTEX_COLORS
+  if (self.unlit != 0u) surface.emissive *= own_color.rgb;
+#endif
   surface.metallic = self.metallic * texel[2].b;
   surface.roughness = self.roughness * texel[2].g;
   surface.occlusion = mix(1.0, texel[3].r, self.occlusion_strength);

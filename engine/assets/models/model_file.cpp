@@ -7,6 +7,7 @@
 #include "engine/assets/images/image_codecs.h"
 #include "engine/assets/models/apart/model_apart.h"
 #include "engine/assets/models/gltf/gltf_document.h"
+#include "engine/assets/models/obj/obj.h"
 #include "engine/assets/models/parts/mesh_builder.h"
 #include "engine/assets/models/parts/model_files.h"
 
@@ -30,9 +31,9 @@ std::optional<Model> loadModel(const std::string& path, text::Diagnostics& diagn
     d.expected = ".gltf, .glb, .obj or .fbx";
     d.found = kind.empty() ? "no extension" : kind;
   } else if (auto bytes = mine.readModel()) {
-    good = kind == ".gltf" || kind == ".glb"
-               ? readGltf(std::move(*bytes), mine, observer, diagnostics, model)
-               : readApart(std::move(*bytes), kind == ".obj", mine, observer, diagnostics, model);
+    good = kind == ".gltf" || kind == ".glb" ? readGltf(std::move(*bytes), mine, observer, diagnostics, model)
+           : kind == ".obj"                  ? readObj(*bytes, mine, observer, diagnostics, model)
+                            : readApart(std::move(*bytes), mine, observer, diagnostics, model);
   }
   model.files = mine.files();
   if (files) *files = model.files;

@@ -181,13 +181,17 @@ struct Materials : SceneTable<scene::Material> {
         column<Row, &Row::alphaCutoff>("alpha_cutoff", "over 0: holes where alpha is below"),
         column<Row, &Row::normalScale>("normal_scale", "of the map's x and y"),
         column<Row, &Row::occlusionStrength>("occlusion_strength", "0 to 1"),
-        column<Row, &Row::albedoMap>("albedo_map", "array << 16 | layer of @material_maps; 0xffffffff: none"),
+        column<Row, &Row::albedoMap>(
+            "albedo_map",
+            "layer | array << 16 of @material_maps | wrap of u << 20 | of v << 22 (1: "
+            "clamp, 2: mirror) | nearest << 24; 0xffffffff: none"),
         column<Row, &Row::normalMap>("normal_map", "tangent space"),
         column<Row, &Row::metallicRoughnessMap>("metallic_roughness_map", "metallic in b, roughness in g"),
         column<Row, &Row::occlusionMap>("occlusion_map", "in r"),
         column<Row, &Row::emissiveMap>("emissive_map", ""),
         column<Row, &Row::blinnPhong>("blinn_phong", "1: specular and shininess are what the file has"),
-        column<Row, &Row::doubleSided>("double_sided", "0 or 1")};
+        column<Row, &Row::doubleSided>("double_sided", "0 or 1"),
+        column<Row, &Row::unlit>("unlit", "1: it shows emissive alone, times its vertex colors")};
   }
   static ImportFacts facts(const WorldFacts& world) {
     return {.exists = true, .count = static_cast<double>(world.materials)};
@@ -197,7 +201,11 @@ struct Materials : SceneTable<scene::Material> {
     const std::vector<std::uint32_t> maps = mapsOf(batchTextures(scene), scene.textures.size());
     std::vector<Row> rows(scene.materials.rows().begin(), scene.materials.rows().end());
     for (Row& row : rows)
-      for (std::uint32_t* map : row.maps()) *map = *map == assets::kNoRow ? kNoMap : maps[*map];
+      for (std::size_t i = 0; i < row.samplers.size(); ++i)
+        if (std::uint32_t& map = *row.maps()[i]; map == assets::kNoRow || maps[map] == kNoMap)
+          map = kNoMap;
+        else
+          map = maps[map] | std::uint32_t{row.samplers[i]} << 20;
     return rows;
   }
 };

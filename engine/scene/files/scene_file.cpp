@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include <memory>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "engine/assets/models/model_file.h"
 #include "engine/scene/files/reading.h"
@@ -43,14 +45,21 @@ glm::quat rotationOf(glm::dvec3 degrees) {
          glm::angleAxis(toRadians(degrees[0]), glm::vec3(1, 0, 0));
 }
 
-constexpr double kFovDegrees = 35;
-constexpr float kSunLux = 50000;  // a bright day
+constexpr double kFovDegrees = 35, kMargin = 1.08;
+constexpr std::pair<const char*, std::array<double, 3>> kViews[] = {
+    {"front", {0, 0, -1}}, {"left", {1, 0, 0}}, {"right", {-1, 0, 0}},
+    {"back", {0, 0, 1}},   {"top", {0, -1, 0}}, {"bottom", {0, 1, 0}}};
+constexpr std::uint32_t kMeasuredCorners = 3 << 20;  // of meshes, at most, to choose a view
+constexpr float kSunLux = 50000;                     // a bright day
 
-// Looks along `towards`, a unit vector, at the whole of `box`.
+// Looks along an axis at the whole of `box`, in a picture that is at least as wide as high.
 CameraPose framePose(const Box& box, glm::dvec3 towards) {
   const glm::dvec3 center = (glm::dvec3(box.low) + glm::dvec3(box.high)) * 0.5;
-  const double radius = std::max(glm::length(glm::dvec3(box.high) - glm::dvec3(box.low)) / 2, 1e-6);
-  const double distance = radius / std::sin(kFovDegrees / 2 * std::numbers::pi / 180);
+  const glm::dvec3 half = (glm::dvec3(box.high) - glm::dvec3(box.low)) * 0.5;
+  const double depth = glm::dot(half, glm::abs(towards));
+  const glm::dvec3 across = half * (1.0 - glm::abs(towards));
+  const double largest = std::max({across.x, across.y, across.z, depth / 100, 1e-6});
+  const double distance = kMargin * largest / std::tan(kFovDegrees / 2 * std::numbers::pi / 180) + depth;
   CameraPose pose;
   pose.target = center;
   pose.position = center - towards * distance;
@@ -114,7 +123,7 @@ class Reader {
     const JsonValue* cameras = fields.object("cameras");
     if (cameras)
       for (const JsonMember& member : cameras->members) readCamera(member.key, member.value);
-    chooseCamera(cameras ? *cameras : *root);
+    chooseCamera(cameras ? *cameras : *root, choice_.camera);
     if (scene_.cameras.size() == 0) scene_.cameras.add({.name = "default", .pose = {.position = {0, 0, 20}}});
     const JsonValue* grid = fields.find("grid");
     if (grid) readGrid(*grid);
@@ -130,8 +139,8 @@ class Reader {
     return finish();
   }
 
-  // A model file as a scene: the model at its own coordinates with its first animation, cameras that frame its box (`front`,
-  // `left`, `right`, `back`, `top`), and its lights; a sun where it has none.
+  // A model file as a scene: the model at its own coordinates with its first animation, cameras that frame its box (kViews), the
+  // first of which that sees its surface is the default, those of the file, and its lights; a sun where it has none.
   std::optional<Scene> readModelFile() {
     JsonValue whole;
     whole.place.file = name_;
@@ -147,17 +156,20 @@ class Reader {
     copy.root.name = loaded->model.name;
     copy.labels = addLabels(scene_, loaded->model, scene_.name, {});
     if (!loaded->model.animations.empty()) copy.animation = 0;
-    addModelCopy(scene_, loaded->rows, loaded->model, copy);
+    const std::vector<NodeId> nodes = addModelCopy(scene_, loaded->rows, loaded->model, copy);
     MeshFrame frame;
     frame.update(scene_, 1, 0, 0);
     const Box box = frame.sceneBounds();
-    const std::pair<const char*, glm::dvec3> kViews[] = {{"front", {0, 0, -1}},
-                                                         {"left", {1, 0, 0}},
-                                                         {"right", {-1, 0, 0}},
-                                                         {"back", {0, 0, 1}},
-                                                         {"top", {0, -1, 0}}};
-    for (const auto& [name, towards] : kViews)
-      scene_.cameras.add({.name = name, .pose = framePose(box, towards)});
+    const std::vector<double> seen = surfaceSeen(frame);
+    const double most = *std::ranges::max_element(seen);
+    std::string first;  // that shows more than an edge of it
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      if (first.empty() && seen[i] >= 0.02 * most) first = kViews[i].first;
+      if (std::ranges::find(loaded->model.cameras, kViews[i].first, &assets::ModelCamera::name) ==
+          loaded->model.cameras.end())
+        scene_.cameras.add({.name = kViews[i].first, .pose = framePose(box, towardsOf(i))});
+    }
+    addCameras(loaded->model, nodes, box.center());
     if (!scene_.sun && scene_.lamps.size() == 0)
       scene_.sun = Sun{.direction = glm::normalize(glm::vec3(0.4f, 0.8f, 0.6f)),
                        .irradiance = glm::vec3(kSunLux / scene_.nits)};
@@ -165,10 +177,66 @@ class Reader {
       failNoGrid(whole);
       return {};
     }
-    return chooseCamera(whole) ? std::optional(finish()) : std::nullopt;
+    return chooseCamera(whole, choice_.camera.empty() ? first : choice_.camera) ? std::optional(finish())
+                                                                                : std::nullopt;
   }
 
  private:
+  static glm::dvec3 towardsOf(std::size_t view) {
+    const auto& [x, y, z] = kViews[view].second;
+    return {x, y, z};
+  }
+
+  // How much of the meshes' surface turns towards each of kViews; of skinned ones as they lie in the file.
+  std::vector<double> surfaceSeen(const MeshFrame& frame) const {
+    std::vector<double> seen(std::size(kViews), 0);
+    std::uint32_t corners = 0;
+    for (const DrawList list : {DrawList::opaque, DrawList::transparent})
+      for (const MeshRow& row : frame.rows(list)) {
+        const Mesh& mesh = scene_.meshes.rows()[row.mesh];
+        const bool both = scene_.materials.rows()[row.material].doubleSided;
+        for (std::uint32_t i = 0; i + 2 < mesh.indexCount && corners < kMeasuredCorners;
+             i += 3, corners += 3) {
+          std::array<glm::dvec3, 3> p;
+          for (std::uint32_t c = 0; c < 3; ++c) {
+            const std::uint32_t v = mesh.firstVertex + data_->indices[mesh.firstIndex + i + c];
+            p[c] = glm::dvec3(row.transform * glm::vec4(data_->vertices[v].position, 1));
+          }
+          const glm::dvec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
+          for (std::size_t view = 0; view < seen.size(); ++view) {
+            const double facing = -glm::dot(normal, towardsOf(view));
+            seen[view] += both ? std::abs(facing) : std::max(facing, 0.0);
+          }
+        }
+      }
+    return seen;
+  }
+
+  // The cameras of a model as they stand at the beginning. `center`: what the viewer turns them about.
+  void addCameras(const assets::Model& model, const std::vector<NodeId>& nodes, glm::dvec3 center) {
+    WorldTransforms transforms;
+    transforms.prepare(scene_, 1, 0, 0);
+    for (const assets::ModelCamera& from : model.cameras) {
+      const NodeId node = nodes[from.node];
+      const glm::mat4 world = node.valid() ? transforms.now()[node.index] : glm::mat4(1);
+      Camera camera{.name = from.name};
+      const glm::dvec3 towards(turnDirection(world, {0, 0, -1}));
+      const double distance = glm::dot(center - glm::dvec3(world[3]), towards);
+      camera.pose.position = glm::dvec3(world[3]);
+      camera.pose.target = camera.pose.position + towards * std::max(distance, 10 * from.nearPlane);
+      camera.pose.up = glm::dvec3(turnDirection(world, {0, 1, 0}));
+      camera.pose.fovDegrees = from.fovDegrees;
+      camera.pose.nearPlane = from.nearPlane;
+      camera.pose.height = from.height;
+      if (node.valid() && transforms.isMoving(node.index))
+        diagnostics_
+            .warning(Code::modelPartLeftOut, text::Place{name_},
+                     fmt::format("the motion of camera '{}' was left out", from.name))
+            .hint = "a scene file moves a camera along a \"path\"";
+      scene_.cameras.add(std::move(camera));
+    }
+  }
+
   text::Diagnostic& fail(Code code, const JsonValue& value, std::string message, std::string hint = "") {
     return failAt(diagnostics_, code, value, std::move(message), std::move(hint));
   }
@@ -185,17 +253,17 @@ class Reader {
   }
 
   // The chosen camera becomes the first one. False after W160: there is none of that name.
-  bool chooseCamera(const JsonValue& where) {
+  bool chooseCamera(const JsonValue& where, const std::string& name) {
     std::vector<Camera> cameras(scene_.cameras.rows().begin(), scene_.cameras.rows().end());
-    if (choice_.camera.empty()) return true;
-    if (const auto pose = poseOf(choice_.camera, cameras.empty() ? CameraPose{} : cameras.front().pose))
-      cameras.push_back({.name = choice_.camera, .pose = *pose});
-    const auto chosen = std::ranges::find(cameras, choice_.camera, &Camera::name);
+    if (name.empty()) return true;
+    if (const auto pose = poseOf(name, cameras.empty() ? CameraPose{} : cameras.front().pose))
+      cameras.push_back({.name = name, .pose = *pose});
+    const auto chosen = std::ranges::find(cameras, name, &Camera::name);
     if (chosen == cameras.end()) {
       std::vector<std::string> names;
       for (const Camera& camera : cameras) names.push_back(camera.name);
-      fail(Code::badSceneValue, where, fmt::format("the scene has no camera '{}'", choice_.camera),
-           names.empty() ? "name one under \"cameras\"" : text::nearestHint(choice_.camera, names));
+      fail(Code::badSceneValue, where, fmt::format("the scene has no camera '{}'", name),
+           names.empty() ? "name one under \"cameras\"" : text::nearestHint(name, names));
       return false;
     }
     std::rotate(cameras.begin(), chosen, chosen + 1);

@@ -90,7 +90,8 @@ std::vector<LabelId> addLabels(Scene& scene, const assets::Model& model, const s
   return labels;
 }
 
-void addModelCopy(Scene& scene, const ModelRows& rows, const assets::Model& model, const ModelCopy& copy) {
+std::vector<NodeId> addModelCopy(Scene& scene, const ModelRows& rows, const assets::Model& model,
+                                 const ModelCopy& copy) {
   const NodeId root = scene.nodes.add(copy.root);
   std::vector<bool> animated(model.nodes.size());
   if (copy.animation)
@@ -134,11 +135,12 @@ void addModelCopy(Scene& scene, const ModelRows& rows, const assets::Model& mode
     else if (!scene.sun)
       scene.sun = Sun{.direction = {0, 0, 1}, .irradiance = toUnits(scene, from), .node = node};
   }
-  if (!copy.animation) return;
+  if (!copy.animation) return nodes;
   Animation animation{model.animations[*copy.animation], {}, copy.speed};
   for (const assets::ModelTrack& track : animation.tracks->tracks)
     animation.nodes.push_back(nodes[track.node]);
   scene.animations.add(std::move(animation));
+  return nodes;
 }
 
 }  // namespace weft::scene

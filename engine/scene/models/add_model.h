@@ -38,6 +38,8 @@ struct ModelCopy {
   bool lights = true;        // with the model's lights; its sun only where the scene has none
   bool lampShadows = false;  // its lamps cast shadows
 };
-void addModelCopy(Scene& scene, const ModelRows& rows, const assets::Model& model, const ModelCopy& copy);
+// The node of each of the model's nodes.
+std::vector<NodeId> addModelCopy(Scene& scene, const ModelRows& rows, const assets::Model& model,
+                                 const ModelCopy& copy);
 
 }  // namespace weft::scene

@@ -67,7 +67,7 @@ TEST_CASE("a model file is a scene: framed, lit, with cameras all round") {
        {"scenes/models/FlightHelmet/FlightHelmet.gltf", "scenes/models/Fox.glb", "scenes/models/rock.obj"}) {
     const Scene scene = loadGood(kTop + file);
     CHECK(scene.sun);
-    CHECK(scene.cameras.size() == 5);
+    CHECK(scene.cameras.size() == 6);
     CHECK(findCamera(scene, "")->name == "front");
     MeshFrame frame;
     frame.update(scene, 1, 0, 0);
@@ -88,7 +88,7 @@ TEST_CASE("a model file is a scene: framed, lit, with cameras all round") {
   const auto top = loadScene(kTop + "scenes/models/rock.obj", diagnostics, nullptr, {.camera = "top"});
   REQUIRE(top);
   CHECK(findCamera(*top, "")->name == "top");
-  CHECK(top->cameras.size() == 5);
+  CHECK(top->cameras.size() == 6);
   CHECK_FALSE(loadScene(kTop + "scenes/models/rock.obj", diagnostics, nullptr, {.camera = "tpo"}));
   REQUIRE(diagnostics.size() == 1);
   CHECK(diagnostics.items()[0].hint == "did you mean 'top'?");

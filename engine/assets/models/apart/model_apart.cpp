@@ -35,7 +35,6 @@ std::uint64_t memoryFor(std::size_t bytes) {
 
 struct Question {
   std::string path, bytes;
-  bool obj = false;
   std::uint64_t limitsRaised = 1;
   std::vector<std::string> rules;  // which files may be read
 };
@@ -48,9 +47,9 @@ struct Answer {
 
 template <class A>
 void pass(A& a, Question& question) {
-  auto& [path, bytes, obj, limitsRaised, rules] = question;
+  auto& [path, bytes, limitsRaised, rules] = question;
   const auto each = [&](auto&... member) { (pass(a, member), ...); };
-  each(path, bytes, obj, limitsRaised, rules);
+  each(path, bytes, limitsRaised, rules);
 }
 
 template <class A>
@@ -108,13 +107,13 @@ void readModelsApart(std::vector<std::string> command) {
   readerCommand() = std::move(command);
 }
 
-bool readApart(std::string bytes, bool obj, ModelFiles& files, const LoadObserver& observer,
-               Diagnostics& diagnostics, Model& model) {
+bool readApart(std::string bytes, ModelFiles& files, const LoadObserver& observer, Diagnostics& diagnostics,
+               Model& model) {
   std::vector<std::string> command = readerCommand();
-  if (command.empty()) return readWithAssimp(std::move(bytes), obj, files, observer, diagnostics, model);
+  if (command.empty()) return readFbx(std::move(bytes), files, observer, diagnostics, model);
   command.emplace_back(kModelWord);
   const std::size_t size = bytes.size();
-  Question question{files.path(), std::move(bytes), obj, text::limitsRaised(), text::accessRules()};
+  Question question{files.path(), std::move(bytes), text::limitsRaised(), text::accessRules()};
   Writer writer;
   pass(writer, question);
   double done = 0;
@@ -167,8 +166,7 @@ void runModelReader() {
   ModelFiles files(question.path, said, observer);
   files.count(question.bytes.size(), files.place());
   try {
-    answer.good =
-        readWithAssimp(std::move(question.bytes), question.obj, files, observer, said, answer.model);
+    answer.good = readFbx(std::move(question.bytes), files, observer, said, answer.model);
   } catch (const std::exception&) {  // out of memory
     text::endApart();
   }

@@ -17,8 +17,8 @@ constexpr const char* kModelWord = "read-model";
 // To be called before anything is read.
 void readModelsApart(std::vector<std::string> command);
 
-// As readWithAssimp(), which it calls here or there.
-bool readApart(std::string bytes, bool obj, ModelFiles& files, const LoadObserver& observer,
+// As readFbx(), which it calls here or there.
+bool readApart(std::string bytes, ModelFiles& files, const LoadObserver& observer,
                text::Diagnostics& diagnostics, Model& model);
 
 [[noreturn]] void runModelReader();

@@ -87,12 +87,12 @@ void pass(A& a, Texture& texture) {
 template <class A>
 void pass(A& a, Material& material) {
   auto& [name, albedo, metallic, roughness, emissive, alpha, alphaCutoff, blend, normalScale,
-         occlusionStrength, blinnPhong, specular, shininess, doubleSided, albedoMap, normalMap,
-         metallicRoughnessMap, occlusionMap, emissiveMap] = material;
+         occlusionStrength, blinnPhong, specular, shininess, doubleSided, unlit, albedoMap, normalMap,
+         metallicRoughnessMap, occlusionMap, emissiveMap, samplers] = material;
   const auto each = [&](auto&... member) { (pass(a, member), ...); };
   each(name, albedo, metallic, roughness, emissive, alpha, alphaCutoff, blend, normalScale, occlusionStrength,
-       blinnPhong, specular, shininess, doubleSided, albedoMap, normalMap, metallicRoughnessMap, occlusionMap,
-       emissiveMap);
+       blinnPhong, specular, shininess, doubleSided, unlit, albedoMap, normalMap, metallicRoughnessMap,
+       occlusionMap, emissiveMap, samplers);
 }
 
 template <class A>
@@ -122,6 +122,12 @@ void pass(A& a, ModelLight& light) {
 }
 
 template <class A>
+void pass(A& a, ModelCamera& camera) {
+  auto& [name, node, fovDegrees, height, nearPlane] = camera;
+  pass(a, name), pass(a, node), pass(a, fovDegrees), pass(a, height), pass(a, nearPlane);
+}
+
+template <class A>
 void pass(A& a, ModelTrack& track) {
   auto& [node, path, interpolation, times, values] = track;
   pass(a, node), pass(a, path), pass(a, interpolation), pass(a, times), pass(a, values);
@@ -137,10 +143,10 @@ template <class A>
 void pass(A& a, Model& m) {
   const auto each = [&](auto&... member) { (pass(a, member), ...); };
   each(m.vertices, m.skin, m.colors, m.indices, m.name, m.textures, m.materials, m.meshes, m.nodes,
-       m.instances, m.skins, m.lights, m.animations, m.files);
+       m.instances, m.skins, m.lights, m.cameras, m.animations, m.files);
 }
 static_assert(sizeof(Model) ==
-                  4 * sizeof(std::vector<int>) + sizeof(std::string) + 9 * sizeof(std::vector<int>),
+                  4 * sizeof(std::vector<int>) + sizeof(std::string) + 10 * sizeof(std::vector<int>),
               "pass what was added");
 
 template <class A>

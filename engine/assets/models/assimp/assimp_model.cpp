@@ -30,40 +30,23 @@ using text::Diagnostics;
 
 namespace {
 
-// All that Assimp may open: the model itself, which was read and checked, and material libraries of its folder.
+constexpr const char* kName = "model.fbx";
+
+// All that Assimp may open: the model itself, which was read and checked.
 class ModelIo final : public Assimp::IOSystem {
  public:
-  ModelIo(std::string name, std::string bytes, ModelFiles& files)
-      : name_(std::move(name)), bytes_(std::move(bytes)), files_(files) {}
+  explicit ModelIo(std::string bytes) : bytes_(std::move(bytes)) {}
 
-  bool Exists(const char* path) const override { return path == name_; }
+  bool Exists(const char* path) const override { return std::string_view(path) == kName; }
   char getOsSeparator() const override { return '/'; }
   Assimp::IOStream* Open(const char* path, const char* mode) override {
-    if (std::strchr(mode, 'w') || std::strchr(mode, 'a')) return nullptr;
-    if (path == name_) return streamOf(bytes_);
-    std::string wanted = path;
-    std::ranges::replace(wanted, '\\', '/');
-    while (wanted.starts_with("./")) wanted.erase(0, 2);
-    // Each file once; Assimp asks again under a name of its own for a library that is missing.
-    if (const auto known = others_.find(wanted); known != others_.end())
-      return known->second ? streamOf(*known->second) : nullptr;
-    if (missing_) return nullptr;
-    auto bytes = files_.readOptional(wanted, files_.place(), text::Code::modelPartLeftOut, false);
-    missing_ = !bytes;
-    const auto& kept = others_.emplace(wanted, std::move(bytes)).first->second;
-    return kept ? streamOf(*kept) : nullptr;
+    if (!Exists(path) || std::strchr(mode, 'w') || std::strchr(mode, 'a')) return nullptr;
+    return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes_.data()), bytes_.size());
   }
   void Close(Assimp::IOStream* stream) override { delete stream; }
 
  private:
-  static Assimp::IOStream* streamOf(const std::string& bytes) {
-    return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
-  }
-
-  std::string name_, bytes_;
-  ModelFiles& files_;
-  std::map<std::string, std::optional<std::string>> others_;
-  bool missing_ = false;
+  std::string bytes_;
 };
 
 class Progress final : public Assimp::ProgressHandler {
@@ -90,10 +73,8 @@ glm::mat4 toMatrix(const aiMatrix4x4& m) {
 
 class AssimpReader {
  public:
-  AssimpReader(const aiScene& scene, bool colorless, ModelFiles& files, Diagnostics& diagnostics,
-               Model& model)
+  AssimpReader(const aiScene& scene, ModelFiles& files, Diagnostics& diagnostics, Model& model)
       : scene_(scene),
-        colorless_(colorless),
         files_(files),
         diagnostics_(diagnostics),
         model_(model),
@@ -140,13 +121,17 @@ class AssimpReader {
       ModelNode node;
       node.name = from->mName.C_Str();
       node.parent = parent;
-      if (!decompose(toMatrix(from->mTransformation), node.local)) {
-        fail(fmt::format("the matrix of node '{}' is none of translation, rotation and scale", node.name),
-             "a matrix without shear, of finite numbers");
+      std::optional<Transform> inner;
+      if (!decompose(toMatrix(from->mTransformation), node.local, inner)) {
+        fail(fmt::format("the matrix of node '{}' holds what is no number", node.name), "finite numbers");
         return false;
       }
-      const auto row = static_cast<std::uint32_t>(model_.nodes.size());
+      auto row = static_cast<std::uint32_t>(model_.nodes.size());
       rowByName_.emplace(node.name, row);
+      if (inner) {
+        model_.nodes.push_back(node);
+        node = {.name = node.name, .parent = row++, .local = *inner};
+      }
       nodeRows_.emplace_back(from, row);
       model_.nodes.push_back(std::move(node));
       for (unsigned c = from->mNumChildren; c-- > 0;) work.emplace_back(from->mChildren[c], row);
@@ -228,19 +213,6 @@ class AssimpReader {
     model_.materials.push_back(std::move(material));
   }
 
-  static float brightestOf(const glm::vec3& color) { return std::max({color.x, color.y, color.z}); }
-
-  // The exponent of Blinn–Phong as the width of GGX: alpha² = 2 / (n + 2) (Walter et al. 2007), alpha = roughness². What
-  // has no diffuse color but a bright highlight is taken for metal.
-  static void toMetallicRoughness(Material& material) {
-    material.blinnPhong = true;
-    material.roughness = std::pow(2 / (material.shininess + 2), 0.25f);
-    const float diffuse = brightestOf(material.albedo), specular = brightestOf(material.specular);
-    if (diffuse >= 0.04f || specular < 0.25f) return;
-    material.metallic = 1;
-    material.albedo = material.specular;
-  }
-
   bool readInstance(unsigned index, std::uint32_t node) {
     const aiMesh& from = *scene_.mMeshes[index];
     if ((from.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0) return true;
@@ -255,16 +227,7 @@ class AssimpReader {
     return true;
   }
 
-  // Assimp 5.2.5 gives the colors of an OBJ file, in their order, to its first vertices.
-  bool hasColors(const aiMesh& mesh) {
-    if (!mesh.HasVertexColors(0)) return false;
-    if (!colorless_) return true;
-    if (!std::exchange(saidColorless_, true))
-      leaveOut("the vertex colors were left out: some vertices have none",
-               "export the mesh again, with a color for every vertex");
-    return false;
-  }
-  // Neither format says what its colors are; other programs take them for sRGB (Blender 3.4 and later, three.js).
+  // The format does not say what its colors are; other programs take them for sRGB (Blender 3.4 and later, three.js).
   static glm::vec4 toLinear(const aiColor4D& color) {
     const auto linear = [](float c) { return decodeSrgb(std::clamp(c, 0.0f, 1.0f)); };
     return {linear(color.r), linear(color.g), linear(color.b), std::clamp(color.a, 0.0f, 1.0f)};
@@ -278,7 +241,7 @@ class AssimpReader {
     RawMesh mesh;
     mesh.name = from.mName.C_Str();
     mesh.join = true;
-    const bool colored = hasColors(from);
+    const bool colored = from.HasVertexColors(0);
     mesh.normals = from.HasNormals();
     mesh.colors = colored;
     for (unsigned v = 0; v < from.mNumVertices; ++v) {
@@ -385,7 +348,6 @@ class AssimpReader {
   }
 
   const aiScene& scene_;
-  bool colorless_;  // some vertices of an OBJ file have no color
   ModelFiles& files_;
   Diagnostics& diagnostics_;
   Model& model_;
@@ -395,19 +357,12 @@ class AssimpReader {
   std::map<std::string, std::uint32_t, std::less<>> rowByName_;
   std::map<std::string, std::uint32_t> images_;  // numbers in the pool
   std::map<unsigned, std::uint32_t> meshes_, skins_;
-  bool saidColorless_ = false;
 };
 
-bool checkBefore(const std::string& bytes, bool obj, ModelCounts& counts, ModelFiles& files,
-                 Diagnostics& diagnostics) {
-  const bool text = obj || !isBinaryFbx(bytes);
-  if (text && bytes.size() > text::raised(kMaxModelTextBytes)) {
-    text::reportLimit(diagnostics, files.place(), "the model's text is too large", kMaxModelTextBytes,
-                      "bytes of one OBJ or text FBX file", bytes.size())
-        .found = fmt::format("{} bytes", bytes.size());
-    return false;
-  }
-  const ModelProblem problem = obj ? checkObj(bytes, counts) : checkFbx(bytes, counts);
+bool checkBefore(const std::string& bytes, ModelFiles& files, Diagnostics& diagnostics) {
+  if (!isBinaryFbx(bytes) && !files.isTextInLimit(bytes)) return false;
+  std::uint64_t unpacked = 0;
+  const ModelProblem problem = checkFbx(bytes, unpacked);
   if (!problem.message.empty()) {
     text::Place place = files.place();
     place.line = problem.line;
@@ -418,11 +373,7 @@ bool checkBefore(const std::string& bytes, bool obj, ModelCounts& counts, ModelF
     d.found = problem.found;
     return false;
   }
-  // Assimp makes a vertex of each corner.
-  Model none;
-  return MeshBuilder(none).hasRoom(std::max(counts.vertices, counts.corners), counts.corners, files.place(),
-                                   diagnostics) &&
-         files.count(counts.unpacked, files.place());
+  return files.count(unpacked, files.place());
 }
 
 bool hasEndlessFace(const aiScene& scene) {
@@ -434,24 +385,22 @@ bool hasEndlessFace(const aiScene& scene) {
 
 }  // namespace
 
-bool readWithAssimp(std::string bytes, bool obj, ModelFiles& files, const LoadObserver& observer,
-                    Diagnostics& diagnostics, Model& model) {
-  ModelCounts counts;
-  if (!checkBefore(bytes, obj, counts, files, diagnostics)) return false;
+bool readFbx(std::string bytes, ModelFiles& files, const LoadObserver& observer, Diagnostics& diagnostics,
+             Model& model) {
+  if (!checkBefore(bytes, files, diagnostics)) return false;
   const std::size_t before = diagnostics.errorCount();
   Assimp::Importer importer;  // owns what is set here
-  const std::string name = obj ? "model.obj" : "model.fbx";
-  importer.SetIOHandler(new ModelIo(name, std::move(bytes), files));
+  importer.SetIOHandler(new ModelIo(std::move(bytes)));
   importer.SetProgressHandler(new Progress(observer));
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  const aiScene* scene = importer.ReadFile(name, 0);
+  const aiScene* scene = importer.ReadFile(kName, 0);
   const auto unreadable = [&](const std::string& why) {
     if (diagnostics.errorCount() == before)
       diagnostics
           .error(Code::unreadableModel, files.place(),
                  fmt::format("cannot read model '{}': {}", files.path(), why))
-          .expected = obj ? "a Wavefront OBJ file" : "an FBX file of version 7.1 or later";
+          .expected = "an FBX file of version 7.1 or later";
     return false;
   };
   if (files.gaveUp()) return false;
@@ -460,7 +409,7 @@ bool readWithAssimp(std::string bytes, bool obj, ModelFiles& files, const LoadOb
   if (hasEndlessFace(*scene)) return unreadable("a face of it has more than 4096 corners");
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
   if (!scene) return unreadable(importer.GetErrorString());
-  return AssimpReader(*scene, counts.colorless, files, diagnostics, model).read(observer);
+  return AssimpReader(*scene, files, diagnostics, model).read(observer);
 }
 
 }  // namespace weft::assets

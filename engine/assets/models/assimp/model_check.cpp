@@ -15,17 +15,7 @@ namespace weft::assets {
 
 namespace {
 
-constexpr std::size_t kLongestLine = 65536;
-constexpr std::size_t kMaxCorners = 4096;  // of one face: Assimp cuts ears, which costs their square
 constexpr std::size_t kDeepest = 64;
-
-// Up to a comment.
-std::size_t countWords(std::string_view line) {
-  line = line.substr(0, line.find('#'));
-  std::size_t words = 0;
-  while (!text::takeWord(line).empty()) ++words;
-  return words;
-}
 
 template <class T>
 T load(std::string_view bytes, std::size_t at) {
@@ -61,30 +51,6 @@ ModelProblem circleProblem() {
 
 }  // namespace
 
-ModelProblem checkObj(std::string_view bytes, ModelCounts& counts) {
-  std::uint32_t number = 0;
-  while (!bytes.empty()) {
-    std::string_view line = text::takeLine(bytes);
-    ++number;
-    if (line.size() > kLongestLine)
-      return {"a line of it is too long", fmt::format("lines of at most {} bytes", kLongestLine),
-              fmt::format("{} bytes", line.size()), number};
-    const std::string_view key = text::takeWord(line);
-    if (key != "v" && key != "f") continue;
-    const std::size_t words = countWords(line);
-    if (key == "v") {
-      ++counts.vertices;
-      counts.colorless |= words != 6;
-      continue;
-    }
-    if (words > kMaxCorners)
-      return {"a face of it has too many corners", fmt::format("at most {}", kMaxCorners),
-              fmt::format("{}", words), number};
-    counts.corners += words > 2 ? (words - 2) * 3 : 0;
-  }
-  return {};
-}
-
 bool isBinaryFbx(std::string_view bytes) {
   return bytes.starts_with("Kaydara FBX Binary");
 }
@@ -95,7 +61,7 @@ namespace {
 // properties, then records within.
 class FbxWalk {
  public:
-  FbxWalk(std::string_view bytes, ModelCounts& counts) : bytes_(bytes), counts_(counts) {}
+  FbxWalk(std::string_view bytes, std::uint64_t& unpacked) : bytes_(bytes), unpacked_(unpacked) {}
 
   ModelProblem check() {
     if (bytes_.size() < 27)
@@ -171,7 +137,7 @@ class FbxWalk {
         // zlib packs 1032 to 1 at most; an array that says more is none.
         if (encoding > 1 || elements * packed > (encoding == 0 ? size - 12 : (size - 12) * 1040))
           return false;
-        counts_.unpacked += elements * packed;
+        unpacked_ += elements * packed;
       }
       if (size > end - at) return false;
       if (kind == 'L' && name == "C") ids.push_back(load<std::int64_t>(bytes_, at));
@@ -182,7 +148,7 @@ class FbxWalk {
   }
 
   std::string_view bytes_;
-  ModelCounts& counts_;
+  std::uint64_t& unpacked_;
   std::size_t word_ = 4;
   std::vector<std::pair<std::int64_t, std::int64_t>> edges_;
 };
@@ -222,8 +188,8 @@ ModelProblem checkTextFbx(std::string_view bytes) {
 
 }  // namespace
 
-ModelProblem checkFbx(std::string_view bytes, ModelCounts& counts) {
-  return isBinaryFbx(bytes) ? FbxWalk(bytes, counts).check() : checkTextFbx(bytes);
+ModelProblem checkFbx(std::string_view bytes, std::uint64_t& unpacked) {
+  return isBinaryFbx(bytes) ? FbxWalk(bytes, unpacked).check() : checkTextFbx(bytes);
 }
 
 }  // namespace weft::assets

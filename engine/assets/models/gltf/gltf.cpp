@@ -1,3 +1,4 @@
+// From the document to a Model. Declared in gltf_document.h.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,8 +9,10 @@
 #include <numbers>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include "engine/assets/models/gltf/gltf_document.h"
+#include "engine/assets/models/gltf/spec_gloss.h"
 #include "engine/assets/models/parts/mesh_builder.h"
 #include "engine/assets/models/parts/texture_pool.h"
 
@@ -66,6 +69,9 @@ class GltfReader {
       if (shown_[i]) readInstances(rows_[i], rowOf_[i]);
     }
     readLights();
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      if (const JsonValue* camera = rows_[i].find("camera"); camera && shown_[i])
+        readCamera(document_.rows("cameras")[document_.index("cameras", *camera)], i);
     for (const JsonValue& row : document_.rows("animations")) readAnimation(row);
   }
 
@@ -76,16 +82,16 @@ class GltfReader {
 
   // --- nodes and skins
 
-  ModelNode readNode(const JsonValue& value, std::size_t number) {
+  // `inner`: what stands between the node and all in it, where its matrix shears.
+  ModelNode readNode(const JsonValue& value, std::size_t number, std::optional<Transform>& inner) {
     ModelNode node;
     node.name = textOf(value, "name", fmt::format("node {}", number));
     glm::mat4 matrix(0);
     if (document_.numbers(value, "matrix", {&matrix[0].x, 16})) {
-      if (!decompose(matrix, node.local))
-        document_.fail(
-            *value.find("matrix"),
-            fmt::format("the matrix of node {} is none of translation, rotation and scale", number),
-            "a matrix without shear, of finite numbers");
+      if (!decompose(matrix, node.local, inner))
+        document_.fail(*value.find("matrix"),
+                       fmt::format("the matrix of node {} cannot be taken apart", number),
+                       "a matrix of finite numbers");
       return node;
     }
     glm::vec4 rotation(0, 0, 0, 1);
@@ -97,6 +103,11 @@ class GltfReader {
                      "a quaternion x, y, z, w");
     node.local.rotation = toRotation(rotation);
     return node;
+  }
+
+  std::uint32_t addNode(ModelNode node) {
+    model_.nodes.push_back(std::move(node));
+    return static_cast<std::uint32_t>(model_.nodes.size() - 1);
   }
 
   // Parents before their children: rowOf_ takes a node of the file to its row.
@@ -116,10 +127,11 @@ class GltfReader {
     while (!work.empty()) {
       const std::uint32_t at = work.back();
       work.pop_back();
-      ModelNode node = readNode(rows_[at], at);
+      std::optional<Transform> inner;
+      ModelNode node = readNode(rows_[at], at, inner);
       if (parents[at] != kNoRow) node.parent = rowOf_[parents[at]];
-      rowOf_[at] = static_cast<std::uint32_t>(model_.nodes.size());
-      model_.nodes.push_back(std::move(node));
+      rowOf_[at] = addNode(std::move(node));
+      if (inner) rowOf_[at] = addNode({model_.nodes.back().name, rowOf_[at], *inner});
       const std::vector<JsonValue>& children = itemsOf(rows_[at], "children");
       for (std::size_t c = children.size(); c-- > 0;) work.push_back(document_.index("nodes", children[c]));
     }
@@ -129,20 +141,23 @@ class GltfReader {
                      "nodes that form trees", "a circle of children");
   }
 
-  // What the scene shows: its roots and all below. Without a scene everything.
+  // What the scene shows: its roots and all below, up to what is invisible (KHR_node_visibility). Without a scene everything.
   void findShown() {
     const std::vector<JsonValue>& scenes = document_.rows("scenes");
-    shown_.assign(rows_.size(), scenes.empty());
-    if (scenes.empty()) return;
+    shown_.assign(rows_.size(), false);
     const JsonValue* chosen = document_.root().find("scene");
     std::vector<std::uint32_t> work;
     const auto add = [&](const JsonValue& of, std::string_view key) {
       for (const JsonValue& item : itemsOf(of, key)) work.push_back(document_.index("nodes", item));
     };
-    add(scenes[chosen ? document_.index("scenes", *chosen) : 0], "nodes");
+    if (!scenes.empty()) add(scenes[chosen ? document_.index("scenes", *chosen) : 0], "nodes");
+    for (std::uint32_t i = 0; scenes.empty() && i < rows_.size(); ++i)
+      if (model_.nodes[rowOf_[i]].parent == kNoRow) work.push_back(i);
     while (!work.empty()) {
       const std::uint32_t at = work.back();
       work.pop_back();
+      const JsonValue* visible = valueOf(rows_[at], {"extensions", "KHR_node_visibility", "visible"});
+      if (visible && !visible->flag) continue;
       if (!shown_[at]) add(rows_[at], "children");
       shown_[at] = true;
     }
@@ -201,7 +216,8 @@ class GltfReader {
   // Put into the pool once.
   const Image& imageOf(const JsonValue& texture) {
     static const Image kNone;
-    const JsonValue* source = texture.find("source");
+    const JsonValue *webp = valueOf(texture, {"extensions", "EXT_texture_webp", "source"}),
+                    *source = webp ? webp : texture.find("source");
     if (!source) return kNone;
     const std::uint32_t row = document_.index("images", *source);
     Image& image = images_[row];
@@ -227,6 +243,22 @@ class GltfReader {
     return image;
   }
 
+  // glTF 2.0, 5.26. What is made smaller is always mixed from texels and levels.
+  std::uint8_t samplerOf(const JsonValue& texture) {
+    const JsonValue* which = texture.find("sampler");
+    if (!which) return repeat;
+    const JsonValue& row = document_.rows("samplers")[document_.index("samplers", *which)];
+    const auto bitsOf = [&](const char* key, std::initializer_list<std::pair<int, MapSampler>> values) {
+      const JsonValue* value = row.find(key);
+      for (const auto& [number, bits] : values)
+        if (value && value->number == number) return int{bits};
+      return 0;
+    };
+    return static_cast<std::uint8_t>(bitsOf("wrapS", {{33071, clampU}, {33648, mirrorU}}) |
+                                     bitsOf("wrapT", {{33071, clampV}, {33648, mirrorV}}) |
+                                     bitsOf("magFilter", {{9728, nearest}}));
+  }
+
   GltfUv readUv(const JsonValue& info) {
     GltfUv uv;
     uv.set = static_cast<std::uint32_t>(document_.number(info, "texCoord", 0, 0, 63));
@@ -242,10 +274,15 @@ class GltfReader {
   void readMaterial(const JsonValue& value, std::size_t number) {
     Material material = defaultMaterial(textOf(value, "name", fmt::format("material {}", number)));
     std::optional<GltfUv> uv;
-    for (const auto& map : kMaps) {
-      const JsonValue* info =
-          map.object.empty() ? value.find(map.key) : valueOf(value, {map.object, map.key});
-      if (!info) continue;
+    const JsonValue* gloss = valueOf(value, {"extensions", "KHR_materials_pbrSpecularGlossiness"});
+    const bool unlit = valueOf(value, {"extensions", "KHR_materials_unlit"});
+    std::array<Image, std::size(kMaps)> images;
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      const auto& map = kMaps[i];
+      const JsonValue* info = map.object.empty() ? value.find(map.key)
+                              : gloss ? gloss->find(i == 0 ? "diffuseTexture" : "specularGlossinessTexture")
+                                      : valueOf(value, {map.object, map.key});
+      if (!info || (unlit && i > 0)) continue;
       const GltfUv mine = readUv(*info);
       if (uv.value_or(mine) != mine) {
         document_.leaveOut(*info, fmt::format("'{}' of material {} was left out", map.key, number),
@@ -256,10 +293,11 @@ class GltfReader {
       uv = mine;
       const JsonValue& texture =
           document_.rows("textures")[document_.index("textures", document_.need(*info, "index"))];
-      if (!texture.find("source"))
+      images[i] = imageOf(texture);
+      if (!images[i].tried)
         pool_.reportMissing("a texture", "it names no image that Weft can read", texture.place);
-      const Image& image = imageOf(texture);
-      material.*map.map = pool_.use(image.number, image.name, map.use, texture.place);
+      material.samplers[i] = samplerOf(texture);
+      material.*map.map = pool_.use(images[i].number, images[i].name, map.use, texture.place);
     }
     uvs_.push_back(uv.value_or(GltfUv{}));
     const auto numberOf = [&](std::initializer_list<std::string_view> object, std::string_view key,
@@ -273,6 +311,7 @@ class GltfReader {
     material.albedo = {factor[0], factor[1], factor[2]};
     material.metallic = numberOf({"pbrMetallicRoughness"}, "metallicFactor", 1, 0, 1);
     material.roughness = numberOf({"pbrMetallicRoughness"}, "roughnessFactor", 1, 0, 1);
+    if (gloss) factor[3] = readGloss(*gloss, images[0], images[1], material);
     material.normalScale = numberOf({"normalTexture"}, "scale", 1, -1e3, 1e3);
     material.occlusionStrength = numberOf({"occlusionTexture"}, "strength", 1, 0, 1);
     document_.numbers(value, "emissiveFactor", {&material.emissive.x, 3});
@@ -288,7 +327,51 @@ class GltfReader {
     }
     const JsonValue* both = value.find("doubleSided");
     material.doubleSided = both && both->flag;
+    if (unlit) {
+      material.unlit = material.blinnPhong = true;
+      material.shininess = material.metallic = 1;
+      material.emissive = std::exchange(material.albedo, glm::vec3(0));
+      material.emissiveMap = material.albedoMap;
+      material.samplers[4] = material.samplers[0];
+    }
     model_.materials.push_back(std::move(material));
+  }
+
+  // KHR_materials_pbrSpecularGlossiness: maps are made of its two. The alpha factor.
+  float readGloss(const JsonValue& value, const Image& diffuse, const Image& specular, Material& material) {
+    std::array<float, 4> factor{1, 1, 1, 1};
+    document_.numbers(value, "diffuseFactor", factor);
+    SpecGloss gloss{.diffuse = {factor[0], factor[1], factor[2]}};
+    document_.numbers(value, "specularFactor", {&gloss.specular.x, 3});
+    gloss.glossiness = document_.number(value, "glossinessFactor", 1, 0, 1);
+    const Metallic whole = toMetallic(gloss);
+    std::tie(material.albedo, material.metallic, material.roughness) =
+        std::tie(whole.albedo, whole.metallic, whole.roughness);
+    if (diffuse.number == kNoRow && specular.number == kNoRow) return factor[3];
+    material.albedo = glm::vec3(1);
+    material.metallic = material.roughness = 1;
+    material.albedoMap = pool_.useMade(diffuse.number, specular.number, makeAlbedo(gloss), diffuse.name,
+                                       TextureUse::color, value.place);
+    material.metallicRoughnessMap =
+        pool_.useMade(diffuse.number, specular.number, makeMetallicRoughness(gloss), specular.name,
+                      TextureUse::numbers, value.place);
+    material.samplers[diffuse.number == kNoRow ? 0 : 1] = material.samplers[diffuse.number == kNoRow ? 1 : 0];
+    return factor[3];
+  }
+
+  // glTF 2.0, 3.10: at the origin of its node.
+  void readCamera(const JsonValue& value, std::size_t node) {
+    ModelCamera camera;
+    camera.name = textOf(value, "name", textOf(rows_[node], "name", fmt::format("camera {}", node)));
+    camera.node = rowOf_[node];
+    const bool flat = textOf(value, "type") == "orthographic";
+    const JsonValue& lens = document_.need(value, flat ? "orthographic" : "perspective");
+    if (flat)
+      camera.height = 2 * document_.number(lens, "ymag", 1, 1e-9, 1e9);
+    else
+      camera.fovDegrees = glm::degrees(document_.number(lens, "yfov", 1, 1e-3, 3.1));
+    camera.nearPlane = std::max(1e-6f, document_.number(lens, "znear", 0.1, 0, 1e9));
+    model_.cameras.push_back(std::move(camera));
   }
 
   // --- meshes
@@ -302,14 +385,38 @@ class GltfReader {
     const JsonValue *mesh = node.find("mesh"), *which = node.find("skin");
     if (!mesh) return;
     const std::uint32_t skin = which ? document_.index("skins", *which) : kNoRow;
+    const std::vector<std::uint32_t> nodes = instancesOf(node, row);
     for (const Part& part : partsOf(document_.index("meshes", *mesh), skin != kNoRow, node)) {
       const bool skinned = model_.meshes[part.mesh].skinned;
       if (skinned && part.joints > model_.skins[skin].joints.size())
         document_.fail(node, "vertices are moved by joints that the skin does not have",
                        fmt::format("joints below {}", model_.skins[skin].joints.size()),
                        fmt::format("joint {}", part.joints - 1));
-      model_.instances.push_back({row, part.mesh, part.material, skinned ? skin : kNoRow});
+      for (const std::uint32_t each : nodes)
+        model_.instances.push_back({each, part.mesh, part.material, skinned ? skin : kNoRow});
     }
+  }
+
+  // The rows that show the node's mesh: its own, or those that EXT_mesh_gpu_instancing puts below it.
+  std::vector<std::uint32_t> instancesOf(const JsonValue& node, std::uint32_t row) {
+    const JsonValue* attributes = valueOf(node, {"extensions", "EXT_mesh_gpu_instancing", "attributes"});
+    if (!attributes || attributes->members.empty()) return {row};
+    const JsonValue& any = attributes->members[0].value;
+    const std::string kind = textOf(document_.rows("accessors")[document_.index("accessors", any)], "type");
+    count_ = document_.accessor(any, kind, true).count;
+    GltfDocument::refuseUnless(files_.count(std::uint64_t{count_} * sizeof(ModelNode), node.place));
+    const std::vector<glm::vec3> moves = attribute<glm::vec3>(*attributes, "TRANSLATION", kFarthest),
+                                 scales = attribute<glm::vec3>(*attributes, "SCALE", kFarthest);
+    std::vector<glm::vec4> turns = attribute<glm::vec4>(*attributes, "ROTATION", 2);
+    std::vector<std::uint32_t> rows;
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      ModelNode each{model_.nodes[row].name, row, {}};
+      if (!moves.empty()) each.local.translation = moves[i];
+      if (!scales.empty()) each.local.scale = scales[i];
+      if (!turns.empty() && normalizeRotation(turns[i])) each.local.rotation = toRotation(turns[i]);
+      rows.push_back(addNode(std::move(each)));
+    }
+    return rows;
   }
 
   // A mesh is read once with its joints and once without, and once for each way in which it is morphed, where nodes use it
@@ -334,6 +441,7 @@ class GltfReader {
 
   Part readPrimitive(const JsonValue& value, const std::string& name, bool skinned,
                      const std::vector<float>& weights) {
+    document_.unpackDraco(value);
     const JsonValue* positions = valueOf(value, {"attributes", "POSITION"});
     const int mode = static_cast<int>(document_.number(value, "mode", 4, 0, 6));
     if (mode < 4 || !positions) {

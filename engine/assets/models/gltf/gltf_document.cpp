@@ -22,8 +22,36 @@ constexpr std::uint64_t kMaxBytes = std::uint64_t{1}
                                     << 40;  // no file is so large; sums of these do not overflow
 
 // What an element of a mesh may ask for that Weft does, or that changes no picture when it is left out.
-constexpr std::string_view kKnownExtensions[] = {"KHR_lights_punctual", "KHR_materials_emissive_strength",
-                                                 "KHR_mesh_quantization", "KHR_texture_transform"};
+constexpr std::string_view kKnownExtensions[] = {"EXT_mesh_gpu_instancing",
+                                                 "EXT_meshopt_compression",
+                                                 "EXT_texture_webp",
+                                                 "KHR_draco_mesh_compression",
+                                                 "KHR_lights_punctual",
+                                                 "KHR_materials_emissive_strength",
+                                                 "KHR_materials_pbrSpecularGlossiness",
+                                                 "KHR_materials_unlit",
+                                                 "KHR_mesh_quantization",
+                                                 "KHR_node_visibility",
+                                                 "KHR_texture_transform",
+                                                 "KHR_xmp",
+                                                 "KHR_xmp_json_ld"};
+
+bool isKnown(std::string_view extension) {
+  return std::ranges::find(kKnownExtensions, extension) != std::end(kKnownExtensions);
+}
+
+// The extensions that values below this one have and Weft does not know: where each is first, and how often.
+void collectUnknown(const JsonValue& value,
+                    std::map<std::string, std::pair<const JsonValue*, std::size_t>>& out) {
+  for (const text::JsonMember& member : value.members) {
+    if (member.key == "extensions")
+      for (const text::JsonMember& extension : member.value.members)
+        if (!isKnown(extension.key))
+          ++out.try_emplace(extension.key, &extension.value, std::size_t{0}).first->second.second;
+    if (member.key != "extras") collectUnknown(member.value, out);
+  }
+  for (const JsonValue& item : value.items) collectUnknown(item, out);
+}
 
 template <class T>
 T load(const char* data) {
@@ -146,17 +174,25 @@ GltfDocument::GltfDocument(std::string bytes, ModelFiles& files, text::Diagnosti
 
 void GltfDocument::checkExtensions() {
   for (const JsonValue& name : rows("extensionsRequired"))
-    if (std::ranges::find(kKnownExtensions, name.text) == std::end(kKnownExtensions)) {
+    if (!isKnown(name.text)) {
       report(text::Severity::error, Code::unreadableModel, name,
              fmt::format("the model needs the extension '{}', which Weft does not know", name.text),
              fmt::format("{}", fmt::join(kKnownExtensions, ", ")), "",
              "export the model without it, for example uncompressed");
       throw Refused{};
     }
+  std::map<std::string, std::pair<const JsonValue*, std::size_t>> unknown;
+  collectUnknown(root_, unknown);
+  for (const auto& [name, use] : unknown)
+    leaveOut(*use.first, fmt::format("the extension '{}' was left out", name),
+             fmt::format("{}", fmt::join(kKnownExtensions, ", ")),
+             fmt::format("{} use{} of it", use.second, use.second == 1 ? "" : "s"));
 }
 
 std::string GltfDocument::readBuffer(const JsonValue& row, std::string_view binary) {
-  const JsonValue* uri = row.find("uri");
+  const JsonValue *uri = row.find("uri"),
+                  *fallback = valueOf(row, {"extensions", "EXT_meshopt_compression", "fallback"});
+  if (!uri && fallback && fallback->flag) return "";  // its views are packed
   std::optional<std::string> bytes;
   if (!uri) {
     bytes = std::string(binary);
@@ -225,7 +261,12 @@ bool GltfDocument::numbers(const JsonValue& object, std::string_view key, std::s
 }
 
 GltfDocument::View GltfDocument::view(const JsonValue& which) {
-  const JsonValue& row = rows("bufferViews")[index("bufferViews", which)];
+  const std::size_t number = index("bufferViews", which);
+  const JsonValue& row = rows("bufferViews")[number];
+  if (const JsonValue* packed = valueOf(row, {"extensions", "EXT_meshopt_compression"})) {
+    if (!views_.contains(number)) views_[number] = unpackMeshopt(*packed);
+    return {views_[number], whole(row, "byteStride")};
+  }
   const std::string& buffer = buffers_[index("buffers", need(row, "buffer"))];
   const std::uint64_t offset = whole(row, "byteOffset"), length = whole(row, "byteLength");
   if (offset + length > buffer.size())
@@ -236,7 +277,8 @@ GltfDocument::View GltfDocument::view(const JsonValue& which) {
 }
 
 GltfAccessor GltfDocument::accessor(const JsonValue& which, std::string_view kind, bool floats) {
-  const JsonValue& row = rows("accessors")[index("accessors", which)];
+  const std::size_t number = index("accessors", which);
+  const JsonValue& row = rows("accessors")[number];
   const std::uint64_t count = whole(row, "count"), offset = whole(row, "byteOffset"),
                       type = whole(row, "componentType");
   const std::size_t bytes = bytesOfType(type);
@@ -258,7 +300,13 @@ GltfAccessor GltfDocument::accessor(const JsonValue& which, std::string_view kin
   const JsonValue* normalized = row.find("normalized");
   out.normalized = normalized && normalized->flag;
   const std::size_t elementBytes = bytes * out.components;
-  if (const JsonValue* name = row.find("bufferView")) {
+  if (const auto unpacked = accessors_.find(number); unpacked != accessors_.end()) {
+    out.stride = elementBytes;
+    out.data = unpacked->second.data();
+    if (unpacked->second.size() != count * elementBytes)
+      fail(row, "an accessor is of another size than what was packed",
+           fmt::format("{} bytes", unpacked->second.size()), fmt::format("{}", count * elementBytes));
+  } else if (const JsonValue* name = row.find("bufferView")) {
     const View from = view(*name);
     out.stride = from.stride != 0 ? from.stride : elementBytes;
     if (out.stride < elementBytes || out.stride > 4096 ||

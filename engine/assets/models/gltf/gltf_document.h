@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -66,6 +67,8 @@ class GltfDocument {
   // count * components numbers: T is float, or std::uint32_t for unsigned whole ones. A normalized one is from -1 or 0 to 1.
   template <class T>
   std::vector<T> read(const GltfAccessor& accessor);
+  // Gives the accessors of a primitive that Draco packed their bytes. KHR_draco_mesh_compression.
+  void unpackDraco(const text::JsonValue& primitive);
 
   struct View {
     std::string_view bytes;
@@ -96,6 +99,7 @@ class GltfDocument {
   [[noreturn]] void failFile(std::string_view why, std::string expected, std::string found);
   std::string_view split(std::string_view bytes, std::string_view& binary);
   void checkExtensions();
+  std::string unpackMeshopt(const text::JsonValue& packed);
   std::string readBuffer(const text::JsonValue& row, std::string_view binary);
   void readSparse(const text::JsonValue& sparse, std::size_t elementBytes, GltfAccessor& out);
   // A whole number that a file can hold; 0 where it is absent.
@@ -105,10 +109,11 @@ class GltfDocument {
   text::Diagnostics& diagnostics_;
   text::JsonValue root_;
   std::vector<std::string> buffers_;
+  std::map<std::size_t, std::string> views_, accessors_;  // by row: what was packed
 };
 
-// The file as a Model. Left out, with W168: points and lines, the motion of morph targets, further uv sets, a second sun; in silence:
-// cameras. False after errors, or when `observer` gave up.
+// The file as a Model. Left out, with W168: points and lines, the motion of morph targets, further uv sets, a second sun, extensions
+// that are not known. False after errors, or when `observer` gave up.
 bool readGltf(std::string bytes, ModelFiles& files, const LoadObserver& observer,
               text::Diagnostics& diagnostics, Model& model);
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,9 @@ inline glm::quat toRotation(const glm::vec4& q) {
 
 bool isFinite(const glm::vec4& v);
 
-// Takes a matrix without shear apart; a mirror becomes a negative x scale. False when a column is not finite.
-bool decompose(const glm::mat4& matrix, Transform& transform);
+// Takes a matrix apart; a mirror becomes a negative x scale. Where it shears it is `transform`, then `inner`, a rotation. False when a
+// column is not finite.
+bool decompose(glm::mat4 matrix, Transform& transform, std::optional<Transform>& inner);
 
 struct RawVertex {
   glm::vec3 position{0}, normal{0};
@@ -41,6 +43,9 @@ struct RawMesh {
   bool normals = false, colors = false, skinned = false;  // what the file has
   bool join = false;  // equal vertices become one: of formats without indices
 };
+
+// Of a Blinn–Phong material, from its albedo, specular and shininess: what passes see of it that shade otherwise.
+void toMetallicRoughness(Material& material);
 
 // A vertex that more than four joints move: by the heaviest four, adding up to 1.
 SkinVertex heaviest(const std::array<std::uint32_t, 8>& joints, const std::array<float, 8>& weights);

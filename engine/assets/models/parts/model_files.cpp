@@ -73,6 +73,12 @@ std::optional<std::string> ModelFiles::readBeside(const std::string& uri, const 
     d.expected = "a path below the folder of the model";
     d.found = fmt::format("'{}'", uri);
     d.hint = "copy the file into the model's folder and name it by its relative path";
+    std::string forward = name;
+    std::ranges::replace(forward, '\\', '/');
+    if (forward == name || resolve(forward).empty()) return {};
+    d.message = fmt::format("the model names a file by a path with backslashes: '{}'", name);
+    d.expected = "'/' between the folders of a path";
+    d.hint = fmt::format("write '{}', or export the model again", forward);
     return {};
   }
   if (std::ranges::find(files_, target) == files_.end()) files_.push_back(target);
@@ -94,6 +100,14 @@ bool ModelFiles::hasBeside(const std::string& name) const {
 void ModelFiles::takeOver(std::vector<std::string> files) {
   files_ = std::move(files);
   text::noteRead(files_);
+}
+
+bool ModelFiles::isTextInLimit(std::string_view bytes) {
+  if (bytes.size() <= text::raised(kMaxModelTextBytes)) return true;
+  text::reportLimit(diagnostics_, place(), "the model's text is too large", kMaxModelTextBytes,
+                    "bytes of one OBJ or text FBX file", bytes.size())
+      .found = fmt::format("{} bytes", bytes.size());
+  return false;
 }
 
 bool ModelFiles::count(std::uint64_t bytes, const Place& place) {

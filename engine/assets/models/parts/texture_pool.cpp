@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <webp/decode.h>
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
 #include <thread>
+#include <utility>
 
 #include "engine/assets/images/image_codecs.h"
 #include "engine/assets/models/parts/model_files.h"
@@ -35,6 +38,34 @@ std::shared_ptr<const Image8> makeCheckerboard() {
   return std::make_shared<const Image8>(std::move(image));
 }
 
+bool isWebp(std::string_view bytes) {
+  return bytes.starts_with("RIFF") && bytes.substr(8).starts_with("WEBP");
+}
+
+std::optional<ImageHeader> readHeader(std::string_view bytes, const std::string& name,
+                                      text::Diagnostics& found) {
+  if (!isWebp(bytes)) return readPictureHeader(bytes, name, found);
+  WebPBitstreamFeatures features;
+  if (WebPGetFeatures(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), &features) == 0)
+    return ImageHeader{features.width, features.height, features.has_alpha ? 4 : 3, StoredType::byte};
+  reportUnreadable(found, name, "it is damaged");
+  return {};
+}
+
+std::optional<Image8> decodeImage8(std::string_view bytes, const std::string& name,
+                                   text::Diagnostics& found) {
+  if (!isWebp(bytes)) return decodePicture<std::uint8_t>(bytes, 4, name, found);
+  Image8 image{.channels = 4};
+  std::uint8_t* texels = WebPDecodeRGBA(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(),
+                                        &image.width, &image.height);
+  if (texels)
+    image.texels.assign(texels, texels + std::size_t{4} * static_cast<std::size_t>(image.width) *
+                                             static_cast<std::size_t>(image.height));
+  WebPFree(texels);
+  if (!texels) reportUnreadable(found, name, "it is damaged");
+  return texels ? std::optional(std::move(image)) : std::nullopt;
+}
+
 bool isBlue(const Image8& image) {
   double sums[4] = {};
   for (std::size_t i = 0; i < image.texels.size(); ++i) sums[i % 4] += image.texels[i];
@@ -45,24 +76,27 @@ bool isBlue(const Image8& image) {
 
 std::uint32_t TexturePool::put(std::string bytes, const std::string& name, const text::Place& place) {
   Entry entry{.bytes = std::move(bytes), .name = name, .place = place};
-  if (const auto size = readPictureHeader(entry.bytes, name, entry.found)) {
-    const std::uint64_t texels =
-        texels_ + static_cast<std::uint64_t>(size->width) * static_cast<std::uint64_t>(size->height);
-    if (texels > text::raised(kMaxTexels)) {
-      if (!full_)
-        text::reportLimit(diagnostics_, place,
-                          fmt::format("with '{}' the model's textures are too large", name), kMaxTexels,
-                          "texels of all textures of one model", texels)
-            .found = fmt::format("{} texels", texels);
-      full_ = true;
-      return kNoRow;
-    }
-    texels_ = texels;
+  if (const auto size = readHeader(entry.bytes, name, entry.found)) {
+    entry.texels = static_cast<std::uint64_t>(size->width) * static_cast<std::uint64_t>(size->height);
+    entry.channels = size->channels;
+    if (!countTexels(entry.texels, name, place)) return kNoRow;
   } else {
     entry.bytes.clear();
   }
   images_.push_back(std::move(entry));
   return static_cast<std::uint32_t>(images_.size() - 1);
+}
+
+bool TexturePool::countTexels(std::uint64_t texels, const std::string& name, const text::Place& place) {
+  texels += texels_;
+  const bool fits = texels <= text::raised(kMaxTexels);
+  if (fits)
+    texels_ = texels;
+  else if (!std::exchange(full_, true))
+    text::reportLimit(diagnostics_, place, fmt::format("with '{}' the model's textures are too large", name),
+                      kMaxTexels, "texels of all textures of one model", texels)
+        .found = fmt::format("{} texels", texels);
+  return fits;
 }
 
 void TexturePool::reportMissing(const std::string& name, const std::string& why, const text::Place& place) {
@@ -80,6 +114,40 @@ std::uint32_t TexturePool::use(std::uint32_t image, const std::string& name, Tex
   return static_cast<std::uint32_t>(uses_.size() - 1);
 }
 
+std::uint32_t TexturePool::useMade(std::uint32_t first, std::uint32_t second, MakeTexel make,
+                                   const std::string& name, TextureUse use, const text::Place& place) {
+  std::uint64_t texels = 0;
+  for (const std::uint32_t image : {first, second})
+    if (image != kNoRow) texels = std::max(texels, images_[image].texels);
+  if (texels == 0 || !countTexels(texels, name, place)) return kNoRow;
+  uses_.push_back({first, name, use, place, second, std::move(make)});
+  return static_cast<std::uint32_t>(uses_.size() - 1);
+}
+
+std::shared_ptr<const Image8> TexturePool::makeImage(const Use& use) const {
+  const auto imageOf = [&](std::uint32_t row) { return row == kNoRow ? nullptr : images_[row].image; };
+  std::shared_ptr<const Image8> first = imageOf(use.image), second = imageOf(use.second);
+  const auto texelsOf = [](const auto& image) { return image ? image->texels.size() : 0; };
+  const std::shared_ptr<const Image8>& larger = texelsOf(first) < texelsOf(second) ? second : first;
+  if (!larger) return nullptr;
+  Image8 made{larger->width, larger->height, 4, std::vector<std::uint8_t>(larger->texels.size())};
+  const auto fit = [&](std::shared_ptr<const Image8>& image) {
+    if (image && (image->width != made.width || image->height != made.height))
+      image = std::make_shared<const Image8>(resize(*image, made.width, made.height, false));
+  };
+  fit(first);
+  fit(second);
+  const auto texelAt = [](const auto& image, std::size_t at) {
+    const std::uint8_t* t = image ? image->texels.data() + at : nullptr;
+    return t ? glm::u8vec4(t[0], t[1], t[2], t[3]) : glm::u8vec4(255);
+  };
+  for (std::size_t at = 0; at + 3 < made.texels.size(); at += 4) {
+    const glm::u8vec4 texel = use.make(texelAt(first, at), texelAt(second, at));
+    for (int c = 0; c < 4; ++c) made.texels[at + static_cast<std::size_t>(c)] = texel[c];
+  }
+  return std::make_shared<const Image8>(std::move(made));
+}
+
 bool TexturePool::decodeAll(const LoadObserver& observer, double from) {
   if (observer && !observer(LoadStage::decoding, from)) return false;
   const std::size_t count = images_.size();
@@ -90,7 +158,7 @@ bool TexturePool::decodeAll(const LoadObserver& observer, double from) {
     if (gaveUp) return;
     Entry& entry = images_[number];
     if (!entry.bytes.empty())
-      if (auto decoded = decodePicture<std::uint8_t>(entry.bytes, 4, entry.name, entry.found)) {
+      if (auto decoded = decodeImage8(entry.bytes, entry.name, entry.found)) {
         entry.content = hashOf(*decoded);
         entry.image = std::make_shared<const Image8>(std::move(*decoded));
       }
@@ -104,7 +172,9 @@ bool TexturePool::decodeAll(const LoadObserver& observer, double from) {
 }
 
 std::uint32_t TexturePool::rowOf(const Use& use, std::vector<Texture>& textures) {
-  std::shared_ptr<const Image8> image = use.image == kNoRow ? nullptr : images_[use.image].image;
+  std::shared_ptr<const Image8> image = use.make              ? makeImage(use)
+                                        : use.image == kNoRow ? nullptr
+                                                              : images_[use.image].image;
   const bool color = use.use == TextureUse::color;
   if (!image && !color) return kNoRow;
   if (use.use == TextureUse::bump && !isBlue(*image)) {
@@ -115,8 +185,8 @@ std::uint32_t TexturePool::rowOf(const Use& use, std::vector<Texture>& textures)
     return kNoRow;
   }
   static const std::shared_ptr<const Image8> kMissing = makeCheckerboard();
-  const std::uint64_t content =
-      text::hashCombine(image ? images_[use.image].content : hashOf(*kMissing), color ? 1 : 0);
+  const std::uint64_t content = text::hashCombine(
+      image && !use.make ? images_[use.image].content : hashOf(image ? *image : *kMissing), color ? 1 : 0);
   const auto row =
       static_cast<std::size_t>(std::ranges::find(textures, content, &Texture::content) - textures.begin());
   if (row == textures.size())

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,6 +19,9 @@ namespace weft::assets {
 // blue.
 enum class TextureUse : std::uint8_t { color, numbers, bump };
 
+// A texel, RGBA as stored, of one of each of two images; white where there is no image.
+using MakeTexel = std::function<glm::u8vec4(const glm::u8vec4& first, const glm::u8vec4& second)>;
+
 class TexturePool {
  public:
   explicit TexturePool(text::Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
@@ -28,6 +32,11 @@ class TexturePool {
   void reportMissing(const std::string& name, const std::string& why, const text::Place& place);
   // What a map of a material becomes until finish(). `image` is a number, or kNoRow.
   std::uint32_t use(std::uint32_t image, const std::string& name, TextureUse use, const text::Place& place);
+  // The same of a picture that is made of two images, either of which may be kNoRow, in the size of the larger one.
+  std::uint32_t useMade(std::uint32_t first, std::uint32_t second, MakeTexel make, const std::string& name,
+                        TextureUse use, const text::Place& place);
+  // Whether the image has a channel of its own for alpha.
+  bool hasAlpha(std::uint32_t image) const { return images_[image].channels % 2 == 0; }
 
   // Decodes all images, on the threads of the machine, W167 for damaged ones in the order of their numbers, and gives textures and maps of materials their rows.
   // `observer` hears of stage `decoding` from `from` on. False when it gave up.
@@ -37,6 +46,8 @@ class TexturePool {
   struct Entry {
     std::string bytes, name;
     text::Place place;
+    std::uint64_t texels = 0;
+    int channels = 4;  // of the file
     std::shared_ptr<const Image8> image{};
     std::uint64_t content = 0;  // hash of size and texels
     text::Diagnostics found{};
@@ -46,7 +57,12 @@ class TexturePool {
     std::string name;
     TextureUse use = TextureUse::color;
     text::Place place;
+    std::uint32_t second = kNoRow;
+    MakeTexel make{};  // empty: the image as it is
   };
+  // False after W201, once.
+  bool countTexels(std::uint64_t texels, const std::string& name, const text::Place& place);
+  std::shared_ptr<const Image8> makeImage(const Use& use) const;
   bool decodeAll(const LoadObserver& observer, double from);
   std::uint32_t rowOf(const Use& use, std::vector<Texture>& textures);
 

@@ -1,0 +1,138 @@
+#!/usr/bin/env python3
+"""Pictures of small models against what glTF 2.0 says, computed here texel by texel: wrap modes of samplers, unlit colors, the back of a
+normal map, a scene whose meshes all blend, cameras of a floor and of the file. model_pictures.py WEFT"""
+import base64
+import json
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+from pictures import png, read_png  # noqa: E402
+
+TOP = pathlib.Path(__file__).resolve().parents[3]
+WEFT = sys.argv[1]
+WIDTH, HEIGHT = 96, 64
+TILT = (0.6, 0.0, 0.8)
+problems = []
+
+
+def uri(kind, data):
+    return f"data:{kind};base64,{base64.b64encode(data).decode()}"
+
+
+class Model:
+    """Quads from -1 to 1 in the plane z = 0, uv from `low` to `high` (v down), each a node."""
+
+    def __init__(self, materials, **more):
+        self.bytes = b""
+        self.json = {"asset": {"version": "2.0"}, "bufferViews": [], "accessors": [], "meshes": [], "nodes": [], "materials": materials, **more}
+
+    def accessor(self, kind, component, rows):
+        size = {5126: "f", 5123: "H"}[component]
+        data = b"".join(struct.pack(f"<{len(row)}{size}", *row) for row in rows)
+        self.json["bufferViews"].append({"buffer": 0, "byteOffset": len(self.bytes), "byteLength": len(data)})
+        self.bytes += data + b"\0" * (-len(data) % 4)
+        self.json["accessors"].append({"bufferView": len(self.json["bufferViews"]) - 1, "componentType": component, "count": len(rows), "type": kind})
+        return len(self.json["accessors"]) - 1
+
+    def quad(self, material, normal=(0, 0, 1), low=0.0, high=1.0, **node):
+        corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+        span = lambda c: (c + 1) / 2 * (high - low) + low  # noqa: E731
+        attributes = {
+            "POSITION": self.accessor("VEC3", 5126, [(x, y, 0) for x, y in corners]),
+            "NORMAL": self.accessor("VEC3", 5126, [normal] * 4),
+            "TANGENT": self.accessor("VEC4", 5126, [(1, 0, 0, 1)] * 4),
+            "TEXCOORD_0": self.accessor("VEC2", 5126, [(span(x), span(-y)) for x, y in corners])}
+        indices = self.accessor("SCALAR", 5123, [(0, 1, 2, 0, 2, 3)[i:i + 1] for i in range(6)])
+        self.json["meshes"].append({"primitives": [{"attributes": attributes, "indices": indices, "material": material}]})
+        self.json["nodes"].append({"mesh": len(self.json["meshes"]) - 1, **node})
+        return self
+
+    def render(self, folder, *options, graph="deferred.json"):
+        self.json["buffers"] = [{"byteLength": len(self.bytes), "uri": uri("application/octet-stream", self.bytes)}]
+        path, picture = folder / "m.gltf", folder / "m.png"
+        path.write_text(json.dumps(self.json))
+        made = subprocess.run([WEFT, "render", TOP / "graphs" / graph, "--scene", path, "--size", f"{WIDTH}x{HEIGHT}", "--set", "bloom=false",
+                               "--set", "fxaa=false", "--backend", "osmesa", *options, "-o", picture], capture_output=True, text=True)
+        if made.returncode != 0 or made.stderr:
+            problems.append(f"{options}: {made.stderr}")
+        return [[texel[:3] for texel in row] for row in read_png(picture.read_bytes())]
+
+
+def expect(what, good):
+    if not good:
+        problems.append(what)
+
+
+def wrapped(mode, x):
+    """Texel of 2 that glTF's wrap mode shows at x, in texels: OpenGL 4.5, table 8.20."""
+    i = int(x // 1)
+    return {33071: min(max(i, 0), 1), 33648: [0, 1, 1, 0][i % 4], 10497: i % 2}[mode]
+
+
+def check_wrap(folder):
+    colors = [(255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 0)]
+    image = png([colors[:2], colors[2:]])
+    for s, t in ((33071, 33648), (33648, 10497), (10497, 33071)):
+        model = Model([{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}, "extensions": {"KHR_materials_unlit": {}}}],
+                      images=[{"uri": uri("image/png", image)}], textures=[{"source": 0, "sampler": 0}],
+                      samplers=[{"wrapS": s, "wrapT": t, "magFilter": 9728}])
+        picture = model.quad(0, low=-1.0, high=2.0).render(folder)
+        # The quad is as high as 1 / 1.08 of the picture: of 6 x 6 cells the middles.
+        for cell_y in range(6):
+            for cell_x in range(6):
+                at = [(c + 0.5) / 6 * 2 - 1 for c in (cell_x, cell_y)]
+                seen = picture[int(HEIGHT / 2 + at[1] * HEIGHT / 2 / 1.08)][int(WIDTH / 2 + at[0] * HEIGHT / 2 / 1.08)]
+                color = colors[2 * wrapped(t, cell_y - 2) + wrapped(s, cell_x - 2)]
+                expect(f"wrap {s}, {t}: {seen} in cell {cell_x}, {cell_y} instead of {color}",
+                       all((seen[c] > 140) == (color[c] == 255) for c in range(3)))
+
+
+def check_colors(folder):
+    unlit = {"doubleSided": True, "pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.3, 0.1, 1]}, "extensions": {"KHR_materials_unlit": {}}}
+    turned = [0, 0.5, 0, 0.8660254]  # by 60 degrees
+    for graph in ("deferred.json", "studio.json"):
+        picture = Model([unlit]).quad(0, translation=[-1.2, 0, 0]).quad(0, translation=[1.2, 0, 0], rotation=turned).render(folder, graph=graph)
+        left, right = picture[HEIGHT // 2][28], picture[HEIGHT // 2][67]
+        expect(f"{graph}: unlit surfaces differ by their direction: {left} and {right}", max(abs(a - b) for a, b in zip(left, right)) <= 1)
+        glass = {"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [0.9, 0, 0, 0.9]}}
+        red, _, blue = Model([glass]).quad(0).render(folder, graph=graph)[HEIGHT // 2][WIDTH // 2]
+        expect(f"{graph}: a scene of glass alone is not drawn", red > blue + 60)
+
+
+def check_backs(folder):
+    """A map that tilts the normal, and vertices that have that normal: the same from both sides."""
+    texel = bytes(round((c + 1) / 2 * 255) for c in TILT)
+    normal = tuple(c / 255 * 2 - 1 for c in texel)
+    metal = {"doubleSided": True, "pbrMetallicRoughness": {"roughnessFactor": 0.3}}
+    for camera in ("front", "back"):
+        mapped = Model([{**metal, "normalTexture": {"index": 0}}], images=[{"uri": uri("image/png", png([[tuple(texel)]]))}], textures=[{"source": 0}])
+        by_map = mapped.quad(0).render(folder, "--camera", camera)[HEIGHT // 2][WIDTH // 2]
+        by_vertices = Model([metal]).quad(0, normal=normal).render(folder, "--camera", camera)[HEIGHT // 2][WIDTH // 2]
+        expect(f"{camera}: {by_map} by the map, {by_vertices} by the vertices", max(abs(a - b) for a, b in zip(by_map, by_vertices)) <= 2)
+
+
+def check_cameras(folder):
+    red = {"pbrMetallicRoughness": {"baseColorFactor": [0.9, 0, 0, 1]}, "emissiveFactor": [1, 0, 0]}
+    for rotation in ([-0.70710678, 0, 0, 0.70710678], [0.70710678, 0, 0, 0.70710678], [0, 0.70710678, 0, 0.70710678], [0, 1, 0, 0]):
+        r, _, b = Model([red]).quad(0, rotation=rotation).render(folder)[HEIGHT // 2][WIDTH // 2]
+        expect(f"a quad turned by {rotation} is not seen", r > b + 60)
+    model = Model([red], cameras=[{"type": "perspective", "perspective": {"yfov": 0.6, "znear": 0.1}}]).quad(0)
+    model.json["nodes"].append({"camera": 0, "name": "far off", "translation": [1, 0, 10]})
+    picture = model.render(folder, "--camera", "far off")
+    # The middle of the quad is 1 to the left at a distance of 10; half the height of the picture is tan(0.3) there.
+    x = WIDTH / 2 - 1 / 10 / 0.30934 * HEIGHT / 2
+    edge = 1 / 10 / 0.30934 * HEIGHT / 2
+    for at, inside in ((x, True), (x - edge + 2, True), (x - edge - 2, False), (x + edge - 2, True), (x + edge + 2, False)):
+        r, _, b = picture[HEIGHT // 2][int(at)]
+        expect(f"the camera of the file: column {at}", (r > b + 60) == inside)
+
+
+with tempfile.TemporaryDirectory() as name:
+    for check in (check_wrap, check_colors, check_backs, check_cameras):
+        check(pathlib.Path(name))
+print("\n".join(problems) or "model pictures: as glTF says")
+sys.exit(1 if problems else 0)

@@ -1,0 +1,313 @@
+// Extensions of glTF, samplers, cameras, sheared matrices. Right values come from the texts of the extensions; packed geometry was
+// packed by the libraries' own encoders.
+#include <draco/compression/encode.h>
+#include <draco/mesh/triangle_soup_mesh_builder.h>
+#include <meshoptimizer.h>
+#include <webp/encode.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/assets/models/failure.h"
+#include "tests/assets/models/loading.h"
+
+using namespace weft;
+using namespace weft::assets;
+using text::Code;
+using weft::test::GltfMaker;
+using weft::test::json;
+using weft::test::make;
+using weft::test::worldOf;
+
+namespace {
+
+GltfMaker plainSquare() {
+  GltfMaker maker;
+  maker.square();
+  return maker;
+}
+
+// The square with this material.
+Model withMaterial(json material, std::size_t warnings = 0) {
+  GltfMaker maker = plainSquare();
+  maker.document["materials"] = {std::move(material)};
+  maker.document["meshes"][0]["primitives"][0]["material"] = 0;
+  return make(maker, warnings);
+}
+
+// A buffer view of bytes; its index.
+std::size_t viewOf(GltfMaker& maker, const std::string& bytes) {
+  while (maker.bytes.size() % 4 != 0) maker.bytes.push_back(0);
+  maker.document["bufferViews"].push_back(
+      {{"buffer", 0}, {"byteOffset", maker.bytes.size()}, {"byteLength", bytes.size()}});
+  maker.bytes += bytes;
+  return maker.document["bufferViews"].size() - 1;
+}
+
+}  // namespace
+
+TEST_CASE("each extension that is not known is one warning that names it, wherever it is") {
+  GltfMaker maker = plainSquare();
+  maker.document["materials"] = {{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatFactor", 1}}}}}},
+                                 {{"extensions", {{"KHR_materials_clearcoat", json::object()}}}}};
+  maker.document["nodes"][0]["extensions"]["EXT_new"] = json::object();
+  maker.document["extras"]["extensions"]["EXT_not_one"] = json::object();
+  const TemporaryFolder folder;
+  text::Diagnostics diagnostics;
+  REQUIRE(loadModel(folder.write("m.gltf", maker.gltf()), diagnostics));
+  REQUIRE_MESSAGE(diagnostics.size() == 2, diagnostics.text());
+  for (const char* name : {"KHR_materials_clearcoat", "EXT_new"})
+    CHECK(std::ranges::any_of(diagnostics.items(), [&](const text::Diagnostic& d) {
+      return d.code == Code::modelPartLeftOut && d.message.find(name) != std::string::npos;
+    }));
+}
+
+TEST_CASE("samplers: wrap of both axes and what is magnified") {
+  GltfMaker maker = plainSquare();
+  maker.document["images"] = {
+      {{"uri",
+        "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAQAAAAECAIAAAAmkwkpAAAAEUlEQVR42mPY2fARjhi"
+        "I4wAAgSEioWWu6ykAAAAASUVORK5CYII="}}};
+  maker.document["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}}, json::object()};
+  maker.document["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 0}, {"sampler", 1}}};
+  maker.document["materials"] = {
+      {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}, {"normalTexture", {{"index", 1}}}}};
+  const Model model = make(maker);
+  CHECK(model.materials[0].samplers[0] == (clampU | mirrorV | nearest));
+  CHECK(model.materials[0].samplers[1] == repeat);
+}
+
+TEST_CASE("unlit: the base color is what is seen, and nothing reflects") {
+  const Model model = withMaterial({{"pbrMetallicRoughness", {{"baseColorFactor", {0.2, 0.4, 0.6, 1}}}},
+                                    {"emissiveFactor", {1, 1, 1}},
+                                    {"extensions", {{"KHR_materials_unlit", json::object()}}}});
+  const Material& material = model.materials[0];
+  CHECK(material.unlit);
+  CHECK(material.emissive == glm::vec3(0.2f, 0.4f, 0.6f));
+  CHECK(material.albedo == glm::vec3(0));
+  CHECK(material.specular == glm::vec3(0));
+}
+
+TEST_CASE("specular-glossiness: the diffuse part and the reflectance along the normal stay") {
+  for (const auto& [diffuse, specular, glossiness] :
+       {std::tuple{glm::vec3(0.1f, 0.8f, 0.1f), glm::vec3(0.04f), 0.3f},
+        {glm::vec3(0), glm::vec3(0.9f, 0.6f, 0.2f), 0.9f},
+        {glm::vec3(0.5f), glm::vec3(0.04f), 1.0f}}) {
+    const Model model = withMaterial({{"extensions",
+                                       {{"KHR_materials_pbrSpecularGlossiness",
+                                         {{"diffuseFactor", {diffuse.r, diffuse.g, diffuse.b, 1}},
+                                          {"specularFactor", {specular.r, specular.g, specular.b}},
+                                          {"glossinessFactor", glossiness}}}}}});
+    const Material& m = model.materials[0];
+    CHECK(m.roughness == doctest::Approx(1 - glossiness));
+    for (int c = 0; c < 3; ++c) {
+      const float f0 = 0.04f * (1 - m.metallic) + m.albedo[c] * m.metallic;
+      CHECK(f0 == doctest::Approx(specular[c]).epsilon(0.02));
+      // Of the extension: diffuse * (1 - max(specular)); of metallic-roughness: albedo * (1 - 0.04) * (1 - metallic).
+      const float below = diffuse[c] * (1 - std::max({specular.r, specular.g, specular.b}));
+      CHECK(std::abs(m.albedo[c] * 0.96f * (1 - m.metallic) - below) < 0.02f);
+    }
+  }
+}
+
+TEST_CASE("instances of EXT_mesh_gpu_instancing, and nodes that are invisible") {
+  GltfMaker maker = plainSquare();
+  const int moves = maker.floats({1, 0, 0, 0, 2, 0, 0, 0, 3}, 3),
+            scales = maker.floats({1, 1, 1, 2, 2, 2, 1, 1, 3}, 3);
+  const float half = std::sqrt(0.5f);
+  const int turns = maker.floats({0, 0, 0, 1, 0, 0, half, half, 0, 0, 0, 1}, 4);
+  maker.document["nodes"][0]["translation"] = {10, 0, 0};
+  maker.document["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+      {"TRANSLATION", moves}, {"ROTATION", turns}, {"SCALE", scales}};
+  maker.document["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
+  const Model model = make(maker);
+  REQUIRE(model.instances.size() == 3);
+  // T * R * S of the instance, below the node's own.
+  const glm::vec4 wanted[] = {{12, 0, 0, 1}, {10, 4, 0, 1}, {11, 0, 3, 1}};
+  for (std::size_t i = 0; i < 3; ++i)
+    CHECK(glm::distance(worldOf(model, model.instances[i].node) * glm::vec4(1, 0, 0, 1), wanted[i]) < 1e-5f);
+
+  maker = plainSquare();
+  maker.document["nodes"].push_back(
+      {{"children", {2}}, {"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}});
+  maker.document["nodes"].push_back({{"mesh", 0}});
+  maker.document["scenes"][0]["nodes"] = {0, 1};
+  CHECK(make(maker).instances.size() == 1);
+  maker.document.erase("scenes");
+  CHECK(make(maker).instances.size() == 1);
+}
+
+TEST_CASE("a matrix that shears is kept, a flat one too, and what is below it") {
+  const std::vector<std::vector<float>> matrices = {
+      {1, 0, 0, 0, 0.8f, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1},
+      {-1, 0.2f, 0, 0, 0.5f, 2, 0.3f, 0, 1, 0, 3, 0, 0, 0, 0, 1},
+      {1, 1, 0, 0, 2, 2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+  };
+  for (const std::vector<float>& matrix : matrices) {
+    GltfMaker maker = plainSquare();
+    maker.document["nodes"][0] = {{"matrix", matrix}, {"children", {1}}};
+    maker.document["nodes"].push_back({{"mesh", 0}, {"translation", {1, 2, 3}}});
+    const Model model = make(maker);
+    for (const glm::vec3 p : {glm::vec3(0), {1, 0, 0}, {0, 1, 0}, {0.3f, -2, 5}}) {
+      glm::vec3 wanted(matrix[12], matrix[13], matrix[14]);
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c)
+          wanted[r] += matrix[static_cast<std::size_t>(4 * c + r)] * (p[c] + static_cast<float>(c + 1));
+      CHECK(glm::distance(glm::vec3(worldOf(model, model.instances[0].node) * glm::vec4(p, 1)), wanted) <
+            1e-4f);
+    }
+  }
+}
+
+TEST_CASE("cameras of the file") {
+  GltfMaker maker = plainSquare();
+  maker.document["cameras"] = {
+      {{"name", "lens"}, {"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.02}}}},
+      {{"type", "orthographic"}, {"orthographic", {{"xmag", 3}, {"ymag", 2}, {"znear", 0}, {"zfar", 9}}}}};
+  maker.document["nodes"].push_back({{"camera", 0}, {"translation", {0, 0, 5}}});
+  maker.document["nodes"].push_back({{"camera", 1}, {"name", "flat"}});
+  maker.document["scenes"][0]["nodes"] = {0, 1, 2};
+  const Model model = make(maker);
+  REQUIRE(model.cameras.size() == 2);
+  CHECK(model.cameras[0].name == "lens");
+  CHECK(model.cameras[0].fovDegrees == doctest::Approx(0.8 * 180 / M_PI));
+  CHECK(model.cameras[0].nearPlane == doctest::Approx(0.02));
+  CHECK(model.cameras[1].name == "flat");
+  CHECK(model.cameras[1].height == doctest::Approx(4));
+}
+
+TEST_CASE("a path with backslashes is told so") {
+  GltfMaker maker = plainSquare();
+  maker.document["images"] = {{{"uri", "tex\\a.png"}}};
+  maker.document["textures"] = {{{"source", 0}}};
+  maker.document["materials"] = {{{"normalTexture", {{"index", 0}}}}};
+  const TemporaryFolder folder;
+  const text::Diagnostic d = test::failureOf(folder, "m.gltf", maker.gltf());
+  CHECK(d.code == Code::outsideModelFolder);
+  CHECK(d.hint.find("tex/a.png") != std::string::npos);
+}
+
+TEST_CASE("Draco: the square that was packed, and one that is damaged") {
+  draco::TriangleSoupMeshBuilder builder;
+  builder.Start(2);
+  const int position = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32),
+            uv = builder.AddAttribute(draco::GeometryAttribute::TEX_COORD, 2, draco::DT_FLOAT32);
+  const float places[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+              uvs[4][2] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+  const int faces[2][3] = {{0, 1, 2}, {0, 2, 3}};
+  for (std::uint32_t f = 0; f < 2; ++f) {
+    const int* c = faces[f];
+    builder.SetAttributeValuesForFace(position, draco::FaceIndex(f), places[c[0]], places[c[1]],
+                                      places[c[2]]);
+    builder.SetAttributeValuesForFace(uv, draco::FaceIndex(f), uvs[c[0]], uvs[c[1]], uvs[c[2]]);
+  }
+  const auto mesh = builder.Finalize();
+  draco::Encoder encoder;
+  draco::EncoderBuffer buffer;
+  REQUIRE(encoder.EncodeMeshToBuffer(*mesh, &buffer).ok());
+  const std::string packed(buffer.data(), buffer.size());
+  const auto makerOf = [&](const std::string& bytes) {
+    GltfMaker maker;
+    maker.document["accessors"] = {{{"componentType", 5126}, {"count", mesh->num_points()}, {"type", "VEC3"}},
+                                   {{"componentType", 5126}, {"count", mesh->num_points()}, {"type", "VEC2"}},
+                                   {{"componentType", 5123}, {"count", 6}, {"type", "SCALAR"}}};
+    const std::size_t view = viewOf(maker, bytes);
+    maker.document["meshes"] = {{{"primitives",
+                                  {{{"attributes", {{"POSITION", 0}, {"TEXCOORD_0", 1}}},
+                                    {"indices", 2},
+                                    {"extensions",
+                                     {{"KHR_draco_mesh_compression",
+                                       {{"bufferView", view},
+                                        {"attributes",
+                                         {{"POSITION", mesh->attribute(position)->unique_id()},
+                                          {"TEXCOORD_0", mesh->attribute(uv)->unique_id()}}}}}}}}}}}};
+    maker.document["nodes"] = {{{"mesh", 0}}};
+    maker.document["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+    return maker;
+  };
+  const Model model = make(makerOf(packed));
+  REQUIRE(model.indices.size() == 6);
+  for (const std::uint32_t i : model.indices) {
+    const Vertex& v = model.vertices[i];
+    CHECK(std::abs(v.uv.x - v.position.x) < 1e-3f);
+    CHECK(std::abs(v.uv.y - (1 - v.position.y)) < 1e-3f);
+  }
+  const TemporaryFolder folder;
+  for (std::size_t length = 0; length < packed.size(); length += 7) {
+    std::string damaged = packed.substr(0, length);
+    damaged.resize(packed.size(), '\x7f');
+    text::Diagnostics diagnostics;
+    const auto found = loadModel(folder.write("m.gltf", makerOf(damaged).gltf()), diagnostics);
+    CHECK(found.has_value() != diagnostics.hasErrors());
+  }
+}
+
+TEST_CASE("meshopt: vertices, indices and a filter that were packed, a fallback without bytes, damage") {
+  GltfMaker maker = plainSquare();
+  // Each view of the square as meshoptimizer packs it.
+  const std::string plain = maker.bytes;
+  json views = maker.document["bufferViews"];
+  std::string bytes;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const std::size_t offset = views[i]["byteOffset"], length = views[i]["byteLength"];
+    const bool indices = i == 3;
+    const std::size_t stride = indices ? 2 : i == 2 ? 8 : 12, count = length / stride;
+    std::vector<unsigned char> out(4096);
+    std::vector<unsigned short> corners(6);
+    std::memcpy(corners.data(), plain.data() + offset, indices ? 12 : 0);
+    out.resize(
+        indices ? meshopt_encodeIndexBuffer(out.data(), out.size(), corners.data(), 6)
+                : meshopt_encodeVertexBuffer(out.data(), out.size(), plain.data() + offset, count, stride));
+    while (bytes.size() % 4 != 0) bytes.push_back(0);
+    views[i]["buffer"] = 1;
+    views[i]["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0},
+                                                         {"byteOffset", bytes.size()},
+                                                         {"byteLength", out.size()},
+                                                         {"byteStride", stride},
+                                                         {"count", count},
+                                                         {"mode", indices ? "TRIANGLES" : "ATTRIBUTES"}};
+    bytes.append(out.begin(), out.end());
+  }
+  const Model wanted = make(plainSquare());
+  const TemporaryFolder folder;
+  const auto gltfOf = [&](const std::string& packed) {
+    json out = maker.document;
+    out["bufferViews"] = views;
+    out["buffers"] = {
+        {{"byteLength", packed.size()},
+         {"uri", "data:application/octet-stream;base64," + GltfMaker::base64(packed)}},
+        {{"byteLength", plain.size()}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
+    out["extensionsRequired"] = {"EXT_meshopt_compression"};
+    return out.dump();
+  };
+  const Model model = test::loadGood(folder.write("m.gltf", gltfOf(bytes)));
+  REQUIRE(model.indices.size() == 6);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Vertex &a = model.vertices[model.indices[i]], &b = wanted.vertices[wanted.indices[i]];
+    CHECK(a.position == b.position);
+    CHECK(a.uv == b.uv);
+  }
+  for (std::size_t at = 0; at < bytes.size(); at += 5) {
+    std::string damaged = bytes;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0x55);
+    text::Diagnostics diagnostics;
+    const auto found = loadModel(folder.write("m.gltf", gltfOf(damaged)), diagnostics);
+    CHECK(found.has_value() != diagnostics.hasErrors());
+  }
+}
+
+TEST_CASE("WebP: the texels that were encoded") {
+  const std::vector<std::uint8_t> texels = {10, 20, 30, 255, 200, 100, 50, 128};
+  std::uint8_t* encoded = nullptr;
+  const std::size_t size = WebPEncodeLosslessRGBA(texels.data(), 2, 1, 8, &encoded);
+  REQUIRE(size > 0);
+  GltfMaker maker = plainSquare();
+  const std::size_t view = viewOf(maker, std::string(reinterpret_cast<const char*>(encoded), size));
+  WebPFree(encoded);
+  maker.document["images"] = {{{"bufferView", view}, {"mimeType", "image/webp"}}};
+  maker.document["textures"] = {{{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}}};
+  maker.document["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+  maker.document["extensionsRequired"] = {"EXT_texture_webp"};
+  const Model model = make(maker);
+  CHECK(model.textures[model.materials[0].albedoMap].image->texels == texels);
+}
