@@ -1,4 +1,5 @@
 // First step of the bloom pyramid: the bright part at half the size. Scene-referred. One NaN texel stays one texel.
+// Of an odd number of texels each result has a share of three, so that light stays where it is.
 // read    source   full size, nearest
 // write   result   half size
 // params  threshold  luminance-like level (largest channel) where bloom begins; 0 lets everything through unchanged
@@ -24,25 +25,37 @@ const float knee = 0.5;
 #endif
 out vec4 result;
 
-void main() {
-  vec2 texel = 1.0 / vec2(textureSize(source, 0)), middle = gl_FragCoord.xy * 2.0 * texel;
-  vec2 a = middle - 0.5 * texel, b = middle + 0.5 * texel;
-  vec3 c[4] = vec3[4](textureLod(source, a, 0.0).rgb, textureLod(source, vec2(b.x, a.y), 0.0).rgb,
-                      textureLod(source, vec2(a.x, b.y), 0.0).rgb, textureLod(source, b, 0.0).rgb);
-  vec3 bright = brightOf(threshold, knee);
-  vec3 sum = vec3(0.0);
-  float weights = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    vec3 color = finite(c[i]);
-    float peak = peakOf(color), above = brightPeak(peak, bright);
-    // The bright part is color * above / peak: one division for it and its weight.
+vec3 sum = vec3(0.0), bright;
+float weights = 0.0;
+
+// A share of a texel.
+void add(ivec2 at, float taken) {
+  vec3 color = finite(texelFetch(source, min(at, textureSize(source, 0) - 1), 0).rgb);
+  float peak = peakOf(color), above = brightPeak(peak, bright);
+  // The bright part is color * above / peak: one division for it and its weight.
 #if FIREFLY
-    float share = 1.0 / (peak + above * dot(color, vec3(0.2126, 0.7152, 0.0722))), weight = peak * share;
+  float share = taken / (peak + above * dot(color, vec3(0.2126, 0.7152, 0.0722))), weight = peak * share;
 #else
-    float share = 1.0 / peak, weight = 1.0;
+  float share = taken / peak, weight = taken;
 #endif
-    sum += color * (above * share);
-    weights += weight;
+  sum += color * (above * share);
+  weights += weight;
+}
+
+// Of the texels 2 i to 2 i + 2 of 2 m + 1, result i has m - i, m and i + 1 parts; of an even number it has two texels.
+vec3 partsOf(int i, int count) {
+  return (count & 1) == 0 ? vec3(1.0, 1.0, 0.0) : vec3(count / 2 - i, count / 2, i + 1);
+}
+
+void main() {
+  ivec2 size = textureSize(source, 0), corner = ivec2(gl_FragCoord.xy) * 2;
+  bright = brightOf(threshold, knee);
+  if (((size.x | size.y) & 1) == 0) {
+    for (int i = 0; i < 4; ++i) add(corner + ivec2(i & 1, i >> 1), 1.0);
+  } else {
+    vec3 across = partsOf(corner.x / 2, size.x), along = partsOf(corner.y / 2, size.y);
+    for (int y = 0; y < 3; ++y)
+      for (int x = 0; x < 3; ++x) add(corner + ivec2(x, y), across[x] * along[y]);
   }
   result = vec4(sum / weights, 1.0);
 }

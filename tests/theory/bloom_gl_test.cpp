@@ -97,6 +97,35 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("at every size the halo stands where its light is") {
+  // Odd in the picture, or in levels of the pyramid: 360 x 202 is 180, 90, 45, 22, 11 and 101, 50, 25, 12, 6 texels further down.
+  for (const auto& [width, height] : {std::pair{384u, 256u}, {633u, 350u}, {360u, 202u}, {321u, 127u}})
+    for (const double share : {0.3, 0.62}) {
+      const auto x = static_cast<std::uint32_t>(share * width),
+                 y = static_cast<std::uint32_t>(share * height);
+      const Radiance picture = render({{"bloom", "true"},
+                                       {"bloom_strength", "1"},
+                                       {"threshold", "0"},
+                                       {"firefly", "false"},
+                                       {"plane.at", fmt::format("[{}, {}]", x, y)},
+                                       {"plane.value", "24"},
+                                       {"scatter", "0.3"}},
+                                      width, height);
+      double sum = 0, across = 0, along = 0;
+      for (std::uint32_t row = 0; row < height; ++row)
+        for (std::uint32_t column = 0; column < width; ++column) {
+          const double light = picture.at(column, row);
+          sum += light;
+          across += light * column;
+          along += light * row;
+        }
+      CAPTURE(width);
+      CAPTURE(x);
+      CHECK(std::abs(across / sum - x) < 1);
+      CHECK(std::abs(along / sum - y) < 1);
+    }
+}
+
 TEST_CASE("a picture below the threshold is the same with bloom and without, at any strength") {
   const Sets sets{{"plane.value", "0.45"}, {"plane.background", "0.2"}, {"plane.side", "40"}};
   const Radiance without = render(sets);
