@@ -31,6 +31,9 @@ OTHER_MEANINGS = {
     ("engine/gl/programs/glsl_type.cpp", "image"): "how types of GLSL begin",
     ("engine/graph/subresource.h", "image"): "a kind of use",
     ("engine/graph/read/read_parts.cpp", "mips"): "a key of textures",
+    ("engine/graph/read/read_parts.cpp", "compute"): "a rule of the language: what a pass without a type is, by its shader",
+    ("engine/graph/read/read_parts.cpp", "draw"): "as compute",
+    ("engine/graph/read/read_parts.cpp", "fullscreen"): "as compute",
     ("engine/graph/read/read_parts.cpp", "file"): "a rule of the language: arguments of this name, and of names that end so, hold paths",
 }
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
