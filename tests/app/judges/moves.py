@@ -3,7 +3,7 @@
 
     moves.py WEFT [--all] [--only PART] [--seed N] [--pictures N] [--jobs N]
 
-Takes every pass and include of every file of graphs/, its cookbook and tests/golden, and moves it to every other place in its file, as an author does: by its text. The
+Takes every pass, include and group of every file of graphs/, its cookbook and tests/golden, and moves it to every other place in its list, as an author does: by its text. The
 graph that has the file as a part is then planned anew. One of three things must hold: the graph is refused with a coded error; or each pass that ran before
 still runs, and each slot that it read still has something; or a warning names the pass that no longer reaches the picture, or the slot. Every file is tried with the
 defaults of its graph and with every switch on, in a scene that has everything. Without --all a sample of the moves is tried. --pictures: so many moves that are
@@ -67,9 +67,19 @@ def scan(text):
     return None, None, []
 
 
-def moved(text, source, target):
-    """The text with entry `source` at the place `target`; comments within the list go, those inside entries stay."""
-    start, end, entries = scan(text)
+def scan_list(text, group):
+    """As scan(), of the list of the group that is entry `group`, or with None of the file's own."""
+    whole = scan(text)
+    if group is None:
+        return whole
+    at, end = whole[2][group]
+    start, last, entries = scan(text[at:end])
+    return start if start is None else at + start, last if last is None else at + last, [(at + a, at + b) for a, b in entries]
+
+
+def moved(text, group, source, target):
+    """The text with entry `source` of a list at the place `target`; comments within the list go, those inside entries stay."""
+    start, end, entries = scan_list(text, group)
     parts = [text[a:b] for a, b in entries]
     parts.insert(target, parts.pop(source))
     return text[:start + 1] + "\n    " + ",\n    ".join(parts) + "\n  " + text[end:]
@@ -88,10 +98,14 @@ def name_of(text, entry):
     return found[1] if found else pathlib.Path(re.search(r'"include":\s*"([^"]+)"', part)[1]).stem
 
 
-def overlay(root, text, source, target):
-    """The same move said by an overlay."""
-    names = [name_of(text, entry) for entry in scan(text)[2]]
+def overlay(root, text, group, source, target):
+    """The same move said by an overlay, or None: a group has no name, and what stands at the edge of a loop is not in it."""
+    start, _, entries = scan_list(text, group)
+    loops = group is not None and '"repeat"' in text[scan(text)[2][group][0]:start]
+    names = [None if scan(text[a:b])[0] is not None else name_of(text, (a, b)) for a, b in entries]
     name = names.pop(source)
+    if loops or name is None or names[min(target, len(names) - 1)] is None:
+        return None
     place = {"before": names[target]} if target < len(names) else {"after": names[-1]}
     return json.dumps({"extends": root.name, "passes": [{"name": name, **place}]})
 
@@ -192,9 +206,11 @@ def main():
     for path, root in owner.items():
         if chosen.only not in str(path.relative_to(TOP)):
             continue
-        count = len(scan(path.read_text())[2])
+        text = path.read_text()
         for configuration in ("defaults", "everything"):
-            jobs += [(root, path, configuration, a, b) for a in range(count) for b in range(count) if a != b]
+            for group in (None, *range(len(scan(text)[2]))):
+                count = len(scan_list(text, group)[2])
+                jobs += [(root, path, configuration, group, a, b) for a in range(count) for b in range(count) if a != b]
     every = len(jobs)
     if not chosen.all:
         jobs = random.Random(chosen.seed).sample(jobs, min(chosen.sample, len(jobs)))
@@ -219,19 +235,20 @@ def main():
             copies.append(copy)
 
         def one(job):
-            root, path, configuration, source, target = job
+            root, path, configuration, group, source, target = job
             if before[root, configuration].refused:
                 return job, [], None
             copy, text = copies.pop(), path.read_text()
             file = copy / path.relative_to(TOP)
             try:
-                file.write_text(moved(text, source, target))
+                file.write_text(moved(text, group, source, target))
                 after = Planned(weft, copy, copy / root.relative_to(TOP), settings[root, configuration])
                 file.write_text(text)
                 lost = judge(before[root, configuration], after)
-                if path == root and '"extends"' not in text:
+                said = overlay(root, text, group, source, target) if path == root and '"extends"' not in text else None
+                if said:
                     laid = file.parent / "laid.json"
-                    laid.write_text(overlay(root, text, source, target))
+                    laid.write_text(said)
                     over = Planned(weft, copy, laid, settings[root, configuration])
                     # What the move of the text makes wrong may have no place in an overlay: a pass that is `like` one that now stands below.
                     if over.refused != after.refused and "W017" not in after.said or over.steps != after.steps and not after.refused:
@@ -249,9 +266,9 @@ def main():
             report.check(not plan.refused or not own, f"{root.name}, {configuration}: {plan.said}")
             report.check(not own or "warning[W09" not in plan.said, f"{root.name}, {configuration}, as it is: {plan.said}")
         kinds, written = collections.Counter(), []
-        for (root, path, configuration, source, target), lost, after in done:
+        for (root, path, configuration, group, source, target), lost, after in done:
             text = path.read_text()
-            entries = scan(text)[2]
+            entries = scan_list(text, group)[2]
             where = f"{path.relative_to(TOP)} of {root.stem}, {configuration}: '{label(text, entries[source])}' from {source} to {target}"
             state = "skipped" if after is None else "refused" if after.refused else "silent" if lost else "warned" if after.said else "same"
             kinds[state] += 1
@@ -274,14 +291,14 @@ def main():
         drawn = random.Random(chosen.seed).sample(accepted, min(chosen.pictures, len(accepted)))
         levels = {}
         for job, _, after in drawn:
-            root, path, configuration, source, target = job
+            root, path, configuration, group, source, target = job
             if (root, configuration) not in levels:
                 levels[root, configuration] = picture(TOP, root, configuration)[0]
             before_level, text = levels[root, configuration], path.read_text()
             if before_level is None:  # presents nothing
                 continue
             file = copies[0] / path.relative_to(TOP)
-            file.write_text(moved(text, source, target))
+            file.write_text(moved(text, group, source, target))
             level, said = picture(copies[0], root, configuration)
             file.write_text(text)
             where = f"picture of {path.relative_to(TOP)} of {root.stem}, {configuration}: {source} to {target}"
