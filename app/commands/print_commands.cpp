@@ -117,8 +117,8 @@ Json toJson(const graph::ParameterSpec& parameter) {
   return out;
 }
 
-// The presets of all folders, as JSON objects of name, title and description, the last two "name" and "description" of the
-// file; of two with one name, the one that --preset finds.
+// The presets of all folders, as JSON objects of name, title and description, the last two "name" (or the file's, in words) and
+// "description" of the file; of two with one name, the one that --preset finds.
 std::vector<Json> knownPresets(const std::string& own, text::Diagnostics& diagnostics) {
   std::vector<Json> presets;
   std::set<std::string> seen;  // also of files that cannot be read: --preset takes those, too
@@ -130,9 +130,13 @@ std::vector<Json> knownPresets(const std::string& own, text::Diagnostics& diagno
       const auto text = text::readTextFile(path, diagnostics);
       const auto root = text ? text::parseJson(*text, path, diagnostics) : std::nullopt;
       const auto textOf = [&](const char* key) { return root->find(key) ? root->find(key)->text : ""; };
-      if (root)
-        presets.push_back(
-            {{"name", name}, {"title", textOf("name")}, {"description", textOf("description")}});
+      if (!root) continue;
+      std::string title = textOf("name");
+      if (title.empty()) {  // the file's own name in words
+        title = name;
+        std::ranges::replace(title, '_', ' ');
+      }
+      presets.push_back({{"name", name}, {"title", title}, {"description", textOf("description")}});
     }
   }
   std::ranges::sort(presets, {}, [](const Json& preset) { return preset["name"].get<std::string>(); });

@@ -168,8 +168,8 @@ def check_places(bench):
     bench.report.check(len(names) == 3 and all(name.endswith(".png") for name in names), f"{names}")
     spot = folder / names[1]
     before = (bench.folder / "shaders/double.frag.glsl").read_bytes()
-    for made, says in ((os.mkfifo, "a pipe"), (os.mkdir, "a folder"), (lambda path: os.symlink("/dev/null", path), "a device"),
-                       (lambda path: os.symlink(bench.folder / "shaders/double.frag.glsl", path), "which this run reads")):
+    for made, says in ((os.mkfifo, "a pipe"), (os.mkdir, "a folder"), (lambda path: os.symlink("/dev/null", path), "is a link"),
+                       (lambda path: os.symlink(bench.folder / "shaders/double.frag.glsl", path), "is a link")):
         spot.unlink()
         made(spot)
         ran = dump(folder)
