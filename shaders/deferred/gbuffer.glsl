@@ -1,6 +1,6 @@
 // The layout of the G-buffer. Passes that draw surfaces encode with this file, and passes that read them decode.
 //   normal              rg16             world normal, octahedral (Cigolle et al., "A survey of efficient representations for independent
-//                                        unit vectors", JCGT 3(2), 2014), scaled so that the six axes are exact
+//                                        unit vectors", JCGT 3(2), 2014), scaled so that the six axes are exact; 0, 0 is no surface
 //   base                srgb8_a8         albedo, linear in the shader; F0 of a metal
 //   metallic_roughness  rgba8            r: metallic; g: perceptual roughness; b: occlusion of the material; a: 0 for Cook-Torrance,
 //                                        else Blinn-Phong with the exponent exp2(10 a)
@@ -15,7 +15,9 @@
 vec2 encodeNormal(vec3 n) {
   vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
   if (n.z < 0.0) p = (1.0 - abs(p.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(p, vec2(0.0)));
-  return (round(p * 32767.0) + 32767.0) / 65535.0;
+  p = round(p * 32767.0);
+  if (p == vec2(-32767.0)) p = -p;  // the corners are one normal
+  return (p + 32767.0) / 65535.0;
 }
 
 vec3 decodeNormal(vec2 stored) {

@@ -4,7 +4,7 @@
 //         position?     world, instead of the one that depth gives
 //         ao?           ambient visibility; the material's occlusion counts where it is darker
 //         the lights: shading/light.glsl
-// modify  radiance      scene-referred, alpha 1; nothing where depth is 0
+// modify  radiance      scene-referred, alpha 1; nothing where the G-buffer has no surface
 // params, defines       see shading/light.glsl and shading_model.glsl
 //         SHOW_LAMPS    instead of light, how many lamps each pixel goes through, see shading/show_lamps.glsl
 #include "gbuffer.glsl"
@@ -30,8 +30,8 @@ out vec4 radiance;
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  float z = texelFetch(depth, pixel, 0).r;
-  if (z <= 0.0) discard;
+  vec2 turned = texelFetch(normal, pixel, 0).rg;
+  if (turned == vec2(0.0)) discard;
 #ifdef HAS_RADIANCE
   vec4 stored = texelFetch(metallic_roughness, pixel, 0);
   float visible = stored.b;
@@ -41,9 +41,9 @@ void main() {
 #ifdef HAS_POSITION
   vec3 at = texelFetch(position, pixel, 0).xyz;
 #else
-  vec3 at = positionOfDepth(uv, z);
+  vec3 at = positionOfDepth(uv, texelFetch(depth, pixel, 0).r);
 #endif
-  Point point = pointAt(at, decodeNormal(texelFetch(normal, pixel, 0).rg), visible);
+  Point point = pointAt(at, decodeNormal(turned), visible);
   Surface surface = Surface(texelFetch(base, pixel, 0).rgb, stored.r, stored.g);
   Response response = modelResponse(surface, stored.a > 0.0 ? decodeExponent(stored.a) : 0.0, point.nv);
 
