@@ -50,9 +50,12 @@ void DebugLog::install() {
   glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
   glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_TRUE);
   glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DEBUG_SEVERITY_NOTIFICATION, 0, nullptr, GL_FALSE);
+  // How a driver came to its speed, and what it tells besides, is nothing that a graph could mend.
+  for (const GLenum type : {GL_DEBUG_TYPE_PERFORMANCE, GL_DEBUG_TYPE_OTHER})
+    glDebugMessageControl(GL_DONT_CARE, type, GL_DONT_CARE, 0, nullptr, GL_FALSE);
   // workarounds.h: compiler-messages-twice
-  for (const GLenum type : {GL_DEBUG_TYPE_ERROR, GL_DEBUG_TYPE_OTHER})
-    glDebugMessageControl(GL_DEBUG_SOURCE_SHADER_COMPILER, type, GL_DONT_CARE, 0, nullptr, GL_FALSE);
+  glDebugMessageControl(GL_DEBUG_SOURCE_SHADER_COMPILER, GL_DEBUG_TYPE_ERROR, GL_DONT_CARE, 0, nullptr,
+                        GL_FALSE);
   glDebugMessageCallback(receive, this);
 }
 

@@ -37,5 +37,8 @@
 // (graph/compile/storage.cpp). Mesa 22.3.6, 2026-11-23.
 
 // compiler-messages-twice: Mesa sends every error of a shader's log also as a KHR_debug message of the shader
-// compiler (type error, above notification), besides the log that Program reads and maps. Its messages of
-// type error and other are therefore switched off; those about performance stay. Mesa 22.3.6, 2026-11-21.
+// compiler (type error, above notification), besides the log that Program reads and maps, so those are off.
+// Mesa 22.3.6, 2026-11-21.
+
+// stale-textures-at-clears: NVIDIA's driver warns at a clear of the program in use whose textures are deleted, so a
+// step binds before it clears (runtime/frame/step_runner.cpp). 580.159, 2026-11-26.

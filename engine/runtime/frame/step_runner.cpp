@@ -1,4 +1,4 @@
-// One step of a frame: clears, bindings, the pass itself.
+// One step of a frame: bindings, clears, the pass itself.
 #include "engine/runtime/frame/step_runner.h"
 
 #include <cstring>
@@ -122,9 +122,10 @@ void StepRunner::run(std::size_t step, PreparedPass& pass, bool clears, text::Di
   device_.timers.begin(static_cast<std::uint32_t>(step));
   const bool draws = !pass.attachments.empty() || pass.context.spec->raster[0] > 0;
   const GLuint framebuffer = draws ? framebufferOf(pass, diagnostics) : 0;
+  // Before clears, at which a driver looks at the textures of the program that is in use.
+  const bool bound = bind(pass, diagnostics);
   if (clears && !pass.clears.empty()) clear(pass, framebuffer, diagnostics);
   if (const std::uint16_t after = plan_.steps[step].barriersAfterClears) glMemoryBarrier(glBarriersOf(after));
-  const bool bound = bind(pass, diagnostics);
   if (framebuffer) {
     states_.bindFramebuffer(framebuffer);
     applyState(pass, states_);

@@ -34,9 +34,12 @@ TEST_CASE("a driver's error arrives once with a count and the name of the pass")
   clean.forgive();
 }
 
-TEST_CASE("groups alone raise no message") {
+TEST_CASE("groups raise no message, and neither does how a driver came to its speed") {
   CleanScope clean;
   { const DebugGroup group(context().debugLog(), "quiet"); }
+  for (const GLenum type : {GL_DEBUG_TYPE_PERFORMANCE, GL_DEBUG_TYPE_OTHER})
+    for (const GLenum severity : {GL_DEBUG_SEVERITY_LOW, GL_DEBUG_SEVERITY_MEDIUM, GL_DEBUG_SEVERITY_HIGH})
+      glDebugMessageInsert(GL_DEBUG_SOURCE_APPLICATION, type, 1, severity, -1, "moved");
   Diagnostics nothing;
   context().debugLog().drain(nothing);
   CHECK_MESSAGE(nothing.empty(), nothing.text());
@@ -44,9 +47,9 @@ TEST_CASE("groups alone raise no message") {
 
 TEST_CASE("severities become errors and warnings") {
   DebugLog log;
-  log.record(GL_DEBUG_TYPE_PERFORMANCE, GL_DEBUG_SEVERITY_MEDIUM, "slow\n");
+  log.record(GL_DEBUG_TYPE_PORTABILITY, GL_DEBUG_SEVERITY_MEDIUM, "slow\n");
   log.record(GL_DEBUG_TYPE_ERROR, GL_DEBUG_SEVERITY_LOW, "wrong");
-  log.record(GL_DEBUG_TYPE_PERFORMANCE, GL_DEBUG_SEVERITY_MEDIUM, "slow");
+  log.record(GL_DEBUG_TYPE_PORTABILITY, GL_DEBUG_SEVERITY_MEDIUM, "slow");
   Diagnostics said;
   log.drain(said);
   REQUIRE(said.size() == 2);
