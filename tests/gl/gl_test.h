@@ -11,15 +11,15 @@
 #include "engine/gl/context/context.h"
 #include "engine/gl/context/debug.h"
 #include "engine/gl/objects/objects.h"
+#include "tests/backend.h"
 
 namespace weft::gl::test {
 
-// The executable's OSMesa context, opened once. Exits with an error when there is none: the package is
-// required.
+// The executable's context, opened once. Exits with an error when there is none.
 inline Context& context() {
   static const std::unique_ptr<Context> opened = [] {
     text::Diagnostics diagnostics;
-    auto made = createContext({.backend = Backend::osmesa}, diagnostics);
+    auto made = createContext({.backend = wantedBackend()}, diagnostics);
     if (!made) {
       std::fprintf(stderr, "%s", diagnostics.text().c_str());
       std::exit(1);

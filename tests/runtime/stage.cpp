@@ -1,6 +1,7 @@
 #include "tests/runtime/stage.h"
 
 #include "engine/scene/files/scene_file.h"
+#include "tests/backend.h"
 #include "tests/load_image.h"
 #include "tests/skip.h"
 
@@ -9,8 +10,8 @@ namespace weft::runtime::test {
 gl::Context& context() {
   static const std::unique_ptr<gl::Context> opened = [] {
     text::Diagnostics diagnostics;
-    auto made = gl::createContext({.backend = gl::Backend::osmesa}, diagnostics);
-    if (!made) weft::test::skipAll("no OSMesa context\n" + diagnostics.text());
+    auto made = gl::createContext({.backend = gl::test::wantedBackend()}, diagnostics);
+    if (!made) weft::test::skipAll("no context\n" + diagnostics.text());
     return made;
   }();
   return *opened;

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "engine/gl/context/debug.h"
+#include "tests/backend.h"
 #include "tests/skip.h"
 
 namespace weft::theory {
@@ -14,8 +15,8 @@ namespace {
 gl::Context& sharedContext() {
   static std::unique_ptr<gl::Context> context = [] {
     text::Diagnostics diagnostics;
-    auto made = gl::createContext({.backend = gl::Backend::osmesa}, diagnostics);
-    if (!made) weft::test::skipAll("no OSMesa context\n" + diagnostics.text());
+    auto made = gl::createContext({.backend = gl::test::wantedBackend()}, diagnostics);
+    if (!made) weft::test::skipAll("no context\n" + diagnostics.text());
     return made;
   }();
   return *context;

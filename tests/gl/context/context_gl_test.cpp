@@ -1,12 +1,12 @@
 // One backend per process: the backend is the environment variable WEFT_TEST_BACKEND (osmesa when absent).
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <string>
 
 #include "engine/gl/context/context.h"
 #include "engine/gl/context/debug.h"
 #include "engine/gl/objects/objects.h"
+#include "tests/backend.h"
 
 using namespace weft::gl;
 using weft::text::Code;
@@ -14,10 +14,7 @@ using weft::text::Diagnostics;
 
 namespace {
 
-Backend wanted() {
-  const char* name = std::getenv("WEFT_TEST_BACKEND");
-  return findBackend(name ? name : "osmesa").value();
-}
+const auto wanted = weft::gl::test::wantedBackend;
 
 }  // namespace
 

@@ -9,12 +9,13 @@
 #include "engine/gl/context/debug.h"
 #include "engine/runtime/frame/renderer.h"
 #include "engine/scene/files/scene_file.h"
+#include "tests/backend.h"
 
 using namespace weft;
 
 TEST_CASE("graphs that do not fit their shaders are told apart, with their place, and nothing else is said") {
   text::Diagnostics environment;
-  auto context = gl::createContext({.backend = gl::Backend::osmesa}, environment);
+  auto context = gl::createContext({.backend = gl::test::wantedBackend()}, environment);
   REQUIRE_MESSAGE(context, environment.text());
   auto scene = scene::loadScene(WEFT_SOURCE_DIR "/scenes/one_sphere.json", environment);
   REQUIRE(scene);

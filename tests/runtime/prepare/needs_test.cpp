@@ -24,6 +24,7 @@
 #include "engine/runtime/frame/renderer.h"
 #include "engine/runtime/prepare/program_request.h"
 #include "engine/scene/files/scene_file.h"
+#include "tests/backend.h"
 
 using namespace weft;
 
@@ -308,7 +309,7 @@ TEST_CASE("needs: no program of a bundled graph asks for more than OpenGL 4.5 pr
 
 TEST_CASE("needs: a driver finds no more active than is counted") {
   text::Diagnostics diagnostics;
-  const auto context = gl::createContext({.backend = gl::Backend::osmesa}, diagnostics);
+  const auto context = gl::createContext({.backend = gl::test::wantedBackend()}, diagnostics);
   REQUIRE_MESSAGE(context, diagnostics.text());
   std::size_t programs = 0;
   for (const std::string& graph : filesIn("graphs")) {
