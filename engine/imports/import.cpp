@@ -26,8 +26,8 @@ std::uint64_t NamedView::generation(const Frame& frame) const {
 ImportRegistry ImportRegistry::builtin() {
   ImportRegistry registry;
   addTables(registry);
-  for (const auto make : {makeEnvironment, makeDrawList, makeDrawOrder, makeSilhouettes, makeMaterialMaps,
-                          makeSun, makeLamps, makeCamera, makeCubeLut, makeImage, makeCut})
+  for (const auto make :
+       {makeEnvironment, makeDrawList, makeSun, makeLamps, makeCamera, makeCubeLut, makeImage})
     registry.add(make());
   return registry;
 }

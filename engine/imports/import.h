@@ -104,10 +104,19 @@ class Import {
   virtual std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const = 0;
 };
 
-// An import whose providers are made of their request, or of nothing.
+// An import that its provider says all of, in functions without an object: reflect(), and facts(request, world, files), unless it
+// exists always. Providers are made of their request, or of nothing.
 template <class Made>
 class ImportOf : public Import {
  public:
+  graph::ImportType reflect() const override { return Made::reflect(); }
+  graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,
+                           Files& files) const override {
+    if constexpr (requires { Made::facts(request, world, files); })
+      return Made::facts(request, world, files);
+    else
+      return Import::facts(request, world, files);
+  }
   std::unique_ptr<Provider> provide([[maybe_unused]] const graph::ImportRequest& request) const override {
     if constexpr (std::is_constructible_v<Made, const graph::ImportRequest&>)
       return std::make_unique<Made>(request);

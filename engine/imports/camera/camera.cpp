@@ -89,6 +89,28 @@ Columns<scene::ViewData> cameraColumns() {
 
 class CameraProvider : public Provider {
  public:
+  static graph::ImportType reflect() {
+    return {
+        .name = "camera",
+        .kind = graph::ImportKind::view,
+        .doc =
+            "The scene's camera, or one that stands elsewhere. Declared under the name `camera` it is the "
+            "view of every pass.",
+        .arguments = arguments(),
+        .columns = tell(cameraColumns()),
+        .everyPass = true};
+  }
+
+  static graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) {
+    graph::ImportFacts facts{.exists = true};
+    const std::string& name = request.at("name").symbol;
+    const std::vector<std::string>& known = world.cameras;
+    if (!name.empty() && !known.empty() && std::ranges::find(known, name) == known.end())
+      facts.problems.push_back(badArgument(fmt::format("the scene has no camera '{}'", name), "", "",
+                                           text::nearestHint(name, known)));
+    return facts;
+  }
+
   explicit CameraProvider(const graph::ImportRequest& request)
       : views_(static_cast<std::uint32_t>(std::clamp(request.at("jitter").v[0], 0.0, 4294967295.0)),
                posesOf(request)) {}
@@ -105,36 +127,10 @@ class CameraProvider : public Provider {
   RowTable<scene::ViewData> table_{"camera", cameraColumns()};
 };
 
-class Camera : public ImportOf<CameraProvider> {
- public:
-  graph::ImportType reflect() const override {
-    return {
-        .name = "camera",
-        .kind = graph::ImportKind::view,
-        .doc =
-            "The scene's camera, or one that stands elsewhere. Declared under the name `camera` it is the "
-            "view of every pass.",
-        .arguments = arguments(),
-        .columns = tell(cameraColumns()),
-        .everyPass = true};
-  }
-
-  graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,
-                           Files&) const override {
-    graph::ImportFacts facts{.exists = true};
-    const std::string& name = request.at("name").symbol;
-    const std::vector<std::string>& known = world.cameras;
-    if (!name.empty() && !known.empty() && std::ranges::find(known, name) == known.end())
-      facts.problems.push_back(badArgument(fmt::format("the scene has no camera '{}'", name), "", "",
-                                           text::nearestHint(name, known)));
-    return facts;
-  }
-};
-
 }  // namespace
 
 std::unique_ptr<Import> makeCamera() {
-  return std::make_unique<Camera>();
+  return std::make_unique<ImportOf<CameraProvider>>();
 }
 
 }  // namespace weft::imports

@@ -83,6 +83,32 @@ std::optional<gl::Texture> makeLutTexture(const assets::CubeLut& lut, const std:
 
 class CubeLutProvider : public Provider {
  public:
+  static graph::ImportType reflect() {
+    return {.name = "cube_lut",
+            .kind = graph::ImportKind::texture,
+            .doc =
+                "A .cube table, 3D or 1D, as an RGBA16F 3D texture for composite/lut.glsl; not there when "
+                "`file` is empty.",
+            .arguments = {argument("file", graph::Value::text(""), "path of the .cube file")}};
+  }
+
+  static graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts&, Files& files) {
+    graph::ImportFacts result;
+    const std::string& file = request.at("file").symbol;
+    if (file.empty()) return result;
+    text::Diagnostics said;
+    if (const auto lut = files.get<assets::CubeLut>(file, assets::loadCubeLut, said)) {
+      const gl::Extent extent = lutExtent(*lut);
+      result.exists = true;
+      result.format = graph::Format::rgba16f;
+      result.width = extent.width;
+      result.height = extent.height;
+      result.depth = extent.layers;
+    }
+    result.problems = said.items();
+    return result;
+  }
+
   explicit CubeLutProvider(const graph::ImportRequest& request) : file_(request.at("file").symbol) {}
 
   gl::TextureRef texture(const Frame& frame, text::Diagnostics& diagnostics) override {
@@ -114,40 +140,10 @@ class CubeLutProvider : public Provider {
   bool stale_ = true;
 };
 
-class CubeLut : public ImportOf<CubeLutProvider> {
- public:
-  graph::ImportType reflect() const override {
-    return {.name = "cube_lut",
-            .kind = graph::ImportKind::texture,
-            .doc =
-                "A .cube table, 3D or 1D, as an RGBA16F 3D texture for composite/lut.glsl; not there when "
-                "`file` is empty.",
-            .arguments = {argument("file", graph::Value::text(""), "path of the .cube file")}};
-  }
-
-  graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts&,
-                           Files& files) const override {
-    graph::ImportFacts result;
-    const std::string& file = request.at("file").symbol;
-    if (file.empty()) return result;
-    text::Diagnostics said;
-    if (const auto lut = files.get<assets::CubeLut>(file, assets::loadCubeLut, said)) {
-      const gl::Extent extent = lutExtent(*lut);
-      result.exists = true;
-      result.format = graph::Format::rgba16f;
-      result.width = extent.width;
-      result.height = extent.height;
-      result.depth = extent.layers;
-    }
-    result.problems = said.items();
-    return result;
-  }
-};
-
 }  // namespace
 
 std::unique_ptr<Import> makeCubeLut() {
-  return std::make_unique<CubeLut>();
+  return std::make_unique<ImportOf<CubeLutProvider>>();
 }
 
 }  // namespace weft::imports

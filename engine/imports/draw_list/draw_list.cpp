@@ -16,24 +16,6 @@ using graph::Value;
 
 const std::vector<std::string> kOrders = {"auto", "none", "by_material", "front_to_back", "back_to_front"};
 
-class DrawListProvider : public Provider {
- public:
-  explicit DrawListProvider(const graph::ImportRequest& request) : list_(selectionOf(request)) {}
-  std::uint64_t generation(const Frame& frame) override {
-    const scene::DrawList list = frame.tables.listOf(list_);
-    const auto now = std::pair(frame.tables.generation(list), frame.tables.meshFrame().generation(list));
-    if (generation_ == 0 || now != seen_) generation_ = frame.newGeneration();
-    seen_ = now;
-    return generation_;
-  }
-  bool isStill(const World& world) const override { return !scene::isMoving(world.scene()); }
-
- private:
-  scene::Selection list_;
-  std::pair<std::uint64_t, std::uint64_t> seen_;  // of its spheres and of its meshes
-  std::uint64_t generation_ = 0;
-};
-
 // Which word of the list nothing in the scene has, and the nearest that something has.
 text::Diagnostic saysNothing(const scene::Selection& list, const scene::Scene& scene) {
   std::vector<std::string> names, tags, materials;
@@ -65,9 +47,9 @@ std::vector<std::string> listWords() {
   return words;
 }
 
-class DrawList : public ImportOf<DrawListProvider> {
+class DrawListProvider : public Provider {
  public:
-  graph::ImportType reflect() const override {
+  static graph::ImportType reflect() {
     return {.name = "draw_list",
             .kind = graph::ImportKind::list,
             .doc =
@@ -86,14 +68,28 @@ class DrawList : public ImportOf<DrawListProvider> {
                  .ofMeshes = true}}};
   }
 
-  graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,
-                           Files&) const override {
+  static graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) {
     const scene::Selection list = selectionOf(request);
     const double count = world.spheresOf(list) + world.meshesOf(list);
     graph::ImportFacts facts{.exists = count > 0, .count = count};
     if (count == 0 && world.things) facts.problems.push_back(saysNothing(list, *world.things));
     return facts;
   }
+
+  explicit DrawListProvider(const graph::ImportRequest& request) : list_(selectionOf(request)) {}
+  std::uint64_t generation(const Frame& frame) override {
+    const scene::DrawList list = frame.tables.listOf(list_);
+    const auto now = std::pair(frame.tables.generation(list), frame.tables.meshFrame().generation(list));
+    if (generation_ == 0 || now != seen_) generation_ = frame.newGeneration();
+    seen_ = now;
+    return generation_;
+  }
+  bool isStill(const World& world) const override { return !scene::isMoving(world.scene()); }
+
+ private:
+  scene::Selection list_;
+  std::pair<std::uint64_t, std::uint64_t> seen_;  // of its spheres and of its meshes
+  std::uint64_t generation_ = 0;
 };
 
 }  // namespace
@@ -118,7 +114,7 @@ scene::Selection drawListOf(const graph::ImportRequest& request) {
 }
 
 std::unique_ptr<Import> makeDrawList() {
-  return std::make_unique<DrawList>();
+  return std::make_unique<ImportOf<DrawListProvider>>();
 }
 
 }  // namespace weft::imports

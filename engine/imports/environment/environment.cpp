@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
-#include <span>
 #include <utility>
 
 #include "engine/imports/builtin.h"
@@ -15,42 +14,13 @@ namespace {
 // The share of a transfer that is sending the rows. The rest is the GPU, which makes the levels.
 constexpr float kShareOfRows = 0.9f;
 
-// Row 0 of the map is its top row, and row 0 of the texture is +Y: the same order.
-std::span<const std::byte> bytesOf(const assets::EnvironmentMap& map) {
-  return std::as_bytes(std::span(map.texels));
-}
-
 // Levels of a full mip chain.
 std::uint32_t fullMips(std::uint32_t width, std::uint32_t height) {
   return static_cast<std::uint32_t>(std::bit_width(std::max({width, height, 1u})));
 }
 
-std::optional<gl::Texture> makeTexture(const assets::EnvironmentMap& map, text::Diagnostics& diagnostics) {
-  const gl::TextureDesc desc{.format = GL_RGBA16F,
-                             .width = map.width,
-                             .height = map.height,
-                             .mips = fullMips(map.width, map.height)};
-  return gl::Texture::create(desc, "@environment", diagnostics);
-}
-
 class Environment : public ImportOf<EnvironmentProvider> {
  public:
-  graph::ImportType reflect() const override {
-    return {.name = "environment",
-            .kind = graph::ImportKind::texture,
-            .doc = "The loaded environment, equirectangular RGBA16F with a full mip chain, row 0 at +Y.",
-            .arguments = {}};
-  }
-
-  graph::ImportFacts facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const override {
-    return {.exists = world.environment,
-            .fallback = true,
-            .format = graph::Format::rgba16f,
-            .width = world.environmentWidth,
-            .height = world.environmentHeight,
-            .mips = fullMips(world.environmentWidth, world.environmentHeight)};
-  }
-
   std::string standInGraph() const override { return "graphs/daylight.json"; }
 };
 
@@ -59,18 +29,23 @@ class Environment : public ImportOf<EnvironmentProvider> {
 std::optional<float> EnvironmentTextures::send(const Map& map, text::Diagnostics& diagnostics) {
   if (incoming_.map != map) {
     incoming_ = {};
-    auto texture = makeTexture(*map, diagnostics);
+    const gl::TextureDesc desc{.format = GL_RGBA16F,
+                               .width = map->width,
+                               .height = map->height,
+                               .mips = fullMips(map->width, map->height)};
+    auto texture = gl::Texture::create(desc, "@environment", diagnostics);
     if (!texture) return std::nullopt;
     incoming_.map = map;
     incoming_.texture = std::move(*texture);
   }
+  // Row 0 of the map is its top row, and row 0 of the texture is +Y: the same order.
   if (incoming_.rows < map->height) {
     const std::size_t rowBytes = std::size_t{map->width} * 4 * sizeof(std::uint16_t);
     const auto rows = static_cast<std::uint32_t>(
         std::clamp<std::size_t>(kBytesPerFrame / rowBytes, 1, map->height - incoming_.rows));
     glTextureSubImage2D(incoming_.texture.id(), 0, 0, static_cast<GLint>(incoming_.rows),
                         static_cast<GLsizei>(map->width), static_cast<GLsizei>(rows), GL_RGBA, GL_HALF_FLOAT,
-                        bytesOf(*map).data() + incoming_.rows * rowBytes);
+                        map->texels.data() + incoming_.rows * rowBytes / sizeof(std::uint16_t));
     incoming_.rows += rows;
     if (incoming_.rows < map->height)
       return kShareOfRows * static_cast<float>(incoming_.rows) / static_cast<float>(map->height);
@@ -83,20 +58,29 @@ std::optional<float> EnvironmentTextures::send(const Map& map, text::Diagnostics
 bool EnvironmentTextures::use(const Map& map, text::Diagnostics& diagnostics) {
   if (isNewest(*map)) return true;
   assert(!map->texels.empty() && "dropped before they were used here");
-  gl::Texture next;
-  if (incoming_.map == map && incoming_.last) {
-    next = std::move(incoming_.texture);
-  } else {
-    auto texture = makeTexture(*map, diagnostics);
-    if (!texture) return false;
-    gl::uploadTexture(texture->ref(), 0, 0, GL_RGBA, GL_HALF_FLOAT, bytesOf(*map));
-    glGenerateTextureMipmap(texture->id());
-    next = std::move(*texture);
-  }
-  if (incoming_.map == map) incoming_ = {};
-  current_ = std::make_shared<const gl::Texture>(std::move(next));
+  do
+    if (!send(map, diagnostics)) return false;
+  while (incoming_.rows < map->height);
+  current_ = std::make_shared<const gl::Texture>(std::move(incoming_.texture));
+  incoming_ = {};
   currentId_ = map->id;
   return true;
+}
+
+graph::ImportType EnvironmentProvider::reflect() {
+  return {.name = "environment",
+          .kind = graph::ImportKind::texture,
+          .doc = "The loaded environment, equirectangular RGBA16F with a full mip chain, row 0 at +Y.",
+          .arguments = {}};
+}
+
+graph::ImportFacts EnvironmentProvider::facts(const graph::ImportRequest&, const WorldFacts& world, Files&) {
+  return {.exists = world.environment,
+          .fallback = true,
+          .format = graph::Format::rgba16f,
+          .width = world.environmentWidth,
+          .height = world.environmentHeight,
+          .mips = fullMips(world.environmentWidth, world.environmentHeight)};
 }
 
 std::unique_ptr<Import> makeEnvironment() {

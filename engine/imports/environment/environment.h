@@ -45,6 +45,9 @@ class EnvironmentTextures {
 
 class EnvironmentProvider : public Provider {
  public:
+  static graph::ImportType reflect();
+  static graph::ImportFacts facts(const graph::ImportRequest&, const WorldFacts& world, Files&);
+
   // For sending the next environment beside the one in use.
   EnvironmentTextures& textures() { return textures_; }
 

@@ -160,8 +160,80 @@ std::uint32_t numberNow(const std::vector<std::uint32_t>& numbers, const ImageRe
                   static_cast<double>(first + (request.hold ? std::min(steps, count - 1) : steps % count)));
 }
 
+// The file whose header tells the size. Empty after errors.
+std::string firstFileOf(const ImageRequest& request, Files& files, text::Diagnostics& diagnostics) {
+  const auto pattern = sequencePatternOf(request.file);
+  if (!pattern) {
+    if (request.frame >= 0) {
+      diagnostics.add(badArgument("\"frame\" chooses from a sequence",
+                                  "a \"file\" with #### or %04d in its name", request.file,
+                                  "leave \"frame\" out, or name a sequence: \"clouds.####.png\""));
+      return {};
+    }
+    return request.file;
+  }
+  const std::vector<std::uint32_t> numbers = numbersOf(*pattern, diagnostics);
+  if (numbers.empty()) return {};
+  for (const std::uint32_t number : numbers) files.touch(pattern->nameOf(number));
+  files.touch(pattern->nameOf(numbers.back() + 1));
+  if (request.frame < 0) return pattern->nameOf(numbers.front());
+  const std::uint32_t nearest = numberAt(numbers, request.frame);
+  if (nearest != std::floor(request.frame)) {
+    diagnostics.add(badArgument(fmt::format("the sequence '{}' has no such picture", request.file),
+                                fmt::format("\"frame\" from {} to {}", numbers.front(), numbers.back()),
+                                fmt::format("{}", request.frame), fmt::format("the nearest is {}", nearest)));
+    return {};
+  }
+  return pattern->nameOf(nearest);
+}
+
 class ImageProvider : public Provider {
  public:
+  static graph::ImportType reflect() {
+    return {
+        .name = "image",
+        .kind = graph::ImportKind::texture,
+        .doc =
+            "A picture file as a 2D texture of its size, upright, with four channels: .png .jpg .tga as "
+            "rgba8 or rgba16, .hdr .exr as rgba32f; or a sequence of numbered files. Not there when `file` "
+            "is empty.",
+        .arguments = {
+            argument("file", Value::text(""),
+                     "path of the file; of a sequence with #### or %04d for the number"),
+            argument("frame", Value::number(-1),
+                     "number of the picture of a sequence; -1: it plays from its first number on"),
+            argument("fps", Value::number(0),
+                     "pictures per second of a sequence that plays; 0: one per frame"),
+            argument("end", Value::text("loop"),
+                     "what follows the last picture of a sequence: the first, or itself", {"loop", "hold"}),
+            argument("srgb", Value::boolean(false),
+                     "decode red, green and blue from sRGB, as pictures are stored; not for .hdr and .exr, "
+                     "which are linear"),
+            argument("mips", Value::boolean(false), "all levels down to one texel")}};
+  }
+
+  static graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts&, Files& files) {
+    graph::ImportFacts result;
+    const ImageRequest image = imageRequestOf(request);
+    if (image.file.empty()) return result;
+    text::Diagnostics said;
+    if (image.fps < 0)
+      said.add(badArgument("\"fps\" is below 0", "pictures per second, or 0 for one per frame",
+                           fmt::format("{}", image.fps)));
+    const std::string path = firstFileOf(image, files, said);
+    const auto header = path.empty() ? nullptr : files.get<ImageHeader>(path, assets::loadHeader, said);
+    if (header) {
+      result.exists = true;
+      result.format = layoutOf(header->type, image.srgb).format;
+      result.width = static_cast<std::uint32_t>(header->width);
+      result.height = static_cast<std::uint32_t>(header->height);
+      result.mips = levelsOf(*header, image.mips);
+    }
+    result.changing = image.frame < 0 && sequencePatternOf(image.file).has_value();
+    result.problems = said.items();
+    return result;
+  }
+
   explicit ImageProvider(const graph::ImportRequest& request)
       : request_(imageRequestOf(request)), pattern_(sequencePatternOf(request_.file)) {}
 
@@ -234,86 +306,10 @@ class ImageProvider : public Provider {
   bool stale_ = true;
 };
 
-// The file whose header tells the size. Empty after errors.
-std::string firstFileOf(const ImageRequest& request, Files& files, text::Diagnostics& diagnostics) {
-  const auto pattern = sequencePatternOf(request.file);
-  if (!pattern) {
-    if (request.frame >= 0) {
-      diagnostics.add(badArgument("\"frame\" chooses from a sequence",
-                                  "a \"file\" with #### or %04d in its name", request.file,
-                                  "leave \"frame\" out, or name a sequence: \"clouds.####.png\""));
-      return {};
-    }
-    return request.file;
-  }
-  const std::vector<std::uint32_t> numbers = numbersOf(*pattern, diagnostics);
-  if (numbers.empty()) return {};
-  for (const std::uint32_t number : numbers) files.touch(pattern->nameOf(number));
-  files.touch(pattern->nameOf(numbers.back() + 1));
-  if (request.frame < 0) return pattern->nameOf(numbers.front());
-  const std::uint32_t nearest = numberAt(numbers, request.frame);
-  if (nearest != std::floor(request.frame)) {
-    diagnostics.add(badArgument(fmt::format("the sequence '{}' has no such picture", request.file),
-                                fmt::format("\"frame\" from {} to {}", numbers.front(), numbers.back()),
-                                fmt::format("{}", request.frame), fmt::format("the nearest is {}", nearest)));
-    return {};
-  }
-  return pattern->nameOf(nearest);
-}
-
-class Image : public ImportOf<ImageProvider> {
- public:
-  graph::ImportType reflect() const override {
-    return {
-        .name = "image",
-        .kind = graph::ImportKind::texture,
-        .doc =
-            "A picture file as a 2D texture of its size, upright, with four channels: .png .jpg .tga as "
-            "rgba8 or rgba16, .hdr .exr as rgba32f; or a sequence of numbered files. Not there when `file` "
-            "is empty.",
-        .arguments = {
-            argument("file", Value::text(""),
-                     "path of the file; of a sequence with #### or %04d for the number"),
-            argument("frame", Value::number(-1),
-                     "number of the picture of a sequence; -1: it plays from its first number on"),
-            argument("fps", Value::number(0),
-                     "pictures per second of a sequence that plays; 0: one per frame"),
-            argument("end", Value::text("loop"),
-                     "what follows the last picture of a sequence: the first, or itself", {"loop", "hold"}),
-            argument("srgb", Value::boolean(false),
-                     "decode red, green and blue from sRGB, as pictures are stored; not for .hdr and .exr, "
-                     "which are linear"),
-            argument("mips", Value::boolean(false), "all levels down to one texel")}};
-  }
-
-  graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts&,
-                           Files& files) const override {
-    graph::ImportFacts result;
-    const ImageRequest image = imageRequestOf(request);
-    if (image.file.empty()) return result;
-    text::Diagnostics said;
-    if (image.fps < 0)
-      said.add(badArgument("\"fps\" is below 0", "pictures per second, or 0 for one per frame",
-                           fmt::format("{}", image.fps)));
-    const std::string path = firstFileOf(image, files, said);
-    const auto header = path.empty() ? nullptr : files.get<ImageHeader>(path, assets::loadHeader, said);
-    if (header) {
-      result.exists = true;
-      result.format = layoutOf(header->type, image.srgb).format;
-      result.width = static_cast<std::uint32_t>(header->width);
-      result.height = static_cast<std::uint32_t>(header->height);
-      result.mips = levelsOf(*header, image.mips);
-    }
-    result.changing = image.frame < 0 && sequencePatternOf(image.file).has_value();
-    result.problems = said.items();
-    return result;
-  }
-};
-
 }  // namespace
 
 std::unique_ptr<Import> makeImage() {
-  return std::make_unique<Image>();
+  return std::make_unique<ImportOf<ImageProvider>>();
 }
 
 }  // namespace weft::imports

@@ -1,12 +1,17 @@
 // The imports that are tables of the scene: spheres and meshes of draw lists, and joints, vertex colors, materials and ground;
-// and the mouse.
+// and the mouse. And those that are no tables, but as small: the maps of materials, the order and the silhouettes of spheres, and the
+// event of a jump.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <span>
+#include <vector>
 
 #include "engine/imports/builtin.h"
 #include "engine/imports/material_textures.h"
 #include "engine/imports/scene_tables.h"
+#include "engine/scene/silhouettes.h"
+#include "engine/scene/sort.h"
 #include "engine/text/hash.h"
 
 namespace weft::imports {
@@ -19,6 +24,16 @@ using graph::ImportType;
 
 class SpheresProvider : public Provider {
  public:
+  static ImportType reflect() {
+    return {.name = "spheres",
+            .kind = ImportKind::buffer,
+            .doc = "The instances of the draw list `spheres`, in the layout of scene/instances.glsl.",
+            .columns = tell(sphereColumns())};
+  }
+  static ImportFacts facts(const graph::ImportRequest&, const WorldFacts& world, Files&) {
+    return {.exists = true, .count = world.spheresOf(scene::DrawList::spheres)};
+  }
+
   static constexpr scene::DrawList kList = scene::DrawList::spheres;
   BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
     return frame.tables.spheres(kList, layout, diagnostics);
@@ -33,21 +48,23 @@ class SpheresProvider : public Provider {
   RowTable<scene::Instance> spheres_{"spheres", sphereColumns()};
 };
 
-class Spheres : public ImportOf<SpheresProvider> {
- public:
-  ImportType reflect() const override {
-    return {.name = "spheres",
-            .kind = ImportKind::buffer,
-            .doc = "The instances of the draw list `spheres`, in the layout of scene/instances.glsl.",
-            .columns = tell(sphereColumns())};
-  }
-  ImportFacts facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const override {
-    return {.exists = true, .count = world.spheresOf(scene::DrawList::spheres)};
-  }
-};
-
 class MeshesProvider : public Provider {
  public:
+  static ImportType reflect() {
+    return {
+        .name = "meshes",
+        .kind = ImportKind::buffer,
+        .doc =
+            "The meshes of a draw list, one row each, as a draw of them has in its block `instances`. Not "
+            "there when there are none.",
+        .arguments = {drawListArgument(scene::DrawList::opaque)},
+        .columns = tell(meshColumns())};
+  }
+  static ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) {
+    const double count = world.meshesOf(drawListOf(request));
+    return {.exists = count > 0, .count = count};
+  }
+
   explicit MeshesProvider(const graph::ImportRequest& request) : list_(drawListOf(request)) {}
   BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
     return frame.tables.meshes(frame.tables.listOf(list_), layout, diagnostics);
@@ -65,29 +82,21 @@ class MeshesProvider : public Provider {
   RowTable<scene::MeshRow> meshes_{"meshes", meshColumns()};
 };
 
-class Meshes : public ImportOf<MeshesProvider> {
- public:
-  ImportType reflect() const override {
-    return {
-        .name = "meshes",
-        .kind = ImportKind::buffer,
-        .doc =
-            "The meshes of a draw list, one row each, as a draw of them has in its block `instances`. Not "
-            "there when there are none.",
-        .arguments = {drawListArgument(scene::DrawList::opaque)},
-        .columns = tell(meshColumns())};
-  }
-  ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) const override {
-    const double count = world.meshesOf(drawListOf(request));
-    return {.exists = count > 0, .count = count};
-  }
-};
-
 // The others. `Table` has functions without an object: reflect() without the columns, columns(), facts(world), rows(frame), and,
 // where the table changes with more than the scene, generation(frame) and isStill(world).
 template <class Table>
 class TableProvider : public Provider {
  public:
+  static ImportType reflect() {
+    ImportType type = Table::reflect();
+    type.kind = ImportKind::buffer;
+    type.columns = tell(Table::columns());
+    return type;
+  }
+  static ImportFacts facts(const graph::ImportRequest&, const WorldFacts& world, Files&) {
+    return Table::facts(world);
+  }
+
   BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
     const auto rows = [&] { return Table::rows(frame); };
     return table_.get(layout, generation(frame), rows, diagnostics);
@@ -102,20 +111,6 @@ class TableProvider : public Provider {
 
  private:
   RowTable<typename Table::Row> table_{Table::reflect().name, Table::columns()};
-};
-
-template <class Table>
-class TableImport : public ImportOf<TableProvider<Table>> {
- public:
-  ImportType reflect() const override {
-    ImportType type = Table::reflect();
-    type.kind = ImportKind::buffer;
-    type.columns = tell(Table::columns());
-    return type;
-  }
-  ImportFacts facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const override {
-    return Table::facts(world);
-  }
 };
 
 template <class Of>
@@ -255,16 +250,183 @@ struct Mouse {
   static bool isStill(const World&) { return false; }
 };
 
+// ---- what is no table ----
+
+class MaterialMapsProvider : public Provider {
+ public:
+  static graph::ImportType reflect() {
+    return {.name = "material_maps",
+            .kind = graph::ImportKind::texture,
+            .doc =
+                "The textures of the scene's materials, all levels, batched by size: an array of 8 "
+                "sampler2DArray, which shaders/scene/materials.glsl looks up. Not there when no material "
+                "has one.",
+            .array = kMaterialArrays};
+  }
+
+  static graph::ImportFacts facts(const graph::ImportRequest&, const WorldFacts& world, Files&) {
+    const WorldFacts::Maps& maps = world.maps;
+    return {.exists = maps.arrays > 0,
+            .format = graph::Format::rgba8,
+            .width = maps.width,
+            .height = maps.height,
+            .layers = maps.layers,
+            .mips = maps.mips,
+            .layered = true,
+            .count = static_cast<double>(maps.arrays)};
+  }
+
+  explicit MaterialMapsProvider(const graph::ImportRequest& request) : element_(graph::elementOf(request)) {}
+  gl::TextureRef texture(const Frame& frame, text::Diagnostics& diagnostics) override {
+    return frame.tables.textures().array(frame.world.scene(), frame.world.sceneGeneration(), element_,
+                                         diagnostics);
+  }
+  std::uint64_t generation(const Frame& frame) override { return frame.world.sceneGeneration(); }
+  bool isStill(const World&) const override { return true; }
+
+ private:
+  std::uint32_t element_;
+};
+
+class DrawOrderProvider : public Provider {
+ public:
+  static graph::ImportType reflect() {
+    return {
+        .name = "draw_order",
+        .kind = graph::ImportKind::buffer,
+        .doc =
+            "uvec2(key, index) per instance of `list`, back to front, sorted on the CPU every frame by the "
+            "squared distance from the eye less the squared radius, which is right for all spheres that "
+            "do not meet.",
+        .arguments = {drawListArgument(), viewArgument()}};
+  }
+
+  static graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) {
+    const double count = world.spheresOf(drawListOf(request));
+    return {.exists = true,
+            .bytes = static_cast<std::uint64_t>(std::max(count, 1.0)) * sizeof(scene::SortElement),
+            .count = count};
+  }
+
+  explicit DrawOrderProvider(const graph::ImportRequest& request)
+      : list_(drawListOf(request)), view_(request) {}
+
+  BufferRef buffer(const Frame& frame, const RowLayout&, text::Diagnostics& diagnostics) override {
+    if (const std::uint64_t now = generation(frame); sorted_ != now) {
+      scene::drawOrder(frame.tables.rows(frame.tables.listOf(list_)), view_.view(frame).eye, elements_,
+                       scratch_);
+      if (elements_.empty()) elements_.emplace_back();
+      if (!sendTo(buffer_, std::as_bytes(std::span(elements_)), "draw order", false, diagnostics)) return {};
+      sorted_ = now;
+    }
+    return {buffer_.id(), buffer_.bytes()};
+  }
+  std::uint64_t generation(const Frame& frame) override {
+    const std::uint64_t rows = frame.tables.generation(frame.tables.listOf(list_)),
+                        camera = view_.generation(frame);
+    if (generation_ == 0 || rows != rows_ || camera != camera_) generation_ = frame.newGeneration();
+    rows_ = rows;
+    camera_ = camera;
+    return generation_;
+  }
+
+ private:
+  scene::Selection list_;
+  NamedView view_;
+  gl::Buffer buffer_;
+  std::uint64_t generation_ = 0, rows_ = 0, camera_ = 0;
+  std::uint64_t sorted_ = 0;  // the generation that the buffer holds
+  std::vector<scene::SortElement> elements_, scratch_;
+};
+
+constexpr double kHighest = 65536;  // pixels
+
+// Pixels that two silhouettes may be apart and still meet: the diagonal of one, and what a lens wider than the scene's makes of it.
+constexpr float kPixels = 3;
+
+class SilhouettesProvider : public Provider {
+ public:
+  static graph::ImportType reflect() {
+    return {.name = "silhouettes",
+            .kind = graph::ImportKind::buffer,
+            .doc =
+                "Of each sphere of `list`, those before it whose silhouettes meet its own in the picture. "
+                "uvec4(first, number, 0, 0) per instance, then per such sphere the bits of vec4(center from "
+                "the eye, radius); empty with more than 4096, or 131072 pairs that meet.",
+            .arguments = {drawListArgument(),
+                          argument("height", graph::Value::number(720), "of the picture, pixels"),
+                          viewArgument()}};
+  }
+
+  static graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) {
+    graph::ImportFacts facts{.exists = true, .count = world.spheresOf(drawListOf(request))};
+    const double height = request.at("height").v[0];
+    if (height >= 1 && height <= kHighest) return facts;
+    facts.problems.push_back(
+        badArgument("import 'silhouettes': argument 'height' does not fit",
+                    "the height of the picture, 1 to 65536 pixels", graph::toText(request.at("height")),
+                    "write \"height\": \"size(hdr).y\", with the picture's name in place of hdr"));
+    return facts;
+  }
+
+  explicit SilhouettesProvider(const graph::ImportRequest& request)
+      : list_(drawListOf(request)),
+        view_(request),
+        height_(static_cast<float>(std::clamp(request.at("height").v[0], 1.0, kHighest))) {}
+
+  BufferRef buffer(const Frame& frame, const RowLayout&, text::Diagnostics& diagnostics) override {
+    const std::uint64_t now = generation(frame);
+    if (buffer_ && sent_ == now) return {buffer_.id(), buffer_.bytes()};
+    found_.find(frame.tables.rows(frame.tables.listOf(list_)), eye_, kPixels * pixel_);
+    if (!sendTo(buffer_, std::as_bytes(std::span(found_.rows())), "silhouettes", true, diagnostics))
+      return {};
+    sent_ = now;
+    return {buffer_.id(), buffer_.bytes()};
+  }
+  std::uint64_t generation(const Frame& frame) override {
+    const scene::ViewData& view = view_.view(frame);
+    const float pixel = 2 / (view.projection[1].y * height_);
+    const std::uint64_t rows = frame.tables.generation(frame.tables.listOf(list_));
+    if (generation_ == 0 || rows != rows_ || view.eye != eye_ || pixel != pixel_)
+      generation_ = frame.newGeneration();
+    rows_ = rows;
+    eye_ = view.eye;
+    pixel_ = pixel;
+    return generation_;
+  }
+
+ private:
+  scene::Selection list_;
+  NamedView view_;
+  float height_;
+  scene::Silhouettes found_;
+  gl::Buffer buffer_;
+  std::uint64_t generation_ = 0, sent_ = 0;  // of what is below; of what the buffer holds
+  std::uint64_t rows_ = 0;
+  glm::vec3 eye_{0};
+  float pixel_ = 0;
+};
+
+class CutProvider : public Provider {
+ public:
+  static graph::ImportType reflect() {
+    return {.name = "cut",
+            .kind = graph::ImportKind::event,
+            .doc = "Changes when the camera jumps.",
+            .arguments = {}};
+  }
+
+  std::uint64_t generation(const Frame& frame) override { return frame.input.cutGeneration; }
+  bool isStill(const World&) const override { return true; }
+};
+
 }  // namespace
 
 void addTables(graph::PlugIns<Import>& imports) {
-  imports.add(std::make_unique<Spheres>());
-  imports.add(std::make_unique<Meshes>());
-  imports.add(std::make_unique<TableImport<Materials>>());
-  imports.add(std::make_unique<TableImport<Joints>>());
-  imports.add(std::make_unique<TableImport<VertexColors>>());
-  imports.add(std::make_unique<TableImport<Ground>>());
-  imports.add(std::make_unique<TableImport<Mouse>>());
+  const auto add = [&]<class... Made>() { (imports.add(std::make_unique<ImportOf<Made>>()), ...); };
+  add.operator()<SpheresProvider, MeshesProvider, TableProvider<Materials>, TableProvider<Joints>,
+                 TableProvider<VertexColors>, TableProvider<Ground>, TableProvider<Mouse>,
+                 MaterialMapsProvider, DrawOrderProvider, SilhouettesProvider, CutProvider>();
 }
 
 }  // namespace weft::imports

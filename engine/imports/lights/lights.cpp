@@ -1,0 +1,233 @@
+// The imports `sun` and `lamps`: the scene's sun as one row and a view that its shadow is drawn from, and its point and spot lights as
+// a table, with six views of each.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/imports/builtin.h"
+#include "engine/imports/scene_tables.h"
+#include "engine/scene/light_views.h"
+
+namespace weft::imports {
+
+namespace {
+
+constexpr double kMaxTexels = 16384;
+
+// Where a graph's own sun stands; empty: where the scene's does.
+std::optional<glm::vec3> directionOf(const graph::ImportRequest& request) {
+  const graph::Value& value = request.at("direction");
+  const glm::dvec3 towards(value.v[0], value.v[1], value.v[2]);
+  const double length = glm::length(towards);
+  if (!(length > 0 && std::isfinite(length))) return {};
+  return glm::vec3(towards / length);
+}
+
+struct SunRow : scene::Sun {
+  float cosAngle = 1, texel = 0;
+  glm::mat4 shadowMatrix{1};
+};
+
+Columns<SunRow> sunColumns() {
+  using Row = SunRow;
+  return {column<Row, &Row::direction>("direction", "unit, towards it, world"),
+          column<Row, &Row::cosAngle>("cos_angle", "of half its diameter in the sky"),
+          column<Row, &Row::irradiance>("irradiance", "linear RGB on what faces it, scene-referred"),
+          column<Row, &Row::texel>("texel", "world units across a texel of its map"),
+          column<Row, &Row::shadowMatrix>("shadow_matrix",
+                                          "world to u, v and reversed-Z depth of its map, 0 to 1")};
+}
+
+class SunProvider : public Provider {
+ public:
+  static graph::ImportType reflect() {
+    return {
+        .name = "sun",
+        .kind = graph::ImportKind::buffer,
+        .doc = "The scene's sun: one row, and an orthographic view of everything from it.",
+        .arguments =
+            {argument("texels", graph::Value::number(2048),
+                      "a side of the map that its shadow is drawn into"),
+             argument("direction", graph::Value{graph::Value::Type::list, 3, {}, {}},
+                      "towards it, in place of the scene's; then it is there without a sun, too, and gives "
+                      "no light then. [0, 0, 0]: the scene's"),
+             argument("casting", graph::Value::boolean(false),
+                      "true: there only if the scene's sun casts shadows")},
+        .columns = tell(sunColumns()),
+        .views = true};
+  }
+
+  static graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) {
+    const bool casting = request.at("casting").truth();
+    const bool exists = directionOf(request) || (casting ? world.castingSun : world.sun);
+    return {.exists = exists, .count = exists ? 1.0 : 0.0};
+  }
+
+  explicit SunProvider(const graph::ImportRequest& request)
+      : texels_(
+            static_cast<std::uint32_t>(std::clamp(std::floor(request.at("texels").v[0]), 1.0, kMaxTexels))),
+        direction_(directionOf(request)) {}
+
+  BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
+    follow(frame);
+    return table_.get(
+        layout, generation_, [this] { return row(); }, diagnostics);
+  }
+  bool value(const Frame& frame, const ViewPart& part, std::uint32_t column, Numbers& out) override {
+    follow(frame);
+    return table_.read(row(), part.element, column, out);
+  }
+  const scene::ViewData& view(const Frame& frame, const ViewPart&) override {
+    follow(frame);
+    return fitted_.view;
+  }
+  std::uint64_t generation(const Frame& frame) override {
+    follow(frame);
+    return generation_;
+  }
+  bool isStill(const World& world) const override { return !scene::isMoving(world.scene()); }
+
+ private:
+  std::array<SunRow, 1> row() const {
+    const auto cosAngle = static_cast<float>(std::cos(sun_.angle / 2 * std::numbers::pi / 180));
+    return {SunRow{sun_, cosAngle, fitted_.texel, fitted_.shadowMatrix}};
+  }
+
+  void follow(const Frame& frame) {
+    if (frame_ == frame.number) return;
+    frame_ = frame.number;
+    const std::uint64_t changed = frame.world.sceneGeneration();
+    const scene::Box bounds = frame.tables.meshFrame().sceneBounds();
+    scene::Sun sun = frame.tables.meshFrame().sun().value_or(scene::Sun{.irradiance = glm::vec3(0)});
+    sun.direction = direction_.value_or(sun.direction);
+    if (scene_ == changed && sun.direction == sun_.direction && bounds == bounds_) return;
+    const bool another = std::exchange(scene_, changed) != changed;
+    bounds_ = bounds;
+    sun_ = sun;
+    const scene::SunView fitted = scene::sunView(sun_, bounds, texels_);
+    // The generation rises only when a value has changed: the fit follows the bounds in steps.
+    if (!another && fitted.shadowMatrix == fitted_.shadowMatrix) return;
+    fitted_ = fitted;
+    generation_ = frame.newGeneration();
+  }
+
+  std::uint32_t texels_;
+  std::optional<glm::vec3> direction_;
+  scene::Sun sun_;
+  scene::SunView fitted_;
+  scene::Box bounds_;
+  std::uint64_t frame_ = 0, scene_ = 0, generation_ = 0;
+  RowTable<SunRow> table_{"sun", sunColumns()};
+};
+
+struct LampRow : scene::Lamp {
+  float nearPlane = 0;
+  std::int32_t caster = -1;
+};
+
+Columns<LampRow> lampColumns() {
+  using Row = LampRow;
+  return {column<Row, &Row::position>("position", "world"),
+          column<Row, &Row::range>("range", "world units; nothing beyond is lit"),
+          column<Row, &Row::intensity>("intensity",
+                                       "linear RGB; irradiance times squared distance, scene-referred"),
+          column<Row, &Row::cosInner>("cos_inner", "of a spot: cosine within which it is full; -1 all round"),
+          column<Row, &Row::direction>("direction", "unit, away from it, of a spot"),
+          column<Row, &Row::cosOuter>("cos_outer", "cosine beyond which nothing is lit"),
+          column<Row, &Row::nearPlane>("near_plane", "of its views"),
+          column<Row, &Row::radius>("radius", "world units: its own, for soft shadows"),
+          column<Row, &Row::caster>("shadow", "index among those that cast shadows, or -1")};
+}
+
+class LampsProvider : public Provider {
+ public:
+  static graph::ImportType reflect() {
+    return {.name = "lamps",
+            .kind = graph::ImportKind::buffer,
+            .doc =
+                "The scene's point and spot lights, one row each, and views of 90 degrees from them: "
+                "@lamps[l].face[f], faces as of a cube map.",
+            .arguments = {argument("casting", graph::Value::boolean(false), "only those that cast shadows")},
+            .columns = tell(lampColumns()),
+            .views = true};
+  }
+
+  static graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) {
+    const std::uint32_t count = request.at("casting").truth() ? world.castingLamps : world.lamps;
+    return {.exists = count > 0, .count = static_cast<double>(count)};
+  }
+
+  explicit LampsProvider(const graph::ImportRequest& request) : casting_(request.at("casting").truth()) {}
+
+  BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
+    follow(frame);
+    return table_.get(
+        layout, generation_, [this] { return tableRows(); }, diagnostics);
+  }
+  bool value(const Frame& frame, const ViewPart& part, std::uint32_t column, Numbers& out) override {
+    follow(frame);
+    return table_.read(tableRows(), part.element, column, out);
+  }
+  const scene::ViewData& view(const Frame& frame, const ViewPart& part) override {
+    follow(frame);
+    if (part.element < rows_.size())
+      view_ = scene::lampView(lamps_[rows_[part.element]], std::min<std::uint32_t>(part.face, 5), part.width);
+    return view_;
+  }
+  std::uint64_t generation(const Frame& frame) override {
+    follow(frame);
+    return generation_;
+  }
+  bool isStill(const World& world) const override {
+    return !scene::isMoving(world.scene()) ||
+           std::ranges::none_of(world.scene().lamps.rows(),
+                                [](const scene::Lamp& lamp) { return lamp.node.valid(); });
+  }
+
+ private:
+  void follow(const Frame& frame) {
+    if (frame_ == frame.number) return;
+    frame_ = frame.number;
+    const scene::MeshFrame& placed = frame.tables.meshFrame();
+    lamps_ = placed.lamps();
+    if (placed_ == placed.lightsGeneration()) return;
+    placed_ = placed.lightsGeneration();
+    generation_ = frame.newGeneration();
+    rows_.clear();
+    for (std::uint32_t row = 0; row < lamps_.size(); ++row)
+      if (lamps_[row].shadow || !casting_) rows_.push_back(row);
+  }
+
+  std::vector<LampRow> tableRows() const {
+    std::vector<LampRow> rows;
+    std::int32_t casters = 0;
+    for (const std::uint32_t row : rows_)
+      rows.push_back({lamps_[row], scene::nearPlaneOf(lamps_[row]), lamps_[row].shadow ? casters++ : -1});
+    return rows;
+  }
+
+  bool casting_;
+  std::uint64_t frame_ = 0, generation_ = 0;
+  std::uint64_t placed_ = 0;            // generation of the lamps that were seen last
+  std::span<const scene::Lamp> lamps_;  // of this frame
+  std::vector<std::uint32_t> rows_;     // of lamps_ that the import has
+  scene::ViewData view_;
+  RowTable<LampRow> table_{"lamps", lampColumns()};
+};
+
+}  // namespace
+
+std::unique_ptr<Import> makeSun() {
+  return std::make_unique<ImportOf<SunProvider>>();
+}
+
+std::unique_ptr<Import> makeLamps() {
+  return std::make_unique<ImportOf<LampsProvider>>();
+}
+
+}  // namespace weft::imports
