@@ -48,10 +48,9 @@ SUB_ROOMS = {
         ".": {"images"},
         "models/parts": {".", "images"},
         "models/gltf": {".", "models/parts"},
-        "models/assimp": {".", "models/parts"},
-        "models/apart": {".", "models/parts", "models/assimp"},
+        "models/fbx": {".", "images", "models/parts"},
         "models/obj": {".", "models/parts"},
-        "models": {".", "images", "models/parts", "models/gltf", "models/apart", "models/obj"},
+        "models": {".", "images", "models/parts", "models/gltf", "models/fbx", "models/obj"},
     },
     "scene": {".": set(), "frame": {"."}, "models": {".", "frame"}, "files": {".", "frame", "models"}},
     "gl": {

@@ -134,6 +134,7 @@ struct ModelNode {
   std::string name;
   std::uint32_t parent = kNoRow;  // an earlier row
   Transform local{};
+  glm::mat3 inner{1};  // before it: what a matrix of the file does, which may shear
 };
 
 struct ModelInstance {

@@ -66,8 +66,9 @@ struct Node;
 using NodeId = Id<Node>;
 struct Node {
   std::string name;
-  NodeId parent;      // stands before this row; none: the world
-  Transform local;    // at time 0, unless an animation says otherwise
+  NodeId parent;       // stands before this row; none: the world
+  Transform local;     // at time 0, unless an animation says otherwise
+  glm::mat3 inner{1};  // before it
   glm::vec3 spin{0};  // turns about this axis, through the node's origin, by its length in radians per second
   glm::vec3 velocity{0};  // of the parent's units per second
 };

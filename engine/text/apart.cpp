@@ -17,6 +17,7 @@
 #include <csignal>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 
 extern char** environ;
 
@@ -43,29 +44,21 @@ pid_t start(std::vector<std::string> command, int input, int output) {
   return error == 0 ? pid : -1;
 }
 
+std::string pathOf(int file) {
+  return fmt::format("/proc/self/fd/{}", file);
+}
+
+// In place of what is in the file.
 bool writeAll(int file, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(file, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
+  std::ofstream out(pathOf(file), std::ios::binary);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  return static_cast<bool>(out.flush());
 }
 
 std::string readAll(int file) {
-  std::string bytes;
-  const off_t size = ::lseek(file, 0, SEEK_END);
-  bytes.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
-  std::size_t at = 0;
-  while (at < bytes.size()) {
-    const ssize_t got = ::pread(file, bytes.data() + at, bytes.size() - at, static_cast<off_t>(at));
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) break;
-    at += static_cast<std::size_t>(got);
-  }
-  bytes.resize(at);
-  return bytes;
+  std::ostringstream bytes;
+  bytes << std::ifstream(pathOf(file), std::ios::binary).rdbuf();
+  return std::move(bytes).str();
 }
 
 // Until the process closes its end. False when it was silent for too long, or `goOn` ended it.
@@ -117,12 +110,11 @@ ApartEnd runApart(std::vector<std::string> command, std::string_view input, std:
   ApartEnd result;
   const int file = ::memfd_create("apart", MFD_CLOEXEC);
   int ends[2] = {-1, -1};
-  const bool ready = file >= 0 && writeAll(file, input) && ::lseek(file, 0, SEEK_SET) == 0 &&
-                     ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0;
+  const bool ready =
+      file >= 0 && writeAll(file, input) && ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0;
   const pid_t pid = ready ? start(std::move(command), file, ends[1]) : -1;
   ::close(ends[1]);
-  result.started = pid >= 0;
-  if (result.started) {
+  if (pid >= 0) {
     const bool ended = listen(ends[0], seconds, goOn, result.said);
     ::kill(pid, SIGKILL);  // what it tidies up is not waited for
     int status = 0;
@@ -163,18 +155,12 @@ void takeLimits(std::uint64_t seconds, std::uint64_t bytes) {
   if (kBoundsMemory) setLimit(RLIMIT_AS, mappedBytes() + bytes);
 }
 
-void freeLimits() {
-  setLimit(RLIMIT_CPU, RLIM_INFINITY);
-  setLimit(RLIMIT_AS, RLIM_INFINITY);
-}
-
 void sayStep(char step) {
   if (::write(STDOUT_FILENO, &step, 1) != 1) ::_exit(0);  // nobody listens
 }
 
 void endApart(std::string_view made, char last) {
-  const bool good = ::ftruncate(STDIN_FILENO, 0) == 0 && ::lseek(STDIN_FILENO, 0, SEEK_SET) == 0 &&
-                    writeAll(STDIN_FILENO, made);
+  const bool good = writeAll(STDIN_FILENO, made);
   if (good && last != 0) sayStep(last);
   ::_exit(good ? 0 : 1);
 }

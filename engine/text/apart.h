@@ -1,5 +1,5 @@
 // A process of its own for work that may crash, take all memory or never end: the compiler of a driver (engine/gl/programs), readers
-// of models whose makers do not fuzz them (engine/assets/models/apart). It is this executable again, started with a first word that its
+// of models whose makers do not fuzz them (engine/assets/models/fbx). It is this executable again, started with a first word that its
 // main() knows, or one that an embedder names. What it is to do is on its standard input, a file in memory, in which it leaves what it
 // made; how far it is, it says on its standard output, a byte a step.
 #pragma once
@@ -13,7 +13,6 @@
 namespace weft::text {
 
 struct ApartEnd {
-  bool started = false;
   std::string said;             // the steps
   std::string made;             // what is in the file now
   std::string how;              // "signal 11 (Segmentation fault)", "no end in that time", "exit code 1"
@@ -30,9 +29,8 @@ ApartEnd runApart(std::vector<std::string> command, std::string_view input, std:
 
 // All of standard input. The process ends with the one that started it.
 std::string beginApart();
-// From now on at most so many seconds of processor time and bytes of memory more, until freeLimits().
+// From now on at most so many seconds of processor time and bytes of memory more.
 void takeLimits(std::uint64_t seconds, std::uint64_t bytes);
-void freeLimits();
 void sayStep(char step);
 // Replaces what is in the file, says a last step unless it is 0, and ends.
 [[noreturn]] void endApart(std::string_view made = {}, char last = 0);

@@ -189,8 +189,11 @@ std::optional<ImageHeader> readHeader(std::string_view bytes, const std::string&
   else if (bytes.empty())
     reportUnreadable(diagnostics, name, "the file is empty");
   if (kind == ImageKind::unknown || bytes.empty()) return {};
-  if (kind == ImageKind::hdr) return readHdrHeader(bytes, name, diagnostics);
-  if (kind == ImageKind::exr) return readExrHeader(bytes, name, diagnostics);
+  if (kind != ImageKind::eight_bit) {
+    const auto image = (kind == ImageKind::hdr ? readHdr : readExr)(bytes, name, false, diagnostics);
+    if (!image) return {};
+    return ImageHeader{image->width, image->height, image->channels, StoredType::real};
+  }
   std::optional<ImageHeader> header = readPictureHeader(bytes, name, diagnostics);
   if (header && orientationOf(bytes) >= 5) std::swap(header->width, header->height);
   return header;
@@ -213,8 +216,7 @@ std::optional<ImageF> decodeImage(std::string_view bytes, const std::string& nam
     return linear(decodeUpright<std::uint8_t>(bytes, 0, name, diagnostics));
   if (header->type == StoredType::word)
     return linear(decodeUpright<std::uint16_t>(bytes, 0, name, diagnostics));
-  return kindOfName(name) == ImageKind::hdr ? decodeHdr(bytes, name, diagnostics)
-                                            : decodeExr(bytes, name, diagnostics);
+  return (kindOfName(name) == ImageKind::hdr ? readHdr : readExr)(bytes, name, true, diagnostics);
 }
 
 std::optional<Image8> loadImage8(const std::string& path, int channels, Diagnostics& diagnostics) {

@@ -19,13 +19,9 @@ void reportUnreadable(text::Diagnostics& diagnostics, const std::string& name, c
 // True when the size is sound; else adds W152.
 bool checkSize(text::Diagnostics& diagnostics, const std::string& name, long long width, long long height);
 
-// What the decoders take, without decoding texels: .png, .jpg and .tga; .hdr; .exr.
+// Of .png, .jpg and .tga.
 std::optional<ImageHeader> readPictureHeader(std::string_view bytes, const std::string& name,
                                              text::Diagnostics& diagnostics);
-std::optional<ImageHeader> readHdrHeader(std::string_view bytes, const std::string& name,
-                                         text::Diagnostics& diagnostics);
-std::optional<ImageHeader> readExrHeader(std::string_view bytes, const std::string& name,
-                                         text::Diagnostics& diagnostics);
 // How a .jpg or .png lies as the camera held it, 1 to 8 (JEITA CP-3451, Exif 2.3, tag 0x0112); 1, as stored, where the file says
 // nothing that can be read.
 int orientationOf(std::string_view bytes);
@@ -34,10 +30,11 @@ int orientationOf(std::string_view bytes);
 template <class T>
 std::optional<ImageOf<T>> decodePicture(std::string_view bytes, int channels, const std::string& name,
                                         text::Diagnostics& diagnostics);
-std::optional<ImageF> decodeHdr(std::string_view bytes, const std::string& name,
-                                text::Diagnostics& diagnostics);
-std::optional<ImageF> decodeExr(std::string_view bytes, const std::string& name,
-                                text::Diagnostics& diagnostics);
+// Without texels unless `decodes`; the scanlines of an .hdr are walked also then.
+std::optional<ImageF> readHdr(std::string_view bytes, const std::string& name, bool decodes,
+                              text::Diagnostics& diagnostics);
+std::optional<ImageF> readExr(std::string_view bytes, const std::string& name, bool decodes,
+                              text::Diagnostics& diagnostics);
 
 // Gray, gray-alpha and RGB become RGBA; a missing alpha is 1.
 ImageF widenToRgba(ImageF image);

@@ -2,23 +2,21 @@
 // Declared in image_codecs.h and image.h.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
-#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfRgbaFile.h>
+#include <OpenEXR/ImfStdIO.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cstring>
 #include <exception>
 #include <map>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <vector>
 
 #include "engine/assets/images/image_codecs.h"
@@ -29,41 +27,6 @@ namespace weft::assets {
 using text::Diagnostics;
 
 namespace {
-
-class BytesIn final : public Imf::IStream {
- public:
-  BytesIn(std::string_view bytes, const std::string& name) : IStream(name.c_str()), bytes_(bytes) {}
-  bool read(char to[], int count) override {
-    if (count < 0 || at_ > bytes_.size() || static_cast<std::size_t>(count) > bytes_.size() - at_)
-      throw std::runtime_error("the file ends early");
-    std::memcpy(to, bytes_.data() + at_, static_cast<std::size_t>(count));
-    at_ += static_cast<std::size_t>(count);
-    return at_ < bytes_.size();
-  }
-  std::uint64_t tellg() override { return at_; }
-  void seekg(std::uint64_t at) override { at_ = at; }
-
- private:
-  std::string_view bytes_;
-  std::uint64_t at_ = 0;
-};
-
-class BytesOut final : public Imf::OStream {
- public:
-  BytesOut(std::string& bytes, const std::string& name) : OStream(name.c_str()), bytes_(bytes) {}
-  void write(const char from[], int count) override {
-    const auto size = static_cast<std::size_t>(count);
-    bytes_.resize(std::max(bytes_.size(), at_ + size));
-    std::memcpy(bytes_.data() + at_, from, size);
-    at_ += size;
-  }
-  std::uint64_t tellp() override { return at_; }
-  void seekp(std::uint64_t at) override { at_ = at; }
-
- private:
-  std::string& bytes_;
-  std::uint64_t at_ = 0;
-};
 
 // Which channel of the file each of R, G, B, A is, "" for none, and the layer ("diffuse" of "diffuse.R") that they belong to.
 struct Layer {
@@ -112,42 +75,37 @@ std::string reasonOf(const std::vector<Layer>& layers) {
                      names, layers.size() > 8 ? ", …" : "");
 }
 
-struct Window {
-  long long left = 0, top = 0, width = 0, height = 0;
-};
-
-Window windowOf(const Imath::Box2i& box) {
-  return {box.min.x, box.min.y, static_cast<long long>(box.max.x) - box.min.x + 1,
-          static_cast<long long>(box.max.y) - box.min.y + 1};
+long long widthOf(const Imath::Box2i& box) {
+  return static_cast<long long>(box.max.x) - box.min.x + 1;
+}
+long long heightOf(const Imath::Box2i& box) {
+  return static_cast<long long>(box.max.y) - box.min.y + 1;
 }
 
 // The part that is the picture: the first with one layer of colors, else the first that is gray.
 struct Opening {
-  BytesIn stream;
-  Imf::MultiPartInputFile file;
+  Imf::StdISStream stream;
+  std::optional<Imf::MultiPartInputFile> file{};
   int part = 0;
   Layer layer{};
-  Window display{}, data{};
-
-  Opening(std::string_view bytes, const std::string& name) : stream(bytes, name), file(stream) {}
+  Imath::Box2i display{}, data{};
 };
 
 // Rows that are packed as one, or a row of tiles, are unpacked with all their channels.
-bool isTooMuchAtOnce(const Imf::Header& header, const Window& data) {
+bool isTooMuchAtOnce(const Imf::Header& header) {
   constexpr long long kMost = 512 << 20, kRowsOfDwab = 256;
-  const long long rows =
-      header.hasTileDescription()
-          ? std::min<long long>(header.tileDescription().ySize, data.height)
-          : std::min(header.compression() == Imf::DWAB_COMPRESSION ? kRowsOfDwab : 32, data.height);
+  const long long rows = header.hasTileDescription()                     ? header.tileDescription().ySize
+                         : header.compression() == Imf::DWAB_COMPRESSION ? kRowsOfDwab
+                                                                         : 32;
   long long channels = 0;
   for (auto at = header.channels().begin(); at != header.channels().end(); ++at) ++channels;
-  return rows * data.width * 4 * channels > kMost;
+  return std::min(rows, heightOf(header.dataWindow())) * widthOf(header.dataWindow()) * 4 * channels > kMost;
 }
 
 // What is wrong with the part that was chosen, or "".
 std::string problemOf(const Opening& opening) {
-  const Imf::Header& header = opening.file.header(opening.part);
-  if (isTooMuchAtOnce(header, opening.data)) return "a row of it holds too many channels";
+  const Imf::Header& header = opening.file->header(opening.part);
+  if (isTooMuchAtOnce(header)) return "a row of it holds too many channels";
   if (opening.layer.chroma && opening.part > 0) return "only its first part may hold luminance and chroma";
   for (const std::string& name : opening.layer.channels) {
     if (name.empty() || opening.layer.chroma) continue;
@@ -166,12 +124,14 @@ std::unique_ptr<Opening> openExr(std::string_view bytes, const std::string& name
     Imf::Header::setMaxTileSize(kMaxImageSide, kMaxImageSide);
     return true;
   }();
-  auto opening = std::make_unique<Opening>(bytes, name);
+  auto opening = std::make_unique<Opening>();
+  opening->stream.str(std::string(bytes));
+  opening->file.emplace(opening->stream);
   std::optional<Layer> chosen;
   std::vector<Layer> others;
   bool deep = false;
-  for (int part = 0; part < opening->file.parts(); ++part) {
-    const Imf::Header& header = opening->file.header(part);
+  for (int part = 0; part < opening->file->parts(); ++part) {
+    const Imf::Header& header = opening->file->header(part);
     if (header.hasType() && !Imf::isImage(header.type())) {
       deep = true;
       continue;
@@ -192,12 +152,12 @@ std::unique_ptr<Opening> openExr(std::string_view bytes, const std::string& name
         deep && others.empty() ? "it holds deep data; save it as one flat picture" : reasonOf(others));
     return {};
   }
-  const Imf::Header& header = opening->file.header(opening->part);
+  const Imf::Header& header = opening->file->header(opening->part);
   opening->layer = *chosen;
-  opening->display = windowOf(header.displayWindow());
-  opening->data = windowOf(header.dataWindow());
-  for (const Window& window : {opening->display, opening->data})
-    if (!checkSize(diagnostics, name, window.width, window.height)) return {};
+  opening->display = header.displayWindow();
+  opening->data = header.dataWindow();
+  for (const Imath::Box2i& window : {opening->display, opening->data})
+    if (!checkSize(diagnostics, name, widthOf(window), heightOf(window))) return {};
   if (const std::string problem = problemOf(*opening); !problem.empty()) {
     reportUnreadable(diagnostics, name, problem);
     return {};
@@ -206,18 +166,17 @@ std::unique_ptr<Opening> openExr(std::string_view bytes, const std::string& name
 }
 
 // The texels of the data window; alpha 1 where the file has none.
-ImageF readData(Opening& opening, std::string_view bytes, const std::string& name) {
-  const Window& data = opening.data;
-  const auto count = static_cast<std::size_t>(data.width * data.height);
-  ImageF image{static_cast<int>(data.width), static_cast<int>(data.height), 4,
-               std::vector<float>(count * 4, 1.0f)};
-  const Imath::Box2i box = opening.file.header(opening.part).dataWindow();
+ImageF readData(Opening& opening) {
+  const Imath::Box2i& box = opening.data;
+  const auto width = static_cast<std::size_t>(widthOf(box)), height = static_cast<std::size_t>(heightOf(box)),
+             count = width * height;
+  ImageF image{static_cast<int>(width), static_cast<int>(height), 4, std::vector<float>(count * 4, 1.0f)};
   if (opening.layer.chroma) {
     std::vector<Imf::Rgba> colors(count);
-    BytesIn again(bytes, name);
-    Imf::RgbaInputFile file(again);
-    file.setFrameBuffer(colors.data() - box.min.x - box.min.y * data.width, 1,
-                        static_cast<std::size_t>(data.width));
+    opening.stream.clear();
+    opening.stream.seekg(0);
+    Imf::RgbaInputFile file(opening.stream);
+    file.setFrameBuffer(colors.data() - box.min.x - box.min.y * widthOf(box), 1, width);
     file.readPixels(box.min.y, box.max.y);
     for (std::size_t i = 0; i < count; ++i) {
       const Imf::Rgba& from = colors[i];
@@ -232,8 +191,8 @@ ImageF readData(Opening& opening, std::string_view bytes, const std::string& nam
     if (const std::string& channel = opening.layer.channels[c];
         !channel.empty() && !(gray && (c == 1 || c == 2)))
       planes.insert(channel, Imf::Slice::Make(Imf::FLOAT, image.texels.data() + c, box, 4 * sizeof(float),
-                                              4 * sizeof(float) * static_cast<std::size_t>(data.width)));
-  Imf::InputPart part(opening.file, opening.part);
+                                              4 * sizeof(float) * width));
+  Imf::InputPart part(*opening.file, opening.part);
   part.setFrameBuffer(planes);
   part.readPixels(box.min.y, box.max.y);
   if (gray)
@@ -244,48 +203,30 @@ ImageF readData(Opening& opening, std::string_view bytes, const std::string& nam
 
 // Cut to the display window; what the data lacks of it is transparent.
 ImageF cropToDisplay(ImageF data, const Opening& opening) {
-  const Window &from = opening.data, &to = opening.display;
-  if (from.left == to.left && from.top == to.top && from.width == to.width && from.height == to.height)
-    return data;
-  ImageF image{static_cast<int>(to.width), static_cast<int>(to.height), 4, {}};
-  image.texels.resize(static_cast<std::size_t>(to.width * to.height) * 4);
-  const long long left = std::max(from.left, to.left),
-                  right = std::min(from.left + from.width, to.left + to.width);
-  for (long long y = std::max(from.top, to.top); y < std::min(from.top + from.height, to.top + to.height);
-       ++y)
-    if (left < right)
-      std::copy_n(data.texels.begin() + ((y - from.top) * from.width + left - from.left) * 4,
-                  (right - left) * 4, image.texels.begin() + ((y - to.top) * to.width + left - to.left) * 4);
+  const Imath::Box2i &from = opening.data, &to = opening.display;
+  if (from == to) return data;
+  ImageF image{static_cast<int>(widthOf(to)), static_cast<int>(heightOf(to)), 4, {}};
+  image.texels.resize(static_cast<std::size_t>(widthOf(to) * heightOf(to)) * 4);
+  const long long left = std::max(from.min.x, to.min.x), right = std::min(from.max.x, to.max.x) + 1LL;
+  for (long long y = std::max(from.min.y, to.min.y); left < right && y <= std::min(from.max.y, to.max.y); ++y)
+    std::copy_n(data.texels.begin() + ((y - from.min.y) * widthOf(from) + left - from.min.x) * 4,
+                (right - left) * 4,
+                image.texels.begin() + ((y - to.min.y) * widthOf(to) + left - to.min.x) * 4);
   return image;
-}
-
-// The library throws what is wrong with a file.
-template <class Result, class Work>
-std::optional<Result> guarded(const std::string& name, Diagnostics& diagnostics, const Work& work) try {
-  return work();
-} catch (const std::exception& error) {
-  reportUnreadable(diagnostics, name, error.what());
-  return {};
 }
 
 }  // namespace
 
-std::optional<ImageF> decodeExr(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
-  return guarded<ImageF>(name, diagnostics, [&]() -> std::optional<ImageF> {
-    const std::unique_ptr<Opening> opening = openExr(bytes, name, diagnostics);
-    if (!opening) return {};
-    return cropToDisplay(readData(*opening, bytes, name), *opening);
-  });
-}
-
-std::optional<ImageHeader> readExrHeader(std::string_view bytes, const std::string& name,
-                                         Diagnostics& diagnostics) {
-  return guarded<ImageHeader>(name, diagnostics, [&]() -> std::optional<ImageHeader> {
-    const std::unique_ptr<Opening> opening = openExr(bytes, name, diagnostics);
-    if (!opening) return {};
-    return ImageHeader{static_cast<int>(opening->display.width), static_cast<int>(opening->display.height), 4,
-                       StoredType::real};
-  });
+std::optional<ImageF> readExr(std::string_view bytes, const std::string& name, bool decodes,
+                              Diagnostics& diagnostics) try {
+  const std::unique_ptr<Opening> opening = openExr(bytes, name, diagnostics);
+  if (!opening) return {};
+  const Imath::Box2i& shown = opening->display;
+  if (!decodes) return ImageF{static_cast<int>(widthOf(shown)), static_cast<int>(heightOf(shown)), 4};
+  return cropToDisplay(readData(*opening), *opening);
+} catch (const std::exception& error) {  // what is wrong with the file
+  reportUnreadable(diagnostics, name, error.what());
+  return {};
 }
 
 bool saveExr(const std::string& path, const ImageF& image, Diagnostics& diagnostics) try {
@@ -304,14 +245,13 @@ bool saveExr(const std::string& path, const ImageF& image, Diagnostics& diagnost
     planes.insert(name, Imf::Slice::Make(Imf::FLOAT, image.texels.data() + c, header.dataWindow(),
                                          channels * sizeof(float), channels * sizeof(float) * width));
   }
-  std::string bytes;
+  Imf::StdOSStream stream;
   {
-    BytesOut stream(bytes, path);
     Imf::OutputFile file(stream, header);
     file.setFrameBuffer(planes);
     file.writePixels(image.height);
   }  // which writes where its lines are
-  return text::writeFile(path, bytes, diagnostics);
+  return text::writeFile(path, stream.str(), diagnostics);
 } catch (const std::exception& error) {
   diagnostics.error(text::Code::outputNotWritten, {path},
                     fmt::format("cannot encode '{}' as OpenEXR: {}", path, error.what()));

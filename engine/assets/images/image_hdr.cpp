@@ -3,6 +3,7 @@
 // image_codecs.h.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -134,62 +135,34 @@ std::array<float, 3> toRadiance(const Rgbe& texel, const HdrHeader& header) {
   return c;
 }
 
-// The header, with a sound size; nothing after an error.
-std::optional<HdrHeader> openHdr(std::string_view& bytes, const std::string& name, Diagnostics& diagnostics) {
-  HdrHeader header = readHeaderLines(bytes);
-  if (!header.problem.empty()) {
-    reportUnreadable(diagnostics, name, header.problem);
-    return {};
-  }
+}  // namespace
+
+std::optional<ImageF> readHdr(std::string_view bytes, const std::string& name, bool decodes,
+                              Diagnostics& diagnostics) {
+  const HdrHeader header = readHeaderLines(bytes);
+  const std::size_t width = header.width(), height = header.height();
   const auto bounded = [](std::size_t size) {
     return static_cast<long long>(std::min<std::size_t>(size, kMaxImageSide + 1));
   };
-  if (!checkSize(diagnostics, name, bounded(header.width()), bounded(header.height()))) return {};
-  return header;
-}
-
-// Gives each scanline to `each` with its number. False after an error.
-template <class Each>
-bool walkLines(std::string_view bytes, const HdrHeader& header, const std::string& name,
-               Diagnostics& diagnostics, const Each& each) {
+  if (!header.problem.empty()) reportUnreadable(diagnostics, name, header.problem);
+  if (!header.problem.empty() || !checkSize(diagnostics, name, bounded(width), bounded(height))) return {};
+  ImageF image{static_cast<int>(width), static_cast<int>(height), 3, {}};
+  if (decodes) image.texels.resize(width * height * 3);
   std::vector<Rgbe> line(header.length);
   for (std::size_t i = 0; i < header.lines; ++i) {
     if (const std::string problem = takeScanline(bytes, line); !problem.empty()) {
       reportUnreadable(diagnostics, name, fmt::format("line {} of {} {}", i + 1, header.lines, problem));
-      return false;
+      return {};
     }
-    each(i, line);
+    const std::size_t first = header.flippedFirst ? header.lines - 1 - i : i;
+    for (std::size_t j = 0; decodes && j < line.size(); ++j) {
+      const std::size_t second = header.flippedSecond ? line.size() - 1 - j : j;
+      const std::size_t texel = header.columns ? second * width + first : first * width + second;
+      const std::array<float, 3> color = toRadiance(line[j], header);
+      std::memcpy(&image.texels[texel * 3], color.data(), sizeof color);
+    }
   }
-  return true;
-}
-
-}  // namespace
-
-std::optional<ImageHeader> readHdrHeader(std::string_view bytes, const std::string& name,
-                                         Diagnostics& diagnostics) {
-  const auto header = openHdr(bytes, name, diagnostics);
-  if (!header || !walkLines(bytes, *header, name, diagnostics, [](std::size_t, const std::vector<Rgbe>&) {}))
-    return {};
-  return ImageHeader{static_cast<int>(header->width()), static_cast<int>(header->height()), 3,
-                     StoredType::real};
-}
-
-std::optional<ImageF> decodeHdr(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
-  const auto header = openHdr(bytes, name, diagnostics);
-  if (!header) return {};
-  const std::size_t width = header->width(), height = header->height();
-  ImageF image{static_cast<int>(width), static_cast<int>(height), 3, std::vector<float>(width * height * 3)};
-  const bool good =
-      walkLines(bytes, *header, name, diagnostics, [&](std::size_t i, const std::vector<Rgbe>& line) {
-        const std::size_t first = header->flippedFirst ? header->lines - 1 - i : i;
-        for (std::size_t j = 0; j < line.size(); ++j) {
-          const std::size_t second = header->flippedSecond ? line.size() - 1 - j : j;
-          const std::size_t texel = header->columns ? second * width + first : first * width + second;
-          const std::array<float, 3> color = toRadiance(line[j], *header);
-          std::memcpy(&image.texels[texel * 3], color.data(), sizeof color);
-        }
-      });
-  return good ? std::optional(std::move(image)) : std::nullopt;
+  return image;
 }
 
 }  // namespace weft::assets

@@ -98,29 +98,6 @@ int stbSize(std::string_view bytes) {
   return static_cast<int>(bytes.size());
 }
 
-// `check` says what is wrong with a file whose header is sound, or "".
-template <class Check>
-std::optional<ImageHeader> readStbHeader(std::string_view bytes, const std::string& name,
-                                         Diagnostics& diagnostics, const Check& check) {
-  ImageHeader header;
-  if (bytes.size() > 0x7fffffffu) {  // stb_image counts bytes in int
-    reportUnreadable(diagnostics, name, "the file is larger than 2 GiB");
-    return {};
-  }
-  if (!stbi_info_from_memory(stbData(bytes), stbSize(bytes), &header.width, &header.height,
-                             &header.channels)) {
-    reportUnreadable(diagnostics, name, fmt::format("its header is not valid ({})", stbi_failure_reason()));
-    return {};
-  }
-  if (!checkSize(diagnostics, name, header.width, header.height)) return {};
-  if (const std::string problem = check(); !problem.empty()) {
-    reportUnreadable(diagnostics, name, problem);
-    return {};
-  }
-  if (stbi_is_16_bit_from_memory(stbData(bytes), stbSize(bytes))) header.type = StoredType::word;
-  return header;
-}
-
 void appendBytes(void* out, void* bytes, int count) {
   static_cast<std::string*>(out)->append(static_cast<const char*>(bytes), static_cast<std::size_t>(count));
 }
@@ -129,13 +106,22 @@ void appendBytes(void* out, void* bytes, int count) {
 
 std::optional<ImageHeader> readPictureHeader(std::string_view bytes, const std::string& name,
                                              Diagnostics& diagnostics) {
+  ImageHeader header;
   const bool jpeg = isJpeg(bytes), png = bytes.starts_with("\x89PNG");
   std::string problem = jpeg ? checkJpeg(bytes) : "";
   if (bytes.starts_with("#?")) problem = "it holds a Radiance picture; rename it to .hdr";
-  if (problem.empty())
-    return readStbHeader(bytes, name, diagnostics, [&] { return jpeg || png ? "" : checkTga(bytes); });
-  reportUnreadable(diagnostics, name, problem);
-  return {};
+  if (bytes.size() > 0x7fffffffu) problem = "the file is larger than 2 GiB";  // stb_image counts bytes in int
+  if (problem.empty() &&
+      !stbi_info_from_memory(stbData(bytes), stbSize(bytes), &header.width, &header.height, &header.channels))
+    problem = fmt::format("its header is not valid ({})", stbi_failure_reason());
+  if (problem.empty() && !checkSize(diagnostics, name, header.width, header.height)) return {};
+  if (problem.empty() && !jpeg && !png) problem = checkTga(bytes);
+  if (!problem.empty()) {
+    reportUnreadable(diagnostics, name, problem);
+    return {};
+  }
+  if (stbi_is_16_bit_from_memory(stbData(bytes), stbSize(bytes))) header.type = StoredType::word;
+  return header;
 }
 
 // In a .jpg it is in the segment APP1, in a .png in the chunk eXIf; there a list of entries of 12 bytes.

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "engine/assets/images/image_codecs.h"
-#include "engine/assets/models/apart/model_apart.h"
+#include "engine/assets/models/fbx/fbx.h"
 #include "engine/assets/models/gltf/gltf_document.h"
 #include "engine/assets/models/obj/obj.h"
 #include "engine/assets/models/parts/mesh_builder.h"
@@ -20,20 +20,27 @@ bool isModelName(const std::string& name) {
 
 std::optional<Model> loadModel(const std::string& path, text::Diagnostics& diagnostics,
                                const LoadObserver& observer, std::vector<std::string>* files) {
-  ModelFiles mine(path, diagnostics, observer);
+  text::Diagnostics said;
+  ModelFiles mine(path, said, observer);
   Model model;
   model.name = std::filesystem::path(path).stem().string();
   bool good = false;
   const std::string kind = lowerExtension(path);
+  const bool made = kind == ".fbx";
   if (!isModelName(path)) {
-    text::Diagnostic& d = diagnostics.error(text::Code::unreadableModel, mine.place(),
-                                            fmt::format("'{}' is no kind of model that is known", path));
+    text::Diagnostic& d = said.error(text::Code::unreadableModel, mine.place(),
+                                     fmt::format("'{}' is no kind of model that is known", path));
     d.expected = ".gltf, .glb, .obj or .fbx";
     d.found = kind.empty() ? "no extension" : kind;
   } else if (auto bytes = mine.readModel()) {
-    good = kind == ".gltf" || kind == ".glb" ? readGltf(std::move(*bytes), mine, observer, diagnostics, model)
-           : kind == ".obj"                  ? readObj(*bytes, mine, observer, diagnostics, model)
-                            : readApart(std::move(*bytes), mine, observer, diagnostics, model);
+    if (made) bytes = glbOfFbx(*bytes, mine, observer, said);
+    good = kind == ".obj" ? bytes && readObj(*bytes, mine, observer, said, model)
+                          : bytes && readGltf(std::move(*bytes), mine, observer, said, model, made);
+  }
+  for (text::Diagnostic each : said.items()) {
+    if (made) each.pointer.clear();  // lines are those of what was made of the file
+    if (made && each.place.line > 0) each.place = mine.place();
+    diagnostics.add(std::move(each));
   }
   model.files = mine.files();
   if (files) *files = model.files;

@@ -46,9 +46,9 @@ glm::quat rotationOf(glm::dvec3 degrees) {
 }
 
 constexpr double kFovDegrees = 35, kMargin = 1.08;
-constexpr std::pair<const char*, std::array<double, 3>> kViews[] = {
-    {"front", {0, 0, -1}}, {"left", {1, 0, 0}}, {"right", {-1, 0, 0}},
-    {"back", {0, 0, 1}},   {"top", {0, -1, 0}}, {"bottom", {0, 1, 0}}};
+constexpr std::pair<const char*, glm::dvec3> kViews[] = {{"front", {0, 0, -1}}, {"left", {1, 0, 0}},
+                                                         {"right", {-1, 0, 0}}, {"back", {0, 0, 1}},
+                                                         {"top", {0, -1, 0}},   {"bottom", {0, 1, 0}}};
 constexpr std::uint32_t kMeasuredCorners = 3 << 20;  // of meshes, at most, to choose a view
 constexpr float kSunLux = 50000;                     // a bright day
 
@@ -167,7 +167,7 @@ class Reader {
       if (first.empty() && seen[i] >= 0.02 * most) first = kViews[i].first;
       if (std::ranges::find(loaded->model.cameras, kViews[i].first, &assets::ModelCamera::name) ==
           loaded->model.cameras.end())
-        scene_.cameras.add({.name = kViews[i].first, .pose = framePose(box, towardsOf(i))});
+        scene_.cameras.add({.name = kViews[i].first, .pose = framePose(box, kViews[i].second)});
     }
     addCameras(loaded->model, nodes, box.center());
     if (!scene_.sun && scene_.lamps.size() == 0)
@@ -182,11 +182,6 @@ class Reader {
   }
 
  private:
-  static glm::dvec3 towardsOf(std::size_t view) {
-    const auto& [x, y, z] = kViews[view].second;
-    return {x, y, z};
-  }
-
   // How much of the meshes' surface turns towards each of kViews; of skinned ones as they lie in the file.
   std::vector<double> surfaceSeen(const MeshFrame& frame) const {
     std::vector<double> seen(std::size(kViews), 0);
@@ -204,7 +199,7 @@ class Reader {
           }
           const glm::dvec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
           for (std::size_t view = 0; view < seen.size(); ++view) {
-            const double facing = -glm::dot(normal, towardsOf(view));
+            const double facing = -glm::dot(normal, kViews[view].second);
             seen[view] += both ? std::abs(facing) : std::max(facing, 0.0);
           }
         }

@@ -136,7 +136,8 @@ void WorldTransforms::animateAt(const Scene& scene, At& at, bool many) const {
 
 void WorldTransforms::placeRow(const Scene& scene, At& at, std::uint32_t row) const {
   const Node& node = scene.nodes.rows()[row];
-  const glm::mat4 local = matrixOf(moved(node, at.locals[row], at.time));
+  glm::mat4 local = matrixOf(moved(node, at.locals[row], at.time));
+  if (node.inner != glm::mat3(1)) local *= glm::mat4(node.inner);
   at.world[row] = node.parent.valid() ? at.world[node.parent.index] * local : local;
 }
 

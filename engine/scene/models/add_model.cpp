@@ -100,11 +100,11 @@ std::vector<NodeId> addModelCopy(Scene& scene, const ModelRows& rows, const asse
   std::vector<NodeId> nodes;
   nodes.reserve(model.nodes.size());
   for (const assets::ModelNode& from : model.nodes) {
-    Node node{.name = from.name, .local = from.local};
+    Node node{.name = from.name, .local = from.local, .inner = from.inner};
     assert(from.parent == kNoRow || from.parent < nodes.size());
     node.parent = from.parent == kNoRow ? root : nodes[from.parent];
     // A node that does nothing is its parent: a hundred thousand copies of an OBJ have a node each, not three.
-    const bool idle = node.local == Transform{} && !animated[nodes.size()];
+    const bool idle = node.local == Transform{} && node.inner == glm::mat3(1) && !animated[nodes.size()];
     nodes.push_back(idle ? node.parent : scene.nodes.add(std::move(node)));
   }
   std::vector<SkinId> skins;

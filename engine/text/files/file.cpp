@@ -378,34 +378,6 @@ std::set<std::string> filesRead() {
   return all.read;
 }
 
-std::vector<std::string> accessRules() {
-  Access& all = access();
-  const std::lock_guard lock(all.mutex);
-  std::vector<std::string> rules{all.confined ? "c" : ""};
-  for (const std::string& each : all.named) rules.push_back("n" + each);
-  for (const std::string& each : all.folders) rules.push_back("f" + each);
-  for (const auto& [path, mayBePipe] : all.chosen) rules.push_back("o" + path);
-  return rules;
-}
-
-void takeAccessRules(const std::vector<std::string>& rules) {
-  Access& all = access();
-  const std::lock_guard lock(all.mutex);
-  for (const std::string& rule : rules) {
-    const char kind = rule.empty() ? '\0' : rule[0];
-    if (kind == 'c') all.confined = true;
-    if (kind == 'n') all.named.push_back(rule.substr(1));
-    if (kind == 'f') all.folders.push_back(rule.substr(1));
-    if (kind == 'o') all.chosen.emplace(rule.substr(1), false);
-  }
-}
-
-void noteRead(const std::vector<std::string>& paths) {
-  Access& all = access();
-  const std::lock_guard lock(all.mutex);
-  for (const std::string& path : paths) all.read.insert(absolutePath(path));
-}
-
 void resetFileAccess() {
   Access& all = access();
   const std::lock_guard lock(all.mutex);

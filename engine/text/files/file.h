@@ -79,12 +79,6 @@ void reportOutside(const std::string& path, Diagnostics& diagnostics, const Plac
 // What has been opened so far, as absolute paths.
 std::set<std::string> filesRead();
 
-// The rules above for a process that reads on behalf of this one (engine/text/apart.h), and the other end. It opens no pipe.
-std::vector<std::string> accessRules();
-void takeAccessRules(const std::vector<std::string>& rules);
-// What such a process opened.
-void noteRead(const std::vector<std::string>& paths);
-
 // Takes back all calls of the functions above. For tests.
 void resetFileAccess();
 

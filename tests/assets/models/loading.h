@@ -32,7 +32,7 @@ inline assets::Model make(const GltfMaker& maker, std::size_t warnings = 0) {
 inline glm::mat4 matrixOf(const assets::ModelNode& node) {
   const assets::Transform& local = node.local;
   return glm::translate(glm::mat4(1), local.translation) * glm::mat4_cast(local.rotation) *
-         glm::scale(glm::mat4(1), local.scale);
+         glm::scale(glm::mat4(1), local.scale) * glm::mat4(node.inner);
 }
 
 inline glm::mat4 worldOf(const assets::Model& model, std::uint32_t node) {

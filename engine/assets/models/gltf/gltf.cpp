@@ -46,15 +46,21 @@ constexpr struct {
              {"", "occlusionTexture", TextureUse::numbers, &Material::occlusionMap},
              {"", "emissiveTexture", TextureUse::color, &Material::emissiveMap}};
 
+// The place of a word among others; their number when it is none of them.
+std::size_t rowOf(std::string_view word, std::initializer_list<std::string_view> words) {
+  return static_cast<std::size_t>(std::ranges::find(words, word) - words.begin());
+}
+
 class GltfReader {
  public:
   GltfReader(GltfDocument& document, ModelFiles& files, Diagnostics& diagnostics, Model& model,
-             const LoadObserver& observer)
+             const LoadObserver& observer, bool made)
       : document_(document),
         files_(files),
         diagnostics_(diagnostics),
         model_(model),
         observer_(observer),
+        made_(made),
         builder_(model),
         pool_(diagnostics),
         rows_(document.rows("nodes")) {}
@@ -82,16 +88,13 @@ class GltfReader {
 
   // --- nodes and skins
 
-  // `inner`: what stands between the node and all in it, where its matrix shears.
-  ModelNode readNode(const JsonValue& value, std::size_t number, std::optional<Transform>& inner) {
+  ModelNode readNode(const JsonValue& value, std::size_t number) {
     ModelNode node;
     node.name = textOf(value, "name", fmt::format("node {}", number));
     glm::mat4 matrix(0);
     if (document_.numbers(value, "matrix", {&matrix[0].x, 16})) {
-      if (!decompose(matrix, node.local, inner))
-        document_.fail(*value.find("matrix"),
-                       fmt::format("the matrix of node {} cannot be taken apart", number),
-                       "a matrix of finite numbers");
+      node.local.translation = glm::vec3(matrix[3]);
+      node.inner = glm::mat3(matrix);
       return node;
     }
     glm::vec4 rotation(0, 0, 0, 1);
@@ -127,11 +130,9 @@ class GltfReader {
     while (!work.empty()) {
       const std::uint32_t at = work.back();
       work.pop_back();
-      std::optional<Transform> inner;
-      ModelNode node = readNode(rows_[at], at, inner);
+      ModelNode node = readNode(rows_[at], at);
       if (parents[at] != kNoRow) node.parent = rowOf_[parents[at]];
       rowOf_[at] = addNode(std::move(node));
-      if (inner) rowOf_[at] = addNode({model_.nodes.back().name, rowOf_[at], *inner});
       const std::vector<JsonValue>& children = itemsOf(rows_[at], "children");
       for (std::size_t c = children.size(); c-- > 0;) work.push_back(document_.index("nodes", children[c]));
     }
@@ -187,11 +188,7 @@ class GltfReader {
   // --- materials
 
   static Material defaultMaterial(std::string name) {
-    Material material;
-    material.name = std::move(name);
-    material.albedo = glm::vec3(1);
-    material.metallic = material.roughness = 1;
-    return material;
+    return {.name = std::move(name), .albedo = glm::vec3(1), .metallic = 1, .roughness = 1};
   }
 
   void readMaterials() {
@@ -232,8 +229,8 @@ class GltfReader {
       if (!bytes) pool_.reportMissing(image.name, "its base64 is damaged", where.place);
       GltfDocument::refuseUnless(!bytes || files_.count(bytes->size(), where.place));
     } else if (uri) {
-      image.name = uri->text;
-      bytes = files_.readOptional(uri->text, where.place, Code::missingModelTexture, true);
+      image.name = made_ ? files_.namedBeside(uri->text) : uri->text;
+      bytes = files_.readOptional(image.name, where.place, Code::missingModelTexture, !made_);
     } else if (view) {
       bytes = std::string(document_.view(*view).bytes);
     } else {
@@ -297,7 +294,8 @@ class GltfReader {
       if (!images[i].tried)
         pool_.reportMissing("a texture", "it names no image that Weft can read", texture.place);
       material.samplers[i] = samplerOf(texture);
-      material.*map.map = pool_.use(images[i].number, images[i].name, map.use, texture.place);
+      const TextureUse use = info->find("bump") ? TextureUse::bump : map.use;
+      material.*map.map = pool_.use(images[i].number, images[i].name, use, texture.place);
     }
     uvs_.push_back(uv.value_or(GltfUv{}));
     const auto numberOf = [&](std::initializer_list<std::string_view> object, std::string_view key,
@@ -317,6 +315,11 @@ class GltfReader {
     document_.numbers(value, "emissiveFactor", {&material.emissive.x, 3});
     material.emissive *=
         numberOf({"extensions", "KHR_materials_emissive_strength"}, "emissiveStrength", 1, 0, 1e9);
+    if (const JsonValue* shine = valueOf(value, {"extensions", "WEFT_blinn_phong"})) {
+      document_.numbers(*shine, "specular", {&material.specular.x, 3});
+      material.shininess = document_.number(*shine, "shininess", 0, 0, 10000);
+      toMetallicRoughness(material);
+    }
     const std::string mode = textOf(value, "alphaMode");
     material.blend = mode == "BLEND";
     material.alpha = material.blend ? factor[3] : 1;
@@ -361,9 +364,9 @@ class GltfReader {
 
   // glTF 2.0, 3.10: at the origin of its node.
   void readCamera(const JsonValue& value, std::size_t node) {
-    ModelCamera camera;
-    camera.name = textOf(value, "name", textOf(rows_[node], "name", fmt::format("camera {}", node)));
-    camera.node = rowOf_[node];
+    ModelCamera camera{
+        .name = textOf(value, "name", textOf(rows_[node], "name", fmt::format("camera {}", node))),
+        .node = rowOf_[node]};
     const bool flat = textOf(value, "type") == "orthographic";
     const JsonValue& lens = document_.need(value, flat ? "orthographic" : "perspective");
     if (flat)
@@ -410,7 +413,7 @@ class GltfReader {
     std::vector<glm::vec4> turns = attribute<glm::vec4>(*attributes, "ROTATION", 2);
     std::vector<std::uint32_t> rows;
     for (std::uint32_t i = 0; i < count_; ++i) {
-      ModelNode each{model_.nodes[row].name, row, {}};
+      ModelNode each{model_.nodes[row].name, row};
       if (!moves.empty()) each.local.translation = moves[i];
       if (!scales.empty()) each.local.scale = scales[i];
       if (!turns.empty() && normalizeRotation(turns[i])) each.local.rotation = toRotation(turns[i]);
@@ -461,8 +464,7 @@ class GltfReader {
     const std::uint64_t corners = std::uint64_t{indices ? indices->count : count_} * (mode == 4 ? 1 : 3);
     GltfDocument::refuseUnless(
         builder_.hasRoom(attributes.find("NORMAL") ? count_ : corners, corners, value.place, diagnostics_));
-    RawMesh mesh;
-    mesh.name = name;
+    RawMesh mesh{.name = name, .join = made_};
     mesh.vertices.resize(count_);
     take(attribute<glm::vec3>(attributes, "POSITION", kFarthest), mesh, &RawVertex::position);
     // Normals and tangents that are no numbers are made anew.
@@ -627,9 +629,8 @@ class GltfReader {
 
   // One light for each node that is shown and names one. A scene has one sun: of several the brightest stays.
   void readLights() {
-    static const std::vector<JsonValue> kNone;
     const JsonValue* extension = valueOf(document_.root(), {"extensions", "KHR_lights_punctual"});
-    const std::vector<JsonValue>& table = extension ? itemsOf(*extension, "lights") : kNone;
+    const std::vector<JsonValue>& table = itemsOf(extension ? *extension : document_.root(), "lights");
     std::map<std::uint32_t, std::optional<ModelLight>> lights;  // by row of the table
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const JsonValue* name = valueOf(rows_[i], {"extensions", "KHR_lights_punctual", "light"});
@@ -645,16 +646,14 @@ class GltfReader {
 
   std::optional<ModelLight> readLight(const JsonValue& value, std::uint32_t number) {
     const std::string kind = textOf(value, "type");
-    ModelLight light;
-    light.name = textOf(value, "name", fmt::format("light {}", number));
-    if (kind != "directional" && kind != "point" && kind != "spot") {
+    ModelLight light{.name = textOf(value, "name", fmt::format("light {}", number))};
+    const std::size_t row = rowOf(kind, {"directional", "point", "spot"});
+    if (row == 3) {
       document_.leaveOut(value, fmt::format("light '{}' was left out", light.name),
                          "a 'type' of \"directional\", \"point\" or \"spot\"", fmt::format("\"{}\"", kind));
       return {};
     }
-    light.kind = kind == "directional" ? ModelLightKind::sun
-                 : kind == "spot"      ? ModelLightKind::spot
-                                       : ModelLightKind::point;
+    light.kind = static_cast<ModelLightKind>(row);
     light.intensity = document_.number(value, "intensity", 1, 0, 1e12);
     if (document_.numbers(value, "color", {&light.color.x, 3}) &&
         glm::any(glm::lessThan(light.color, glm::vec3(0))))
@@ -707,20 +706,28 @@ class GltfReader {
             "channels of translation, rotation or scale", "",
             "meshes are shown with the 'weights' that they or their nodes begin with");
       ModelTrack track;
-      if (path->text == "rotation")
-        track.path = TrackPath::rotation;
-      else if (path->text == "scale")
-        track.path = TrackPath::scale;
-      else if (path->text != "translation")
-        continue;
-      if (!node) continue;
+      const std::size_t which = rowOf(path->text, {"translation", "rotation", "scale"});
+      if (which == 3 || !node) continue;
+      track.path = static_cast<TrackPath>(which);
       track.node = rowOf_[document_.index("nodes", *node)];
+      takeApart(model_.nodes[track.node]);
       const JsonValue& sampler = document_.need(channel, "sampler");
       readTrack(samplers[document_.index("samplers", samplers.size(), sampler)], track);
       animation.duration = std::max(animation.duration, track.times.back());
       animation.tracks.push_back(std::move(track));
     }
     model_.animations.push_back(std::make_shared<const ModelAnimation>(std::move(animation)));
+  }
+
+  // What the matrix of an animated node does becomes rotation and scale, which tracks replace; without its shear.
+  static void takeApart(ModelNode& node) {
+    glm::mat3& m = node.inner;
+    if (m == glm::mat3(1)) return;
+    node.local.scale = {glm::length(m[0]), glm::length(m[1]), glm::length(m[2])};
+    if (glm::determinant(m) < 0) node.local.scale.x *= -1;
+    for (int c = 0; c < 3; ++c) m[c] /= node.local.scale[c];
+    const glm::quat rotation = glm::quat_cast(std::exchange(m, glm::mat3(1)));
+    if (glm::dot(rotation, rotation) > 0) node.local.rotation = glm::normalize(rotation);
   }
 
   void readTrack(const JsonValue& sampler, ModelTrack& track) {
@@ -764,6 +771,7 @@ class GltfReader {
   Diagnostics& diagnostics_;
   Model& model_;
   const LoadObserver& observer_;
+  const bool made_;  // of a file of another format
   MeshBuilder builder_;
   TexturePool pool_;
   const std::vector<JsonValue>& rows_;  // of nodes
@@ -778,9 +786,9 @@ class GltfReader {
 }  // namespace
 
 bool readGltf(std::string bytes, ModelFiles& files, const LoadObserver& observer, Diagnostics& diagnostics,
-              Model& model) try {
+              Model& model, bool made) try {
   GltfDocument document(std::move(bytes), files, diagnostics);
-  GltfReader(document, files, diagnostics, model, observer).read();
+  GltfReader(document, files, diagnostics, model, observer, made).read();
   return true;
 } catch (const Refused&) {
   return false;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <type_traits>
@@ -34,7 +35,8 @@ constexpr std::string_view kKnownExtensions[] = {"EXT_mesh_gpu_instancing",
                                                  "KHR_node_visibility",
                                                  "KHR_texture_transform",
                                                  "KHR_xmp",
-                                                 "KHR_xmp_json_ld"};
+                                                 "KHR_xmp_json_ld",
+                                                 "WEFT_blinn_phong"};
 
 bool isKnown(std::string_view extension) {
   return std::ranges::find(kKnownExtensions, extension) != std::end(kKnownExtensions);
@@ -71,20 +73,11 @@ std::uint32_t componentsOf(std::string_view kind) {
 }
 
 double componentAt(const char* data, int type, bool normalized) {
-  switch (type) {
-    case 5120:
-      return normalized ? std::max(load<std::int8_t>(data) / 127.0, -1.0) : load<std::int8_t>(data);
-    case 5121:
-      return load<std::uint8_t>(data) / (normalized ? 255.0 : 1.0);
-    case 5122:
-      return normalized ? std::max(load<std::int16_t>(data) / 32767.0, -1.0) : load<std::int16_t>(data);
-    case 5123:
-      return load<std::uint16_t>(data) / (normalized ? 65535.0 : 1.0);
-    case 5125:
-      return load<std::uint32_t>(data);
-    default:
-      return static_cast<double>(load<float>(data));
-  }
+  return withComponent(type, [&]<class T>(T) {
+    const auto value = static_cast<double>(load<T>(data));
+    if (!normalized || sizeof(T) == 4) return value;
+    return std::max(value / static_cast<double>(std::numeric_limits<T>::max()), -1.0);
+  });
 }
 
 }  // namespace

@@ -34,6 +34,25 @@ struct GltfAccessor {
   const char *sparseIndices = nullptr, *sparseValues = nullptr;
 };
 
+// Calls `work` with a number of a componentType.
+template <class Work>
+auto withComponent(int type, const Work& work) {
+  switch (type) {
+    case 5120:
+      return work(std::int8_t{});
+    case 5121:
+      return work(std::uint8_t{});
+    case 5122:
+      return work(std::int16_t{});
+    case 5123:
+      return work(std::uint16_t{});
+    case 5125:
+      return work(std::uint32_t{});
+    default:
+      return work(float{});
+  }
+}
+
 // The value at the end of these keys, or null.
 const text::JsonValue* valueOf(const text::JsonValue& object, std::initializer_list<std::string_view> keys);
 // The items of an array; empty when there is none.
@@ -112,9 +131,10 @@ class GltfDocument {
   std::map<std::size_t, std::string> views_, accessors_;  // by row: what was packed
 };
 
-// The file as a Model. Left out, with W168: points and lines, the motion of morph targets, further uv sets, a second sun, extensions
+// The file as a Model; `made`: it was made of one of another format, whose paths may be those of another machine and whose
+// vertices are one for each corner. Left out, with W168: points and lines, the motion of morph targets, further uv sets, a second sun, extensions
 // that are not known. False after errors, or when `observer` gave up.
 bool readGltf(std::string bytes, ModelFiles& files, const LoadObserver& observer,
-              text::Diagnostics& diagnostics, Model& model);
+              text::Diagnostics& diagnostics, Model& model, bool made = false);
 
 }  // namespace weft::assets

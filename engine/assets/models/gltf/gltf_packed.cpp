@@ -28,23 +28,6 @@ std::string valuesOf(const draco::Mesh& mesh, const draco::PointAttribute& attri
   return bytes;
 }
 
-std::string valuesOf(const draco::Mesh& mesh, const draco::PointAttribute& attribute, int componentType) {
-  switch (componentType) {
-    case 5120:
-      return valuesOf<std::int8_t>(mesh, attribute);
-    case 5121:
-      return valuesOf<std::uint8_t>(mesh, attribute);
-    case 5122:
-      return valuesOf<std::int16_t>(mesh, attribute);
-    case 5123:
-      return valuesOf<std::uint16_t>(mesh, attribute);
-    case 5125:
-      return valuesOf<std::uint32_t>(mesh, attribute);
-    default:
-      return valuesOf<float>(mesh, attribute);
-  }
-}
-
 std::string cornersOf(const draco::Mesh& mesh, std::size_t bytesEach) {
   std::string bytes(std::size_t{mesh.num_faces()} * 3 * bytesEach, 0);
   for (std::uint32_t f = 0; f < mesh.num_faces(); ++f)
@@ -89,7 +72,8 @@ void GltfDocument::unpackDraco(const JsonValue& primitive) {
       fail(member.value, fmt::format("'{}' is not in both", member.key),
            "an attribute of the primitive and of what Draco packed");
     const std::size_t row = index("accessors", *which);
-    keep(row, valuesOf(*mesh, *attribute, static_cast<int>(typeOf(row))));
+    keep(row, withComponent(static_cast<int>(typeOf(row)),
+                            [&]<class T>(T) { return valuesOf<T>(*mesh, *attribute); }));
   }
   const JsonValue* which = primitive.find("indices");
   if (!which) return;

@@ -138,58 +138,6 @@ bool isFinite(const glm::vec4& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
 }
 
-namespace {
-
-// Turns the columns of `m` among themselves until they are at right angles, and returns that rotation. Hestenes, "Inversion of matrices
-// by biorthogonalization", 1958.
-glm::dmat3 straighten(glm::dmat3& m) {
-  glm::dmat3 turn(1);
-  for (int sweep = 0; sweep < 30; ++sweep)
-    for (const auto& [p, q] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)}) {
-      const double a = glm::dot(m[p], m[p]), b = glm::dot(m[q], m[q]), c = glm::dot(m[p], m[q]);
-      if (std::abs(c) <= 1e-15 * std::sqrt(a * b)) continue;
-      const double z = (b - a) / (2 * c), t = std::copysign(1 / (std::abs(z) + std::sqrt(1 + z * z)), z);
-      const double cosine = 1 / std::sqrt(1 + t * t), sine = cosine * t;
-      for (glm::dmat3* each : {&m, &turn}) {
-        const Vec first = (*each)[p], second = (*each)[q];
-        (*each)[p] = cosine * first - sine * second;
-        (*each)[q] = sine * first + cosine * second;
-      }
-    }
-  return turn;
-}
-
-}  // namespace
-
-bool decompose(glm::mat4 matrix, Transform& transform, std::optional<Transform>& inner) {
-  glm::dmat3 columns(matrix);
-  for (const auto& [p, q] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)})
-    if (std::abs(glm::dot(columns[p], columns[q])) > 1e-5 * glm::length(columns[p]) * glm::length(columns[q]))
-      inner.emplace();
-  if (inner) inner->rotation = glm::quat(glm::quat_cast(glm::transpose(straighten(columns))));
-  glm::dvec3 scale(glm::length(columns[0]), glm::length(columns[1]), glm::length(columns[2]));
-  if (!std::isfinite(scale.x + scale.y + scale.z)) return false;
-  if (glm::determinant(columns) < 0) scale.x = -scale.x;
-  glm::bvec3 flat = glm::lessThan(glm::abs(scale), glm::dvec3(1e-12));
-  transform = {.translation = glm::vec3(matrix[3]), .scale = glm::vec3(scale)};
-  if (glm::all(flat)) return true;
-  for (int c = 0; c < 3; ++c)
-    if (!flat[c]) columns[c] /= scale[c];
-  // What is flat may have any direction at right angles to the others.
-  for (int c = 0; c < 3; ++c)
-    if (const int a = (c + 1) % 3, b = (c + 2) % 3; !flat[c] && flat[a] && flat[b]) {
-      columns[a] = perpendicular(columns[c]);
-      flat[a] = false;
-    }
-  for (int c = 0; c < 3; ++c)
-    if (flat[c]) columns[c] = glm::cross(columns[(c + 1) % 3], columns[(c + 2) % 3]);
-  const glm::dquat rotation = glm::quat_cast(columns);
-  glm::vec4 q(rotation.x, rotation.y, rotation.z, rotation.w);
-  if (!normalizeRotation(q)) return false;
-  transform.rotation = toRotation(q);
-  return true;
-}
-
 // The exponent of Blinn–Phong as the width of GGX: alpha² = 2 / (n + 2) (Walter et al. 2007), alpha = roughness². What
 // has no diffuse color but a bright highlight is taken for metal.
 void toMetallicRoughness(Material& material) {
@@ -274,7 +222,8 @@ void windMirrored(Model& model) {
     const ModelNode& node = model.nodes[i];
     const glm::vec3 scale = node.local.scale;
     const bool own = (scale.x < 0) != ((scale.y < 0) != (scale.z < 0));
-    mirrors[i] = own != (node.parent != kNoRow && mirrors[node.parent]);
+    const bool inner = glm::determinant(node.inner) < 0;
+    mirrors[i] = own != (inner != (node.parent != kNoRow && mirrors[node.parent]));
   }
   std::map<std::uint32_t, std::uint32_t> turned;
   for (ModelInstance& instance : model.instances) {

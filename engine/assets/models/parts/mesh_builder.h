@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,10 +20,6 @@ inline glm::quat toRotation(const glm::vec4& q) {
 }
 
 bool isFinite(const glm::vec4& v);
-
-// Takes a matrix apart; a mirror becomes a negative x scale. Where it shears it is `transform`, then `inner`, a rotation. False when a
-// column is not finite.
-bool decompose(glm::mat4 matrix, Transform& transform, std::optional<Transform>& inner);
 
 struct RawVertex {
   glm::vec3 position{0}, normal{0};

@@ -97,9 +97,9 @@ bool ModelFiles::hasBeside(const std::string& name) const {
   return !target.empty() && text::mayRead(target) && std::filesystem::is_regular_file(target, ec);
 }
 
-void ModelFiles::takeOver(std::vector<std::string> files) {
-  files_ = std::move(files);
-  text::noteRead(files_);
+std::string ModelFiles::namedBeside(std::string path) const {
+  std::ranges::replace(path, '\\', '/');
+  return hasBeside(path) ? path : path.substr(path.rfind('/') + 1);
 }
 
 bool ModelFiles::isTextInLimit(std::string_view bytes) {

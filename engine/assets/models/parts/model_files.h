@@ -44,11 +44,11 @@ class ModelFiles {
   }
   // Whether there is such a file in the folder; nothing is said.
   bool hasBeside(const std::string& name) const;
+  // A path of another machine, as files often keep them, as one in the folder: by its own name if it leads elsewhere.
+  std::string namedBeside(std::string path) const;
 
   // Whether the text of an OBJ or FBX file may be so large; else W201.
   bool isTextInLimit(std::string_view bytes);
-  // What another process read for this one.
-  void takeOver(std::vector<std::string> files);
   // Counts bytes that are not files of their own against the limit. False after W201.
   bool count(std::uint64_t bytes, const text::Place& place);
 
