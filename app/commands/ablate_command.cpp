@@ -14,20 +14,11 @@ namespace weft::app {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 struct AblateOptions : Options {
   std::string format = "text";
   std::uint32_t repeats = 3;
-};
-
-struct Ablation {
-  std::string pass;             // as declared; all its repeats
-  double ownMs = 0;             // of the pass in the whole frame
-  double savedMs = 0;           // of the frame, without the pass and what only fed it
-  std::int64_t savedBytes = 0;  // of the textures and buffers
-  std::size_t stepsGone = 0;
-  assets::Image8 picture;
-  std::optional<PictureDifference> difference;  // nothing for a picture of another size
-  std::string needed;  // why the graph does not do without it; then only ownMs is known
 };
 
 // Declared names of the passes that run, each once, in order of the plan.
@@ -40,11 +31,20 @@ std::vector<std::string> passesOf(const graph::Plan& plan) {
   return names;
 }
 
-Ablation leaveOut(gl::Context& context, const Options& options, const runtime::World& world,
-                  const ShotWish& wish, const Shot& whole, const std::string& pass) {
-  Ablation row{.pass = pass};
-  if (const auto own = whole.passMilliseconds.find(pass); own != whole.passMilliseconds.end())
-    row.ownMs = own->second;
+// Of all steps, or of one pass with its repeats.
+double millisecondsOf(const Shot& shot, std::string_view pass = {}) {
+  double sum = 0;
+  for (std::size_t step = 0; step < shot.milliseconds.size(); ++step)
+    if (pass.empty() || shot.plan->graph->specs[shot.plan->steps[step].pass].declared == pass)
+      sum += shot.milliseconds[step];
+  return sum;
+}
+
+// What is known of a pass, as --format json prints it: what it takes in the whole frame, and what the frame is without it and what only
+// fed it; or why the graph does not do without it. With --format html pictures, too.
+Json leaveOut(gl::Context& context, const AblateOptions& options, const runtime::World& world,
+              const ShotWish& wish, const Shot& whole, const std::string& pass) {
+  Json row{{"pass", pass}, {"own_ms", millisecondsOf(whole, pass)}};
   Options without = options;
   without.disables.emplace_back(pass);
   text::Diagnostics said;
@@ -52,64 +52,30 @@ Ablation leaveOut(gl::Context& context, const Options& options, const runtime::W
   const auto shot = possible ? takeShot(context, without, world, wish, said) : std::nullopt;
   if (!shot) {
     const auto error = std::ranges::find(said.items(), text::Severity::error, &text::Diagnostic::severity);
-    row.needed = error == said.items().end() ? "it fails without" : error->message;
+    row["needed"] = error == said.items().end() ? "it fails without" : error->message;
     return row;
   }
-  row.savedMs = whole.milliseconds - shot->milliseconds;
-  row.savedBytes = static_cast<std::int64_t>(whole.plan->bytesAllocated) -
-                   static_cast<std::int64_t>(shot->plan->bytesAllocated);
-  row.stepsGone = whole.plan->steps.size() - std::min(whole.plan->steps.size(), shot->plan->steps.size());
-  row.picture = shot->pictures.begin()->second;
-  row.difference = comparePictures(row.picture, whole.pictures.begin()->second);
+  const auto signedOf = [](std::size_t number) { return static_cast<std::int64_t>(number); };
+  const assets::Image8& picture = shot->pictures.begin()->second;
+  row["saved_ms"] = millisecondsOf(whole) - millisecondsOf(*shot);
+  row["saved_bytes"] = signedOf(whole.plan->bytesAllocated) - signedOf(shot->plan->bytesAllocated);
+  row["steps_gone"] = whole.plan->steps.size() - std::min(whole.plan->steps.size(), shot->plan->steps.size());
+  const auto difference = comparePictures(picture, whole.pictures.begin()->second);
+  if (difference) row.update({{"flip", difference->flip.mean}, {"flip_peak", difference->flip.peak}});
+  if (options.format != "html") return row;
+  row["picture"] = pictureAddress(picture);
+  row["map"] = difference ? pictureAddress(assets::colorFlip(difference->map)) : "";
   return row;
 }
 
-std::vector<std::string> cellsOf(const Ablation& row) {
-  std::vector<std::string> cells{row.pass, fmt::format("{:.2f}", row.ownMs)};
-  if (!row.needed.empty()) {
-    cells.emplace_back("needed");
-    return cells;
-  }
-  const assets::FlipSummary flip = row.difference ? row.difference->flip : assets::FlipSummary{};
-  cells.insert(cells.end(), {fmt::format("{:.2f}", row.savedMs), fmt::format("{}", row.savedBytes),
-                             fmt::format("{}", row.stepsGone), fmt::format("{:.4f}", flip.mean),
-                             fmt::format("{:.3f}", flip.peak)});
+std::vector<std::string> cellsOf(const Json& row) {
+  std::vector<std::string> cells{row["pass"], fmt::format("{:.2f}", row["own_ms"].get<double>())};
+  if (row.contains("needed")) cells.emplace_back("needed");
+  constexpr std::pair<const char*, int> kNumbers[] = {
+      {"saved_ms", 2}, {"saved_bytes", 0}, {"steps_gone", 0}, {"flip", 4}, {"flip_peak", 3}};
+  for (const auto& [key, digits] : kNumbers)
+    if (!row.contains("needed")) cells.push_back(fmt::format("{:.{}f}", row.value(key, 0.0), digits));
   return cells;
-}
-
-// For the page: the table with pictures.
-nlohmann::ordered_json ablationOf(const std::vector<Ablation>& rows, const std::vector<std::string>& titles,
-                                  const std::string& graph, const std::string& sum,
-                                  const assets::Image8& picture) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const Ablation& row : rows)
-    list.push_back({{"cells", cellsOf(row)},
-                    {"needed", row.needed},
-                    {"picture", row.needed.empty() ? pictureAddress(row.picture) : ""},
-                    {"flip", row.difference ? pictureAddress(assets::colorFlip(row.difference->map)) : ""}});
-  return {{"graph", graph},
-          {"sum", sum},
-          {"titles", titles},
-          {"picture", pictureAddress(picture)},
-          {"rows", list}};
-}
-
-std::string jsonOf(const std::vector<Ablation>& rows, const Shot& whole) {
-  nlohmann::ordered_json passes = nlohmann::ordered_json::array();
-  for (const Ablation& row : rows) {
-    nlohmann::ordered_json& entry = passes.emplace_back();
-    entry = {{"pass", row.pass}, {"own_ms", row.ownMs}};
-    if (!row.needed.empty()) entry["needed"] = row.needed;
-    if (!row.needed.empty()) continue;
-    entry.update({{"saved_ms", row.savedMs}, {"saved_bytes", row.savedBytes}, {"steps_gone", row.stepsGone}});
-    if (row.difference)
-      entry.update({{"flip", row.difference->flip.mean}, {"flip_peak", row.difference->flip.peak}});
-  }
-  return dumpJson({{"steps", whole.plan->steps.size()},
-                   {"ms", whole.milliseconds},
-                   {"bytes", whole.plan->bytesAllocated},
-                   {"passes", std::move(passes)}}) +
-         "\n";
 }
 
 int ablate(gl::Context& context, const AblateOptions& options, const runtime::World& world,
@@ -119,24 +85,31 @@ int ablate(gl::Context& context, const AblateOptions& options, const runtime::Wo
   if (!whole) return 1;
   const std::vector<std::string> passes = passesOf(*whole->plan);
   ProgressLines lines({.total = passes.size(), .unit = "passes"});
-  std::vector<Ablation> rows;
+  Json rows = Json::array();
   for (const std::string& pass : passes) {
     rows.push_back(leaveOut(context, options, world, wish, *whole, pass));
     lines.countOne();
   }
-  if (options.format == "json") return print(jsonOf(rows, *whole)), 0;
-  const std::string sum =
-      fmt::format("{} run, {:.2f} ms, {} bytes", text::counted(whole->plan->steps.size(), "pass"),
-                  whole->milliseconds, whole->plan->bytesAllocated);
-  const std::vector<std::string> titles{"pass",  "own ms", "saved ms", "saved bytes",
-                                        "steps", "FLIP",   "at most"};
-  if (options.format == "html")
-    if (const auto page = pageOf(
-            {{"ablation", ablationOf(rows, titles, options.graph, sum, whole->pictures.begin()->second)}},
-            "weft ablate", diagnostics))
-      return print(*page), 0;
-  std::vector<std::vector<std::string>> table{titles};
-  for (const Ablation& row : rows) table.push_back(cellsOf(row));
+  const double ms = millisecondsOf(*whole);
+  const std::size_t steps = whole->plan->steps.size(), bytes = whole->plan->bytesAllocated;
+  if (options.format == "json") {
+    print(dumpJson({{"steps", steps}, {"ms", ms}, {"bytes", bytes}, {"passes", rows}}) + "\n");
+    return 0;
+  }
+  const std::string sum = fmt::format("{} run, {:.2f} ms, {} bytes", text::counted(steps, "pass"), ms, bytes);
+  std::vector<std::vector<std::string>> table{
+      {"pass", "own ms", "saved ms", "saved bytes", "steps", "FLIP", "at most"}};
+  for (const Json& row : rows) table.push_back(cellsOf(row));
+  if (options.format == "html") {
+    const auto page = pageOf({{"ablation",
+                               {{"graph", options.graph},
+                                {"sum", sum},
+                                {"table", table},
+                                {"picture", pictureAddress(whole->pictures.begin()->second)},
+                                {"rows", rows}}}},
+                             "weft ablate", diagnostics);
+    return page ? print(*page), 0 : 1;
+  }
   print(sum + "\n\n");
   printTable(table);
   return 0;
@@ -158,7 +131,7 @@ void addAblate(CommandLine& line) {
   options.addFrame(command);
   options.addPointer(command);
   options.addBackend(command);
-  command.add_option("--repeats", options.repeats, "frames to measure; the fastest counts")
+  command.add_option("--repeats", options.repeats, "frames to measure; the median counts")
       ->check(CLI::Range(1u, 1000u));
   addChoice(command, "--format", options.format, "text, json or html", {"text", "json", "html"});
   command.footer("Example: weft ablate graphs/glow.json --size 320x180");

@@ -9,7 +9,9 @@
 #include "app/live/live_graph.h"
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
+#include "app/trials/shot.h"
 #include "engine/graph/language/suffix.h"
+#include "engine/runtime/inspection/frame_profiler.h"
 
 namespace weft::app {
 
@@ -17,11 +19,12 @@ namespace {
 
 using graph::ParameterDesc;
 using graph::Value;
+using runtime::FrameProfiler;
 using Json = nlohmann::ordered_json;
 
 constexpr int kRounds = 9;
 
-// Milliseconds: the wall's, of all threads of the process, of this thread.
+// Milliseconds: the wall's, of all threads of the process, of this thread without what it waits for on the GPU.
 struct Cost {
   double wall = std::numeric_limits<double>::infinity(), process = wall, thread = wall;
 };
@@ -32,31 +35,21 @@ double clockNow(clockid_t clock) {
   return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
 }
 
-Cost costNow() {
-  return {clockNow(CLOCK_MONOTONIC), clockNow(CLOCK_PROCESS_CPUTIME_ID), clockNow(CLOCK_THREAD_CPUTIME_ID)};
-}
-
-// What `work` takes, with what it asks the GPU for; `work` alone for the thread.
+// What `work` takes, with what it asks the GPU for.
 template <class Work>
 Cost measure(const Work& work) {
   glFinish();
-  const Cost before = costNow();
+  const double wall = gl::steadyMs(), process = clockNow(CLOCK_PROCESS_CPUTIME_ID),
+               thread = clockNow(CLOCK_THREAD_CPUTIME_ID);
   work();
-  const double thread = clockNow(CLOCK_THREAD_CPUTIME_ID);
+  const double worked = clockNow(CLOCK_THREAD_CPUTIME_ID) - thread;
   glFinish();
-  const Cost after = costNow();
-  return {after.wall - before.wall, after.process - before.process, thread - before.thread};
+  return {gl::steadyMs() - wall, clockNow(CLOCK_PROCESS_CPUTIME_ID) - process, worked};
 }
 
 void keepLeast(Cost& least, const Cost& cost) {
   least.wall = std::min(least.wall, cost.wall);
   least.process = std::min(least.process, cost.process);
-}
-
-double median(std::vector<double> all) {
-  if (all.empty()) return 0;
-  std::ranges::sort(all);
-  return all[all.size() / 2];
 }
 
 double rounded(double x, double steps) {
@@ -102,7 +95,7 @@ double timeOf(const std::vector<std::function<void()>>& edits) {
     });
     times.push_back(all.thread * 1e3 / (repeats * static_cast<double>(edits.size())));
   }
-  return median(times);
+  return FrameProfiler::medianOf(times);
 }
 
 // What an edit costs until the next frame may start, as the viewer makes it
@@ -121,7 +114,7 @@ std::optional<Json> benchEdits(const Options& options, text::Diagnostics& diagno
                  settingsOf(options, session->context->device().software));
   if (!live.load(diagnostics)) return std::nullopt;
   for (std::uint32_t frame = 0; frame < 2; ++frame)
-    renderer.frame(live.world(), runtime::headlessFrame(live.world(), frame, 60), diagnostics);
+    drawFrame(renderer, live.world(), options, frame, diagnostics);
   const std::vector<graph::ParameterSpec> parameters = renderer.execution()->plan().graph->parameters;
   std::vector<double> lives{0}, toggles{0};
   std::uint64_t livePlans = 0;
@@ -141,7 +134,7 @@ std::optional<Json> benchEdits(const Options& options, text::Diagnostics& diagno
   if (diagnostics.hasErrors()) return std::nullopt;
   const auto add = [&](Json& out, const std::string& name, std::vector<double>& all) {
     all.erase(all.begin());
-    out[name + "_us"] = rounded(median(all), 100);
+    out[name + "_us"] = rounded(FrameProfiler::medianOf(all), 100);
     out[name + "_worst_us"] = rounded(all.empty() ? 0 : std::ranges::max(all), 100);
   };
   Json out = headOf(options, *session);
@@ -183,7 +176,7 @@ std::optional<Json> benchFrame(const Options& options, text::Diagnostics& diagno
   const auto whole = makePlan(options, world->facts(), software, diagnostics);
   if (!whole) return std::nullopt;
   const auto frameOf = [&](runtime::Renderer& renderer, std::uint32_t frame) {
-    renderer.frame(*world, runtime::headlessFrame(*world, frame, 60), diagnostics);
+    drawFrame(renderer, *world, options, frame, diagnostics);
   };
   const runtime::Renderer::Options uncached{.dataFolder = dataFolder(), .cacheFolder = ""};
   runtime::Renderer copy(*session->context, dataFolder() + "/graphs/bench_copy.json", uncached);
@@ -207,23 +200,15 @@ std::optional<Json> benchFrame(const Options& options, text::Diagnostics& diagno
       keepLeast(unit, measure([&] { frameOf(copy, 2); }));
       keepLeast(least, measure(next));
     }
-    gl::PassTimers& timers = renderer.device().timers;
-    timers.setEnabled(true);
+    const std::vector<double> times = measureSteps(renderer, *world, options, frame, 3, diagnostics);
     const graph::Plan& plan = renderer.execution()->plan();
-    std::vector<double> times(plan.steps.size(), std::numeric_limits<double>::infinity());
-    for (int round = 0; round < 3; ++round) {
-      next();
-      timers.finish();
-      for (std::size_t step = 0; step < timers.results().size() && step < times.size(); ++step)
-        if (timers.results()[step].ran) times[step] = std::min(times[step], timers.results()[step].gpu);
-    }
     if (diagnostics.hasErrors()) return std::nullopt;
     Json row = {{"name", variant},
                 {"first_frame_ms", rounded(first.wall, 1000)},
                 {"frame_ms", rounded(least.wall, 1000)},
                 {"passes", Json::array()}};
     for (std::size_t step = 0; step < times.size(); ++step)
-      if (std::isfinite(times[step]))
+      if (times[step] > 0)
         row["passes"].push_back(
             {{"pass", plan.graph->passNames[plan.steps[step].pass]}, {"ms", rounded(times[step], 1000)}});
     variants.push_back(std::move(row));

@@ -1,4 +1,5 @@
-// weft diff: how the plan of one graph differs from that of another, and how their pictures do.
+// weft diff: how the plan of one graph differs from that of another, and how their pictures do. weft report: a page of a frame, or of
+// what differs between two.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -24,104 +25,82 @@ using Json = nlohmann::ordered_json;
 struct DiffOptions : OtherOptions {
   std::string format = "text", output;
   bool render = false;
-  bool wantsPage() const { return output.ends_with(".html"); }
 };
+
+// The lines of the plans' difference, then as JSON or text what is known of the `pictures`, where they were made.
+std::string textOf(const DiffOptions& options, const std::string& plans, const std::string& pictureText,
+                   const Json& pictures) {
+  if (options.format == "text") return plans + pictureText;
+  Json lines = Json::array();
+  std::istringstream stream(plans);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  Json json = {{"before", options.graph}, {"after", options.other}, {"plan", std::move(lines)}};
+  if (!pictures.is_null()) json["pictures"] = pictures;
+  return dumpJson(json) + "\n";
+}
+
+// Writes before.png, after.png and difference.png, and nothing over a file that was read. A difference of an earlier run is
+// removed where the pictures have different sizes.
+void leavePictures(const std::string& folder, const assets::Image8& before, const assets::Image8& after,
+                   const std::optional<PictureDifference>& difference, text::Diagnostics& diagnostics) {
+  std::vector<OutputFile> outputs;
+  for (const char* name : {"/before.png", "/after.png", "/difference.png"})
+    outputs.push_back({"-o", folder + name, OutputFile::Over::file});
+  if (!checkDistinct(outputs, diagnostics) || !savePng(outputs[0].pattern, before, diagnostics) ||
+      !savePng(outputs[1].pattern, after, diagnostics))
+    return;
+  std::error_code ignored;
+  if (difference)
+    savePng(outputs[2].pattern, assets::colorFlip(difference->map), diagnostics);
+  else
+    std::filesystem::remove(outputs[2].pattern, ignored);
+}
 
 // The same frame of both: pictures, how they differ, and the first pass whose output does.
-struct ShotPair {
-  std::uint32_t frame = 0;
-  Shot before, after;
-  std::optional<Divergence> first;
-  std::optional<PictureDifference> difference;  // of pictures of one size
-
-  const assets::Image8& pictureBefore() const { return before.pictures.at(frame); }
-  const assets::Image8& pictureAfter() const { return after.pictures.at(frame); }
-  bool same() const { return !first && difference && difference->bytes.equal(); }
-  // "pictures: FLIP 0.0123, …", "pictures: the same" or "pictures: of different sizes, 64x36 and 32x18"
-  std::string pictureText() const {
-    if (!difference)
-      return fmt::format("pictures: of different sizes, {} and {}", sizeText(pictureBefore()),
-                         sizeText(pictureAfter()));
-    return difference->bytes.equal() ? "pictures: the same" : "pictures: " + difference->text();
-  }
-};
-
-Json picturesJson(const ShotPair& pair) {
-  const auto sizeOf = [](const assets::Image8& image) { return Json{image.width, image.height}; };
-  Json json = {{"frame", pair.frame},
-               {"size_before", sizeOf(pair.pictureBefore())},
-               {"size_after", sizeOf(pair.pictureAfter())}};
-  if (pair.difference) {
-    const PictureDifference& found = *pair.difference;
-    json.update({{"flip", found.flip.mean},
-                 {"flip_peak", found.flip.peak},
-                 {"flip_peak_at", {found.flip.x, found.flip.y}},
-                 {"differing_pixels", found.bytes.differingPixels},
-                 {"largest_difference", found.bytes.maxDifference},
-                 {"largest_difference_at", {found.bytes.worstX, found.bytes.worstY}}});
+int renderBoth(gl::Context& context, const DiffOptions& options, std::span<const Options, 2> sides,
+               runtime::World& world, text::Diagnostics& diagnostics) {
+  const ShotWish wish{.frames = {options.lastFrame}, .records = true};
+  const auto before = takeShot(context, sides[0], world, wish, diagnostics);
+  const auto after = before ? takeShot(context, sides[1], world, wish, diagnostics) : std::nullopt;
+  if (!after) return 2;
+  const assets::Image8 &old = before->pictures.at(options.lastFrame),
+                       &fresh = after->pictures.at(options.lastFrame);
+  const auto first = findDivergence(before->records, after->records);
+  const auto difference = comparePictures(fresh, old);
+  const std::string plans = graph::diffText(*before->plan, *after->plan);
+  Json json = {{"frame", options.lastFrame},
+               {"size_before", {old.width, old.height}},
+               {"size_after", {fresh.width, fresh.height}}};
+  std::string text = "pictures: ";
+  if (difference) {
+    json.update({{"flip", difference->flip.mean},
+                 {"flip_peak", difference->flip.peak},
+                 {"flip_peak_at", {difference->flip.x, difference->flip.y}},
+                 {"differing_pixels", difference->bytes.differingPixels},
+                 {"largest_difference", difference->bytes.maxDifference},
+                 {"largest_difference_at", {difference->bytes.worstX, difference->bytes.worstY}}});
+    text += difference->bytes.equal() ? "the same" : difference->text();
+  } else {
+    text += fmt::format("of different sizes, {} and {}", sizeText(old), sizeText(fresh));
   }
   static constexpr const char* kKinds[] = {"differs", "missing", "added"};
   json["first"] = nullptr;
-  if (const auto& first = pair.first)
+  if (first)
     json["first"] = {{"kind", kKinds[static_cast<std::size_t>(first->kind)]},
                      {"pass", first->pass},
                      {"resource", first->resource},
                      {"frame", first->frame},
                      {"amount", first->amount},
                      {"text", first->text()}};
-  return json;
-}
-
-std::string textOf(const DiffOptions& options, const std::string& plans, const ShotPair* pair) {
-  if (options.format == "text")
-    return pair ? plans + pair->pictureText() + "\n" +
-                      (pair->first
-                           ? "first that differs: " + text::shortened(text::printable(pair->first->text()))
-                           : "no pass differs") +
-                      "\n"
-                : plans;
-  Json lines = Json::array();
-  std::istringstream stream(plans);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  Json json = {{"before", options.graph}, {"after", options.other}, {"plan", std::move(lines)}};
-  if (pair) json["pictures"] = picturesJson(*pair);
-  return dumpJson(json) + "\n";
-}
-
-// Writes before.png, after.png and difference.png, and nothing over a file that was read. A difference of an earlier run is
-// removed where the pictures have different sizes.
-void leavePictures(const DiffOptions& options, const ShotPair& pair, text::Diagnostics& diagnostics) {
-  std::vector<std::string> files;
-  std::vector<OutputFile> outputs;
-  for (const char* name : {"/before.png", "/after.png", "/difference.png"})
-    outputs.push_back({"-o", files.emplace_back(options.output + name), OutputFile::Over::file});
-  if (!checkDistinct(outputs, diagnostics) || !savePng(files[0], pair.pictureBefore(), diagnostics) ||
-      !savePng(files[1], pair.pictureAfter(), diagnostics))
-    return;
-  std::error_code ignored;
-  if (pair.difference)
-    savePng(files[2], assets::colorFlip(pair.difference->map), diagnostics);
-  else
-    std::filesystem::remove(files[2], ignored);
-}
-
-int renderBoth(gl::Context& context, const DiffOptions& options, std::span<const Options, 2> sides,
-               runtime::World& world, text::Diagnostics& diagnostics) {
-  const ShotWish wish{.frames = {options.lastFrame}, .records = true};
-  auto before = takeShot(context, sides[0], world, wish, diagnostics);
-  auto after = before ? takeShot(context, sides[1], world, wish, diagnostics) : std::nullopt;
-  if (!after) return 2;
-  ShotPair pair{options.lastFrame, *std::move(before), *std::move(after), {}, {}};
-  pair.first = findDivergence(pair.before.records, pair.after.records);
-  pair.difference = comparePictures(pair.pictureAfter(), pair.pictureBefore());
-  const std::string plans = graph::diffText(*pair.before.plan, *pair.after.plan);
-  if (options.wantsPage())
+  text += first ? "\nfirst that differs: " + text::shortened(text::printable(first->text())) + "\n"
+                : "\nno pass differs\n";
+  if (options.output.ends_with(".html"))
     writeFramePage(context, options.typed, sides, 0, options.output, world, diagnostics);
   else if (!options.output.empty())
-    leavePictures(options, pair, diagnostics);
+    leavePictures(options.output, old, fresh, difference, diagnostics);
   if (diagnostics.hasErrors()) return 2;
-  print(textOf(options, plans, &pair));
-  return plans.empty() && pair.same() ? 0 : 1;
+  print(textOf(options, plans, text, json));
+  return plans.empty() && !first && difference && difference->bytes.equal() ? 0 : 1;
 }
 
 int runDiff(DiffOptions& options) {
@@ -141,9 +120,27 @@ int runDiff(DiffOptions& options) {
     return 2;
   }
   const std::string plans = graph::diffText(*before, *after);
-  print(textOf(options, plans, nullptr));
+  print(textOf(options, plans, "", nullptr));
   report(diagnostics);
   return plans.empty() ? 0 : 1;
+}
+
+struct ReportOptions : OtherOptions {
+  std::string output;
+  std::uint32_t repeats = 0;  // frames to measure; 0: no times
+};
+
+int runReport(ReportOptions& options) {
+  const Options sides[] = {options, options.otherSide()};
+  const auto draw = [&](auto& session, runtime::World& world, text::Diagnostics& diagnostics) {
+    const std::span<const Options> drawn(sides, options.hasOther() ? 2 : 1);
+    const bool good = writeFramePage(*session->context, options.typed, drawn, options.repeats, options.output,
+                                     world, diagnostics);
+    if (good) print(text::printable(options.output) + "\n");
+    return good ? 0 : 1;
+  };
+  return options.hasOther() ? runOnDevice({&sides[0], &sides[1]}, 1, draw)
+                            : runOnDevice({&sides[0]}, 1, draw);
 }
 
 }  // namespace
@@ -167,6 +164,23 @@ void addDiff(CommandLine& line) {
   addChoice(command, "--format", options.format, "text or json", {"text", "json"});
   command.footer(
       "Example: weft diff graphs/glow.json tests/golden/vignette.json --render --size 320x180 -o out");
+}
+
+void addReport(CommandLine& line) {
+  const auto [command, options] = line.add("report",
+                                           "write one HTML page of a frame: the matrix of steps and "
+                                           "resources, what each pass wrote and why it runs",
+                                           runReport);
+  options.addGraph(command);
+  options.addOther(command);
+  addPath(command, "-o,--output", options.output, "the page to write, .html")->required();
+  options.addFrame(command);
+  options.addFps(command);
+  options.addPointer(command);
+  options.addBackend(command);
+  command.add_option("--times", options.repeats, "also show times: medians over so many frames")
+      ->check(CLI::Range(1, 1000));
+  command.footer("Example: weft report graphs/studio.json --size 320x180 -o out/report.html");
 }
 
 }  // namespace weft::app

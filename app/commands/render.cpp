@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -20,10 +19,6 @@ namespace weft::app {
 
 namespace {
 
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 // A texture or buffer of the graph that is written to files, or to those of patterns.
 struct Part {
   std::string name;  // as it was asked for
@@ -39,7 +34,7 @@ struct FrameRun {
   PictureWriter writer{};
   runtime::FrameReport last{};
   std::uint64_t frames = 0;
-  double firstSeconds = 0;  // of the first frame
+  double firstMs = 0;  // of the first frame
 };
 
 const graph::FlatResource& resourceOf(const graph::FlatGraph& graph, const runtime::CaptureItem& item) {
@@ -71,14 +66,12 @@ void runFrames(DeviceSession& session, runtime::World& world, const Options& opt
     frame = static_cast<std::uint32_t>(begin + (done - 1));
     if (frame == options.firstFrame && !items.empty()) capture.start(execution, items, save);
     for (Part& part : run.parts) part.saved = false;
-    const double before = now();
-    run.last = renderer.frame(world, runtime::headlessFrame(world, frame, options.fps, options.pointer),
-                              diagnostics);
+    const double before = gl::steadyMs();
+    run.last = drawFrame(renderer, world, options, frame, diagnostics);
     renderer.dropUploaded(world);
-    session.context->drainMessages(diagnostics);
     if (done == 1) {
       glFinish();
-      run.firstSeconds = now() - before;
+      run.firstMs = gl::steadyMs() - before;
     }
     if (run.frames > 1 && !options.quiet) lines.countOne();
     if (frame < options.firstFrame) continue;
@@ -144,7 +137,7 @@ void findParts(const RenderOptions& options, const graph::Plan& plan, FrameRun& 
 }
 
 int runRender(RenderOptions& options) {
-  const double start = now();
+  const double start = gl::steadyMs();
   FrameRun run;
   if (const std::string wrong = takeOutputs(options, run); !wrong.empty()) {
     printError("weft render: " + text::shortened(text::printable(wrong)) + "\n");
@@ -162,7 +155,7 @@ int runRender(RenderOptions& options) {
     if (!renderer.load(settingsOf(options, session->context->device().software), world, diagnostics) ||
         (!run.output.empty() && !checkPresents(options, renderer, diagnostics)))
       return 1;
-    const double prepared = now();
+    const double prepared = gl::steadyMs();
     findParts(options, renderer.execution()->plan(), run, diagnostics);
     if (!checkDistinct(outputs, diagnostics) || diagnostics.hasErrors()) return 1;
     renderer.device().timers.setEnabled(options.profile);
@@ -175,9 +168,9 @@ int runRender(RenderOptions& options) {
     };
     runFrames(*session, world, options, run, checkSaved, diagnostics);
     if (diagnostics.hasErrors() || !options.stats) return 0;
-    auto stats = statsOf(*session, {{"setup_ms", (prepared - start) * 1e3},
-                                    {"first_frame_ms", run.firstSeconds * 1e3},
-                                    {"total_ms", (now() - start) * 1e3},
+    auto stats = statsOf(*session, {{"setup_ms", prepared - start},
+                                    {"first_frame_ms", run.firstMs},
+                                    {"total_ms", gl::steadyMs() - start},
                                     {"frames_run", run.frames},
                                     {"passes_run_last_frame", run.last.passesRun},
                                     {"passes_skipped_last_frame", run.last.passesSkipped},

@@ -28,17 +28,17 @@ LiveScene::LiveScene(std::string path, scene::SceneChoice choice, std::vector<st
     : path_(std::move(path)),
       choice_(std::move(choice)),
       files_(std::move(files)),
-      loader_([first = path_, chosen = choice_](
-                  const std::string& file, text::Diagnostics& diagnostics,
-                  const assets::LoadObserver& observer) -> std::shared_ptr<const void> {
-        auto loaded = std::make_shared<Loaded>();
-        loaded->scene = scene::loadScene(file, diagnostics, &loaded->files,
-                                         file == first ? chosen : scene::SceneChoice{}, observer);
-        return loaded;
+      loader_([first = path_, chosen = choice_](const std::string& file, text::Diagnostics&,
+                                                const assets::LoadObserver& observer) {
+        return read(file, file == first ? chosen : scene::SceneChoice{}, observer);
       }) {}
 
-std::string LiveScene::name() const {
-  return std::filesystem::path(path_).filename().string();
+std::shared_ptr<const LiveScene::Loaded> LiveScene::read(const std::string& path,
+                                                         const scene::SceneChoice& choice,
+                                                         const assets::LoadObserver& observer) {
+  auto loaded = std::make_shared<Loaded>();
+  loaded->scene = scene::loadScene(path, loaded->said, &loaded->files, choice, observer);
+  return loaded;
 }
 
 void LiveScene::outdate() {
@@ -58,18 +58,10 @@ void LiveScene::settle() {
   arrived_ = nullptr;
 }
 
-void LiveScene::take(std::shared_ptr<const Loaded> loaded, text::Diagnostics diagnostics) {
-  arrived_ = std::move(loaded);
-  said_ = std::move(diagnostics);
-  files_ = arrived_->files;
-}
-
 void LiveScene::readNow() {
   if (std::exchange(loading_, false)) loader_.cancel();
-  auto loaded = std::make_shared<Loaded>();
-  text::Diagnostics said;
-  loaded->scene = scene::loadScene(path_, said, &loaded->files, choice_);
-  take(std::move(loaded), std::move(said));
+  arrived_ = read(path_, choice_);
+  files_ = arrived_->files;
 }
 
 void LiveScene::request() {
@@ -82,23 +74,25 @@ void LiveScene::request() {
 bool LiveScene::arrived() {
   if (arrived_) return true;
   request();
-  auto result = loader_.poll();
+  const auto result = loader_.poll();
   if (!result) return false;
   loading_ = false;
-  take(result->as<Loaded>(), std::move(result->diagnostics));
+  arrived_ = result->as<Loaded>();
+  files_ = arrived_->files;
   return true;
 }
 
 const scene::Scene* LiveScene::scene(text::Diagnostics& diagnostics) const {
   if (!arrived_) return nullptr;
-  diagnostics.append(said_);
+  diagnostics.append(arrived_->said);
   return arrived_->scene ? &*arrived_->scene : nullptr;
 }
 
 std::optional<LoadStatus> LiveScene::status() const {
   if (!loading_) return std::nullopt;
   const assets::LoadProgress progress = loader_.progress();
-  return LoadStatus{name(), assets::nameOf(progress.stage), progress.done};
+  return LoadStatus{std::filesystem::path(path_).filename().string(), assets::nameOf(progress.stage),
+                    progress.done};
 }
 
 std::optional<std::string> firstEnvironment(const std::string& fileOrFolder, text::Diagnostics& diagnostics) {

@@ -31,7 +31,6 @@ class LiveScene {
   LiveScene(std::string path, scene::SceneChoice choice, std::vector<std::string> files);
 
   const std::string& path() const { return path_; }
-  std::string name() const;  // without folders
   // Everything that was read or should have been, also after errors: what to watch.
   const std::vector<std::string>& files() const { return files_; }
 
@@ -66,12 +65,13 @@ class LiveScene {
   std::optional<LoadStatus> status() const;
 
  private:
-  // What the loader makes, also after errors.
   struct Loaded {
     std::optional<scene::Scene> scene;
     std::vector<std::string> files;
+    text::Diagnostics said;
   };
-  void take(std::shared_ptr<const Loaded> loaded, text::Diagnostics diagnostics);
+  static std::shared_ptr<const Loaded> read(const std::string& path, const scene::SceneChoice& choice,
+                                            const assets::LoadObserver& observer = {});
 
   std::string path_;
   scene::SceneChoice choice_;  // of the first file
@@ -81,7 +81,6 @@ class LiveScene {
   bool loading_ = false;
   std::uint64_t reads_ = 0;
   std::shared_ptr<const Loaded> arrived_;  // null: not yet
-  text::Diagnostics said_;                 // while it was read
   assets::Loader loader_;
 };
 

@@ -579,19 +579,19 @@ function drawCases() {
 }
 
 function drawAblation() {
-  const { graph, sum, titles, picture, rows } = report.ablation, page = add(document.body, "main");
+  const { graph, sum, table: [titles, ...cells], picture, rows } = report.ablation, page = add(document.body, "main");
   document.body.classList.add("plain");
   add(page, "h1", {}, `${graph}: what each pass costs and does`);
   add(page, "p", {}, sum);
   add(page, "img", { class: "wide", src: picture, alt: "the whole frame" });
   const table = add(page, "table"), heads = add(table, "tr");
   for (const title of [...titles, "without it", "difference"]) add(heads, "th", { scope: "col" }, title);
-  for (const row of rows) {
+  rows.forEach((row, at) => {
     const line = add(table, "tr");
-    for (const cell of row.cells) add(line, "td", {}, cell);
+    for (const cell of cells[at]) add(line, "td", {}, cell);
     if (row.needed) add(line, "td", { colspan: 6 }, row.needed);
-    else for (const [source, word] of [[row.picture, "without it"], [row.flip, "difference"]]) add(line, "td", {}, add(null, "img", { src: source, alt: word, width: 160 }));
-  }
+    else for (const [source, word] of [[row.picture, "without it"], [row.map, "difference"]]) add(line, "td", {}, add(null, "img", { src: source, alt: word, width: 160 }));
+  });
 }
 
 if (report.cases) drawCases(); else if (report.ablation) drawAblation(); else drawFrame();

@@ -180,6 +180,14 @@ int runOnDevice(std::initializer_list<const Options*> all, int wrong, const Devi
   return wrong;
 }
 
+runtime::FrameReport drawFrame(runtime::Renderer& renderer, const runtime::World& world,
+                               const Options& options, std::uint32_t frame, text::Diagnostics& diagnostics) {
+  const runtime::FrameReport report =
+      renderer.frame(world, runtime::headlessFrame(world, frame, options.fps, options.pointer), diagnostics);
+  renderer.device().context.drainMessages(diagnostics);
+  return report;
+}
+
 bool checkPresents(const Options& options, runtime::Renderer& renderer, text::Diagnostics& diagnostics) {
   if (renderer.execution()->presented().id != 0) return true;
   diagnostics.error(text::Code::presentsNothing, {options.graph, 1, 1}, "the graph presents nothing to write")

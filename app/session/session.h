@@ -83,6 +83,10 @@ std::unique_ptr<DeviceSession> openDevice(const Options& options, text::Diagnost
 using DeviceRun = std::function<int(std::unique_ptr<DeviceSession>&, runtime::World&, text::Diagnostics&)>;
 int runOnDevice(std::initializer_list<const Options*> all, int wrong, const DeviceRun& run);
 
+// A frame as `weft render` draws it. What the driver says goes to `diagnostics`, too.
+runtime::FrameReport drawFrame(runtime::Renderer& renderer, const runtime::World& world,
+                               const Options& options, std::uint32_t frame, text::Diagnostics& diagnostics);
+
 // False after W188: the graph presents nothing.
 bool checkPresents(const Options& options, runtime::Renderer& renderer, text::Diagnostics& diagnostics);
 

@@ -186,31 +186,6 @@ struct Drawn {
   assets::Image8 picture;
 };
 
-// Milliseconds of each step: the median over `repeats` frames.
-std::vector<double> measureSteps(runtime::Renderer& renderer, const runtime::World& world,
-                                 const Options& options, std::uint32_t repeats,
-                                 text::Diagnostics& diagnostics) {
-  gl::PassTimers& timers = renderer.device().timers;
-  const std::size_t steps = renderer.execution()->plan().steps.size();
-  std::vector<std::vector<double>> taken(steps);
-  timers.setEnabled(true);
-  for (std::uint32_t i = 1; i <= repeats; ++i) {
-    renderer.frame(world, runtime::headlessFrame(world, options.lastFrame + i, options.fps, options.pointer),
-                   diagnostics);
-    timers.finish();
-    for (std::size_t step = 0; step < std::min(steps, timers.results().size()); ++step)
-      if (timers.results()[step].ran) taken[step].push_back(timers.results()[step].gpu);
-  }
-  timers.setEnabled(false);
-  std::vector<double> medians(steps);
-  for (std::size_t step = 0; step < steps; ++step)
-    if (auto& all = taken[step]; !all.empty()) {
-      std::ranges::nth_element(all, all.begin() + all.size() / 2);
-      medians[step] = all[all.size() / 2];
-    }
-  return medians;
-}
-
 // Runs the frame, and looks at what each step leaves.
 std::optional<Drawn> stateOf(gl::Context& context, const Options& options, std::uint32_t repeats,
                              runtime::World& world, text::Diagnostics& diagnostics) {
@@ -237,8 +212,7 @@ std::optional<Drawn> stateOf(gl::Context& context, const Options& options, std::
         if (inspector.picture().id != 0)
           outputs[items[i].step].push_back(outputOf(items[i], inspector, diagnostics));
       });
-    renderer.frame(world, runtime::headlessFrame(world, frame, options.fps, options.pointer), diagnostics);
-    context.drainMessages(diagnostics);
+    drawFrame(renderer, world, options, frame, diagnostics);
     if (diagnostics.hasErrors()) return std::nullopt;
   }
   capture.stop(execution);
@@ -256,7 +230,8 @@ std::optional<Drawn> stateOf(gl::Context& context, const Options& options, std::
                 {"outputs", std::move(outputs)},
                 {"picture", pictureOf(state.picture)},
                 {"flow", flowOf(*state.plan)}};
-  if (repeats > 0) state.json["times"] = measureSteps(renderer, world, options, repeats, diagnostics);
+  if (repeats > 0)
+    state.json["times"] = measureSteps(renderer, world, options, options.lastFrame + 1, repeats, diagnostics);
   return state;
 }
 

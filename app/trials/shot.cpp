@@ -6,36 +6,29 @@
 
 #include "app/output/picture_writer.h"
 #include "app/session/session.h"
+#include "engine/runtime/inspection/frame_profiler.h"
 #include "engine/text/printable.h"
 
 namespace weft::app {
 
-namespace {
-
-void measure(runtime::Renderer& renderer, const runtime::World& world, const Options& options,
-             std::uint32_t frame, std::uint32_t repeats, Shot& shot, text::Diagnostics& diagnostics) {
+std::vector<double> measureSteps(runtime::Renderer& renderer, const runtime::World& world,
+                                 const Options& options, std::uint32_t frame, std::uint32_t repeats,
+                                 text::Diagnostics& diagnostics) {
   gl::PassTimers& timers = renderer.device().timers;
-  const graph::FlatGraph& graph = *shot.plan->graph;
+  std::vector<std::vector<double>> taken(renderer.execution()->plan().steps.size());
   timers.setEnabled(true);
   for (std::uint32_t i = 0; i < repeats; ++i) {
-    renderer.frame(world, runtime::headlessFrame(world, frame + i, options.fps, options.pointer),
-                   diagnostics);
+    drawFrame(renderer, world, options, frame + i, diagnostics);
     timers.finish();
-    double whole = 0;
-    std::map<std::string, double> passes;
-    for (std::size_t step = 0; step < timers.results().size() && step < shot.plan->steps.size(); ++step) {
-      const double ms = timers.results()[step].ran ? timers.results()[step].gpu : 0;
-      whole += ms;
-      passes[graph.specs[shot.plan->steps[step].pass].declared] += ms;
-    }
-    if (i > 0 && whole >= shot.milliseconds) continue;
-    shot.milliseconds = whole;
-    shot.passMilliseconds = std::move(passes);
+    const auto times = timers.results();
+    for (std::size_t step = 0; step < std::min(taken.size(), times.size()); ++step)
+      if (times[step].ran) taken[step].push_back(times[step].gpu);
   }
   timers.setEnabled(false);
+  std::vector<double> medians;
+  for (std::vector<double>& all : taken) medians.push_back(runtime::FrameProfiler::medianOf(std::move(all)));
+  return medians;
 }
-
-}  // namespace
 
 std::optional<Shot> takeShot(gl::Context& context, const Options& options, const runtime::World& world,
                              const ShotWish& wish, text::Diagnostics& diagnostics) {
@@ -72,8 +65,7 @@ std::optional<Shot> takeShot(gl::Context& context, const Options& options, const
       watch.before = [&](std::uint32_t step) { recorder.prepare(execution, step); };
     if (recorded) watch.after = [&](std::uint32_t step) { recorder.look(execution, step); };
     execution.watch(std::move(watch));
-    renderer.frame(world, runtime::headlessFrame(world, number, options.fps, options.pointer), diagnostics);
-    context.drainMessages(diagnostics);
+    drawFrame(renderer, world, options, number, diagnostics);
     if (diagnostics.hasErrors()) return std::nullopt;
     if (auto steps = recorder.take(); !steps.empty())
       shot.records.frames.push_back({number, std::move(steps)});
@@ -86,7 +78,8 @@ std::optional<Shot> takeShot(gl::Context& context, const Options& options, const
   writer.tell(diagnostics);
   execution.watch({});
   if (wish.repeats > 0)
-    measure(renderer, world, options, wish.frames.back() + 1, wish.repeats, shot, diagnostics);
+    shot.milliseconds =
+        measureSteps(renderer, world, options, wish.frames.back() + 1, wish.repeats, diagnostics);
   return shot;
 }
 

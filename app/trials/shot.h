@@ -42,13 +42,17 @@ struct Shot {
   std::map<std::uint32_t, assets::Image8> pictures;  // RGBA, by frame
   PassRecords records;
   std::shared_ptr<const graph::Plan> plan;
-  double milliseconds = 0;                         // of the fastest frame that was measured
-  std::map<std::string, double> passMilliseconds;  // by declared name, of that frame
+  std::vector<double> milliseconds;  // of the plan's steps, as measureSteps() has them
 };
 
 // The graph, scene, settings and size of `options`. Empty after errors.
 std::optional<Shot> takeShot(gl::Context& context, const Options& options, const runtime::World& world,
                              const ShotWish& wish, text::Diagnostics& diagnostics);
+
+// Milliseconds on the GPU of each step of the plan: the median over those of `repeats` frames from `frame` on in which it ran, or 0.
+std::vector<double> measureSteps(runtime::Renderer& renderer, const runtime::World& world,
+                                 const Options& options, std::uint32_t frame, std::uint32_t repeats,
+                                 text::Diagnostics& diagnostics);
 
 struct PictureDifference {
   assets::FlipMap map;

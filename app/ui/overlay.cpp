@@ -1,5 +1,7 @@
 #include "app/ui/overlay.h"
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
@@ -71,30 +73,26 @@ Overlay::~Overlay() {
   ImGui::DestroyContext();
 }
 
-void Overlay::takeKey(int key, int scancode, int action, int mods) {
-  ImGui_ImplGlfw_KeyCallback(window_, key, scancode, action, mods);
-}
-
-void Overlay::takeCharacter(unsigned codepoint) {
-  ImGui_ImplGlfw_CharCallback(window_, codepoint);
-}
-
-void Overlay::takeWheel(double x, double y) {
-  ImGui_ImplGlfw_ScrollCallback(window_, x, y);
-}
-
-void Overlay::takeButton(int button, bool down) {
-  if (button >= 0 && button < 3) down_[button] = down;
-}
-
-void Overlay::takeMove(double x, double y) {
-  x_ = static_cast<float>(x);
-  y_ = static_cast<float>(y);
-  inside_ = true;
-}
-
-void Overlay::takeLeave() {
-  inside_ = down_[0] || down_[1] || down_[2];
+void Overlay::take(const WindowEvent& event) {
+  switch (event.kind) {
+    case WindowEvent::Kind::move:
+      x_ = static_cast<float>(event.x);
+      y_ = static_cast<float>(event.y);
+      inside_ = true;
+      return;
+    case WindowEvent::Kind::leave:
+      inside_ = down_[0] || down_[1] || down_[2];
+      return;
+    case WindowEvent::Kind::button:
+      if (event.key >= 0 && event.key < 3) down_[event.key] = event.action == GLFW_PRESS;
+      return;
+    case WindowEvent::Kind::wheel:
+      return ImGui_ImplGlfw_ScrollCallback(window_, event.x, event.y);
+    case WindowEvent::Kind::key:
+      return ImGui_ImplGlfw_KeyCallback(window_, event.key, event.scancode, event.action, event.mods);
+    case WindowEvent::Kind::character:
+      return ImGui_ImplGlfw_CharCallback(window_, event.codepoint);
+  }
 }
 
 void Overlay::begin() {

@@ -3,6 +3,7 @@
 // puts back what it found.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -10,6 +11,14 @@
 struct GLFWwindow;
 
 namespace weft::app::ui {
+
+// What a callback of GLFW said.
+struct WindowEvent {
+  enum class Kind : std::uint8_t { move, leave, button, wheel, key, character } kind = Kind::move;
+  int key = 0, scancode = 0, action = 0, mods = 0;  // of a key or a button
+  unsigned codepoint = 0;
+  double x = 0, y = 0;
+};
 
 class Overlay {
  public:
@@ -19,13 +28,8 @@ class Overlay {
   Overlay(const Overlay&) = delete;
   Overlay& operator=(const Overlay&) = delete;
 
-  // Before begin(): what GLFW's callbacks said.
-  void takeKey(int key, int scancode, int action, int mods);
-  void takeCharacter(unsigned codepoint);
-  void takeWheel(double x, double y);
-  void takeButton(int button, bool down);
-  void takeMove(double x, double y);
-  void takeLeave();
+  // Before begin().
+  void take(const WindowEvent& event);
 
   // Panels are made between the two; end() draws them. Framebuffer 0 must be bound. begin() shows the panels the events that were
   // taken: wantsMouse() knows of them from then on. It does nothing between the two; without a picture of the panels, call skip()

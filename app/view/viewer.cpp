@@ -11,6 +11,7 @@
 #include <cassert>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -326,7 +327,7 @@ void Viewer::update(gl::Size size) {
     looked = live_.poll(glfwGetTime(), diagnostics_);
   }
   if (std::exchange(sceneReads_, live_.scene().reads()) != live_.scene().reads())
-    say("loading " + live_.scene().name());
+    say("loading " + std::filesystem::path(live_.scene().path()).filename().string());
   if (looked) {
     tell(diagnostics_, log_, ui::Log::kFiles);
     restless_ = kRestlessAfterEvent;

@@ -7,7 +7,6 @@
 #include <cctype>
 #include <utility>
 
-#include "app/ui/overlay.h"
 #include "app/view/key_bindings.h"
 
 namespace weft::app {
@@ -19,7 +18,7 @@ WindowInput& WindowInput::of(GLFWwindow* window) {
 }
 
 WindowInput::WindowInput(GLFWwindow* window) : window_(window) {
-  using Kind = Event::Kind;
+  using Kind = ui::WindowEvent::Kind;
   glfwSetWindowUserPointer(window, this);
   glfwSetInputMode(window, GLFW_STICKY_KEYS,
                    GLFW_TRUE);  // a key that is tapped between two frames counts as held in one
@@ -57,10 +56,10 @@ WindowInput::WindowInput(GLFWwindow* window) : window_(window) {
 }
 
 bool WindowInput::hand(bool oneClick) {
-  using Kind = Event::Kind;
+  using Kind = ui::WindowEvent::Kind;
   std::optional<Kind> last;  // that is no movement
   while (!queue_.empty()) {
-    const Event event = queue_.front();
+    const ui::WindowEvent event = queue_.front();
     const bool moves = event.kind == Kind::move || event.kind == Kind::leave;
     // Letters go together, and so do steps of the wheel.
     const bool joins = last == event.kind && (event.kind == Kind::character || event.kind == Kind::wheel);
@@ -68,37 +67,14 @@ bool WindowInput::hand(bool oneClick) {
     if (oneClick && clicked_ && graphHasButton_ && event.kind == Kind::button && event.action == GLFW_PRESS)
       return false;
     queue_.pop_front();
-    take(event);
+    if (event.kind == Kind::move) onMove(event);
+    if (event.kind == Kind::button) onButton(event);
+    if (event.kind == Kind::wheel) fresh_.wheel += event.y;
+    if (event.kind == Kind::key) onKey(event);
+    if (overlay_) overlay_->take(event);
     if (!moves) last = event.kind;
   }
   return false;
-}
-
-void WindowInput::take(const Event& event) {
-  switch (event.kind) {
-    case Event::Kind::move:
-      onMove(event.x, event.y);
-      if (overlay_) overlay_->takeMove(event.x, event.y);
-      return;
-    case Event::Kind::leave:
-      if (overlay_) overlay_->takeLeave();
-      return;
-    case Event::Kind::button:
-      onButton(event.key, event.action, event.mods);
-      if (overlay_) overlay_->takeButton(event.key, event.action == GLFW_PRESS);
-      return;
-    case Event::Kind::wheel:
-      fresh_.wheel += event.y;
-      if (overlay_) overlay_->takeWheel(event.x, event.y);
-      return;
-    case Event::Kind::key:
-      onKey(event.key, event.scancode, event.action, event.mods);
-      if (overlay_) overlay_->takeKey(event.key, event.scancode, event.action, event.mods);
-      return;
-    case Event::Kind::character:
-      if (overlay_) overlay_->takeCharacter(event.codepoint);
-      return;
-  }
 }
 
 void WindowInput::capture(bool on) {
@@ -115,32 +91,32 @@ void WindowInput::capture(bool on) {
 }
 
 // A key has the letter that it has on the user's keyboard, wherever that is; digits are also those keys that have them with Shift.
-void WindowInput::onKey(int key, int scancode, int action, int mods) {
-  if (action != GLFW_PRESS || (overlay_ && overlay_->wantsKeys())) return;
-  const WithKey shift = mods & GLFW_MOD_SHIFT ? WithKey::shift : WithKey::nothing;
-  const char* letter = glfwGetKeyName(key, scancode);
-  const int written = letter && letter[0] && !letter[1] ? std::toupper(letter[0]) : key;
+void WindowInput::onKey(const ui::WindowEvent& event) {
+  if (event.action != GLFW_PRESS || (overlay_ && overlay_->wantsKeys())) return;
+  const WithKey shift = event.mods & GLFW_MOD_SHIFT ? WithKey::shift : WithKey::nothing;
+  const char* letter = glfwGetKeyName(event.key, event.scancode);
+  const int written = letter && letter[0] && !letter[1] ? std::toupper(letter[0]) : event.key;
   // Ctrl may be held for the mouse.
-  std::string name = mods & GLFW_MOD_CONTROL ? actionOf(written, WithKey::control) : "";
+  std::string name = event.mods & GLFW_MOD_CONTROL ? actionOf(written, WithKey::control) : "";
   if (name.empty()) name = actionOf(written, shift);
-  if (name.empty() && key >= GLFW_KEY_1 && key <= GLFW_KEY_9) name = actionOf(key, shift);
+  if (name.empty() && event.key >= GLFW_KEY_1 && event.key <= GLFW_KEY_9) name = actionOf(event.key, shift);
   if (!name.empty()) actions_.push_back(std::move(name));
 }
 
-void WindowInput::onButton(int button, int action, int mods) {
-  const bool down = action == GLFW_PRESS && !captured_;
+void WindowInput::onButton(const ui::WindowEvent& event) {
+  const bool down = event.action == GLFW_PRESS && !captured_;
   pressed_ |= down;
-  if (button == GLFW_MOUSE_BUTTON_RIGHT || button == GLFW_MOUSE_BUTTON_MIDDLE) panning_ = down;
-  if (button != GLFW_MOUSE_BUTTON_LEFT) return;
-  const bool graph = graphHasButton_ && (mods & GLFW_MOD_CONTROL) == 0;
+  if (event.key == GLFW_MOUSE_BUTTON_RIGHT || event.key == GLFW_MOUSE_BUTTON_MIDDLE) panning_ = down;
+  if (event.key != GLFW_MOUSE_BUTTON_LEFT) return;
+  const bool graph = graphHasButton_ && (event.mods & GLFW_MOD_CONTROL) == 0;
   turning_ = down && !graph;
   held_ = down && graph;
   if (held_) press_ = place();
   if (!held_) down_ = false;
 }
 
-void WindowInput::onMove(double x, double y) {
-  const glm::dvec2 at(x, y);
+void WindowInput::onMove(const ui::WindowEvent& event) {
+  const glm::dvec2 at(event.x, event.y);
   if (std::exchange(known_, true)) {
     if (captured_ || turning_)
       fresh_.turn += at - last_;

@@ -10,16 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "app/ui/overlay.h"
 #include "app/view/camera_rig.h"
 #include "engine/imports/world.h"
 
-struct GLFWwindow;
-
 namespace weft::app {
-
-namespace ui {
-class Overlay;
-}
 
 class WindowInput {
  public:
@@ -64,23 +59,16 @@ class WindowInput {
   std::uint64_t events() const { return events_; }
 
  private:
-  struct Event {
-    enum class Kind : std::uint8_t { move, leave, button, wheel, key, character } kind = Kind::move;
-    int key = 0, scancode = 0, action = 0, mods = 0;  // of a key or a button
-    unsigned codepoint = 0;
-    double x = 0, y = 0;
-  };
   static WindowInput& of(GLFWwindow* window);
-  void take(const Event& event);
-  void onKey(int key, int scancode, int action, int mods);
-  void onButton(int button, int action, int mods);
-  void onMove(double x, double y);
+  void onKey(const ui::WindowEvent& event);
+  void onButton(const ui::WindowEvent& event);
+  void onMove(const ui::WindowEvent& event);
   glm::dvec2 place() const;  // where the mouse is: 0 to 1 of the picture from its lower left corner
   void point();
 
   GLFWwindow* window_;
   ui::Overlay* overlay_ = nullptr;
-  std::deque<Event> queue_;
+  std::deque<ui::WindowEvent> queue_;
   std::vector<std::string> actions_, dropped_;
   glm::dvec2 corner_{0}, size_{1};
   CameraInput camera_;
