@@ -1,14 +1,11 @@
 // weft bench: what frames and edits cost, as JSON. Times depend on the machine and are not judged.
 
-#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <limits>
 
 #include "app/commands/commands.h"
 #include "app/live/live_graph.h"
-#include "app/output/standard_streams.h"
-#include "app/session/session.h"
 #include "app/trials/shot.h"
 #include "engine/graph/language/suffix.h"
 #include "engine/runtime/inspection/frame_profiler.h"

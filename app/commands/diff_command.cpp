@@ -1,20 +1,12 @@
-// weft diff: how the plan of one graph differs from that of another, and how their pictures do. weft report: a page of a frame, or of
-// what differs between two.
-#include <fmt/format.h>
+// weft diff: how the plan of one graph differs from that of another, and how their pictures do.
 
-#include <filesystem>
 #include <sstream>
 
 #include "app/commands/commands.h"
-#include "app/output/output_files.h"
 #include "app/output/picture_writer.h"
-#include "app/output/standard_streams.h"
-#include "app/session/session.h"
 #include "app/trials/divergence.h"
-#include "app/trials/frame_page.h"
 #include "app/trials/shot.h"
 #include "engine/graph/print/print.h"
-#include "engine/text/printable.h"
 
 namespace weft::app {
 
@@ -125,24 +117,6 @@ int runDiff(DiffOptions& options) {
   return plans.empty() ? 0 : 1;
 }
 
-struct ReportOptions : OtherOptions {
-  std::string output;
-  std::uint32_t repeats = 0;  // frames to measure; 0: no times
-};
-
-int runReport(ReportOptions& options) {
-  const Options sides[] = {options, options.otherSide()};
-  const auto draw = [&](auto& session, runtime::World& world, text::Diagnostics& diagnostics) {
-    const std::span<const Options> drawn(sides, options.hasOther() ? 2 : 1);
-    const bool good = writeFramePage(*session->context, options.typed, drawn, options.repeats, options.output,
-                                     world, diagnostics);
-    if (good) print(text::printable(options.output) + "\n");
-    return good ? 0 : 1;
-  };
-  return options.hasOther() ? runOnDevice({&sides[0], &sides[1]}, 1, draw)
-                            : runOnDevice({&sides[0]}, 1, draw);
-}
-
 }  // namespace
 
 // 0: no difference, 1: some, 2: a graph cannot be compiled.
@@ -164,23 +138,6 @@ void addDiff(CommandLine& line) {
   addChoice(command, "--format", options.format, "text or json", {"text", "json"});
   command.footer(
       "Example: weft diff graphs/glow.json tests/golden/vignette.json --render --size 320x180 -o out");
-}
-
-void addReport(CommandLine& line) {
-  const auto [command, options] = line.add("report",
-                                           "write one HTML page of a frame: the matrix of steps and "
-                                           "resources, what each pass wrote and why it runs",
-                                           runReport);
-  options.addGraph(command);
-  options.addOther(command);
-  addPath(command, "-o,--output", options.output, "the page to write, .html")->required();
-  options.addFrame(command);
-  options.addFps(command);
-  options.addPointer(command);
-  options.addBackend(command);
-  command.add_option("--times", options.repeats, "also show times: medians over so many frames")
-      ->check(CLI::Range(1, 1000));
-  command.footer("Example: weft report graphs/studio.json --size 320x180 -o out/report.html");
 }
 
 }  // namespace weft::app

@@ -1,27 +1,15 @@
 // The commands that write files of text: format lays graphs out, new begins a graph or a pass, import makes a graph of another program's
 // pipeline.
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <initializer_list>
-#include <memory>
-#include <utility>
-
 #include "app/commands/commands.h"
-#include "app/output/output_files.h"
-#include "app/output/standard_streams.h"
-#include "app/session/session.h"
 #include "engine/assets/images/image.h"
 #include "engine/graph/edit/spelling.h"
 #include "engine/graph/language/names.h"
 #include "engine/graph/read/read.h"
-#include "engine/text/files/file.h"
 #include "engine/text/json/dom.h"
 #include "engine/text/json/edit.h"
 #include "engine/text/json/layout.h"
-#include "engine/text/printable.h"
 #include "importers/import.h"
 
 namespace weft::app {

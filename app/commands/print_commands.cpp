@@ -1,30 +1,21 @@
 // The commands that print what the compiled plan knows, plan, explain and params; and what a graph may name: presets, types,
 // schema.
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cctype>
-#include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
-#include <vector>
 
 #include "app/commands/commands.h"
-#include "app/output/standard_streams.h"
-#include "app/session/session.h"
 #include "engine/graph/language/keys.h"
 #include "engine/graph/print/explain.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/read/read.h"
 #include "engine/runtime/frame/renderer.h"
-#include "engine/text/files/file.h"
 #include "engine/text/json/dom.h"
 #include "engine/text/json/layout.h"
 #include "engine/text/nearest.h"
-#include "engine/text/printable.h"
 
 namespace weft::app {
 

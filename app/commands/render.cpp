@@ -1,19 +1,9 @@
 // weft render: frames of a graph to image files, reproducible to the byte. weft dump: what each pass wrote in one of them.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <optional>
-#include <utility>
-#include <vector>
 
 #include "app/commands/commands.h"
-#include "app/output/output_files.h"
 #include "app/output/picture_writer.h"
-#include "app/output/standard_streams.h"
-#include "app/session/session.h"
 #include "engine/graph/language/suffix.h"
 #include "engine/runtime/inspection/capture.h"
-#include "engine/text/printable.h"
 
 namespace weft::app {
 

@@ -1,4 +1,4 @@
-// The page of `weft report`: draws itself from the JSON in it (app/trials/frame_page.cpp says what that holds), with nothing from elsewhere.
+// The page of `weft report`: draws itself from the JSON in it (app/commands/report_command.cpp says what that holds), with nothing from elsewhere.
 // Of one or two states, a graph and what it is compared with, one is shown at a time. `weft test` and `weft ablate` have pages of their own.
 "use strict";
 const report = JSON.parse(document.getElementById("report").textContent);

@@ -176,7 +176,7 @@ void InspectorPanel::chooseView(const FlatResource& resource, Look& look) {
   runtime::InspectView& view = look.view;
   const float em = ImGui::GetFontSize();
   const bool depth = graph::isDepth(resource.format);
-  const int channels = channels_ = depth ? 1 : graph::infoOf(resource.format).channels;
+  const int channels = depth ? 1 : graph::infoOf(resource.format).channels;
   if (channels > 1) {
     static constexpr const char* kChannels[] = {"RGB", "R", "G", "B", "A"};
     int channel = std::min(static_cast<int>(view.channel), channels);

@@ -82,7 +82,6 @@ class InspectorPanel {
   std::uint64_t copiesBefore_ = 0;  // when what is watched changed
   bool found_ = false, wantsFrame_ = false;
   std::optional<runtime::InspectStatistics> statistics_;
-  int channels_ = 4;
   int numbers_ = 0;  // buffers: 0 float, 1 hexadecimal, 2 unsigned, 3 signed
 };
 
@@ -187,7 +186,6 @@ class Panels {
   Question question_ = Question::none;
   std::optional<graph::WriteBack> writes_;
   char preset_[64] = {};
-  std::string answer_;      // what a question led to
   ImGuiTextFilter filter_;  // of the parameters
   ImGuiTextFilter passFilter_;
   std::uint32_t selected_ = graph::kNone;  // a row

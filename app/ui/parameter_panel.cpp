@@ -19,22 +19,24 @@ using graph::ParameterDesc;
 using graph::Value;
 using Type = ParameterDesc::Type;
 
-// Dear ImGui asserts on wider ranges, and its whole numbers end at 2^30: those are edited as doubles as well.
-constexpr double kWidest = std::numeric_limits<double>::max() / 2;
-
-std::optional<Value> editNumber(const char* label, const ParameterDesc& desc, const Value& now) {
-  const bool whole = desc.type == Type::integer;
+// A number or a list of them. Dear ImGui asserts on wider ranges, and its whole numbers end at 2^30: those are edited as doubles, too.
+std::optional<Value> editNumbers(const char* label, const ParameterDesc& desc, const Value& now) {
+  constexpr double kWidest = std::numeric_limits<double>::max() / 2;
+  const bool whole = desc.type == Type::integer, list = desc.type != Type::number && !whole;
   const double low = std::max(desc.min.value_or(-1e9), -kWidest),
                high = std::min(desc.max.value_or(1e9), kWidest);
-  const char* format = whole ? "%.0f" : "%.4g";
-  double x = now.v[0];
-  const bool edited = desc.min && desc.max
-                          ? ImGui::SliderScalar(label, ImGuiDataType_Double, &x, &low, &high, format,
-                                                ImGuiSliderFlags_AlwaysClamp)
-                          : ImGui::DragScalar(label, ImGuiDataType_Double, &x,
-                                              static_cast<float>(desc.step.value_or(whole ? 0.1 : 0.01)),
-                                              &low, &high, format, ImGuiSliderFlags_AlwaysClamp);
-  return edited ? std::optional(Value::number(whole ? std::round(x) : x)) : std::nullopt;
+  const char* format = whole ? "%.0f" : list ? "%.3g" : "%.4g";
+  const int count = list ? static_cast<int>(now.count) : 1;
+  const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp;
+  const auto step = static_cast<float>(desc.step.value_or(whole ? 0.1 : 0.01));
+  Value value = list ? now : Value::number(now.v[0]);
+  double* const x = value.v.data();
+  if (!(desc.min && desc.max && !list
+            ? ImGui::SliderScalar(label, ImGuiDataType_Double, x, &low, &high, format, flags)
+            : ImGui::DragScalarN(label, ImGuiDataType_Double, x, count, step, &low, &high, format, flags)))
+    return std::nullopt;
+  if (whole) *x = std::round(*x);
+  return value;
 }
 
 // A list of three or four that its name calls a color, from 0 to 1.
@@ -65,16 +67,6 @@ std::optional<Value> editFile(const char* label, const Value& now) {
   return Value::text(text);
 }
 
-std::optional<Value> editVector(const char* label, const ParameterDesc& desc, const Value& now) {
-  if (isColor(desc)) return editColor(label, now);
-  Value value = now;
-  const double low = desc.min.value_or(-1e9), high = desc.max.value_or(1e9);
-  const bool edited = ImGui::DragScalarN(label, ImGuiDataType_Double, value.v.data(), value.count,
-                                         static_cast<float>(desc.step.value_or(0.01)), &low, &high, "%.3g",
-                                         ImGuiSliderFlags_AlwaysClamp);
-  return edited ? std::optional(value) : std::nullopt;
-}
-
 std::optional<Value> editChoice(const char* label, const ParameterDesc& desc, const Value& now) {
   std::optional<Value> chosen;
   if (!ImGui::BeginCombo(label, now.symbol.c_str())) return chosen;
@@ -94,11 +86,10 @@ std::optional<Value> edit(const char* label, const ParameterDesc& desc, const Va
     }
     case Type::integer:
     case Type::number:
-      return editNumber(label, desc, now);
     case Type::vec2:
     case Type::vec3:
     case Type::vec4:
-      return editVector(label, desc, now);
+      return isColor(desc) ? editColor(label, now) : editNumbers(label, desc, now);
     case Type::choice:
       return editChoice(label, desc, now);
     case Type::file:

@@ -87,7 +87,6 @@ void Panels::drawWrites(text::Diagnostics& diagnostics) {
   ImGui::BeginDisabled(preset_[0] == 0);
   if (ImGui::Button("Save as preset")) {
     if (const auto file = live_.savePreset(preset_, diagnostics)) {
-      answer_ = "wrote " + *file + ", which --preset " + preset_ + " lays over a graph";
       print(text::printable("wrote " + *file) + "\n");
       flushPrinted();
     }

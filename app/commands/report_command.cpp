@@ -1,21 +1,17 @@
-#include "app/trials/frame_page.h"
-
-#include <fmt/format.h>
+// weft report: one HTML page of a frame, or of what differs between two: app/report/page.html with the data that its script draws.
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <sstream>
 
-#include "app/output/output_files.h"
+#include "app/commands/commands.h"
 #include "app/output/page.h"
 #include "app/trials/shot.h"
 #include "engine/assets/images/half.h"
 #include "engine/glsl/source.h"
 #include "engine/graph/print/print.h"
 #include "engine/runtime/inspection/capture.h"
-#include "engine/text/files/file.h"
 #include "engine/text/json/report.h"
 
 namespace weft::app {
@@ -235,6 +231,24 @@ std::optional<Drawn> stateOf(gl::Context& context, const Options& options, std::
   return state;
 }
 
+struct ReportOptions : OtherOptions {
+  std::string output;
+  std::uint32_t repeats = 0;  // frames to measure; 0: no times
+};
+
+int runReport(ReportOptions& options) {
+  const Options sides[] = {options, options.otherSide()};
+  const auto draw = [&](auto& session, runtime::World& world, text::Diagnostics& diagnostics) {
+    const std::span<const Options> drawn(sides, options.hasOther() ? 2 : 1);
+    const bool good = writeFramePage(*session->context, options.typed, drawn, options.repeats, options.output,
+                                     world, diagnostics);
+    if (good) print(text::printable(options.output) + "\n");
+    return good ? 0 : 1;
+  };
+  return options.hasOther() ? runOnDevice({&sides[0], &sides[1]}, 1, draw)
+                            : runOnDevice({&sides[0]}, 1, draw);
+}
+
 }  // namespace
 
 bool writeFramePage(gl::Context& context, const std::string& command, std::span<const Options> sides,
@@ -259,6 +273,23 @@ bool writeFramePage(gl::Context& context, const std::string& command, std::span<
   const auto page = pageOf(report, sides[0].graph, diagnostics);
   return page && checkDistinct({&output, 1}, diagnostics) && makeFolderOf(path, diagnostics) &&
          text::writeFile(path, *page, diagnostics);
+}
+
+void addReport(CommandLine& line) {
+  const auto [command, options] = line.add("report",
+                                           "write one HTML page of a frame: the matrix of steps and "
+                                           "resources, what each pass wrote and why it runs",
+                                           runReport);
+  options.addGraph(command);
+  options.addOther(command);
+  addPath(command, "-o,--output", options.output, "the page to write, .html")->required();
+  options.addFrame(command);
+  options.addFps(command);
+  options.addPointer(command);
+  options.addBackend(command);
+  command.add_option("--times", options.repeats, "also show times: medians over so many frames")
+      ->check(CLI::Range(1, 1000));
+  command.footer("Example: weft report graphs/studio.json --size 320x180 -o out/report.html");
 }
 
 }  // namespace weft::app
