@@ -4,7 +4,6 @@
 #include <poll.h>
 
 #include <cctype>
-#include <set>
 
 #include "app/commands/commands.h"
 #include "engine/glsl/interface.h"
@@ -13,7 +12,6 @@
 #include "engine/graph/read/read.h"
 #include "engine/graph/survey/matrix.h"
 #include "engine/passes/pass_type.h"
-#include "engine/runtime/frame/renderer.h"
 #include "engine/runtime/prepare/program_request.h"
 #include "engine/text/files/file_watcher.h"
 #include "engine/text/json/layout.h"
@@ -289,17 +287,7 @@ class ShaderCheck {
         runtime::warnOfConditions(plan.graph->specs[pass], variant->stages, variant->defines, said);
       return;
     }
-    std::vector<gl::StageSource> stages;
-    for (const gl::ProgramRequest::Stage& stage : request.stages) {
-      if (!stage.text.empty()) continue;
-      if (missing_.contains(stage.file)) return;
-      stages.push_back({stage.stage, sources_.load(stage.file, unread, request.place)});
-      if (stages.back().source) continue;
-      missing_.insert(stage.file);
-      return;
-    }
-    runtime::checkProgram(plan, pass, stages, request.defines, nullptr, said);
-    runtime::warnOfConditions(plan.graph->specs[pass], stages, request.defines, said);
+    checkDeclared(plan, pass, request, sources_, missing_, unread, said);
   }
 
   const CheckOptions& options_;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <span>
 
 #include "app/output/output_files.h"
 #include "app/output/standard_streams.h"

@@ -4,7 +4,6 @@
 
 #include <cctype>
 #include <fstream>
-#include <set>
 #include <sstream>
 
 #include "app/commands/commands.h"
@@ -12,7 +11,6 @@
 #include "engine/graph/print/explain.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/read/read.h"
-#include "engine/runtime/frame/renderer.h"
 #include "engine/text/json/dom.h"
 #include "engine/text/json/layout.h"
 #include "engine/text/nearest.h"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <utility>
 
 #include "app/live/live_graph.h"
 #include "app/session/session.h"

@@ -4,12 +4,9 @@
 #include <cassert>
 #include <filesystem>
 #include <ranges>
-#include <utility>
 
 #include "app/session/session.h"
 #include "engine/graph/language/suffix.h"
-#include "engine/imports/environment/environment.h"
-#include "engine/scene/files/scene_file.h"
 #include "engine/text/files/file.h"
 
 namespace weft::app {
@@ -43,14 +40,13 @@ LiveGraph::LiveGraph(const Options& options, runtime::Renderer& renderer, runtim
 }
 
 void LiveGraph::expectScene() {
-  expectsScene_ = true;
   scene_.outdate();
   // The first load() does not take the scene, however small the file: its arrival is reported as an event.
   scene_.request();
 }
 
 bool LiveGraph::load(text::Diagnostics& diagnostics) {
-  graphStale_ = expectsScene_ && !scene_.ready();
+  graphStale_ = scene_.loading();
   untried_ = untried_ || graphStale_;
   good_ = tryLoad(Attempt::final, diagnostics);
   return good_;
@@ -63,10 +59,7 @@ bool LiveGraph::tryLoad(Attempt attempt, text::Diagnostics& diagnostics) {
   if (good || attempt == Attempt::final) diagnostics.append(said);
   if (good) {
     world_ = std::move(world);
-    if (!expectsScene_ || scene_.ready()) {
-      scene_.settle();
-      expectsScene_ = false;
-    }
+    if (!scene_.loading()) scene_.settle();
     ++switches_;
   }
   watch(&diagnostics);
@@ -105,7 +98,7 @@ bool LiveGraph::tryGraph(Attempt attempt, const runtime::World& world, text::Dia
 }
 
 bool LiveGraph::tryScene(runtime::World& world, text::Diagnostics& diagnostics) {
-  if (!scene_.outdated() || (expectsScene_ && !scene_.ready())) return true;
+  if (!scene_.outdated() || scene_.loading()) return true;  // when it is there
   if (!scene_.ready()) scene_.readNow();
   const scene::Scene* scene = scene_.scene(diagnostics);
   if (!scene) return false;

@@ -3,15 +3,9 @@
 // are taken back when a person made them here.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "app/live/live_loads.h"
 #include "app/session/options.h"
 #include "engine/graph/edit/write_back.h"
-#include "engine/graph/expand/expand.h"
 #include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/renderer.h"
 #include "engine/text/files/file_watcher.h"
@@ -126,7 +120,6 @@ class LiveGraph {
   LiveEnvironment environment_;
   std::string presetFolder_;
   text::FileWatcher watcher_;
-  bool expectsScene_ = false;  // the world's stands in for it
   bool graphStale_ = false, good_ = false, environmentGood_ = true;
   bool untried_ = false;              // as the files are since the last change
   std::string changedEnvironment_;    // to be loaded again, or empty

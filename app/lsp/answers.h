@@ -2,10 +2,6 @@
 // text. Null where nothing is known.
 #pragma once
 
-#include <set>
-#include <string>
-#include <vector>
-
 #include "app/lsp/workspace.h"
 
 namespace weft::app::lsp {
@@ -24,7 +20,7 @@ std::vector<KeyDoc> keysAt(const graph::Registry& registry, const Spot& spot);
 struct Named {
   const Graph* graph = nullptr;
   const graph::NameUse* use = nullptr;
-  std::optional<Program> program;  // without its files; `key` is the name of one of its keys
+  std::optional<Program> program;  // `key` is the name of one of its keys
   std::string key;
   Range here;
 };

@@ -2,7 +2,6 @@
 // answers.h.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 
 #include "app/lsp/answers.h"
@@ -211,8 +210,8 @@ class Completer {
                                     workspace_.shaderFolders(text_));
     }
     for (const Graph* graph : workspace_.graphsOf(text_.path()))
-      for (const Program& program : workspace_.passesOf(*graph))
-        if (program.name == textOf(stanza, "name")) return workspace_.filesOf(program);
+      for (const Program& program : workspace_.programsOf(*graph))
+        if (program.name == textOf(stanza, "name")) return program.files;
     return {};
   }
 

@@ -1,8 +1,6 @@
 // What is shown of the thing under the cursor, and the outline of a file. Declared in answers.h.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "app/lsp/answers.h"
 #include "engine/graph/print/explain.h"
 #include "engine/graph/print/print.h"
@@ -38,7 +36,7 @@ std::string ofKey(const Program& program, const std::string& name) {
 std::string ofNamed(const Workspace& workspace, const Named& named) {
   if (named.program) {
     std::string text;
-    for (const std::string& path : workspace.filesOf(*named.program))
+    for (const std::string& path : named.program->files)
       if (const auto shader = text.empty() ? workspace.texts().of(path) : nullptr)
         if (const glsl::Declaration* found = shader->glsl().find(named.key))
           text = fenced("glsl", shader->statementOf(*found));

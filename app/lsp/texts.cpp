@@ -30,12 +30,8 @@ bool isIn(const JsonValue& value, std::size_t offset) {
 
 }  // namespace
 
-std::string pathKey(const std::string& path) {
-  return text::absolutePath(path);
-}
-
 std::string pathBeside(const std::string& file, std::string_view path) {
-  return pathKey((fs::path(file).parent_path() / path).string());
+  return text::absolutePath((fs::path(file).parent_path() / path).string());
 }
 
 std::string pathOfUri(std::string_view uri) {

@@ -24,8 +24,7 @@ using text::JsonValue;
 
 // The path of a file: URI; "" for another URI.
 std::string pathOfUri(std::string_view uri);
-// An absolute path without "." and ".."; of a path that is written in a file.
-std::string pathKey(const std::string& path);
+// An absolute path without "." and "..", of one that is written in a file.
 std::string pathBeside(const std::string& file, std::string_view path);
 
 // ---- a place in the tree of a JSON text, also of one that is being typed ----

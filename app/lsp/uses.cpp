@@ -1,8 +1,6 @@
 // Definitions, uses and renaming. Declared in answers.h.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "app/lsp/answers.h"
 #include "engine/graph/language/names.h"
 #include "engine/text/json/report.h"
@@ -15,7 +13,7 @@ using Kind = graph::NameUse::Kind;
 
 bool isAt(const text::Place& place, const text::Place& begin, const std::string& name) {
   return begin.file && place.line == begin.line && place.column >= begin.column &&
-         place.column <= begin.column + name.size() && *place.file == pathKey(*begin.file);
+         place.column <= begin.column + name.size() && *place.file == text::absolutePath(*begin.file);
 }
 
 // The keys of a pass by which it knows `name` of its shader.
@@ -71,7 +69,7 @@ void usesInShaders(const Workspace& workspace, Uses& uses, std::set<std::string>
 // Of a name that a pass shares with its shader; $pass.name is a use of it, too.
 void usesOfKey(const Workspace& workspace, Uses& uses, Program program) {
   uses.found = uses.ofShader = true;
-  if (const auto declared = workspace.findInShaders(workspace.filesOf(program), uses.name))
+  if (const auto declared = workspace.findInShaders(program.files, uses.name))
     usesInShaders(workspace, uses, {declared->path});
   else
     uses.programs = {std::move(program)};
@@ -146,7 +144,7 @@ Named namedAt(const Workspace& workspace, const Text& text, std::size_t offset) 
   };
   for (const Graph* graph : workspace.graphs()) {
     if (!graph->texts.contains(text.path())) continue;
-    for (Program& program : workspace.passesOf(*graph))
+    for (Program& program : workspace.programsOf(*graph))
       for (const ShaderKey& key : program.keys)
         if (take(*graph, key.place, key.name)) {
           named.key = key.name;
@@ -173,7 +171,7 @@ std::optional<Location> fileAt(const Workspace& workspace, const Text& text, std
   if ((spot.stanza() || way[0] == "sets") && way.size() > 2 && way[2] == "shader")
     for (const std::string& shader : {named, named + ".frag.glsl"})
       if (const auto path = workspace.sources(workspace.shaderFolders(text)).locate(shader))
-        return Location{pathKey(*path), {}};
+        return Location{text::absolutePath(*path), {}};
   return std::nullopt;
 }
 
@@ -184,7 +182,7 @@ std::set<Location> definitionsAt(const Workspace& workspace, const Text& text, s
   };
   if (text.isJson()) {
     const Named named = namedAt(workspace, text, offset);
-    if (named.program) add(workspace.findInShaders(workspace.filesOf(*named.program), named.key));
+    if (named.program) add(workspace.findInShaders(named.program->files, named.key));
     if (named.use) add(workspace.locate(named.use->declared, ""), named.use->name.size());
     if (!named.graph) add(fileAt(workspace, text, offset));
     return found;

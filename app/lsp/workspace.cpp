@@ -1,11 +1,9 @@
 #include "app/lsp/workspace.h"
 
 #include <filesystem>
-#include <functional>
 
 #include "app/session/session.h"
 #include "engine/graph/compile/compile.h"
-#include "engine/graph/expand/expand.h"
 #include "engine/graph/read/read.h"
 #include "engine/runtime/frame/renderer.h"
 #include "engine/runtime/prepare/program_request.h"
@@ -65,7 +63,7 @@ std::set<std::string> jsonFilesBelow(const std::string& folder) {
         (name.starts_with('.') || name == "build" || name == "out" || name == "node_modules"))
       entry.disable_recursion_pending();
     else if (name.ends_with(".json") && entry->is_regular_file(ec))
-      found.insert(pathKey(entry->path().string()));
+      found.insert(text::absolutePath(entry->path().string()));
   }
   return found;
 }
@@ -112,7 +110,7 @@ void Workspace::read(const std::string& path, Graph& graph) {
   if (graph.read || !graph.desc) graph.texts.clear();
   graph.texts[path];
   if (graph.read)
-    for (const std::string& file : graph.read->files) graph.texts[pathKey(file)];
+    for (const std::string& file : graph.read->files) graph.texts[text::absolutePath(file)];
   for (auto& [file, text] : graph.texts) text = texts_.of(file);
   if (graph.read && (!graph.desc || !graph.readSaid.contains(text::Code::notJson))) graph.desc = graph.read;
 }
@@ -132,7 +130,7 @@ void Workspace::readAll() {
     graph.named = graph.desc;
     graph.shaderFolders = runtime::shaderRootsOf(graph.desc->files, dataFolder());
     eachPass(*graph.desc, "", [&](const graph::PassDesc& pass, const std::string&) {
-      if (pass.include && pass.include->graph) included.insert(pathKey(pass.include->graph->path));
+      if (pass.include && pass.include->graph) included.insert(text::absolutePath(pass.include->graph->path));
     });
   }
   roots_.clear();
@@ -150,7 +148,7 @@ std::vector<const Graph*> Workspace::graphsOf(const std::string& path) const {
 }
 
 std::optional<Location> Workspace::locate(const text::Place& place, std::string_view name) const {
-  const std::string path = place.file && place.line > 0 ? pathKey(*place.file) : "";
+  const std::string path = place.file && place.line > 0 ? text::absolutePath(*place.file) : "";
   const auto text = path.empty() ? nullptr : texts_.of(path);
   if (!text) return std::nullopt;
   const std::size_t at = text::offsetOf(text->bytes(), place);
@@ -198,21 +196,13 @@ void Workspace::checkShaders(Graph& graph, const graph::Plan& plan) {
   const graph::FlatGraph& flat = *plan.graph;
   glsl::SourceLoader& loader = sources(graph.shaderFolders);
   loader.forgetTouched();
-  std::set<std::string> failed;
+  std::set<std::string> missing;
   for (const graph::Step& step : plan.steps) {
-    const graph::PassSpec& spec = flat.specs[step.pass];
-    const auto type = std::ranges::find(registry_.passTypes, spec.type, &graph::PassType::name);
+    const auto type =
+        std::ranges::find(registry_.passTypes, flat.specs[step.pass].type, &graph::PassType::name);
     if (type == registry_.passTypes.end() || type->shader == graph::ShaderShape::none) continue;
-    const gl::ProgramRequest request = runtime::programRequestOf(flat, plan, step.pass, *type);
-    std::vector<gl::StageSource> stages;
-    for (const gl::ProgramRequest::Stage& stage : request.stages) {
-      if (!stage.text.empty() || failed.contains(stage.file)) continue;
-      stages.push_back({stage.stage, loader.load(stage.file, graph.said, spec.shaderPlace)});
-      if (!stages.back().source) failed.insert(stage.file);
-    }
-    const bool whole = std::ranges::none_of(
-        request.stages, [&](const gl::ProgramRequest::Stage& stage) { return failed.contains(stage.file); });
-    if (whole) runtime::checkProgram(plan, step.pass, stages, request.defines, nullptr, graph.said);
+    checkDeclared(plan, step.pass, runtime::programRequestOf(flat, plan, step.pass, *type), loader, missing,
+                  graph.said, graph.said);
   }
 }
 
@@ -220,7 +210,7 @@ std::map<std::string, text::Diagnostics> Workspace::diagnostics() const {
   std::map<std::string, text::Diagnostics> found;
   for (const auto& [root, graph] : graphs_)
     for (const text::Diagnostic& each : graph.said.items())
-      found[each.place.file && each.place.line > 0 ? pathKey(*each.place.file) : root].add(each);
+      found[each.place.file && each.place.line > 0 ? text::absolutePath(*each.place.file) : root].add(each);
   for (auto& [path, said] : found) said.sortByPlace();
   return found;
 }
@@ -246,29 +236,23 @@ std::vector<std::string> Workspace::shaderFiles(const std::string& shader, const
   std::vector<std::string> files;
   for (const std::string& stage : stages)
     if (const auto source = shader.empty() || stage.empty() ? nullptr : sources(folders).load(stage, ignored))
-      for (const auto& file : source->files) files.push_back(pathKey(*file));
+      for (const auto& file : source->files) files.push_back(text::absolutePath(*file));
   return files;
 }
 
-std::vector<Program> Workspace::passesOf(const Graph& graph) const {
-  std::vector<Program> passes;
+std::vector<Program> Workspace::programsOf(const Graph& graph) const {
+  std::vector<Program> found;
   eachPass(*graph.desc, "", [&](const graph::PassDesc& pass, const std::string& prefix) {
-    if (!pass.include) passes.push_back({&graph, &pass, prefix + pass.name, keysOf(pass)});
+    if (!pass.include)
+      found.push_back({&graph, &pass, prefix + pass.name, keysOf(pass),
+                       shaderFiles(pass.shader, pass.vertexShader, graph.shaderFolders)});
   });
-  return passes;
-}
-
-std::vector<std::string> Workspace::filesOf(const Program& program) const {
-  return shaderFiles(program.pass->shader, program.pass->vertexShader, program.graph->shaderFolders);
+  return found;
 }
 
 std::vector<Program> Workspace::programs() const {
   std::vector<Program> found;
-  for (const Graph* graph : roots_)
-    for (Program& program : passesOf(*graph)) {
-      program.files = filesOf(program);
-      found.push_back(std::move(program));
-    }
+  for (const Graph* graph : roots_) std::ranges::move(programsOf(*graph), std::back_inserter(found));
   return found;
 }
 

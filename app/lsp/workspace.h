@@ -4,13 +4,8 @@
 #pragma once
 
 #include <algorithm>
-#include <map>
-#include <memory>
-#include <optional>
 #include <set>
-#include <string>
 #include <tuple>
-#include <vector>
 
 #include "app/lsp/texts.h"
 #include "app/session/options.h"
@@ -62,7 +57,7 @@ struct Program {
   const graph::PassDesc* pass = nullptr;
   std::string name;  // of the pass in the plan
   std::vector<ShaderKey> keys;
-  std::vector<std::string> files{};
+  std::vector<std::string> files;
   bool has(const std::string& file) const { return std::ranges::find(files, file) != files.end(); }
 };
 
@@ -93,10 +88,9 @@ class Workspace {
   // A place of a graph, unless the text has another name there now.
   std::optional<Location> locate(const text::Place& place, std::string_view name) const;
 
-  // The programs of all graphs; the passes of one graph, without their files.
+  // The programs of all graphs, and of one.
   std::vector<Program> programs() const;
-  std::vector<Program> passesOf(const Graph& graph) const;
-  std::vector<std::string> filesOf(const Program& program) const;
+  std::vector<Program> programsOf(const Graph& graph) const;
   // Folders in which the shaders of a file are looked for.
   std::vector<std::string> shaderFolders(const Text& text) const;
   glsl::SourceLoader& sources(const std::vector<std::string>& folders) const;

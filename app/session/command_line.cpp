@@ -22,17 +22,6 @@ std::string shown(const std::string& text) {
   return text::shortened(text::printable(text));
 }
 
-// As a shell takes it.
-std::string quoted(const std::string& word) {
-  const bool plain = !word.empty() && std::ranges::all_of(word, [](unsigned char c) {
-    return std::isalnum(c) ||
-           std::string_view("_-./=,:+@%").find(static_cast<char>(c)) != std::string_view::npos;
-  });
-  std::string out;
-  for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
-  return plain ? word : "'" + out + "'";
-}
-
 // Names of commands before 0.2, and what they are now.
 const std::map<std::string, std::vector<std::string>> kOldNames{{"dot", {"plan", "--format=dot"}},
                                                                 {"expand", {"plan", "--format=expanded"}},

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 
 #include "app/session/session.h"
@@ -116,6 +117,16 @@ void Options::addBackend(CLI::App& command) {
 void Options::finish() {
   for (std::string& preset : presets) text::chooseFile(preset = presetFile(preset, presetFolder));
   for (const graph::Setting& set : sets) text::chooseFile(set.text);  // where the parameter is a file
+}
+
+std::string quoted(const std::string& word) {
+  const bool plain = !word.empty() && std::ranges::all_of(word, [](unsigned char c) {
+    return std::isalnum(c) ||
+           std::string_view("_-./=,:+@%").find(static_cast<char>(c)) != std::string_view::npos;
+  });
+  std::string out;
+  for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
+  return plain ? word : "'" + out + "'";
 }
 
 CLI::Option* addPath(CLI::App& command, const std::string& name, std::string& path, const std::string& doc,

@@ -70,6 +70,9 @@ struct OtherOptions : Options {
   Options otherSide() const;
 };
 
+// As a shell takes a word.
+std::string quoted(const std::string& word);
+
 // A file or a folder on the command line; `type` is FILE or FOLDER.
 CLI::Option* addPath(CLI::App& command, const std::string& name, std::string& path, const std::string& doc,
                      const char* type = "FILE");

@@ -10,9 +10,7 @@
 #include "engine/gl/objects/objects.h"
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/read/read.h"
-#include "engine/runtime/frame/renderer.h"
-#include "engine/scene/files/scene_file.h"
-#include "engine/text/files/file.h"
+#include "engine/runtime/prepare/program_request.h"
 #include "engine/text/json/report.h"
 
 namespace weft::app {
@@ -122,6 +120,22 @@ bool isWrong(const Options& options, const runtime::WorldFacts& facts, text::Dia
   if (makePlan(options, facts, true, said) || makePlan(options, facts, false, onHardware)) return false;
   diagnostics.append(said);
   return true;
+}
+
+void checkDeclared(const graph::Plan& plan, std::uint32_t pass, const gl::ProgramRequest& request,
+                   glsl::SourceLoader& sources, std::set<std::string>& missing, text::Diagnostics& unread,
+                   text::Diagnostics& said) {
+  std::vector<gl::StageSource> stages;
+  for (const gl::ProgramRequest::Stage& stage : request.stages) {
+    if (!stage.text.empty()) continue;
+    if (!missing.contains(stage.file))
+      stages.push_back({stage.stage, sources.load(stage.file, unread, request.place)});
+    if (missing.contains(stage.file) || !stages.back().source) missing.insert(stage.file);
+  }
+  const auto isMissing = [&](const auto& stage) { return missing.contains(stage.file); };
+  if (std::ranges::any_of(request.stages, isMissing)) return;
+  runtime::checkProgram(plan, pass, stages, request.defines, nullptr, said);
+  runtime::warnOfConditions(plan.graph->specs[pass], stages, request.defines, said);
 }
 
 int report(text::Diagnostics& diagnostics, bool notes) {

@@ -2,18 +2,14 @@
 // that draw a GL context and a renderer on it.
 #pragma once
 
-#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <string>
-#include <vector>
+#include <set>
 
 #include "app/session/options.h"
 #include "engine/gl/context/context.h"
 #include "engine/graph/desc.h"
-#include "engine/graph/expand/expand.h"
 #include "engine/graph/plan.h"
 #include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/renderer.h"
@@ -58,6 +54,12 @@ std::shared_ptr<const graph::Plan> planOf(const Options& options, text::Diagnost
 // Whether the graph is wrong on every device; what is wrong is in `diagnostics` then. Commands that draw ask before they open OpenGL,
 // which takes longer than all of this.
 bool isWrong(const Options& options, const runtime::WorldFacts& facts, text::Diagnostics& diagnostics);
+
+// Checks the shaders of a pass against it by what they declare, without OpenGL. Why a file cannot be read is said once, in `unread`;
+// `missing` has it from then on.
+void checkDeclared(const graph::Plan& plan, std::uint32_t pass, const gl::ProgramRequest& request,
+                   glsl::SourceLoader& sources, std::set<std::string>& missing, text::Diagnostics& unread,
+                   text::Diagnostics& said);
 
 // Prints the diagnostics to standard error, with or without notes. Of very many it prints only some
 // (engine/text/json/report.h). Returns 1 when there is an error among them, else 0.

@@ -2,10 +2,7 @@
 // described in docs/testing_pictures.md.
 #pragma once
 
-#include <cstdint>
 #include <map>
-#include <string>
-#include <vector>
 
 #include "app/session/options.h"
 #include "engine/text/diagnostic.h"

@@ -2,10 +2,6 @@
 // differ. On one driver every byte is compared, on another one only what rounding leaves alone.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "app/trials/shot.h"
 
 namespace weft::app {

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "app/output/picture_writer.h"
-#include "app/session/session.h"
 #include "engine/runtime/inspection/frame_profiler.h"
 #include "engine/text/printable.h"
 

@@ -2,13 +2,8 @@
 // made by a renderer of its own, so that nothing of the shot before is in it.
 #pragma once
 
-#include <cstdint>
 #include <map>
-#include <optional>
-#include <string>
-#include <vector>
 
-#include "app/session/options.h"
 #include "app/session/session.h"
 #include "engine/assets/images/flip.h"
 #include "engine/assets/images/image.h"

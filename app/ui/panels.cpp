@@ -156,39 +156,25 @@ void Panels::draw(const runtime::FrameReport& report, const LoopState& state,
 
 void Panels::drawTabs(std::size_t place, std::size_t first, std::size_t end,
                       const runtime::FrameReport& report, text::Diagnostics& diagnostics) {
+  const std::array<std::function<void()>, kTabCount> draws = {[&] { drawParameters(report, diagnostics); },
+                                                              [&] { drawPasses(diagnostics); },
+                                                              [&] { inspector_.draw(diagnostics); },
+                                                              [&] { drawProfiler(); },
+                                                              [&] { drawStorage(); },
+                                                              [&] { drawHistogram(); },
+                                                              [&] { drawMessages(true); }};
   if (!ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyScroll)) return;
   for (std::size_t i = first; i < end; ++i) {
     const ImGuiTabItemFlags flags = wanted_ == static_cast<Tab>(i) ? ImGuiTabItemFlags_SetSelected : 0;
     if (!ImGui::BeginTabItem(kTitles[i], nullptr, flags)) continue;
     shown_[place] = static_cast<Tab>(i);
     ImGui::BeginChild(kTitles[i]);
-    drawTab(static_cast<Tab>(i), report, diagnostics);
+    if (explained_ == live_.switches())
+      draws[i]();  // else a parameter has just replaced the plan: in the next frame
     ImGui::EndChild();
     ImGui::EndTabItem();
   }
   ImGui::EndTabBar();
-}
-
-void Panels::drawTab(Tab tab, const runtime::FrameReport& report, text::Diagnostics& diagnostics) {
-  if (explained_ != live_.switches()) return;  // a parameter has just replaced the plan: in the next frame
-  switch (tab) {
-    case kParameters:
-      return drawParameters(report, diagnostics);
-    case kPasses:
-      return drawPasses(diagnostics);
-    case kSelected:
-      return inspector_.draw(diagnostics);
-    case kTimes:
-      return drawProfiler();
-    case kStorage:
-      return drawStorage();
-    case kHistogram:
-      return drawHistogram();
-    case kMessages:
-      return drawMessages(true);
-    case kTabCount:
-      return;
-  }
 }
 
 bool Panels::measureBox() {
@@ -264,15 +250,11 @@ void Panels::drawMessages(bool all) {
 void Panels::drawAlarm() {
   const std::vector<const text::Diagnostic*> shown = log_.shown(false);
   if (shown.empty()) return;
-  const ImGuiStyle& style = ImGui::GetStyle();
   const float width = width_ - column_ - em_;
-  // The first error is to be read whole, message and fix.
-  float height = 4 * em_;
-  if (shown.front()->severity == text::Severity::error) {
-    const float wrap = std::max(1.0f, width - 6 * em_ - 2 * style.WindowPadding.x - style.ScrollbarSize);
-    height += 3 * em_ + ImGui::CalcTextSize(text::format(*shown.front()).c_str(), nullptr, false, wrap).y;
-  }
-  height = std::min(height, (height_ - line_ - strip_) * 0.6f);
+  // The first is to be read whole, message and fix.
+  const float wrap = std::max(1.0f, width - 9 * em_);
+  const float text = ImGui::CalcTextSize(text::format(*shown.front()).c_str(), nullptr, false, wrap).y;
+  const float height = std::min(7 * em_ + text, (height_ - line_ - strip_) * 0.6f);
   ImGui::SetNextWindowPos({em_ / 2, height_ - line_ - strip_ - height - em_ / 2});
   ImGui::SetNextWindowSize({width, height});
   bool stays = true;

@@ -7,16 +7,9 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <array>
-#include <cstdint>
-#include <functional>
 #include <initializer_list>
 #include <map>
-#include <memory>
-#include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "app/live/live_graph.h"
 #include "app/ui/log.h"
@@ -150,7 +143,6 @@ class Panels {
   bool shows(Tab tab) const { return visible() && (shown_[0] == tab || (wide() && shown_[1] == tab)); }
   void drawTabs(std::size_t place, std::size_t first, std::size_t end, const runtime::FrameReport& report,
                 text::Diagnostics& diagnostics);
-  void drawTab(Tab tab, const runtime::FrameReport& report, text::Diagnostics& diagnostics);
   void drawPasses(text::Diagnostics& diagnostics);
   void drawPassRow(std::size_t row, text::Diagnostics& diagnostics);
   void drawParameters(const runtime::FrameReport& report, text::Diagnostics& diagnostics);

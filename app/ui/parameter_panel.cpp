@@ -1,12 +1,10 @@
 // One widget per parameter of the graph, made from what the graph says about it.
-#include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
-#include <string>
 #include <utility>
 
 #include "app/ui/panels.h"

@@ -1,9 +1,5 @@
 // The passes in the order of the files, effects with a box for all that they include. A row stays where it is, whether it runs or
 // not. Declared in panels.h.
-#include <fmt/format.h>
-#include <imgui.h>
-
-#include <string>
 
 #include "app/ui/panels.h"
 

@@ -1,11 +1,7 @@
 // What the viewer asks before it writes, and before it closes with changes that are in no file. Declared in panels.h.
-#include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <sstream>
-#include <string>
-#include <vector>
 
 #include "app/output/standard_streams.h"
 #include "app/ui/panels.h"

@@ -1,16 +1,10 @@
 // weft view: a graph in a window, with a camera to move; files that change on disk take effect at once. Declared in viewer.h.
-#include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <utility>
-#include <vector>
 
 #include "app/output/output_files.h"
 #include "app/output/standard_streams.h"
-#include "app/session/session.h"
 #include "app/view/viewer.h"
-#include "engine/scene/files/scene_file.h"
 
 namespace weft::app {
 

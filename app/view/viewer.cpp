@@ -4,21 +4,15 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
-#include <fmt/format.h>
-#include <imgui.h>
 
-#include <algorithm>
 #include <cassert>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <thread>
-#include <utility>
-#include <vector>
 
 #include "app/output/output_files.h"
 #include "app/output/standard_streams.h"
-#include "app/session/session.h"
 #include "app/view/key_bindings.h"
 #include "engine/text/hash.h"
 #include "engine/text/json/report.h"
@@ -107,6 +101,9 @@ Viewer::Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& li
 
 void Viewer::addActions() {
   gl::PassTimers& timers = renderer_.device().timers;
+  const auto step = [this](int by) {
+    if (!live_.stepEnvironment(by)) told_ = "there is no other environment in the folder";
+  };
   actions_ = {{"help", [this] { help_ = !help_; }},
               {"panels", [this] { panels_.toggle(); }},
               {"profile", [&timers] { timers.setEnabled(!timers.enabled()); }},
@@ -120,8 +117,8 @@ void Viewer::addActions() {
                  flushPrinted();
                  glfwSetClipboardString(window_, told_.c_str());
                }},
-              {"next_environment", [this] { stepEnvironment(1); }},
-              {"previous_environment", [this] { stepEnvironment(-1); }},
+              {"next_environment", [step] { step(1); }},
+              {"previous_environment", [step] { step(-1); }},
               {"undo", [this] { told_ = live_.undo(diagnostics_) ? "taken back" : "nothing to take back"; }},
               {"redo", [this] { told_ = live_.redo(diagnostics_) ? "made again" : "nothing to make again"; }},
               {"pause", [this] { clock_.pause(!clock_.paused()); }},
@@ -168,23 +165,13 @@ void Viewer::close() {
   glfwSetWindowShouldClose(window_, GLFW_TRUE);
 }
 
-void Viewer::stepEnvironment(int by) {
-  if (!live_.stepEnvironment(by)) told_ = "there is no other environment in the folder";
-}
-
 std::string Viewer::command() const {
-  const auto word = [](const std::string& text) {
-    const bool plain =
-        text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:=+") ==
-        std::string::npos;
-    return plain ? text : fmt::format("'{}'", text);
-  };
   const graph::Settings& settings = live_.settings();
   const scene::CameraPose pose = rig_.pose();
-  std::string text = fmt::format("weft render {} --size {}x{}", word(renderer_.graphPath()),
+  std::string text = fmt::format("weft render {} --size {}x{}", quoted(renderer_.graphPath()),
                                  settings.screenWidth, settings.screenHeight);
   const auto add = [&](const char* option, const std::string& value) {
-    if (!value.empty()) text += fmt::format(" --{} {}", option, word(value));
+    if (!value.empty()) text += fmt::format(" --{} {}", option, quoted(value));
   };
   add("scene", live_.scene().path() == dataFolder() + "/scenes/spheres.json" ? "" : live_.scene().path());
   add("materials", options_.materials);
@@ -418,7 +405,7 @@ void Viewer::frame() {
 void Viewer::show() {
   recorder_.add(renderer_, diagnostics_);
   if (!recorder_.active() && clock_.fixed()) clock_.fix(0);  // it could not write
-  present();
+  renderer_.present(area_.width, area_.height, area_.x, area_.y);
   if (frame_ == options_.maxFrames) saveLast();
   finishFrame();
   if (!std::exchange(shown_, true)) say("shown");
@@ -454,19 +441,15 @@ void Viewer::judgeRest() {
                         : 0);
 }
 
-void Viewer::present() {
-  renderer_.present(area_.width, area_.height, area_.x, area_.y);
-}
-
 void Viewer::redraw() {
   --restless_;
   ++redraws_;
-  present();
+  renderer_.present(area_.width, area_.height, area_.x, area_.y);
   finishFrame();
 }
 
 void Viewer::finishFrame() {
-  saveScreenshots();
+  saveScreenshot();
   tellFrame();
   drawUi();
   glfwSwapBuffers(window_);
@@ -499,7 +482,7 @@ void Viewer::drawUi(bool seen) {
   if (click) say(fmt::format("click {} {}", click->first, click->second));
 }
 
-void Viewer::saveScreenshots() {
+void Viewer::saveScreenshot() {
   if (screenshot_.empty()) return;
   const std::string name = screenshotName(frame_, screenshot_.c_str());
   screenshot_.clear();

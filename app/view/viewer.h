@@ -2,20 +2,10 @@
 // after frame. Each part is a file beside this one; what it can do on a key is an action.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <map>
-#include <memory>
-#include <string>
-#include <string_view>
-
-#include "app/live/live_graph.h"
 #include "app/output/picture_writer.h"
 #include "app/session/command_line.h"
 #include "app/session/session.h"
-#include "app/ui/overlay.h"
 #include "app/ui/panels.h"
-#include "app/view/camera_rig.h"
 #include "app/view/frame_clock.h"
 #include "app/view/window_input.h"
 
@@ -53,7 +43,6 @@ class Viewer {
   void addActions();
   void act(const std::string& action);
   void close();
-  void stepEnvironment(int by);
   // The command that renders what is seen.
   std::string command() const;
   // The camera of the scene that is followed; the default one when it is gone. Null without a scene.
@@ -80,11 +69,10 @@ class Viewer {
   void judgeRest();
   // The last picture again, for the panels over it.
   void redraw();
-  void present();
   // `seen`: on the screen, not only for the events that wait.
   void drawUi(bool seen = true);
   void finishFrame();
-  void saveScreenshots();
+  void saveScreenshot();
   void saveLast();  // --screenshot, once
   // With --events, a line on standard output for scripts: "event 12 click 376 40", with the number of the frame that is
   // drawn next. docs/viewer.md lists the words. It is said when the thing is done, so that a script waits for it instead of

@@ -2,12 +2,8 @@
 // of actions, held keys, what the mouse did over the picture (what it did over a panel is the panel's), and the captured mouse of flight.
 #pragma once
 
-#include <cstdint>
 #include <deque>
-#include <glm/glm.hpp>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "app/ui/overlay.h"
