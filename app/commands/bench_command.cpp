@@ -244,10 +244,8 @@ int runBench(BenchOptions& options) {
 
 void addBench(CommandLine& line) {
   const auto [command, options] = line.add("bench", "measure; prints JSON", runBench);
-  addPath(command, "--frame", options.frameGraph,
-          "a graph file: the cost of its frame in full-screen copies");
-  addPath(command, "--edit", options.editGraph,
-          "a graph file: what a changed parameter and a saved file cost before the next frame")
+  addPath(command, "--frame", options.frameGraph, "graph file: its frame in full-screen copies");
+  addPath(command, "--edit", options.editGraph, "graph file: what a changed parameter and a saved file cost")
       ->excludes("--frame");
   addPath(command, "--environment", options.environment, "environment map, .hdr or .exr");
   addPath(command, "--scene", options.scene, "scene file");

@@ -509,22 +509,18 @@ text::Diagnostics checkGraph(const std::string& path) {
 }
 
 void addCheck(CommandLine& line) {
-  const auto [command, options] = line.add(
-      "check", "report everything wrong with a graph, or a shader by itself; exit 1 when it cannot run",
-      runCheck);
-  options.addGraph(command)->description(
-      "graph file (JSON), or a shader (.glsl), for which a pass is printed");
+  const auto [command, options] =
+      line.add("check", "everything wrong with a graph or a shader; exit 1 when it cannot run", runCheck);
+  options.addGraph(command)->description("graph file (JSON), or a shader (.glsl)");
   command.add_flag("!--no-shaders", options.shaders, "do not compile the shaders (needs no OpenGL)");
   addChoice(command, "--format", options.format, "text, json, or sarif for code hosts and editors",
             {"text", "json", "sarif"});
-  command.add_flag(
-      "--matrix", options.matrix,
-      "also with each pass disabled, each pair of passes, and each value that a parameter offers");
+  command.add_flag("--matrix", options.matrix,
+                   "also with each pass and pair disabled, and each value of a parameter");
   command.add_flag("--all", options.allVariants,
-                   "compile every shader variant that disabling a pass or setting a parameter reaches");
+                   "compile every shader variant that a disable or a value reaches");
   command.add_flag("--strict", options.strict, "exit 1 after a warning, too");
-  command.add_flag("--watch", options.watch,
-                   "check again whenever a file that was read changes, until ended");
+  command.add_flag("--watch", options.watch, "check again after each change, until ended");
 }
 
 }  // namespace weft::app

@@ -121,18 +121,16 @@ int runDiff(DiffOptions& options) {
 
 // 0: no difference, 1: some, 2: a graph cannot be compiled.
 void addDiff(CommandLine& line) {
-  const auto [command, options] = line.add(
-      "diff", "say how the plan of another graph differs: passes, barriers, bytes; exit 1 when it does",
-      runDiff);
+  const auto [command, options] =
+      line.add("diff", "how the plan of another graph differs; exit 1 when it does", runDiff);
   options.addGraph(command);
   options.addOther(command);
   options.addPointer(command);
   options.addBackend(command);
-  CLI::Option* render =
-      command.add_flag("--render", options.render,
-                       "render both: how the pictures differ, and the first pass whose output does");
+  CLI::Option* render = command.add_flag(
+      "--render", options.render, "how the pictures differ, too, and the first pass whose output does");
   addPath(command, "-o,--output", options.output,
-          "folder for before.png, after.png and their difference, or a page, .html (with --render)", "PATH")
+          "folder for pictures of both and their difference, or a page, .html", "PATH")
       ->needs(render);
   options.addFrame(command)->needs(render);
   addChoice(command, "--format", options.format, "text or json", {"text", "json"});

@@ -83,9 +83,8 @@ std::optional<Anchor> findAnchor(const std::string& graphFile, const std::string
   const bool whole =
       present && !present->mip && !present->layer && !present->face && !present->element && !present->import;
   if (whole && !desc->passes.empty()) return Anchor{desc->passes.back().name, present->name};
-  text::Diagnostic& d =
-      diagnostics.error(text::Code::presentsNothing, present ? present->place : place,
-                        "the graph presents no whole texture of its own that a pass could change");
+  text::Diagnostic& d = diagnostics.error(text::Code::presentsNothing, present ? present->place : place,
+                                          "the graph presents no whole texture of its own");
   d.expected = "\"present\": \"<texture>\" and a pass";
   if (present) d.found = present->text;
   return std::nullopt;
@@ -216,17 +215,15 @@ void addFormat(CommandLine& line) {
   const auto [command, options] =
       line.add("format", "format graph files, overlays and presets in place; comments are kept", runFormat);
   addPath(command, "file", options.files, "JSON files")->required();
-  command.add_flag("--check", options.checkOnly,
-                   "write nothing; exit 1 and name the first line that differs");
+  command.add_flag("--check", options.checkOnly, "write nothing; exit 1 where lines differ");
 }
 
 void addNew(CommandLine& line) {
   const auto [command, options] =
-      line.add("new", "write a graph, or a pass behind an existing graph, and its shader, commented", runNew);
+      line.add("new", "write a graph or a pass, and its shader, commented", runNew);
   addChoice(command, "what", options.what, "what to write: graph or pass", {"graph", "pass"})->required();
   command.add_option("name", options.name, "its name: letters, digits and _")->required();
-  addPath(command, "--graph", options.graph,
-          "the graph that a pass extends (default: the bundled graphs/glow.json)");
+  addPath(command, "--graph", options.graph, "graph that a pass extends (default: graphs/glow.json)");
   command.parse_complete_callback([&options = options] {
     if (options.what == "graph" && !options.graph.empty())
       throw CLI::ValidationError("--graph", "is for 'new pass': a new graph extends no other");
@@ -236,9 +233,8 @@ void addNew(CommandLine& line) {
 }
 
 void addImport(CommandLine& line) {
-  const auto [command, options] = line.add(
-      "import", "make a graph and its shaders of an ISF file (.fs) or a user shader of mpv (.glsl, .hook)",
-      runImport);
+  const auto [command, options] =
+      line.add("import", "make a graph of an ISF file (.fs) or a shader of mpv (.glsl, .hook)", runImport);
   addPath(command, "file", options.file, "the file; a .vs beside a .fs is read, too")->required();
   addPath(command, "-o,--output", options.folder, "folder to write into; made where it is missing", "FOLDER")
       ->required();

@@ -191,30 +191,24 @@ int runTypes(Options&) {
 }  // namespace
 
 void addPlan(CommandLine& line) {
-  const auto [plan, options] =
-      line.add("plan", "print the compiled plan: order, barriers, storage, bytes", runPlan);
+  const auto [plan, options] = line.add("plan", "print the plan: order, barriers, storage, bytes", runPlan);
   options.addGraph(plan);
-  addChoice(
-      plan, "--format", options.format,
-      "text, json, dot for Graphviz, or expanded: a graph file without includes, repeats and conditions "
-      "that gives the same plan",
-      {"text", "json", "dot", "expanded"});
+  addChoice(plan, "--format", options.format,
+            "expanded: a graph file without includes, repeats and conditions; dot: for Graphviz",
+            {"text", "json", "dot", "expanded"});
   plan.add_flag("--explain", options.explain, "say why: passes, barrier bits, shared storage");
 }
 
 void addExplain(CommandLine& line) {
-  const auto [command, options] = line.add(
-      "explain",
-      "say what is known of one pass, resource or parameter: order, storage, barriers, readers; or, with "
-      "a code such as W053 alone, what it means",
-      runExplain);
+  const auto [command, options] =
+      line.add("explain", "what is known of a pass, resource or parameter; or what a code such as W053 means",
+               runExplain);
   options.addGraph(command);
   command.add_option("name", options.name, "any unique suffix of its name");
 }
 
 void addParams(CommandLine& line) {
-  const auto [command, options] =
-      line.add("params", "list the parameters of a graph: name, type, value, range, label", runParams);
+  const auto [command, options] = line.add("params", "list the parameters of a graph", runParams);
   options.addGraph(command);
   command.add_flag("--json", options.json, "as JSON");
 }
@@ -232,7 +226,7 @@ void addSchema(CommandLine& line) {
 }
 
 void addTypes(CommandLine& line) {
-  line.add("types", "print the pass types, imports and formats that a graph may name", runTypes);
+  line.add("types", "print the pass types, imports and formats", runTypes);
 }
 
 }  // namespace weft::app

@@ -97,10 +97,8 @@ std::string takeOutputs(RenderOptions& options, FrameRun& run) {
       run.output = text;
     else
       return fmt::format(
-          "the picture would be written to '{}' and to '{}'; write NAME=FILE for another texture, ./FILE for "
-          "a "
-          "name with a '='",
-          run.output, text);
+          "the picture would be written to '{}' and to '{}'; of another texture write NAME=FILE", run.output,
+          text);
   }
   if (options.present.empty()) return {};
   const std::optional<graph::Pick> shown = graph::parsePick(options.present);
@@ -153,8 +151,7 @@ int runRender(RenderOptions& options) {
       for (const Part& part : run.parts)
         if (!part.saved && !diagnostics.hasErrors())
           refuseOutput(part.files[0], fmt::format("nothing was in '{}' to write", part.name),
-                       "an import that is not there has no picture, nor has a pass that did not run",
-                       diagnostics);
+                       "its import may be missing, or its pass did not run", diagnostics);
     };
     runFrames(*session, world, options, run, checkSaved, diagnostics);
     if (diagnostics.hasErrors() || !options.stats) return 0;
@@ -257,36 +254,28 @@ void addRender(CommandLine& line) {
   options.addGraph(command);
   options.addBackend(command);
   options.addMeasurements(command);
-  addPath(
-      command, "-o,--output", options.outputs,
-      "image to write, .png or .exr; for several frames a pattern: f_%04d.png; NAME=FILE writes a texture "
-      "of the graph: depth=depth.png, 'glow.mip[2]=glow.exr'; repeatable")
+  addPath(command, "-o,--output", options.outputs,
+          "image to write, .png or .exr, of frames f_%04d.png, of a texture depth=FILE; repeatable")
       ->required();
-  command.add_option(
-      "--present", options.present,
-      "show this texture instead of the graph's picture, as the viewer's inspector does: depth, "
-      "'hdr after skybox', 'glow.mip[2]'");
+  command.add_option("--present", options.present,
+                     "texture to show instead of the picture: depth, 'hdr after skybox', 'glow.mip[2]'");
   const auto takeFrames = [&options = options](const std::string& text) {
     return takeRange(text, options.firstFrame, options.lastFrame);
   };
   addTaken(command, "--frames", takeFrames, "A:B", "a frame number, or FIRST:LAST");
   options.addFps(command);
   options.addPointer(command);
-  command.add_flag("--wait-for-assets")
-      ->description("as always without a window: the first frame waits for all that it needs");
+  command.add_flag("--wait-for-assets")->description("as always without a window");
   command.add_flag("--quiet", options.quiet, "no progress bar and no notes");
 }
 
 void addDump(CommandLine& line) {
-  const auto [command, options] = line.add("dump",
-                                           "write what each pass wrote of some resources, as pictures "
-                                           "(.png), values (.exr) and bytes (.bin): weft "
-                                           "dump graphs/glow.json 'glow*' -o out",
-                                           runDump);
+  const auto [command, options] =
+      line.add("dump", "write what each pass wrote: pictures (.png), values (.exr), bytes (.bin)", runDump);
   options.addGraph(command);
   command
       .add_option("name", options.patterns,
-                  "names of resources, or any suffix of theirs; * stands for any letters; hdr#2 is a version")
+                  "names of resources or their ends; * is any letters, hdr#2 a version")
       ->required();
   addPath(command, "-o,--output", options.folder, "folder to write to", "FOLDER")->required();
   options.addFrame(command, "--frame,--frames");

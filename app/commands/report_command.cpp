@@ -276,10 +276,8 @@ bool writeFramePage(gl::Context& context, const std::string& command, std::span<
 }
 
 void addReport(CommandLine& line) {
-  const auto [command, options] = line.add("report",
-                                           "write one HTML page of a frame: the matrix of steps and "
-                                           "resources, what each pass wrote and why it runs",
-                                           runReport);
+  const auto [command, options] = line.add(
+      "report", "write an HTML page of a frame: its steps and resources, what each wrote and why", runReport);
   options.addGraph(command);
   options.addOther(command);
   addPath(command, "-o,--output", options.output, "the page to write, .html")->required();

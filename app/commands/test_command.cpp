@@ -358,15 +358,12 @@ int runTest(TestOptions& options) {
 
 void addTest(CommandLine& line) {
   const auto [command, options] = line.add(
-      "test", "render the cases of *.cases.json and compare them with their goldens; exit 1 when one differs",
-      runTest);
+      "test", "compare the cases of *.cases.json with their goldens; exit 1 when one differs", runTest);
   addPath(command, "folder", options.folder, "a folder with *.cases.json, or one such file")->required();
-  command.add_option("--only", options.only, "run the cases whose name contains this; repeatable");
-  command.add_flag("--accept", options.accept, "write what is rendered as the goldens, and say what changed");
-  addPath(command, "--report", options.report,
-          "write a page of the failures: picture, golden, difference, first pass that differs");
-  addPath(command, "-o,--output", options.output,
-          "folder for the picture and the difference of each case that fails", "FOLDER");
+  command.add_option("--only", options.only, "cases whose name contains this; repeatable");
+  command.add_flag("--accept", options.accept, "write what is rendered as the goldens");
+  addPath(command, "--report", options.report, "page of the failures to write, .html");
+  addPath(command, "-o,--output", options.output, "folder for pictures of what fails", "FOLDER");
   options.addBackend(command);
   command.footer("Example: weft test tests/golden --report out/report.html");
 }

@@ -233,9 +233,8 @@ int runFuzz(FuzzOptions& options) {
 }  // namespace
 
 void addAblate(CommandLine& line) {
-  const auto [command, options] = line.add(
-      "ablate", "what each pass costs and does: milliseconds, bytes and picture difference without it",
-      runAblate);
+  const auto [command, options] =
+      line.add("ablate", "what each pass costs and does: time, bytes and picture without it", runAblate);
   options.addGraph(command);
   options.addFrame(command);
   options.addPointer(command);
@@ -247,22 +246,19 @@ void addAblate(CommandLine& line) {
 }
 
 void addFuzz(CommandLine& line) {
-  const auto [command, options] = line.add("fuzz",
-                                           "render in random legal orders, with shared storage and without, "
-                                           "with poisoned transients; exit 1 when a "
-                                           "picture differs",
-                                           runFuzz);
+  const auto [command, options] =
+      line.add("fuzz", "render in other legal orders and storage; exit 1 when a picture differs", runFuzz);
   options.addGraph(command);
   options.addFrame(command);
   options.addPointer(command);
   options.addBackend(command);
   command.add_option("--runs", options.runs, "how many random orders to try")->check(CLI::Range(1u, 100000u));
   command.add_option("--seed", options.seed,
-                     "try this order alone; 0 is the declared one (default: 0 to --runs)");
-  addChoice(command, "--share", options.share, "whether transient textures share storage: on, off or both",
+                     "this order alone; 0 is the declared one (default: 0 to --runs)");
+  addChoice(command, "--share", options.share, "whether transient textures share storage",
             {"on", "off", "both"});
   addChoice(command, "--poison", options.poison,
-            "what transients hold before they are written: nan, large, none, or both (nan and large)",
+            "what transients hold before they are written; both: nan and large",
             {"nan", "large", "none", "both"});
   command.footer("Example: weft fuzz graphs/glow.json --size 64x36");
 }

@@ -315,12 +315,11 @@ int runLsp(Options& options) {
 }  // namespace
 
 void addLsp(CommandLine& line) {
-  const auto [command, options] = line.add(
-      "lsp", "language server for editors, on standard input and output (docs/editors.md); needs no OpenGL",
-      runLsp);
-  addPath(command, "--scene", options.scene, "scene that graphs are checked with (default: the bundled one)");
+  const auto [command, options] =
+      line.add("lsp", "language server for editors (docs/editors.md); needs no OpenGL", runLsp);
+  addPath(command, "--scene", options.scene, "scene that graphs are checked with");
   options.addSize(command);
-  command.add_flag("--stdio")->description("accepted for editors that say so; there is no other transport");
+  command.add_flag("--stdio")->description("as always");
   command.footer("Example, for Neovim: vim.lsp.start({ name = 'weft', cmd = { 'weft', 'lsp' } })");
 }
 

@@ -83,10 +83,7 @@ void usesOfKey(const Workspace& workspace, Uses& uses, Program program) {
 // Why what is used cannot have this name, or "".
 std::string problemOf(const Workspace& workspace, const Uses& uses, const std::string& name) {
   if (!graph::isIdent(name) || graph::isReservedWord(name) || (uses.ofShader && name.starts_with("gl_")))
-    return fmt::format(
-        "'{}' is no name: letters, digits and '_', not gl_ before it, and not mip, layer, face, stencil, x, "
-        "y, z, w",
-        name);
+    return fmt::format("'{}' is no name that both graphs and GLSL can have", name);
   for (const Location& each : uses.locations) {
     const auto file = workspace.texts().of(each.path);
     if (!file || (!workspace.texts().isOpen(each.path) && !workspace.isInFolders(each.path)))

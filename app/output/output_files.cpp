@@ -69,27 +69,23 @@ std::string pictureKindOf(const std::string& path) {
 
 bool checkOutput(const std::string& pattern, std::uint32_t firstFrame, bool several,
                  text::Diagnostics& diagnostics) {
-  const auto fail = [&](const std::string& message, const std::string& hint) {
-    refuseOutput(pattern, message, hint, diagnostics);
-    return false;
-  };
   const auto first = outputNameOf(pattern, firstFrame);
   if (!first)
-    return fail(fmt::format("'{}' is no pattern for frame numbers", pattern),
-                "write one %d or %04d, and no other %");
+    return refuseOutput(pattern, fmt::format("'{}' is no pattern for frame numbers", pattern),
+                        "write one %d or %04d, and no other %", diagnostics);
   if (several && pattern.find('%') == std::string::npos)
-    return fail(fmt::format("several frames would all be written to '{}'", pattern),
-                "put a frame number into the name: f_%04d.png");
+    return refuseOutput(pattern, fmt::format("several frames would all be written to '{}'", pattern),
+                        "put a number into it: f_%04d.png", diagnostics);
   if (const std::string kind = pictureKindOf(*first); kind != ".png" && kind != ".exr")
-    return fail(fmt::format("cannot write '{}': unknown kind of image '{}'", *first,
-                            fs::path(*first).extension().string()),
-                "name a .png or an .exr file");
+    return refuseOutput(pattern, fmt::format("cannot write '{}': unknown kind of image '{}'", *first, kind),
+                        "name a .png or an .exr file", diagnostics);
   return makeFolderOf(*first, diagnostics);
 }
 
-void refuseOutput(const std::string& path, const std::string& message, const std::string& hint,
+bool refuseOutput(const std::string& path, const std::string& message, const std::string& hint,
                   text::Diagnostics& diagnostics) {
   diagnostics.error(text::Code::outputNotWritten, {path}, message).hint = hint;
+  return false;
 }
 
 bool makeFolderOf(const std::string& path, text::Diagnostics& diagnostics) {
@@ -99,9 +95,8 @@ bool makeFolderOf(const std::string& path, text::Diagnostics& diagnostics) {
   ec.clear();
   fs::create_directories(folder, ec);
   if (!ec) return true;
-  refuseOutput(path, fmt::format("cannot make the folder '{}': {}", folder.string(), ec.message()),
-               "name a file in a folder that can be made or written to", diagnostics);
-  return false;
+  return refuseOutput(path, fmt::format("cannot make the folder '{}': {}", folder.string(), ec.message()),
+                      "name a file in another folder", diagnostics);
 }
 
 bool checkDistinct(std::span<const OutputFile> outputs, text::Diagnostics& diagnostics,
@@ -112,41 +107,38 @@ bool checkDistinct(std::span<const OutputFile> outputs, text::Diagnostics& diagn
   for (const std::string& file : text::filesRead()) seen.push_back({"", plainName(file)});
   for (const OutputFile& output : outputs) {
     if (output.pattern.empty()) continue;
+    const auto refuse = [&](const std::string& message, const char* hint) {
+      refuseOutput(output.pattern, message, hint, diagnostics);
+    };
     std::error_code ec;
     const fs::file_status found = fs::status(output.pattern, ec);
-    if (output.over != OutputFile::Over::anything)
-      if (const std::string link = linkOnTheWay(output.pattern, output.inside); !link.empty()) {
-        refuseOutput(output.pattern, fmt::format("'{}' is a link, which is not followed", link),
-                     "remove it, or name another folder", diagnostics);
-        continue;
-      }
-    if (fs::exists(found) && output.over == OutputFile::Over::nothing) {
-      refuseOutput(output.pattern, "the file is there already", "remove it, or choose another name or folder",
-                   diagnostics);
-      continue;
+    const bool ours = output.over != OutputFile::Over::anything;
+    const std::string link = ours ? linkOnTheWay(output.pattern, output.inside) : "";
+    const bool plain = !fs::exists(found) || fs::is_regular_file(found);
+    if (!link.empty()) {
+      refuse(fmt::format("'{}' is a link, which is not followed", link), "remove it, or name another folder");
+    } else if (fs::exists(found) && output.over == OutputFile::Over::nothing) {
+      refuse("the file is there already", "remove it, or choose another name or folder");
+    } else if (!plain && ours) {
+      refuse(
+          fmt::format("there is {} of the name of a file to write", fs::is_fifo(found)        ? "a pipe"
+                                                                    : fs::is_directory(found) ? "a folder"
+                                                                                              : "a device"),
+          "remove it, or name another folder");
+    } else if (plain) {
+      const std::string name = plainName(output.pattern);
+      const auto same = std::ranges::find_if(seen, [&](const OutputFile& other) {
+        return fits(name, other.pattern) || fits(other.pattern, name);
+      });
+      if (same == seen.end())
+        seen.push_back({output.option, name});
+      else
+        refuse(same->option.empty() ? fmt::format("{} would write over '{}', which this run reads",
+                                                  output.option, same->pattern)
+                                    : fmt::format("{} and {} would write one file, '{}'", same->option,
+                                                  output.option, output.pattern),
+               "name another file");
     }
-    if (fs::exists(found) && !fs::is_regular_file(found)) {
-      const char* const kind = fs::is_fifo(found)        ? "a pipe"
-                               : fs::is_directory(found) ? "a folder"
-                                                         : "a device";
-      if (output.over == OutputFile::Over::file)
-        refuseOutput(output.pattern, fmt::format("there is {} of the name of a file to write", kind),
-                     "remove it, or name another folder", diagnostics);
-      continue;
-    }
-    const std::string plain = plainName(output.pattern);
-    const auto same = std::ranges::find_if(seen, [&](const OutputFile& other) {
-      return fits(plain, other.pattern) || fits(other.pattern, plain);
-    });
-    if (same == seen.end())
-      seen.push_back({output.option, plain});
-    else
-      refuseOutput(output.pattern,
-                   same->option.empty() ? fmt::format("{} would write over '{}', which this run reads",
-                                                      output.option, same->pattern)
-                                        : fmt::format("{} and {} would write one file, '{}'", same->option,
-                                                      output.option, output.pattern),
-                   "name another file", diagnostics);
   }
   return diagnostics.errorCount() == before;
 }

@@ -22,8 +22,8 @@ std::string pictureKindOf(const std::string& path);
 bool checkOutput(const std::string& pattern, std::uint32_t first, bool several,
                  text::Diagnostics& diagnostics);
 
-// W180 at `path`.
-void refuseOutput(const std::string& path, const std::string& message, const std::string& hint,
+// W180 at `path`. Returns false.
+bool refuseOutput(const std::string& path, const std::string& message, const std::string& hint,
                   text::Diagnostics& diagnostics);
 // Makes the folder of a file. False after W180.
 bool makeFolderOf(const std::string& path, text::Diagnostics& diagnostics);

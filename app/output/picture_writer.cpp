@@ -94,9 +94,8 @@ void PictureWriter::tell(text::Diagnostics& diagnostics) {
   if (const std::uint64_t more = counts_.broken - brokenBefore_ - 1; more > 0)
     d.found += fmt::format("; {} more of the pictures after it have such pixels", more);
   d.hint =
-      "look for a division by 0, a root or logarithm of what may be negative, or values beyond what the "
-      "format holds; "
-      "the texture inspector of `weft view` marks them";
+      "look for a division by 0, a root of what may be negative, or too large a value; `weft view` marks "
+      "them";
   first_ = {};
   brokenBefore_ = counts_.broken;
 }

@@ -33,8 +33,7 @@ void addCommon(CLI::App& command) {
   const auto ignore = [](const std::vector<std::string>&) {};  // the check takes them
   command
       .add_option_function<std::vector<std::string>>(
-          "--confine", ignore,
-          "read only below this folder and those named on the command line, whatever files name; repeatable")
+          "--confine", ignore, "read only below this folder and what the command line names; repeatable")
       ->check(CLI::Validator(confine, "FOLDER"));
   command
       .add_option_function<std::uint32_t>(

@@ -33,17 +33,13 @@ bool readPair(std::string_view text, char separator, Number& a, Number& b) {
 CLI::Option* Options::addGraph(CLI::App& command) {
   CLI::Option* file = addPath(command, "graph", graph, "graph file (JSON)")->required();
   addPath(command, "--scene", scene, "scene file (default: the bundled scenes/spheres.json)");
-  command.add_option(
-      "--camera", camera,
-      "camera of the scene to look through (default: its first), or a place and what it looks at: "
-      "X,Y,Z,X,Y,Z, then degrees and the near plane, as the viewer prints them (C)");
-  addPath(command, "--materials", materials,
-          "material library for the scene's grid, instead of the one it names");
-  addPath(command, "--environment", environment,
-          "environment map, .hdr or .exr; for view also a folder of them");
+  command.add_option("--camera", camera,
+                     "camera of the scene (default: its first), or a pose as the viewer prints it (C)");
+  addPath(command, "--materials", materials, "material library for the scene's grid");
+  addPath(command, "--environment", environment, "environment map, .hdr or .exr; view: also a folder");
   addSize(command);
   addPath(command, "--preset", presets,
-          "lay an overlay over the graph: a file, or the name of one that 'weft presets' lists; repeatable");
+          "overlay over the graph: a file or a name of 'weft presets'; repeatable");
   addPresetFolder(command);
   addDisables(command, "--disable", disables, "disable a pass (any unique suffix of its name); repeatable");
   addSets(command, "--set", sets, "set a parameter (any unique suffix of its name); repeatable");
@@ -51,11 +47,10 @@ CLI::Option* Options::addGraph(CLI::App& command) {
 }
 
 void OtherOptions::addOther(CLI::App& command) {
-  addPath(command, "other", other, "the other graph file (default: the same, in other settings)");
-  addSets(command, "--other-set", otherSets, "set a parameter in the other graph alone; repeatable");
-  addDisables(command, "--other-disable", otherDisables,
-              "disable a pass in the other graph alone; repeatable");
-  addPath(command, "--other-preset", otherPresets, "lay an overlay over the other graph alone; repeatable");
+  addPath(command, "other", other, "the other graph (default: the same)");
+  addSets(command, "--other-set", otherSets, "set a parameter of the other alone; repeatable");
+  addDisables(command, "--other-disable", otherDisables, "disable a pass of the other alone; repeatable");
+  addPath(command, "--other-preset", otherPresets, "overlay over the other alone; repeatable");
 }
 
 Options OtherOptions::otherSide() const {
@@ -75,24 +70,20 @@ void Options::addSize(CLI::App& command) {
 }
 
 void Options::addPresetFolder(CLI::App& command) {
-  command
-      .add_option(
-          "--preset-folder", presetFolder,
-          "look for the names of presets here first, then in ~/.config/weft/presets, then in graphs/presets")
+  command.add_option("--preset-folder", presetFolder, "where names of presets are looked for first")
       ->check(CLI::ExistingDirectory)
       ->type_name("FOLDER");
 }
 
 void Options::addMeasurements(CLI::App& command) {
   command.add_flag("--stats", stats, "print counters and times as JSON on standard error when done");
-  command.add_flag("--profile", profile,
-                   "measure each pass (slower: waits for the GPU after every pass on software)");
+  command.add_flag("--profile", profile, "measure each pass (slower on software)");
 }
 
 CLI::Option* Options::addFrame(CLI::App& command, const char* name) {
   return addTaken(
       command, name, [this](const std::string& text) { return takeCount(text, lastFrame); }, "FRAME",
-      "number of the frame to look at (default: 0)");
+      "frame to look at (default: 0)");
 }
 
 void Options::addFps(CLI::App& command, const char* doc) {
@@ -102,9 +93,7 @@ void Options::addFps(CLI::App& command, const char* doc) {
 void Options::addPointer(CLI::App& command) {
   addTaken(
       command, "--mouse", [this](const std::string& text) { return takePointer(text, pointer); },
-      "X,Y[,down]",
-      "where the mouse points in every frame, for graphs that read it: pixels from the lower left corner of "
-      "the picture; with ',down' its button is held from frame 0 on (default: 0,0)");
+      "X,Y[,down]", "where the mouse is: pixels from the lower left corner; down: its button is held");
 }
 
 void Options::addBackend(CLI::App& command) {
@@ -187,15 +176,13 @@ std::string takeSize(const std::string& text, std::uint32_t& width, std::uint32_
 }
 
 std::string takeCount(const std::string& text, std::uint32_t& count) {
-  return readNumber(text, count) ? ""
-                                 : fmt::format("expected a number of frames up to {}, found '{}'", ~0u, text);
+  return readNumber(text, count) ? "" : fmt::format("expected a number up to {}, found '{}'", ~0u, text);
 }
 
 std::string takeRange(const std::string& text, std::uint32_t& first, std::uint32_t& last) {
   if (readPair(text, ':', first, last) && first <= last) return {};
   if (readNumber(text, first)) return last = first, "";
-  return fmt::format(
-      "expected NUMBER or FIRST:LAST with FIRST <= LAST, whole numbers from 0 to {}, found '{}'", ~0u, text);
+  return fmt::format("expected NUMBER or FIRST:LAST, whole numbers from 0 to {}, found '{}'", ~0u, text);
 }
 
 std::string takePointer(const std::string& text, imports::Pointer& pointer) {
@@ -208,9 +195,7 @@ std::string takePointer(const std::string& text, imports::Pointer& pointer) {
   if (held) pointer.pressed = pointer.dragged = pointer.position;
   const auto isIn = [](float pixels) { return pixels >= 0 && pixels <= kMaxPixels; };
   if (good && isIn(x) && isIn(y)) return {};
-  return fmt::format(
-      "expected X,Y or X,Y,down: pixels from the lower left corner, each from 0 to {}, found '{}'",
-      kMaxPixels, text);
+  return fmt::format("expected X,Y or X,Y,down, pixels from 0 to {}, found '{}'", kMaxPixels, text);
 }
 
 std::string checkSet(const std::string& text) {

@@ -1,33 +1,30 @@
 #include "app/ui/log.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace weft::app::ui {
 
 void Log::set(Topic topic, std::vector<text::Diagnostic> items) {
-  topics_[topic] = {std::move(items), ++calls_, false};
+  std::erase_if(entries_, [&](const Entry& entry) { return entry.topic == topic; });
+  ++calls_;
+  for (text::Diagnostic& item : items) entries_.push_back({topic, calls_, std::move(item)});
 }
 
 void Log::addPast(const text::Diagnostics& diagnostics) {
-  List& past = topics_[kPast];
+  const auto isPast = [](const Entry& entry) { return entry.topic == kPast; };
   for (const text::Diagnostic& each : diagnostics.items()) {
-    const auto same = [&](const text::Diagnostic& old) {
-      return old.code == each.code && old.message == each.message;
+    const auto same = [&](const Entry& old) {
+      return isPast(old) && old.item.code == each.code && old.item.message == each.message;
     };
-    if (std::ranges::any_of(past.items, same)) continue;
-    past.items.push_back(each);
-    past.said = ++calls_;
+    if (std::ranges::none_of(entries_, same)) entries_.push_back({kPast, ++calls_, each});
+    if (std::ranges::count_if(entries_, isPast) > 100) entries_.erase(std::ranges::find_if(entries_, isPast));
   }
-  if (past.items.size() <= 100) return;
-  const std::size_t old = past.items.size() - 100;
-  past.items.erase(past.items.begin(), past.items.begin() + static_cast<std::ptrdiff_t>(old));
-  dismissedPast_ -= std::min(dismissedPast_, old);
 }
 
 void Log::dismiss() {
-  for (List& list : topics_) list.dismissed = true;
-  dismissedPast_ = topics_[kPast].items.size();
+  for (Entry& entry : entries_) entry.dismissed = true;
 }
 
 std::size_t Log::errors() const {
@@ -36,21 +33,18 @@ std::size_t Log::errors() const {
 }
 
 std::vector<const text::Diagnostic*> Log::shown(bool all) const {
-  std::array<std::size_t, kTopicCount> order = {kFiles, kEnvironment, kChange, kPast};
-  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return topics_[a].said > topics_[b].said; });
-  const auto isError = [](const text::Diagnostic& each) { return each.severity == text::Severity::error; };
-  std::vector<const text::Diagnostic*> out;
-  for (const std::size_t topic : order) {
-    const List& list = topics_[topic];
-    if (topic == kPast) {
-      for (std::size_t i = list.items.size(); all && i-- > dismissedPast_;) out.push_back(&list.items[i]);
-      continue;
-    }
-    const bool urgent = topic != kEnvironment || std::ranges::any_of(list.items, isError);
-    if (list.dismissed || (!all && !urgent)) continue;
-    for (const text::Diagnostic& each : list.items) out.push_back(&each);
+  const bool failed = std::ranges::any_of(entries_, [](const Entry& entry) {
+    return entry.topic == kEnvironment && entry.item.severity == text::Severity::error;
+  });
+  std::vector<const Entry*> chosen;
+  for (const Entry& entry : entries_) {
+    const bool urgent = entry.topic != kPast && (entry.topic != kEnvironment || failed);
+    if (!entry.dismissed && (all || urgent)) chosen.push_back(&entry);
   }
-  std::ranges::stable_sort(out, [](const auto* a, const auto* b) { return a->severity > b->severity; });
+  std::ranges::stable_sort(chosen, std::ranges::greater(),
+                           [](const Entry* entry) { return std::pair(entry->item.severity, entry->said); });
+  std::vector<const text::Diagnostic*> out;
+  for (const Entry* entry : chosen) out.push_back(&entry->item);
   return out;
 }
 

@@ -2,7 +2,6 @@
 // what the driver or a frame said, once each. What was said can be dismissed; it comes back when it is said again.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -13,24 +12,23 @@ namespace weft::app::ui {
 
 class Log {
  public:
-  enum Topic : std::size_t { kFiles, kEnvironment, kChange, kPast, kTopicCount };
+  enum Topic : std::uint8_t { kFiles, kEnvironment, kChange, kPast };
 
   void set(Topic topic, std::vector<text::Diagnostic> items);
   void addPast(const text::Diagnostics& diagnostics);  // keeps the last hundred
   void dismiss();                                      // all there is now
   std::size_t errors() const;                          // that are not dismissed
-  // What is not dismissed: errors, warnings, notes; within each the newest topic first, a topic's in their
-  // order, the past backwards. Without `all`, only what stands on screen while the panels are hidden.
+  // What is not dismissed: errors, warnings, notes; within each the newest first, what was set together in its order. Without `all`, only what stands on screen while the panels are hidden.
   std::vector<const text::Diagnostic*> shown(bool all) const;
 
  private:
-  struct List {
-    std::vector<text::Diagnostic> items;
-    std::uint64_t said = 0;  // when, in calls
+  struct Entry {
+    Topic topic;
+    std::uint64_t said;  // when, in calls
+    text::Diagnostic item;
     bool dismissed = false;
   };
-  std::array<List, kTopicCount> topics_;
-  std::size_t dismissedPast_ = 0;
+  std::vector<Entry> entries_;
   std::uint64_t calls_ = 0;
 };
 

@@ -17,7 +17,6 @@
 #include "engine/graph/print/explain.h"
 #include "engine/runtime/inspection/frame_profiler.h"
 #include "engine/runtime/inspection/inspector.h"
-#include "engine/runtime/inspection/picture_histogram.h"
 
 namespace weft::app::ui {
 
@@ -163,7 +162,7 @@ class Panels {
   std::function<void(const char*)> act_;
   runtime::FrameProfiler profiler_;
   InspectorPanel inspector_;
-  runtime::PictureHistogram histogram_;
+  std::array<std::array<float, 256>, 4> bins_{};  // of the picture: red, green, blue, luminance
   double counted_ = -1;                          // seconds: when the histogram was made
   std::unique_ptr<graph::Explainer> explainer_;  // of the plan of `explained_`
   std::vector<PassRow> rows_;                    // of the same

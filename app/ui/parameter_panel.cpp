@@ -113,11 +113,14 @@ void Panels::drawParameters(const runtime::FrameReport& report, text::Diagnostic
   ImGui::EndDisabled();
   ImGui::SameLine();
   filter_.Draw("search", -4 * em_);
-  ImGui::BeginChild("list");
+  if (!ImGui::BeginTable(
+          "list", 2,
+          ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_NoPadOuterX))
+    return;
+  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_None, 0.42f);
+  ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_None, 0.58f);
   std::optional<Value> changedTo;
-  std::string changed, reset, scope = "\n";
-  constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_NoPadOuterX;
-  bool table = false;
+  std::string changed, reset, scope;
   for (std::size_t i = 0; i < graph.parameters.size(); ++i) {
     const graph::ParameterSpec& parameter = graph.parameters[i];
     const Value& now = values[i];
@@ -125,17 +128,10 @@ void Panels::drawParameters(const runtime::FrameReport& report, text::Diagnostic
     if (!filter_.PassFilter(parameter.path.c_str()) && !filter_.PassFilter(label.c_str())) continue;
     const std::size_t dot = parameter.path.rfind('.');
     const std::string prefix = dot == std::string::npos ? std::string() : parameter.path.substr(0, dot);
-    if (prefix != scope) {
-      scope = prefix;
-      if (table) ImGui::EndTable();
-      table = false;
-      if (!prefix.empty()) ImGui::TextDisabled("%s", prefix.c_str());
-    }
-    if (!table) {
-      table = ImGui::BeginTable("values", 2, kFlags);
-      if (!table) break;
-      ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_None, 0.42f);
-      ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_None, 0.58f);
+    if (std::exchange(scope, prefix) != prefix) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::TextDisabled("%s", prefix.c_str());
     }
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -165,8 +161,7 @@ void Panels::drawParameters(const runtime::FrameReport& report, text::Diagnostic
     if (tweaked && clicked) reset = parameter.path;
     ImGui::PopID();
   }
-  if (table) ImGui::EndTable();
-  ImGui::EndChild();
+  ImGui::EndTable();
   if (changedTo)
     live_.setParameter(changed, *changedTo, diagnostics);
   else if (!reset.empty())

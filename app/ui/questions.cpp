@@ -73,7 +73,7 @@ void Panels::drawWrites(text::Diagnostics& diagnostics) {
     const bool own = LiveGraph::isWefts(file.path);
     wefts |= own;
     ImGui::TextUnformatted(file.path.c_str());
-    if (own) ImGui::TextColored(kOld, "is Weft's own, and is not written over: save a preset");
+    if (own) ImGui::TextColored(kOld, "is Weft's own: save a preset");
     drawDifference(file);
   }
   ImGui::EndChild();

@@ -264,7 +264,14 @@ void Panels::drawHistogram() {
   if (drawLuminance(*renderer_.execution())) return;
   // Again after a while, so that a picture at rest has its own; in idle mode that is drawn for longer.
   if (ImGui::GetTime() - counted_ > 0.1) {
-    histogram_.update(renderer_.execution()->presented());
+    const auto image = renderer_.readPresented8();
+    const std::size_t texels = image ? image->texels.size() / 4 : 0, every = texels / 40'000 + 1;
+    for (auto& bins : bins_) bins.fill(0);
+    for (std::size_t i = 0; i < texels; i += every) {
+      const std::uint8_t* const texel = &image->texels[4 * i];
+      for (std::size_t c = 0; c < 3; ++c) ++bins_[c][texel[c]];
+      ++bins_[3][static_cast<std::size_t>(0.2126 * texel[0] + 0.7152 * texel[1] + 0.0722 * texel[2] + 0.5)];
+    }
     counted_ = ImGui::GetTime();
   }
   ImGui::TextDisabled("the picture as presented, 8-bit values");
@@ -272,7 +279,7 @@ void Panels::drawHistogram() {
   static constexpr ImU32 kColors[] = {IM_COL32(220, 60, 60, 255), IM_COL32(60, 200, 80, 255),
                                       IM_COL32(70, 110, 240, 255), IM_COL32(235, 235, 235, 255)};
   for (std::size_t c = 0; c < 4; ++c)
-    drawBars(kNames[c], histogram_.bins()[c], kColors[c], 1 / static_cast<float>(4 - c));
+    drawBars(kNames[c], bins_[c], kColors[c], 1 / static_cast<float>(4 - c));
 }
 
 }  // namespace weft::app::ui

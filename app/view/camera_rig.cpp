@@ -51,23 +51,25 @@ void CameraRig::jumpTo(const scene::CameraPose& pose) {
 void CameraRig::follow(const scene::CameraPose& pose) {
   exact_ = lens_ = pose;
   const glm::dvec3 offset = pose.position - pose.target;
-  now_ = {};
-  now_.eye = pose.position;
-  now_.pivot = goalPivot_ = pose.target;
-  now_.distance = goalDistance_ = glm::length(offset);
+  velocity_ = {0, 0, 0};
+  bobPhase_ = bobAmount_ = 0;
+  eye_ = pose.position;
+  const double distance = glm::length(offset);
   // Straight up and down have no yaw of their own: 0 is what viewMatrix() shows there.
-  now_.yaw = goalYaw_ = std::abs(offset.y) < now_.distance * (1 - 1e-12) ? std::atan2(offset.x, offset.z) : 0;
-  now_.pitch = goalPitch_ = std::asin(std::clamp(offset.y / now_.distance, -1.0, 1.0));
+  now_ = goal_ = {.pivot = pose.target,
+                  .yaw = std::abs(offset.y) < distance * (1 - 1e-12) ? std::atan2(offset.x, offset.z) : 0,
+                  .pitch = std::asin(std::clamp(offset.y / distance, -1.0, 1.0)),
+                  .distance = distance};
 }
 
 void CameraRig::setMode(Mode mode) {
   if (mode == mode_) return;
-  if (mode_ == Mode::fly) now_.pivot = now_.eye - backOf(now_.yaw, now_.pitch) * now_.distance;
-  now_.velocity = {0, 0, 0};
-  if (mode != Mode::fly) now_.bobAmount = 0;
+  if (mode_ == Mode::fly) now_.pivot = eye_ - backOf(now_.yaw, now_.pitch) * now_.distance;
+  velocity_ = {0, 0, 0};
+  if (mode != Mode::fly) bobAmount_ = 0;
   // The rest of a smoothed pan or wheel movement is dropped.
-  goalPivot_ = now_.pivot;
-  goalDistance_ = now_.distance;
+  goal_.pivot = now_.pivot;
+  goal_.distance = now_.distance;
   mode_ = mode;
 }
 
@@ -85,11 +87,11 @@ void CameraRig::advance(double seconds, const CameraInput& raw) {
   if (in.any()) exact_.reset();
   keys_ = in.move;
   const double dt = finite(seconds, 0, kLongestFrame), yaw = now_.yaw, pitch = now_.pitch;
-  const double turned = -in.turn.x * kTurnPerPixel, tilt = goalPitch_;
-  goalYaw_ += turned;
-  if (in.turn.y != 0) goalPitch_ = std::clamp(goalPitch_ + in.turn.y * kTurnPerPixel, -kPole, kPole);
-  now_.yaw = followed(yaw, goalYaw_, turned, dt);
-  now_.pitch = followed(pitch, goalPitch_, goalPitch_ - tilt, dt);
+  const double turned = -in.turn.x * kTurnPerPixel, tilt = goal_.pitch;
+  goal_.yaw += turned;
+  if (in.turn.y != 0) goal_.pitch = std::clamp(goal_.pitch + in.turn.y * kTurnPerPixel, -kPole, kPole);
+  now_.yaw = followed(yaw, goal_.yaw, turned, dt);
+  now_.pitch = followed(pitch, goal_.pitch, goal_.pitch - tilt, dt);
   // The axes in the middle of the frame.
   const double middle = (yaw + now_.yaw) / 2;
   const glm::dvec3 back = backOf(middle, (pitch + now_.pitch) / 2),
@@ -98,15 +100,15 @@ void CameraRig::advance(double seconds, const CameraInput& raw) {
     if (dt > 0) fly(in, dt, back, right);
     return;
   }
-  const double distance = goalDistance_;
-  goalDistance_ = std::clamp(distance * std::pow(kZoomPerStep, in.wheel), lens_.nearPlane * 2, kFarthest);
+  const double distance = goal_.distance;
+  goal_.distance = std::clamp(distance * std::pow(kZoomPerStep, in.wheel), lens_.nearPlane * 2, kFarthest);
   const double unit =
-      goalDistance_ * std::tan(lens_.fovDegrees * std::numbers::pi / 360) / 360;  // of a pixel in 720
+      goal_.distance * std::tan(lens_.fovDegrees * std::numbers::pi / 360) / 360;  // of a pixel in 720
   const glm::dvec3 slid = (glm::cross(back, right) * in.pan.y - right * in.pan.x) * unit;
-  goalPivot_ += slid;
-  now_.distance = followed(now_.distance, goalDistance_, goalDistance_ - distance, dt);
-  now_.pivot = followed(now_.pivot, goalPivot_, slid, dt);
-  now_.eye = now_.pivot + backOf(now_.yaw, now_.pitch) * now_.distance;
+  goal_.pivot += slid;
+  now_.distance = followed(now_.distance, goal_.distance, goal_.distance - distance, dt);
+  now_.pivot = followed(now_.pivot, goal_.pivot, slid, dt);
+  eye_ = now_.pivot + backOf(now_.yaw, now_.pitch) * now_.distance;
 }
 
 // Speed closes on what the keys ask for: acceleration and friction in one, exact for a constant wish.
@@ -119,27 +121,27 @@ void CameraRig::fly(const CameraInput& in, double dt, const glm::dvec3& back, co
   wish *= speed * (in.fast ? kFastFactor : 1.0);
   const double kept = std::exp(-kFriction * dt);
   // The way covered while the speed closes on the wish, integrated over the frame.
-  const glm::dvec3 way = wish * dt + (now_.velocity - wish) * ((1 - kept) / kFriction);
-  now_.velocity = wish + (now_.velocity - wish) * kept;
-  if (glm::length(now_.velocity) < speed * 1e-4 && wish == glm::dvec3(0)) now_.velocity = {0, 0, 0};
-  now_.eye += way;
+  const glm::dvec3 way = wish * dt + (velocity_ - wish) * ((1 - kept) / kFriction);
+  velocity_ = wish + (velocity_ - wish) * kept;
+  if (glm::length(velocity_) < speed * 1e-4 && wish == glm::dvec3(0)) velocity_ = {0, 0, 0};
+  eye_ += way;
   const double walk = glm::length(glm::dvec2(way.x, way.z));
-  now_.bobPhase += walk / speed * kBobPerUnit;
+  bobPhase_ += walk / speed * kBobPerUnit;
   const double wanted = headBob ? std::min(1.0, walk / (dt * speed)) : 0.0;
-  now_.bobAmount += (wanted - now_.bobAmount) * (1 - std::exp(-dt / kBobSeconds));
-  if (wanted == 0 && now_.bobAmount < 1e-4) now_.bobAmount = 0;
-  now_.pivot = now_.eye - backOf(now_.yaw, now_.pitch) * now_.distance;
+  bobAmount_ += (wanted - bobAmount_) * (1 - std::exp(-dt / kBobSeconds));
+  if (wanted == 0 && bobAmount_ < 1e-4) bobAmount_ = 0;
+  now_.pivot = eye_ - backOf(now_.yaw, now_.pitch) * now_.distance;
 }
 
 scene::CameraPose CameraRig::pose() const {
   if (exact_) return *exact_;
   const glm::dvec3 right(std::cos(now_.yaw), 0, -std::sin(now_.yaw));
-  const glm::dvec3 sway = now_.bobAmount * speed_ *
-                          (glm::dvec3(0, kBobRise * std::sin(2 * now_.bobPhase), 0) +
-                           right * (kBobSway * std::sin(now_.bobPhase)));
+  const glm::dvec3 sway =
+      bobAmount_ * speed_ *
+      (glm::dvec3(0, kBobRise * std::sin(2 * bobPhase_), 0) + right * (kBobSway * std::sin(bobPhase_)));
   scene::CameraPose pose = lens_;
   pose.up = {0, 1, 0};
-  pose.position = now_.eye + sway;
+  pose.position = eye_ + sway;
   pose.target = now_.pivot + sway;
   return pose;
 }
@@ -147,10 +149,10 @@ scene::CameraPose CameraRig::pose() const {
 bool CameraRig::moving() const {
   if (mode_ == Mode::scene) return false;
   const auto near = [](double a, double b, double scale) { return std::abs(a - b) < 1e-6 * scale; };
-  const bool still = near(now_.yaw, goalYaw_, 1) && near(now_.pitch, goalPitch_, 1) &&
-                     near(now_.distance, goalDistance_, goalDistance_) &&
-                     (mode_ == Mode::fly || glm::length(now_.pivot - goalPivot_) < 1e-6 * goalDistance_) &&
-                     now_.velocity == glm::dvec3(0) && now_.bobAmount == 0 && keys_ == glm::dvec3(0);
+  const bool still = near(now_.yaw, goal_.yaw, 1) && near(now_.pitch, goal_.pitch, 1) &&
+                     near(now_.distance, goal_.distance, goal_.distance) &&
+                     (mode_ == Mode::fly || glm::length(now_.pivot - goal_.pivot) < 1e-6 * goal_.distance) &&
+                     velocity_ == glm::dvec3(0) && bobAmount_ == 0 && keys_ == glm::dvec3(0);
   return !still;
 }
 

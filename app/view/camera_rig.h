@@ -57,10 +57,9 @@ class CameraRig {
 
  private:
   // Angles in radians; in orbit `pivot` and `distance` rule, in flight `eye`.
-  struct State {
-    glm::dvec3 eye{0}, pivot{0}, velocity{0};
+  struct Aim {
+    glm::dvec3 pivot{0};
     double yaw = 0, pitch = 0, distance = 1;
-    double bobPhase = 0, bobAmount = 0;  // radians; 0 to 1
   };
   static glm::dvec3 backOf(double yaw, double pitch);
   // A frame of more than no seconds.
@@ -69,9 +68,9 @@ class CameraRig {
   Mode mode_ = Mode::scene;
   std::optional<scene::CameraPose> exact_;  // what pose() says while nothing has moved
   scene::CameraPose lens_;                  // field of view and near plane
-  State now_;
-  double goalYaw_ = 0, goalPitch_ = 0, goalDistance_ = 1;
-  glm::dvec3 goalPivot_{0};
+  Aim now_, goal_;                          // the view closes on the goal
+  glm::dvec3 eye_{0}, velocity_{0};
+  double bobPhase_ = 0, bobAmount_ = 0;  // radians; 0 to 1
   double speed_ = 1;
   glm::dvec3 keys_{0};  // held in the last frame
   std::uint64_t cuts_ = 0;

@@ -40,8 +40,7 @@ int runView(ViewOptions& options) {
   }
   if (!session->context->window()) {
     printError(fmt::format(
-        "weft view needs a window, which the backend '{}' has not: leave --backend out; without a display "
-        "use `xvfb-run -a`, or `weft render`\n",
+        "weft view needs a window, which '{}' has not: leave --backend out, or use `xvfb-run -a`\n",
         options.backend));
     return 2;
   }
@@ -98,37 +97,29 @@ int runView(ViewOptions& options) {
 
 void addView(CommandLine& line) {
   const auto [command, options] =
-      line.add("view", "open a window and run a graph in it (without a display: xvfb-run -a)", runView);
+      line.add("view", "run a graph in a window (without a display: xvfb-run -a)", runView);
   options.addGraph(command);
   options.addBackend(command);
   options.addMeasurements(command);
   addTaken(
       command, "--max-frames",
       [&frames = options.maxFrames](const std::string& text) { return takeCount(text, frames); }, "FRAMES",
-      "close after this many frames (0: when the window is closed)");
+      "close after so many frames (0: never)");
   command.add_flag("--wait-for-assets", options.waitForAssets,
-                   "open the window when the environment is there, not before");
-  command
-      .add_option("--panels", options.panels,
-                  "bring to the front at the start: parameters, passes, selected, times, storage, histogram, "
-                  "messages")
+                   "show nothing before the environment is there");
+  command.add_option("--panels", options.panels, "panels to bring to the front at the start")
       ->delimiter(',')
       ->check(CLI::IsMember(ui::Panels::names()));
-  command.add_flag("--events", options.events,
-                   "say on standard output what happens, a line each, for scripts");
+  command.add_flag("--events", options.events, "say what happens, a line each, for scripts");
   command.add_flag("!--no-ui", options.ui, "the picture alone, without panels");
-  addPath(command, "--screenshot", options.screenshot,
-          "picture to write of the last frame before closing, .png or .exr");
-  addPath(command, "--record", options.record,
-          "write every frame from the first on, at a fixed step: f_%04d.png, or .exr");
+  addPath(command, "--screenshot", options.screenshot, "picture of the last frame, .png or .exr");
+  addPath(command, "--record", options.record, "write every frame, at a fixed step: f_%04d.png");
   options.addFps(command, "frames per second of recordings");
   command.add_flag("!--no-vsync", options.vsync, "do not wait for the screen's refresh");
   command.add_flag("--idle", options.idle, "draw only when something changed");
-  command
-      .add_option("--render-scale", options.renderScale,
-                  "pixels of the scene per pixel of the window, each way")
+  command.add_option("--render-scale", options.renderScale, "pixels of the scene per pixel of the window")
       ->check(numberFrom(0.1, 4));
-  command.add_option("--ui-scale", options.uiScale, "size of the panels (default: as the screen says)")
+  command.add_option("--ui-scale", options.uiScale, "size of the panels (default: the screen's)")
       ->check(numberFrom(0.25, 8));
 }
 

@@ -37,25 +37,21 @@ void tell(text::Diagnostics& diagnostics, ui::Log& log, ui::Log::Topic topic) {
 
 // The rows of keyBindings(), in two columns and as small as the window asks for.
 void drawHelp() {
-  constexpr float kMargin = 16;  // pixels
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   std::vector<const KeyBinding*> rows;
-  float width = 0;
   for (const KeyBinding& binding : keyBindings())
-    if (*binding.keys) {
-      rows.push_back(&binding);
-      width = std::max(width, ImGui::CalcTextSize(binding.does).x);
-    }
+    if (*binding.keys) rows.push_back(&binding);
   const std::size_t high = (rows.size() + 1) / 2;
-  const float wanted = 2 * width + 24 * ImGui::GetFontSize();
-  const float height = static_cast<float>(high + 1) * ImGui::GetTextLineHeightWithSpacing();
+  float width = 0;
+  for (const KeyBinding* row : rows) width = std::max(width, ImGui::CalcTextSize(row->does).x);
   ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowFocus();
-  ImGui::SetNextWindowBgAlpha(1);
   ImGui::Begin("Help", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_AlwaysAutoResize);
-  ImGui::SetWindowFontScale(std::min({1.0f, (screen.x - kMargin) / wanted, (screen.y - kMargin) / height}));
+  ImGui::SetWindowFontScale(
+      std::min({1.0f, (screen.x - 16) / (2 * width + 24 * ImGui::GetFontSize()),
+                (screen.y - 16) / (static_cast<float>(high + 1) * ImGui::GetTextLineHeightWithSpacing())}));
   if (ImGui::BeginTable("keys", 4, ImGuiTableFlags_SizingFixedFit)) {
     for (std::size_t row = 0; row < high; ++row)
       for (std::size_t at = row; at < rows.size(); at += high) {
@@ -327,8 +323,8 @@ void Viewer::update(gl::Size size) {
     say("environment " + live_.environment().shown());
   }
   if (rig_.mode() == CameraRig::Mode::fly && !input_.captured()) toggleFlight();  // the focus went elsewhere
-  if (std::exchange(switches_, live_.switches()) != live_.switches()) rest_.disturb();
-  if (std::exchange(livesSet_, live_.livesSet()) != live_.livesSet()) rest_.disturb();
+  const std::uint64_t changed = live_.switches() + live_.livesSet();
+  if (std::exchange(changed_, changed) != changed) rest_.disturb();
   showState();
 }
 
@@ -484,8 +480,7 @@ void Viewer::drawUi(bool seen) {
 
 void Viewer::saveScreenshot() {
   if (screenshot_.empty()) return;
-  const std::string name = screenshotName(frame_, screenshot_.c_str());
-  screenshot_.clear();
+  const std::string name = screenshotName(frame_, std::exchange(screenshot_, {}).c_str());
   if (live_.running() && writer_.save(renderer_, name, diagnostics_)) {
     told_ = "wrote " + name;
     print(fmt::format("wrote {}\n", text::printable(name)));

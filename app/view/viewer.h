@@ -105,9 +105,8 @@ class Viewer {
   std::string title_, told_;       // the last: what was done, for the line at the bottom
   ui::Panels::Area area_;          // of the picture, in pixels of the window
   std::uint32_t frame_ = 0, redraws_ = 0;
-  std::uint64_t inputs_ = 0, switches_ = 0, livesSet_ = 0,
-                sceneReads_ = 0;  // when they were last looked at
-  int restless_ = 0;              // redraws that the panels still want
+  std::uint64_t inputs_ = 0, changed_ = 0, sceneReads_ = 0;  // when they were last looked at
+  int restless_ = 0;                                         // redraws that the panels still want
   float uiScale_ = 1;
   gl::Size size_;  // of the window, as it was said last
   double renderScale_ = 1;
