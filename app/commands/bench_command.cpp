@@ -73,8 +73,7 @@ std::optional<Value> neighborOf(const ParameterDesc& desc, Value value) {
   return value;
 }
 
-// The median in microseconds of what the edits take, one after another; all of them together change nothing. What takes
-// less than 200 us is repeated within one timing.
+// The median in microseconds of what the edits take, one after another; all of them together change nothing.
 double timeOf(const std::vector<std::function<void()>>& edits) {
   std::vector<double> times;
   double once = 0;
@@ -95,12 +94,9 @@ double timeOf(const std::vector<std::function<void()>>& edits) {
   return FrameProfiler::medianOf(times);
 }
 
-// What an edit costs until the next frame may start, as the viewer makes it
-// (app/live/live_graph.h): a live parameter, a structural one, a saved file.
-// CPU time of the calling thread, with every program cached, without drawing:
-// only before the first edit are there frames. A live change: one value more; a
-// toggle: a structural boolean, on and off; a save: all files of the graph are
-// read again. "worst" is the largest of the medians. Empty after errors.
+// What an edit costs until the next frame may start, as the viewer makes it (app/live/live_graph.h), in CPU time of the calling
+// thread with every program cached: a live parameter, a structural boolean on and off, a save (all files of the graph are read again).
+// "worst" is the largest of the medians. Empty after errors.
 std::optional<Json> benchEdits(const Options& options, text::Diagnostics& diagnostics) {
   auto world = loadWorld(options, diagnostics);
   if (!world || diagnostics.hasErrors()) return std::nullopt;
@@ -247,11 +243,7 @@ void addBench(CommandLine& line) {
   addPath(command, "--frame", options.frameGraph, "graph file: its frame in full-screen copies");
   addPath(command, "--edit", options.editGraph, "graph file: what a changed parameter and a saved file cost")
       ->excludes("--frame");
-  addPath(command, "--environment", options.environment, "environment map, .hdr or .exr");
-  addPath(command, "--scene", options.scene, "scene file");
-  command.add_option("--camera", options.camera, "camera of the scene");
-  addPath(command, "--materials", options.materials, "material library");
-  options.addSize(command);
+  options.addWorld(command);
   options.addBackend(command);
 }
 

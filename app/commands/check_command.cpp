@@ -1,5 +1,4 @@
-// weft check: everything wrong with a graph, as text, JSON or SARIF; once, or again after every save.
-// Declared in commands.h.
+// weft check: everything wrong with a graph, as text, JSON or SARIF. Declared in commands.h.
 #include <fmt/ranges.h>
 #include <poll.h>
 
@@ -9,6 +8,7 @@
 #include "engine/glsl/interface.h"
 #include "engine/glsl/tokens.h"
 #include "engine/graph/compile/compile.h"
+#include "engine/graph/edit/stanzas.h"
 #include "engine/graph/read/read.h"
 #include "engine/graph/survey/matrix.h"
 #include "engine/passes/pass_type.h"
@@ -197,14 +197,12 @@ std::string keyOf(const text::Diagnostic& d) {
   return fmt::format("{}:{}:{} {}", place.file ? *place.file : "", place.line, place.column, d.message);
 }
 
-// Checks the shaders of plans against their passes, each variant once: compiled, in a context that is opened for the first plan,
-// or with --no-shaders by what they declare.
+// Checks the shaders of plans, each variant once: compiled, or with --no-shaders by what they declare.
 class ShaderCheck {
  public:
   explicit ShaderCheck(const CheckOptions& options) : options_(options) {}
 
-  // All variants of the live passes. `with`: how the plan differs from the graph as it is, for messages; or "". Nothing
-  // more is compiled once a context could not be opened, which is reported.
+  // All variants of the live passes. `with`: how the plan differs from the graph as it is, for messages; or "".
   void check(const graph::Plan& plan, const std::string& with, text::Diagnostics& diagnostics) {
     if (options_.shaders && !open(diagnostics)) return;
     glsl::SourceLoader& sources = session_ ? session_->renderer.device().sources : sources_;
@@ -229,24 +227,20 @@ class ShaderCheck {
     files.insert(sources.touched().begin(), sources.touched().end());
   }
 
-  // Reads the shader files of a graph that is wrong and so has no variants: a misspelt path is told together with the
-  // graph's own mistakes.
+  // Reads the shader files of a graph that is wrong: a misspelt path is told together with its own mistakes.
   void checkFiles(const graph::GraphDesc& desc, text::Diagnostics& diagnostics) {
-    for (const graph::PassDesc& pass : desc.passes) {
-      if (pass.include && pass.include->graph) checkFiles(*pass.include->graph, diagnostics);
+    sources_.setRoots(runtime::shaderRootsOf(desc.files, dataFolder()));
+    graph::eachPass(desc, [&](const std::string&, const graph::PassDesc& pass) {
       const passes::PassType* type = pass.shader.empty() ? nullptr : types_.find(pass.type);
-      if (!type) continue;
+      if (!type) return;
       std::vector<std::string> stages{pass.shader, pass.vertexShader};
       if (type->reflect().shader == graph::ShaderShape::draw && pass.vertexShader.empty())
         stages = {pass.shader + ".vert.glsl", pass.shader + ".frag.glsl"};
-      if (pass.shader.ends_with(".glsl") && stages[0] != pass.shader) continue;  // of one stage (W067)
+      if (pass.shader.ends_with(".glsl") && stages[0] != pass.shader) return;  // of one stage (W067)
       for (const std::string& file : stages)
         if (!file.empty()) sources_.load(file, diagnostics, pass.shaderPlace);
-    }
+    });
     files.insert(sources_.touched().begin(), sources_.touched().end());
-  }
-  void setRoots(const std::vector<std::string>& graphFiles) {
-    sources_.setRoots(runtime::shaderRootsOf(graphFiles, dataFolder()));
   }
 
   // Checks a shader that no graph names; compiled where there is OpenGL.
@@ -260,10 +254,9 @@ class ShaderCheck {
     return made;
   }
 
-  std::set<std::string> files;       // that were read or looked for
-  std::set<std::string> variants;    // by what they are made of
-  std::set<std::string> passes;      // of live passes, without the index of a repeat
-  std::vector<std::string> neverOn;  // passes, after all variants
+  std::set<std::string> files;     // that were read or looked for
+  std::set<std::string> variants;  // by what they are made of
+  std::set<std::string> passes;    // of live passes, without the index of a repeat
   text::Diagnostics
       unread;  // why shaders were not looked at (--no-shaders): they, or an include, are missing
 
@@ -299,18 +292,6 @@ class ShaderCheck {
   std::set<std::string> missing_;                           // files that `unread` is about
 };
 
-// Passes whose shaders no plan has: what switches them on is the size of a picture, or several parameters at once.
-void addNeverOn(const graph::GraphDesc& desc, const std::string& prefix, ShaderCheck& shaders) {
-  for (const graph::PassDesc& pass : desc.passes) {
-    const std::string name = prefix + pass.name;
-    if (pass.include) {
-      if (pass.include->graph) addNeverOn(*pass.include->graph, name + ".", shaders);
-    } else if (!pass.shader.empty() && pass.repeat.empty() && !shaders.passes.contains(name)) {
-      shaders.neverOn.push_back(name);
-    }
-  }
-}
-
 struct Checked {
   text::Diagnostics diagnostics{};
   std::shared_ptr<const graph::Plan> plan{};  // null after errors of the graph
@@ -337,7 +318,6 @@ Checked checkOnce(const CheckOptions& options) {
   const auto desc =
       vary || !(checked.plan || over) ? graph::readGraph(options.graph, options.presets, again) : nullptr;
   if (desc && !checked.plan && options.shaders) {
-    checked.shaders.setRoots(desc->files);
     checked.shaders.checkFiles(*desc, diagnostics);
   }
   if (vary) {
@@ -350,7 +330,15 @@ Checked checkOnce(const CheckOptions& options) {
     checked.matrix =
         graph::tryMatrix(*desc, runtime::makeRegistry({}, facts), settingsOf(options, true), wanted);
   }
-  if (vary && options.allVariants && !diagnostics.hasErrors()) addNeverOn(*desc, "", checked.shaders);
+  // Passes whose shaders no plan has: what switches them on is the size of a picture, or several parameters at once.
+  if (vary && options.allVariants && !diagnostics.hasErrors())
+    graph::eachPass(*desc, [&](const std::string& name, const graph::PassDesc& pass) {
+      if (!pass.include && !pass.shader.empty() && pass.repeat.empty() &&
+          !checked.shaders.passes.contains(name))
+        checked.shaders.unread.warning(
+            text::Code::unreadableShader, pass.shaderPlace,
+            fmt::format("the shader of '{}', which stays off with this scene", name));
+    });
   if (vary && options.matrix)
     for (const auto* told : {&checked.matrix->broken, &checked.matrix->lost})
       for (const graph::RefusedVariation& variation : *told)
@@ -413,10 +401,6 @@ int tellText(const CheckOptions& options, Checked& checked) {
   // A graph may be elsewhere than its shaders: no mistake, but then nobody has looked at them.
   for (const text::Diagnostic& each : checked.shaders.unread.items())
     if (code == 0) print(fmt::format("  not looked at: {}\n", text::printable(each.message)));
-  if (const auto& off = checked.shaders.neverOn; code == 0 && !off.empty())
-    print(text::printable(fmt::format("  not looked at: shaders of passes that stay off with this scene: {}",
-                                      fmt::join(off, ", "))) +
-          "\n");
   return code;
 }
 
@@ -443,8 +427,6 @@ Json documentOf(const CheckOptions& options, const Checked& checked) {
   if (checked.stanza) out["stanza"] = checked.stanza->pass;
   for (const text::Diagnostic& each : checked.shaders.unread.items())
     out["not_looked_at"].push_back(each.message);
-  for (const std::string& pass : checked.shaders.neverOn)
-    out["not_looked_at"].push_back(fmt::format("the shader of '{}'", pass));
   if (options.shaders) out["shader_variants"] = checked.shaders.variants.size();
   if (checked.matrix && options.matrix)
     out["matrix"] = {{"passes", checked.matrix->passes},

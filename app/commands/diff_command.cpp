@@ -31,8 +31,7 @@ std::string textOf(const DiffOptions& options, const std::string& plans, const s
   return dumpJson(json) + "\n";
 }
 
-// Writes before.png, after.png and difference.png, and nothing over a file that was read. A difference of an earlier run is
-// removed where the pictures have different sizes.
+// Writes before.png, after.png and, of pictures of one size, difference.png; nothing over a file that was read.
 void leavePictures(const std::string& folder, const assets::Image8& before, const assets::Image8& after,
                    const std::optional<PictureDifference>& difference, text::Diagnostics& diagnostics) {
   std::vector<OutputFile> outputs;
@@ -125,8 +124,7 @@ void addDiff(CommandLine& line) {
       line.add("diff", "how the plan of another graph differs; exit 1 when it does", runDiff);
   options.addGraph(command);
   options.addOther(command);
-  options.addPointer(command);
-  options.addBackend(command);
+  options.addDrawing(command);
   CLI::Option* render = command.add_flag(
       "--render", options.render, "how the pictures differ, too, and the first pass whose output does");
   addPath(command, "-o,--output", options.output,

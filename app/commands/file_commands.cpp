@@ -1,5 +1,4 @@
-// The commands that write files of text: format lays graphs out, new begins a graph or a pass, import makes a graph of another program's
-// pipeline.
+// The commands that write files of text: format, new, and import of another program's pipeline.
 #include <fmt/ranges.h>
 
 #include "app/commands/commands.h"

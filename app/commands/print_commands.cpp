@@ -1,5 +1,4 @@
-// The commands that print what the compiled plan knows, plan, explain and params; and what a graph may name: presets, types,
-// schema.
+// The commands that print what a plan knows (plan, explain, params) and what a graph may name (presets, types, schema).
 #include <fmt/ranges.h>
 
 #include <cctype>

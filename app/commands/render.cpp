@@ -252,7 +252,6 @@ void addRender(CommandLine& line) {
   const auto [command, options] =
       line.add("render", "render frames of a graph to image files, without a display", runRender);
   options.addGraph(command);
-  options.addBackend(command);
   options.addMeasurements(command);
   addPath(command, "-o,--output", options.outputs,
           "image to write, .png or .exr, of frames f_%04d.png, of a texture depth=FILE; repeatable")
@@ -263,8 +262,7 @@ void addRender(CommandLine& line) {
     return takeRange(text, options.firstFrame, options.lastFrame);
   };
   addTaken(command, "--frames", takeFrames, "A:B", "a frame number, or FIRST:LAST");
-  options.addFps(command);
-  options.addPointer(command);
+  options.addDrawing(command);
   command.add_flag("--wait-for-assets")->description("as always without a window");
   command.add_flag("--quiet", options.quiet, "no progress bar and no notes");
 }
@@ -279,9 +277,7 @@ void addDump(CommandLine& line) {
       ->required();
   addPath(command, "-o,--output", options.folder, "folder to write to", "FOLDER")->required();
   options.addFrame(command, "--frame,--frames");
-  options.addFps(command);
-  options.addPointer(command);
-  options.addBackend(command);
+  options.addDrawing(command);
   command.add_flag("--quiet", options.quiet, "no list of files and no notes");
 }
 

@@ -282,9 +282,7 @@ void addReport(CommandLine& line) {
   options.addOther(command);
   addPath(command, "-o,--output", options.output, "the page to write, .html")->required();
   options.addFrame(command);
-  options.addFps(command);
-  options.addPointer(command);
-  options.addBackend(command);
+  options.addDrawing(command);
   command.add_option("--times", options.repeats, "also show times: medians over so many frames")
       ->check(CLI::Range(1, 1000));
   command.footer("Example: weft report graphs/studio.json --size 320x180 -o out/report.html");

@@ -1,5 +1,4 @@
-// weft test: cases of pictures and plans against their goldens. Renders each, compares it with its golden or writes that, and finds the first
-// pass that differs.
+// weft test: cases of pictures and plans against their goldens.
 
 #include <iterator>
 
@@ -115,8 +114,7 @@ CaseResult runPlan(const TestCase& test, bool accept, text::Diagnostics& diagnos
   return result;
 }
 
-// Compares a picture with its golden, or with `accept` writes it as that where they differ. False when it is not good enough, or
-// was written.
+// Compares a picture with its golden, or with `accept` writes it where they differ. False when it differs too much, or was written.
 bool judgePicture(const TestCase& test, std::uint32_t frame, const assets::Image8& picture, bool accept,
                   CaseResult& result, text::Diagnostics& diagnostics) {
   const std::string file = test.goldenOf(frame);

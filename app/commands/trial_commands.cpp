@@ -1,5 +1,4 @@
-// weft ablate: what each pass of a graph costs and does, found by leaving it out: time, bytes and the picture without it. weft fuzz: whatever a
-// plan leaves open, the picture is the same.
+// weft ablate: what each pass of a graph costs and does. weft fuzz: whatever a plan leaves open, the picture is the same.
 
 #include "app/commands/commands.h"
 #include "app/output/page.h"
@@ -237,8 +236,7 @@ void addAblate(CommandLine& line) {
       line.add("ablate", "what each pass costs and does: time, bytes and picture without it", runAblate);
   options.addGraph(command);
   options.addFrame(command);
-  options.addPointer(command);
-  options.addBackend(command);
+  options.addDrawing(command);
   command.add_option("--repeats", options.repeats, "frames to measure; the median counts")
       ->check(CLI::Range(1u, 1000u));
   addChoice(command, "--format", options.format, "text, json or html", {"text", "json", "html"});
@@ -250,8 +248,7 @@ void addFuzz(CommandLine& line) {
       line.add("fuzz", "render in other legal orders and storage; exit 1 when a picture differs", runFuzz);
   options.addGraph(command);
   options.addFrame(command);
-  options.addPointer(command);
-  options.addBackend(command);
+  options.addDrawing(command);
   command.add_option("--runs", options.runs, "how many random orders to try")->check(CLI::Range(1u, 100000u));
   command.add_option("--seed", options.seed,
                      "this order alone; 0 is the declared one (default: 0 to --runs)");

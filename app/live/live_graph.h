@@ -29,8 +29,7 @@ class LiveGraph {
   // for a moment, as more may come. A scene with models is read beside the frames, and loaded when it has
   // arrived. `now` in seconds. True when something came of it that is to be reported.
   bool poll(double now, text::Diagnostics& diagnostics);
-  // Whether files changed that poll() has not loaded yet. False while a scene
-  // is on its way: then there is nothing to wait for.
+  // Whether files changed that poll() has not loaded yet; false while a scene is on its way.
   bool pending() const { return (graphStale_ && !scene_.loading()) || !changedEnvironment_.empty(); }
   // Once per frame: takes up an environment that has arrived. True when something came of the last request;
   // on failure the environment before stays, or, when it was to be the first, the stand-in comes.

@@ -98,8 +98,7 @@ class LiveEnvironment {
   void assume(std::string path) { wanted_ = shown_ = std::move(path); }
   // Loads `path`, instead of whatever is on its way.
   void request(std::string path);
-  // The one `by` files after the last one asked for, in the order of names,
-  // round and round. False when there is no other.
+  // The one `by` files after the last one asked for, in a circle, by name. False when there is no other.
   bool step(int by);
 
   // Once per frame: something came of the last request. A map is whole on the GPU and to be taken into use at once; null: it

@@ -1,10 +1,9 @@
-// What may be written at the cursor: keys and words by the schema of the format, names of graphs and of their shaders. Declared in
-// answers.h.
+// What may be written at the cursor. Declared in workspace.h.
 #include <fmt/format.h>
 
 #include <filesystem>
 
-#include "app/lsp/answers.h"
+#include "app/lsp/workspace.h"
 #include "engine/graph/language/keys.h"
 #include "engine/graph/read/overlay.h"
 #include "engine/graph/read/read_context.h"
@@ -76,16 +75,7 @@ bool fits(const Json& shape, const JsonValue& object, const JsonMember* typed) {
 // ---- completion ----
 
 // Kinds of items of the protocol.
-enum class ItemKind {
-  function = 3,
-  field = 5,
-  variable = 6,
-  module = 9,
-  property = 10,
-  value = 12,
-  keyword = 14,
-  file = 17
-};
+enum class ItemKind { field = 5, variable, module = 9, property, value = 12, keyword = 14, file = 17 };
 
 class Completer {
  public:

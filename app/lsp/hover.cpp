@@ -1,7 +1,7 @@
-// What is shown of the thing under the cursor, and the outline of a file. Declared in answers.h.
+// What is shown of the thing under the cursor, and the outline of a file. Declared in workspace.h.
 #include <fmt/format.h>
 
-#include "app/lsp/answers.h"
+#include "app/lsp/workspace.h"
 #include "engine/graph/print/explain.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/read/overlay.h"

@@ -12,7 +12,7 @@
 #include <optional>
 #include <set>
 
-#include "app/lsp/answers.h"
+#include "app/lsp/workspace.h"
 #include "app/output/standard_streams.h"
 #include "engine/text/chars.h"
 #include "engine/text/json/report.h"
@@ -24,8 +24,7 @@ namespace lsp {
 
 namespace {
 
-// Reads messages of the Language Server Protocol 3.17, "Base Protocol": header lines, an empty line, and as many bytes of JSON as
-// Content-Length says.
+// Reads messages: header lines, an empty line, and as many bytes of JSON as Content-Length says.
 class MessageReader {
  public:
   // Nothing where the input ends, or has no such header; then problem() says why.
@@ -127,8 +126,7 @@ Json diagnosticJson(const text::Diagnostic& d, const Text& text) {
           {"message", std::move(message)}};
 }
 
-// Takes messages of the protocol, and sends messages. Changes that have already arrived are taken together before graphs are checked
-// again. Every request is answered by a result or an error.
+// Takes and sends messages. Changes that have already arrived are taken together before graphs are checked again.
 class Server {
  public:
   explicit Server(const Options& options) : workspace_(options, texts_) {}

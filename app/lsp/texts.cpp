@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "engine/glsl/tokens.h"
-#include "engine/text/files/file.h"
 #include "engine/text/json/report.h"
 
 namespace weft::app::lsp {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/glsl/interface.h"
+#include "engine/text/files/file.h"
 #include "engine/text/json/dom.h"
 
 namespace weft::app::lsp {

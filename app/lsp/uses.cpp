@@ -1,7 +1,7 @@
-// Definitions, uses and renaming. Declared in answers.h.
+// Definitions, uses and renaming. Declared in workspace.h.
 #include <fmt/format.h>
 
-#include "app/lsp/answers.h"
+#include "app/lsp/workspace.h"
 #include "engine/graph/language/names.h"
 #include "engine/text/json/report.h"
 

@@ -4,10 +4,10 @@
 
 #include "app/session/session.h"
 #include "engine/graph/compile/compile.h"
+#include "engine/graph/edit/stanzas.h"
 #include "engine/graph/read/read.h"
 #include "engine/runtime/frame/renderer.h"
 #include "engine/runtime/prepare/program_request.h"
-#include "engine/text/files/file.h"
 #include "engine/text/nearest.h"
 
 namespace weft::app::lsp {
@@ -37,15 +37,6 @@ std::vector<ShaderKey> keysOf(const graph::PassDesc& pass) {
       if (each.name.starts_with(key) && each.name.find('.', key.size()) == std::string::npos)
         add("slot", each.name.substr(key.size()), each.place);
   return keys;
-}
-
-// Calls f(pass, prefix) for the passes and includes of a graph and of all that it includes.
-void eachPass(const graph::GraphDesc& desc, const std::string& prefix,
-              const std::function<void(const graph::PassDesc&, const std::string&)>& f) {
-  for (const graph::PassDesc& pass : desc.passes) {
-    f(pass, prefix);
-    if (pass.include && pass.include->graph) eachPass(*pass.include->graph, prefix + pass.name + ".", f);
-  }
 }
 
 }  // namespace
@@ -129,7 +120,7 @@ void Workspace::readAll() {
     if (graph.named != graph.desc) graph.uses = graph::findNameUses(*graph.desc, registry_);
     graph.named = graph.desc;
     graph.shaderFolders = runtime::shaderRootsOf(graph.desc->files, dataFolder());
-    eachPass(*graph.desc, "", [&](const graph::PassDesc& pass, const std::string&) {
+    graph::eachPass(*graph.desc, [&](const std::string&, const graph::PassDesc& pass) {
       if (pass.include && pass.include->graph) included.insert(text::absolutePath(pass.include->graph->path));
     });
   }
@@ -242,9 +233,9 @@ std::vector<std::string> Workspace::shaderFiles(const std::string& shader, const
 
 std::vector<Program> Workspace::programsOf(const Graph& graph) const {
   std::vector<Program> found;
-  eachPass(*graph.desc, "", [&](const graph::PassDesc& pass, const std::string& prefix) {
+  graph::eachPass(*graph.desc, [&](const std::string& name, const graph::PassDesc& pass) {
     if (!pass.include)
-      found.push_back({&graph, &pass, prefix + pass.name, keysOf(pass),
+      found.push_back({&graph, &pass, name, keysOf(pass),
                        shaderFiles(pass.shader, pass.vertexShader, graph.shaderFolders)});
   });
   return found;

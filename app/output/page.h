@@ -1,5 +1,4 @@
-// One HTML page with everything in it: app/report/page.html with its style, its script and the data that the script draws. `weft
-// report` writes one of a frame, `weft test` one of the cases that failed, `weft ablate` one of what each pass does.
+// One HTML page with everything in it (app/report/page.html): of a frame, of test cases that failed, or of what each pass does.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -43,8 +43,7 @@ class PictureWriter {
   std::uint64_t brokenBefore_ = 0;
 };
 
-// A numbered sequence of presented pictures. One recording at a time; the first file that cannot be written
-// ends it, with the reason, and nothing else.
+// A numbered sequence of presented pictures. The first file that cannot be written ends it.
 class Recorder {
  public:
   // Frames go to `pattern` ("out/f_%04d.png", or .exr), numbered from 0. An empty pattern makes a new folder,

@@ -42,8 +42,7 @@ struct Progress {
 // "12/501 frames, 500 of them lead up to the first picture, 2.2 h left".
 std::string progressText(const Progress& progress);
 
-// How far a long run is, on standard error: one line on a terminal, elsewhere a line every ten seconds, so that a quick run says
-// nothing.
+// How far a long run is, on standard error: one line on a terminal, elsewhere a line every ten seconds.
 class ProgressLines {
  public:
   explicit ProgressLines(Progress progress) : progress_(progress) {}

@@ -1,5 +1,4 @@
-// The command line: commands that each declare their own options, one of which is chosen and run. Parsing, help and the messages
-// for wrong arguments are CLI11's.
+// The command line: commands that each declare their own options, one of which is chosen and run.
 #pragma once
 
 #include <CLI/CLI.hpp>

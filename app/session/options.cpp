@@ -32,18 +32,22 @@ bool readPair(std::string_view text, char separator, Number& a, Number& b) {
 
 CLI::Option* Options::addGraph(CLI::App& command) {
   CLI::Option* file = addPath(command, "graph", graph, "graph file (JSON)")->required();
-  addPath(command, "--scene", scene, "scene file (default: the bundled scenes/spheres.json)");
-  command.add_option("--camera", camera,
-                     "camera of the scene (default: its first), or a pose as the viewer prints it (C)");
-  addPath(command, "--materials", materials, "material library for the scene's grid");
-  addPath(command, "--environment", environment, "environment map, .hdr or .exr; view: also a folder");
-  addSize(command);
+  addWorld(command);
   addPath(command, "--preset", presets,
           "overlay over the graph: a file or a name of 'weft presets'; repeatable");
   addPresetFolder(command);
   addDisables(command, "--disable", disables, "disable a pass (any unique suffix of its name); repeatable");
   addSets(command, "--set", sets, "set a parameter (any unique suffix of its name); repeatable");
   return file;
+}
+
+void Options::addWorld(CLI::App& command) {
+  addPath(command, "--scene", scene, "scene file (default: the bundled scenes/spheres.json)");
+  command.add_option("--camera", camera,
+                     "camera of the scene (default: its first), or a pose as the viewer prints it (C)");
+  addPath(command, "--materials", materials, "material library for the scene's grid");
+  addPath(command, "--environment", environment, "environment map, .hdr or .exr; view: also a folder");
+  addSize(command);
 }
 
 void OtherOptions::addOther(CLI::App& command) {
@@ -90,7 +94,9 @@ void Options::addFps(CLI::App& command, const char* doc) {
   command.add_option("--fps", fps, doc)->check(numberFrom(1, 1000));
 }
 
-void Options::addPointer(CLI::App& command) {
+void Options::addDrawing(CLI::App& command) {
+  addFps(command);
+  addBackend(command);
   addTaken(
       command, "--mouse", [this](const std::string& text) { return takePointer(text, pointer); },
       "X,Y[,down]", "where the mouse is: pixels from the lower left corner; down: its button is held");
@@ -176,7 +182,8 @@ std::string takeSize(const std::string& text, std::uint32_t& width, std::uint32_
 }
 
 std::string takeCount(const std::string& text, std::uint32_t& count) {
-  return readNumber(text, count) ? "" : fmt::format("expected a number up to {}, found '{}'", ~0u, text);
+  return readNumber(text, count) ? ""
+                                 : fmt::format("expected a number of frames up to {}, found '{}'", ~0u, text);
 }
 
 std::string takeRange(const std::string& text, std::uint32_t& first, std::uint32_t& last) {

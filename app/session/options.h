@@ -1,5 +1,4 @@
-// What several commands have in common on their command lines: a graph, what is around it, and where it runs. Each group adds its
-// options to a command; the options of one command are declared beside its code.
+// What several commands have in common on their command lines; the options of one are declared beside its code.
 #pragma once
 
 #include <cstdint>
@@ -44,11 +43,12 @@ struct Options {
 
   // The graph, its settings and its surroundings. Returns the option of the graph's file.
   CLI::Option* addGraph(CLI::App& command);
+  void addWorld(CLI::App& command);  // scene, camera, materials, environment, size
   void addSize(CLI::App& command);
   void addPresetFolder(CLI::App& command);
   CLI::Option* addFrame(CLI::App& command, const char* name = "--frame");  // one frame to look at
   void addFps(CLI::App& command, const char* doc = "frames per second of the clock");
-  void addPointer(CLI::App& command);
+  void addDrawing(CLI::App& command);  // the clock, the mouse, and the backend
   void addBackend(CLI::App& command);
   void addMeasurements(CLI::App& command);  // --stats and --profile
 

@@ -1,5 +1,4 @@
-// Makes of the command-line options what every command begins with: the world, the graph's description, its plan; and for those
-// that draw a GL context and a renderer on it.
+// Makes of the command-line options what every command begins with: world, plan; context and renderer.
 #pragma once
 
 #include <initializer_list>
@@ -28,8 +27,7 @@ std::string presetsFolder();
 // ($XDG_CONFIG_HOME/weft/presets, else ~/.config/weft/presets), the bundled ones. They need not be there.
 std::vector<std::string> presetFolders(const std::string& own);
 
-// The file of a preset. A word that is no file here, or a folder, is a name in one of the folders; of one that is in none, the message has the
-// nearest bundled one.
+// The file of a preset. A word that is no file here is a name in one of the folders; one that is nowhere, of the bundled ones.
 std::string presetFile(const std::string& preset, const std::string& own);
 
 graph::Settings settingsOf(const Options& options, bool software);
@@ -51,8 +49,7 @@ std::shared_ptr<const graph::Plan> makePlan(const Options& options, const runtim
 // The same with the world of the options; without one, when the scene cannot be read.
 std::shared_ptr<const graph::Plan> planOf(const Options& options, text::Diagnostics& diagnostics);
 
-// Whether the graph is wrong on every device; what is wrong is in `diagnostics` then. Commands that draw ask before they open OpenGL,
-// which takes longer than all of this.
+// Whether the graph is wrong on every device, which `diagnostics` then says. Asked before OpenGL is opened, which takes longer.
 bool isWrong(const Options& options, const runtime::WorldFacts& facts, text::Diagnostics& diagnostics);
 
 // Checks the shaders of a pass against it by what they declare, without OpenGL. Why a file cannot be read is said once, in `unread`;
@@ -96,8 +93,7 @@ bool checkPresents(const Options& options, runtime::Renderer& renderer, text::Di
 nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json times);
 void printStats(const nlohmann::ordered_json& stats);  // on standard error
 
-// Destroys the renderer, then asks the driver which objects still exist: "none", unless one was forgotten.
-// The context goes last. What the overlay made must be gone by then.
+// Destroys renderer and context; in between asks the driver which objects still exist: "none", unless one was forgotten.
 std::string closeDevice(std::unique_ptr<DeviceSession> session);
 
 }  // namespace weft::app

@@ -1,5 +1,4 @@
-// Cases of `weft test`: *.cases.json files. Reports everything wrong in one at once, each mistake with its place. The format is
-// described in docs/testing_pictures.md.
+// Cases of `weft test`: *.cases.json files (docs/testing_pictures.md). Reports everything wrong in one at once, with places.
 #pragma once
 
 #include <map>

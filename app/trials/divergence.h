@@ -24,8 +24,7 @@ struct Divergence {
 // Above this relative difference two signatures of different drivers are not the same picture.
 constexpr double kSignatureNoise = 1.0 / 64;
 
-// The first pass at which the records differ. A pass is culled because of another pass, so it is named only where nothing
-// else differs.
+// The first pass at which the records differ; one that is culled only where nothing else differs.
 std::optional<Divergence> findDivergence(const PassRecords& before, const PassRecords& after);
 
 }  // namespace weft::app

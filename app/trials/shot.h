@@ -1,5 +1,4 @@
-// A picture of a graph with what belongs to it: what each pass wrote, what it cost; and how two pictures differ. Every shot is
-// made by a renderer of its own, so that nothing of the shot before is in it.
+// A picture of a graph, what each pass wrote and cost, by a renderer of its own; and how two pictures differ.
 #pragma once
 
 #include <map>

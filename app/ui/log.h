@@ -18,7 +18,8 @@ class Log {
   void addPast(const text::Diagnostics& diagnostics);  // keeps the last hundred
   void dismiss();                                      // all there is now
   std::size_t errors() const;                          // that are not dismissed
-  // What is not dismissed: errors, warnings, notes; within each the newest first, what was set together in its order. Without `all`, only what stands on screen while the panels are hidden.
+  // What is not dismissed: errors, warnings, notes; within each the newest first, what was set together in its order. Without `all`, only
+  // what stands on screen while the panels are hidden.
   std::vector<const text::Diagnostic*> shown(bool all) const;
 
  private:

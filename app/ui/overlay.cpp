@@ -40,8 +40,7 @@ float Overlay::textSize(float scale) {
 }
 
 void Overlay::setScale(float scale) {
-  // Text is drawn anew at its size, not stretched: Latin, Greek, Cyrillic and the signs of mathematics. Without the font, the one
-  // that Dear ImGui brings is stretched.
+  // Text is drawn anew at its size: Latin, Greek, Cyrillic and mathematics. Dear ImGui's own font would be stretched.
   static constexpr ImWchar kScripts[] = {0x20, 0x52f, 0x1e00, 0x22ff, 0x25a0, 0x25ff, 0};
   ImGuiIO& io = ImGui::GetIO();
   io.Fonts->Clear();

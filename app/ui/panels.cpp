@@ -83,8 +83,7 @@ std::vector<std::string> Panels::names() {
   return names;
 }
 
-// The column takes the right side, the strip what is below the picture, the line the lower end. Where the window is not wide there is no
-// strip, and the column has all tabs.
+// The column takes the right side, the strip what is below the picture. A narrow window has no strip, and all tabs in the column.
 void Panels::measure(float textSize, float width, float height) {
   em_ = textSize;
   width_ = width;

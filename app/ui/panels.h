@@ -23,8 +23,7 @@ namespace weft::app::ui {
 // Of the last item, when the mouse rests over it.
 void tooltip(const std::string& text);
 void tooltip(const std::string& text, bool hovered);
-// A table with a row of titles, of which the one that stretches takes what the others leave; all can be widened. False where none of
-// it is seen.
+// A table with titles, of which one column takes what the others leave. False where none of it is seen.
 bool beginTable(const char* id, std::initializer_list<const char*> titles, int stretched,
                 ImGuiTableFlags flags);
 void cell(const std::string& text);  // the next one of a table
@@ -163,9 +162,9 @@ class Panels {
   runtime::FrameProfiler profiler_;
   InspectorPanel inspector_;
   std::array<std::array<float, 256>, 4> bins_{};  // of the picture: red, green, blue, luminance
-  double counted_ = -1;                          // seconds: when the histogram was made
-  std::unique_ptr<graph::Explainer> explainer_;  // of the plan of `explained_`
-  std::vector<PassRow> rows_;                    // of the same
+  double counted_ = -1;                           // seconds: when the histogram was made
+  std::unique_ptr<graph::Explainer> explainer_;   // of the plan of `explained_`
+  std::vector<PassRow> rows_;                     // of the same
   std::uint64_t explained_ = 0;
 
   std::optional<bool> visible_;  // as a person chose it

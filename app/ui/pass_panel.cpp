@@ -1,5 +1,4 @@
-// The passes in the order of the files, effects with a box for all that they include. A row stays where it is, whether it runs or
-// not. Declared in panels.h.
+// The passes in the order of the files, whether they run or not; effects have a box for all. Declared in panels.h.
 
 #include "app/ui/panels.h"
 

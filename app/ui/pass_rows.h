@@ -1,5 +1,4 @@
-// The rows of the panel of passes: every stanza of the graph and of what it includes, in the order of the files, whether it runs or not;
-// and what their boxes turn on and off.
+// The rows of the panel of passes: every stanza of the graph's files in their order; and what their boxes turn on and off.
 #pragma once
 
 #include <cstdint>
@@ -32,8 +31,7 @@ std::string switchNameOf(const graph::FlatGraph& graph, std::uint32_t pass);
 
 // What --disable or a box named to turn a row or an effect around it off; "" when something else did.
 std::string disabledBy(const PassRow& row, const graph::Settings& settings);
-// The parameter that turns the row on when it is set to true, by its full name: of a stanza with "enabled": "$name" that is off; else
-// "".
+// The parameter that turns the row on when it is true, of a stanza with "enabled": "$name" that is off; else "".
 std::string switchParameterOf(const PassRow& row, const graph::FlatGraph& graph);
 
 }  // namespace weft::app::ui

@@ -88,8 +88,7 @@ std::vector<Row> rowsOf(const graph::Plan& plan) {
   return rows;
 }
 
-// ---- histogram: how bright the picture is: the scene's luminance as the outputs of graphs/post.json have it, `histogram` over stops; or
-// else the presented picture ----
+// ---- histogram: the scene's luminance as graphs/post.json puts it out, or else the presented picture ----
 
 // shaders/exposure/histogram.glsl
 constexpr double kBrightest = 16, kBinsPerStop = 8;
@@ -100,8 +99,7 @@ const runtime::Output* find(const runtime::Execution& execution, std::string_vie
   return nullptr;
 }
 
-// A bar for each bin, over `share` of what is left of the window. The tallest of all but the ends, which may hold a whole sky, is
-// as high as the plot.
+// A bar for each bin. The tallest of all but the ends, which may hold a whole sky, is as high as the plot.
 void drawBars(const char* name, std::span<const float> bins, ImU32 color, float share) {
   const float highest = std::max(1e-4f, std::ranges::max(bins.subspan(1, bins.size() - 2)));
   const ImVec2 room = ImGui::GetContentRegionAvail();

@@ -12,8 +12,7 @@ constexpr double kPole = 1.55;  // radians: how far a person can look up and dow
 constexpr double kFastFactor = 4;
 constexpr double kZoomPerStep = 0.9, kSpeedPerStep = 1.15;
 constexpr double kFarthest = 1e5;
-// Head-bob of a person whose eye is 1.7 high and who covers twice that in a pair of steps; all in units of
-// speed.
+// Head-bob of a person whose eye is 1.7 high and who covers twice that in two steps, in units of speed.
 constexpr double kBobPerUnit = 4.5, kBobRise = 0.012, kBobSway = 0.008;
 constexpr double kBobSeconds = 0.15;  // the time constant with which it begins and ends
 

@@ -43,8 +43,7 @@ class CameraRig {
   void setMode(Mode mode);
   Mode mode() const { return mode_; }
 
-  // `seconds` have passed, and this was done in them. The first turn, pan or wheel in Mode::scene takes the
-  // camera to orbit.
+  // `seconds` have passed with this input. The first turn, pan or wheel in Mode::scene takes the camera to orbit.
   void advance(double seconds, const CameraInput& input);
 
   scene::CameraPose pose() const;

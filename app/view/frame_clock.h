@@ -38,11 +38,9 @@ class FrameClock {
     wall_ = wall;
     started_ = true;
   }
-  // The last frame did work that is not done in every frame: what it took counts for kWorkStep at most, so
-  // that a fade that begins there is seen.
+  // The last frame did more than its picture: it counts for kWorkStep at most, so that a fade that begins there is seen.
   void worked() { worked_ = true; }
-  // From the next frame on: fixed steps, the first of them now (before any frame: at 0). With 0, the wall
-  // clock again.
+  // Fixed steps from the next frame on (before any frame: from 0); with 0 the wall clock again.
   void fix(double fps) {
     fps_ = fps;
     base_ = started_ ? last_.time + 1 / fps : 0;

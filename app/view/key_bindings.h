@@ -1,5 +1,4 @@
-// What keys and the mouse do in the viewer: one table. The window's callbacks turn a key into the name of an action,
-// whoever does something registers it under that name; the help and the table in docs/viewer.md are made of the same rows.
+// What keys and the mouse do in the viewer: one table, of which callbacks, help and docs/viewer.md are made.
 #pragma once
 
 #include <cstdint>

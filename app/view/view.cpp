@@ -10,8 +10,7 @@ namespace weft::app {
 
 namespace {
 
-// Whether saving a file may make it good: nobody is to wait for a file that is
-// not there, or for a wrong command line.
+// Whether saving a file may make it good: it is there, and the command line is right.
 bool canBeFixed(const ViewOptions& options, const text::Diagnostics& diagnostics) {
   std::error_code ignored;
   for (const std::string& file : {options.graph, scenePathOf(options)})
@@ -48,25 +47,19 @@ int runView(ViewOptions& options) {
   const gl::Size size = session->context->framebufferSize();
   settings.screenWidth = std::max(1u, size.width);
   settings.screenHeight = std::max(1u, size.height);
-  // A recording is to be what `weft render` makes: it waits. Otherwise the
-  // environment comes while the window is open.
+  // A recording is to be what `weft render` makes: it waits for the environment.
   const bool wait = options.waitForAssets || !options.record.empty();
   Options first = files;
   if (!wait) first.environment.clear();
   // Models come while the window is open, too.
   const bool later = !wait && scene::namesModels(scenePathOf(files));
-  std::optional<runtime::World> world;
-  if (later) {
-    scene::Scene empty;
-    empty.cameras.add({.name = "default", .pose = {.position = {0, 0, 20}}});
-    world.emplace(std::move(empty));
-  } else {
-    world = loadWorld(first, diagnostics);
-  }
+  auto world = later ? std::nullopt : loadWorld(first, diagnostics);
   if (!world) {
     if (wait && !files.environment.empty()) return report(diagnostics);
     diagnostics.clear();  // the scene is read again, and says it again
-    world.emplace(scene::Scene{});
+    scene::Scene empty;
+    if (later) empty.cameras.add({.name = "default", .pose = {.position = {0, 0, 20}}});
+    world.emplace(std::move(empty));
   }
   if (!files.environment.empty() && !world->environment()) world->expectEnvironment();
   int code = 0;

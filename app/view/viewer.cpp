@@ -1,5 +1,4 @@
-// What the viewer can do, by name; its loop: events, files, camera, frame, panels; and what it draws over the picture besides the
-// panels.
+// What the viewer can do, by name; its loop; and its help.
 #include "app/view/viewer.h"
 
 #define GLFW_INCLUDE_NONE
@@ -383,8 +382,7 @@ void Viewer::frame() {
   in.previousPose = frame_ == 0 || cuts_ != rig_.cuts() ? in.pose : previousPose_;
   in.cutGeneration = cuts_ = rig_.cuts();
   if (readsMouse()) in.pointer = pointer_ = pointer();
-  // A recording has the frames that `weft render` makes. The first frame of a
-  // window that waited is finished, and does not fade in.
+  // A recording has the frames that `weft render` makes. The first frame of a window that waited does not fade in.
   in.headless = !options_.record.empty() || (options_.waitForAssets && frame_ == 0);
   panels_.beforeFrame();
   report_ = renderer_.frame(live_.world(), in, diagnostics_);
@@ -415,8 +413,7 @@ void Viewer::moveCamera(const FrameClock::Tick& tick) {
   const scene::Camera* camera = sceneCamera();
   if (camera && rig_.mode() == CameraRig::Mode::scene) {
     const scene::CameraPose pose = scene::poseAt(*camera, tick.time);
-    // The scene is another, or the first: the camera that is followed may stand
-    // elsewhere. A camera that a person took stays where it is.
+    // In another scene the camera may stand elsewhere. One that a person took stays where it is.
     if (sceneGeneration_ != live_.world().sceneGeneration() && pose != rig_.pose())
       rig_.jumpTo(pose);
     else

@@ -1,5 +1,4 @@
-// The viewer: a LiveGraph in a window, a camera, panels around the picture, and the loop that brings them together, frame
-// after frame. Each part is a file beside this one; what it can do on a key is an action.
+// The viewer: a LiveGraph in a window, a camera, panels around the picture, and the loop over them.
 #pragma once
 
 #include "app/output/picture_writer.h"
@@ -31,8 +30,7 @@ class Viewer {
   Viewer(const Viewer&) = delete;
   Viewer& operator=(const Viewer&) = delete;
 
-  // Until the window is closed. The exit code: 0 when the files on disk were
-  // good in the end and nothing else failed. `said`: while `live` was loaded, well or not.
+  // Until the window is closed. The exit code: 0 when the files were good in the end. `said`: while `live` was loaded.
   int run(text::Diagnostics said);
 
   // Frames of the graph, and times that only the panels over the last one were drawn anew.
@@ -74,9 +72,7 @@ class Viewer {
   void finishFrame();
   void saveScreenshot();
   void saveLast();  // --screenshot, once
-  // With --events, a line on standard output for scripts: "event 12 click 376 40", with the number of the frame that is
-  // drawn next. docs/viewer.md lists the words. It is said when the thing is done, so that a script waits for it instead of
-  // for a time.
+  // With --events, "event 12 click 376 40" with the number of the next frame, when the thing is done: so scripts wait for no time.
   void say(std::string_view event) const;
   void tellFrame();
 
