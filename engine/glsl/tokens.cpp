@@ -1,7 +1,6 @@
 #include "engine/glsl/tokens.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cerrno>
 #include <cstdlib>
@@ -15,9 +14,13 @@ namespace weft::glsl {
 
 namespace {
 
-constexpr std::array<std::string_view, 23> kSigns{
-    "<<=", ">>=", "##", "++", "--", "<<", ">>", "<=", ">=", "==", "!=", "&&",
-    "||",  "^^",  "+=", "-=", "*=", "/=", "%=", "&=", "|=", "^=", "::"};
+// Of the sign that a text begins with: "##", "<<=", "!=", …
+std::size_t signSize(std::string_view text) {
+  const char first = text[0], next = text.size() > 1 ? text[1] : '\0';
+  const auto isOneOf = [&](std::string_view all) { return all.find(first) != std::string_view::npos; };
+  if (first == next && isOneOf("#+-<>=&|^:")) return isOneOf("<>") && text.substr(2).starts_with('=') ? 3 : 2;
+  return next == '=' && isOneOf("<>!+-*/%&|^") ? 2 : 1;
+}
 
 // A backslash before the end of a line, and the end of it: how many characters, or 0.
 std::size_t continuationAt(std::string_view text, std::size_t at) {
@@ -36,6 +39,7 @@ std::string presenceDefineOf(std::string_view name) {
 
 std::vector<Token> splitTokens(std::string_view text) {
   std::vector<Token> tokens;
+  tokens.reserve(text.size() / 4);
   std::uint32_t line = 1;
   std::size_t lineStart = 0;
   bool first = true;
@@ -81,11 +85,7 @@ std::vector<Token> splitTokens(std::string_view text) {
         token.kind = TokenKind::word;
         while (end < text.size() && text::isIdentChar(text[end])) ++end;
       } else {
-        for (const std::string_view sign : kSigns)
-          if (text.substr(i).starts_with(sign)) {
-            end = i + sign.size();
-            break;
-          }
+        end = i + signSize(text.substr(i));
       }
       token.text = text.substr(i, end - i);
       tokens.push_back(token);
