@@ -65,15 +65,11 @@ std::unique_ptr<Context> openOn(EGLDisplay display, const ContextOptions& option
     if (!hasExtension(extensions, "EGL_KHR_no_config_context")) return fail("no configuration for OpenGL");
     config = EGL_NO_CONFIG_KHR;
   }
-  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                               4,
-                               EGL_CONTEXT_MINOR_VERSION,
-                               5,
-                               EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                               EGL_CONTEXT_OPENGL_DEBUG,
-                               options.debug ? EGL_TRUE : EGL_FALSE,
-                               EGL_NONE};
+  // clang-format off
+  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
+                               EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                               EGL_CONTEXT_OPENGL_DEBUG, options.debug ? EGL_TRUE : EGL_FALSE, EGL_NONE};
+  // clang-format on
   const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
   if (context == EGL_NO_CONTEXT)
     return fail(fmt::format("gives no OpenGL 4.5 core context ({})", errorText()));

@@ -59,21 +59,11 @@ OpenedContext openOsmesa(const ContextOptions&, std::vector<std::string>& failur
   }
   const auto create = find<decltype(&OSMesaCreateContextAttribs)>("OSMesaCreateContextAttribs");
   static const auto kFind = find<decltype(&OSMesaGetProcAddress)>("OSMesaGetProcAddress");
-  const int attributes[] = {OSMESA_FORMAT,
-                            OSMESA_RGBA,
-                            OSMESA_DEPTH_BITS,
-                            0,
-                            OSMESA_STENCIL_BITS,
-                            0,
-                            OSMESA_ACCUM_BITS,
-                            0,
-                            OSMESA_PROFILE,
-                            OSMESA_CORE_PROFILE,
-                            OSMESA_CONTEXT_MAJOR_VERSION,
-                            4,
-                            OSMESA_CONTEXT_MINOR_VERSION,
-                            5,
-                            0};
+  // clang-format off
+  const int attributes[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 0, OSMESA_STENCIL_BITS, 0, OSMESA_ACCUM_BITS, 0,
+                            OSMESA_PROFILE, OSMESA_CORE_PROFILE,
+                            OSMESA_CONTEXT_MAJOR_VERSION, 4, OSMESA_CONTEXT_MINOR_VERSION, 5, 0};
+  // clang-format on
   const OSMesaContext raw = create ? create(attributes, nullptr) : nullptr;
   if (!raw) {
     failures.emplace_back("OSMesa: gives no OpenGL 4.5 core context");

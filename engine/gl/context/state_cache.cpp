@@ -7,22 +7,10 @@ namespace weft::gl {
 
 // Keeps the vectors' memory: a frame allocates nothing.
 void StateCache::forget() {
-  program_ = framebuffer_ = vertexArray_ = stencilMask_ = std::nullopt;
-  std::ranges::fill(textures_, std::nullopt);
-  std::ranges::fill(samplers_, std::nullopt);
+  known_ = {};
+  for (auto* list : {&textures_, &samplers_}) std::ranges::fill(*list, std::nullopt);
+  for (auto* list : {&uniformBuffers_, &storageBuffers_}) std::ranges::fill(*list, std::nullopt);
   std::ranges::fill(images_, std::nullopt);
-  std::ranges::fill(uniformBuffers_, std::nullopt);
-  std::ranges::fill(storageBuffers_, std::nullopt);
-  enabled_.fill(std::nullopt);
-  stencil_.fill(std::nullopt);
-  depthMask_ = std::nullopt;
-  colorMask_ = std::nullopt;
-  viewport_ = std::nullopt;
-  sampleMask_ = std::nullopt;
-  blendColor_ = std::nullopt;
-  scissor_ = std::nullopt;
-  depthFunc_ = cullFace_ = polygonMode_ = std::nullopt;
-  offset_ = std::nullopt;
   std::ranges::fill(drawBuffers_, DrawBuffer{});
 }
 
@@ -40,7 +28,7 @@ void StateCache::enable(GLenum capability, bool on) {
   const auto index =
       static_cast<std::size_t>(std::ranges::find(kCapabilities, capability) - kCapabilities.begin());
   assert(index < kCapabilities.size());
-  if (!takes(enabled_[index], on)) return;
+  if (!takes(known_.enabled[index], on)) return;
   if (on)
     glEnable(capability);
   else

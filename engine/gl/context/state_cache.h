@@ -21,7 +21,7 @@ class StateCache {
   void forget();
 
   void useProgram(GLuint program) {
-    if (takes(program_, program)) glUseProgram(program);
+    if (takes(known_.program, program)) glUseProgram(program);
   }
   void bindTexture(GLuint unit, GLuint texture) {
     if (takes(slotAt(textures_, unit), texture)) glBindTextureUnit(unit, texture);
@@ -37,52 +37,52 @@ class StateCache {
   void bindBuffer(GLenum target, GLuint index, GLuint buffer, GLintptr offset, GLsizeiptr size);
   // For drawing and for reading.
   void bindFramebuffer(GLuint framebuffer) {
-    if (takes(framebuffer_, framebuffer)) glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    if (takes(known_.framebuffer, framebuffer)) glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   }
   void bindVertexArray(GLuint vertexArray) {
-    if (takes(vertexArray_, vertexArray)) glBindVertexArray(vertexArray);
+    if (takes(known_.vertexArray, vertexArray)) glBindVertexArray(vertexArray);
   }
 
   // One of kCapabilities.
   void enable(GLenum capability, bool on);
   void viewport(GLint x, GLint y, GLsizei width, GLsizei height) {
-    if (takes(viewport_, {x, y, width, height})) glViewport(x, y, width, height);
+    if (takes(known_.viewport, {x, y, width, height})) glViewport(x, y, width, height);
   }
   void scissor(GLint y, GLsizei width, GLsizei height) {
-    if (takes(scissor_, {y, width, height})) glScissor(0, y, width, height);
+    if (takes(known_.scissor, {y, width, height})) glScissor(0, y, width, height);
   }
   void depthFunc(GLenum compare) {
-    if (takes(depthFunc_, compare)) glDepthFunc(compare);
+    if (takes(known_.depthFunc, compare)) glDepthFunc(compare);
   }
   void depthMask(bool open) {
-    if (takes(depthMask_, open)) glDepthMask(open ? GL_TRUE : GL_FALSE);
+    if (takes(known_.depthMask, open)) glDepthMask(open ? GL_TRUE : GL_FALSE);
   }
   // Bits 0 to 3: red, green, blue, alpha. Of all draw buffers, or of one after that.
   void colorMask(unsigned mask) {
-    if (takes(colorMask_, mask)) glColorMask(mask & 1, mask >> 1 & 1, mask >> 2 & 1, mask >> 3 & 1);
+    if (takes(known_.colorMask, mask)) glColorMask(mask & 1, mask >> 1 & 1, mask >> 2 & 1, mask >> 3 & 1);
   }
   void colorMask(GLuint index, unsigned mask) {
     glColorMaski(index, mask & 1, mask >> 1 & 1, mask >> 2 & 1, mask >> 3 & 1);
-    colorMask_.reset();
+    known_.colorMask.reset();
   }
   void stencilMask(GLuint mask) {
-    if (takes(stencilMask_, mask)) glStencilMask(mask);
+    if (takes(known_.stencilMask, mask)) glStencilMask(mask);
   }
   void cullFace(GLenum face) {
-    if (takes(cullFace_, face)) glCullFace(face);
+    if (takes(known_.cullFace, face)) glCullFace(face);
   }
   void polygonMode(GLenum mode) {
-    if (takes(polygonMode_, mode)) glPolygonMode(GL_FRONT_AND_BACK, mode);
+    if (takes(known_.polygonMode, mode)) glPolygonMode(GL_FRONT_AND_BACK, mode);
   }
   void polygonOffset(GLfloat factor, GLfloat units) {
-    if (takes(offset_, {factor, units})) glPolygonOffset(factor, units);
+    if (takes(known_.offset, {factor, units})) glPolygonOffset(factor, units);
   }
 
   void sampleMask(GLbitfield mask) {
-    if (takes(sampleMask_, mask)) glSampleMaski(0, mask);
+    if (takes(known_.sampleMask, mask)) glSampleMaski(0, mask);
   }
   void blendColor(const std::array<GLfloat, 4>& color) {
-    if (takes(blendColor_, color)) glBlendColor(color[0], color[1], color[2], color[3]);
+    if (takes(known_.blendColor, color)) glBlendColor(color[0], color[1], color[2], color[3]);
   }
 
   struct Stencil {
@@ -93,7 +93,7 @@ class StateCache {
     friend bool operator==(const Stencil&, const Stencil&) = default;
   };
   void stencil(bool back, const Stencil& stencil) {
-    if (!takes(stencil_[back ? 1 : 0], stencil)) return;
+    if (!takes(known_.stencil[back ? 1 : 0], stencil)) return;
     const GLenum face = back ? GL_BACK : GL_FRONT;
     glStencilFuncSeparate(face, stencil.test, stencil.reference, stencil.mask);
     glStencilOpSeparate(face, stencil.fail, stencil.depthFail, stencil.pass);
@@ -138,20 +138,22 @@ class StateCache {
     return slots[index];
   }
 
-  std::optional<GLuint> program_, framebuffer_, vertexArray_, stencilMask_;
+  struct Known {
+    std::optional<GLuint> program, framebuffer, vertexArray, stencilMask;
+    std::array<std::optional<bool>, kCapabilities.size()> enabled;
+    std::optional<bool> depthMask;
+    std::optional<unsigned> colorMask;
+    std::optional<std::array<GLint, 4>> viewport;
+    std::optional<GLbitfield> sampleMask;
+    std::optional<std::array<GLfloat, 4>> blendColor;
+    std::array<std::optional<Stencil>, 2> stencil;  // of front and back faces
+    std::optional<std::array<GLint, 3>> scissor;
+    std::optional<GLenum> depthFunc, cullFace, polygonMode;
+    std::optional<std::array<GLfloat, 2>> offset;
+  } known_;
   std::vector<std::optional<GLuint>> textures_, samplers_;
   std::vector<std::optional<Image>> images_;
   std::vector<std::optional<Range>> uniformBuffers_, storageBuffers_;
-  std::array<std::optional<bool>, kCapabilities.size()> enabled_;
-  std::optional<bool> depthMask_;
-  std::optional<unsigned> colorMask_;
-  std::optional<std::array<GLint, 4>> viewport_;
-  std::optional<GLbitfield> sampleMask_;
-  std::optional<std::array<GLfloat, 4>> blendColor_;
-  std::array<std::optional<Stencil>, 2> stencil_;  // of front and back faces
-  std::optional<std::array<GLint, 3>> scissor_;
-  std::optional<GLenum> depthFunc_, cullFace_, polygonMode_;
-  std::optional<std::array<GLfloat, 2>> offset_;
   std::vector<DrawBuffer> drawBuffers_;
 };
 

@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <optional>
 #include <regex>
 
 #include "engine/gl/programs/program.h"
@@ -25,41 +23,27 @@ struct LogMessage {
   bool isError() const { return diagnostic.severity == text::Severity::error; }
 };
 
-std::string_view trim(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(std::string_view(" \t\r\0", 4)) + 1 - begin);
-}
-
-// What stands before the text of a message: its line and column, where it has them, and its severity.
+// What stands before the text of a message: "0:12(5): error: ", "0(12) : error C1234: ", "ERROR: 0:12: " or "error: ".
 struct LogPrefix {
   std::size_t length = 0;
   std::uint32_t line = 0, column = 0;
   text::Severity severity = text::Severity::error;
 };
 
-std::optional<LogPrefix> prefixOf(std::string_view raw) {
-  static const std::regex kForms[] = {
-      std::regex(R"(\d+:(\d+)\((\d+)\): (?:preprocessor )?(?:error|warning|note): )"),  // Mesa
-      std::regex(R"(\d+\((\d+)\) ?: (?:fatal )?(?:error|warning|note)(?: C\d+)?: )"),   // NVIDIA
-      std::regex(R"((?:ERROR|WARNING): \d+:(\d+): )"),
-      std::regex(R"((?:preprocessor |fatal )?(?:error|warning|note|ERROR|WARNING)(?: C\d+)?: )")};
+LogPrefix prefixOf(std::string_view raw) {
+  static const std::regex kForm(R"((?:ERROR: |WARNING: )?(?:\d+[:(](\d+)\)?(?:\((\d+)\))? ?: )?)"
+                                R"((?:(?:preprocessor |fatal )?(?:error|warning|note)(?: C\d+)?: )?)");
   const std::string head(raw.substr(0, 80));  // the work for long lines is bounded
   std::smatch match;
-  for (const std::regex& form : kForms) {
-    if (!std::regex_search(head, match, form, std::regex_constants::match_continuous)) continue;
-    const std::string text = text::lowered(match.str());
-    const auto number = [&](std::size_t group) {
-      return group < match.size()
-                 ? static_cast<std::uint32_t>(std::strtoul(match.str(group).c_str(), nullptr, 10))
-                 : 0;
-    };
-    return LogPrefix{text.size(), number(1), number(2),
-                     text.find("warning") != std::string::npos ? text::Severity::warning
-                     : text.find("note") != std::string::npos  ? text::Severity::note
-                                                               : text::Severity::error};
-  }
-  return std::nullopt;
+  std::regex_search(head, match, kForm, std::regex_constants::match_continuous);
+  const std::string before = text::lowered(match.str());
+  const auto number = [&](std::size_t group) {
+    return text::numberIn<std::uint32_t>(match.str(group)).value_or(0);
+  };
+  return {before.size(), number(1), number(2),
+          before.find("warning") != std::string::npos ? text::Severity::warning
+          : before.find("note") != std::string::npos  ? text::Severity::note
+                                                      : text::Severity::error};
 }
 
 // workarounds.h: columns-after-preprocessing. The column in `line` of what stands in `column` once every run
@@ -75,12 +59,6 @@ std::uint32_t trueColumn(std::string_view line, std::uint32_t column) {
     }
   }
   return 0;
-}
-
-// Headings and rules of NVIDIA's logs.
-bool isOrnament(std::string_view text) {
-  return text.find_first_not_of('-') == std::string_view::npos || text == "Vertex info" ||
-         text == "Fragment info" || text == "Compute info" || text == "Link info";
 }
 
 std::string_view lineOf(std::string_view text, std::uint32_t number) {
@@ -100,17 +78,6 @@ std::string_view quotedName(std::string_view message) {
     if (end == std::string_view::npos) break;
     if (const std::string_view name = message.substr(at + 1, end - at - 1); isName(name)) return name;
     at = end;
-  }
-  return {};
-}
-
-// The word at `column` (from 1) of a line, and the one before it.
-std::pair<std::string_view, std::string_view> wordsAt(std::string_view line, std::uint32_t column) {
-  std::string_view before;
-  for (const glsl::Token& token : glsl::splitTokens(line)) {
-    const std::size_t end = token.column + token.text.size();
-    if (token.column <= column && column < end) return {token.text, before};
-    before = token.text;
   }
   return {};
 }
@@ -150,12 +117,17 @@ void advise(LogMessage& message, const glsl::ShaderSource& source, std::span<con
   text::Diagnostic& d = message.diagnostic;
   if (const std::string_view name = quotedName(d.message); !name.empty()) {
     d.hint = hintForName(name, source, defines);
-  } else if (message.textLine) {
-    const auto [word, before] = wordsAt(lineOf(source.text, message.textLine), d.place.column);
-    if (const auto define = std::ranges::find(defines, word, &glsl::Define::name); define != defines.end())
-      d.hint = fmt::format("the graph defines '{}' as {}: rename the define", define->name, define->value);
-    for (const std::string_view each : {before, word})
-      if (d.hint.empty() && isName(each)) d.hint = text::hintForForeign(text::Foreign::shader_name, each);
+  } else if (message.textLine) {  // of the word at the place, and of the one before it
+    std::string_view before;
+    for (const glsl::Token& token : glsl::splitTokens(lineOf(source.text, message.textLine))) {
+      const bool here = token.column <= d.place.column && d.place.column < token.column + token.text.size();
+      const auto define = std::ranges::find(defines, token.text, &glsl::Define::name);
+      if (here && define != defines.end())
+        d.hint = fmt::format("the graph defines '{}' as {}: rename the define", define->name, define->value);
+      for (const std::string_view each : {before, token.text})
+        if (here && d.hint.empty()) d.hint = text::hintForForeign(text::Foreign::shader_name, each);
+      before = token.text;
+    }
   }
   std::ranges::replace(d.message, '`', '\'');
   // "…; candidates are:", which stand on lines of their own.
@@ -181,19 +153,17 @@ std::size_t mapLog(std::string_view log, const glsl::ShaderSource& source, text:
   static const text::FileName kDefines = "<defines>";
   std::vector<LogMessage> messages;
   while (!log.empty()) {
-    const std::string_view raw = trim(text::takeLine(log));
-    if (isOrnament(raw)) continue;
-    const std::optional<LogPrefix> prefix = prefixOf(raw);
-    if (!prefix && !messages.empty()) {
-      messages.back().diagnostic.message += fmt::format(" {}", raw);
+    const std::string_view raw = text::trimmed(text::takeLine(log));
+    const LogPrefix at = prefixOf(raw);
+    if (at.length == 0) {  // it goes on, or has a heading
+      if (!messages.empty()) messages.back().diagnostic.message += fmt::format(" {}", raw);
       continue;
     }
-    const LogPrefix at = prefix.value_or(LogPrefix{});
     LogMessage& message = messages.emplace_back();
     text::Diagnostic& d = message.diagnostic;
     d.code = code;
     d.severity = at.severity;
-    d.message = std::string(trim(raw.substr(at.length)));
+    d.message = std::string(raw.substr(at.length));
     if (at.line >= glsl::kTextLine) {
       message.textLine = at.line - glsl::kTextLine + 1;
       d.place =

@@ -47,7 +47,9 @@ void reportLog(const std::string& log, const glsl::ShaderSource& source, Code co
   Diagnostics found;
   mapLog(log, source, code, found, defines);
   diagnostics.append(found);
-  if (!found.hasErrors()) diagnostics.error(code, {source.file, 0, 0}, failure);
+  if (!found.hasErrors())
+    diagnostics.error(code, {source.file, 0, 0},
+                      failure + (log.empty() ? ", and the driver does not say why" : ": " + log));
 }
 
 bool compileStage(const Shader& shader, const StageSource& stage, std::span<const glsl::Define> defines,
@@ -62,8 +64,8 @@ bool compileStage(const Shader& shader, const StageSource& stage, std::span<cons
   if (compiled) return true;
   glGetShaderiv(shader.id(), GL_INFO_LOG_LENGTH, &logLength);
   const std::string log = textOf(logLength, shader.id(), glGetShaderInfoLog);
-  reportLog(log, *stage.source, Code::shaderDoesNotCompile,
-            "the shader does not compile, and the driver does not say why", diagnostics, defines);
+  reportLog(log, *stage.source, Code::shaderDoesNotCompile, "the shader does not compile", diagnostics,
+            defines);
   return false;
 }
 
@@ -260,7 +262,7 @@ std::optional<Program> Program::compile(std::span<const StageSource> stages,
     glGetProgramiv(program.id_, GL_INFO_LOG_LENGTH, &logLength);
     const std::string log = textOf(logLength, program.id_, glGetProgramInfoLog);
     reportLog(log, *stages.back().source, Code::programDoesNotLink,
-              fmt::format("program '{}' does not link, and the driver does not say why", label), diagnostics);
+              fmt::format("program '{}' does not link", label), diagnostics);
     return std::nullopt;
   }
   program.reflection_ = reflectProgram(program.id_, stages.front().stage == GL_COMPUTE_SHADER);
