@@ -11,42 +11,14 @@ namespace {
 using graph::Format;
 
 // In the order of Format.
-constexpr GLenum kFormats[] = {GL_NONE,
-                               GL_R8,
-                               GL_RG8,
-                               GL_RGBA8,
-                               GL_SRGB8_ALPHA8,
-                               GL_R8_SNORM,
-                               GL_RG8_SNORM,
-                               GL_RGBA8_SNORM,
-                               GL_R16,
-                               GL_RG16,
-                               GL_RGBA16,
-                               GL_R16F,
-                               GL_RG16F,
-                               GL_RGBA16F,
-                               GL_R32F,
-                               GL_RG32F,
-                               GL_RGBA32F,
-                               GL_R11F_G11F_B10F,
-                               GL_RGB10_A2,
-                               GL_RGB9_E5,
-                               GL_R8UI,
-                               GL_R16UI,
-                               GL_R32UI,
-                               GL_RG16UI,
-                               GL_RG32UI,
-                               GL_RGBA8UI,
-                               GL_RGBA16UI,
-                               GL_RGBA32UI,
-                               GL_R32I,
-                               GL_RG32I,
-                               GL_RGBA32I,
-                               GL_DEPTH_COMPONENT16,
-                               GL_DEPTH_COMPONENT24,
-                               GL_DEPTH_COMPONENT32F,
-                               GL_DEPTH24_STENCIL8,
-                               GL_DEPTH32F_STENCIL8};
+// clang-format off
+constexpr GLenum kFormats[] = {
+    GL_NONE, GL_R8, GL_RG8, GL_RGBA8, GL_SRGB8_ALPHA8, GL_R8_SNORM, GL_RG8_SNORM, GL_RGBA8_SNORM,
+    GL_R16, GL_RG16, GL_RGBA16, GL_R16F, GL_RG16F, GL_RGBA16F, GL_R32F, GL_RG32F, GL_RGBA32F,
+    GL_R11F_G11F_B10F, GL_RGB10_A2, GL_RGB9_E5, GL_R8UI, GL_R16UI, GL_R32UI, GL_RG16UI, GL_RG32UI, GL_RGBA8UI,
+    GL_RGBA16UI, GL_RGBA32UI, GL_R32I, GL_RG32I, GL_RGBA32I, GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT24,
+    GL_DEPTH_COMPONENT32F, GL_DEPTH24_STENCIL8, GL_DEPTH32F_STENCIL8};
+// clang-format on
 static_assert(std::size(kFormats) == static_cast<std::size_t>(Format::count_));
 
 template <class T>
@@ -76,19 +48,14 @@ GLenum glTargetOf(graph::Target target) {
 }
 
 GLbitfield glBarriersOf(std::uint16_t barriers) {
-  static constexpr std::pair<graph::BarrierBit, GLbitfield> kBits[] = {
-      {graph::kBarrierUniform, GL_UNIFORM_BARRIER_BIT},
-      {graph::kBarrierTexture, GL_TEXTURE_FETCH_BARRIER_BIT},
-      {graph::kBarrierImage, GL_SHADER_IMAGE_ACCESS_BARRIER_BIT},
-      {graph::kBarrierCommand, GL_COMMAND_BARRIER_BIT},
-      {graph::kBarrierTextureUpdate, GL_TEXTURE_UPDATE_BARRIER_BIT},
-      {graph::kBarrierBufferUpdate, GL_BUFFER_UPDATE_BARRIER_BIT},
-      {graph::kBarrierFramebuffer, GL_FRAMEBUFFER_BARRIER_BIT},
-      {graph::kBarrierStorage, GL_SHADER_STORAGE_BARRIER_BIT},
-  };
+  // In the order of BarrierBit.
+  static constexpr GLbitfield kBits[] = {
+      GL_UNIFORM_BARRIER_BIT,     GL_TEXTURE_FETCH_BARRIER_BIT,  GL_SHADER_IMAGE_ACCESS_BARRIER_BIT,
+      GL_COMMAND_BARRIER_BIT,     GL_TEXTURE_UPDATE_BARRIER_BIT, GL_BUFFER_UPDATE_BARRIER_BIT,
+      GL_FRAMEBUFFER_BARRIER_BIT, GL_SHADER_STORAGE_BARRIER_BIT};
   GLbitfield bits = 0;
-  for (const auto& [mine, gl] : kBits)
-    if (barriers & mine) bits |= gl;
+  for (int i = 0; i < graph::kBarrierBitCount; ++i)
+    if ((barriers >> i & 1) != 0) bits |= kBits[i];
   return bits;
 }
 
