@@ -61,10 +61,9 @@ class Describer {
   }
 
   std::vector<std::string> names() const {
-    std::vector<std::string> all;
-    for (auto at = things_.begin(); at != things_.end(); at = things_.upper_bound(at->first))
-      all.push_back(at->first);
-    return all;
+    std::set<std::string> all;
+    for (const auto& [name, tell] : things_) all.insert(name);
+    return {all.begin(), all.end()};
   }
 
   // Adds everything that has this name, each name once.

@@ -145,11 +145,7 @@ std::string Explainer::whyPass(std::uint32_t pass) const {
 
 std::string Explainer::whyHere(std::uint32_t pass) const {
   using Type = Dependency::Type;
-  struct Reason {
-    std::string text;
-    std::vector<std::uint32_t> passes;
-  };
-  std::vector<Reason> reasons;
+  std::vector<std::pair<std::string, std::vector<std::string>>> reasons;  // with the stanzas of the passes
   for (const Dependency& edge : edges_) {
     if (edge.to != pass || plan_.stepOf[edge.from] == kNone) continue;
     Dependency read = edge;
@@ -159,33 +155,19 @@ std::string Explainer::whyHere(std::uint32_t pass) const {
     const char* const why = edge.type == Type::read_after_write   ? "reads its"
                             : edge.type == Type::write_after_read ? "overwrites what it reads,"
                                                                   : "overwrites its";
-    std::string text = edge.type == Type::stated
-                           ? "as the file says"
-                           : fmt::format("{} '{}'", why, graph_.resourceNames[edge.resource]);
-    auto known = std::ranges::find(reasons, text, &Reason::text);
-    if (known == reasons.end()) known = reasons.insert(known, {std::move(text), {}});
-    known->passes.push_back(edge.from);
+    const std::string text = edge.type == Type::stated
+                                 ? "as the file says"
+                                 : fmt::format("{} '{}'", why, graph_.resourceNames[edge.resource]);
+    auto known = std::ranges::find(reasons, text, [](const auto& each) { return each.first; });
+    if (known == reasons.end()) known = reasons.insert(known, {text, {}});
+    const std::string& name = graph_.passNames[edge.from];
+    if (const std::string stanza = name.substr(0, name.find('['));
+        std::ranges::find(known->second, stanza) == known->second.end())
+      known->second.push_back(stanza);
   }
   std::string text;
-  const Reason* before = nullptr;
-  for (const Reason& reason : reasons) {
-    if (const Reason* const last = std::exchange(before, &reason); last && last->passes == reason.passes) {
-      text.insert(text.size() - 1, ", " + reason.text);
-      continue;
-    }
-    std::string passes;
-    for (std::size_t first = 0, end = 0; first < reason.passes.size(); first = end) {
-      // Instances of one pass, in a row.
-      const auto declared = [&](std::size_t i) {
-        const std::string& name = graph_.passNames[reason.passes[i]];
-        return name.substr(0, name.rfind('['));
-      };
-      while (end < reason.passes.size() && declared(end) == declared(first)) ++end;
-      passes += fmt::format("{}'{}'", passes.empty() ? "" : ", ", graph_.passNames[reason.passes[first]]);
-      if (end > first + 1) passes += fmt::format(" to '{}'", graph_.passNames[reason.passes[end - 1]]);
-    }
-    text += fmt::format("{}{} ({})", text.empty() ? "after " : "; ", passes, reason.text);
-  }
+  for (const auto& [why, stanzas] : reasons)
+    text += fmt::format("{}'{}' ({})", text.empty() ? "after " : "; ", fmt::join(stanzas, "', '"), why);
   return text;
 }
 
