@@ -34,7 +34,7 @@ out vec4 result;
 
 const float kPeriod = 16.0;  // of the camera's jitter
 const float kYoung = 8.0;
-const float kStill = 0.002;  // pixels per frame
+const float kStill = 0.004;  // pixels per frame; a GPU places corners to 1/512, along each axis
 const float kWide = 1.25;    // of the box that the history is clipped to, standard deviations
 const float kSpot = 2.0, kGlint = 3.5;  // this many times the mean of 9 texels is a spot, of 21 a glint
 const float kEqual = 0.002;  // differences below this, of x / (1 + x), are rounding
