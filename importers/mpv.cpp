@@ -9,7 +9,7 @@
 #include <memory>
 #include <sstream>
 
-#include "engine/assets/images/half.h"
+#include "engine/assets/images/image.h"
 #include "engine/graph/language/names.h"
 #include "engine/text/chars.h"
 #include "engine/text/nearest.h"

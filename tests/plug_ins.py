@@ -26,7 +26,7 @@ OTHER_MEANINGS = {
     ("engine/scene/files/lights.cpp", "sun"): "a key of scene files",
     ("engine/scene/files/lights.cpp", "lamps"): "a key of scene files",
     ("engine/scene/files/scene_file.cpp", "ground"): "a key of scene files",
-    ("engine/imports/mesh_draws.cpp", "joints"): "an attribute of vertices",
+    ("engine/imports/scene_tables.cpp", "joints"): "an attribute of vertices",
     ("engine/passes/draw/geometry.cpp", "position"): "an attribute of vertices",
     ("engine/graph/read/read.cpp", "name"): "a key of graphs",
     ("engine/graph/read/overlay.cpp", "name"): "a key of graphs",

@@ -8,7 +8,7 @@
 #include "app/commands/commands.h"
 #include "app/output/page.h"
 #include "app/trials/shot.h"
-#include "engine/assets/images/half.h"
+#include "engine/assets/images/image.h"
 #include "engine/glsl/source.h"
 #include "engine/graph/print/print.h"
 #include "engine/runtime/inspection/capture.h"

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "engine/assets/images/half.h"
+#include "engine/assets/images/image.h"
 #include "engine/text/files/file.h"
 #include "engine/text/printable.h"
 

@@ -99,7 +99,7 @@ struct BufferRef {
   std::uint64_t bytes = 0;
 };
 
-class CameraViews;
+class CameraProvider;
 class Files;
 class Providers;
 class SceneTables;
@@ -111,9 +111,9 @@ struct Frame {
   const FrameInput& input;
   std::uint64_t number = 0;  // of the frames of this device; not input.frame, which may stand still or jump
   Files& files;
-  SceneTables& tables;   // rows of the draw lists
-  CameraViews& camera;   // the scene's camera as it is
-  Providers& providers;  // of other imports
+  SceneTables& tables;     // rows of the draw lists
+  CameraProvider& camera;  // the scene's camera as it is
+  Providers& providers;    // of other imports
   std::uint64_t& generations;
 
   // A generation that nothing on this device has had.

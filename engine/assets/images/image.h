@@ -68,7 +68,7 @@ std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, text::
 // Whether a name is that of an environment, by its end: .hdr or .exr.
 bool isEnvironmentName(const std::string& name);
 
-// A picture that decodeEnvironment gives, 3 or 4 channels, rounded to halves (half.h).
+// A picture that decodeEnvironment gives, 3 or 4 channels, rounded to halves.
 EnvironmentMap toEnvironmentMap(const ImageF& image);
 
 // What a channel is in the file: .png .jpg .tga of 8 bits, .png of 16 bits, .hdr and .exr.
@@ -104,5 +104,15 @@ bool saveExr(const std::string& path, const ImageF& image, text::Diagnostics& di
 Image8 resize(const Image8& image, int width, int height, bool srgb);
 
 float decodeSrgb(float encoded);  // IEC 61966-2-1; input and output 0..1
+
+// IEEE 754 binary16 <-> binary32. To half rounds to nearest even, overflows to infinity, keeps subnormals; a
+// NaN stays a quiet NaN with the top ten bits of its payload (what F16C does, so that every path gives the same bits).
+constexpr float kHalfMax = 65504.0f;
+
+std::uint16_t floatToHalf(float value);
+float halfToFloat(std::uint16_t half);
+
+// Element by element; both spans have the same length.
+void floatsToHalves(std::span<const float> from, std::span<std::uint16_t> to);
 
 }  // namespace weft::assets

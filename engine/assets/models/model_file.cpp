@@ -33,9 +33,9 @@ std::optional<Model> loadModel(const std::string& path, text::Diagnostics& diagn
     d.expected = ".gltf, .glb, .obj or .fbx";
     d.found = kind.empty() ? "no extension" : kind;
   } else if (auto bytes = mine.readModel()) {
-    if (made) bytes = glbOfFbx(*bytes, mine, observer, said);
-    good = kind == ".obj" ? bytes && readObj(*bytes, mine, observer, said, model)
-                          : bytes && readGltf(std::move(*bytes), mine, observer, said, model, made);
+    if (made) bytes = glbOfFbx(*bytes, mine);
+    good = kind == ".obj" ? bytes && readObj(*bytes, mine, model)
+                          : bytes && readGltf(std::move(*bytes), mine, model, made);
   }
   for (text::Diagnostic each : said.items()) {
     if (made) each.pointer.clear();  // lines are those of what was made of the file

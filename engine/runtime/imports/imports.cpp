@@ -39,7 +39,7 @@ void Imports::beginFrame(const World& world, const FrameInput& input) {
 
 const scene::ViewData& Imports::view(const graph::FlatGraph& graph, const graph::PassSpec& spec,
                                      std::uint32_t width, std::uint32_t height) {
-  if (spec.view == graph::kNone) return camera_.view(frame(), spec.screen[0], spec.screen[1]);
+  if (spec.view == graph::kNone) return camera_.view(frame(), {spec.screen[0], spec.screen[1]});
   const graph::ImportSpec& import = graph.imports[spec.view];
   imports::ViewPart part{spec.screen[0], spec.screen[1], spec.viewLayer, spec.viewFace};
   if (import.kind != graph::ImportKind::view) {

@@ -9,7 +9,7 @@
 
 #include "engine/gl/objects/objects.h"
 #include "engine/graph/flat_graph.h"
-#include "engine/imports/camera_views.h"
+#include "engine/imports/camera/camera.h"
 #include "engine/imports/files.h"
 #include "engine/imports/import.h"
 #include "engine/imports/scene_tables.h"
@@ -125,7 +125,7 @@ class Imports : public imports::Providers {
   std::uint64_t frames_ = 0, generations_ = 0;
   imports::Files files_;
   imports::SceneTables tables_;
-  imports::CameraViews camera_;
+  imports::CameraProvider camera_;
 };
 
 }  // namespace weft::runtime

@@ -16,7 +16,6 @@
 #include "engine/gl/objects/objects.h"
 #include "engine/gl/programs/program_cache.h"
 #include "engine/graph/plan.h"
-#include "engine/imports/mesh_draws.h"
 #include "engine/imports/row_table.h"
 #include "engine/imports/scene_tables.h"
 #include "engine/passes/draw/geometry.h"

@@ -1,5 +1,3 @@
-#include "engine/assets/images/half.h"
-
 #include <doctest/doctest.h>
 
 #include <bit>
@@ -7,6 +5,8 @@
 #include <limits>
 #include <random>
 #include <vector>
+
+#include "engine/assets/images/image.h"
 
 using namespace weft::assets;
 

@@ -15,7 +15,6 @@
 #include <cstdlib>
 #include <random>
 
-#include "engine/assets/images/half.h"
 #include "engine/assets/images/image.h"
 
 using namespace weft;

@@ -7,7 +7,6 @@
 #include <limits>
 #include <numbers>
 
-#include "engine/assets/images/half.h"
 #include "tests/assets/images/save_hdr.h"
 #include "tests/load_image.h"
 #include "tests/temporary_folder.h"

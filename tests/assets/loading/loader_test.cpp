@@ -11,7 +11,6 @@
 #include <sstream>
 #include <thread>
 
-#include "engine/assets/images/half.h"
 #include "engine/assets/images/image.h"
 #include "engine/text/files/file.h"
 #include "tests/assets/images/save_hdr.h"

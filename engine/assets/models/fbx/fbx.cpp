@@ -331,12 +331,11 @@ void readModelsApart(std::vector<std::string> command) {
   readerCommand() = std::move(command);
 }
 
-std::optional<std::string> glbOfFbx(const std::string& bytes, ModelFiles& files, const LoadObserver& observer,
-                                    text::Diagnostics& diagnostics) {
+std::optional<std::string> glbOfFbx(const std::string& bytes, ModelFiles& files) {
   if (!bytes.starts_with("Kaydara FBX Binary") && !files.isTextInLimit(bytes)) return {};
   const std::uint64_t seconds = text::raised(4 + (bytes.size() >> 20)),
                       memory = text::raised((640ull << 20) + 64 * std::uint64_t{bytes.size()});
-  const auto goOn = [&](char) { return !observer || observer(LoadStage::decoding, 0); };
+  const auto goOn = [&](char) { return files.goOn(LoadStage::decoding, 0); };
   text::ApartEnd end;
   if (std::vector<std::string> command = readerCommand(); command.empty()) {
     end.said = convert(bytes, end.made);
@@ -348,15 +347,15 @@ std::optional<std::string> glbOfFbx(const std::string& bytes, ModelFiles& files,
   if (!goOn(0)) return {};
   const char what = end.said.empty() ? '\0' : end.said.back();
   if (what == kMadeWithoutLights)
-    diagnostics
+    files.diagnostics()
         .warning(Code::modelPartLeftOut, files.place(),
                  "the lights of the model were left out: the format says no unit of their brightness")
         .hint = "give the scene file a 'sun' and 'lamps'";
   if (what == kMade || what == kMadeWithoutLights) return std::move(end.made);
-  text::Diagnostic& d =
-      diagnostics.error(Code::unreadableModel, files.place(),
-                        fmt::format("cannot read model '{}': {}", files.path(),
-                                    what == kUnreadable ? end.made : "its reader did not survive it"));
+  text::Diagnostic& d = files.diagnostics().error(
+      Code::unreadableModel, files.place(),
+      fmt::format("cannot read model '{}': {}", files.path(),
+                  what == kUnreadable ? end.made : "its reader did not survive it"));
   d.expected = "a sound FBX file of version 7.1 or later";
   d.hint = "export it again, as .glb if you can";
   if (what == kUnreadable) return {};

@@ -20,8 +20,7 @@ constexpr const char* kModelWord = "read-model";
 void readModelsApart(std::vector<std::string> command);
 
 // The bytes of a .glb. Its images that are not in it have the paths that the file gives them. Empty after W164, W201 for a text that
-// is too large, or when `observer` gave up.
-std::optional<std::string> glbOfFbx(const std::string& bytes, ModelFiles& files, const LoadObserver& observer,
-                                    text::Diagnostics& diagnostics);
+// is too large, or when the observer gave up.
+std::optional<std::string> glbOfFbx(const std::string& bytes, ModelFiles& files);
 
 }  // namespace weft::assets

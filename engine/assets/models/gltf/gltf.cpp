@@ -12,9 +12,7 @@
 #include <utility>
 
 #include "engine/assets/models/gltf/gltf_document.h"
-#include "engine/assets/models/gltf/spec_gloss.h"
 #include "engine/assets/models/parts/mesh_builder.h"
-#include "engine/assets/models/parts/texture_pool.h"
 
 namespace weft::assets {
 
@@ -23,8 +21,6 @@ using text::Diagnostics;
 using text::JsonValue;
 
 namespace {
-
-constexpr float kFarthest = 1e9f;  // as of everything in a scene
 
 // Which uv set a material's maps are looked up with, and how they are moved: KHR_texture_transform. One for all maps of a
 // material, because a vertex has one uv; maps that want another are left out, with W168.
@@ -53,16 +49,14 @@ std::size_t rowOf(std::string_view word, std::initializer_list<std::string_view>
 
 class GltfReader {
  public:
-  GltfReader(GltfDocument& document, ModelFiles& files, Diagnostics& diagnostics, Model& model,
-             const LoadObserver& observer, bool made)
+  GltfReader(GltfDocument& document, ModelFiles& files, Model& model, bool made)
       : document_(document),
         files_(files),
-        diagnostics_(diagnostics),
+        diagnostics_(files.diagnostics()),
         model_(model),
-        observer_(observer),
         made_(made),
         builder_(model),
-        pool_(diagnostics),
+        pool_(files),
         rows_(document.rows("nodes")) {}
 
   void read() {
@@ -82,9 +76,7 @@ class GltfReader {
   }
 
  private:
-  void goOn(LoadStage stage, double done) const {
-    GltfDocument::refuseUnless(!observer_ || observer_(stage, done));
-  }
+  void goOn(LoadStage stage, double done) const { GltfDocument::refuseUnless(files_.goOn(stage, done)); }
 
   // --- nodes and skins
 
@@ -201,7 +193,7 @@ class GltfReader {
     }
     model_.materials.push_back(defaultMaterial("default"));
     uvs_.emplace_back();
-    GltfDocument::refuseUnless(diagnostics_.errorCount() == before && pool_.finish(model_, observer_));
+    GltfDocument::refuseUnless(diagnostics_.errorCount() == before && pool_.finish(model_));
   }
 
   struct Image {
@@ -770,7 +762,6 @@ class GltfReader {
   ModelFiles& files_;
   Diagnostics& diagnostics_;
   Model& model_;
-  const LoadObserver& observer_;
   const bool made_;  // of a file of another format
   MeshBuilder builder_;
   TexturePool pool_;
@@ -785,10 +776,9 @@ class GltfReader {
 
 }  // namespace
 
-bool readGltf(std::string bytes, ModelFiles& files, const LoadObserver& observer, Diagnostics& diagnostics,
-              Model& model, bool made) try {
-  GltfDocument document(std::move(bytes), files, diagnostics);
-  GltfReader(document, files, diagnostics, model, observer, made).read();
+bool readGltf(std::string bytes, ModelFiles& files, Model& model, bool made) try {
+  GltfDocument document(std::move(bytes), files);
+  GltfReader(document, files, model, made).read();
   return true;
 } catch (const Refused&) {
   return false;

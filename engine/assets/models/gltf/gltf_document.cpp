@@ -149,8 +149,8 @@ std::string_view GltfDocument::split(std::string_view bytes, std::string_view& b
   return json;
 }
 
-GltfDocument::GltfDocument(std::string bytes, ModelFiles& files, text::Diagnostics& diagnostics)
-    : files_(files), diagnostics_(diagnostics) {
+GltfDocument::GltfDocument(std::string bytes, ModelFiles& files)
+    : files_(files), diagnostics_(files.diagnostics()) {
   std::string_view binary;
   const std::string_view json = split(bytes, binary);
   const std::size_t before = diagnostics_.errorCount();

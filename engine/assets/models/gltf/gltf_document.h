@@ -15,6 +15,7 @@
 
 #include "engine/assets/model.h"
 #include "engine/assets/models/parts/model_files.h"
+#include "engine/assets/models/parts/texture_pool.h"
 #include "engine/text/json/dom.h"
 
 namespace weft::assets {
@@ -61,7 +62,7 @@ std::string textOf(const text::JsonValue& object, std::string_view key, std::str
 
 class GltfDocument {
  public:
-  GltfDocument(std::string bytes, ModelFiles& files, text::Diagnostics& diagnostics);
+  GltfDocument(std::string bytes, ModelFiles& files);
   GltfDocument(const GltfDocument&) = delete;
   GltfDocument& operator=(const GltfDocument&) = delete;
 
@@ -131,10 +132,26 @@ class GltfDocument {
   std::map<std::size_t, std::string> views_, accessors_;  // by row: what was packed
 };
 
+// KHR_materials_pbrSpecularGlossiness as the albedo, metallic and roughness that look the same.
+struct SpecGloss {
+  glm::vec3 diffuse{1}, specular{1};  // linear
+  float glossiness = 1;
+};
+
+struct Metallic {
+  glm::vec3 albedo{1};
+  float metallic = 0, roughness = 0;
+};
+
+Metallic toMetallic(const SpecGloss& from);
+
+// Of a texel of the diffuse map and one of the specular-glossiness map, with these factors.
+MakeTexel makeAlbedo(const SpecGloss& factors);
+MakeTexel makeMetallicRoughness(const SpecGloss& factors);
+
 // The file as a Model; `made`: it was made of one of another format, whose paths may be those of another machine and whose
 // vertices are one for each corner. Left out, with W168: points and lines, the motion of morph targets, further uv sets, a second sun, extensions
-// that are not known. False after errors, or when `observer` gave up.
-bool readGltf(std::string bytes, ModelFiles& files, const LoadObserver& observer,
-              text::Diagnostics& diagnostics, Model& model, bool made = false);
+// that are not known. False after errors, or when the observer gave up.
+bool readGltf(std::string bytes, ModelFiles& files, Model& model, bool made = false);
 
 }  // namespace weft::assets

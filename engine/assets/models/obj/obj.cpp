@@ -29,7 +29,6 @@ namespace {
 
 constexpr std::size_t kLongestLine = 65536, kMaxCorners = 4096;
 constexpr std::size_t kWork = 200'000'000;  // corners that are looked at to cut polygons
-constexpr float kFarthest = 1e9f;           // as of everything in a scene
 
 // ---- materials ----
 
@@ -53,8 +52,8 @@ glm::vec3 colorOf(std::string_view rest, float most = 1) {
 class MtlReader {
  public:
   // Row 0 of Model::materials is that of faces without one.
-  MtlReader(ModelFiles& files, text::Diagnostics& diagnostics, Model& model)
-      : files_(files), diagnostics_(diagnostics), model_(model), pool_(diagnostics), rows_(1) {
+  MtlReader(ModelFiles& files, Model& model)
+      : files_(files), diagnostics_(files.diagnostics()), model_(model), pool_(files), rows_(1) {
     model_.materials.push_back({.name = "default", .albedo = glm::vec3(0.6f)});
   }
 
@@ -77,11 +76,11 @@ class MtlReader {
   // How texture coordinates of a material are moved, v upwards: scale in xy, offset in zw.
   glm::vec4 moveOf(std::uint32_t material) const { return rows_[material].move; }
 
-  // Decodes the maps. False when `observer` gave up, or after errors.
-  bool finish(const LoadObserver& observer) {
+  // Decodes the maps. False when the observer gave up, or after errors.
+  bool finish() {
     const std::size_t before = diagnostics_.errorCount();
     for (std::size_t i = 0; i < rows_.size(); ++i) finishRow(i);
-    if (!pool_.finish(model_, observer, 0.5) || diagnostics_.errorCount() > before) return false;
+    if (!pool_.finish(model_, 0.5) || diagnostics_.errorCount() > before) return false;
     for (std::size_t i = 1; i < rows_.size(); ++i) {
       Material& material = model_.materials[i];
       material.blend = material.alpha < 1;
@@ -352,13 +351,12 @@ struct CornerHash {
 
 class ObjReader {
  public:
-  ObjReader(ModelFiles& files, const LoadObserver& observer, Diagnostics& diagnostics, Model& model)
+  ObjReader(ModelFiles& files, Model& model)
       : files_(files),
-        observer_(observer),
-        diagnostics_(diagnostics),
+        diagnostics_(files.diagnostics()),
         model_(model),
         builder_(model),
-        materials_(files, diagnostics, model) {}
+        materials_(files, model) {}
 
   bool read(std::string_view bytes) {
     const std::size_t before = diagnostics_.errorCount(), all = bytes.size();
@@ -369,7 +367,7 @@ class ObjReader {
       readStatement(takeStatement(bytes));
     }
     reportLeftOut();
-    if (diagnostics_.errorCount() > before || !materials_.finish(observer_)) return false;
+    if (diagnostics_.errorCount() > before || !materials_.finish()) return false;
     for (Part& part : parts_) {
       if (!goOn(1)) return false;
       finishPart(part);
@@ -384,7 +382,7 @@ class ObjReader {
     std::vector<Corner> corners;  // three for each triangle
   };
 
-  bool goOn(double done) const { return !observer_ || observer_(LoadStage::decoding, done / 2); }
+  bool goOn(double done) const { return files_.goOn(LoadStage::decoding, done / 2); }
 
   text::Place here() const {
     text::Place place = files_.place();
@@ -593,7 +591,6 @@ class ObjReader {
   }
 
   ModelFiles& files_;
-  const LoadObserver& observer_;
   Diagnostics& diagnostics_;
   Model& model_;
   MeshBuilder builder_;
@@ -613,9 +610,8 @@ class ObjReader {
 
 }  // namespace
 
-bool readObj(std::string_view bytes, ModelFiles& files, const LoadObserver& observer,
-             Diagnostics& diagnostics, Model& model) {
-  return files.isTextInLimit(bytes) && ObjReader(files, observer, diagnostics, model).read(bytes);
+bool readObj(std::string_view bytes, ModelFiles& files, Model& model) {
+  return files.isTextInLimit(bytes) && ObjReader(files, model).read(bytes);
 }
 
 }  // namespace weft::assets

@@ -13,6 +13,8 @@
 
 namespace weft::assets {
 
+constexpr float kFarthest = 1e9f;  // that a position may be, as of everything in a scene
+
 // A quaternion x y z w. False for one without length.
 bool normalizeRotation(glm::vec4& q);
 inline glm::quat toRotation(const glm::vec4& q) {

@@ -128,9 +128,8 @@ std::optional<std::string> ModelFiles::readCounted(const std::string& path, cons
     found = std::max(done, total);
     tooLarge = found > left;
     if (tooLarge) return false;
-    if (observer_ && !observer_(LoadStage::reading,
-                                total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 0))
-      gaveUp_ = true;
+    gaveUp_ = gaveUp_ || !this->goOn(LoadStage::reading,
+                                     total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 0);
     return !gaveUp_;
   };
   std::optional<std::string> bytes = text::readFile(path, diagnostics, code, place, goOn);

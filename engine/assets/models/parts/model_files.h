@@ -25,6 +25,9 @@ class ModelFiles {
   ModelFiles(std::string path, text::Diagnostics& diagnostics, const LoadObserver& observer);
 
   const std::string& path() const { return path_; }
+  text::Diagnostics& diagnostics() const { return diagnostics_; }
+  // Tells the observer how far the load is. False: it gives up.
+  bool goOn(LoadStage stage, double done) const { return !observer_ || observer_(stage, done); }
   text::Place place() const;  // of the model's own file
   // Everything that was read or should have been, each once, the model's own first.
   const std::vector<std::string>& files() const { return files_; }

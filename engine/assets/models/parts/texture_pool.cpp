@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "engine/assets/images/image_codecs.h"
-#include "engine/assets/models/parts/model_files.h"
 #include "engine/text/hash.h"
 #include "engine/text/limits.h"
 
@@ -148,8 +147,8 @@ std::shared_ptr<const Image8> TexturePool::makeImage(const Use& use) const {
   return std::make_shared<const Image8>(std::move(made));
 }
 
-bool TexturePool::decodeAll(const LoadObserver& observer, double from) {
-  if (observer && !observer(LoadStage::decoding, from)) return false;
+bool TexturePool::decodeAll(double from) {
+  if (!files_.goOn(LoadStage::decoding, from)) return false;
   const std::size_t count = images_.size();
   const std::thread::id loader = std::this_thread::get_id();  // on which the observer is asked
   std::atomic<std::size_t> done = 0;
@@ -164,8 +163,7 @@ bool TexturePool::decodeAll(const LoadObserver& observer, double from) {
       }
     entry.bytes = {};
     const double share = static_cast<double>(++done) / static_cast<double>(count);
-    if (observer && std::this_thread::get_id() == loader &&
-        !observer(LoadStage::decoding, from + (1 - from) * share))
+    if (std::this_thread::get_id() == loader && !files_.goOn(LoadStage::decoding, from + (1 - from) * share))
       gaveUp = true;
   });
   return !gaveUp;
@@ -194,8 +192,8 @@ std::uint32_t TexturePool::rowOf(const Use& use, std::vector<Texture>& textures)
   return static_cast<std::uint32_t>(row);
 }
 
-bool TexturePool::finish(Model& model, const LoadObserver& observer, double from) {
-  if (!decodeAll(observer, from)) return false;
+bool TexturePool::finish(Model& model, double from) {
+  if (!decodeAll(from)) return false;
   for (const Entry& entry : images_)
     if (!entry.image)
       reportMissing(entry.name, entry.found.empty() ? "it is empty" : entry.found.items().front().message,

@@ -11,6 +11,7 @@
 
 #include "engine/assets/images/image.h"
 #include "engine/assets/model.h"
+#include "engine/assets/models/parts/model_files.h"
 #include "engine/text/diagnostic.h"
 
 namespace weft::assets {
@@ -24,7 +25,7 @@ using MakeTexel = std::function<glm::u8vec4(const glm::u8vec4& first, const glm:
 
 class TexturePool {
  public:
-  explicit TexturePool(text::Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  explicit TexturePool(const ModelFiles& files) : files_(files), diagnostics_(files.diagnostics()) {}
 
   // Puts the bytes of an image in: its number. kNoRow after W201, beyond the limit model_texels.
   std::uint32_t put(std::string bytes, const std::string& name, const text::Place& place);
@@ -39,8 +40,8 @@ class TexturePool {
   bool hasAlpha(std::uint32_t image) const { return images_[image].channels % 2 == 0; }
 
   // Decodes all images, on the threads of the machine, W167 for damaged ones in the order of their numbers, and gives textures and maps of materials their rows.
-  // `observer` hears of stage `decoding` from `from` on. False when it gave up.
-  bool finish(Model& model, const LoadObserver& observer, double from = 0);
+  // The observer hears of stage `decoding` from `from` on. False when it gave up.
+  bool finish(Model& model, double from = 0);
 
  private:
   struct Entry {
@@ -63,9 +64,10 @@ class TexturePool {
   // False after W201, once.
   bool countTexels(std::uint64_t texels, const std::string& name, const text::Place& place);
   std::shared_ptr<const Image8> makeImage(const Use& use) const;
-  bool decodeAll(const LoadObserver& observer, double from);
+  bool decodeAll(double from);
   std::uint32_t rowOf(const Use& use, std::vector<Texture>& textures);
 
+  const ModelFiles& files_;
   text::Diagnostics& diagnostics_;
   std::vector<Entry> images_;
   std::vector<Use> uses_;
