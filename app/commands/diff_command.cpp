@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "app/commands/commands.h"
-#include "app/output/picture_writer.h"
+#include "app/output/pictures.h"
 #include "app/trials/divergence.h"
 #include "app/trials/shot.h"
 #include "engine/graph/print/print.h"

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "app/commands/commands.h"
-#include "app/output/page.h"
+#include "app/output/pictures.h"
 #include "app/trials/shot.h"
 #include "engine/assets/images/image.h"
 #include "engine/glsl/source.h"

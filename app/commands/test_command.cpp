@@ -3,8 +3,7 @@
 #include <iterator>
 
 #include "app/commands/commands.h"
-#include "app/output/page.h"
-#include "app/output/picture_writer.h"
+#include "app/output/pictures.h"
 #include "app/trials/case_file.h"
 #include "app/trials/divergence.h"
 #include "engine/graph/print/print.h"
@@ -226,24 +225,6 @@ bool isWanted(const TestCase& test, const std::vector<std::string>& only) {
          });
 }
 
-struct Cases {
-  std::vector<TestCase> all, wanted;
-};
-
-// The cases to run; what is wrong with any of them ends the run.
-Cases chooseCases(const TestOptions& options, text::Diagnostics& diagnostics) {
-  Cases cases;
-  for (const std::string& file : findCaseFiles(options.folder, diagnostics))
-    readCases(file, options, cases.all, diagnostics);
-  std::ranges::copy_if(cases.all, std::back_inserter(cases.wanted),
-                       [&](const TestCase& test) { return isWanted(test, options.only); });
-  if (cases.wanted.empty() && !diagnostics.hasErrors())
-    diagnostics.error(text::Code::unknownWord,
-                      text::placeOfOption(cases.all.empty() ? options.folder : "--only"),
-                      cases.all.empty() ? "there are no cases" : "no case has such a name");
-  return cases;
-}
-
 // Without ".png": where -o puts the picture of a case.
 std::string leftName(const std::string& folder, const TestCase& test, std::uint32_t frame) {
   return fmt::format("{}/{}{}", folder, test.name,
@@ -252,11 +233,12 @@ std::string leftName(const std::string& folder, const TestCase& test, std::uint3
 
 // Checks that --report, -o and --accept write none of the files that the cases are made of, also of cases that do not run,
 // and that each picture is another file. The files that a graph names are known only when it is loaded.
-bool checkOutputs(const TestOptions& options, const Cases& cases, text::Diagnostics& diagnostics) {
+bool checkOutputs(const TestOptions& options, const std::vector<TestCase>& cases,
+                  text::Diagnostics& diagnostics) {
   std::vector<OutputFile> outputs;
   std::vector<std::string> inputs;
   if (!options.report.empty()) outputs.push_back({"--report", options.report});
-  for (const TestCase& test : cases.all) {
+  for (const TestCase& test : cases) {
     inputs.insert(inputs.end(),
                   {test.options.graph, test.options.scene, test.options.materials, test.options.environment});
     inputs.insert(inputs.end(), {test.mask, test.place.file ? *test.place.file : std::string()});
@@ -268,7 +250,8 @@ bool checkOutputs(const TestOptions& options, const Cases& cases, text::Diagnost
   const auto make = [&](const char* option, const std::string& file) {
     outputs.push_back({option, file, OutputFile::Over::file});
   };
-  for (const TestCase& test : cases.wanted) {
+  for (const TestCase& test : cases) {
+    if (!isWanted(test, options.only)) continue;
     if (options.accept)
       for (const std::string& file : test.acceptedFiles()) make("--accept", file);
     for (const std::uint32_t frame : test.frames)
@@ -315,12 +298,16 @@ nlohmann::ordered_json casesOf(const std::vector<std::pair<TestCase, CaseResult>
 
 int runTest(TestOptions& options) {
   text::Diagnostics diagnostics;
-  const Cases chosen = chooseCases(options, diagnostics);
-  const std::vector<TestCase>& cases = chosen.wanted;
-  if (diagnostics.hasErrors() || !checkOutputs(options, chosen, diagnostics)) {
+  std::vector<TestCase> cases = readCases(options.folder, options, diagnostics);
+  const auto isLeftOut = [&](const TestCase& test) { return !isWanted(test, options.only); };
+  if (std::ranges::all_of(cases, isLeftOut) && !diagnostics.hasErrors())
+    diagnostics.error(text::Code::unknownWord, text::placeOfOption(cases.empty() ? options.folder : "--only"),
+                      cases.empty() ? "there are no cases" : "no case has such a name");
+  if (diagnostics.hasErrors() || !checkOutputs(options, cases, diagnostics)) {
     report(diagnostics);
     return 2;
   }
+  std::erase_if(cases, isLeftOut);
   std::optional<std::unique_ptr<gl::Context>> context;  // null: there is none
   std::vector<std::pair<TestCase, CaseResult>> results;
   std::size_t counts[4] = {};

@@ -1,7 +1,7 @@
 // weft ablate: what each pass of a graph costs and does. weft fuzz: whatever a plan leaves open, the picture is the same.
 
 #include "app/commands/commands.h"
-#include "app/output/page.h"
+#include "app/output/pictures.h"
 #include "app/trials/divergence.h"
 
 namespace weft::app {
@@ -132,7 +132,9 @@ struct Trial {
   // "--seed 7 --share off --poison nan": repeats this one.
   std::string arguments() const {
     return fmt::format("--seed {} --share {} --poison {}", seed, share ? "on" : "off",
-                       poison ? runtime::nameOf(*poison) : "none");
+                       !poison                                  ? "none"
+                       : *poison == runtime::PoisonPattern::nan ? "nan"
+                                                                : "large");
   }
 };
 
@@ -140,8 +142,10 @@ std::vector<Trial> trialsOf(const FuzzOptions& wanted) {
   std::vector<bool> shares;
   if (wanted.share != "off") shares.push_back(true);
   if (wanted.share != "on") shares.push_back(false);
-  std::vector<std::optional<runtime::PoisonPattern>> poisons{runtime::findPoison(wanted.poison)};
-  if (wanted.poison == "both") poisons = {runtime::PoisonPattern::nan, runtime::PoisonPattern::large};
+  std::vector<std::optional<runtime::PoisonPattern>> poisons;
+  if (wanted.poison == "none") poisons.emplace_back();
+  if (wanted.poison != "none" && wanted.poison != "large") poisons.emplace_back(runtime::PoisonPattern::nan);
+  if (wanted.poison != "none" && wanted.poison != "nan") poisons.emplace_back(runtime::PoisonPattern::large);
   std::vector<Trial> trials;
   for (std::uint32_t run = 0; run <= (wanted.seed ? 0 : wanted.runs); ++run)
     for (const bool share : shares)

@@ -24,15 +24,25 @@ namespace lsp {
 
 namespace {
 
+// Error codes of the protocol.
+constexpr int kParseError = -32700, kInvalidRequest = -32600, kUnknownMethod = -32601,
+              kInvalidParameters = -32602, kInternalError = -32603, kRequestFailed = -32803;
+
+// Thrown where a message cannot be answered; caught where it is.
+struct Failure {
+  int code;
+  std::string what;
+};
+
 // Reads messages: header lines, an empty line, and as many bytes of JSON as Content-Length says.
 class MessageReader {
  public:
-  // Nothing where the input ends, or has no such header; then problem() says why.
-  std::optional<std::string> next() {
+  // Throws a Failure where the input ends, or has no such header.
+  std::string next() {
     constexpr std::size_t kMaxHeader = 4096, kMaxMessage = std::size_t{64} << 20;  // bytes
     std::size_t end = 0;
     while ((end = buffer_.find("\r\n\r\n")) == std::string::npos)
-      if (buffer_.size() > kMaxHeader || !fill()) return fail(buffer_.empty() ? "" : "within a header");
+      if (buffer_.size() > kMaxHeader || !fill()) fail(buffer_.empty() ? "" : "within a header");
     const std::string header = text::lowered(std::string_view(buffer_).substr(0, end));
     constexpr std::string_view kLength = "content-length: ";
     const std::size_t at = header.find(kLength);
@@ -40,16 +50,14 @@ class MessageReader {
     if (at != header.npos)
       std::from_chars(&header[at] + kLength.size(), header.data() + header.size(), bytes);
     if (bytes > kMaxMessage)
-      return fail(fmt::format("at a header without 'Content-Length: ' and a number up to {}", kMaxMessage));
+      fail(fmt::format("at a header without 'Content-Length: ' and a number up to {}", kMaxMessage));
     buffer_.erase(0, end + 4);
     while (buffer_.size() < bytes)
-      if (!fill()) return fail(fmt::format("after {} of {} bytes of a message", buffer_.size(), bytes));
+      if (!fill()) fail(fmt::format("after {} of {} bytes of a message", buffer_.size(), bytes));
     std::string message = buffer_.substr(0, bytes);
     buffer_.erase(0, bytes);
     return message;
   }
-
-  const std::string& problem() const { return problem_; }
 
   // Whether more bytes have arrived. Then work that nobody waits for can wait.
   bool hasMore() const {
@@ -58,11 +66,10 @@ class MessageReader {
   }
 
  private:
-  std::nullopt_t fail(const std::string& where) {
-    problem_ = where.empty() ? "the input ended without 'exit'"
-                             : fmt::format("the input ended {}: '{}'", where,
-                                           text::printable(text::shortened(buffer_)));
-    return std::nullopt;
+  [[noreturn]] void fail(const std::string& where) const {
+    if (where.empty()) throw Failure{kRequestFailed, "the input ended without 'exit'"};
+    throw Failure{kRequestFailed,
+                  fmt::format("the input ended {}: '{}'", where, text::printable(text::shortened(buffer_)))};
   }
 
   bool fill() {
@@ -76,7 +83,7 @@ class MessageReader {
     }
   }
 
-  std::string buffer_, problem_;
+  std::string buffer_;
 };
 
 void send(const Json& message) {
@@ -84,16 +91,6 @@ void send(const Json& message) {
   print(fmt::format("Content-Length: {}\r\n\r\n{}", text.size(), text));
   flushPrinted();
 }
-
-// Error codes of the protocol.
-constexpr int kParseError = -32700, kInvalidRequest = -32600, kUnknownMethod = -32601,
-              kInvalidParameters = -32602, kInternalError = -32603, kRequestFailed = -32803;
-
-// Thrown where a message cannot be answered; caught where it is.
-struct Failure {
-  int code;
-  std::string what;
-};
 
 std::string pathOf(const Json& document) {
   const std::string& uri = document.at("uri").get_ref<const std::string&>();
@@ -224,9 +221,10 @@ class Server {
     if (method == "textDocument/completion") return completionAt(workspace_, *text, offset);
     if (method == "textDocument/hover") return hoverAt(workspace_, *text, offset);
     if (method == "textDocument/rename") {
-      Renamed renamed = renameAt(workspace_, *text, offset, parameters.at("newName").get<std::string>());
-      if (!renamed.problem.empty()) throw Failure{kRequestFailed, renamed.problem};
-      return std::move(renamed.edit);
+      std::string problem;
+      Json edit = renameAt(workspace_, *text, offset, parameters.at("newName").get<std::string>(), problem);
+      if (!problem.empty()) throw Failure{kRequestFailed, problem};
+      return edit;
     }
     Json list = Json::array();
     for (const Location& each : method == "textDocument/definition"
@@ -297,15 +295,14 @@ namespace {
 int runLsp(Options& options) {
   lsp::MessageReader reader;
   lsp::Server server(options);
-  while (!server.ended()) {
-    if (!reader.hasMore()) server.settle();
-    const std::optional<std::string> message = reader.next();
-    if (!message) {
-      printError(
-          fmt::format("weft lsp: {}; editors end the server by 'shutdown' and 'exit'\n", reader.problem()));
-      return 1;
+  try {
+    while (!server.ended()) {
+      if (!reader.hasMore()) server.settle();
+      server.take(reader.next());
     }
-    server.take(*message);
+  } catch (const lsp::Failure& end) {
+    printError(fmt::format("weft lsp: {}; editors end the server by 'shutdown' and 'exit'\n", end.what));
+    return 1;
   }
   return *server.ended();
 }

@@ -239,11 +239,13 @@ Uses usesAt(const Workspace& workspace, const Text& text, std::size_t offset) {
   return uses;
 }
 
-Renamed renameAt(const Workspace& workspace, const Text& text, std::size_t offset, const std::string& name) {
+Json renameAt(const Workspace& workspace, const Text& text, std::size_t offset, const std::string& name,
+              std::string& problem) {
   const Uses uses = usesAt(workspace, text, offset);
-  if (!uses.found) return {nullptr, "nothing here can be renamed"};
-  if (name == uses.name) return {{{"changes", Json::object()}}, ""};
-  if (std::string problem = problemOf(workspace, uses, name); !problem.empty()) return {nullptr, problem};
+  problem = !uses.found         ? "nothing here can be renamed"
+            : name == uses.name ? ""
+                                : problemOf(workspace, uses, name);
+  if (!problem.empty()) return nullptr;
   Json changes = Json::object();
   const auto edit = [&](const std::set<Location>& locations, const std::string& with) {
     for (const Location& each : locations) {
@@ -260,9 +262,11 @@ Renamed renameAt(const Workspace& workspace, const Text& text, std::size_t offse
       if (item) put({item->end, item->end}, " }");
     }
   };
-  edit(uses.locations, name);
-  edit(uses.presence, glsl::presenceDefineOf(name));
-  return {{{"changes", std::move(changes)}}, ""};
+  if (name != uses.name) {
+    edit(uses.locations, name);
+    edit(uses.presence, glsl::presenceDefineOf(name));
+  }
+  return {{"changes", std::move(changes)}};
 }
 
 }  // namespace weft::app::lsp

@@ -156,11 +156,8 @@ struct Uses {
 };
 Uses usesAt(const Workspace& workspace, const Text& text, std::size_t offset);
 
-// A workspace edit; or why the name cannot be changed, then `edit` is null.
-struct Renamed {
-  Json edit;
-  std::string problem;
-};
-Renamed renameAt(const Workspace& workspace, const Text& text, std::size_t offset, const std::string& name);
+// A workspace edit; or null, and `problem` says why the name cannot be changed.
+Json renameAt(const Workspace& workspace, const Text& text, std::size_t offset, const std::string& name,
+              std::string& problem);
 
 }  // namespace weft::app::lsp

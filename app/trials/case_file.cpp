@@ -192,19 +192,6 @@ class CaseReader {
   std::set<std::string> names_;
 };
 
-}  // namespace
-
-std::string TestCase::goldenOf(std::uint32_t frame) const {
-  return folder + (frames.size() == 1 ? name : fmt::format("{}_{:04}", name, frame)) + ".png";
-}
-
-std::vector<std::string> TestCase::acceptedFiles() const {
-  if (plan) return {planGolden()};
-  std::vector<std::string> files{recordFile()};
-  for (const std::uint32_t frame : frames) files.push_back(goldenOf(frame));
-  return files;
-}
-
 std::vector<std::string> findCaseFiles(const std::string& path, text::Diagnostics& diagnostics) {
   namespace fs = std::filesystem;
   std::error_code ignored;
@@ -225,9 +212,25 @@ std::vector<std::string> findCaseFiles(const std::string& path, text::Diagnostic
   return files;
 }
 
-void readCases(const std::string& path, const Options& base, std::vector<TestCase>& cases,
-               text::Diagnostics& diagnostics) {
-  CaseReader(path, base, diagnostics).read(cases);
+}  // namespace
+
+std::string TestCase::goldenOf(std::uint32_t frame) const {
+  return folder + (frames.size() == 1 ? name : fmt::format("{}_{:04}", name, frame)) + ".png";
+}
+
+std::vector<std::string> TestCase::acceptedFiles() const {
+  if (plan) return {planGolden()};
+  std::vector<std::string> files{recordFile()};
+  for (const std::uint32_t frame : frames) files.push_back(goldenOf(frame));
+  return files;
+}
+
+std::vector<TestCase> readCases(const std::string& path, const Options& base,
+                                text::Diagnostics& diagnostics) {
+  std::vector<TestCase> cases;
+  for (const std::string& file : findCaseFiles(path, diagnostics))
+    CaseReader(file, base, diagnostics).read(cases);
+  return cases;
 }
 
 void appendWithPlaces(const TestCase& test, const text::Diagnostics& said, text::Diagnostics& diagnostics) {

@@ -36,12 +36,9 @@ struct TestCase {
   std::vector<std::string> acceptedFiles() const;
 };
 
-// The *.cases.json of a folder and those below it, by name; or the one file that `path` is. Empty after an error.
-std::vector<std::string> findCaseFiles(const std::string& path, text::Diagnostics& diagnostics);
-
-// Appends the cases of a file. `base` has what holds for all of them (backend, caches).
-void readCases(const std::string& path, const Options& base, std::vector<TestCase>& cases,
-               text::Diagnostics& diagnostics);
+// The cases of the *.cases.json of a folder and those below it, by name; or of the one file that `path` is. `base` has what holds for all
+// of them (backend, caches).
+std::vector<TestCase> readCases(const std::string& path, const Options& base, text::Diagnostics& diagnostics);
 
 // Diagnostics of a run of the case, with places in the case file where they are about its settings.
 void appendWithPlaces(const TestCase& test, const text::Diagnostics& said, text::Diagnostics& diagnostics);

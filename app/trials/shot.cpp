@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "app/output/picture_writer.h"
+#include "app/output/pictures.h"
 #include "engine/runtime/inspection/frame_profiler.h"
 #include "engine/text/printable.h"
 

@@ -29,10 +29,6 @@ void beginFixed(const char* name, float x, float y, float width, float height) {
 
 }  // namespace
 
-void tooltip(const std::string& text) {
-  tooltip(text, ImGui::IsItemHovered());
-}
-
 void tooltip(const std::string& text, bool hovered) {
   if (!hovered || text.empty() || g_still < kTipSeconds) return;
   ImGui::BeginTooltip();
@@ -217,9 +213,8 @@ void Panels::drawLine(const LoopState& state) {
     ImGui::SameLine();
     if (ImGui::SmallButton("copy")) ImGui::SetClipboardText(said.c_str());
     ImGui::SameLine();
-    if (error) ImGui::PushStyleColor(ImGuiCol_Text, colorOf(text::Severity::error));
-    ImGui::TextUnformatted(said.substr(0, said.find('\n')).c_str());
-    if (error) ImGui::PopStyleColor();
+    ImGui::TextColored(error ? colorOf(text::Severity::error) : ImGui::GetStyleColorVec4(ImGuiCol_Text), "%s",
+                       said.substr(0, said.find('\n')).c_str());
     tooltip(said);
   }
   ImGui::End();
@@ -238,9 +233,7 @@ void Panels::drawMessages(bool all) {
     ImGui::PushID(id++);
     if (ImGui::SmallButton("copy")) ImGui::SetClipboardText(text.c_str());
     ImGui::SameLine();
-    ImGui::PushStyleColor(ImGuiCol_Text, colorOf(each->severity));
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopStyleColor();
+    ImGui::TextColored(colorOf(each->severity), "%s", text.c_str());
     ImGui::PopID();
   }
   ImGui::PopTextWrapPos();

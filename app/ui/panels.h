@@ -20,9 +20,8 @@
 
 namespace weft::app::ui {
 
-// Of the last item, when the mouse rests over it.
-void tooltip(const std::string& text);
-void tooltip(const std::string& text, bool hovered);
+// When the mouse rests over the last item.
+void tooltip(const std::string& text, bool hovered = ImGui::IsItemHovered());
 // A table with titles, of which one column takes what the others leave. False where none of it is seen.
 bool beginTable(const char* id, std::initializer_list<const char*> titles, int stretched,
                 ImGuiTableFlags flags);

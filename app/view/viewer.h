@@ -1,7 +1,7 @@
 // The viewer: a LiveGraph in a window, a camera, panels around the picture, and the loop over them.
 #pragma once
 
-#include "app/output/picture_writer.h"
+#include "app/output/pictures.h"
 #include "app/session/command_line.h"
 #include "app/session/session.h"
 #include "app/ui/panels.h"

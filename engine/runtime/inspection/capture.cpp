@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace weft::runtime {
@@ -114,13 +113,10 @@ std::optional<CaptureItem> captureItemOf(const graph::Plan& plan, const graph::P
 void Capture::start(Execution& execution, std::vector<CaptureItem> items, Visit visit) {
   items_ = std::move(items);
   visit_ = std::move(visit);
-  byStep_.resize(items_.size());
-  std::iota(byStep_.begin(), byStep_.end(), std::size_t{0});
-  const auto stepOf = [this](std::size_t item) { return items_[item].step; };
-  std::ranges::stable_sort(byStep_, {}, stepOf);
-  execution.watch({.after = [this, stepOf, &execution](std::uint32_t step) {
-    for (const std::size_t i : std::ranges::equal_range(byStep_, step, {}, stepOf))
-      if (isThere(execution, items_[i]) && inspector_.look(execution, items_[i].target))
+  execution.watch({.after = [this, &execution](std::uint32_t step) {
+    for (std::size_t i = 0; i < items_.size(); ++i)
+      if (items_[i].step == step && isThere(execution, items_[i]) &&
+          inspector_.look(execution, items_[i].target))
         visit_(i, inspector_);
   }});
 }

@@ -42,7 +42,6 @@ class Capture {
  private:
   Inspector inspector_;
   std::vector<CaptureItem> items_;
-  std::vector<std::size_t> byStep_;  // their indices in the order of steps
   Visit visit_;
 };
 

@@ -29,16 +29,6 @@ double valueFor(graph::Format format, PoisonPattern pattern) {
 
 }  // namespace
 
-const char* nameOf(PoisonPattern pattern) {
-  return pattern == PoisonPattern::nan ? "nan" : "large";
-}
-
-std::optional<PoisonPattern> findPoison(std::string_view name) {
-  for (const PoisonPattern pattern : {PoisonPattern::nan, PoisonPattern::large})
-    if (name == nameOf(pattern)) return pattern;
-  return std::nullopt;
-}
-
 void fillWithPoison(Execution& execution, std::uint32_t step, PoisonPattern pattern) {
   constexpr GLbitfield kTransfer =
       GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT;

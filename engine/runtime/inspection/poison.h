@@ -4,8 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <string_view>
 
 #include "engine/runtime/frame/execution.h"
 
@@ -16,9 +14,6 @@ enum class PoisonPattern : std::uint8_t {
   nan,    // NaN; in other formats 1, depth 1, integers of all ones
   large,  // 30000; in other formats 0, depth 0.5, integers 7
 };
-
-const char* nameOf(PoisonPattern pattern);
-std::optional<PoisonPattern> findPoison(std::string_view name);
 
 // To be called in StepWatch::before.
 void fillWithPoison(Execution& execution, std::uint32_t step, PoisonPattern pattern);
