@@ -59,13 +59,8 @@ int runFormat(FormatOptions& options) {
 
 // ---- new ----
 
-constexpr std::size_t kLongestName = 64;
-
 // Where the new pass goes: behind the last stanza, and the texture that is shown.
-struct Anchor {
-  std::string after, texture;
-};
-
+using Anchor = std::pair<std::string, std::string>;
 std::optional<Anchor> findAnchor(const std::string& graphFile, const std::string& name,
                                  text::Diagnostics& diagnostics) {
   const auto desc = graph::readGraph(graphFile, diagnostics);
@@ -110,13 +105,13 @@ int runNew(NewOptions& options) {
   const std::string& name = options.name;
   const bool pass = options.what == "pass";
   if (options.graph.empty()) options.graph = dataFolder() + "/graphs/glow.json";
-  if (!graph::isIdent(name) || name[0] == '_' || name.size() > kLongestName || graph::isReservedWord(name)) {
+  if (!graph::isIdent(name) || name[0] == '_' || name.size() > 64 || graph::isReservedWord(name)) {
     diagnostics
         .error(text::Code::notAName, text::placeOfOption(fmt::format("new {} {}", options.what, name)),
                fmt::format("\"{}\" cannot name a {}", name, options.what))
         .expected =
-        fmt::format("a letter, then letters, digits and '_', {} at most, and none of the words {}",
-                    kLongestName, fmt::join(graph::kReservedWords, ", "));
+        fmt::format("at most 64 letters, digits and '_', a letter first, and none of the words {}",
+                    fmt::join(graph::kReservedWords, ", "));
     return report(diagnostics);
   }
   const auto anchor = pass ? findAnchor(options.graph, name, diagnostics) : Anchor{};
@@ -130,8 +125,8 @@ int runNew(NewOptions& options) {
   if (!checkDistinct(outputs, diagnostics)) return report(diagnostics);
   if (writeFrom(pass ? "new_pass.json" : "new_graph.json", graphFile,
                 {{"%NAME%", name},
-                 {"%AFTER%", anchor->after},
-                 {"%TEXTURE%", anchor->texture},
+                 {"%AFTER%", anchor->first},
+                 {"%TEXTURE%", anchor->second},
                  {"\"%BASE%\"", text::quoteJson(seenFrom(folder.string(), options.graph))}},
                 diagnostics) &&
       writeFrom("new_pass.frag.glsl", shaderFile, {{"%NAME%", name}}, diagnostics)) {

@@ -1,5 +1,4 @@
 // weft render: frames of a graph to image files, reproducible to the byte. weft dump: what each pass wrote in one of them.
-
 #include "app/commands/commands.h"
 #include "app/output/pictures.h"
 #include "engine/graph/language/suffix.h"

@@ -1,7 +1,4 @@
 // weft test: cases of pictures and plans against their goldens.
-
-#include <iterator>
-
 #include "app/commands/commands.h"
 #include "app/output/pictures.h"
 #include "app/trials/case_file.h"
@@ -237,26 +234,22 @@ bool checkOutputs(const TestOptions& options, const std::vector<TestCase>& cases
                   text::Diagnostics& diagnostics) {
   std::vector<OutputFile> outputs;
   std::vector<std::string> inputs;
-  if (!options.report.empty()) outputs.push_back({"--report", options.report});
-  for (const TestCase& test : cases) {
-    inputs.insert(inputs.end(),
-                  {test.options.graph, test.options.scene, test.options.materials, test.options.environment});
-    inputs.insert(inputs.end(), {test.mask, test.place.file ? *test.place.file : std::string()});
-    inputs.insert(inputs.end(), test.options.presets.begin(), test.options.presets.end());
-    const std::vector<std::string> goldens = test.acceptedFiles();
-    if (!options.accept || !isWanted(test, options.only))
-      inputs.insert(inputs.end(), goldens.begin(), goldens.end());
-  }
   const auto make = [&](const char* option, const std::string& file) {
     outputs.push_back({option, file, OutputFile::Over::file});
   };
+  if (!options.report.empty()) outputs.push_back({"--report", options.report});
   for (const TestCase& test : cases) {
-    if (!isWanted(test, options.only)) continue;
-    if (options.accept)
-      for (const std::string& file : test.acceptedFiles()) make("--accept", file);
+    const Options& of = test.options;
+    inputs.insert(inputs.end(), {of.graph, of.scene, of.materials, of.environment, test.mask});
+    if (test.place.file) inputs.push_back(*test.place.file);
+    inputs.insert(inputs.end(), of.presets.begin(), of.presets.end());
+    const bool runs = isWanted(test, options.only);
+    for (const std::string& file : test.acceptedFiles())
+      options.accept&& runs ? make("--accept", file) : inputs.push_back(file);
     for (const std::uint32_t frame : test.frames)
       for (const char* end : {".png", "_flip.png"})
-        if (!options.output.empty() && !test.plan) make("-o", leftName(options.output, test, frame) + end);
+        if (runs && !options.output.empty() && !test.plan)
+          make("-o", leftName(options.output, test, frame) + end);
   }
   std::erase(inputs, "");
   return checkDistinct(outputs, diagnostics, inputs);

@@ -1,5 +1,4 @@
 // weft ablate: what each pass of a graph costs and does. weft fuzz: whatever a plan leaves open, the picture is the same.
-
 #include "app/commands/commands.h"
 #include "app/output/pictures.h"
 #include "app/trials/divergence.h"

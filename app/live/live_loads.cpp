@@ -47,16 +47,6 @@ void LiveScene::outdate() {
   if (std::exchange(loading_, false)) loader_.cancel();
 }
 
-bool LiveScene::slow() {
-  if (!slow_) slow_ = scene::namesModels(path_);
-  return *slow_;
-}
-
-void LiveScene::settle() {
-  outdated_ = false;
-  arrived_ = nullptr;
-}
-
 void LiveScene::readNow() {
   if (std::exchange(loading_, false)) loader_.cancel();
   arrived_ = read(path_, choice_);

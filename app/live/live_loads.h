@@ -45,10 +45,13 @@ class LiveScene {
   void outdate();
   bool outdated() const { return outdated_; }
   // What is in the files is shown.
-  void settle();
+  void settle() {
+    outdated_ = false;
+    arrived_ = nullptr;
+  }
 
   // Whether what is in the files may take long to read: a scene with models. Others are there sooner than a frame.
-  bool slow();
+  bool slow() { return slow_ ? *slow_ : *(slow_ = scene::namesModels(path_)); }
   // Reads the scene at once: for when there is nothing to keep showing, or reading is not slow.
   void readNow();
   // Begins to read the scene beside the frames. Even when it is read at once, only arrived() takes it.

@@ -33,16 +33,12 @@ std::string cacheFolderOf(const Options& options) {
 
 }  // namespace
 
-std::string presetsFolder() {
-  return dataFolder() + "/graphs/presets";
-}
-
 std::vector<std::string> presetFolders(const std::string& own) {
   std::vector<std::string> folders;
   if (!own.empty()) folders.push_back(own);
   if (const std::string user = userFolder("XDG_CONFIG_HOME", ".config"); !user.empty())
     folders.push_back(user + "/weft/presets");
-  folders.push_back(presetsFolder());
+  folders.push_back(dataFolder() + kPresets);
   return folders;
 }
 

@@ -21,8 +21,7 @@ namespace weft::app {
 
 using text::dataFolder;
 
-// The folder of the bundled presets, in the data folder.
-std::string presetsFolder();
+constexpr const char* kPresets = "/graphs/presets";  // the bundled ones, in the data folder
 // Where a preset's name is looked for, the first first: `own` (--preset-folder) unless it is empty, the user's folder
 // ($XDG_CONFIG_HOME/weft/presets, else ~/.config/weft/presets), the bundled ones. They need not be there.
 std::vector<std::string> presetFolders(const std::string& own);

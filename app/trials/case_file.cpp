@@ -116,7 +116,7 @@ class CaseReader {
     readNames(fields, "preset", [&](const JsonValue& item) {
       // A word is a bundled preset whoever runs the case, and where: what lies here or is a person's own does not count.
       const bool word = item.text.find_first_of("/.") == std::string::npos;
-      options.presets.push_back(word ? presetsFolder() + "/" + item.text + ".json"
+      options.presets.push_back(word ? dataFolder() + kPresets + "/" + item.text + ".json"
                                      : besideFile(item.textPlace(), item.text));
     });
     readNames(fields, "disable", [&](const JsonValue& item) {

@@ -94,10 +94,6 @@ void InspectorPanel::select(const graph::Plan& plan, std::uint32_t pass) {
   }
 }
 
-void InspectorPanel::release() {
-  if (renderer_.execution()) inspector_.release(*renderer_.execution());
-}
-
 void InspectorPanel::draw(text::Diagnostics& diagnostics) {
   const graph::Plan& plan = renderer_.execution()->plan();
   const runtime::InspectTarget before = target_;

@@ -8,7 +8,6 @@
 #include <imgui_freetype.h>
 #include <imgui_internal.h>
 
-#include <cmath>
 #include <filesystem>
 
 namespace weft::app::ui {
@@ -16,7 +15,6 @@ namespace weft::app::ui {
 namespace {
 
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";  // of fonts-dejavu-core
-constexpr float kFontPixels = 14;                                                 // at scale 1
 
 }  // namespace
 
@@ -33,10 +31,6 @@ std::unique_ptr<Overlay> Overlay::create(GLFWwindow* window, float scale) {
   std::unique_ptr<Overlay> overlay(new Overlay(window));
   overlay->setScale(scale);
   return overlay;
-}
-
-float Overlay::textSize(float scale) {
-  return std::round(kFontPixels * scale);
 }
 
 void Overlay::setScale(float scale) {

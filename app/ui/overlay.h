@@ -3,6 +3,7 @@
 // puts back what it found.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -37,7 +38,7 @@ class Overlay {
   void begin();
   void end();
   void skip();
-  static float textSize(float scale);  // pixels
+  static float textSize(float scale) { return std::round(14 * scale); }  // pixels
   // Sizes of text and widgets, 1 at 96 dots an inch. Between frames.
   void setScale(float scale);
   // Off: panels ignore the mouse, wherever it is (it is captured).

@@ -46,7 +46,9 @@ class InspectorPanel {
   // To be called before each frame. `wanted`: it is on the screen.
   void beforeFrame(bool wanted);
   void draw(text::Diagnostics& diagnostics);
-  void release();
+  void release() {
+    if (renderer_.execution()) inspector_.release(*renderer_.execution());
+  }
   bool wantsFrame() const { return wantsFrame_; }  // something else is to be copied
   // What a pass writes first, after that pass.
   void select(const graph::Plan& plan, std::uint32_t pass);

@@ -19,10 +19,6 @@ ImU32 colorOf(const std::string& name, float saturation, float value) {
                       value);
 }
 
-struct PassTimes {
-  std::vector<double> gpu, cpu;  // of the frames in which the pass ran, of the last kAveraged
-};
-
 double totalOf(const runtime::FrameProfile& profile, double gl::PassTime::*time) {
   double total = 0;
   for (const gl::PassTime& pass : profile.passes) total += pass.ran ? pass.*time : 0;
@@ -36,20 +32,20 @@ struct PassMedian {
 
 // The slowest first.
 std::vector<PassMedian> mediansOf(const std::deque<runtime::FrameProfile>& history, bool gpu) {
-  std::map<std::string, PassTimes> byName;
+  std::map<std::string, std::pair<std::vector<double>, std::vector<double>>> byName;
   for (std::size_t f = history.size() - std::min(runtime::FrameProfiler::kAveraged, history.size());
        f < history.size(); ++f)
     for (std::size_t step = 0; step < history[f].passes.size() && step < history[f].names->size(); ++step) {
       const gl::PassTime& time = history[f].passes[step];
       if (!time.ran) continue;
-      PassTimes& all = byName[(*history[f].names)[step]];
-      all.gpu.push_back(time.gpu);
-      all.cpu.push_back(time.cpu);
+      auto& [gpuTimes, cpuTimes] = byName[(*history[f].names)[step]];
+      gpuTimes.push_back(time.gpu);
+      cpuTimes.push_back(time.cpu);
     }
   std::vector<PassMedian> medians;
   for (const auto& [name, times] : byName)
-    medians.push_back(
-        {name, runtime::FrameProfiler::medianOf(times.gpu), runtime::FrameProfiler::medianOf(times.cpu)});
+    medians.push_back({name, runtime::FrameProfiler::medianOf(times.first),
+                       runtime::FrameProfiler::medianOf(times.second)});
   std::ranges::stable_sort(medians, std::greater(), gpu ? &PassMedian::gpu : &PassMedian::cpu);
   return medians;
 }

@@ -33,11 +33,11 @@ T followed(const T& value, const T& goal, const T& by, double dt) {
   return value + (goal - by - value) * k + by * (1 - k * CameraRig::kMouseSeconds / dt);
 }
 
-}  // namespace
-
-glm::dvec3 CameraRig::backOf(double yaw, double pitch) {
+glm::dvec3 backOf(double yaw, double pitch) {
   return {std::cos(pitch) * std::sin(yaw), std::sin(pitch), std::cos(pitch) * std::cos(yaw)};
 }
+
+}  // namespace
 
 void CameraRig::jumpTo(const scene::CameraPose& pose) {
   ++cuts_;

@@ -60,7 +60,6 @@ class CameraRig {
     glm::dvec3 pivot{0};
     double yaw = 0, pitch = 0, distance = 1;
   };
-  static glm::dvec3 backOf(double yaw, double pitch);
   // A frame of more than no seconds.
   void fly(const CameraInput& in, double seconds, const glm::dvec3& back, const glm::dvec3& right);
 
