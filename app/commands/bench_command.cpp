@@ -156,10 +156,8 @@ graph::Settings settingsWith(const Options& options, const graph::FlatGraph& gra
   return settings;
 }
 
-// Costs of a graph's frame in full-screen copies (graphs/bench_copy.json), both measured alternately in one run, so that
-// the ratio means something on a busy machine too. Milliseconds between glFinish, the least of all rounds; on software
-// rasterizers "cpu_copies" is the same ratio in CPU time of the process. Variants: "plain" (every effect of the post chain
-// off but fxaa), "default", and "all" (bloom, dof, auto_exposure, motion_blur and fxaa on). Empty after errors.
+// Costs of a graph's frame in full-screen copies (graphs/bench_copy.json), both measured in turns, so that the ratio means something on a
+// busy machine: the least of all rounds; on software also in CPU time. Variants: "plain" (effects off but fxaa), "default", and "all".
 std::optional<Json> benchFrame(const Options& options, text::Diagnostics& diagnostics) {
   auto world = loadWorld(options, diagnostics);
   if (!world || diagnostics.hasErrors()) return std::nullopt;

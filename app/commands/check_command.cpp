@@ -191,12 +191,6 @@ std::string keyOf(const gl::ProgramRequest& request) {
   return key;
 }
 
-// What tells messages apart: the place and the words.
-std::string keyOf(const text::Diagnostic& d) {
-  const text::Place& place = d.place.inFile();
-  return fmt::format("{}:{}:{} {}", place.file ? *place.file : "", place.line, place.column, d.message);
-}
-
 // Checks the shaders of plans, each variant once: compiled, or with --no-shaders by what they declare.
 class ShaderCheck {
  public:
@@ -220,7 +214,7 @@ class ShaderCheck {
     }
     // A warning about a shader's text is the same in all its variants.
     for (text::Diagnostic each : said.items()) {
-      if (each.severity == text::Severity::warning && !told_.insert(keyOf(each)).second) continue;
+      if (each.severity == text::Severity::warning && !told_.insert(text::format(each)).second) continue;
       if (!with.empty()) each.message += fmt::format(" (with {})", with);
       diagnostics.add(std::move(each));
     }
@@ -317,9 +311,7 @@ Checked checkOnce(const CheckOptions& options) {
   const bool over = diagnostics.contains(text::Code::limitExceeded);
   const auto desc =
       vary || !(checked.plan || over) ? graph::readGraph(options.graph, options.presets, again) : nullptr;
-  if (desc && !checked.plan && options.shaders) {
-    checked.shaders.checkFiles(*desc, diagnostics);
-  }
+  if (desc && !checked.plan && options.shaders) checked.shaders.checkFiles(*desc, diagnostics);
   if (vary) {
     graph::MatrixOptions wanted{.pairs = options.matrix};
     if (options.allVariants)

@@ -48,11 +48,6 @@ bool fits(const PictureDifference& found, const Tolerance& tolerance) {
          found.bytes.maxDifference <= tolerance.step && found.share <= tolerance.fraction;
 }
 
-std::string text(const Tolerance& t) {
-  return fmt::format("allowed: FLIP {:g}, at most {:g}; {:g} % of the pixels, by up to {:g}", t.flip,
-                     t.flipPeak, 100 * t.fraction, t.step);
-}
-
 // 0 where pixels do not count; empty: all count. Empty as a whole after an error.
 std::optional<std::vector<std::uint8_t>> readMask(const TestCase& test, const assets::Image8& picture,
                                                   text::Diagnostics& diagnostics) {
@@ -130,7 +125,12 @@ bool judgePicture(const TestCase& test, std::uint32_t frame, const assets::Image
         "frame {} changed: {}", frame,
         found ? found->text()
               : fmt::format("the picture is {}, its golden {}", sizeText(picture), sizeText(*golden))));
-    if (found && !good && !accept) result.lines.push_back(text(test.tolerance));
+    if (found && !good && !accept) {
+      const Tolerance& t = test.tolerance;
+      result.lines.push_back(
+          fmt::format("allowed: FLIP {:g}, at most {:g}; {:g} % of the pixels, by up to {:g}", t.flip,
+                      t.flipPeak, 100 * t.fraction, t.step));
+    }
   } else {
     result.lines.push_back(fmt::format("there is no golden '{}' yet; --accept writes it", file));
   }

@@ -51,7 +51,8 @@ LiveGraph::LiveGraph(const Options& options, runtime::Renderer& renderer, runtim
     : renderer_(renderer),
       world_(std::move(world)),
       settings_(std::move(settings)),
-      scene_(scenePathOf(options), sceneChoiceOf(options), world_.scene().files),
+      scene_(scenePathOf(options), {.camera = options.camera, .materials = options.materials},
+             world_.scene().files),
       presetFolder_(presetFolders(options.presetFolder).front()) {
   if (world_.scene().cameras.rows().empty()) scene_.outdate();
   if (world_.environmentPending())

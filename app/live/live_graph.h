@@ -1,6 +1,5 @@
-// A graph that follows its files: what the viewer shows, the settings it shows it with, and the watch on everything that
-// was read for it. A change is validated whole; after an error the last good frame goes on, and the settings that led to it
-// are taken back when a person made them here.
+// A graph that follows its files: what the viewer shows, its settings, and the watch on all that was read. A change is validated whole;
+// after an error the last good frame goes on, and the settings that led to it are taken back.
 #pragma once
 
 #include "app/live/live_loads.h"
@@ -14,25 +13,21 @@ namespace weft::app {
 
 class LiveGraph {
  public:
-  // Reads nothing yet; a scene without cameras is read with the first load(). `renderer` must outlive this.
-  // An environment that `world` expects is asked for: options.environment, a file.
+  // Reads nothing yet. `renderer` must outlive this. An environment that `world` expects is asked for: options.environment.
   LiveGraph(const Options& options, runtime::Renderer& renderer, runtime::World world,
             graph::Settings settings);
 
   // The scene of `world` stands in for that of the files, which is read beside the frames. Before the first load().
   void expectScene();
-  // Reads everything but the environment again and switches to it. False after errors, and what ran goes on.
-  // A set or disable that the graph does not take any more is left out with a warning; only the first time,
-  // when there is nothing to keep running, is it an error.
+  // Reads everything but the environment again and switches to it. False after errors, and what ran goes on. A set or disable that the
+  // graph does not take any more is left out with a warning; the first time it is an error.
   bool load(text::Diagnostics& diagnostics);
-  // Loads when watched files changed: at once when they are good as they are, else when they have been quiet
-  // for a moment, as more may come. A scene with models is read beside the frames, and loaded when it has
-  // arrived. `now` in seconds. True when something came of it that is to be reported.
+  // Loads when watched files changed: at once when they are good, else when they were quiet for a moment. A scene with models is read
+  // beside the frames. `now` in seconds. True when something came of it that is to be reported.
   bool poll(double now, text::Diagnostics& diagnostics);
   // Whether files changed that poll() has not loaded yet; false while a scene is on its way.
   bool pending() const { return (graphStale_ && !scene_.loading()) || !changedEnvironment_.empty(); }
-  // Once per frame: takes up an environment that has arrived. True when something came of the last request;
-  // on failure the environment before stays, or, when it was to be the first, the stand-in comes.
+  // Once per frame: takes up an environment that has arrived. True when something came of the last request.
   bool pollEnvironment(text::Diagnostics& diagnostics);
   // After a frame: frees what the GPU has.
   void dropUploaded() { renderer_.dropUploaded(world_); }
@@ -58,15 +53,13 @@ class LiveGraph {
   static bool isWefts(const std::string& file);
   // Writes what was changed into a new preset of the user's, and lays that over the graph. The file; nothing after errors.
   std::optional<std::string> savePreset(const std::string& name, text::Diagnostics& diagnostics);
-  // Takes back the last change of a parameter, a pass or the presets, or the last write into files; and does it again. A row of
-  // changes of one parameter up to endChange() is one. False when there is none, and after errors.
+  // Takes back the last change or write, and does it again; changes of one parameter up to endChange() are one. False when there is none.
   bool undo(text::Diagnostics& diagnostics) { return travel(undo_, redo_, diagnostics); }
   bool redo(text::Diagnostics& diagnostics) { return travel(redo_, undo_, diagnostics); }
   bool canUndo() const { return !undo_.empty(); }
   bool canRedo() const { return !redo_.empty(); }
   void endChange() { changing_.clear(); }
-  // Another graph, scene or environment, or one more preset: what the file holds decides. False, with the reason, and nothing has
-  // changed. A scene or an environment is read beside the frames.
+  // Another graph, scene or environment, or one more preset: what the file holds decides. False, and nothing has changed.
   bool open(const std::string& file, text::Diagnostics& diagnostics);
 
   // Everything that was read, or missed.

@@ -1,5 +1,4 @@
 // What a window loads beside its frames: its scene and its environment. Nothing here waits for the disk, a decoder or the GPU.
-// (Going on to another environment lists the folder: names only.)
 #pragma once
 
 #include <cstdint>
@@ -87,8 +86,7 @@ class LiveScene {
   assets::Loader loader_;
 };
 
-// The file that `--environment` means: itself, or of a folder the first that can be read, in the order of
-// names. Empty after an error (W150): there is none. A path that does not exist is left to whoever loads it.
+// The file that `--environment` means: itself, or the first of a folder. Empty after W150: there is none.
 std::optional<std::string> firstEnvironment(const std::string& fileOrFolder, text::Diagnostics& diagnostics);
 
 // The environment of a window: the file that is shown, the one on its way, and the others of its folder. Loads on the loader

@@ -1,6 +1,5 @@
-// The texts that the server works on: those that the editor has open, as the editor has them, and files on disk. Open texts are
-// overlays (engine/text/files/file.h), so that all of Weft reads them. Paths are absolute. Positions are those of the
-// Language Server Protocol: lines from 0 and UTF-16 code units within them.
+// The texts that the server works on: as the editor has them open (overlays, engine/text/files/file.h), and files on disk. Paths are
+// absolute; positions are lines from 0 and UTF-16 code units, as the protocol has them.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,5 @@
-// The graphs that the editor has open or that lie in its folders: what their files say, which names they use and where these are
-// declared (engine/graph/expand/names/name_uses.h), and what Weft reports of the open ones. Opens no context, and compiles no
-// shaders.
+// The graphs that the editor has open or that lie in its folders: which names they use and where these are declared, and what Weft
+// reports of the open ones. Opens no context, and compiles no shaders.
 #pragma once
 
 #include <algorithm>

@@ -24,9 +24,8 @@ void printError(std::string_view text);  // on standard error
 // Indented text, or with -1 a line. Bytes that are no UTF-8 are replaced.
 std::string dumpJson(const nlohmann::ordered_json& json, int indent = 2);
 
-// To be called at the end, with the exit code so far: writes what is left. After a failed write it reports W180 and
-// returns at least 1. When the reader of standard output has gone, that is no error: it returns 141 instead of 0, as a
-// shell would.
+// To be called at the end: writes what is left. After a failed write it reports W180 and returns at least 1; 141 when the reader of
+// standard output has gone, as a shell would.
 int finishStreams(int exitCode);
 
 // "4.2 s", "52 s", "12 min", "2.2 h": as exact as an estimate is worth.

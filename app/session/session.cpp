@@ -76,16 +76,13 @@ std::string scenePathOf(const Options& options) {
   return options.scene.empty() ? dataFolder() + "/scenes/spheres.json" : options.scene;
 }
 
-scene::SceneChoice sceneChoiceOf(const Options& options) {
-  return {.camera = options.camera, .materials = options.materials};
-}
-
 std::optional<runtime::World> loadWorld(const Options& options, text::Diagnostics& diagnostics) {
   text::Diagnostics said;
   auto loading = std::async(std::launch::async, [&] {  // beside the scene
     return options.environment.empty() ? std::nullopt : assets::loadEnvironmentMap(options.environment, said);
   });
-  auto scene = scene::loadScene(scenePathOf(options), diagnostics, nullptr, sceneChoiceOf(options));
+  auto scene = scene::loadScene(scenePathOf(options), diagnostics, nullptr,
+                                {.camera = options.camera, .materials = options.materials});
   std::shared_ptr<const assets::EnvironmentMap> environment;
   if (auto map = loading.get()) environment = std::make_shared<const assets::EnvironmentMap>(std::move(*map));
   diagnostics.append(said);
@@ -254,10 +251,6 @@ nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json ti
     out["passes"] = std::move(passes);
   }
   return out;
-}
-
-void printStats(const nlohmann::ordered_json& stats) {
-  printError(dumpJson(stats) + "\n");
 }
 
 std::string closeDevice(std::unique_ptr<DeviceSession> session) {

@@ -33,7 +33,6 @@ graph::Settings settingsOf(const Options& options, bool software);
 
 // Path of the scene file: the one the options name, or the bundled one.
 std::string scenePathOf(const Options& options);
-scene::SceneChoice sceneChoiceOf(const Options& options);
 
 // The scene and the environment that the options name. Returns when both are read.
 std::optional<runtime::World> loadWorld(const Options& options, text::Diagnostics& diagnostics);
@@ -75,9 +74,8 @@ runtime::Renderer::Options rendererOptionsOf(const Options& options);
 // Headless unless options.window. Null after errors.
 std::unique_ptr<DeviceSession> openDevice(const Options& options, text::Diagnostics& diagnostics);
 
-// Runs a headless command: calls `run`, which returns the exit code, with a device that has loaded no graph yet and a world,
-// and reports. `wrong`: the exit code after errors; a graph of `all` that is wrong is refused before OpenGL is opened. 3
-// without OpenGL. The first of `all` says which world, which device and what is reported.
+// Runs a headless command: calls `run` with a device that has loaded no graph yet and a world, and reports. `wrong`: the exit code after
+// errors; a graph of `all` that is wrong is refused before OpenGL is opened. 3 without OpenGL. The first of `all` says which world.
 using DeviceRun = std::function<int(std::unique_ptr<DeviceSession>&, runtime::World&, text::Diagnostics&)>;
 int runOnDevice(std::initializer_list<const Options*> all, int wrong, const DeviceRun& run);
 
@@ -90,7 +88,6 @@ bool checkPresents(const Options& options, runtime::Renderer& renderer, text::Di
 
 // --stats: one JSON object. Waits for the outputs of the last frame.
 nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json times);
-void printStats(const nlohmann::ordered_json& stats);  // on standard error
 
 // Destroys renderer and context; in between asks the driver which objects still exist: "none", unless one was forgotten.
 std::string closeDevice(std::unique_ptr<DeviceSession> session);

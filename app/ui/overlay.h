@@ -1,6 +1,5 @@
-// Dear ImGui over framebuffer 0 of a GLFW window. Installs no callbacks: who has the events hands them over, so that each layout of
-// the panels sees at most one change of each key and button (Dear ImGui 1.86 looks at states alone). Draws with state of its own and
-// puts back what it found.
+// Dear ImGui over framebuffer 0 of a GLFW window, with state of its own. Installs no callbacks: events are handed over, so that each
+// layout of the panels sees at most one change of each key and button (Dear ImGui 1.86 looks at states alone).
 #pragma once
 
 #include <cmath>
@@ -32,9 +31,8 @@ class Overlay {
   // Before begin().
   void take(const WindowEvent& event);
 
-  // Panels are made between the two; end() draws them. Framebuffer 0 must be bound. begin() shows the panels the events that were
-  // taken: wantsMouse() knows of them from then on. It does nothing between the two; without a picture of the panels, call skip()
-  // instead of end().
+  // Panels are made between the two; end() draws them on framebuffer 0. begin() shows the panels the events that were taken: wantsMouse()
+  // knows of them from then on. Without a picture of the panels, call skip() instead of end().
   void begin();
   void end();
   void skip();

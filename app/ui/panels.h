@@ -1,7 +1,5 @@
-// What stands around the picture in the viewer: a column with parameters, passes and what is selected, a strip below with times,
-// storage, histogram and messages, and a line with the state of the loop. Each is made anew every frame from what it shows and keeps
-// what a person chose in it; changes go straight into the LiveGraph. Nothing but lists that open, the help and questions covers
-// the picture.
+// What stands around the picture in the viewer: a column and a strip of tabs, and a line with the state of the loop. Each is made anew
+// every frame and keeps what a person chose in it; changes go straight into the LiveGraph.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,6 +1,5 @@
-// The person's camera: follows a camera of the scene until someone takes it, turns around a pivot (orbit), or flies. Movement is
-// the solution of its equations over a frame in which the mouse moved evenly, so the same input over the same time gives the same path at
-// any frame rate. Never rolls, never passes the poles. No call makes a pose that is not finite.
+// The person's camera: follows one of the scene, orbits, or flies. The same input over the same time gives the same path at any frame
+// rate. Never rolls, never passes the poles. No call makes a pose that is not finite.
 #pragma once
 
 #include <cstdint>

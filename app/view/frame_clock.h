@@ -1,6 +1,5 @@
-// The time that frames see. Runs with the wall clock, stands still while nothing is drawn, skips most of what a frame takes
-// that did more than its picture, and advances by a fixed step per frame while a recording is on, however long the frames
-// take. A person can hold it, go on by a frame, and begin anew.
+// The time that frames see: the wall clock, less what frames take that did more than their picture; or a fixed step per frame while a
+// recording is on. A person can hold it, go on by a frame, and begin anew.
 #pragma once
 
 #include <algorithm>
@@ -62,9 +61,8 @@ class FrameClock {
   bool started_ = false, worked_ = false, paused_ = false, step_ = false, anew_ = false;
 };
 
-// Whether the picture has come to rest, for idle mode: looks at it now and then until several looks in a row, spread over
-// longer than any fade's slowest visible step, saw the same. Nobody has to list what may move: histories, fades, grain and
-// animations all show.
+// Whether the picture has come to rest, for idle mode: several looks in a row, spread over longer than any fade's slowest visible step,
+// saw the same. Nobody has to list what may move.
 class PictureRest {
  public:
   static constexpr double kBetweenLooks = 0.1;  // seconds
