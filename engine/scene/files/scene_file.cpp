@@ -633,12 +633,6 @@ std::optional<std::vector<Material>> readMaterialLibrary(std::string_view text, 
   return materials;
 }
 
-std::optional<Scene> readScene(std::string_view text, const std::string& name, Diagnostics& diagnostics,
-                               const SceneChoice& choice) {
-  const assets::LoadObserver nobody;
-  return Reader(name, diagnostics, choice, nobody).read(text);
-}
-
 std::optional<Scene> loadScene(const std::string& path, Diagnostics& diagnostics,
                                std::vector<std::string>* files, const SceneChoice& choice,
                                const assets::LoadObserver& observer) {

@@ -30,9 +30,6 @@ struct SceneChoice {
 std::optional<Scene> loadScene(const std::string& path, text::Diagnostics& diagnostics,
                                std::vector<std::string>* files = nullptr, const SceneChoice& choice = {},
                                const assets::LoadObserver& observer = {});
-// The same for text in memory; paths are relative to the folder of `name`.
-std::optional<Scene> readScene(std::string_view text, const std::string& name, text::Diagnostics& diagnostics,
-                               const SceneChoice& choice = {});
 
 // The presets of a material library (materials/*.json): an array of {"name", "albedo", "metallic", "roughness"} and, where known,
 // "category" and "source". W155 for a value out of range, W156 for a name that is there twice.

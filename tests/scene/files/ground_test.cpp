@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/scene/files/scene_file.h"
+#include "tests/scene/read_scene.h"
 
 using namespace weft;
 using namespace weft::scene;
@@ -10,7 +11,7 @@ namespace {
 
 text::Diagnostic failureOf(std::string_view text) {
   text::Diagnostics diagnostics;
-  CHECK_FALSE(readScene(text, "s.json", diagnostics));
+  CHECK_FALSE(test::readScene(text, "s.json", diagnostics));
   REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
   CHECK(diagnostics.items()[0].place.line > 0);
   return diagnostics.items()[0];
@@ -18,7 +19,7 @@ text::Diagnostic failureOf(std::string_view text) {
 
 std::optional<Ground> groundOf(std::string_view text) {
   text::Diagnostics diagnostics;
-  const auto scene = readScene(text, "s.json", diagnostics);
+  const auto scene = test::readScene(text, "s.json", diagnostics);
   REQUIRE_MESSAGE(scene, diagnostics.text());
   CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
   return scene->ground;

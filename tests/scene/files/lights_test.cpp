@@ -5,6 +5,7 @@
 
 #include "engine/scene/files/reading.h"
 #include "engine/scene/files/scene_file.h"
+#include "tests/scene/read_scene.h"
 
 using namespace weft;
 using namespace weft::scene;
@@ -13,7 +14,7 @@ namespace {
 
 Scene readGood(std::string_view text) {
   text::Diagnostics diagnostics;
-  auto scene = readScene(text, "s.json", diagnostics);
+  auto scene = test::readScene(text, "s.json", diagnostics);
   REQUIRE_MESSAGE(scene, diagnostics.text());
   CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
   return std::move(*scene);
@@ -21,7 +22,7 @@ Scene readGood(std::string_view text) {
 
 text::Diagnostic lightsFailureOf(std::string_view text) {
   text::Diagnostics diagnostics;
-  CHECK_FALSE(readScene(text, "s.json", diagnostics));
+  CHECK_FALSE(test::readScene(text, "s.json", diagnostics));
   REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
   CHECK(diagnostics.items()[0].place.line > 0);
   return diagnostics.items()[0];

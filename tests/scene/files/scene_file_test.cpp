@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "engine/text/files/file.h"
+#include "tests/scene/read_scene.h"
 #include "tests/temporary_folder.h"
 
 using namespace weft;
@@ -23,14 +24,14 @@ Scene loadedScene(const std::string& path) {
 
 Scene readGoodScene(std::string_view text) {
   text::Diagnostics diagnostics;
-  auto scene = readScene(text, "s.json", diagnostics);
+  auto scene = test::readScene(text, "s.json", diagnostics);
   REQUIRE_MESSAGE(scene, diagnostics.text());
   return std::move(*scene);
 }
 
 text::Diagnostic sceneFailureOf(std::string_view text) {
   text::Diagnostics diagnostics;
-  CHECK_FALSE(readScene(text, "s.json", diagnostics));
+  CHECK_FALSE(test::readScene(text, "s.json", diagnostics));
   REQUIRE_MESSAGE(diagnostics.size() == 1, text << "\n" << diagnostics.text());
   return diagnostics.items()[0];
 }
@@ -85,8 +86,8 @@ TEST_CASE("the example of docs/scenes.md loads") {
   const auto page = text::readFile(WEFT_SOURCE_DIR "/docs/scenes.md", diagnostics);
   REQUIRE(page);
   const std::size_t begin = page->find("```json") + 7, end = page->find("```", begin);
-  const auto scene = readScene(std::string_view(*page).substr(begin, end - begin),
-                               WEFT_SOURCE_DIR "/scenes/example.json", diagnostics);
+  const auto scene = test::readScene(std::string_view(*page).substr(begin, end - begin),
+                                     WEFT_SOURCE_DIR "/scenes/example.json", diagnostics);
   REQUIRE_MESSAGE(scene, diagnostics.text());
   CHECK(scene->cameras.size() == 3);
   CHECK(scene->spheres.size() == 102);
@@ -291,7 +292,7 @@ TEST_CASE("a camera and a material library chosen from outside the file") {
 
 TEST_CASE("everything wrong is reported at once") {
   text::Diagnostics diagnostics;
-  CHECK_FALSE(readScene(
+  CHECK_FALSE(test::readScene(
       R"({"nam": "x", "sun": 3, "spheres": [{"center": [0, 0], "material": "q"}], "grid": {"count": [1, 1, 1], "materials": "no.json"}})",
       "s.json", diagnostics));
   CHECK(diagnostics.errorCount() == 4);  // 'q' may be a material of no.json
