@@ -13,7 +13,7 @@
 #include "engine/text/chars.h"
 #include "engine/text/json/fields.h"
 #include "engine/text/nearest.h"
-#include "engine/text/words/glsl_words.h"
+#include "engine/text/words/words.h"
 #include "import_glsl.h"
 #include "importers/import.h"
 #include "importers/text.h"

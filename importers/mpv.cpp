@@ -14,7 +14,7 @@
 #include "engine/text/chars.h"
 #include "engine/text/nearest.h"
 #include "engine/text/printable.h"
-#include "engine/text/words/glsl_words.h"
+#include "engine/text/words/words.h"
 #include "import_glsl.h"
 #include "importers/import.h"
 #include "importers/text.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/text/chars.h"
-#include "engine/text/json/layout.h"
+#include "engine/text/json/edit.h"
 #include "engine/text/nearest.h"
 
 namespace weft::importing {

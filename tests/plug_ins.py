@@ -30,7 +30,7 @@ OTHER_MEANINGS = {
     ("engine/passes/draw/geometry.cpp", "position"): "an attribute of vertices",
     ("engine/graph/read/read.cpp", "name"): "a key of graphs",
     ("engine/graph/read/overlay.cpp", "name"): "a key of graphs",
-    ("engine/text/words/glsl_words.cpp", "image"): "how types of GLSL begin",
+    ("engine/text/words/words.cpp", "image"): "how types of GLSL begin",
     ("engine/glsl/interface.cpp", "image"): "how types of GLSL begin",
     ("engine/gl/programs/glsl_type.cpp", "image"): "how types of GLSL begin",
     ("engine/graph/subresource.h", "image"): "a kind of use",

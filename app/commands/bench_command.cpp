@@ -7,7 +7,7 @@
 #include "app/commands/commands.h"
 #include "app/live/live_graph.h"
 #include "app/trials/shot.h"
-#include "engine/graph/language/suffix.h"
+#include "engine/graph/language/names.h"
 #include "engine/runtime/inspection/frame_profiler.h"
 
 namespace weft::app {

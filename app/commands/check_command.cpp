@@ -8,13 +8,13 @@
 #include "engine/glsl/interface.h"
 #include "engine/glsl/tokens.h"
 #include "engine/graph/compile/compile.h"
-#include "engine/graph/edit/stanzas.h"
+#include "engine/graph/edit/edit.h"
 #include "engine/graph/read/read.h"
 #include "engine/graph/survey/matrix.h"
 #include "engine/passes/pass_type.h"
 #include "engine/runtime/prepare/program_request.h"
 #include "engine/text/files/file_watcher.h"
-#include "engine/text/json/layout.h"
+#include "engine/text/json/edit.h"
 #include "engine/text/json/report.h"
 
 namespace weft::app {

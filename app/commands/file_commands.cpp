@@ -3,12 +3,11 @@
 
 #include "app/commands/commands.h"
 #include "engine/assets/images/image.h"
-#include "engine/graph/edit/spelling.h"
+#include "engine/graph/edit/edit.h"
 #include "engine/graph/language/names.h"
 #include "engine/graph/read/read.h"
 #include "engine/text/json/dom.h"
 #include "engine/text/json/edit.h"
-#include "engine/text/json/layout.h"
 #include "importers/import.h"
 
 namespace weft::app {

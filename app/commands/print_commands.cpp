@@ -7,11 +7,10 @@
 
 #include "app/commands/commands.h"
 #include "engine/graph/language/keys.h"
-#include "engine/graph/print/explain.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/read/read.h"
 #include "engine/text/json/dom.h"
-#include "engine/text/json/layout.h"
+#include "engine/text/json/edit.h"
 #include "engine/text/nearest.h"
 
 namespace weft::app {

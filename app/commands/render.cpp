@@ -1,7 +1,7 @@
 // weft render: frames of a graph to image files, reproducible to the byte. weft dump: what each pass wrote in one of them.
 #include "app/commands/commands.h"
 #include "app/output/pictures.h"
-#include "engine/graph/language/suffix.h"
+#include "engine/graph/language/names.h"
 #include "engine/runtime/inspection/capture.h"
 
 namespace weft::app {

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "app/lsp/workspace.h"
-#include "engine/graph/print/explain.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/read/overlay.h"
 

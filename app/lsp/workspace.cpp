@@ -4,7 +4,7 @@
 
 #include "app/session/session.h"
 #include "engine/graph/compile/compile.h"
-#include "engine/graph/edit/stanzas.h"
+#include "engine/graph/edit/edit.h"
 #include "engine/graph/read/read.h"
 #include "engine/runtime/frame/renderer.h"
 #include "engine/runtime/prepare/program_request.h"

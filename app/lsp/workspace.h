@@ -9,7 +9,7 @@
 #include "app/lsp/texts.h"
 #include "app/session/options.h"
 #include "engine/glsl/source.h"
-#include "engine/graph/expand/names/name_uses.h"
+#include "engine/graph/expand/expand.h"
 #include "engine/graph/plan.h"
 #include "engine/graph/registry.h"
 

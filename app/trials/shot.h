@@ -7,7 +7,6 @@
 #include "engine/assets/images/flip.h"
 #include "engine/assets/images/image.h"
 #include "engine/graph/compile/compile.h"
-#include "engine/runtime/inspection/poison.h"
 #include "engine/runtime/inspection/step_record.h"
 
 namespace weft::app {

@@ -12,7 +12,7 @@
 #include "app/live/live_graph.h"
 #include "app/ui/log.h"
 #include "app/ui/pass_rows.h"
-#include "engine/graph/print/explain.h"
+#include "engine/graph/print/print.h"
 #include "engine/runtime/inspection/frame_profiler.h"
 #include "engine/runtime/inspection/inspector.h"
 

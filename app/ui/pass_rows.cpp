@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "engine/graph/flat_graph.h"
-#include "engine/graph/language/suffix.h"
+#include "engine/graph/language/names.h"
 
 namespace weft::app::ui {
 

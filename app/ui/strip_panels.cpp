@@ -4,7 +4,7 @@
 #include <span>
 
 #include "app/ui/panels.h"
-#include "engine/graph/language/suffix.h"
+#include "engine/graph/language/names.h"
 #include "engine/text/hash.h"
 
 namespace weft::app::ui {

@@ -417,11 +417,12 @@ bool checkShaderSize(const ShaderSize& size, const ShaderSource& source, text::D
     if (count.count <= most) return true;
     const text::Place place =
         count.line == 0 ? text::Place{source.file, 0, 0} : source.placeOf(count.line, count.column);
-    text::Diagnostic& error = diagnostics.error(text::Code::shaderTooLarge, place, message);
-    error.expected = fmt::format("at most {} {}", most, counts);
-    error.found = bound == kMaxShaderTokens ? fmt::format("more than {}", most)  // counting ended there
-                                            : fmt::format("{}", count.count);
-    error.hint = fix;
+    text::Diagnostic& error = diagnostics.error(
+        text::Code::shaderTooLarge, place, message,
+        {.expected = fmt::format("at most {} {}", most, counts),
+         .found = bound == kMaxShaderTokens ? fmt::format("more than {}", most)  // counting ended there
+                                            : fmt::format("{}", count.count),
+         .hint = fix});
     if (const std::string raise = text::hintToRaise(bound); !raise.empty()) error.hint += "; or " + raise;
     return false;
   };

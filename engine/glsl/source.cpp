@@ -164,8 +164,8 @@ class IncludeExpander {
       if (name == "include")
         include(code.substr(tokens[at + 1].column - 1 + name.size()), place, folder, depth + level - guards);
       else if (name == "version")
-        diagnostics_.error(Code::versionInShader, place, "a shader file has no #version").hint =
-            "remove the line; the engine writes '#version 450 core'";
+        diagnostics_.error(Code::versionInShader, place, "a shader file has no #version",
+                           {.hint = "remove the line; the engine writes '#version 450 core'"});
       else if (name != "pragma" || word != "once")
         emit(code, number, line);
       if (name == "if" || name == "ifdef" || name == "ifndef") ++level;
@@ -187,10 +187,9 @@ class IncludeExpander {
   void include(std::string_view rest, const Place& place, const std::string& folder, int depth) {
     const std::optional<std::string> name = quotedFile(rest);
     if (!name) {
-      text::Diagnostic& error =
-          diagnostics_.error(Code::malformedInclude, place, "#include needs a file name in double quotes");
-      error.expected = "#include \"common/view.glsl\"";
-      error.found = fmt::format("#include{}", rest);
+      diagnostics_.error(
+          Code::malformedInclude, place, "#include needs a file name in double quotes",
+          {.expected = "#include \"common/view.glsl\"", .found = fmt::format("#include{}", rest)});
       return;
     }
     const std::optional<std::string> path = find(*name, place, folder);
@@ -210,10 +209,10 @@ class IncludeExpander {
         readWithin(*path, room, bytes, diagnostics_, Code::missingShaderInclude, place);
     if (!text) missing_.push_back(*path);
     if (bytes > room) {
-      text::Diagnostic& error = diagnostics_.error(
-          Code::malformedInclude, place, fmt::format("includes expand to more than {} MiB", kMaxText >> 20));
-      error.found = fmt::format("'{}' of {} bytes", *path, bytes);
-      error.hint = "include the file once, outside #if";
+      diagnostics_.error(Code::malformedInclude, place,
+                         fmt::format("includes expand to more than {} MiB", kMaxText >> 20),
+                         {.found = fmt::format("'{}' of {} bytes", *path, bytes),
+                          .hint = "include the file once, outside #if"});
       return;
     }
     if (!text) return;
@@ -252,11 +251,10 @@ class IncludeExpander {
         text::readFile(path, diagnostics_, Code::missingShaderInclude, place);
         return std::nullopt;
       }
-    text::Diagnostic& error = diagnostics_.error(Code::missingShaderInclude, place,
-                                                 fmt::format("included file '{}' not found", name));
-    error.expected =
-        fmt::format("a file beside the including one or below {}", fmt::join(loader_.roots_, ", "));
-    error.hint = hintForFile(name, loader_.names());
+    diagnostics_.error(Code::missingShaderInclude, place, fmt::format("included file '{}' not found", name),
+                       {.expected = fmt::format("a file beside the including one or below {}",
+                                                fmt::join(loader_.roots_, ", ")),
+                        .hint = hintForFile(name, loader_.names())});
     return std::nullopt;
   }
 
@@ -265,20 +263,19 @@ class IncludeExpander {
     const auto line = static_cast<std::uint32_t>(1 + std::ranges::count(text.substr(0, at), '\n'));
     const std::size_t before = text.rfind('\n', at);
     const std::size_t column = before == std::string_view::npos ? at + 1 : at - before;
-    diagnostics_
-        .error(Code::shaderDoesNotCompile, {source_->files[number], line, static_cast<std::uint32_t>(column)},
-               "there is a zero byte in the shader")
-        .hint = "remove it, or save the file as plain text (UTF-8, not UTF-16)";
+    diagnostics_.error(Code::shaderDoesNotCompile,
+                       {source_->files[number], line, static_cast<std::uint32_t>(column)},
+                       "there is a zero byte in the shader",
+                       {.hint = "remove it, or save the file as plain text (UTF-8, not UTF-16)"});
   }
 
   void reportCycle(std::vector<std::size_t>::const_iterator first, const Place& place) {
     std::string chain;
     for (auto it = first; it != stack_.end(); ++it) chain += files_[*it].path + " -> ";
     chain += files_[*first].path;
-    diagnostics_
-        .error(Code::shaderIncludeCycle, place,
-               fmt::format("shaders include each other in a cycle: {}", chain))
-        .hint = "move what both need into a third file";
+    diagnostics_.error(Code::shaderIncludeCycle, place,
+                       fmt::format("shaders include each other in a cycle: {}", chain),
+                       {.hint = "move what both need into a third file"});
   }
 
   SourceLoader& loader_;
@@ -341,11 +338,10 @@ void SourceLoader::reportMissing(const std::string& path, Diagnostics& diagnosti
   const std::vector<std::string> candidates = asItIs ? std::vector<std::string>{path} : below(roots_, path);
   touched_.insert(candidates.begin(), candidates.end());
   if (const auto outside = outsideOf(candidates)) return text::reportOutside(*outside, diagnostics, place);
-  text::Diagnostic& error =
-      diagnostics.error(Code::unreadableShader, place, fmt::format("shader '{}' not found", path));
-  error.expected =
-      roots_.empty() ? "an existing file" : fmt::format("a file below {}", fmt::join(roots_, ", "));
-  error.hint = hintForFile(path, names());
+  diagnostics.error(Code::unreadableShader, place, fmt::format("shader '{}' not found", path),
+                    {.expected = roots_.empty() ? "an existing file"
+                                                : fmt::format("a file below {}", fmt::join(roots_, ", ")),
+                     .hint = hintForFile(path, names())});
 }
 
 std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, Diagnostics& diagnostics,
@@ -371,8 +367,8 @@ std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, 
   }
   if (!text) return nullptr;
   if (text->find_first_not_of(" \t\r\n") == std::string::npos) {
-    diagnostics.error(Code::shaderDoesNotCompile, {*where, 1, 1}, fmt::format("shader '{}' is empty", path))
-        .hint = "the least a shader can hold is 'void main() {}'";
+    diagnostics.error(Code::shaderDoesNotCompile, {*where, 1, 1}, fmt::format("shader '{}' is empty", path),
+                      {.hint = "the least a shader can hold is 'void main() {}'"});
     return nullptr;
   }
   return expand(*where, own, *text, diagnostics);

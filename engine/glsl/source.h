@@ -1,7 +1,7 @@
 // Makes the text that a driver takes of GLSL files: expands #include, keeps a table of lines, and finds the true file,
 // line and column for a message in a driver's log (docs/shaders.md). Needs no context and makes no GL call. Lines are
 // numbered through the expanded text, and the table knows their files; the file numbers of #line are not used, because
-// drivers lose them (workarounds.h: source-numbers-lost). A file enters a stage once: a later #include of it is dropped,
+// drivers lose them (workarounds.md: source-numbers-lost). A file enters a stage once: a later #include of it is dropped,
 // or guarded when the first is inside an #if. What the text declares is read when it is asked for (interface.h).
 #pragma once
 

@@ -5,12 +5,15 @@
 // `specs`, `slots` and the rest are for the executor.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <ranges>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/graph/desc.h"
@@ -357,6 +360,13 @@ struct FlatGraph {
   // The uses of a pass, as indices into `uses`.
   auto usesOf(std::uint32_t pass) const {
     return std::views::iota(passes[pass].firstUse, passes[pass].firstUse + passes[pass].useCount);
+  }
+
+  std::span<const SlotSpec> slotsOf(const PassSpec& spec) const {
+    return std::span(slots).subspan(spec.firstSlot, spec.slotCount);
+  }
+  bool hasSlot(const PassSpec& spec, std::string_view slotName) const {
+    return std::ranges::any_of(slotsOf(spec), [&](const SlotSpec& slot) { return slot.name == slotName; });
   }
 
   // Calls f(use, source) for each pass that wrote some of what a use of `pass` sees.

@@ -22,6 +22,10 @@ inline bool isBuffer(const FlatResource& r) {
 inline bool isImported(const FlatResource& r) {
   return r.kind == ResourceKind::imported_texture || r.kind == ResourceKind::imported_buffer;
 }
+// Layers of one level, faces included; of a 3D texture its slices there.
+inline std::uint32_t slicesOf(const FlatResource& r, std::uint32_t mip) {
+  return r.target == Target::texture_3d ? std::max(1u, r.depth >> std::min(mip, 31u)) : r.layers;
+}
 inline bool isCube(const FlatResource& r) {
   return r.target == Target::texture_cube || r.target == Target::texture_cube_array;
 }

@@ -93,16 +93,18 @@ Diagnostic& Diagnostics::add(Diagnostic diagnostic) {
   return items_.back();
 }
 
-Diagnostic& Diagnostics::error(Code code, Where place, std::string message) {
-  return add(
-      {.severity = Severity::error, .code = code, .message = std::move(message), .place = std::move(place)});
+Diagnostic& Diagnostics::add(Severity severity, Code code, Where place, std::string message, Says says) {
+  return add({severity, code, std::move(message), std::move(place), "", std::move(says.pass),
+              std::move(says.resource), std::move(says.expected), std::move(says.found),
+              std::move(says.hint)});
 }
 
-Diagnostic& Diagnostics::warning(Code code, Where place, std::string message) {
-  return add({.severity = Severity::warning,
-              .code = code,
-              .message = std::move(message),
-              .place = std::move(place)});
+Diagnostic& Diagnostics::error(Code code, Where place, std::string message, Says says) {
+  return add(Severity::error, code, std::move(place), std::move(message), std::move(says));
+}
+
+Diagnostic& Diagnostics::warning(Code code, Where place, std::string message, Says says) {
+  return add(Severity::warning, code, std::move(place), std::move(message), std::move(says));
 }
 
 void Diagnostics::append(const Diagnostics& others) {

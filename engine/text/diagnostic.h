@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "engine/text/codes.h"
@@ -78,6 +77,11 @@ struct Diagnostic {
   std::string hint{};      // the fix: "did you mean 'ldr'?"
 };
 
+// What one says beside its sentence. All may be empty.
+struct Says {
+  std::string expected{}, found{}, hint{}, resource{}, pass{};
+};
+
 // "file:line:column: error[W040]: message", followed by indented lines for pass, resource, expected, found and fix. Parts of
 // the place that are unknown are left out.
 std::string format(const Diagnostic& diagnostic);
@@ -90,8 +94,8 @@ class Diagnostics {
  public:
   // Adds and returns the stored diagnostic so that optional fields can be filled in.
   Diagnostic& add(Diagnostic diagnostic);
-  Diagnostic& error(Code code, Where place, std::string message);
-  Diagnostic& warning(Code code, Where place, std::string message);
+  Diagnostic& error(Code code, Where place, std::string message, Says says = {});
+  Diagnostic& warning(Code code, Where place, std::string message, Says says = {});
   void append(const Diagnostics& others);
 
   bool hasErrors() const { return errors_ > 0; }
@@ -109,6 +113,8 @@ class Diagnostics {
   std::string text() const;
 
  private:
+  Diagnostic& add(Severity severity, Code code, Where place, std::string message, Says says);
+
   std::vector<Diagnostic> items_;
   std::size_t errors_ = 0;
 };

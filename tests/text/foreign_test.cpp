@@ -8,8 +8,7 @@
 #include <utility>
 
 #include "engine/text/files/file.h"
-#include "engine/text/words/foreign_words.h"
-#include "engine/text/words/glsl_words.h"
+#include "engine/text/words/words.h"
 
 using namespace weft::text;
 
@@ -33,24 +32,24 @@ TEST_CASE("the table of foreign words: what is to be written, then the words tha
 }
 
 TEST_CASE("a word of each kind is found however it is decorated") {
-  const std::pair<Foreign, const char*> kWords[] = {
-      {Foreign::graph_key, "nodes"},       {Foreign::pass_key, "renderToScreen"},
-      {Foreign::texture_key, "format"},    {Foreign::state_key, "ZTest"},
-      {Foreign::state_word, "GL_LEQUAL"},  {Foreign::state_word, "One One"},
-      {Foreign::value_key, "value"},       {Foreign::value_type, "Range(0, 1)"},
-      {Foreign::sampling, "LinearFilter"}, {Foreign::expression, "clamp"},
-      {Foreign::value, "width"},           {Foreign::import_type, "texture"},
-      {Foreign::import_argument, "url"},   {Foreign::shader_name, "saturate"}};
+  const std::pair<const char*, const char*> kWords[] = {
+      {"graph_key", "nodes"},       {"pass_key", "renderToScreen"},
+      {"texture_key", "format"},    {"state_key", "ZTest"},
+      {"state_word", "GL_LEQUAL"},  {"state_word", "One One"},
+      {"value_key", "value"},       {"value_type", "Range(0, 1)"},
+      {"sampling", "LinearFilter"}, {"expression", "clamp"},
+      {"value", "width"},           {"import_type", "texture"},
+      {"shader_name", "saturate"}};
   for (const auto& [kind, word] : kWords) CHECK_MESSAGE(!hintForForeign(kind, word).empty(), word);
-  CHECK(hintForForeign(Foreign::state_word, "less-equal") == "write 'less_equal'");
-  CHECK(findForeignWord(Foreign::texture_key, "width").key == "size");
-  CHECK_FALSE(findForeignWord(Foreign::texture_key, "width").isOnlyKey);
-  CHECK(findForeignWord(Foreign::value_key, "initial").key == "default");
-  CHECK(findForeignWord(Foreign::value_key, "initial").isOnlyKey);
-  CHECK(hintForForeign(Foreign::value_key, "initial") == "write \"default\"");
+  CHECK(hintForForeign("state_word", "less-equal") == "write 'less_equal'");
+  CHECK(findForeignWord("texture_key", "width").key == "size");
+  CHECK_FALSE(findForeignWord("texture_key", "width").isOnlyKey);
+  CHECK(findForeignWord("value_key", "initial").key == "default");
+  CHECK(findForeignWord("value_key", "initial").isOnlyKey);
+  CHECK(hintForForeign("value_key", "initial") == "write \"default\"");
   // GLSL tells cases apart, and a word that nobody knows has no hint.
-  CHECK(hintForForeign(Foreign::shader_name, "Saturate").empty());
-  CHECK(hintForForeign(Foreign::pass_key, "read").empty());
+  CHECK(hintForForeign("shader_name", "Saturate").empty());
+  CHECK(hintForForeign("pass_key", "read").empty());
 }
 
 TEST_CASE("texture formats of other APIs become the one that is meant") {
@@ -87,10 +86,9 @@ TEST_CASE("texture formats of other APIs become the one that is meant") {
       {"FloatType", "rgba32f"},
       {"DepthStencilFormat", "depth24_stencil8"},
   };
-  for (const auto& [theirs, ours] : kFormats)
-    CHECK_MESSAGE(hintForForeign(Foreign::format, theirs) == ours, theirs);
+  for (const auto& [theirs, ours] : kFormats) CHECK_MESSAGE(hintForForeign("format", theirs) == ours, theirs);
   for (const char* none : {"", "colour", "rgba12", "texture", "bc7"})
-    CHECK_MESSAGE(hintForForeign(Foreign::format, none).empty(), none);
+    CHECK_MESSAGE(hintForForeign("format", none).empty(), none);
 }
 
 TEST_CASE("words that GLSL keeps for itself") {

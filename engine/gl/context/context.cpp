@@ -58,7 +58,7 @@ DeviceInfo describeDevice(Backend backend, const std::string& platform) {
   d.limits.uniformOffsetAlignment = integerOf(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT);
   for (GLuint axis = 0; axis < 3; ++axis)
     glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, axis, &d.limits.computeGroups[axis]);
-  // The backend is in the key because of binaries-per-backend (workarounds.h).
+  // The backend is in the key because of binaries-per-backend (workarounds.md).
   const std::string all = fmt::format("{}\n{}\n{}\n{}\n{}", d.vendor, d.renderer, d.version,
                                       textOf(GL_SHADING_LANGUAGE_VERSION), nameOf(backend));
   d.driverKey = fmt::format("{:016x}", text::hashBytes(all));
@@ -84,7 +84,7 @@ std::vector<Attempt> attemptsFor(Backend backend) {
   return {{backend}};
 }
 
-// cache-on-a-full-disk (workarounds.h). The folder is the one that Mesa takes, or the nearest above that is there.
+// cache-on-a-full-disk (workarounds.md). The folder is the one that Mesa takes, or the nearest above that is there.
 void checkRoomForCache() {
   constexpr std::uintmax_t kRoom = 16 << 20;
   namespace fs = std::filesystem;
@@ -149,13 +149,13 @@ std::unique_ptr<Context> createContext(const ContextOptions& options, text::Diag
     setConventions();
     return std::move(opened.context);
   }
-  text::Diagnostic& error = diagnostics.error(
+  diagnostics.error(
       text::Code::noContext, {},
-      fmt::format("no OpenGL 4.5 core context could be opened (backend '{}')", nameOf(options.backend)));
-  error.found = fmt::format("{}", fmt::join(failures, "; "));
-  error.hint = options.backend == Backend::glfw
+      fmt::format("no OpenGL 4.5 core context could be opened (backend '{}')", nameOf(options.backend)),
+      {.found = fmt::format("{}", fmt::join(failures, "; ")),
+       .hint = options.backend == Backend::glfw
                    ? "start it in a graphical session or under `xvfb-run -a`; `weft render` needs no display"
-                   : "install libosmesa6 for the software backend, or the GPU's EGL driver";
+                   : "install libosmesa6 for the software backend, or the GPU's EGL driver"});
   return nullptr;
 }
 

@@ -53,7 +53,7 @@ void DebugLog::install() {
   // How a driver came to its speed, and what it tells besides, is nothing that a graph could mend.
   for (const GLenum type : {GL_DEBUG_TYPE_PERFORMANCE, GL_DEBUG_TYPE_OTHER})
     glDebugMessageControl(GL_DONT_CARE, type, GL_DONT_CARE, 0, nullptr, GL_FALSE);
-  // workarounds.h: compiler-messages-twice
+  // workarounds.md: compiler-messages-twice
   glDebugMessageControl(GL_DEBUG_SOURCE_SHADER_COMPILER, GL_DEBUG_TYPE_ERROR, GL_DONT_CARE, 0, nullptr,
                         GL_FALSE);
   glDebugMessageCallback(receive, this);

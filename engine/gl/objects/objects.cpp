@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cstring>
 #include <initializer_list>
+#include <tuple>
 
 #include "engine/gl/context/debug.h"
 
@@ -18,8 +19,8 @@ namespace {
 constexpr std::size_t kKinds = static_cast<std::size_t>(ObjectKind::count_);
 std::array<std::atomic<std::int64_t>, kKinds> g_live{};
 
-void count(ObjectKind kind, std::int64_t by) {
-  g_live[static_cast<std::size_t>(kind)] += by;
+std::atomic<std::int64_t>& live(ObjectKind kind) {
+  return g_live[static_cast<std::size_t>(kind)];
 }
 
 }  // namespace
@@ -47,34 +48,20 @@ std::string toText(const LiveObjects& objects) {
   return text.empty() ? "none" : text;
 }
 
-template <ObjectKind kKind>
-Owner<kKind>::Owner(GLuint id) : id_(id) {
-  assert(id != 0);
-  count(kKind, 1);
+void countObject(ObjectKind kind) {
+  ++live(kind);
 }
 
-template <ObjectKind kKind>
-void Owner<kKind>::reset() {
-  if (id_ == 0) return;
-  if constexpr (kKind == ObjectKind::texture || kKind == ObjectKind::view) glDeleteTextures(1, &id_);
-  if constexpr (kKind == ObjectKind::buffer) glDeleteBuffers(1, &id_);
-  if constexpr (kKind == ObjectKind::framebuffer) glDeleteFramebuffers(1, &id_);
-  if constexpr (kKind == ObjectKind::sampler) glDeleteSamplers(1, &id_);
-  if constexpr (kKind == ObjectKind::vertex_array) glDeleteVertexArrays(1, &id_);
-  if constexpr (kKind == ObjectKind::query) glDeleteQueries(1, &id_);
-  if constexpr (kKind == ObjectKind::program) glDeleteProgram(id_);
-  id_ = 0;
-  count(kKind, -1);
+void deleteObject(ObjectKind kind, GLuint id) {
+  --live(kind);
+  if (kind == ObjectKind::texture || kind == ObjectKind::view) glDeleteTextures(1, &id);
+  if (kind == ObjectKind::buffer) glDeleteBuffers(1, &id);
+  if (kind == ObjectKind::framebuffer) glDeleteFramebuffers(1, &id);
+  if (kind == ObjectKind::sampler) glDeleteSamplers(1, &id);
+  if (kind == ObjectKind::vertex_array) glDeleteVertexArrays(1, &id);
+  if (kind == ObjectKind::query) glDeleteQueries(1, &id);
+  if (kind == ObjectKind::program) glDeleteProgram(id);
 }
-
-template class Owner<ObjectKind::texture>;
-template class Owner<ObjectKind::view>;
-template class Owner<ObjectKind::buffer>;
-template class Owner<ObjectKind::framebuffer>;
-template class Owner<ObjectKind::sampler>;
-template class Owner<ObjectKind::vertex_array>;
-template class Owner<ObjectKind::query>;
-template class Owner<ObjectKind::program>;
 
 std::optional<Buffer> Buffer::create(std::uint64_t bytes, GLbitfield flags, std::string_view label,
                                      text::Diagnostics& diagnostics, const void* data) {
@@ -82,15 +69,14 @@ std::optional<Buffer> Buffer::create(std::uint64_t bytes, GLbitfield flags, std:
   GLuint id = 0;
   glCreateBuffers(1, &id);
   Buffer buffer(id);
-  // workarounds.h: storage-flag-without-storage. Errors from before are in the debug log and would be taken
+  // workarounds.md: storage-flag-without-storage. Errors from before are in the debug log and would be taken
   // for ours.
   takeErrors();
   glNamedBufferStorage(id, static_cast<GLsizeiptr>(bytes), data, flags);
   if (const std::string errors = takeErrors(); !errors.empty()) {
-    diagnostics
-        .error(text::Code::bufferNotCreated, {},
-               fmt::format("buffer '{}' of {} bytes cannot be created: {}", label, bytes, errors))
-        .resource = label;
+    diagnostics.error(text::Code::bufferNotCreated, {},
+                      fmt::format("buffer '{}' of {} bytes cannot be created: {}", label, bytes, errors),
+                      {.resource = std::string(label)});
     return std::nullopt;
   }
   buffer.bytes_ = bytes;
@@ -175,30 +161,20 @@ std::uint64_t Query::result() const {
 
 Fence Fence::insert() {
   Fence fence;
-  fence.sync_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
-  if (fence.sync_) count(ObjectKind::fence, 1);
+  fence.sync_.reset(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0));
+  if (fence) countObject(ObjectKind::fence);
   return fence;
-}
-
-Fence& Fence::operator=(Fence&& other) noexcept {
-  if (this != &other) {
-    reset();
-    sync_ = std::exchange(other.sync_, nullptr);
-  }
-  return *this;
 }
 
 bool Fence::wait(std::uint64_t nanoseconds) const {
   if (!sync_) return true;
-  const GLenum state = glClientWaitSync(sync_, GL_SYNC_FLUSH_COMMANDS_BIT, nanoseconds);
+  const GLenum state = glClientWaitSync(sync_.get(), GL_SYNC_FLUSH_COMMANDS_BIT, nanoseconds);
   return state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED;
 }
 
-void Fence::reset() {
-  if (!sync_) return;
-  glDeleteSync(sync_);
-  sync_ = nullptr;
-  count(ObjectKind::fence, -1);
+void Fence::Delete::operator()(GLsync sync) const {
+  --live(ObjectKind::fence);
+  glDeleteSync(sync);
 }
 
 // ---- textures, views of them and framebuffers ----
@@ -232,14 +208,12 @@ std::string refusal(const TextureDesc& d) {
                                                           : GL_MAX_TEXTURE_SIZE);
   const GLint layers = limitOf(GL_MAX_ARRAY_TEXTURE_LAYERS), samples = limitOf(GL_MAX_SAMPLES);
   const std::uint32_t side = std::max({d.width, d.height, d.target == GL_TEXTURE_3D ? d.depth : 1});
-  if (side > static_cast<std::uint32_t>(largest))
-    return fmt::format("the largest side is {} texels here", largest);
-  if (d.mips > static_cast<std::uint32_t>(std::bit_width(side)))
-    return fmt::format("this size has at most {} mips", std::bit_width(side));
-  if (d.layers > static_cast<std::uint32_t>(layers))
-    return fmt::format("at most {} layers are allowed here", layers);
-  if (d.samples > static_cast<std::uint32_t>(samples))
-    return fmt::format("at most {} samples are allowed here", samples);
+  for (const auto& [asked, most, what] : {std::tuple{side, largest, "texels on its largest side"},
+                                          {d.mips, std::bit_width(side), "mips of this size"},
+                                          {d.layers, layers, "layers"},
+                                          {d.samples, samples, "samples"}})
+    if (asked > static_cast<std::uint32_t>(most))
+      return fmt::format("at most {} {} are allowed here", most, what);
   return "";
 }
 
@@ -258,10 +232,9 @@ void setDefaults(GLuint id, GLenum target, std::uint32_t mips) {
 std::optional<Texture> Texture::create(const TextureDesc& desc, std::string_view label,
                                        text::Diagnostics& diagnostics) {
   const auto fail = [&](const std::string& reason) {
-    diagnostics
-        .error(text::Code::textureNotCreated, {},
-               fmt::format("texture '{}' ({}) cannot be created: {}", label, sizeText(desc), reason))
-        .resource = label;
+    diagnostics.error(text::Code::textureNotCreated, {},
+                      fmt::format("texture '{}' ({}) cannot be created: {}", label, sizeText(desc), reason),
+                      {.resource = std::string(label)});
     return std::nullopt;
   };
   if (const std::string reason = refusal(desc); !reason.empty()) return fail(reason);
@@ -302,18 +275,17 @@ std::optional<Texture> Texture::create(const TextureDesc& desc, std::string_view
 std::optional<TextureView> TextureView::create(const TextureRef& of, const ViewDesc& view,
                                                std::string_view label, text::Diagnostics& diagnostics) {
   GLuint id = 0;
-  glGenTextures(1, &id);  // workarounds.h: view-names-from-gen
+  glGenTextures(1, &id);  // workarounds.md: view-names-from-gen
   TextureView texture(id);
   const GLenum format = view.format == 0 ? of.desc.format : view.format;
   glTextureView(id, view.target, of.id, format, view.mip, view.mips, view.layer, view.layers);
   if (!glIsTexture(id)) {
-    diagnostics
-        .error(text::Code::viewNotCreated, {},
-               fmt::format("view '{}' of a texture ({}) cannot be created: {}", label, sizeText(of.desc),
-                           takeErrors()))
-        .found =
-        fmt::format("{} as {}, mips {} to {}, layers {} to {}", enumName(view.target), enumName(format),
-                    view.mip, view.mip + view.mips - 1, view.layer, view.layer + view.layers - 1);
+    diagnostics.error(text::Code::viewNotCreated, {},
+                      fmt::format("view '{}' of a texture ({}) cannot be created: {}", label,
+                                  sizeText(of.desc), takeErrors()),
+                      {.found = fmt::format("{} as {}, mips {} to {}, layers {} to {}", enumName(view.target),
+                                            enumName(format), view.mip, view.mip + view.mips - 1, view.layer,
+                                            view.layer + view.layers - 1)});
     return std::nullopt;
   }
   texture.desc_ = of.desc;
@@ -326,7 +298,7 @@ std::optional<TextureView> TextureView::create(const TextureRef& of, const ViewD
   texture.desc_.mips = view.mips;
   setDefaults(id, view.target, view.mips);
   if (view.stencil)
-    glTextureParameteri(id, GL_DEPTH_STENCIL_TEXTURE_MODE, GL_STENCIL_INDEX);  // workarounds.h: stencil-view
+    glTextureParameteri(id, GL_DEPTH_STENCIL_TEXTURE_MODE, GL_STENCIL_INDEX);  // workarounds.md: stencil-view
   labelObject(GL_TEXTURE, id, label);
   return texture;
 }
@@ -373,11 +345,10 @@ std::optional<Framebuffer> Framebuffer::create(std::span<const Attachment> attac
                          enumName(static_cast<GLenum>(format)), a.mip, a.layer, samples);
   }
   const std::string errors = takeErrors();
-  diagnostics
-      .error(text::Code::incompleteFramebuffer, {},
-             fmt::format("framebuffer '{}' is incomplete: {}{}{}", label, enumName(status),
-                         errors.empty() ? "" : ", ", errors))
-      .found = parts.empty() ? "no attachments" : parts;
+  diagnostics.error(text::Code::incompleteFramebuffer, {},
+                    fmt::format("framebuffer '{}' is incomplete: {}{}{}", label, enumName(status),
+                                errors.empty() ? "" : ", ", errors),
+                    {.found = parts.empty() ? "no attachments" : parts});
   return std::nullopt;
 }
 
@@ -441,17 +412,12 @@ FormatClass classOf(GLenum format) {
 }
 
 ClientFormat clientFormatOf(GLenum internalFormat) {
-  switch (classOf(internalFormat)) {
-    case FormatClass::depth:
-    case FormatClass::depth_stencil:
-      return {GL_DEPTH_COMPONENT, GL_FLOAT, 1};
-    case FormatClass::unsigned_integer:
-      return {GL_RGBA_INTEGER, GL_UNSIGNED_INT, 4};
-    case FormatClass::signed_integer:
-      return {GL_RGBA_INTEGER, GL_INT, 4};
-    default:
-      return {};
-  }
+  const FormatClass kind = classOf(internalFormat);
+  if (kind == FormatClass::depth || kind == FormatClass::depth_stencil)
+    return {GL_DEPTH_COMPONENT, GL_FLOAT, 1};
+  if (kind == FormatClass::floating) return {};
+  return {GL_RGBA_INTEGER,
+          static_cast<GLenum>(kind == FormatClass::signed_integer ? GL_INT : GL_UNSIGNED_INT), 4};
 }
 
 void uploadTexture(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format,

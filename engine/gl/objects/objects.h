@@ -8,10 +8,12 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -43,6 +45,9 @@ LiveObjects liveObjects();
 // "2 textures, 1 buffer" or "none".
 std::string toText(const LiveObjects& objects);
 
+void countObject(ObjectKind kind);  // one more
+void deleteObject(ObjectKind kind, GLuint id);
+
 // Shared ownership mechanics: an id that is deleted with its owner.
 template <ObjectKind kKind>
 class Owner {
@@ -59,10 +64,12 @@ class Owner {
   ~Owner() { reset(); }
   GLuint id() const { return id_; }
   explicit operator bool() const { return id_ != 0; }
-  void reset();
+  void reset() {
+    if (id_ != 0) deleteObject(kKind, std::exchange(id_, 0));
+  }
 
  protected:
-  explicit Owner(GLuint id);  // counts it
+  explicit Owner(GLuint id) : id_(id) { countObject(kKind); }
   GLuint id_ = 0;
 };
 
@@ -211,18 +218,17 @@ class Query : public Owner<ObjectKind::query> {
 // A fence sync object. Default-made: nothing was inserted and isSignalled() is true.
 class Fence {
  public:
-  Fence() = default;
   static Fence insert();
-  Fence(Fence&& other) noexcept : sync_(std::exchange(other.sync_, nullptr)) {}
-  Fence& operator=(Fence&& other) noexcept;
-  ~Fence() { reset(); }
   explicit operator bool() const { return sync_ != nullptr; }
   bool isSignalled() const { return wait(0); }  // never waits; flushes, so that the GPU gets to the fence
   bool wait(std::uint64_t nanoseconds) const;   // true when signalled within that time
-  void reset();
+  void reset() { sync_.reset(); }
 
  private:
-  GLsync sync_ = nullptr;
+  struct Delete {
+    void operator()(GLsync sync) const;
+  };
+  std::unique_ptr<std::remove_pointer_t<GLsync>, Delete> sync_;
 };
 
 // ---- texels and bytes ----

@@ -12,7 +12,7 @@ double steadyMs() {
 }
 
 PassTimers::PassTimers(const DeviceInfo& device)
-    : queries_(device.hasTimerQueries && !device.software) {}  // workarounds.h: timer-queries-lie
+    : queries_(device.hasTimerQueries && !device.software) {}  // workarounds.md: timer-queries-lie
 
 void PassTimers::setEnabled(bool enabled) {
   if (enabled_ && !enabled) finish();

@@ -9,8 +9,7 @@
 #include "engine/glsl/tokens.h"
 #include "engine/text/chars.h"
 #include "engine/text/nearest.h"
-#include "engine/text/words/foreign_words.h"
-#include "engine/text/words/glsl_words.h"
+#include "engine/text/words/words.h"
 
 namespace weft::gl {
 
@@ -46,7 +45,7 @@ LogPrefix prefixOf(std::string_view raw) {
                                                       : text::Severity::error};
 }
 
-// workarounds.h: columns-after-preprocessing. The column in `line` of what stands in `column` once every run
+// workarounds.md: columns-after-preprocessing. The column in `line` of what stands in `column` once every run
 // of blanks is one; 0 when there is no such column (a macro was expanded).
 std::uint32_t trueColumn(std::string_view line, std::uint32_t column) {
   std::uint32_t collapsed = 0;
@@ -100,8 +99,7 @@ std::string hintForName(std::string_view name, const glsl::ShaderSource& source,
   if (here && here->role == glsl::Role::member && !here->instance.empty())
     return fmt::format("write '{}.{}': its block has an instance name", here->instance, name);
   if (here && here->role != glsl::Role::variable) return {};
-  if (std::string theirs = text::hintForForeign(text::Foreign::shader_name, name); !theirs.empty())
-    return theirs;
+  if (std::string theirs = text::hintForForeign("shader_name", name); !theirs.empty()) return theirs;
   if (text::isGlslWord(name) || text::isGlslFunction(name)) return {};
   const glsl::Interface& everywhere = source.ofAllBranches();
   if (const glsl::Declaration* other = everywhere.find(name); other && other->role != glsl::Role::variable) {
@@ -125,7 +123,7 @@ void advise(LogMessage& message, const glsl::ShaderSource& source, std::span<con
       if (here && define != defines.end())
         d.hint = fmt::format("the graph defines '{}' as {}: rename the define", define->name, define->value);
       for (const std::string_view each : {before, token.text})
-        if (here && d.hint.empty()) d.hint = text::hintForForeign(text::Foreign::shader_name, each);
+        if (here && d.hint.empty()) d.hint = text::hintForForeign("shader_name", each);
       before = token.text;
     }
   }

@@ -113,7 +113,7 @@ class Program : public Owner<ObjectKind::program> {
 
 // Turns the log of a glsl::assembleSource() text into one diagnostic per message, with its true place. Understands Mesa's
 // "0:12(5): error: text", NVIDIA's "0(12) : error C1234: text" and the common "ERROR: 0:12: text". Other lines become
-// part of the message before them, or a message at the file itself. The driver's words stay. A name that is not declared gets a
+// part of the message before them. The driver's words stay. A name that is not declared gets a
 // hint, such as the nearest one that is; of the errors of one line one is kept. `code` is W104 (compile) or W105 (link).
 // `defines`: those the text was assembled with. Returns how many diagnostics were added.
 std::size_t mapLog(std::string_view log, const glsl::ShaderSource& source, text::Code code,

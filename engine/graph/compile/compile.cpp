@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "engine/graph/compile/steps.h"
-#include "engine/graph/versions/groups.h"
 #include "engine/graph/versions/live.h"
 #include "engine/text/limits.h"
 

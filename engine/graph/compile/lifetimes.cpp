@@ -1,6 +1,5 @@
 // Lifetimes in steps, clears of version zero, persistence and the bytes each step binds: one scan of the live
 // uses in execution order. Declared in steps.h.
-#include <algorithm>
 
 #include "engine/graph/compile/steps.h"
 

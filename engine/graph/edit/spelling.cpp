@@ -1,7 +1,5 @@
-#include "engine/graph/edit/spelling.h"
-
+// Declared in edit.h.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -9,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/graph/edit/edit.h"
 #include "engine/graph/language/names.h"
 #include "engine/text/json/edit.h"
 

@@ -1,5 +1,4 @@
-#include "engine/graph/edit/write_back.h"
-
+// Declared in edit.h.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,8 +6,8 @@
 #include <set>
 #include <utility>
 
-#include "engine/graph/edit/stanzas.h"
-#include "engine/graph/language/suffix.h"
+#include "engine/graph/edit/edit.h"
+#include "engine/graph/language/names.h"
 #include "engine/graph/read/read.h"
 #include "engine/text/files/file.h"
 #include "engine/text/json/edit.h"
@@ -245,10 +244,8 @@ class Planner {
 
  private:
   void fail(const std::string& what, const std::string& found, const text::Place& place = {}) {
-    auto& d = diagnostics_.error(Code::cannotWriteBack, place,
-                                 fmt::format("{} cannot be written into the files", what));
-    d.found = found;
-    d.hint = "write it by hand, or take the change back";
+    diagnostics_.error(Code::cannotWriteBack, place, fmt::format("{} cannot be written into the files", what),
+                       {.found = found, .hint = "write it by hand, or take the change back"});
   }
 
   std::shared_ptr<const FlatGraph> expand(const GraphDesc& desc) const {
@@ -334,9 +331,9 @@ bool saveWriteBack(const WriteBack& plan, text::Diagnostics& diagnostics) {
     if (now && *now == file.before) continue;
     same = false;
     if (!now) continue;
-    auto& d = diagnostics.error(Code::fileChanged, {file.path, 0, 0},
-                                fmt::format("'{}' has changed since it was read", file.path));
-    d.hint = "wait until the viewer shows the file as it is, then write again";
+    diagnostics.error(Code::fileChanged, {file.path, 0, 0},
+                      fmt::format("'{}' has changed since it was read", file.path),
+                      {.hint = "wait until the viewer shows the file as it is, then write again"});
   }
   if (!same) return false;
   for (std::size_t i = 0; i < plan.files.size(); ++i) {

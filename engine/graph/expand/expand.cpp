@@ -218,8 +218,8 @@ void foldDeferred(Model& model, const std::vector<DeferredUniform>& deferred) {
     else if (!watched)
       markStructural(model, *each.scope, *each.expr);
     else if (!unfollowed.hasErrors())
-      unfollowed.error(Code::badTime, each.expr->place(), "values of imports in it cannot be followed").hint =
-          "leave out branches that are not taken";
+      unfollowed.error(Code::badTime, each.expr->place(), "values of imports in it cannot be followed",
+                       {.hint = "leave out branches that are not taken"});
   }
   model.diagnostics = said;  // what cannot be folded is no mistake
   model.diagnostics.append(unfollowed);

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "engine/graph/desc.h"
 #include "engine/graph/expand/names/settings.h"
@@ -24,5 +26,24 @@ struct Refusal {
   text::Diagnostic why;
 };
 std::vector<Refusal> findRefused(const GraphDesc& desc, const Registry& registry, const Settings& settings);
+
+// Every name in the files of a graph, and where it is declared, by the scopes of expansion: for editors.
+
+struct NameUse {
+  enum class Kind : std::uint8_t { resource, variable, pass, set };  // pass: also the prefix of an include
+  Kind kind = Kind::resource;
+  std::string name;  // one part of a dotted name
+  std::string full;  // what it means, as a plan calls it; "@sun" of an import that no file declares
+  Place place;       // of the first character
+  bool key =
+      false;  // an item of a list "bind" by what it is bound to: the other use of this place is what it names
+  Place
+      declared;  // of that of the declaration; without a file where there is none. An include without "as" is declared
+                 // by the opening quote of its path
+};
+
+// In each file once, by file, place and `key`; declarations are among them. A name that means nothing is left out. The graph may have
+// mistakes.
+std::vector<NameUse> findNameUses(const GraphDesc& desc, const Registry& registry);
 
 }  // namespace weft::graph

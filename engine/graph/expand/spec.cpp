@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <set>
 
 #include "engine/graph/desc_walk.h"
@@ -13,11 +12,11 @@
 #include "engine/graph/language/expr_node.h"
 #include "engine/text/chars.h"
 #include "engine/text/nearest.h"
-#include "engine/text/words/foreign_words.h"
+#include "engine/text/words/words.h"
 
 namespace weft::graph::expansion {
 
-std::string hintOrNearest(text::Foreign kind, const std::string& name,
+std::string hintOrNearest(std::string_view kind, const std::string& name,
                           const std::vector<std::string>& known) {
   std::string theirs = text::hintForForeign(kind, name);
   return theirs.empty() ? text::nearestHint(text::lowered(name), known) : theirs;
@@ -257,8 +256,7 @@ bool checkStanza(const SlotContext& context, const PassDesc& desc) {
   } else {
     context.report(
         Code::unknownPassType, desc.typePlace, fmt::format("is of the unknown type '{}'", desc.type),
-        {.hint =
-             hintOrNearest(text::Foreign::pass_type, desc.type, namesOf(context.model.registry.passTypes))});
+        {.hint = hintOrNearest("pass_type", desc.type, namesOf(context.model.registry.passTypes))});
   }
   const auto check = [&](const Expr& expr) {
     checkExpr(context.model, context.names.scope(), expr, desc.repeat);
@@ -518,8 +516,7 @@ void addRaster(const SlotContext& context, const PassDesc& desc, const std::vect
                                    {"the raster of pass '{}'", context.pass}, "a number, or a list of 2");
   const auto samples = evaluateWhole(context.names, desc.samples, 1, 1, 4, "the number of samples");
   if (!size || !samples) return;
-  for (std::size_t i = 0; i < 2; ++i)
-    spec.raster[i] = static_cast<std::uint32_t>(size->each[size->size == 1 ? 0 : i]);
+  spec.raster = *size;
   spec.rasterSamples = static_cast<std::uint8_t>(*samples);
 }
 

@@ -10,7 +10,7 @@
 #include "engine/graph/language/keys.h"
 #include "engine/text/chars.h"
 #include "engine/text/nearest.h"
-#include "engine/text/words/foreign_words.h"
+#include "engine/text/words/words.h"
 
 namespace weft::graph::expansion {
 
@@ -68,7 +68,7 @@ struct StateFiller {
     refuse(said, value, fmt::format("{}", fmt::join(words, ", ")),
            said.name.starts_with("blend.") && words.size() != kBlends.size()  // a factor, no whole blend
                ? text::nearestHint(text::lowered(text).substr(text.starts_with("GL_") ? 3 : 0), words)
-               : hintOrNearest(text::Foreign::state_word, text, words));
+               : hintOrNearest("state_word", text, words));
     return 0;
   }
   template <class Enum>
@@ -124,7 +124,7 @@ struct StateFiller {
       return error(said.place,
                    fmt::format("{} '{}', which is no color slot of it", masks ? "masks" : "blends", slot),
                    {.expected = "one word, \"blend\": \"alpha\", or one for each color slot",
-                    .hint = hintOrNearest(text::Foreign::state_key, slot, colors)});
+                    .hint = hintOrNearest("state_key", slot, colors)});
     }
     if (!all) colors = {slot};
     for (const std::string& color : colors) {

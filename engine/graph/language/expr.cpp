@@ -12,7 +12,7 @@
 #include "engine/graph/language/expr_node.h"
 #include "engine/text/chars.h"
 #include "engine/text/nearest.h"
-#include "engine/text/words/foreign_words.h"
+#include "engine/text/words/words.h"
 
 namespace weft::graph {
 
@@ -319,8 +319,7 @@ std::string hintForWord(EvalScope& scope, const Value& value) {
   const std::vector<std::string> variables = scope.candidates(EvalScope::NameKind::variable);
   if (std::ranges::find(variables, value.symbol) != variables.end())
     return fmt::format("write '${}' for the parameter", value.symbol);
-  if (std::string foreign = text::hintForForeign(text::Foreign::value, value.symbol); !foreign.empty())
-    return foreign;
+  if (std::string foreign = text::hintForForeign("value", value.symbol); !foreign.empty()) return foreign;
   std::vector<std::string> known = scope.candidates(EvalScope::NameKind::builtin);
   for (const std::string& name : variables) known.push_back("$" + name);
   const std::string near = text::nearestName(value.symbol, known);
@@ -418,10 +417,9 @@ class Evaluator {
   Value fail(Code code, const ExprNode& node, std::string message, std::string hint,
              std::string expected = {}, std::string found = {}) {
     if (!diagnostics_) return {};
-    text::Diagnostic& d = diagnostics_->error(code, node.place, std::move(message));
-    d.expected = std::move(expected);
-    d.found = std::move(found);
-    d.hint = std::move(hint);
+    diagnostics_->error(
+        code, node.place, std::move(message),
+        {.expected = std::move(expected), .found = std::move(found), .hint = std::move(hint)});
     return {};
   }
 
@@ -431,8 +429,8 @@ class Evaluator {
     const std::string &name = node.name, nearest = text::nearestName(name, names);
     const bool variable = kind == EvalScope::NameKind::variable;
     const bool bare = variable && (scope_.index(name) || scope_.builtin(name));
-    std::string hint = bare ? fmt::format("write '{}', without the '$'", name)
-                            : text::hintForForeign(text::Foreign::value, name);
+    std::string hint =
+        bare ? fmt::format("write '{}', without the '$'", name) : text::hintForForeign("value", name);
     const bool misspelt = hint.empty() && !nearest.empty();
     if (misspelt) hint = fmt::format("did you mean '{}{}'?", sigil, nearest);
     if (hint.empty()) hint = text::nearestHint(name, names);
@@ -683,9 +681,9 @@ ExprPtr foldNode(const ExprPtr& node, EvalScope& scope, text::Diagnostics& diagn
     const std::optional<std::uint32_t> key = scope.ageKey(node->name);
     if (!key) {
       if (scope.fact(Fact::age, node->name, 0, node->place)) return nullptr;  // reported
-      auto& d = diagnostics.error(Code::unknownVariable, node->place,
-                                  fmt::format("age() of unknown resource '{}'", node->name));
-      d.hint = text::nearestHint(node->name, scope.candidates(EvalScope::NameKind::fact_argument));
+      diagnostics.error(
+          Code::unknownVariable, node->place, fmt::format("age() of unknown resource '{}'", node->name),
+          {.hint = text::nearestHint(node->name, scope.candidates(EvalScope::NameKind::fact_argument))});
       return nullptr;
     }
     auto folded = std::make_shared<ExprNode>(*node);
@@ -708,13 +706,12 @@ ExprPtr foldNode(const ExprPtr& node, EvalScope& scope, text::Diagnostics& diagn
     children.push_back(std::move(child));
   }
   if (heightOver(children) > kMaxExprHeight || termsOver(children) > kMaxFoldedTerms) {
-    diagnostics
-        .error(
-            Code::badExpression, node->place,
-            fmt::format("the expression and the \"let\" it uses have more than {} operators and operands, or "
-                        "too many in a row",
-                        kMaxFoldedTerms))
-        .hint = "age() changes in every frame, and all of it is evaluated then: use it fewer times";
+    diagnostics.error(
+        Code::badExpression, node->place,
+        fmt::format("the expression and the \"let\" it uses have more than {} operators and operands, or "
+                    "too many in a row",
+                    kMaxFoldedTerms),
+        {.hint = "age() changes in every frame, and all of it is evaluated then: use it fewer times"});
     return nullptr;
   }
   auto folded = std::make_shared<ExprNode>(*node);

@@ -3,7 +3,6 @@
 // kMaxParsedHeight. Declared in expr.h and expr_node.h.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -14,7 +13,7 @@
 #include "engine/graph/language/expr_node.h"
 #include "engine/graph/language/names.h"
 #include "engine/text/nearest.h"
-#include "engine/text/words/foreign_words.h"
+#include "engine/text/words/words.h"
 
 namespace weft::graph {
 
@@ -133,15 +132,14 @@ class Parser {
 
   ExprPtr failUnexpected(const char* expected) {
     if (std::string hint = hintForSize(text_); !hint.empty()) {
-      auto& d = diagnostics_.error(text::Code::badExpression, place_, fmt::format("'{}' is no value", text_));
-      d.expected = "a number, a list or an expression";
-      d.hint = std::move(hint);
+      diagnostics_.error(text::Code::badExpression, place_, fmt::format("'{}' is no value", text_),
+                         {.expected = "a number, a list or an expression", .hint = std::move(hint)});
       return nullptr;
     }
     if (token_.kind == Token::Kind::end)
       return fail(token_, fmt::format("the expression ends where {} is expected", expected), "", expected);
     return fail(token_, fmt::format("unexpected '{}' where {} is expected", token_.text, expected),
-                text::hintForForeign(text::Foreign::expression, token_.text), expected);
+                text::hintForForeign("expression", token_.text), expected);
   }
 
   // ---- tokens ----
@@ -406,8 +404,8 @@ class Parser {
       for (auto op = ExprOp::minimum; op <= kLastOp; op = static_cast<ExprOp>(static_cast<int>(op) + 1))
         known.emplace_back(infoOf(op).spelling);
       auto& d = diagnostics_.error(text::Code::badFunctionCall, placeOf(word),
-                                   fmt::format("unknown function '{}'", word.text));
-      d.hint = text::hintForForeign(text::Foreign::expression, word.text);
+                                   fmt::format("unknown function '{}'", word.text),
+                                   {.hint = text::hintForForeign("expression", word.text)});
       if (d.hint.empty()) d.hint = text::nearestHint(word.text, known);
       return nullptr;
     }
@@ -423,11 +421,12 @@ class Parser {
     }
     if (!accept(")")) return failUnexpected("',' or ')'");
     if (arguments.size() < info.least || arguments.size() > info.most) {
-      auto& d = diagnostics_.error(text::Code::badFunctionCall, placeOf(word),
-                                   fmt::format("{}() with the wrong number of arguments", word.text));
-      d.expected = info.least == info.most ? fmt::format("{}", info.least)
-                                           : fmt::format("{} to {}", info.least, info.most);
-      d.found = fmt::format("{}", arguments.size());
+      diagnostics_.error(
+          text::Code::badFunctionCall, placeOf(word),
+          fmt::format("{}() with the wrong number of arguments", word.text),
+          {.expected = info.least == info.most ? fmt::format("{}", info.least)
+                                               : fmt::format("{} to {}", info.least, info.most),
+           .found = fmt::format("{}", arguments.size())});
       return nullptr;
     }
     return build(function, word, std::move(arguments));
@@ -452,8 +451,7 @@ class Parser {
     }
     if (node->op == ExprOp::identifier && at(".")) {
       const Token next = peek();
-      std::string hint =
-          text::hintForForeign(text::Foreign::value, fmt::format("{}.{}", word.text, next.text));
+      std::string hint = text::hintForForeign("value", fmt::format("{}.{}", word.text, next.text));
       if (hint.empty())
         hint =
             fmt::format("ask size({0}), mips({0}) or count({0}), with .x and .y; '${0}.{1}' is a parameter",

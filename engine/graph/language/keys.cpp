@@ -6,8 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "engine/text/json/dom.h"
-
 namespace weft::graph {
 
 namespace {

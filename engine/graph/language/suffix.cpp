@@ -1,10 +1,10 @@
-#include "engine/graph/language/suffix.h"
-
+// Declared in names.h.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 
+#include "engine/graph/language/names.h"
 #include "engine/text/nearest.h"
 
 namespace weft::graph {

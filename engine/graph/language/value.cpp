@@ -1,10 +1,6 @@
 // Declared in expr.h.
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
-#include <system_error>
-
 #include "engine/graph/language/expr.h"
 #include "engine/graph/language/names.h"
 

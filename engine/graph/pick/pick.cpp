@@ -1,14 +1,15 @@
 #include "engine/graph/pick/pick.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <regex>
 #include <unordered_set>
 
-#include "engine/graph/language/suffix.h"
+#include "engine/graph/language/names.h"
+#include "engine/graph/subresource.h"
 #include "engine/text/chars.h"
-#include "engine/text/nearest.h"
 
 namespace weft::graph {
 
@@ -16,12 +17,11 @@ namespace {
 
 using text::Code;
 
-text::Diagnostic& reportPick(text::Diagnostics& diagnostics, Code code, const Pick& pick,
-                             std::string message) {
+void reportPick(text::Diagnostics& diagnostics, Code code, const Pick& pick, std::string message,
+                text::Says says) {
+  says.resource = pick.name;
   const std::string option = pick.option + (pick.option.empty() ? "" : " ") + pick.text;
-  text::Diagnostic& d = diagnostics.error(code, text::placeOfOption(option), std::move(message));
-  d.resource = pick.name;
-  return d;
+  diagnostics.error(code, text::placeOfOption(option), std::move(message), std::move(says));
 }
 
 // Which version of its name a resource is, from 1.
@@ -40,22 +40,23 @@ std::uint32_t findVersion(const FlatGraph& graph, const Pick& pick, text::Diagno
       names.emplace_back(shared);
   constexpr const char* kPathHint = "a path with = in it is written ./a=b.png";
   if (!parsePick(pick.text)) {
-    auto& d = reportPick(diagnostics, Code::unknownResource, pick,
-                         fmt::format("'{}' cannot name a resource", pick.text));
-    d.expected = "a name such as depth, hdr#1 or 'glow.mip[2]'";
     const std::string near = suffixHint(pick.text.substr(0, pick.text.find_first_of(".#[@ ")), names);
-    d.hint = near + (near.empty() ? "" : "; ") + kPathHint;
+    reportPick(diagnostics, Code::unknownResource, pick,
+               fmt::format("'{}' cannot name a resource", pick.text),
+               {.expected = "a name such as depth, hdr#1 or 'glow.mip[2]'",
+                .hint = near + (near.empty() ? "" : "; ") + kPathHint});
     return kNone;
   }
   const std::vector<std::size_t> matches = suffixMatches(names, pick.name);
   if (matches.size() != 1) {
-    auto& d = reportPick(diagnostics, matches.empty() ? Code::unknownResource : Code::ambiguousName, pick,
-                         matches.empty()
-                             ? fmt::format("no pass that is enabled uses a resource '{}'", pick.name)
-                             : fmt::format("'{}' may be any of {} resources", pick.name, matches.size()));
-    d.hint = matches.empty() ? suffixHint(pick.name, names)
-                             : fmt::format("write '{}' or '{}'", names[matches[0]], names[matches[1]]);
-    if (d.hint.empty() && pick.option == "-o") d.hint = kPathHint;
+    std::string hint = matches.empty()
+                           ? suffixHint(pick.name, names)
+                           : fmt::format("write '{}' or '{}'", names[matches[0]], names[matches[1]]);
+    if (hint.empty() && pick.option == "-o") hint = kPathHint;
+    reportPick(diagnostics, matches.empty() ? Code::unknownResource : Code::ambiguousName, pick,
+               matches.empty() ? fmt::format("no pass that is enabled uses a resource '{}'", pick.name)
+                               : fmt::format("'{}' may be any of {} resources", pick.name, matches.size()),
+               {.hint = std::move(hint)});
     return kNone;
   }
   std::uint32_t found = kNone, last = 0;
@@ -65,24 +66,20 @@ std::uint32_t findVersion(const FlatGraph& graph, const Pick& pick, text::Diagno
     if (pick.version == 0 ? version > last : version == pick.version) found = r;
     last = std::max(last, version);
   }
-  if (found == kNone) {
-    auto& d = reportPick(diagnostics, Code::missingSubresource, pick,
-                         fmt::format("'{}' has no version {}", pick.name, pick.version));
-    d.expected = fmt::format("#1 to #{}", last);
-    d.found = fmt::format("#{}", pick.version);
-  }
+  if (found == kNone)
+    reportPick(diagnostics, Code::missingSubresource, pick,
+               fmt::format("'{}' has no version {}", pick.name, pick.version),
+               {.expected = fmt::format("#1 to #{}", last), .found = fmt::format("#{}", pick.version)});
   return found;
 }
 
 bool checkParts(const FlatResource& resource, const Pick& pick, text::Diagnostics& diagnostics) {
   const auto refuse = [&](Code code, const std::string& what, std::string expected) {
-    reportPick(diagnostics, code, pick, fmt::format("'{}' has no {}", pick.name, what)).expected =
-        std::move(expected);
+    reportPick(diagnostics, code, pick, fmt::format("'{}' has no {}", pick.name, what),
+               {.expected = std::move(expected)});
     return false;
   };
-  const std::uint32_t slices = resource.target == Target::texture_3d
-                                   ? std::max(1u, resource.depth >> std::min<std::uint32_t>(pick.mip, 31))
-                                   : resource.layers;
+  const std::uint32_t slices = slicesOf(resource, pick.mip);
   if (pick.mip >= resource.mips)
     return refuse(Code::missingSubresource, fmt::format("level {}", pick.mip),
                   fmt::format("level 0 to {}", resource.mips - 1));
@@ -182,11 +179,10 @@ std::optional<FoundPick> findPick(const FlatGraph& graph, const Pick& pick, text
   }
   const std::string name(pick.version == 0 ? sharedName(graph.resourceNames[resource])
                                            : std::string_view(graph.resourceNames[resource]));
-  auto& d = reportPick(
-      diagnostics, matches.empty() ? Code::unknownPass : Code::ambiguousName, pick,
-      fmt::format("{} '{}' that writes '{}'", matches.empty() ? "there is no pass" : "more than one pass is",
-                  pick.pass, name));
-  for (const std::string& writer : writers) d.expected += (d.expected.empty() ? "" : ", ") + writer;
+  reportPick(diagnostics, matches.empty() ? Code::unknownPass : Code::ambiguousName, pick,
+             fmt::format("{} '{}' that writes '{}'",
+                         matches.empty() ? "there is no pass" : "more than one pass is", pick.pass, name),
+             {.expected = fmt::format("{}", fmt::join(writers, ", "))});
   return std::nullopt;
 }
 

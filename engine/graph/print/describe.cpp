@@ -9,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/graph/language/suffix.h"
-#include "engine/graph/print/explain.h"
+#include "engine/graph/language/names.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/subresource.h"
 
@@ -159,8 +158,8 @@ class Describer {
              follows(uniform)                                         ? ", follows an import"
              : uniform.dynamic.present() && uniform.dynamic.dynamic() ? ", changes with time"
                                                                       : "");
-    for (std::uint32_t i = 0; i < spec.slotCount; ++i)
-      if (const SlotSpec& slot = graph_.slots[spec.firstSlot + i]; wanted(slot.name)) addSlot(slot, pass);
+    for (const SlotSpec& slot : graph_.slotsOf(spec))
+      if (wanted(slot.name)) addSlot(slot, pass);
   }
 
   bool follows(const UniformSpec& uniform) const {
@@ -265,9 +264,9 @@ std::optional<std::string> describe(const Plan& plan, std::string_view name, tex
   text::Diagnostic& d = diagnostics.error(
       several ? text::Code::ambiguousName : text::Code::unknownPass, text::placeOfOption(""),
       several ? fmt::format("'{}' may mean several", name)
-              : fmt::format("no pass, resource or parameter is called '{}'", name));
-  d.hint = several ? fmt::format("write more of the name, such as '{}'", names[matches[0]])
-                   : suffixHint(name, names);
+              : fmt::format("no pass, resource or parameter is called '{}'", name),
+      {.hint = several ? fmt::format("write more of the name, such as '{}'", names[matches[0]])
+                       : suffixHint(name, names)});
   for (std::size_t i = 0; i < std::min<std::size_t>(matches.size(), 8); ++i)
     d.found += (i ? ", " : "") + names[matches[i]];
   return std::nullopt;

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "engine/graph/pick/pick.h"
-#include "engine/graph/print/explain.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/subresource.h"
 

@@ -1,5 +1,4 @@
-#include "engine/graph/print/explain.h"
-
+// Declared in print.h.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,6 +7,7 @@
 #include <utility>
 
 #include "engine/graph/language/keys.h"
+#include "engine/graph/print/print.h"
 #include "engine/graph/subresource.h"
 
 namespace weft::graph {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "engine/graph/language/keys.h"
-#include "engine/graph/print/explain.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/subresource.h"
 
@@ -238,7 +237,7 @@ class FileWriter {
     if (flat.cadence != Cadence::always) json["update"] = updateOf(flat);
     if (flat.slices != 1) json["slices"] = flat.slices;
     if (flat.sideEffect) json["side_effect"] = true;
-    for (std::uint32_t u = flat.firstUse; u < flat.firstUse + flat.useCount; ++u) {
+    for (const std::uint32_t u : graph_.usesOf(pass)) {
       use(graph_.uses[u].resource);
       if (graph_.uses[u].feedback) json["feedback"] = true;
     }
@@ -266,8 +265,7 @@ class FileWriter {
   }
 
   void addSlots(const PassSpec& spec, Json& json) const {
-    for (std::uint32_t i = 0; i < spec.slotCount; ++i) {
-      const SlotSpec& slot = graph_.slots[spec.firstSlot + i];
+    for (const SlotSpec& slot : graph_.slotsOf(spec)) {
       if (slot.useCount == 0) continue;
       std::string text = textOf(graph_.uses[slot.firstUse], slot.array) + " as " + nameOf(slot.kind);
       if (slot.sampler.function)

@@ -11,7 +11,6 @@
 #include <optional>
 #include <set>
 
-#include "engine/graph/print/explain.h"
 #include "engine/graph/subresource.h"
 
 namespace weft::graph {

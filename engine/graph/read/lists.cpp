@@ -1,5 +1,4 @@
-#include "engine/graph/read/lists.h"
-
+// Declared in overlay.h.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,8 +26,7 @@ std::string_view nameOf(std::string_view text, bool value) {
 
 class Lists {
  public:
-  using MayShare = std::function<bool(const JsonValue&, const text::Place&)>;
-  Lists(const MayShare& mayShare, text::Diagnostics& diagnostics) : mayShare_(mayShare), said_(diagnostics) {}
+  Lists(SourceLoader& loader, text::Diagnostics& diagnostics) : loader_(loader), said_(diagnostics) {}
 
   void run(JsonValue& root) {
     if (JsonMember* passes = memberOf(root, "passes")) {
@@ -61,10 +59,10 @@ class Lists {
       }
       std::vector<JsonValue> made;
       for (JsonValue& member : std::exchange(members->value.items, {})) {
-        if (!mayShare_(stanza, member.place)) return;
+        if (!loader_.mayShare(stanza, member.place)) return;
         if (member.find("passes"))
-          said_.error(Code::keysExclude, member, "a group within a group").hint =
-              "end the outer group before it, and say what it says here, too";
+          said_.error(Code::keysExclude, member, "a group within a group",
+                      {.hint = "end the outer group before it, and say what it says here, too"});
         else
           made.push_back(member.is(Type::object) ? ofGroup(std::move(member), stanza) : member);
       }
@@ -76,9 +74,9 @@ class Lists {
   JsonValue ofGroup(JsonValue stanza, const JsonValue& group) {
     said_.pass = stanzaName(stanza);
     const auto both = [&](const JsonMember& member) {
-      said_
-          .error(Code::duplicateName, member.place, fmt::format("the key '{}' is declared twice", member.key))
-          .hint = "leave one out: the group that the pass stands in has it, too";
+      said_.error(Code::duplicateName, member.place,
+                  fmt::format("the key '{}' is declared twice", member.key),
+                  {.hint = "leave one out: the group that the pass stands in has it, too"});
     };
     JsonMember together{"passes", group.place, {}};
     together.value.type = Type::object;
@@ -135,8 +133,8 @@ class Lists {
       for (const JsonMember& member : item.members) add(member);
       const std::string_view name = called(item.text);
       if (item.is(Type::string) && name.empty())
-        said_.error(Code::notAName, item, fmt::format("an item of \"{}\" begins with no name", list.key))
-            .hint = fmt::format("write {{ \"name\": \"{}\" }}", item.text);
+        said_.error(Code::notAName, item, fmt::format("an item of \"{}\" begins with no name", list.key),
+                    {.hint = fmt::format("write {{ \"name\": \"{}\" }}", item.text)});
       if (name.empty()) continue;
       Place place = item.textPlace();  // of the character before the name, as of any key
       if (place.column > 0) place.column += static_cast<std::uint32_t>(name.data() - item.text.data()) - 1;
@@ -171,15 +169,14 @@ class Lists {
     std::erase_if(root.members, [](const JsonMember& member) { return member.key == "inputs"; });
   }
 
-  const MayShare& mayShare_;
+  SourceLoader& loader_;
   ReadContext said_;
 };
 
 }  // namespace
 
-void writeOutLists(JsonValue& root, const std::function<bool(const JsonValue&, const text::Place&)>& mayShare,
-                   text::Diagnostics& diagnostics) {
-  if (root.is(Type::object)) Lists(mayShare, diagnostics).run(root);
+void writeOutLists(JsonValue& root, SourceLoader& loader, text::Diagnostics& diagnostics) {
+  if (root.is(Type::object)) Lists(loader, diagnostics).run(root);
 }
 
 }  // namespace weft::graph

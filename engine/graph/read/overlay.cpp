@@ -9,10 +9,7 @@
 #include <utility>
 
 #include "engine/graph/language/names.h"
-#include "engine/graph/language/suffix.h"
-#include "engine/graph/read/lists.h"
 #include "engine/graph/read/read_context.h"
-#include "engine/graph/read/shape.h"
 #include "engine/text/files/file.h"
 #include "engine/text/limits.h"
 #include "engine/text/nearest.h"
@@ -130,8 +127,8 @@ class Applier {
   // Passes first: other sections may reach into what the overlay includes.
   void run(const JsonValue& overlay, bool preset) {
     if (const std::uint64_t values = valuesOf(overlay); values > text::raised(kMaxChanges)) {
-      said_.error(Code::limitExceeded, overlay, "the overlay changes too much").hint =
-          text::hintToRaise(kMaxChanges, values);
+      said_.error(Code::limitExceeded, overlay, "the overlay changes too much",
+                  {.hint = text::hintToRaise(kMaxChanges, values)});
       return;
     }
     if (const JsonValue* passes = overlay.find("passes");
@@ -179,10 +176,9 @@ class Applier {
       if (next == waiting.end()) {
         const JsonValue& anchor = *anchorOf(waiting[0]);
         said_.pass = stanzaName(waiting[0]);
-        said_
-            .error(Code::passCycle, anchor,
-                   fmt::format("pass '{}' stands beside '{}', which waits for it", said_.pass, anchor.text))
-            .hint = "leave one \"before\" or \"after\" out";
+        said_.error(Code::passCycle, anchor,
+                    fmt::format("pass '{}' stands beside '{}', which waits for it", said_.pass, anchor.text),
+                    {.hint = "leave one \"before\" or \"after\" out"});
         std::ranges::move(waiting, std::back_inserter(passesOf(target_)));
         return;
       }
@@ -201,8 +197,8 @@ class Applier {
     std::erase_if(stanza.members, [&](const JsonMember& member) {
       if (member.key != "remove") return false;
       said_.pass = stanzaName(stanza);
-      said_.error(Code::overlayOutOfPlace, member.place, "\"remove\" in a file that extends no other").hint =
-          "leave the pass out, or say what this file \"extends\"";
+      said_.error(Code::overlayOutOfPlace, member.place, "\"remove\" in a file that extends no other",
+                  {.hint = "leave the pass out, or say what this file \"extends\""});
       return true;
     });
   }
@@ -216,10 +212,9 @@ class Applier {
       if (there)
         into.members.erase(into.members.begin() + (there - into.members.data()));
       else
-        said_
-            .error(Code::nothingToChange, over.place,
-                   fmt::format("null takes \"{}\" away, which is not there", over.key))
-            .hint = "leave it out";
+        said_.error(Code::nothingToChange, over.place,
+                    fmt::format("null takes \"{}\" away, which is not there", over.key),
+                    {.hint = "leave it out"});
       return;
     }
     if (!there) there = &into.members.emplace_back(over.key, over.place);
@@ -390,11 +385,10 @@ class Applier {
     const bool fresh = !spot.index && declares(section.key, entry) && spot.own.find('.') == std::string::npos;
     if (!spot.index && !fresh) {
       const std::string hint = meantBy(whole, section.key).hint;
-      said_
-          .error(Code::nothingToChange, entry.place,
-                 fmt::format("'{}' of \"{}\" is not there to be {}", whole, section.key,
-                             entry.value.is(Type::null) ? "removed" : "changed"))
-          .hint = hint.empty() ? "write all of it to declare a new one" : hint;
+      said_.error(Code::nothingToChange, entry.place,
+                  fmt::format("'{}' of \"{}\" is not there to be {}", whole, section.key,
+                              entry.value.is(Type::null) ? "removed" : "changed"),
+                  {.hint = hint.empty() ? "write all of it to declare a new one" : hint});
     } else if (Source* source = open(spot.below, entry.place)) {
       entry.key = spot.own;  // "bloom.glow" is "glow" in its own file
       JsonMember* there = memberOf(source->root, section.key);
@@ -420,11 +414,12 @@ class Applier {
                              ? !over.empty() && over != before && !(dropped && dropped->is(Type::null))
                              : over.empty();
     if (!changes) return true;
-    Diagnostic& d = said_.error(Code::kindsDoNotMerge, entry.place,
-                                fmt::format("resource '{}' cannot be merged with what is there", entry.key));
-    d.expected = before == "alternatives" ? "a reference or a list of references, or a whole resource"
-                                          : fmt::format("keys of \"{0}\", or \"{0}\": null", before);
-    d.found = over.empty() ? describe(entry.value) : fmt::format("\"{}\"", over);
+    said_.error(
+        Code::kindsDoNotMerge, entry.place,
+        fmt::format("resource '{}' cannot be merged with what is there", entry.key),
+        {.expected = before == "alternatives" ? "a reference or a list of references, or a whole resource"
+                                              : fmt::format("keys of \"{0}\", or \"{0}\": null", before),
+         .found = over.empty() ? describe(entry.value) : fmt::format("\"{}\"", over)});
     return false;
   }
 
@@ -436,8 +431,8 @@ class Applier {
     said_.pass = stanzaName(stanza);
     const JsonValue *after = stanza.find("after"), *remove = stanza.find("remove");
     if (stanza.find("before") && after)
-      said_.error(Code::keysExclude, stanza.place, "a pass cannot stand both \"before\" and \"after\" others")
-          .hint = "keep one of them";
+      said_.error(Code::keysExclude, stanza.place, "a pass cannot stand both \"before\" and \"after\" others",
+                  {.hint = "keep one of them"});
     else if (remove && !remove->is(Type::boolean))
       said_.expect(*remove, Type::boolean, "\"remove\"");
     else if (const JsonValue* anchor = anchorOf(stanza))
@@ -455,11 +450,10 @@ class Applier {
     Spot beside = find("passes", anchor.text, anchor.place);
     if (!beside.index) {
       const Meant meant = meantBy(anchor.text, "passes");
-      Diagnostic& d = said_.error(Code::passWithoutPlace, anchor.place,
-                                  fmt::format("pass '{}' stands {} '{}', which is not there", said_.pass,
-                                              after ? "after" : "before", anchor.text));
-      d.expected = "the name of a pass, or the prefix of an include";
-      d.hint = meant.hint;
+      said_.error(Code::passWithoutPlace, anchor.place,
+                  fmt::format("pass '{}' stands {} '{}', which is not there", said_.pass,
+                              after ? "after" : "before", anchor.text),
+                  {.expected = "the name of a pass, or the prefix of an include", .hint = meant.hint});
       // Where it was probably meant, else at the end, so that what stands beside it is no second mistake.
       if (!meant.near.empty()) beside = locate("passes", meant.near);
     }
@@ -493,11 +487,10 @@ class Applier {
     const JsonValue* own = placed.find("passes");
     if (!own) placed.members.push_back({"passes", group->place, *group});
     if (!own || own->place == group->place) return true;
-    said_
-        .error(Code::passWithoutPlace, placed.place,
-               fmt::format("pass '{}', which stands in a group, comes between passes of another",
-                           stanzaName(placed)))
-        .hint = "move it before or after all passes that repeat together";
+    said_.error(Code::passWithoutPlace, placed.place,
+                fmt::format("pass '{}', which stands in a group, comes between passes of another",
+                            stanzaName(placed)),
+                {.hint = "move it before or after all passes that repeat together"});
     return false;
   }
 
@@ -506,7 +499,7 @@ class Applier {
                 std::string_view own) {
     const JsonValue* named = stanza.find("name");
     const auto refuse = [&](const JsonValue& at, std::string message, std::string hint) {
-      said_.error(Code::passWithoutPlace, at.place, std::move(message)).hint = std::move(hint);
+      said_.error(Code::passWithoutPlace, at.place, std::move(message), {.hint = std::move(hint)});
       return false;
     };
     if (beside.index && moved.index && beside.below == moved.below)
@@ -533,11 +526,11 @@ class Applier {
     const Spot spot = find("passes", said_.pass, place);
     if (!spot.index) {
       const Meant meant = meantBy(said_.pass, "passes");
-      Diagnostic& d = said_.error(remove ? Code::nothingToChange : Code::passWithoutPlace, place,
-                                  fmt::format("pass '{}' is not there to be {}", said_.pass,
-                                              remove ? "removed" : "changed, and a new one needs a place"));
-      if (!remove) d.expected = "the name of a pass, or \"before\" or \"after\" one";
-      d.hint = meant.hint;
+      said_.error(remove ? Code::nothingToChange : Code::passWithoutPlace, place,
+                  fmt::format("pass '{}' is not there to be {}", said_.pass,
+                              remove ? "removed" : "changed, and a new one needs a place"),
+                  {.expected = remove ? "" : "the name of a pass, or \"before\" or \"after\" one",
+                   .hint = meant.hint});
       if (!remove && declaresPass(stanza) && meant.whole.empty())
         passesOf(target_).push_back(withoutPlace(stanza, said_.pass));
       return;
@@ -560,10 +553,10 @@ class Applier {
                    const std::vector<std::string>& below) {
     const bool include = there.find("include") != nullptr;
     if (const JsonValue* culprit = stanza.find(include ? "type" : "include")) {
-      Diagnostic& d = said_.error(Code::kindsDoNotMerge, culprit->place,
-                                  fmt::format("'{}' cannot be merged with what is there", said_.pass));
-      d.expected = include ? "keys of an include" : "keys of a pass";
-      d.hint = "remove the one, and give the other a name of its own";
+      said_.error(Code::kindsDoNotMerge, culprit->place,
+                  fmt::format("'{}' cannot be merged with what is there", said_.pass),
+                  {.expected = include ? "keys of an include" : "keys of a pass",
+                   .hint = "remove the one, and give the other a name of its own"});
       return false;
     }
     if (include && stanza.find("include")) {
@@ -644,8 +637,7 @@ std::optional<JsonValue> SourceLoader::parse(const std::string& path, const text
   }
   std::optional<JsonValue> root = text::parseJson(*texts_[path], path, diagnostics_);
   if (root) mendKeys(*root, preset, diagnostics_);
-  const auto share = [this](const JsonValue& group, const Place& at) { return mayShare(group, at); };
-  if (root) writeOutLists(*root, share, diagnostics_);
+  if (root) writeOutLists(*root, *this, diagnostics_);
   return root;
 }
 
@@ -674,10 +666,10 @@ std::shared_ptr<const Source> SourceLoader::complete(JsonValue root, const std::
   const JsonValue* set = root.find("set");
   const JsonValue* extends = root.find("extends");
   if (!extends && set && !root.find("passes")) {
-    diagnostics_
-        .error(Code::overlayOutOfPlace, set->place, fmt::format("'{}' is a preset, not a graph", path))
-        .hint = fmt::format(
-        "lay it over a graph: weft check GRAPH --preset {}; or say what this file \"extends\"", path);
+    diagnostics_.error(
+        Code::overlayOutOfPlace, set->place, fmt::format("'{}' is a preset, not a graph", path),
+        {.hint = fmt::format(
+             "lay it over a graph: weft check GRAPH --preset {}; or say what this file \"extends\"", path)});
     return nullptr;
   }
   if (!extends) {
@@ -719,14 +711,15 @@ bool SourceLoader::mayExtend(const JsonValue& written) {
   const std::string below = pathBeside(written), identity = identityOf(below);
   const bool circle = isOpen(identity);
   if (!circle && open_.size() <= kMaxInRow) return true;
-  auto& d = diagnostics_.error(
-      circle ? Code::extendsItself : Code::limitExceeded, written.place,
-      circle ? fmt::format("'{}' extends itself", below) : "overlays extend each other in too long a row");
-  if (!circle) d.expected = fmt::format("at most {}", kMaxInRow);
+  std::string found;
   const auto again = std::ranges::find(open_, identity, &std::pair<std::string, std::string>::first);
-  for (auto each = again; each != open_.end(); ++each) d.found += each->second + " -> ";
-  d.found += below;
-  d.hint = "one of these must not extend the next";
+  for (auto each = again; each != open_.end(); ++each) found += each->second + " -> ";
+  diagnostics_.error(
+      circle ? Code::extendsItself : Code::limitExceeded, written.place,
+      circle ? fmt::format("'{}' extends itself", below) : "overlays extend each other in too long a row",
+      {.expected = circle ? "" : fmt::format("at most {}", kMaxInRow),
+       .found = found + below,
+       .hint = "one of these must not extend the next"});
   return false;
 }
 
@@ -749,12 +742,12 @@ bool SourceLoader::layFile(Source& made, const std::string& path, const JsonValu
   bool good = root && ReadContext(diagnostics_).expect(*root, Type::object, "a preset");
   const JsonValue* extends = good ? root->find("extends") : nullptr;
   if (good && !extends && isWholeGraph(*root) && (written || root->find("present"))) {
-    auto& d = diagnostics_.error(
+    diagnostics_.error(
         Code::overlayOutOfPlace, (written ? *written : *root).place,
-        fmt::format("'{}' is a graph of its own, which cannot be laid over another", path));
-    d.expected = fmt::format("an overlay on '{}', or a preset", made.path);
-    d.hint = written ? "a file extends one graph, the first of its list; give the others as includes"
-                     : "include it in a graph, or check it by itself";
+        fmt::format("'{}' is a graph of its own, which cannot be laid over another", path),
+        {.expected = fmt::format("an overlay on '{}', or a preset", made.path),
+         .hint = written ? "a file extends one graph, the first of its list; give the others as includes"
+                         : "include it in a graph, or check it by itself"});
     good = false;
   }
   open_.emplace_back(own, path);

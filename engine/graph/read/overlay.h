@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/graph/desc.h"
+#include "engine/text/diagnostic.h"
 #include "engine/text/json/dom.h"
 
 namespace weft::graph {
@@ -88,5 +89,16 @@ std::string_view kindOf(const text::JsonValue& resource);
 std::string includePrefix(const text::JsonValue& stanza);
 // Name of a pass stanza, else the prefix of an include (which an overlay may also call by "name"). "" when it has none.
 std::string stanzaName(const text::JsonValue& stanza);
+
+// The short spellings of a file, written out as what everything behind the parser knows: lists of names as objects, "inputs" as
+// resources, and groups of passes as passes.
+
+// Makes objects of the lists under "read", "write", "modify", "bind" and "parameters" of passes and sets: ["ibl.brdf", { "sky":
+// "clouds" }] is { "brdf": "ibl.brdf", "sky": "clouds" }. Each name stands where its string does. What is neither a string nor
+// an object stays a list, which does not fit the schema.
+// An input, "specular as linear ?", becomes the resource "specular": { "inputs": "specular as linear ?" }.
+// Each pass of a group gets what the group says; "enabled" and "repeat", which it may have itself, stand together under its key
+// "passes", at the place of the group, as often as `loader` lets passes share.
+void writeOutLists(text::JsonValue& root, SourceLoader& loader, text::Diagnostics& diagnostics);
 
 }  // namespace weft::graph

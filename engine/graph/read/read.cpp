@@ -10,7 +10,6 @@
 
 #include "engine/graph/read/overlay.h"
 #include "engine/graph/read/read_context.h"
-#include "engine/graph/read/shape.h"
 #include "engine/text/nearest.h"
 
 namespace weft::graph {
@@ -117,11 +116,10 @@ class GraphReader {
         if (slot.access == Access::write || slot.ref.import || !optional.contains(slot.ref.name)) continue;
         if (std::exchange(slot.ref.optional, true) &&
             said.emplace(slot.ref.place.line, slot.ref.place.column).second)
-          diagnostics_
-              .warning(
-                  Code::unusedDeclaration, slot.ref.place,
-                  fmt::format("the '?' of \"{}\" says nothing new: the input is optional", slot.ref.text))
-              .hint = "leave it out; `weft format` does";
+          diagnostics_.warning(
+              Code::unusedDeclaration, slot.ref.place,
+              fmt::format("the '?' of \"{}\" says nothing new: the input is optional", slot.ref.text),
+              {.hint = "leave it out; `weft format` does"});
       }
   }
 
@@ -132,9 +130,10 @@ class GraphReader {
              std::ranges::find(kGraphKeys, member.key, &KeySpec::key) != kGraphKeys.end();
     };
     if (std::ranges::any_of(root.members, own)) return false;
-    context.error(Code::missingKey, root, "this file has no \"passes\": it is not a graph").hint =
-        fmt::format("add \"passes\": [ … ]; a scene goes with a graph: weft check GRAPH --scene {}",
-                    root.place.file ? *root.place.file : "FILE");
+    context.error(
+        Code::missingKey, root, "this file has no \"passes\": it is not a graph",
+        {.hint = fmt::format("add \"passes\": [ … ]; a scene goes with a graph: weft check GRAPH --scene {}",
+                             root.place.file ? *root.place.file : "FILE")});
     return true;
   }
 
@@ -176,10 +175,9 @@ class GraphReader {
         if (count > 1 && !sets.find(name)) missing.push_back(name);
       const std::string meant = text::nearestName(set.key, missing);
       if (meant.empty()) continue;
-      context
-          .error(Code::unknownSet, set.place,
-                 fmt::format("no pass uses the set '{}', and {} use '{}'", set.key, uses[meant], meant))
-          .hint = fmt::format("did you mean '{}'?", meant);
+      context.error(Code::unknownSet, set.place,
+                    fmt::format("no pass uses the set '{}', and {} use '{}'", set.key, uses[meant], meant),
+                    {.hint = fmt::format("did you mean '{}'?", meant)});
       set.key = meant;
     }
     return sets;
@@ -241,9 +239,9 @@ class GraphReader {
     if (count <= bound) return false;
     tooMuch_ = true;
     auto& d = diagnostics_.error(Code::limitExceeded, stanza.place,
-                                 fmt::format("the graph includes too many {}", counts));
-    d.expected = fmt::format("at most {} {}", bound, counts);
-    d.found = fmt::format("{} with '{}'", count, stanza.text);
+                                 fmt::format("the graph includes too many {}", counts),
+                                 {.expected = fmt::format("at most {} {}", bound, counts),
+                                  .found = fmt::format("{} with '{}'", count, stanza.text)});
     if (bound != kMaxInRow) d.hint = text::hintToRaise(bound / text::limitsRaised(), count);
     return true;
   }

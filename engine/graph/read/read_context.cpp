@@ -3,12 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-
 #include "engine/graph/language/names.h"
 #include "engine/graph/read/ref_parse.h"
-#include "engine/text/nearest.h"
-#include "engine/text/words/glsl_words.h"
+#include "engine/text/words/words.h"
 
 namespace weft::graph {
 
@@ -34,8 +31,8 @@ std::string foundText(const JsonValue& value) {
   return value.is(Type::array) ? fmt::format("an array of {}", value.items.size()) : describe(value);
 }
 
-text::Diagnostic& ReadContext::error(Code code, const Place& place, std::string message) {
-  auto& d = goesOn() ? diagnostics_.error(code, place, std::move(message)) : unkept_;
+text::Diagnostic& ReadContext::error(Code code, const Place& place, std::string message, text::Says says) {
+  auto& d = goesOn() ? diagnostics_.error(code, place, std::move(message), std::move(says)) : unkept_;
   d.pass = pass;
   d.resource = resource;
   return d;
@@ -52,10 +49,8 @@ void ReadContext::adopt(const text::Diagnostics& said) {
 
 text::Diagnostic& ReadContext::wrongType(const JsonValue& value, std::string_view what,
                                          std::string expected) {
-  auto& d = error(Code::wrongType, value, fmt::format("{} has the wrong type", what));
-  d.expected = std::move(expected);
-  d.found = foundText(value);
-  return d;
+  return error(Code::wrongType, value, fmt::format("{} has the wrong type", what),
+               {.expected = std::move(expected), .found = foundText(value)});
 }
 
 bool ReadContext::expect(const JsonValue& value, Type type, std::string_view what, std::string hint) {

@@ -1,5 +1,5 @@
 // What the readers of parameters, resources and passes share: diagnostics that know the pass and the resource at hand, and values
-// of a tree that fits the schema (shape.h). What is absent was reported there, or may be: it yields the absent value silently.
+// of a tree that fits the schema (checkShape()). What is absent was reported there, or may be: it yields the absent value silently.
 #pragma once
 
 #include <functional>
@@ -11,10 +11,11 @@
 
 #include "engine/graph/desc.h"
 #include "engine/graph/language/keys.h"
+#include "engine/text/diagnostic.h"
 #include "engine/text/json/dom.h"
 #include "engine/text/json/report.h"
 #include "engine/text/limits.h"
-#include "engine/text/words/foreign_words.h"
+#include "engine/text/words/words.h"
 
 namespace weft::graph {
 
@@ -36,9 +37,10 @@ class ReadContext {
 
   std::string pass, resource;  // set while one is read
 
-  text::Diagnostic& error(text::Code code, const Place& place, std::string message);
-  text::Diagnostic& error(text::Code code, const JsonValue& value, std::string message) {
-    return error(code, value.place, std::move(message));
+  text::Diagnostic& error(text::Code code, const Place& place, std::string message, text::Says says = {});
+  text::Diagnostic& error(text::Code code, const JsonValue& value, std::string message,
+                          text::Says says = {}) {
+    return error(code, value.place, std::move(message), std::move(says));
   }
   // Code::wrongType. `what` has the wrong type.
   text::Diagnostic& wrongType(const JsonValue& value, std::string_view what, std::string expected);
@@ -91,5 +93,15 @@ void addSet(JsonValue& stanza, const JsonValue& set, const std::function<void(co
 bool isGroup(std::string_view key);
 // With what it uses of `sets`, those of its file. Include stanzas come back with include->graph still null.
 std::optional<PassDesc> readPass(ReadContext& context, const JsonValue& value, const JsonValue& sets);
+
+// Trees of JSON against the schema of graphs (keys.h). What is one slip away from a key or a word is reported and then read as
+// that, so that nothing else is said of what is missing because of it.
+
+// Of one file, before it is laid over others: reports keys that are one slip away from another, or another program's word for
+// it, and renames them. `preset`: the file is laid over a graph although it extends none.
+void mendKeys(text::JsonValue& root, bool preset, text::Diagnostics& diagnostics);
+// Of a whole graph: Code::wrongType, unknownKey, missingKey, unknownWord and keysExclude. What does not fit becomes
+// `absent`, at its place: the readers take the rest as it is.
+void checkShape(text::JsonValue& root, text::Diagnostics& diagnostics);
 
 }  // namespace weft::graph

@@ -69,10 +69,10 @@ std::optional<ValueKind> findKind(ReadContext& context, const JsonValue& object,
   if (initial.is(Type::array))
     return static_cast<ValueKind>(static_cast<std::size_t>(ValueKind::vec2) + initial.items.size() - 2);
   if (object.find("choices")) return ValueKind::choice;
-  context.error(Code::missingKey, object, "a parameter has a string as its default, but no \"choices\"")
-      .hint = parseValue(initial.text).type == Value::Type::symbol
-                  ? "list the \"choices\", or say \"type\": \"file\""
-                  : fmt::format("write {}, without quotes", initial.text);
+  context.error(Code::missingKey, object, "a parameter has a string as its default, but no \"choices\"",
+                {.hint = parseValue(initial.text).type == Value::Type::symbol
+                             ? "list the \"choices\", or say \"type\": \"file\""
+                             : fmt::format("write {}, without quotes", initial.text)});
   return std::nullopt;
 }
 
@@ -83,9 +83,9 @@ bool readDefault(ReadContext& context, const JsonValue& object, const JsonValue&
   const std::optional<Value> value = valueOf(initial);
   if (!value || !initial.is(kind.json) || initial.items.size() != kind.count ||
       (out.type == ValueKind::integer && initial.number != std::floor(initial.number))) {
-    auto& d = context.error(Code::wrongType, initial,
-                            fmt::format("the default does not fit the type \"{}\"", typeName(out.type)));
-    d.expected = kind.count > 0 ? fmt::format("a list of {} numbers", kind.count) : nameOf(kind.json);
+    auto& d = context.error(
+        Code::wrongType, initial, fmt::format("the default does not fit the type \"{}\"", typeName(out.type)),
+        {.expected = kind.count > 0 ? fmt::format("a list of {} numbers", kind.count) : nameOf(kind.json)});
     if (out.type == ValueKind::integer) d.expected = "a whole number";
     d.found = foundText(initial);
     return false;
@@ -96,13 +96,14 @@ bool readDefault(ReadContext& context, const JsonValue& object, const JsonValue&
     out.initial = Value::text(text::besideFile(initial.textPlace(), initial.text));
   if (out.type != ValueKind::choice) return true;
   if (!object.find("choices")) {
-    context.error(Code::missingKey, object, "a choice without \"choices\"").hint = "list the words it may be";
+    context.error(Code::missingKey, object, "a choice without \"choices\"",
+                  {.hint = "list the words it may be"});
     return false;
   }
   if (out.choices.empty() || std::ranges::find(out.choices, initial.text) != out.choices.end()) return true;
   auto& d = context.error(Code::notAChoice, initial,
-                          fmt::format("the default '{}' is not one of the choices", initial.text));
-  d.expected = fmt::format("{}", fmt::join(out.choices, ", "));
+                          fmt::format("the default '{}' is not one of the choices", initial.text),
+                          {.expected = fmt::format("{}", fmt::join(out.choices, ", "))});
   if (const std::string nearest = text::nearestName(initial.text, out.choices); !nearest.empty())
     d.hint = fmt::format("did you mean \"{}\"?", nearest);
   out.initial = Value::text(out.choices[0]);  // expressions that it stands in have no mistake of their own
@@ -112,9 +113,8 @@ bool readDefault(ReadContext& context, const JsonValue& object, const JsonValue&
 void checkRange(ReadContext& context, const JsonValue& object, const JsonValue& initial,
                 const ParameterDesc& out) {
   const auto report = [&](const JsonValue& at, std::string message, std::string expected) {
-    auto& d = context.error(Code::outOfRange, at, std::move(message));
-    d.expected = std::move(expected);
-    d.found = foundText(at);
+    context.error(Code::outOfRange, at, std::move(message),
+                  {.expected = std::move(expected), .found = foundText(at)});
   };
   if (out.min && out.max && *out.min > *out.max)
     return report(*object.find("min"), "the range is empty", fmt::format("at most \"max\", {}", *out.max));
@@ -163,10 +163,9 @@ std::optional<ParameterDesc> readParameter(ReadContext& context, const JsonMembe
   for (const std::string_view key : {"min", "max", "step", "choices"})
     if (const JsonValue* value = object.find(key);
         value && !(key == "choices" ? *kind == ValueKind::choice : numeric))
-      context
-          .error(Code::keysExclude, *value,
-                 fmt::format("\"{}\" does not go with the type \"{}\"", key, typeName(*kind)))
-          .hint = "remove the key, or change the type";
+      context.error(Code::keysExclude, *value,
+                    fmt::format("\"{}\" does not go with the type \"{}\"", key, typeName(*kind)),
+                    {.hint = "remove the key, or change the type"});
   return named ? std::optional(std::move(out)) : std::nullopt;
 }
 
@@ -235,8 +234,10 @@ void readFirst(ReadContext& context, const JsonValue& first, ResourceDesc& out) 
   if (!out.firstRef ||
       (!out.firstRef->kind && out.firstRef->sampler == Sampler{} && out.firstRef->history == 0))
     return;
-  context.error(Code::badReference, first, fmt::format("\"first\" of '{}' is more than a name", out.name))
-      .hint = "leave out '@-n' and the words after 'as': it is read as the slot that reads the history says";
+  context.error(
+      Code::badReference, first, fmt::format("\"first\" of '{}' is more than a name", out.name),
+      {.hint =
+           "leave out '@-n' and the words after 'as': it is read as the slot that reads the history says"});
   out.firstRef.reset();
 }
 
@@ -252,10 +253,9 @@ void readHistory(ReadContext& context, const JsonValue& value, ResourceDesc& out
     }
   for (const char* key : {"first", "reset"})
     if (const JsonValue* found = value.find(key); found && !value.find("history")) {
-      context
-          .error(Code::keysExclude, *found,
-                 fmt::format("\"{}\" of '{}', which keeps no history", key, out.name))
-          .hint = "add \"history\": 1, or remove the key";
+      context.error(Code::keysExclude, *found,
+                    fmt::format("\"{}\" of '{}', which keeps no history", key, out.name),
+                    {.hint = "add \"history\": 1, or remove the key"});
       out.history =
           Expr::constant(Value::number(1), found->place);  // what reads it has no mistake of its own
     }
@@ -267,8 +267,8 @@ bool readFullMips(ReadContext& context, const JsonValue& mips) {
   const bool meant = mips.is(Type::string) ? std::ranges::find(kAll, mips.text) != std::end(kAll)
                                            : mips.is(Type::boolean) && mips.flag;
   if (meant)
-    context.error(Code::wrongValueType, mips, "the number of mips is no number").hint =
-        "write \"full\" for all levels";
+    context.error(Code::wrongValueType, mips, "the number of mips is no number",
+                  {.hint = "write \"full\" for all levels"});
   return meant || mips.text == "full";
 }
 
@@ -278,9 +278,9 @@ bool readInput(ReadContext& context, const JsonValue& input, ResourceDesc& out) 
   if (!ref) return false;
   const bool plain = !ref->import && !ref->mip && !ref->layer && !ref->face && !ref->element && !ref->stencil;
   if (!plain || ref->kind || ref->history > 0)
-    context.error(Code::badReference, ref->place, fmt::format("the input '{}' is more than a name", out.name))
-        .hint =
-        "an input is a name, perhaps with 'as', words for sampling, and '?'; say the rest where it is used";
+    context.error(Code::badReference, ref->place, fmt::format("the input '{}' is more than a name", out.name),
+                  {.hint = "an input is a name, perhaps with 'as', words for sampling, and '?'; say the rest "
+                           "where it is used"});
   out.optional = ref->optional;
   if (ref->samples) out.sample = std::move(ref);
   return true;
@@ -314,8 +314,8 @@ bool readResourceInto(ReadContext& context, const JsonValue& value, ResourceDesc
     out.sample = context.refOf(words);
     if (out.sample) out.sample->place = sample->textPlace();
     if (out.sample && (out.sample->kind || out.sample->optional))
-      context.error(Code::badReference, *sample, "\"sample\" says how a texture is sampled, and no more")
-          .hint = "write words such as \"linear wrap\"";
+      context.error(Code::badReference, *sample, "\"sample\" says how a texture is sampled, and no more",
+                    {.hint = "write words such as \"linear wrap\""});
   }
   if (kind == "import") {
     out.kind = Kind::import;
@@ -385,8 +385,8 @@ void readInclude(ReadContext& context, const JsonValue& value, PassDesc& out) {
   include.filePlace = file.place;
   out.enabled = context.expr(value, "enabled");
   if (const JsonValue* group = value.find("passes"); group && group->find("repeat"))
-    context.error(Code::keysExclude, file, "an include in a group that repeats").hint =
-        "let it stand outside the group, or say \"repeat\" at the passes of its file";
+    context.error(Code::keysExclude, file, "an include in a group that repeats",
+                  {.hint = "let it stand outside the group, or say \"repeat\" at the passes of its file"});
   include.screen = context.expr(value, "screen");
   for (const JsonMember& member : membersIn(value, "bind")) {
     const bool named = context.checkName(member.key, member.place, {"an input"});
@@ -396,8 +396,8 @@ void readInclude(ReadContext& context, const JsonValue& value, PassDesc& out) {
     include.bindPlaces.push_back(member.place);
   }
   if (include.file.empty() && file.is(Type::string))
-    context.error(Code::notAName, file, "an include without a path").hint =
-        "write the path of a graph, from this file's folder";
+    context.error(Code::notAName, file, "an include without a path",
+                  {.hint = "write the path of a graph, from this file's folder"});
   if (include.file.empty()) return;
   out.namePlace = as ? as->place : file.place;
   include.as = as ? as->text : std::filesystem::path(include.file).stem().string();
@@ -411,14 +411,15 @@ void readInclude(ReadContext& context, const JsonValue& value, PassDesc& out) {
 bool readRanges(ReadContext& context, const JsonValue& ranges, ReadContext::Seen& seen, PassDesc& out) {
   bool all = !ranges.is(Type::absent);
   if (all && ranges.members.empty())
-    context.error(Code::missingKey, ranges, "\"repeat\" without an index").hint = "write { \"i\": [0, 3] }";
+    context.error(Code::missingKey, ranges, "\"repeat\" without an index",
+                  {.hint = "write { \"i\": [0, 3] }"});
   for (const JsonMember& member : ranges.members) {
     if (seen.size() == text::raised(kMaxIndices)) {
-      auto& d = context.error(
+      context.error(
           Code::limitExceeded, member.value,
-          fmt::format("\"repeat\" has more indices than a pass can have, '{}' is one too many", member.key));
-      d.expected = fmt::format("at most {} indices of one repeat", text::raised(kMaxIndices));
-      d.hint = text::hintToRaise(kMaxIndices);
+          fmt::format("\"repeat\" has more indices than a pass can have, '{}' is one too many", member.key),
+          {.expected = fmt::format("at most {} indices of one repeat", text::raised(kMaxIndices)),
+           .hint = text::hintToRaise(kMaxIndices)});
       return false;
     }
     bool good = context.checkName(member.key, member.place, {"an index"});
@@ -465,11 +466,10 @@ void readSlots(ReadContext& context, const JsonValue& slots, Access access, cons
     // Only a part may be missing, at some size.
     if (ref && ref->optional && access == Access::write && !ref->mip && !ref->layer && !ref->face &&
         !ref->element)
-      context
-          .error(Code::badReference, slot.value,
-                 fmt::format("the slot '{}' has a '?' in \"write\"", slot.key))
-          .hint =
-          "leave the '?' out: what a pass writes is always there, and costs nothing where nobody reads it";
+      context.error(Code::badReference, slot.value,
+                    fmt::format("the slot '{}' has a '?' in \"write\"", slot.key),
+                    {.hint = "leave the '?' out: what a pass writes is always there, and costs nothing where "
+                             "nobody reads it"});
     if (good && ref) out.slots.push_back({slot.key, slot.place, access, *std::move(ref), ofSet});
   }
 }
@@ -508,10 +508,10 @@ void readState(ReadContext& context, const JsonValue& value, PassDesc& out) {
   const auto add = [&](std::string name, const JsonMember& member) {
     // A word of another API is often no expression: ">=".
     const std::string hint =
-        isIdent(member.value.text) ? "" : text::hintForForeign(text::Foreign::state_word, member.value.text);
+        isIdent(member.value.text) ? "" : text::hintForForeign("state_word", member.value.text);
     if (!hint.empty()) {
-      context.error(Code::badState, member.value, fmt::format("unknown value for the state '{}'", name))
-          .hint = hint;
+      context.error(Code::badState, member.value, fmt::format("unknown value for the state '{}'", name),
+                    {.hint = hint});
       return;
     }
     if (Expr expr = context.exprOf(member.value); expr.present())
@@ -538,12 +538,12 @@ std::optional<JsonValue> withSets(ReadContext& context, const JsonValue& pass, c
     if (set == sets.members.end()) {
       std::vector<std::string> known;
       for (const JsonMember& each : sets.members) known.push_back(each.key);
-      auto& d = context.error(Code::unknownSet, name, fmt::format("\"sets\" has no '{}'", name.text));
-      d.expected = "the name of a set of this file";
-      d.hint = text::nearestHint(name.text, known);
+      context.error(
+          Code::unknownSet, name, fmt::format("\"sets\" has no '{}'", name.text),
+          {.expected = "the name of a set of this file", .hint = text::nearestHint(name.text, known)});
     } else if (std::ranges::find(used, &*set) != used.end()) {
-      context.error(Code::duplicateName, name, fmt::format("the set '{}' is used twice", name.text)).hint =
-          "name it once";
+      context.error(Code::duplicateName, name, fmt::format("the set '{}' is used twice", name.text),
+                    {.hint = "name it once"});
     } else if (!set->value.is(Type::absent)) {
       out.uses.push_back({name.text, name.place, set->place});
       used.push_back(&*set);
@@ -553,9 +553,9 @@ std::optional<JsonValue> withSets(ReadContext& context, const JsonValue& pass, c
   JsonValue whole = pass;
   for (auto set = used.rbegin(); set != used.rend(); ++set)
     addSet(whole, (*set)->value, [&](const JsonMember& member) {
-      context
-          .error(Code::duplicateName, member.place, fmt::format("the key '{}' is declared twice", member.key))
-          .hint = fmt::format("leave one out: the set '{}' has it, too", (*set)->key);
+      context.error(Code::duplicateName, member.place,
+                    fmt::format("the key '{}' is declared twice", member.key),
+                    {.hint = fmt::format("leave one out: the set '{}' has it, too", (*set)->key)});
     });
   return whole;
 }
@@ -569,8 +569,8 @@ void inferType(ReadContext& context, const JsonValue& value, PassDesc& out) {
                : value.find("geometry") || !out.shader.ends_with(".frag.glsl") ? "draw"
                                                                                : "fullscreen";
   else if (textIn(value, "name").find('.') == std::string::npos)  // else its name is the mistake
-    context.error(Code::missingKey, value.place, "the pass has neither a \"type\" nor a \"shader\"").hint =
-        "add \"shader\", or what kind of pass it is: \"type\": \"mipmap\"";
+    context.error(Code::missingKey, value.place, "the pass has neither a \"type\" nor a \"shader\"",
+                  {.hint = "add \"shader\", or what kind of pass it is: \"type\": \"mipmap\""});
 }
 
 void readGeometry(ReadContext& context, const JsonValue& value, PassDesc& out) {
@@ -595,8 +595,9 @@ void readUpdate(ReadContext& context, const JsonValue& value, PassDesc& out) {
   out.cadence = Cadence::always;
   if (!call) return;
   if (call->name != "every" || call->arguments.size() != 1) {
-    context.error(Code::badFunctionCall, *update, fmt::format("\"update\" cannot be '{}'", update->text))
-        .expected = fmt::format("{} or every(n), in each n-th frame", fmt::join(kUpdateWords, ", "));
+    context.error(
+        Code::badFunctionCall, *update, fmt::format("\"update\" cannot be '{}'", update->text),
+        {.expected = fmt::format("{} or every(n), in each n-th frame", fmt::join(kUpdateWords, ", "))});
     return;
   }
   out.cadence = Cadence::every;

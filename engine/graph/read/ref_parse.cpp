@@ -12,7 +12,7 @@
 #include "engine/graph/language/names.h"
 #include "engine/graph/subresource.h"
 #include "engine/text/nearest.h"
-#include "engine/text/words/foreign_words.h"
+#include "engine/text/words/words.h"
 
 namespace weft::graph {
 
@@ -78,9 +78,8 @@ class RefParser {
 
  private:
   bool fail(std::size_t offset, std::string message, std::string hint) {
-    auto& d = diagnostics_.error(Code::badReference, shifted(place_, offset), std::move(message));
-    d.found = fmt::format("\"{}\"", whole_);
-    d.hint = std::move(hint);
+    diagnostics_.error(Code::badReference, shifted(place_, offset), std::move(message),
+                       {.found = fmt::format("\"{}\"", whole_), .hint = std::move(hint)});
     return false;
   }
 
@@ -252,7 +251,7 @@ class RefParser {
   bool failWord(string_view word, std::size_t wordAt) {
     std::vector<std::string> known(kKindNames.begin(), kKindNames.end());
     known.insert(known.end(), kSamplerWords.begin(), kSamplerWords.end());
-    std::string hint = text::hintForForeign(text::Foreign::sampling, word);
+    std::string hint = text::hintForForeign("sampling", word);
     if (hint.empty()) hint = text::nearestHint(word, known);
     if (hint.empty()) hint = fmt::format("known: {}", fmt::join(known, " "));
     return fail(wordAt, fmt::format("unknown word '{}' after 'as'", word), std::move(hint));
@@ -278,7 +277,7 @@ class RefParser {
       ref_.sampler.function = static_cast<Compare>(found - kCompareNames.begin());
       return true;
     }
-    std::string hint = text::hintForForeign(text::Foreign::state_word, argument);
+    std::string hint = text::hintForForeign("state_word", argument);
     if (hint.empty())
       hint =
           text::nearestHint(argument, std::vector<std::string>(kCompareNames.begin(), kCompareNames.end()));
@@ -338,10 +337,10 @@ std::optional<CallText> parseCallText(string_view text, const Place& place, text
   call.name = text.substr(0, at);
   if (!isIdent(call.name) || (at < text.size() && (text[at] != '(' || text.back() != ')' ||
                                                    closingBracket(text, at) != text.size() - 1))) {
-    auto& d = diagnostics.error(Code::badReference, shifted(place, isIdent(call.name) ? at : 0),
-                                "this is no word with its arguments");
-    d.found = fmt::format("\"{}\"", text);
-    d.expected = "a word with its arguments, such as \"quad\" or \"icosphere(2)\"";
+    diagnostics.error(Code::badReference, shifted(place, isIdent(call.name) ? at : 0),
+                      "this is no word with its arguments",
+                      {.expected = "a word with its arguments, such as \"quad\" or \"icosphere(2)\"",
+                       .found = fmt::format("\"{}\"", text)});
     return std::nullopt;
   }
   const std::size_t end = text.empty() ? 0 : text.size() - 1;

@@ -1,5 +1,4 @@
-#include "engine/graph/read/shape.h"
-
+// Declared in read_context.h.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -7,14 +6,12 @@
 #include <array>
 #include <initializer_list>
 #include <iterator>
-#include <map>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "engine/graph/desc_walk.h"
 #include "engine/graph/read/overlay.h"
 #include "engine/graph/read/read_context.h"
 #include "engine/text/nearest.h"
@@ -24,19 +21,17 @@ namespace weft::graph {
 namespace {
 
 using text::Code;
-using text::Foreign;
 using Type = JsonValue::Type;
 using KeyLists = std::initializer_list<std::span<const KeySpec>>;
 
 constexpr std::array<KeySpec, 3> kKinds{{{"texture", ""}, {"buffer", ""}, {"import", ""}}};
 constexpr std::array<KeySpec, 1> kInput{{{"inputs", ""}}};  // of a resource that was an input
 
-// Which words of other programs are looked up for the keys of an object.
-std::optional<Foreign> foreignOf(const Shape& shape) {
-  if (shape.kind == "pass" || shape.kind == "set") return Foreign::pass_key;
-  if (shape.kind == "parameter") return Foreign::value_key;
-  if (shape.kind == "texture") return Foreign::texture_key;
-  return shape.kind == "state" ? std::optional(Foreign::state_key) : std::nullopt;
+// Which words of other programs are looked up for the keys of an object; "" for none.
+std::string_view foreignOf(const Shape& shape) {
+  if (shape.kind == "pass" || shape.kind == "set") return "pass_key";
+  if (shape.kind == "parameter") return "value_key";
+  return shape.kind == "texture" ? "texture_key" : shape.kind == "state" ? "state_key" : "";
 }
 
 bool takes(const Shape& shape, Type type) {
@@ -71,7 +66,7 @@ class ShapeCheck {
       : mends_(mends), overlay_(overlay), said_(diagnostics) {}
 
   void run(JsonValue& root) {
-    checkKeys(root, {kGraphKeys}, "graph", Foreign::graph_key);
+    checkKeys(root, {kGraphKeys}, "graph", "graph_key");
     overlay_ = overlay_ || root.find("extends");
     for (JsonMember& section : root.members) {
       const auto spec = std::ranges::find(kGraphKeys, section.key, &KeySpec::key);
@@ -101,14 +96,14 @@ class ShapeCheck {
       checkValue(value, shapeOf("resource"), member.key, "a resource");
     } else if (!mends_) {
       if (kinds > 0 || member.key.find('.') == std::string::npos)  // else its name is the mistake
-        said_
-            .error(kinds == 0 ? Code::missingKey : Code::keysExclude, value,
-                   fmt::format("the resource '{}' {}", member.key,
-                               kinds == 0 ? "does not say what it is" : "is of two kinds at once"))
-            .hint = value.find("input")
-                        ? fmt::format("write \"inputs\": [\"{}\"] beside \"resources\"; `weft format` does",
-                                      member.key)
-                        : "say one of \"texture\", \"buffer\" and \"import\"";
+        said_.error(
+            kinds == 0 ? Code::missingKey : Code::keysExclude, value,
+            fmt::format("the resource '{}' {}", member.key,
+                        kinds == 0 ? "does not say what it is" : "is of two kinds at once"),
+            {.hint = value.find("input")
+                         ? fmt::format("write \"inputs\": [\"{}\"] beside \"resources\"; `weft format` does",
+                                       member.key)
+                         : "say one of \"texture\", \"buffer\" and \"import\""});
       drop(value);
     }
     said_.resource.clear();
@@ -122,9 +117,10 @@ class ShapeCheck {
     if (mends_ && !says("include") && !says("type") && !says("shader"))
       checkKeys(stanza, {std::span(kIncludeKeys).first(1)}, "include");
     if (const JsonMember* like = mends_ ? nullptr : memberOf(stanza, "like")) {  // of the first edition
-      said_.error(Code::unknownKey, like->place, "a pass is no longer \"like\" another").hint =
-          "declare what they share under \"sets\", and name it with \"use\"; `weft format` writes this pass "
-          "out whole";
+      said_.error(Code::unknownKey, like->place, "a pass is no longer \"like\" another",
+                  {.hint = "declare what they share under \"sets\", and name it with \"use\"; `weft format` "
+                           "writes this pass "
+                           "out whole"});
       drop(stanza);
       return said_.pass.clear();
     }
@@ -191,7 +187,7 @@ class ShapeCheck {
     auto& d =
         said_.error(Code::unknownWord, value, fmt::format("unknown word \"{}\" for \"{}\"", value.text, key));
     d.expected = fmt::format("{}", fmt::join(shape.words, ", "));
-    if (shape.kind == "parameterType") d.hint = text::hintForForeign(text::Foreign::value_type, value.text);
+    if (shape.kind == "parameterType") d.hint = text::hintForForeign("value_type", value.text);
     const std::string nearest =
         text::nearestName(value.text, std::vector<std::string>(shape.words.begin(), shape.words.end()));
     if (!d.hint.empty() || nearest.empty()) return false;
@@ -213,8 +209,7 @@ class ShapeCheck {
     }
   }
 
-  void checkKeys(JsonValue& object, KeyLists lists, std::string_view what,
-                 std::optional<Foreign> foreign = {}) {
+  void checkKeys(JsonValue& object, KeyLists lists, std::string_view what, std::string_view foreign = {}) {
     if (!object.is(Type::object)) return;
     const auto isKnown = [&](std::string_view key) {
       return std::ranges::any_of(
@@ -227,21 +222,21 @@ class ShapeCheck {
       known.clear();
       for (const std::span<const KeySpec> keys : lists)
         for (const KeySpec& spec : keys) known.emplace_back(spec.key);
-      const bool ofState = foreign == Foreign::pass_key &&
+      const bool ofState = foreign == "pass_key" &&
                            std::ranges::find(kStateKeys, member.key, &KeySpec::key) != kStateKeys.end();
       // A word of another program first.
       const text::ForeignWord theirs =
-          foreign && !ofState ? text::findForeignWord(*foreign, member.key) : text::ForeignWord();
+          ofState ? text::ForeignWord() : text::findForeignWord(foreign, member.key);
       const std::string nearest = theirs.hint.empty() ? text::nearestName(member.key, known) : theirs.key;
       const bool sure =
           !ofState && !nearest.empty() && !object.find(nearest) &&
           (theirs.hint.empty() ? text::editDistance(member.key, nearest, 2) <= 1 : theirs.isOnlyKey);
       if (mends_ && !sure) continue;
-      said_.error(Code::unknownKey, member.place, fmt::format("unknown key \"{}\" in '{}'", member.key, what))
-          .hint = ofState ? fmt::format("it is a key of \"state\": {{ \"{}\": … }}", member.key)
-                  : !theirs.hint.empty() ? theirs.hint
-                  : nearest.empty()      ? fmt::format("known: {}", fmt::join(known, ", "))
-                                         : fmt::format("did you mean \"{}\"?", nearest);
+      said_.error(Code::unknownKey, member.place, fmt::format("unknown key \"{}\" in '{}'", member.key, what),
+                  {.hint = ofState ? fmt::format("it is a key of \"state\": {{ \"{}\": … }}", member.key)
+                           : !theirs.hint.empty() ? theirs.hint
+                           : nearest.empty()      ? fmt::format("known: {}", fmt::join(known, ", "))
+                                                  : fmt::format("did you mean \"{}\"?", nearest)});
       meant.push_back(nearest);
       if (mends_) member.key = nearest;
     }
@@ -250,9 +245,9 @@ class ShapeCheck {
       for (const KeySpec& spec : keys)
         if (spec.required && !object.find(spec.key) && stanzaName(object).find('.') == std::string::npos &&
             std::ranges::find(meant, spec.key) == meant.end())
-          said_
-              .error(Code::missingKey, object.place, fmt::format("'{}' lacks the key \"{}\"", what, spec.key))
-              .hint = fmt::format("\"{}\": {}", spec.key, spec.doc);
+          said_.error(Code::missingKey, object.place,
+                      fmt::format("'{}' lacks the key \"{}\"", what, spec.key),
+                      {.hint = fmt::format("\"{}\": {}", spec.key, spec.doc)});
   }
 
   bool mends_, overlay_;

@@ -2,7 +2,6 @@
 // choice of each parameter.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>

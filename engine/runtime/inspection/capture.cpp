@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/graph/subresource.h"
+
 namespace weft::runtime {
 
 namespace {
@@ -39,10 +41,6 @@ bool isThere(const Execution& execution, const CaptureItem& item) {
   return !written;
 }
 
-std::uint32_t slicesOf(const graph::FlatResource& resource, std::uint32_t mip) {
-  return resource.target == graph::Target::texture_3d ? std::max(1u, resource.depth >> mip) : resource.layers;
-}
-
 }  // namespace
 
 std::vector<CaptureItem> captureItems(const graph::Plan& plan, std::span<const std::string> patterns) {
@@ -68,7 +66,7 @@ std::vector<CaptureItem> captureItems(const graph::Plan& plan, std::span<const s
       const bool volume = resource.target == graph::Target::texture_3d;
       for (std::uint32_t mip = use.mip; mip < std::uint32_t{use.mip} + use.mips; ++mip) {
         const std::uint32_t first = volume ? 0 : use.layer,
-                            count = volume ? slicesOf(resource, mip) : use.layers;
+                            count = volume ? graph::slicesOf(resource, mip) : use.layers;
         for (std::uint32_t layer = first; layer < first + count; ++layer) {
           if (!graph::hasStencil(resource.format) || (use.planes & 1)) add(mip, layer, false);
           if (graph::hasStencil(resource.format) && (use.planes & 2)) add(mip, layer, true);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/graph/subresource.h"
 #include "engine/runtime/frame/gl_state.h"
 #include "engine/runtime/prepare/program_request.h"
 
@@ -61,9 +62,7 @@ std::uint32_t Inspector::aim(Execution& execution, const InspectTarget& target) 
   resource_ = resource;
   channels_ = std::max<std::uint32_t>(1, graph::infoOf(desc.format).channels);
   mip_ = std::min<std::uint32_t>(target.mip, desc.mips - 1u);
-  const std::uint32_t slices =
-      desc.target == graph::Target::texture_3d ? std::max(1u, desc.depth >> mip_) : desc.layers;
-  layer_ = std::min(target.layer, slices - 1);
+  layer_ = std::min(target.layer, graph::slicesOf(desc, mip_) - 1);
   history_ = std::min<std::uint32_t>(target.history, desc.history);
   stencil_ = target.stencil && graph::hasStencil(desc.format);
   hasPicture_ = hasBuffer_ = false;

@@ -1,8 +1,8 @@
-#include "engine/runtime/inspection/poison.h"
-
+// Declared in step_record.h.
 #include <limits>
 
 #include "engine/graph/subresource.h"
+#include "engine/runtime/inspection/step_record.h"
 #include "engine/runtime/storage/resource_pool.h"
 
 namespace weft::runtime {
@@ -10,21 +10,13 @@ namespace weft::runtime {
 namespace {
 
 double valueFor(graph::Format format, PoisonPattern pattern) {
-  const bool nan = pattern == PoisonPattern::nan;
-  switch (graph::infoOf(format).kind) {
-    case graph::TexelKind::floating:
-      if (format == graph::Format::rgb9_e5) return nan ? 60000 : 30000;  // has no NaN
-      return nan ? std::numeric_limits<double>::quiet_NaN() : 30000;
-    case graph::TexelKind::depth:
-    case graph::TexelKind::depth_stencil:
-      return nan ? 1 : 0.5;
-    case graph::TexelKind::unsigned_integer:
-      return nan ? 4294967295.0 : 7;
-    case graph::TexelKind::signed_integer:
-      return nan ? -1 : 7;
-    default:
-      return nan ? 1 : 0;
-  }
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  // By TexelKind; "nan" and "large" of each.
+  constexpr double kValues[][2] = {{1, 0},  {1, 0},   {kNan, 30000}, {4294967295.0, 7},
+                                   {-1, 7}, {1, 0.5}, {1, 0.5}};
+  const bool large = pattern == PoisonPattern::large;
+  if (format == graph::Format::rgb9_e5 && !large) return 60000;  // has no NaN
+  return kValues[static_cast<std::size_t>(graph::infoOf(format).kind)][large];
 }
 
 }  // namespace

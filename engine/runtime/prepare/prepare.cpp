@@ -53,11 +53,10 @@ class Preparer {
   bool isAttached(std::uint32_t use) const { return c_.plan.attached[use] != 0; }
 
   void collectUses() {
-    const graph::FlatPass& pass = graph_.passes[step_.pass];
     const auto addOnce = [](std::vector<std::uint32_t>& list, std::uint32_t resource) {
       if (std::ranges::find(list, resource) == list.end()) list.push_back(resource);
     };
-    for (std::uint32_t i = pass.firstUse; i < pass.firstUse + pass.useCount; ++i) {
+    for (const std::uint32_t i : graph_.usesOf(step_.pass)) {
       const FlatUse& use = graph_.uses[i];
       if (use.access == Access::read)
         addOnce(out_.read, use.resource);
@@ -110,8 +109,7 @@ class Preparer {
 
   bool bindSlots() {
     bool good = true;
-    for (std::uint32_t i = 0; i < spec_.slotCount; ++i) {
-      const SlotSpec& slot = graph_.slots[spec_.firstSlot + i];
+    for (const SlotSpec& slot : graph_.slotsOf(spec_)) {
       for (std::uint32_t k = 0; k < slot.useCount; ++k) {
         const std::uint32_t index = slot.firstUse + k;
         if (slot.access != Access::read && !isAttached(index)) continue;
@@ -122,7 +120,7 @@ class Preparer {
     if (spec_.raster[0] > 0) out_.width = spec_.raster[0], out_.height = spec_.raster[1];
     const gl::Block* instances =
         out_.variant->program.reflection().findStorageBlock(imports::kInstancesBlock);
-    if (instances && !spec_.list.empty() && !hasSlot(imports::kInstancesBlock)) {
+    if (instances && !spec_.list.empty() && !graph_.hasSlot(spec_, imports::kInstancesBlock)) {
       BufferBinding binding{.index = instances->binding};
       binding.list = listOf();
       binding.meshes = spec_.meshes;
@@ -134,8 +132,7 @@ class Preparer {
 
   // A draw is never without a framebuffer of its own: where the program has no output for any attachment, one says the size.
   bool attachRaster() {
-    for (std::uint32_t i = 0; i < spec_.slotCount; ++i) {
-      const SlotSpec& slot = graph_.slots[spec_.firstSlot + i];
+    for (const SlotSpec& slot : graph_.slotsOf(spec_)) {
       if (slot.useCount == 0 || slot.kind != Kind::color || !isAttached(slot.firstUse)) continue;
       out_.writesColor = false;
       return attach(slot.firstUse, GL_COLOR_ATTACHMENT0);
@@ -152,12 +149,6 @@ class Preparer {
     for (std::size_t i = textures; i < out_.textures.size(); ++i) out_.textures[i].firstOf = firstOf;
     for (std::size_t i = buffers; i < out_.buffers.size(); ++i) out_.buffers[i].firstOf = firstOf;
     return good;
-  }
-
-  bool hasSlot(std::string_view name) const {
-    for (std::uint32_t i = 0; i < spec_.slotCount; ++i)
-      if (graph_.slots[spec_.firstSlot + i].name == name) return true;
-    return false;
   }
 
   // checkProgram() has found that the block is a table.
@@ -266,8 +257,7 @@ class Preparer {
   // Pass types without a shader name a source and a target slot.
   bool bindFixed() {
     std::vector<std::pair<const SlotSpec*, FlatUse>> uses;
-    for (std::uint32_t i = 0; i < spec_.slotCount; ++i) {
-      const SlotSpec& slot = graph_.slots[spec_.firstSlot + i];
+    for (const SlotSpec& slot : graph_.slotsOf(spec_)) {
       if (slot.useCount > 0) uses.emplace_back(&slot, graph_.uses[slot.firstUse]);
       if (slot.useCount > 0 && slot.firstValue != kNone)
         uses.emplace_back(&slot, graph_.uses[slot.firstValue]);

@@ -14,7 +14,7 @@
 #include "engine/runtime/storage/block_writer.h"
 #include "engine/text/chars.h"
 #include "engine/text/nearest.h"
-#include "engine/text/words/glsl_words.h"
+#include "engine/text/words/words.h"
 
 namespace weft::runtime {
 
@@ -36,21 +36,11 @@ namespace {
 
 // What a shader declares for a slot. Nothing: no shader knows of it.
 std::optional<Role> roleFor(Kind kind) {
-  switch (kind) {
-    case Kind::sampled:
-      return Role::sampler;
-    case Kind::image:
-      return Role::image;
-    case Kind::uniform:
-      return Role::uniform_block;
-    case Kind::storage:
-      return Role::storage_block;
-    case Kind::color:
-    case Kind::depth:
-      return Role::output;
-    default:
-      return std::nullopt;
-  }
+  constexpr std::pair<Kind, Role> kRoles[] = {
+      {Kind::sampled, Role::sampler},       {Kind::image, Role::image},  {Kind::uniform, Role::uniform_block},
+      {Kind::storage, Role::storage_block}, {Kind::color, Role::output}, {Kind::depth, Role::output}};
+  const auto found = std::ranges::find(kRoles, kind, &std::pair<Kind, Role>::first);
+  return found == std::end(kRoles) ? std::nullopt : std::optional(found->second);
 }
 
 bool isBlock(Role role) {
@@ -135,7 +125,7 @@ class Checker {
   }
 
   bool run() {
-    for (std::uint32_t i = 0; i < spec_.slotCount; ++i) checkSlot(graph_.slots[spec_.firstSlot + i]);
+    std::ranges::for_each(graph_.slotsOf(spec_), [this](const SlotSpec& slot) { checkSlot(slot); });
     checkParameters();
     checkViews();
     if (linked_) {
@@ -149,12 +139,14 @@ class Checker {
   }
 
  private:
-  // The caller fills in the other fields.
-  text::Diagnostic& fail(Code code, const text::Place& place, std::string message) {
+  void fail(Code code, const text::Place& place, std::string message, text::Says says) {
     failed_ = true;
-    text::Diagnostic& d = diagnostics_.error(code, place, std::move(message));
-    d.pass = spec_.name;
-    return d;
+    says.pass = spec_.name;
+    diagnostics_.error(code, place, std::move(message), std::move(says));
+  }
+  void failOnce(Code code, const text::Place& place, std::string message, text::Says says) {
+    failed_ = true;
+    if (!isSaid(code, message)) fail(code, place, std::move(message), std::move(says));
   }
   // Whether the same was said of another pass, of a shader that both have, say: the mistake is in one place.
   bool isSaid(Code code, const std::string& message) const {
@@ -228,11 +220,7 @@ class Checker {
     const FlatUse& use = graph_.uses[slot.firstUse];
     return declarationFor(slot, use, resourceOf(use));
   }
-  bool isSlot(std::string_view name) const {
-    for (std::uint32_t i = 0; i < spec_.slotCount; ++i)
-      if (graph_.slots[spec_.firstSlot + i].name == name) return true;
-    return false;
-  }
+  bool isSlot(std::string_view name) const { return graph_.hasSlot(spec_, name); }
 
   // What the name is in the shaders, in any branch: the outputs of a vertex shader are the inputs of what follows it. Null when it
   // is nothing.
@@ -286,41 +274,35 @@ class Checker {
     if (!other && (maybe(slot.name, role) || (isBlock(role) && maybe(role, hasInstance)))) return;
     slotMissing_ = true;
     const char* const what = whatIs(slot.name);
-    text::Diagnostic& d =
-        fail(Code::slotNotInShader, slot.place,
-             what ? fmt::format("slot '{}' is {} in the shader '{}', not {}", slot.name, what, shaders_,
-                                glsl::nameOf(role))
-                  : fmt::format("slot '{}' is not in the shader '{}'", slot.name, shaders_));
-    d.resource = nameOf(graph_.uses[slot.firstUse]);
-    d.expected = fmt::format("{} named '{}'", glsl::nameOf(role), slot.name);
     const std::string near = what ? "" : text::nearestName(slot.name, namesInShaders());
-    d.hint = !what && slot.ofSet ? "declare it, or move it from the set to the passes that need it"
-             : !near.empty()     ? fmt::format("did you mean '{}'?", near)
-                                 : fmt::format("declare `{}`", declarationOf(slot));
+    fail(Code::slotNotInShader, slot.place,
+         what ? fmt::format("slot '{}' is {} in the shader '{}', not {}", slot.name, what, shaders_,
+                            glsl::nameOf(role))
+              : fmt::format("slot '{}' is not in the shader '{}'", slot.name, shaders_),
+         {.expected = fmt::format("{} named '{}'", glsl::nameOf(role), slot.name),
+          .hint = !what && slot.ofSet ? "declare it, or move it from the set to the passes that need it"
+                  : !near.empty()     ? fmt::format("did you mean '{}'?", near)
+                                      : fmt::format("declare `{}`", declarationOf(slot)),
+          .resource = nameOf(graph_.uses[slot.firstUse])});
   }
 
   void reportType(const SlotSpec& slot, const FlatUse& use, const std::string& type, std::string expected) {
-    text::Diagnostic& d = fail(Code::slotTypeMismatch, slot.place,
-                               fmt::format("slot '{}' and the shader's {} do not fit", slot.name, type));
-    d.resource = nameOf(use);
-    d.expected = std::move(expected);
-    d.found = type;
-    d.hint = fmt::format("declare `{}`, or name another resource", declarationOf(slot));
+    fail(Code::slotTypeMismatch, slot.place,
+         fmt::format("slot '{}' and the shader's {} do not fit", slot.name, type),
+         {.expected = std::move(expected),
+          .found = type,
+          .hint = fmt::format("declare `{}`, or name another resource", declarationOf(slot)),
+          .resource = nameOf(use)});
   }
 
   // Said where the texture is declared, once for all passes that write colors to it.
   void reportDepth(const FlatUse& use) {
-    const std::string message =
-        fmt::format("'{}' has a depth format, and shaders write colors to it", nameOf(use));
-    if (isSaid(Code::slotTypeMismatch, message)) {
-      failed_ = true;
-      return;
-    }
-    text::Diagnostic& d = fail(Code::slotTypeMismatch, graph_.resourcePlaces[use.resource], message);
-    d.resource = nameOf(use);
-    d.expected = "a color format, such as rgba16f";
-    d.found = graph::infoOf(resourceOf(use).format).name;
-    d.hint = "give it a color format, or write gl_FragDepth";
+    failOnce(Code::slotTypeMismatch, graph_.resourcePlaces[use.resource],
+             fmt::format("'{}' has a depth format, and shaders write colors to it", nameOf(use)),
+             {.expected = "a color format, such as rgba16f",
+              .found = graph::infoOf(resourceOf(use).format).name,
+              .hint = "give it a color format, or write gl_FragDepth",
+              .resource = nameOf(use)});
   }
 
   // Writing float outputs to integer formats, or the other way round, leaves undefined texels (OpenGL 4.5 core, 15.2.3).
@@ -356,13 +338,13 @@ class Checker {
     imports::RowLayout layout;
     std::string problem;
     if (imports::rowLayoutOf(*block, columns, layout, problem)) return;
-    text::Diagnostic& d = fail(
-        Code::notAnInstanceTable, place,
-        fmt::format("the block '{}' of '{}' does not fit its table: {}", block->name, shaders_, problem));
-    d.expected = "an array of a struct with fields among";
+    std::string fields;
     for (const graph::TableColumn& column : columns)
-      d.expected += fmt::format(" {} {};", column.type, column.name);
-    d.hint = "include the file of shaders/scene that declares it, or declare a struct of these fields";
+      fields += fmt::format(" {} {};", column.type, column.name);
+    fail(Code::notAnInstanceTable, place,
+         fmt::format("the block '{}' of '{}' does not fit its table: {}", block->name, shaders_, problem),
+         {.expected = "an array of a struct with fields among" + fields,
+          .hint = "include the file of shaders/scene that declares it, or declare a struct of these fields"});
   }
 
   void checkParameters() {
@@ -387,12 +369,11 @@ class Checker {
       if (other.empty()) reportMissing(uniform);
       if (other.empty() || !misnamed_.empty()) continue;
       misnamed_ = other;
-      text::Diagnostic& d =
-          fail(Code::undeclaredShaderInput, spec_.shaderPlace,
-               fmt::format("the shader '{}' has its parameters in a uniform block '{}'", shaders_, other));
-      d.expected = "a uniform block 'Parameters'";
-      d.found = fmt::format("uniform {} {{ … }}", other);
-      d.hint = "call it 'Parameters'";
+      fail(Code::undeclaredShaderInput, spec_.shaderPlace,
+           fmt::format("the shader '{}' has its parameters in a uniform block '{}'", shaders_, other),
+           {.expected = "a uniform block 'Parameters'",
+            .found = fmt::format("uniform {} {{ … }}", other),
+            .hint = "call it 'Parameters'"});
     }
     if (missing || !live) return;  // one misspelling is one mistake
     for (const Declaration* member : members)
@@ -415,28 +396,25 @@ class Checker {
 
   void reportMissing(const graph::UniformSpec& uniform) {
     const char* const what = whatIs(uniform.name);
-    text::Diagnostic& d = fail(
-        Code::parameterNotInShader, uniform.place,
-        fmt::format("parameter '{}' is {} in the shader '{}'", uniform.name,
-                    what ? fmt::format("{}, not a member of the block Parameters,", what) : "not", shaders_));
     const std::string near = what ? "" : text::nearestName(uniform.name, namesInShaders());
-    d.hint = "declare it in `layout(std140) uniform Parameters { … };`";
-    if (!near.empty()) d.hint += fmt::format(", or did you mean '{}'?", near);
+    fail(Code::parameterNotInShader, uniform.place,
+         fmt::format("parameter '{}' is {} in the shader '{}'", uniform.name,
+                     what ? fmt::format("{}, not a member of the block Parameters,", what) : "not", shaders_),
+         {.hint = "declare it in `layout(std140) uniform Parameters { … };`" +
+                  (near.empty() ? "" : fmt::format(", or did you mean '{}'?", near))});
   }
 
   void reportMember(const graph::UniformSpec& uniform, const gl::GlslType& type,
                     const std::string& expected) {
-    const std::string message =
-        fmt::format("parameter '{}' does not fit the shader's {}", uniform.text(), type.name);
     failed_ = true;
-    if (isSaid(Code::parameterTypeMismatch, message) || std::exchange(misfit_, uniform.name) == uniform.name)
-      return;
-    text::Diagnostic& d = fail(Code::parameterTypeMismatch, uniform.place, message);
-    d.expected = expected;
-    d.found = uniform.elements == 0
-                  ? graph::toText(uniform.value)
-                  : fmt::format("{} items, the first {}", uniform.elements, graph::toText(uniform.value));
-    d.hint = fmt::format("give it {}, or declare the member with another type", expected);
+    if (std::exchange(misfit_, uniform.name) == uniform.name) return;
+    failOnce(Code::parameterTypeMismatch, uniform.place,
+             fmt::format("parameter '{}' does not fit the shader's {}", uniform.text(), type.name),
+             {.expected = expected,
+              .found = uniform.elements == 0 ? graph::toText(uniform.value)
+                                             : fmt::format("{} items, the first {}", uniform.elements,
+                                                           graph::toText(uniform.value)),
+              .hint = fmt::format("give it {}, or declare the member with another type", expected)});
   }
 
   void checkParameter(const graph::UniformSpec& uniform, const Declaration& declared) {
@@ -471,14 +449,13 @@ class Checker {
 
   // A member that the pass does not set: it would be 0, which mostly gives a black picture.
   void reportUnset(const Declaration& member) {
-    text::Diagnostic& d =
-        fail(Code::undeclaredShaderInput, spec_.shaderPlace,
-             fmt::format("the shader '{}' reads the parameter '{}', which pass '{}' does not set", shaders_,
-                         member.name, spec_.declared));
-    d.expected = fmt::format("\"parameters\": {{ \"{}\": … }}, of type {}", member.name,
-                             std::string(member.type) + member.array);
-    d.hint = fmt::format("set it, or guard the member and its use with `#ifdef {}`",
-                         glsl::presenceDefineOf(member.name));
+    fail(Code::undeclaredShaderInput, spec_.shaderPlace,
+         fmt::format("the shader '{}' reads the parameter '{}', which pass '{}' does not set", shaders_,
+                     member.name, spec_.declared),
+         {.expected = fmt::format("\"parameters\": {{ \"{}\": … }}, of type {}", member.name,
+                                  std::string(member.type) + member.array),
+          .hint = fmt::format("set it, or guard the member and its use with `#ifdef {}`",
+                              glsl::presenceDefineOf(member.name))});
   }
 
   // What the blocks that the engine fills may have.
@@ -491,8 +468,8 @@ class Checker {
       for (const Declaration* member : membersOf(name))
         if (std::ranges::find(names, member->name) == names.end())
           fail(Code::unknownViewMember, spec_.shaderPlace,
-               fmt::format("the {} block of '{}' has an unknown member '{}'", name, shaders_, member->name))
-              .hint = text::nearestHint(std::string(member->name), names);
+               fmt::format("the {} block of '{}' has an unknown member '{}'", name, shaders_, member->name),
+               {.hint = text::nearestHint(std::string(member->name), names)});
     }
   }
 
@@ -500,16 +477,16 @@ class Checker {
   void unfed(const char* what, const std::string& name) {
     if (slotMissing_) return;
     std::vector<std::string> names;
-    for (std::uint32_t i = 0; i < spec_.slotCount; ++i)
-      names.push_back(graph_.slots[spec_.firstSlot + i].name);
+    for (const SlotSpec& slot : graph_.slotsOf(spec_)) names.push_back(slot.name);
     const std::string nearest = text::nearestName(name, names);
-    text::Diagnostic& d = fail(Code::undeclaredShaderInput, spec_.shaderPlace,
-                               fmt::format("the shader '{}' uses {} '{}', which pass '{}' does not name",
-                                           shaders_, what, name, spec_.declared));
-    d.expected = fmt::format("a slot '{}' in \"read\", \"write\" or \"modify\"", name);
-    d.hint = !nearest.empty() ? fmt::format("did you mean '{}'?", nearest)
-                              : fmt::format("add \"{}\": \"RESOURCE\", or guard its use with `#ifdef {}`",
-                                            name, glsl::presenceDefineOf(name));
+    fail(
+        Code::undeclaredShaderInput, spec_.shaderPlace,
+        fmt::format("the shader '{}' uses {} '{}', which pass '{}' does not name", shaders_, what, name,
+                    spec_.declared),
+        {.expected = fmt::format("a slot '{}' in \"read\", \"write\" or \"modify\"", name),
+         .hint = !nearest.empty() ? fmt::format("did you mean '{}'?", nearest)
+                                  : fmt::format("add \"{}\": \"RESOURCE\", or guard its use with `#ifdef {}`",
+                                                name, glsl::presenceDefineOf(name))});
   }
 
   // What the linked program has besides.
@@ -531,14 +508,11 @@ class Checker {
     }
     for (const auto& loose : reflection.looseUniforms) {
       const std::vector<std::string> names = viewMemberNames();
-      std::string hint = std::ranges::find(names, loose.name) != names.end()
-                             ? fmt::format("remove it: #include \"common/view.glsl\" has '{}'", loose.name)
-                             : "move it into `layout(std140) uniform Parameters { … };`";
-      std::string message =
-          fmt::format("the shader '{}' has a uniform '{}' outside a block", shaders_, loose.name);
-      failed_ = true;
-      if (!isSaid(Code::parameterNotInShader, message))
-        fail(Code::parameterNotInShader, spec_.shaderPlace, std::move(message)).hint = std::move(hint);
+      failOnce(Code::parameterNotInShader, spec_.shaderPlace,
+               fmt::format("the shader '{}' has a uniform '{}' outside a block", shaders_, loose.name),
+               {.hint = std::ranges::find(names, loose.name) != names.end()
+                            ? fmt::format("remove it: #include \"common/view.glsl\" has '{}'", loose.name)
+                            : "move it into `layout(std140) uniform Parameters { … };`"});
     }
   }
 
@@ -548,9 +522,9 @@ class Checker {
     if (!compute || pass.slices < 2 || linked_->reflection.findUniformBlock("Slice")) return;
     fail(Code::badSlices, spec_.shaderPlace,
          fmt::format("the shader '{}' does not know slices, and pass '{}' has {}", shaders_, spec_.name,
-                     pass.slices))
-        .hint =
-        "include common/slice.glsl and use sliceInvocation() for gl_GlobalInvocationID, or remove \"slices\"";
+                     pass.slices),
+         {.hint = "include common/slice.glsl and use sliceInvocation() for gl_GlobalInvocationID, or remove "
+                  "\"slices\""});
   }
 
   // Reports work groups beyond the limits of the device. The driver would report them in every frame, and without a place.
@@ -563,13 +537,13 @@ class Checker {
     const passes::WorkGroups groups = passes::workGroupsOf(context);
     for (int axis = 0; axis < 3; ++axis) {
       if (groups.count[axis] <= context.maxGroups[axis]) continue;
-      text::Diagnostic& d = fail(Code::tooManyWorkGroups, spec_.threadsPlace,
-                                 fmt::format("pass '{}' has more work groups along {} than the device takes",
-                                             spec_.name, "xyz"[axis]));
-      d.expected =
-          fmt::format("at most {} groups of {} threads", context.maxGroups[axis], context.groupSize[axis]);
-      d.found = fmt::format("{} groups for {} threads", groups.count[axis], spec_.threads[axis]);
-      d.hint = fmt::format("raise local_size_{}, or spread the work over the other axes", "xyz"[axis]);
+      fail(Code::tooManyWorkGroups, spec_.threadsPlace,
+           fmt::format("pass '{}' has more work groups along {} than the device takes", spec_.name,
+                       "xyz"[axis]),
+           {.expected = fmt::format("at most {} groups of {} threads", context.maxGroups[axis],
+                                    context.groupSize[axis]),
+            .found = fmt::format("{} groups for {} threads", groups.count[axis], spec_.threads[axis]),
+            .hint = fmt::format("raise local_size_{}, or spread the work over the other axes", "xyz"[axis])});
     }
   }
 
@@ -588,13 +562,12 @@ class Checker {
           Code::cadenceMisfit, spec_.place,
           fmt::format("pass '{}' does not run in every frame, and its shader reads '{}', which is 0 there",
                       spec_.declared, member),
-          fmt::format("leave \"update\" out of '{}' if its picture is to move", spec_.declared), "");
+          {.hint = fmt::format("leave \"update\" out of '{}' if its picture is to move", spec_.declared)});
     }
   }
 
   void warnUnwritten() {
-    for (std::uint32_t i = 0; i < spec_.slotCount; ++i) {
-      const SlotSpec& slot = graph_.slots[spec_.firstSlot + i];
+    for (const SlotSpec& slot : graph_.slotsOf(spec_)) {
       if (slot.useCount == 0 || slot.kind != Kind::color || !plan_.attached[slot.firstUse]) continue;
       const Declaration* output = find(slot.name, Role::output);
       if (!output || of(stages_.back()).isLive(*output)) continue;
@@ -602,20 +575,16 @@ class Checker {
       warnOnce(Code::slotNotInShader, slot.place,
                fmt::format("pass '{}': the shader '{}' declares its output '{}' and never writes it",
                            spec_.declared, spec_.shader, slot.name),
-               fmt::format("assign '{}' in main(), or remove the slot: what is in '{}' is undefined",
-                           slot.name, resource),
-               resource);
+               {.hint = fmt::format("assign '{}' in main(), or remove the slot: what is in '{}' is undefined",
+                                    slot.name, resource),
+                .resource = resource});
     }
   }
 
   // Of repeats of one pass the first is warned of.
-  void warnOnce(Code code, const text::Place& place, const std::string& message, std::string hint,
-                const std::string& resource) {
-    if (isSaid(code, message)) return;
-    text::Diagnostic& d = diagnostics_.warning(code, place, message);
-    d.pass = spec_.name;
-    d.resource = resource;
-    d.hint = std::move(hint);
+  void warnOnce(Code code, const text::Place& place, std::string message, text::Says says) {
+    says.pass = spec_.name;
+    if (!isSaid(code, message)) diagnostics_.warning(code, place, std::move(message), std::move(says));
   }
 
   const Plan& plan_;
@@ -655,9 +624,8 @@ void warnOfConditions(const graph::PassSpec& pass, std::span<const gl::StageSour
             return d.code == Code::undeclaredShaderInput && d.place.inFile() == place;
           }))
         return;
-      text::Diagnostic& d = diagnostics.warning(Code::undeclaredShaderInput, place, message);
-      d.pass = pass.name;
-      d.hint = std::move(hint);
+      diagnostics.warning(Code::undeclaredShaderInput, place, message,
+                          {.hint = std::move(hint), .pass = pass.name});
     };
     std::set<std::string_view> seen;
     const auto look = [&](const glsl::Token& word, bool valued) {
@@ -703,9 +671,8 @@ void warnOfConditions(const graph::PassSpec& pass, std::span<const gl::StageSour
     if (near.empty() || std::ranges::find(diagnostics.items(), message, &text::Diagnostic::message) !=
                             diagnostics.items().end())  // said of another repeat
       continue;
-    text::Diagnostic& d = diagnostics.warning(Code::undeclaredShaderInput, pass.place, message);
-    d.pass = pass.name;
-    d.hint = fmt::format("did you mean '{}'?", near);
+    diagnostics.warning(Code::undeclaredShaderInput, pass.place, message,
+                        {.hint = fmt::format("did you mean '{}'?", near), .pass = pass.name});
   }
 }
 

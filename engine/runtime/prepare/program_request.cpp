@@ -72,8 +72,7 @@ gl::ProgramRequest programRequestOf(const FlatGraph& graph, const Plan& plan, st
         request.stages = {{GL_VERTEX_SHADER, spec.vertexShader, ""}, {GL_FRAGMENT_SHADER, spec.shader, ""}};
       break;
   }
-  for (std::uint32_t i = 0; i < spec.slotCount; ++i) {
-    const SlotSpec& slot = graph.slots[spec.firstSlot + i];
+  for (const SlotSpec& slot : graph.slotsOf(spec)) {
     if (slot.useCount == 0) continue;
     if (slot.access != Access::read && !plan.attached[slot.firstUse]) continue;
     request.defines.push_back({glsl::presenceDefineOf(slot.name), "1"});

@@ -88,12 +88,12 @@ bool checkBlocks(const Plan& plan, text::Diagnostics& diagnostics) {
         resource.bytes <= static_cast<std::uint64_t>(most))
       continue;
     good = false;
-    auto& d = diagnostics.error(text::Code::bufferNotCreated, {},
-                                fmt::format("buffer '{}' of {} bytes is larger than a shader can see",
-                                            plan.graph->resourceNames[r], resource.bytes));
-    d.resource = plan.graph->resourceNames[r];
-    d.expected = fmt::format("at most {} bytes in one storage block of this device", most);
-    d.hint = "split it into several buffers";
+    diagnostics.error(text::Code::bufferNotCreated, {},
+                      fmt::format("buffer '{}' of {} bytes is larger than a shader can see",
+                                  plan.graph->resourceNames[r], resource.bytes),
+                      {.expected = fmt::format("at most {} bytes in one storage block of this device", most),
+                       .hint = "split it into several buffers",
+                       .resource = plan.graph->resourceNames[r]});
   }
   return good;
 }

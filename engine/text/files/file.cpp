@@ -36,7 +36,6 @@ constexpr int kMaxLinks = 40;  // on one path; as Linux
 constexpr std::size_t kMaxBytes = std::size_t{4} << 30;
 
 struct Access {
-  std::mutex mutex;
   bool confined = false;
   std::vector<std::string> named;      // as the person wrote them
   std::vector<std::string> folders;    // real paths
@@ -46,10 +45,18 @@ struct Access {
   std::uint64_t overlaid = 0;  // in the life of the process
 };
 
-Access& access() {
-  static Access all;
-  return all;
-}
+// The rules of the process, while one thread has them.
+class Rules {
+ public:
+  Rules() : lock_(mutex_) {}
+  Access& operator*() { return all_; }
+  Access* operator->() { return &all_; }
+
+ private:
+  inline static std::mutex mutex_;
+  inline static Access all_;
+  const std::lock_guard<std::mutex> lock_;
+};
 
 // Where an absolute path leads, all links followed, whether or not something is there.
 std::string realOf(const fs::path& path, int links = 0) {
@@ -153,13 +160,12 @@ Opened openFile(const std::string& path) {
   if (path.empty()) return {.why = "the name is empty", .hint = "name a file"};
   bool mayBePipe = false, wasChosen = false, free = true;
   const std::string absolute = absolutePath(path);
-  Access& all = access();
   {
-    const std::lock_guard lock(all.mutex);
-    const auto chosen = all.chosen.find(absolute);
-    wasChosen = chosen != all.chosen.end();
+    Rules rules;
+    const auto chosen = rules->chosen.find(absolute);
+    wasChosen = chosen != rules->chosen.end();
     mayBePipe = wasChosen && std::exchange(chosen->second, false);
-    free = !all.confined || wasChosen;
+    free = !rules->confined || wasChosen;
   }
   // Looked at before it is opened: opening a device can do something by itself. A handle reads nothing and does nothing.
   const Descriptor handle(::open(free ? path.c_str() : absolute.c_str(), O_PATH | O_CLOEXEC));
@@ -168,8 +174,7 @@ Opened openFile(const std::string& path) {
   if (!free) {
     std::error_code ec;
     const std::string real = handle ? fs::read_symlink(behind, ec).string() : realOf(absolute);
-    const std::lock_guard lock(all.mutex);
-    if (!isInside(all, absolute, real)) return {.outside = true};
+    if (!isInside(*Rules(), absolute, real)) return {.outside = true};
   }
   struct stat status {};
   int descriptor = -1;
@@ -188,8 +193,7 @@ Opened openFile(const std::string& path) {
     return {.why = "no such file", .hint = hintForMissing(path)};
   if (descriptor < 0) return {.why = std::strerror(error)};
   const bool regular = S_ISREG(status.st_mode);
-  const std::lock_guard lock(all.mutex);
-  all.read.insert(absolute);
+  Rules()->read.insert(absolute);
   return {.descriptor = descriptor,
           .endless = !regular,
           .bytes = regular ? static_cast<std::uint64_t>(status.st_size) : 0};
@@ -225,8 +229,8 @@ std::string dataFolder() {
 std::optional<std::string> readFile(const std::string& path, Diagnostics& diagnostics, Code code,
                                     const Place& place, const ReadProgress& goOn) {
   const auto fail = [&](std::string_view reason, const std::string& hint) {
-    diagnostics.error(code, placeOr(place, path), fmt::format("cannot read '{}': {}", path, reason)).hint =
-        hint;
+    diagnostics.error(code, placeOr(place, path), fmt::format("cannot read '{}': {}", path, reason),
+                      {.hint = hint});
     return std::nullopt;
   };
   const std::optional<Overlay> unsaved = overlayOf(path);
@@ -285,10 +289,11 @@ std::optional<std::string> readTextFile(const std::string& path, Diagnostics& di
 
 bool writeFile(const std::string& path, std::span<const char> bytes, Diagnostics& diagnostics) {
   const auto fail = [&](const std::string& reason) {
-    diagnostics
-        .error(Code::outputNotWritten, {path, 0, 0}, fmt::format("cannot write '{}': {}", path, reason))
-        .hint = reason == std::strerror(ENOSPC) ? "free some space, or name a file on another disk"
-                                                : "name a file in an existing folder that can be written to";
+    diagnostics.error(Code::outputNotWritten, {path, 0, 0},
+                      fmt::format("cannot write '{}': {}", path, reason),
+                      {.hint = reason == std::strerror(ENOSPC)
+                                   ? "free some space, or name a file on another disk"
+                                   : "name a file in an existing folder that can be written to"});
     return false;
   };
   std::error_code ec;
@@ -322,48 +327,40 @@ bool writeFile(const std::string& path, std::span<const char> bytes, Diagnostics
 
 void chooseFile(const std::string& path) {
   if (path.empty()) return;
-  Access& all = access();
-  const std::lock_guard lock(all.mutex);
+  Rules all;
   const std::string written = absolutePath(path);
-  all.chosen[written] = true;
+  all->chosen[written] = true;
   std::error_code ec;
-  if (fs::is_directory(written, ec)) addFolder(all, written);
+  if (fs::is_directory(written, ec)) addFolder(*all, written);
 }
 
 std::optional<std::string> confineTo(const std::string& folder) {
   std::error_code ec;
   if (!fs::is_directory(folder, ec))
     return fmt::format("expected a folder, found '{}', which is none", folder);
-  Access& all = access();
-  const std::lock_guard lock(all.mutex);
-  all.confined = true;
-  all.named.push_back(folder);
-  addFolder(all, folder);
+  Rules all;
+  all->confined = true;
+  all->named.push_back(folder);
+  addFolder(*all, folder);
   return std::nullopt;
 }
 
 void allowFolder(const std::string& folder) {
   if (folder.empty()) return;
-  Access& all = access();
-  const std::lock_guard lock(all.mutex);
-  addFolder(all, folder);
+  Rules all;
+  addFolder(*all, folder);
 }
 
 bool mayRead(const std::string& path) {
-  Access& all = access();
-  const std::lock_guard lock(all.mutex);
-  if (!all.confined) return true;
+  Rules all;
+  if (!all->confined) return true;
   const std::string absolute = absolutePath(path);
-  return all.chosen.contains(absolute) || isInside(all, absolute, realOf(absolute));
+  return all->chosen.contains(absolute) || isInside(*all, absolute, realOf(absolute));
 }
 
 void reportOutside(const std::string& path, Diagnostics& diagnostics, const Place& place) {
   std::vector<std::string> folders;
-  {
-    Access& all = access();
-    const std::lock_guard lock(all.mutex);
-    for (const std::string& each : all.named) folders.push_back(fmt::format("'{}'", each));
-  }
+  for (Rules all; const std::string& each : all->named) folders.push_back(fmt::format("'{}'", each));
   Diagnostic& d =
       diagnostics.error(Code::outsideConfinement, placeOr(place, path),
                         fmt::format("'{}' leads out of the folders that this run is confined to", path));
@@ -373,38 +370,31 @@ void reportOutside(const std::string& path, Diagnostics& diagnostics, const Plac
 }
 
 std::set<std::string> filesRead() {
-  Access& all = access();
-  const std::lock_guard lock(all.mutex);
-  return all.read;
+  return Rules()->read;
 }
 
 void resetFileAccess() {
-  Access& all = access();
-  const std::lock_guard lock(all.mutex);
-  all.confined = false;
-  all.named.clear();
-  all.folders.clear();
-  all.chosen.clear();
+  Rules all;
+  all->confined = false;
+  all->named.clear();
+  all->folders.clear();
+  all->chosen.clear();
 }
 
 void overlayFile(const std::string& path, std::string text) {
-  Access& all = access();
-  const std::lock_guard lock(all.mutex);
-  all.overlays[absolutePath(path)] = {std::make_shared<const std::string>(std::move(text)), ++all.overlaid};
+  Rules all;
+  all->overlays[absolutePath(path)] = {std::make_shared<const std::string>(std::move(text)), ++all->overlaid};
 }
 
 void dropOverlay(const std::string& path) {
-  Access& all = access();
-  const std::lock_guard lock(all.mutex);
-  all.overlays.erase(absolutePath(path));
+  Rules()->overlays.erase(absolutePath(path));
 }
 
 std::optional<Overlay> overlayOf(const std::string& path) {
-  Access& all = access();
-  const std::lock_guard lock(all.mutex);
-  if (all.overlays.empty()) return std::nullopt;
-  const auto found = all.overlays.find(absolutePath(path));
-  return found == all.overlays.end() ? std::nullopt : std::optional(found->second);
+  Rules all;
+  if (all->overlays.empty()) return std::nullopt;
+  const auto found = all->overlays.find(absolutePath(path));
+  return found == all->overlays.end() ? std::nullopt : std::optional(found->second);
 }
 
 }  // namespace weft::text

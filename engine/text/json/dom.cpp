@@ -79,9 +79,8 @@ class Parser {
   void fail(std::size_t at, std::string message, std::string hint, std::string expected = {},
             Code code = Code::notJson) {
     if (!diagnostics_ || failed_) return;
-    auto& d = diagnostics_->error(code, placeAt(at), std::move(message));
-    d.hint = std::move(hint);
-    d.expected = std::move(expected);
+    diagnostics_->error(code, placeAt(at), std::move(message),
+                        {.expected = std::move(expected), .hint = std::move(hint)});
     failed_ = true;
     at_ = text_.size();
   }
@@ -224,9 +223,10 @@ class Parser {
     if (!read.hasValue) unexpected("':'", "write ':' between a key and its value");
     if (const JsonMember* before = diagnostics_ ? findKey(object, read.key, keys) : nullptr;
         before && !failed_) {
-      auto& d = diagnostics_->error(Code::duplicateKey, read.place,
-                                    fmt::format("the key \"{}\" appears twice in one object", read.key));
-      d.hint = fmt::format("remove one; the first is at {}:{}", before->place.line, before->place.column);
+      diagnostics_->error(
+          Code::duplicateKey, read.place, fmt::format("the key \"{}\" appears twice in one object", read.key),
+          {.hint =
+               fmt::format("remove one; the first is at {}:{}", before->place.line, before->place.column)});
       skip();
       blank();
       return value(dropped);

@@ -3,7 +3,6 @@
 // byte order mark is passed over. Never throws on any input.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -39,9 +39,8 @@ std::optional<double> readNumber(const JsonValue& value, std::string_view name, 
   const bool inside = (range.aboveMin ? number > range.min : number >= range.min) && number <= range.max &&
                       (!range.whole || number == std::floor(number));
   if (inside) return number;
-  Diagnostic& d = diagnostics.error(rangeCode, value.place, fmt::format("{} is out of range", name));
-  d.expected = describeRange(range);
-  d.found = describe(value);
+  diagnostics.error(rangeCode, value.place, fmt::format("{} is out of range", name),
+                    {.expected = describeRange(range), .found = describe(value)});
   return {};
 }
 
@@ -132,9 +131,8 @@ std::optional<std::string> JsonFields::text(std::string_view key) {
 void JsonFields::finish() {
   for (const JsonMember& member : object_.members) {
     if (std::ranges::find(known_, member.key) != known_.end()) continue;
-    Diagnostic& d = diagnostics_.error(Code::unknownKey, member.place,
-                                       fmt::format("{} has no key '{}'", what_, member.key));
-    d.hint = nearestHint(member.key, known_);
+    diagnostics_.error(Code::unknownKey, member.place, fmt::format("{} has no key '{}'", what_, member.key),
+                       {.hint = nearestHint(member.key, known_)});
   }
 }
 

@@ -1,10 +1,10 @@
-#include "engine/text/json/layout.h"
-
+// Declared in edit.h.
 #include <algorithm>
 #include <span>
 
 #include "engine/text/chars.h"
 #include "engine/text/json/dom.h"
+#include "engine/text/json/edit.h"
 
 namespace weft::text {
 

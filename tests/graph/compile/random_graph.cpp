@@ -3,7 +3,7 @@
 #include <random>
 #include <vector>
 
-#include "engine/graph/versions/groups.h"
+#include "engine/graph/versions/live.h"
 
 namespace weft::graph {
 

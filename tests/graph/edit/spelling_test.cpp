@@ -1,9 +1,8 @@
-#include "engine/graph/edit/spelling.h"
-
 #include <doctest/doctest.h>
 
+#include "engine/graph/edit/edit.h"
 #include "engine/graph/read/read.h"
-#include "engine/text/json/layout.h"
+#include "engine/text/json/edit.h"
 
 using namespace weft;
 using namespace weft::graph;

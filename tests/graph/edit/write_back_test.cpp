@@ -1,6 +1,4 @@
 // Changes written back: the files read again give what was tweaked, and no other byte moves.
-#include "engine/graph/edit/write_back.h"
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -8,6 +6,7 @@
 #include <random>
 #include <sstream>
 
+#include "engine/graph/edit/edit.h"
 #include "engine/text/json/dom.h"
 #include "tests/graph/expand/support.h"
 #include "tests/graph/test_folder.h"

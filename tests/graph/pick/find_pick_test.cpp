@@ -1,7 +1,7 @@
 // What a name of a person leads to in a graph with versions and elements.
 #include <doctest/doctest.h>
 
-#include "engine/graph/language/suffix.h"
+#include "engine/graph/language/names.h"
 #include "engine/graph/pick/pick.h"
 #include "tests/graph/expand/support.h"
 

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/graph/compile/compile.h"
-#include "engine/graph/print/explain.h"
 #include "engine/graph/print/print.h"
 #include "tests/graph/compile/random_graph.h"
 

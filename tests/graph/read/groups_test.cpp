@@ -1,9 +1,8 @@
 // Groups in "passes": what their passes share, and repeats that go through several passes together.
 #include <doctest/doctest.h>
 
-#include "engine/graph/edit/spelling.h"
-#include "engine/graph/edit/write_back.h"
-#include "engine/text/json/layout.h"
+#include "engine/graph/edit/edit.h"
+#include "engine/text/json/edit.h"
 #include "tests/graph/expand/support.h"
 #include "tests/graph/test_folder.h"
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "engine/graph/edit/write_back.h"
-#include "engine/graph/expand/names/name_uses.h"
+#include "engine/graph/edit/edit.h"
+#include "engine/graph/expand/expand.h"
 #include "tests/graph/expand/support.h"
 #include "tests/graph/test_folder.h"
 

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "engine/graph/subresource.h"
-#include "engine/runtime/inspection/poison.h"
 #include "engine/runtime/inspection/step_record.h"
 #include "tests/runtime/stage.h"
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "engine/text/json/dom.h"
-#include "engine/text/json/layout.h"
+#include "engine/text/json/edit.h"
 
 using namespace weft::text;
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "engine/graph/expand/judge/judge.h"
-#include "engine/graph/versions/groups.h"
 #include "engine/graph/versions/live.h"
 
 namespace weft::graph::expansion {

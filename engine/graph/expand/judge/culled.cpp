@@ -1,7 +1,6 @@
 // Warnings about enabled passes that do not reach the picture, and slots that stay empty because their writer stands below.
 // Declared in judge.h.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>

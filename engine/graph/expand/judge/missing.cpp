@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <tuple>
 
 #include "engine/graph/expand/judge/judge.h"
 #include "engine/graph/expand/names/names.h"

@@ -262,10 +262,8 @@ bool isOver(const Model& model);  // nothing more is worth expanding
 // W201: more than a bound allows, of `counts`. Ends the expansion.
 void stopAt(Model& model, const Where& place, std::string message, std::uint64_t bound, const char* counts);
 
-// What a message says beside its sentence. All may be empty.
-struct Says {
-  std::string expected{}, found{}, hint{}, resource{}, pass{};
-};
+using text::Says;
+
 // Reports an error; returns false, so that a check can end with it.
 bool report(Model& model, Code code, const Where& place, std::string message, Says says = {});
 void warn(Model& model, Code code, const Where& place, std::string message, Says says = {});

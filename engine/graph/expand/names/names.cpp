@@ -25,26 +25,13 @@ void stopAt(Model& model, const Where& place, std::string message, std::uint64_t
     text::reportLimit(model.diagnostics, place, std::move(message), bound, counts);
 }
 
-static void say(Model& model, text::Severity severity, Code code, const Where& place, std::string message,
-                Says says) {
-  model.diagnostics.add({.severity = severity,
-                         .code = code,
-                         .message = std::move(message),
-                         .place = place,
-                         .pass = std::move(says.pass),
-                         .resource = std::move(says.resource),
-                         .expected = std::move(says.expected),
-                         .found = std::move(says.found),
-                         .hint = std::move(says.hint)});
-}
-
 bool report(Model& model, Code code, const Where& place, std::string message, Says says) {
-  say(model, text::Severity::error, code, place, std::move(message), std::move(says));
+  model.diagnostics.error(code, place, std::move(message), std::move(says));
   return false;
 }
 
 void warn(Model& model, Code code, const Where& place, std::string message, Says says) {
-  say(model, text::Severity::warning, code, place, std::move(message), std::move(says));
+  model.diagnostics.warning(code, place, std::move(message), std::move(says));
 }
 
 std::string Called::text() const {
@@ -363,7 +350,7 @@ Value Names::importValue(const ImportValue& asked, const Place& place) {
   };
   if (!follows)
     return refuse(Code::badTime, fmt::format("'{}' is known only while the graph runs", name()), "",
-                  "values of imports may stand only in \"parameters\" of passes");
+                  "only \"parameters\" of passes, and what those read of \"let\", may follow imports");
   const FoundValue found = findValue(model_, scope_, asked);
   if (found.entity == kNone) {
     const RefDesc ref{.place = place, .name = std::string(asked.import.substr(1)), .import = true};
@@ -487,7 +474,6 @@ std::array<std::uint32_t, 2> screenOf(Model& model, Scope& scope) {
   const Called screen{"the screen of '{}'", include.as};
   const Evaluation evaluation(model, scope.screenState, screen, include.screen.place());
   if (!evaluation.good()) return scope.screen;
-  constexpr std::uint64_t kBounds[] = {kMaxSize, kMaxSize};
   Names names(model, *scope.parent);
   const auto size = evaluateCounts(names, include.screen, kBounds, screen,
                                    "a number, or a list of 2, such as \"screen/2\"");
@@ -499,3 +485,4 @@ std::array<std::uint32_t, 2> screenOf(Model& model, Scope& scope) {
 }
 
 }  // namespace weft::graph::expansion
+  constexpr std::uint64_t kBounds[] = {kMaxSize, kMaxSize};

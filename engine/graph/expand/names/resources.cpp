@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
 #include "engine/graph/expand/names/names.h"
 #include "engine/graph/subresource.h"
 #include "engine/text/nearest.h"
-#include "engine/text/words/foreign_words.h"
+#include "engine/text/words/words.h"
 
 namespace weft::graph::expansion {
 
@@ -21,7 +20,7 @@ const ImportType* findImportType(const Registry& registry, std::string_view name
 }
 
 std::string hintForImport(const Registry& registry, std::string_view name) {
-  for (const text::Foreign kind : {text::Foreign::value, text::Foreign::import_type})
+  for (const char* kind : {"value", "import_type"})
     if (std::string foreign = text::hintForForeign(kind, name); !foreign.empty()) return foreign;
   std::vector<std::string> types;
   for (const ImportType& type : registry.imports) types.push_back(type.name);
@@ -281,7 +280,7 @@ bool evaluateFormat(Model& model, Names& names, Entity& entity) {
   const std::string name = toText(value);
   const auto format = findFormat(name);
   if (format) entity.shape.format = *format;
-  const std::string meant = format ? "" : text::hintForForeign(text::Foreign::format, name);
+  const std::string meant = format ? "" : text::hintForForeign("format", name);
   return format ||
          report(model, Code::unknownFormat, said.place(),
                 fmt::format("texture '{}' has the unknown format '{}'", entity.name, name),

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "engine/graph/expand/names/names.h"
-#include "engine/graph/language/suffix.h"
+#include "engine/graph/language/names.h"
 #include "engine/text/limits.h"
 #include "engine/text/nearest.h"
 

@@ -7,11 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <utility>
 
 #include "engine/graph/expand/names/names.h"
-#include "engine/graph/language/suffix.h"
+#include "engine/graph/language/names.h"
 #include "engine/text/files/file.h"
 #include "engine/text/nearest.h"
 

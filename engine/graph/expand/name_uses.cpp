@@ -1,10 +1,10 @@
-#include "engine/graph/expand/names/name_uses.h"
-
+// Declared in expand.h.
 #include <algorithm>
 #include <map>
 #include <tuple>
 
 #include "engine/graph/desc_walk.h"
+#include "engine/graph/expand/expand.h"
 #include "engine/graph/expand/names/names.h"
 #include "engine/graph/language/expr_node.h"
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/graph/desc.h"
@@ -37,5 +38,32 @@ std::optional<WriteBack> planWriteBack(const GraphDesc& desc, std::span<const st
 // Replaces the files, each whole (W180). False, and no file is changed, after W195: one is not what it was
 // when it was read.
 bool saveWriteBack(const WriteBack& plan, text::Diagnostics& diagnostics);
+
+// The stanzas of a graph and of all that it includes, with their full names.
+
+// Calls visit(prefix of its names, file) for the graph and then for every file that it includes.
+template <class Visit>
+void eachFile(const GraphDesc& desc, const Visit& visit, const std::string& prefix = "") {
+  visit(prefix, desc);
+  for (const PassDesc& pass : desc.passes)
+    if (pass.include && pass.include->graph)
+      eachFile(*pass.include->graph, visit, prefix + pass.include->as + ".");
+}
+
+// Calls visit(full name, pass) for every pass and include of the graph and of what it includes.
+template <class Visit>
+void eachPass(const GraphDesc& desc, const Visit& visit) {
+  eachFile(desc, [&](const std::string& prefix, const GraphDesc& file) {
+    for (const PassDesc& pass : file.passes) visit(prefix + pass.name, pass);
+  });
+}
+
+// Graph files that were written before the language's second edition, in its words.
+
+// Writes each pass that is "like" one above it out whole: what it has of the other stands in the place of "like", without comments.
+// Moves inputs from "resources" to "inputs", with their comments; takes away each '?' at a slot that reads an optional input;
+// makes alternatives of an `if` at a slot that reads, except in a pass with "repeat". What it cannot decide, and a text with
+// mistakes, stays as it is.
+std::string withNewSpelling(std::string_view text);
 
 }  // namespace weft::graph
