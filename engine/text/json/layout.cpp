@@ -398,7 +398,7 @@ class Writer {
         const bool blank = grouped && startsBlank(item);
         const bool ownLines = std::ranges::any_of(item.leading, &Comment::endsLine);
         const bool start = !started && starts(item);
-        const bool row = object && (how == Fill::rows || head);
+        const bool row = object && (how == Fill::rows || (head && !started));
         fresh = alone || blank || ownLines || row || start ||
                 (item.key != kGroup && (!fits || column() + 1 + widthOf(item.line) + tail > kColumns));
         if (blank) newLine();

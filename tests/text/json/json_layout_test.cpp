@@ -103,6 +103,21 @@ TEST_CASE("layout: sections a row each, stanzas with their words first, short ob
 )");
 }
 
+TEST_CASE("layout: a list of slots begins a line as an object of them does, and others follow it") {
+  CHECK(
+      checked(
+          R"({"passes":[{"name":"first_of_two","shader":"folder/first.frag.glsl","read":["alpha","beta",{"gamma":"delta"}],
+"write":{"color":"target"},"parameters":{"radius":3,"strength":1}},{"name":"b"}]})") == R"({
+  "passes": [
+    { "name": "first_of_two", "shader": "folder/first.frag.glsl",
+      "read": ["alpha", "beta", { "gamma": "delta" }], "write": { "color": "target" },
+      "parameters": { "radius": 3, "strength": 1 } },
+    { "name": "b" }
+  ]
+}
+)");
+}
+
 TEST_CASE("layout: words in a table of objects stand in its column, words alone and settings do not") {
   CHECK(checked(R"({"resources":{"hdr":{"input":"texture"},"old_hdr":"hdr@-1","order":["a","b"],
 
