@@ -202,7 +202,7 @@ struct PassDesc {
       state;  // "cull", "blend" (all slots), "blend.radiance" (one slot), "stencil.pass", …
   Cadence cadence = Cadence::always;
   Expr period;  // of Cadence::every: frames
-  Expr slices, threads, instances, draws, raster, samples;
+  Expr slices, threads, instances, draws, raster, samples, screen;
   std::string list;
   Place listPlace;
   std::string geometry;  // "quad", "mesh", "icosphere"

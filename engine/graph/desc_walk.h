@@ -24,7 +24,7 @@ void visitRef(const RefDesc& ref, OnExpr&& onExpr, OnRef&& onRef) {
 template <class OnExpr, class OnRef, class OnValue>
 void visitPass(const PassDesc& pass, OnExpr&& onExpr, OnRef&& onRef, OnValue&& onValue) {
   for (const Expr* expr : {&pass.enabled, &pass.slices, &pass.threads, &pass.instances, &pass.period,
-                           &pass.draws, &pass.raster, &pass.samples})
+                           &pass.draws, &pass.raster, &pass.samples, &pass.screen})
     onExpr(*expr);
   if (pass.include) onExpr(pass.include->screen);
   for (const RangeDesc& range : pass.repeat)

@@ -196,7 +196,7 @@ void foldDeferred(Model& model, const std::vector<DeferredUniform>& deferred) {
   const text::Diagnostics said = model.diagnostics;
   text::Diagnostics unfollowed;  // what keeps values of imports from being followed
   for (const DeferredUniform& each : deferred) {
-    const bool watched = each.expr->watched();
+    const bool watched = isWatched(model, *each.scope, *each.expr);
     if (each.uniform == kNone || (!watched && !isLive(model, *each.scope, *each.expr))) continue;
     UniformSpec& uniform = model.graph.specs[each.pass].uniforms[each.uniform];
     Names names(model, *each.scope);

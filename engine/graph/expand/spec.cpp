@@ -117,6 +117,7 @@ void checkKeys(const SlotContext& context, const PassDesc& desc) {
               {"shader", !desc.shader.empty(), hasShader, desc.shaderPlace},
               {"state", !desc.state.empty(), draw || shader == ShaderShape::fragment, placeOf(desc.state)},
               {"view", desc.view.has_value(), hasShader, desc.view ? desc.view->place : Place{}},
+              {"screen", desc.screen.present(), hasShader, desc.screen.place()},
               {"parameters", !desc.parameters.empty(), hasShader, placeOf(desc.parameters)},
               {"defines", !desc.defines.empty(), hasShader, placeOf(desc.defines)}};
   for (const auto& [key, present, taken, place] : keys)
@@ -276,6 +277,10 @@ void resolveView(const SlotContext& context, const PassDesc& desc, PassSpec& spe
   Model& model = context.model;
   Scope& scope = context.names.scope();
   spec.screen = screenOf(model, scope);
+  if (desc.screen.present())
+    if (const auto size =
+            evaluateSize(context.names, desc.screen, kMaxSize, {"the screen of pass '{}'", context.pass}))
+      spec.screen = *size;
   if (!desc.view) {
     if (const std::uint32_t view = findFileView(model, scope); view != kNone)
       spec.view = model.entities[view].import;
@@ -511,9 +516,9 @@ void addRaster(const SlotContext& context, const PassDesc& desc, const std::vect
     context.report(Code::keyNotTaken, desc.raster.place(),
                    "has \"raster\" and an attachment, which says how large it is",
                    {.hint = "leave one of the two out"});
-  constexpr std::uint64_t kBounds[] = {16384, 16384};  // GL_MAX_FRAMEBUFFER_WIDTH and _HEIGHT of every device
-  const auto size = evaluateCounts(context.names, desc.raster, kBounds,
-                                   {"the raster of pass '{}'", context.pass}, "a number, or a list of 2");
+  // kMaxSize is GL_MAX_FRAMEBUFFER_WIDTH and _HEIGHT of every device.
+  const auto size =
+      evaluateSize(context.names, desc.raster, kMaxSize, {"the raster of pass '{}'", context.pass});
   const auto samples = evaluateWhole(context.names, desc.samples, 1, 1, 4, "the number of samples");
   if (!size || !samples) return;
   spec.raster = *size;

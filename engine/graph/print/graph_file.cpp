@@ -293,6 +293,8 @@ class FileWriter {
             spec.timedInstances.present() ? Json(expressionText(spec.timedInstances)) : Json(spec.instances);
     }
     if (spec.raster[0] > 0) json["raster"] = spec.raster;
+    if (!spec.shader.empty() && spec.screen != std::array{graph_.screenWidth, graph_.screenHeight})
+      json["screen"] = spec.screen;
     if (spec.rasterSamples > 1) json["samples"] = spec.rasterSamples;
     if (spec.draws != 1) json["draws"] = spec.draws;
     if (spec.view == kNone) return;

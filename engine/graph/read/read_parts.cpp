@@ -373,7 +373,7 @@ constexpr TextKey kPassTexts[] = {{"name", &PassDesc::name, &PassDesc::namePlace
 constexpr std::pair<std::string_view, Expr PassDesc::*> kPassValues[] = {
     {"enabled", &PassDesc::enabled},     {"slices", &PassDesc::slices}, {"threads", &PassDesc::threads},
     {"instances", &PassDesc::instances}, {"draws", &PassDesc::draws},   {"raster", &PassDesc::raster},
-    {"samples", &PassDesc::samples}};
+    {"samples", &PassDesc::samples},     {"screen", &PassDesc::screen}};
 constexpr std::pair<std::string_view, bool PassDesc::*> kPassFlags[] = {
     {"feedback", &PassDesc::feedback}, {"side_effect", &PassDesc::sideEffect}};
 

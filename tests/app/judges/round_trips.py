@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What `weft expand` prints comes to the same plan as the graph it was made of, with nothing disabled, and with each pass, each include and each
-last part of a name disabled.
+last part of a name disabled. It renders the same picture, also of includes with a screen of their own.
 
     round_trips.py WEFT [--all] [--jobs N]      without --all a sample"""
 import argparse
@@ -9,6 +9,7 @@ import json
 import pathlib
 import random
 import re
+import shutil
 
 from program import TOP, Report, run, temporary_folder
 
@@ -64,6 +65,14 @@ def main():
 
         with concurrent.futures.ThreadPoolExecutor(chosen.jobs) as pool:
             results = list(pool.map(one, jobs))
+        # The shaders beside a graph go with what is made of it.
+        file, original = pathlib.Path(folder) / "upscale.json", TOP / "graphs/cookbook/upscale/upscale.json"
+        shutil.copytree(original.parent / "shaders", file.parent / "shaders")
+        file.write_text(run(weft, "expand", original, "--size", "96x64").out)
+        for graph in (original, file):
+            run(weft, "render", graph, "--size", "96x64", "--frames", "2", "-o", f"{file.parent}/{graph is file}.png")
+        pictures = [(file.parent / f"{of}.png").read_bytes() for of in (False, True)]
+        report.check(pictures[0] == pictures[1], "an include with a screen of its own looks otherwise when it is written out")
     for (graph, settings), (kind, why) in zip(jobs, results):
         report.check(kind in ("same", "refused"), f"{graph} {' '.join(settings)}: {kind}: {why}")
     print(f"{len(jobs)} of {every} trips: " + ", ".join(f"{sum(k == kind for k, _ in results)} {kind}" for kind in ("same", "refused", "lost", "other")))

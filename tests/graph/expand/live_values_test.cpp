@@ -266,6 +266,24 @@ TEST_CASE("values of imports are followed while the plan runs, also beside param
   CHECK(e.uniform("p", "pair").dynamic.evaluateFolded({}, values) == Value::number(4));
 }
 
+TEST_CASE("values of imports are followed through lets, from a let to another, beside parameters and age()") {
+  const Expanded e =
+      followed(R"J("eye": "$eye", "up": "$eye.y * $twice", "late": "$late", "plain": "$twice")J",
+               R"J("parameters": { "gain": { "default": 2.0 } },
+          "let": { "eye": "@camera.position", "twice": "$gain * $near", "near": "@camera.near_plane", "late": "age(out) + $near" }, )J");
+  REQUIRE(e.text() == "");
+  CHECK(watchedOf(e) == "@camera.position @camera.near_plane ");
+  CHECK(e.uniform("p", "eye").value.count == 3);
+  CHECK_FALSE(e.graph->parameters[0].structural);
+  const std::vector<Value> values = {
+      Value::number(10), {Value::Type::list, 3, {1, 2, 3, 0}, {}}, Value::number(0.5)};
+  CHECK(e.uniform("p", "eye").dynamic.evaluateFolded({}, values).v[2] == 3);
+  CHECK(e.uniform("p", "up").dynamic.evaluateFolded({}, values) == Value::number(10));
+  CHECK(e.uniform("p", "plain").dynamic.evaluateFolded({}, values) == Value::number(5));
+  const auto threeSeconds = [](std::uint32_t) { return 3.0; };
+  CHECK(e.uniform("p", "late").dynamic.evaluateFolded(threeSeconds, values) == Value::number(3.5));
+}
+
 TEST_CASE("a matrix of an import is a column each; a row is known before the frame") {
   const Expanded e = followed(R"J("m": "@camera.view", "t": "@sun[0].texel")J");
   CHECK(e.text() == "");
@@ -281,7 +299,9 @@ TEST_CASE("a matrix of an import is a column each; a row is known before the fra
 TEST_CASE("values of imports stand in parameters only, have names, and are there") {
   CHECK(followed(R"J("a": 1)J", R"J("let": { "near": "@camera.near_plane" }, )J").text() ==
         "");  // nobody asks
-  CHECK(followed(R"J("a": "$near")J", R"J("let": { "near": "@camera.near_plane" }, )J").has(Code::badTime));
+  CHECK(followed(R"J("a": 1)J", R"J("let": { "near": "@camera.near_plane", "far": "$near * 2" }, )J",
+                 R"J("enabled": "$far > 0", )J")
+            .has(Code::badTime));
   CHECK(followed(R"J("a": 1)J", "", R"J("enabled": "@camera.near_plane > 0", )J").has(Code::badTime));
   const Expanded near = followed(R"J("a": "@camera.positon")J");
   CHECK(near.of(Code::unknownVariable).hint == "did you mean 'position'?");

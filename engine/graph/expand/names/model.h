@@ -59,8 +59,9 @@ struct Let {
   Progress state = Progress::fresh;
   Value value;                     // when done
   bool dynamic = false;            // contains age(), perhaps through another let
+  bool watched = false;            // contains a value of an import, perhaps through another let
   std::optional<Expr> folded;      // of a dynamic one, after all passes are known
-  bool live = false;               // reads a live parameter, perhaps through another let
+  bool live = false;               // watched, or reads a live parameter, perhaps through another let
   std::optional<Expr> liveFolded;  // of a live let, and of a dynamic one when there are live ones
   bool structural = false;
   bool named = false;  // some expression reads it

@@ -68,14 +68,20 @@ Evaluation::~Evaluation() {
 
 namespace {
 
-std::optional<Value> letValue(Model& model, Let& let) {
+// What follows imports is not kept: it is a mistake where `user` does not follow them.
+std::optional<Value> letValue(Names& user, Let& let) {
+  Model& model = user.model();
   if (let.state == Progress::done) return let.value;
   if (let.state == Progress::failed) return Value{};
   const Evaluation evaluation(model, let.state, {"${}", let.path}, let.desc->place);
   if (!evaluation.good()) return Value{};
   Names names(model, *let.scope);
+  names.follows = user.follows;
+  names.absent = user.absent;
   let.value = let.desc->expr.evaluate(names, model.diagnostics);
-  let.state = let.value.type == Value::Type::none ? Progress::failed : Progress::done;
+  let.state = let.value.type == Value::Type::none ? Progress::failed
+              : let.watched                       ? Progress::fresh
+                                                  : Progress::done;
   return let.value;
 }
 
@@ -127,8 +133,8 @@ std::optional<Value> Names::variable(std::string_view name) {
     return Value{};
   }
   Let& let = model_.lets[found.index];
-  if (!let.dynamic || (!checking && let.state == Progress::active)) return letValue(model_, let);
-  if (checking) return Value::number(1);
+  if (checking && (let.dynamic || let.watched)) return Value::number(1);
+  if (!let.dynamic || let.state == Progress::active) return letValue(*this, let);
   if (!model_.stopped)
     report(model_, Code::badTime, let.desc->place,
            fmt::format("'${}' contains age() and changes from frame to frame, but its value is needed before "
@@ -283,7 +289,7 @@ const Expr* Names::folded(std::string_view variable) {
   Let& let = model_.lets[found.index];
   if (!let.dynamic && !(live && let.live)) return nullptr;
   std::optional<Expr>& kept = live ? let.liveFolded : let.folded;
-  if (!kept) {
+  if (!kept || let.watched) {
     Progress own = Progress::fresh;
     Progress& state = live ? own : let.state;
     const Evaluation evaluation(model_, state, {"${}", let.path}, let.desc->place);
@@ -292,6 +298,8 @@ const Expr* Names::folded(std::string_view variable) {
       text::Diagnostics ignored;  // a branch that is not taken now
       Names names(model_, *let.scope);
       names.live = live;
+      names.follows = follows;
+      names.absent = absent;
       Expr tree = let.desc->expr.fold(names, live ? ignored : model_.diagnostics);
       if (!names.failed) kept = std::move(tree);
       state = Progress::fresh;
@@ -466,6 +474,16 @@ std::optional<Counts> evaluateCounts(Names& names, const Expr& expr, std::span<c
   return counts;
 }
 
+std::optional<std::array<std::uint32_t, 2>> evaluateSize(Names& names, const Expr& expr, std::uint64_t most,
+                                                         Called what) {
+  const std::uint64_t bounds[] = {most, most};
+  const auto counts =
+      evaluateCounts(names, expr, bounds, what, "a number, or a list of 2, such as \"screen/2\"");
+  if (!counts) return std::nullopt;
+  return std::array{static_cast<std::uint32_t>(counts->each[0]),
+                    static_cast<std::uint32_t>(counts->each[counts->size - 1])};
+}
+
 std::array<std::uint32_t, 2> screenOf(Model& model, Scope& scope) {
   if (!scope.parent) return {model.settings.screenWidth, model.settings.screenHeight};
   const IncludeDesc& include = *scope.stanza->include;
@@ -475,14 +493,10 @@ std::array<std::uint32_t, 2> screenOf(Model& model, Scope& scope) {
   const Evaluation evaluation(model, scope.screenState, screen, include.screen.place());
   if (!evaluation.good()) return scope.screen;
   Names names(model, *scope.parent);
-  const auto size = evaluateCounts(names, include.screen, kBounds, screen,
-                                   "a number, or a list of 2, such as \"screen/2\"");
-  if (size)
-    for (const std::size_t i : {0, 1})
-      scope.screen[i] = static_cast<std::uint32_t>(size->each[std::min(i, size->size - 1)]);
+  const auto size = evaluateSize(names, include.screen, kMaxSize, screen);
+  if (size) scope.screen = *size;
   scope.screenState = size ? Progress::done : Progress::failed;
   return scope.screen;
 }
 
 }  // namespace weft::graph::expansion
-  constexpr std::uint64_t kBounds[] = {kMaxSize, kMaxSize};

@@ -83,6 +83,8 @@ void noteMentions(Model& model, bool unknown = false);
 void markStructural(Model& model, Scope& scope, const Expr& expr);
 // True when the expression contains age(), perhaps through a let.
 bool isDynamic(Model& model, Scope& scope, const Expr& expr);
+// Whether it contains a value of an import, perhaps through a let.
+bool isWatched(Model& model, Scope& scope, const Expr& expr);
 // Whether the expression reads a parameter that is not structural, perhaps through a let.
 bool isLive(Model& model, Scope& scope, const Expr& expr);
 // True when the expression asks count() or has(), perhaps through a let: it may be 0 where a list is empty.
@@ -159,6 +161,10 @@ struct Counts {
 };
 std::optional<Counts> evaluateCounts(Names& names, const Expr& expr, std::span<const std::uint64_t> bounds,
                                      Called what, const char* expected);
+
+// The same of one or two, from 1 to `most` each.
+std::optional<std::array<std::uint32_t, 2>> evaluateSize(Names& names, const Expr& expr, std::uint64_t most,
+                                                         Called what);
 
 // What `screen` means in a file, in pixels.
 std::array<std::uint32_t, 2> screenOf(Model& model, Scope& scope);

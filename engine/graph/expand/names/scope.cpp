@@ -248,11 +248,12 @@ void buildScopes(Model& model) {
   for (std::size_t i = 1; i < model.scopes.size(); ++i) checkBoundImports(model, model.scopes[i]);
   reportToInclude(model);
   spread(model, &Let::dynamic, [](const Let& let) { return let.desc->expr.dynamic(); });
+  spread(model, &Let::watched, [](const Let& let) { return let.desc->expr.watched(); });
   noteMentions(model);
   spread(model, &Let::live, [&](const Let& let) {
-    return anyVariable(model, *let.scope, let.desc->expr, [&](const Variable& used) {
-      return used.kind == Variable::Kind::parameter && !model.parameters[used.index].structural;
-    });
+    return let.watched || anyVariable(model, *let.scope, let.desc->expr, [&](const Variable& used) {
+             return used.kind == Variable::Kind::parameter && !model.parameters[used.index].structural;
+           });
   });
   linkAlternatives(model);
 }
@@ -574,6 +575,12 @@ bool countsElements(Model& model, Scope& scope, const Expr& expr) {
 bool isDynamic(Model& model, Scope& scope, const Expr& expr) {
   return expr.present() && (expr.dynamic() || anyVariable(model, scope, expr, [&](const Variable& used) {
                               return used.kind == Variable::Kind::let && model.lets[used.index].dynamic;
+                            }));
+}
+
+bool isWatched(Model& model, Scope& scope, const Expr& expr) {
+  return expr.present() && (expr.watched() || anyVariable(model, scope, expr, [&](const Variable& used) {
+                              return used.kind == Variable::Kind::let && model.lets[used.index].watched;
                             }));
 }
 
