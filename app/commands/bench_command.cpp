@@ -53,9 +53,9 @@ double rounded(double x, double steps) {
   return std::round(x * steps) / steps;
 }
 
-Json headOf(const Options& options, const DeviceSession& session) {
+Json headOf(const Options& options, const gl::Context& context) {
   return {{"graph", options.graph},
-          {"device", session.context->device().renderer},
+          {"device", context.device().renderer},
           {"size", {options.width, options.height}}};
 }
 
@@ -97,14 +97,11 @@ double timeOf(const std::vector<std::function<void()>>& edits) {
 // What an edit costs until the next frame may start, as the viewer makes it (app/live/live_graph.h), in CPU time of the calling
 // thread with every program cached: a live parameter, a structural boolean on and off, a save (all files of the graph are read again).
 // "worst" is the largest of the medians. Empty after errors.
-std::optional<Json> benchEdits(const Options& options, text::Diagnostics& diagnostics) {
-  auto world = loadWorld(options, diagnostics);
-  if (!world || diagnostics.hasErrors()) return std::nullopt;
-  auto session = openDevice(options, diagnostics);
-  if (!session) return std::nullopt;
-  runtime::Renderer& renderer = session->renderer;
-  LiveGraph live(options, renderer, std::move(*world),
-                 settingsOf(options, session->context->device().software));
+std::optional<Json> benchEdits(const Options& options, DeviceSession& session, runtime::World& world,
+                               text::Diagnostics& diagnostics) {
+  runtime::Renderer& renderer = session.renderer;
+  LiveGraph live(options, renderer, std::move(world),
+                 settingsOf(options, session.context->device().software));
   if (!live.load(diagnostics)) return std::nullopt;
   for (std::uint32_t frame = 0; frame < 2; ++frame)
     drawFrame(renderer, live.world(), options, frame, diagnostics);
@@ -130,7 +127,7 @@ std::optional<Json> benchEdits(const Options& options, text::Diagnostics& diagno
     out[name + "_us"] = rounded(FrameProfiler::medianOf(all), 100);
     out[name + "_worst_us"] = rounded(all.empty() ? 0 : std::ranges::max(all), 100);
   };
-  Json out = headOf(options, *session);
+  Json out = headOf(options, *session.context);
   out["live_parameters"] = lives.size() - 1;
   add(out, "live", lives);
   out["live_plans_built"] = livePlans;
@@ -158,29 +155,27 @@ graph::Settings settingsWith(const Options& options, const graph::FlatGraph& gra
 
 // Costs of a graph's frame in full-screen copies (graphs/bench_copy.json), both measured in turns, so that the ratio means something on a
 // busy machine: the least of all rounds; on software also in CPU time. Variants: "plain" (effects off but fxaa), "default", and "all".
-std::optional<Json> benchFrame(const Options& options, text::Diagnostics& diagnostics) {
-  auto world = loadWorld(options, diagnostics);
-  if (!world || diagnostics.hasErrors()) return std::nullopt;
-  auto session = openDevice(options, diagnostics);
-  if (!session) return std::nullopt;
-  const bool software = session->context->device().software;
-  const auto whole = makePlan(options, world->facts(), software, diagnostics);
+std::optional<Json> benchFrame(const Options& options, DeviceSession& session, const runtime::World& world,
+                               text::Diagnostics& diagnostics) {
+  gl::Context& context = *session.context;
+  const bool software = context.device().software;
+  const auto whole = makePlan(options, world.facts(), software, diagnostics);
   if (!whole) return std::nullopt;
   const auto frameOf = [&](runtime::Renderer& renderer, std::uint32_t frame) {
-    drawFrame(renderer, *world, options, frame, diagnostics);
+    drawFrame(renderer, world, options, frame, diagnostics);
   };
   const runtime::Renderer::Options uncached{.dataFolder = dataFolder(), .cacheFolder = ""};
-  runtime::Renderer copy(*session->context, dataFolder() + "/graphs/bench_copy.json", uncached);
-  if (!copy.load({.screenWidth = options.width, .screenHeight = options.height, .software = software}, *world,
+  runtime::Renderer copy(context, dataFolder() + "/graphs/bench_copy.json", uncached);
+  if (!copy.load({.screenWidth = options.width, .screenHeight = options.height, .software = software}, world,
                  diagnostics))
     return std::nullopt;
   for (std::uint32_t frame = 0; frame < 2; ++frame) frameOf(copy, frame);
-  Json out = headOf(options, *session), variants = Json::array();
+  Json out = headOf(options, context), variants = Json::array();
   Cost unit;
   std::vector<Cost> costs;
   for (const char* variant : {"plain", "default", "all"}) {
-    runtime::Renderer renderer(*session->context, options.graph, uncached);
-    if (!renderer.load(settingsWith(options, *whole->graph, software, variant), *world, diagnostics))
+    runtime::Renderer renderer(context, options.graph, uncached);
+    if (!renderer.load(settingsWith(options, *whole->graph, software, variant), world, diagnostics))
       return std::nullopt;
     std::uint32_t frame = 0;
     const auto next = [&] { frameOf(renderer, frame++); };
@@ -191,7 +186,7 @@ std::optional<Json> benchFrame(const Options& options, text::Diagnostics& diagno
       keepLeast(unit, measure([&] { frameOf(copy, 2); }));
       keepLeast(least, measure(next));
     }
-    const std::vector<double> times = measureSteps(renderer, *world, options, frame, 3, diagnostics);
+    const std::vector<double> times = measureSteps(renderer, world, options, frame, 3, diagnostics);
     const graph::Plan& plan = renderer.execution()->plan();
     if (diagnostics.hasErrors()) return std::nullopt;
     Json row = {{"name", variant},
@@ -221,17 +216,23 @@ struct BenchOptions : Options {
 };
 
 int runBench(BenchOptions& options) {
-  text::Diagnostics diagnostics;
   const bool both = options.frameGraph.empty() && options.editGraph.empty();
-  Options frame = options, edit = options;
-  frame.graph = both ? dataFolder() + "/graphs/studio.json" : options.frameGraph;
-  edit.graph = both ? frame.graph : options.editGraph;
-  const auto edits = edit.graph.empty() ? std::nullopt : benchEdits(edit, diagnostics);
-  const auto frames =
-      frame.graph.empty() || diagnostics.hasErrors() ? std::nullopt : benchFrame(frame, diagnostics);
-  if (!diagnostics.hasErrors())
-    print(dumpJson(both ? Json{{"edit", *edits}, {"frame", *frames}} : edits ? *edits : *frames) + "\n");
-  return report(diagnostics);
+  const std::string studio = dataFolder() + "/graphs/studio.json";
+  Json out;
+  int code = 0;
+  const auto run = [&](const char* name, const std::string& graph, const auto& bench) {
+    if (code != 0 || (graph.empty() && !both)) return;
+    Options one = options;
+    one.graph = both ? studio : graph;
+    code = runOnDevice({&one}, 1, [&](auto& session, auto& world, text::Diagnostics& diagnostics) {
+      if (const auto found = bench(one, *session, world, diagnostics)) out[name] = *found;
+      return 0;
+    });
+  };
+  run("edit", options.editGraph, benchEdits);
+  run("frame", options.frameGraph, benchFrame);
+  if (code == 0) print(dumpJson(both ? out : *out.begin()) + "\n");
+  return code;
 }
 
 }  // namespace

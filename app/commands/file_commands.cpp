@@ -109,7 +109,7 @@ int runNew(NewOptions& options) {
         .error(text::Code::notAName, text::placeOfOption(fmt::format("new {} {}", options.what, name)),
                fmt::format("\"{}\" cannot name a {}", name, options.what))
         .expected =
-        fmt::format("at most 64 letters, digits and '_', a letter first, and none of the words {}",
+        fmt::format("a letter, then letters, digits and '_', at most 64, and none of the words {}",
                     fmt::join(graph::kReservedWords, ", "));
     return report(diagnostics);
   }

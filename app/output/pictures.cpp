@@ -111,42 +111,6 @@ void PictureWriter::tell(text::Diagnostics& diagnostics) {
   brokenBefore_ = counts_.broken;
 }
 
-bool Recorder::start(const std::string& pattern, text::Diagnostics& diagnostics) {
-  pattern_ = pattern;
-  std::error_code ignored;
-  for (int i = 1; pattern_.empty(); ++i)
-    if (const std::string folder = fmt::format("record_{}", i); !std::filesystem::exists(folder, ignored))
-      pattern_ = folder + "/f_%05d.png";
-  frames_ = 0;
-  active_ = checkOutput(pattern_, 0, true, diagnostics);
-  return active_;
-}
-
-void Recorder::stop(text::Diagnostics& diagnostics) {
-  if (!active_) return;
-  active_ = false;
-  print(fmt::format("wrote {} to {}\n", text::counted(frames_, "frame"), text::printable(pattern_)));
-  flushPrinted();
-  writer_.tell(diagnostics);
-}
-
-void Recorder::add(runtime::Renderer& renderer, text::Diagnostics& diagnostics) {
-  if (!active_) return;
-  const std::string path = *outputNameOf(pattern_, frames_);
-  if (writer_.save(renderer, path, diagnostics))
-    ++frames_;
-  else
-    stop(diagnostics);
-}
-
-std::string screenshotName(std::uint32_t frame, const char* extension) {
-  std::error_code ignored;
-  std::string name = fmt::format("weft_{:05}{}", frame, extension);
-  for (int i = 2; std::filesystem::exists(name, ignored); ++i)
-    name = fmt::format("weft_{:05}_{}{}", frame, i, extension);
-  return name;
-}
-
 std::string encodeBase64(std::string_view bytes) {
   static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;

@@ -46,30 +46,6 @@ class PictureWriter {
   std::uint64_t brokenBefore_ = 0;
 };
 
-// A numbered sequence of presented pictures. The first file that cannot be written ends it.
-class Recorder {
- public:
-  // Frames go to `pattern` ("out/f_%04d.png", or .exr), numbered from 0. An empty pattern makes a new folder,
-  // record_N, here. False with W180 when the folder cannot be made or the pattern is none.
-  bool start(const std::string& pattern, text::Diagnostics& diagnostics);
-  // Says how many frames there are, on standard output, and what is wrong with them (W207).
-  void stop(text::Diagnostics& diagnostics);
-  bool active() const { return active_; }
-  std::uint32_t frames() const { return frames_; }
-
-  // The presented picture is the next frame. Stops after an error.
-  void add(runtime::Renderer& renderer, text::Diagnostics& diagnostics);
-
- private:
-  PictureWriter writer_;
-  std::string pattern_;
-  std::uint32_t frames_ = 0;
-  bool active_ = false;
-};
-
-// A name for a picture of frame `frame` that no file here has yet: weft_00012.png, weft_00012_2.png.
-std::string screenshotName(std::uint32_t frame, const char* extension);
-
 // ---- pages: One HTML page with everything in it (app/report/page.html): of a frame, of test cases that failed, or of what each pass does. ----
 
 std::string encodeBase64(std::string_view bytes);

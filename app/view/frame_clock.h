@@ -45,7 +45,6 @@ class FrameClock {
     base_ = started_ ? last_.time + 1 / fps : 0;
     frames_ = 0;
   }
-  bool fixed() const { return fps_ > 0; }
   // Time stands still, but for steps. A recording goes on.
   void pause(bool on) { paused_ = on; }
   bool paused() const { return paused_; }

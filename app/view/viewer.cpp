@@ -203,12 +203,26 @@ void Viewer::toggleFlight() {
 }
 
 void Viewer::toggleRecording() {
-  if (recorder_.active()) {
-    recorder_.stop(diagnostics_);
-    clock_.fix(0);
-  } else if (recorder_.start(options_.record, diagnostics_)) {
+  if (!recording_.empty()) return stopRecording();
+  std::error_code ignored;
+  recording_ = options_.record;
+  for (int i = 1; recording_.empty(); ++i)
+    if (const std::string folder = fmt::format("record_{}", i); !std::filesystem::exists(folder, ignored))
+      recording_ = folder + "/f_%05d.png";
+  recorded_ = 0;
+  if (checkOutput(recording_, 0, true, diagnostics_))
     clock_.fix(options_.fps);
-  }
+  else
+    recording_.clear();
+}
+
+void Viewer::stopRecording() {
+  if (recording_.empty()) return;
+  clock_.fix(0);
+  print(fmt::format("wrote {} to {}\n", text::counted(recorded_, "frame"),
+                    text::printable(std::exchange(recording_, {}))));
+  flushPrinted();
+  recorder_.tell(diagnostics_);
 }
 
 void Viewer::say(std::string_view event) const {
@@ -250,7 +264,7 @@ int Viewer::run(text::Diagnostics said) {
     if (options_.maxFrames && frame_ >= options_.maxFrames) break;
   }
   saveLast();
-  recorder_.stop(diagnostics_);
+  stopRecording();
   input_.capture(false);
   say("closed");
   return report(diagnostics_) || broken_ || !live_.good() ? 1 : 0;
@@ -295,7 +309,7 @@ void Viewer::update(gl::Size size) {
     say(fmt::format("size {} {}", size.width, size.height));
   size_ = size;
   // A recording keeps the size it began with.
-  if (!recorder_.active() || recorder_.frames() == 0) {
+  if (recording_.empty() || recorded_ == 0) {
     const auto scaled = [&](std::uint32_t pixels) {
       return static_cast<std::uint32_t>(std::clamp(std::lround(pixels * renderScale_), 1l, 16384l));
     };
@@ -351,7 +365,7 @@ imports::Pointer Viewer::pointer() {
 }
 
 bool Viewer::busy() {
-  if (recorder_.active() || rig_.moving() || rig_.cuts() != cuts_ || input_.captured() ||
+  if (!recording_.empty() || rig_.moving() || rig_.cuts() != cuts_ || input_.captured() ||
       input_.movesCamera() || input_.waiting() || live_.environment().status() || live_.scene().loading())
     return true;
   if (readsMouse() && pointer() != pointer_) return true;
@@ -397,8 +411,12 @@ void Viewer::frame() {
 }
 
 void Viewer::show() {
-  recorder_.add(renderer_, diagnostics_);
-  if (!recorder_.active() && clock_.fixed()) clock_.fix(0);  // it could not write
+  if (!recording_.empty()) {
+    if (recorder_.save(renderer_, *outputNameOf(recording_, recorded_), diagnostics_))
+      ++recorded_;
+    else
+      stopRecording();
+  }
   renderer_.present(area_.width, area_.height, area_.x, area_.y);
   if (frame_ == options_.maxFrames) saveLast();
   finishFrame();
@@ -454,7 +472,7 @@ void Viewer::drawUi(bool seen) {
   overlay_->begin();
   std::string modes;
   const auto add = [&](const std::string& mode) { modes += (modes.empty() ? "" : "  ") + mode; };
-  if (recorder_.active()) add(fmt::format("REC {}", recorder_.frames()));
+  if (!recording_.empty()) add(fmt::format("REC {}", recorded_));
   if (rig_.mode() == CameraRig::Mode::fly) add("FLY");
   if (idle_) add("IDLE");
   if (!vsync_) add("NO VSYNC");
@@ -477,7 +495,11 @@ void Viewer::drawUi(bool seen) {
 
 void Viewer::saveScreenshot() {
   if (screenshot_.empty()) return;
-  const std::string name = screenshotName(frame_, std::exchange(screenshot_, {}).c_str());
+  const std::string kind = std::exchange(screenshot_, {});
+  std::string name = fmt::format("weft_{:05}{}", frame_, kind);
+  std::error_code ignored;
+  for (int i = 2; std::filesystem::exists(name, ignored); ++i)
+    name = fmt::format("weft_{:05}_{}{}", frame_, i, kind);
   if (live_.running() && writer_.save(renderer_, name, diagnostics_)) {
     told_ = "wrote " + name;
     print(fmt::format("wrote {}\n", text::printable(name)));

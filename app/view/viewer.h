@@ -47,7 +47,9 @@ class Viewer {
   const scene::Camera* sceneCamera() const;
   void lookThrough(std::size_t camera);
   void toggleFlight();
+  // One recording at a time, numbered from 0, to --record or a new folder record_N; the first file that cannot be written ends it.
   void toggleRecording();
+  void stopRecording();
 
   void waitForEvents();
   // Events, a few at a time, each time with a layout of the panels that sees them.
@@ -92,8 +94,9 @@ class Viewer {
   imports::Pointer pointer_;  // of the last frame
   std::uint64_t cuts_ = 0, sceneGeneration_ = 0;
   FrameClock clock_;
-  Recorder recorder_;
-  PictureWriter writer_;  // of screenshots
+  PictureWriter writer_, recorder_;  // of screenshots, of recordings
+  std::string recording_;            // pattern of the recording that is on, or empty
+  std::uint32_t recorded_ = 0;       // its frames
   PictureRest rest_;
   runtime::FrameReport report_;    // of the last frame
   text::Diagnostics diagnostics_;  // of what the loop is doing
