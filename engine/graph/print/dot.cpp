@@ -10,6 +10,7 @@
 #include "engine/graph/pick/pick.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/subresource.h"
+#include "engine/text/printable.h"
 
 namespace weft::graph {
 

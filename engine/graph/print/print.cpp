@@ -12,6 +12,7 @@
 #include <set>
 
 #include "engine/graph/subresource.h"
+#include "engine/text/printable.h"
 
 namespace weft::graph {
 
@@ -425,6 +426,10 @@ std::string formatTable() {
                         mark(uses.blended), mark(uses.filtered), uses.image ? name : "-");
   }
   return text;
+}
+
+void addPlainLine(std::string& text, std::size_t depth, std::string_view line) {
+  text += std::string(2 * depth, ' ') + text::printable(line) + '\n';
 }
 
 }  // namespace weft::graph

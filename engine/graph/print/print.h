@@ -15,7 +15,6 @@
 #include "engine/graph/plan.h"
 #include "engine/graph/registry.h"
 #include "engine/text/diagnostic.h"
-#include "engine/text/printable.h"
 
 namespace weft::graph {
 
@@ -100,10 +99,10 @@ const char* nameOf(Target target);
 std::string updateOf(const FlatPass& pass);
 
 // Adds a line, two spaces further in per `depth`, and nothing that a terminal obeys.
+void addPlainLine(std::string& text, std::size_t depth, std::string_view line);
 template <class... Args>
 void addLine(std::string& text, std::size_t depth, fmt::format_string<Args...> format, Args&&... args) {
-  text +=
-      std::string(2 * depth, ' ') + text::printable(fmt::format(format, std::forward<Args>(args)...)) + '\n';
+  addPlainLine(text, depth, fmt::format(format, std::forward<Args>(args)...));
 }
 
 }  // namespace weft::graph
