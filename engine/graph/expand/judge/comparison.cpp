@@ -16,13 +16,13 @@ bool isOrder(Compare compare) {
          compare == Compare::greater_equal;
 }
 
-// The depth tests that made what a read sees.
+// Finds the depth tests that made what a read sees; `always` for what was made without an order.
 struct DepthTests {
-  std::set<Compare> found;
-  std::uint32_t other = kNone;  // a pass that wrote some of it without an order
+  const FlatGraph& graph;
+  std::set<Compare> found{};
   std::set<std::uint32_t> seen{};
 
-  void add(const FlatGraph& graph, std::uint32_t link) {
+  void add(std::uint32_t link) {
     graph.links.forEachWriter(link, [&](std::uint32_t writer) {
       if (!seen.insert(writer).second) return;
       const std::uint32_t pass = graph.links.passOf[writer];
@@ -32,11 +32,11 @@ struct DepthTests {
         found.insert(state.depthCompare);
       } else if (use.kind == Kind::copy) {  // it is what was copied
         for (const std::uint32_t u : graph.usesOf(pass))
-          if (graph.uses[u].access == Access::read) add(graph, graph.links.seen[u]);
+          if (graph.uses[u].access == Access::read) add(graph.links.seen[u]);
       } else if (use.access == Access::modify) {
-        add(graph, graph.links.seen[writer]);
+        add(graph.links.seen[writer]);
       } else {
-        other = pass;
+        found.insert(Compare::always);
       }
     });
   }
@@ -44,34 +44,27 @@ struct DepthTests {
 
 void inferComparison(Model& model, std::uint32_t pass, SlotSpec& slot) {
   const FlatGraph& graph = model.graph;
-  DepthTests tests;
+  DepthTests tests{graph};
   for (std::uint32_t u = slot.firstUse; u < slot.firstUse + slot.useCount; ++u)
-    tests.add(graph, graph.links.seen[u]);
+    tests.add(graph.links.seen[u]);
   const std::uint32_t resource = graph.uses[slot.firstUse].resource;
-  const std::string& name = graph.resourceNames[resource];
   const auto clear = std::ranges::find(graph.clears, resource, &ClearSpec::resource);
-  std::string why = "no depth test made it";
-  if (tests.other != kNone) {
-    why = fmt::format("pass '{}' writes it without one that orders", graph.passNames[tests.other]);
-  } else if (tests.found.size() > 1) {
-    why = "passes with different depth tests draw it";
-  } else if (!tests.found.empty()) {
+  // Nothing was drawn: everything is nearer than what it was cleared to.
+  if (tests.found.empty() && clear != graph.clears.end())
+    tests.found.insert(clear->value.v[0] > 0.5 ? Compare::less : Compare::greater);
+  if (tests.found.size() == 1 && isOrder(*tests.found.begin())) {
     slot.sampler.function = *tests.found.begin();
-    return;
-  } else if (clear !=
-             graph.clears.end()) {  // nothing was drawn: everything is nearer than what it was cleared to
-    slot.sampler.function = clear->value.v[0] > 0.5 ? Compare::less : Compare::greater;
     return;
   }
   report(
       model, Code::badKind, slot.place,
-      fmt::format("pass '{}': slot '{}' compares with '{}', and nothing says how: {}", graph.passNames[pass],
-                  slot.name, name, why),
+      fmt::format("pass '{}': slot '{}' compares with '{}', which no one depth test made",
+                  graph.passNames[pass], slot.name, graph.resourceNames[resource]),
       {.expected = "the comparison that a lookup passes: less, less_equal, greater, greater_equal, …",
        .hint =
            "write 'compare(greater)' where nearer is greater, as in every view here; 'compare(less)' where "
            "nearer is less",
-       .resource = name,
+       .resource = graph.resourceNames[resource],
        .pass = graph.passNames[pass]});
 }
 
