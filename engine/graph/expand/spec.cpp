@@ -94,11 +94,6 @@ void checkIndirect(const SlotContext& context, const PassDesc& desc) {
                    {.hint = "read the buffer as indirect: \"read\": { \"commands\": \"x as indirect\" }"});
 }
 
-constexpr const char* kLacksRaster =
-    "something to draw into: a slot in \"write\" or \"modify\" that is an attachment says how large it is, "
-    "or "
-    "\"raster\" does";
-
 void checkKeys(const SlotContext& context, const PassDesc& desc) {
   const ShaderShape shader = context.type->shader;
   const bool hasShader = shader != ShaderShape::none, draw = shader == ShaderShape::draw;
@@ -136,17 +131,11 @@ void checkKeys(const SlotContext& context, const PassDesc& desc) {
   checkIndirect(context, desc);
   if (!hasShader) return;
   checkShaders(context, desc);
-  const auto attaches = [](const SlotDesc& slot) {
-    return slot.access != Access::read && slot.ref.kind != Kind::image && slot.ref.kind != Kind::storage;
-  };
   const char* const lacking = draw && desc.geometry.empty()
                                   ? "a geometry: \"quad\", \"triangles(6)\", \"mesh\", …"
                               : draw && desc.list.empty() && !desc.instances.present() &&
                                       !isCounted(context, desc) && !findIndirect(desc)
                                   ? "what to draw: \"list\" or \"instances\""
-                              : shader != ShaderShape::compute && !context.model.incomplete &&
-                                      !desc.raster.present() && std::ranges::none_of(desc.slots, attaches)
-                                  ? kLacksRaster
                                   : nullptr;
   if (!desc.raster.present() && desc.samples.present())
     context.report(Code::keyNotTaken, desc.samples.place(), "has \"samples\" and no \"raster\"",
@@ -508,8 +497,10 @@ void addRaster(const SlotContext& context, const PassDesc& desc, const std::vect
   };
   const bool attached = std::ranges::any_of(slots, attaches);
   if (!desc.raster.present()) {
-    if (!attached && std::ranges::all_of(slots, &SlotWork::isConnected))
-      context.report(Code::keyNeeded, desc.namePlace, "lacks a key or a slot", {.expected = kLacksRaster});
+    if (!attached && !context.model.incomplete && std::ranges::all_of(slots, &SlotWork::isConnected))
+      context.report(
+          Code::keyNeeded, desc.namePlace, "lacks something to draw into",
+          {.expected = "an attachment in \"write\" or \"modify\", or \"raster\": how large it is"});
     return;
   }
   if (attached)
