@@ -563,6 +563,8 @@ std::optional<JsonValue> withSets(ReadContext& context, const JsonValue& pass, c
 // What a pass without a "type" is.
 void inferType(ReadContext& context, const JsonValue& value, PassDesc& out) {
   if (value.find("type")) return;
+  // A set that is missing, which was reported, may be what has them.
+  if (const JsonValue* use = value.find("use"); use && out.uses.size() < stringsOf(*use).size()) return;
   out.typePlace = out.shaderPlace;
   if (value.find("shader"))
     out.type = out.shader.ends_with(".comp.glsl")                              ? "compute"

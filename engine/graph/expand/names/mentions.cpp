@@ -104,7 +104,7 @@ class MentionWalk {
   void ask(Scope& scope, std::string_view name, int times) {
     if (!asks_) return;
     const Scope& in = scopeOf(scope, name);
-    model_.unknown[{&in, std::string(name.substr(0, name.find('.')))}] += times;
+    model_.unknown[{&in, std::string(firstPart(name))}] += times;
   }
 
   // The includer is asked for what it does not bind.

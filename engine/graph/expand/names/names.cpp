@@ -85,12 +85,42 @@ std::optional<Value> letValue(Names& user, Let& let) {
   return let.value;
 }
 
+bool sees(const Scope& a, const Scope& b) {
+  return a.prefix.starts_with(b.prefix) || b.prefix.starts_with(a.prefix);
+}
+
+// In the file of the declaration, and where it is found from below.
+void alsoCall(Model& model, Scope& from, std::string_view name, const Variable& meant) {
+  from.variables.try_emplace(model.misspelt.emplace_back(name), meant);
+  for (Scope* outer = from.parent; outer; outer = outer->parent) outer->below[std::string(name)] = meant;
+}
+
+// The parameters of a pass are asked for by another name of the pass.
+Variable passMeant(Model& model, Scope& user, std::string_view name) {
+  const std::string_view pass = firstPart(name), leaf = name.substr(pass.size());
+  for (Scope& from : model.scopes)
+    for (const auto& [near, stanza] : from.passes) {
+      const auto meant = from.variables.find(std::string(near).append(leaf));
+      if (leaf.empty() || meant == from.variables.end() || !sees(from, user)) continue;
+      const auto asked = std::ranges::count_if(model.unknownVariables, [&](const auto& each) {
+        return firstPart(each.second) == pass && sees(*each.first, from);
+      });
+      if (asked < 2 || text::editDistance(near, pass, 1) > 1) continue;
+      report(model, Code::unknownVariable, stanza->namePlace,
+             fmt::format("parameters of the pass '{}' are asked for as '${}.…' {} times", near, pass, asked),
+             {.hint = fmt::format("did you mean '{}'?", pass)});
+      const Variable found = meant->second;
+      for (const auto& [path, variable] : KnownNames<Variable>(from.variables))
+        if (firstPart(path) == near)
+          alsoCall(model, from, std::string(pass).append(path.substr(near.size())), variable);
+      return found;
+    }
+  return {};
+}
+
 }  // namespace
 
 Variable declarationMeant(Model& model, Scope& user, std::string_view name) {
-  const auto sees = [](const Scope& a, const Scope& b) {
-    return a.prefix.starts_with(b.prefix) || b.prefix.starts_with(a.prefix);
-  };
   noteMentions(model, true);
   for (Scope& from : model.scopes) {
     if (!sees(from, user)) continue;
@@ -107,12 +137,10 @@ Variable declarationMeant(Model& model, Scope& user, std::string_view name) {
            let ? model.lets[meant.index].desc->place : model.parameters[meant.index].desc->place,
            fmt::format("nothing reads '${}', and '${}' is asked for {} times", near->first, name, asked),
            {.hint = fmt::format("did you mean '{}'?", name)});
-    // In the file of the declaration, and where it is found from below.
-    from.variables.try_emplace(model.misspelt.emplace_back(name), meant);
-    for (Scope* outer = from.parent; outer; outer = outer->parent) outer->below[std::string(name)] = meant;
+    alsoCall(model, from, name, meant);
     return meant;
   }
-  return {};
+  return passMeant(model, user, name);
 }
 
 std::optional<Value> Names::variable(std::string_view name) {
@@ -191,7 +219,7 @@ std::optional<Value> Names::fact(Fact fact, std::string_view resource, std::uint
     const bool reported = isUnread(scope_, resource) || scope_.resources.contains(resource);
     return reported ? std::optional(Value{}) : std::nullopt;
   }
-  if (fact == Fact::age) return std::nullopt;  // known when the frame runs
+  if (fact == Fact::age && ageKey(resource)) return std::nullopt;  // known when the frame runs
   Entity& entity = model_.entities[index];
   if (live && entity.kind != ResourceDesc::Kind::alternatives && entity.state != Progress::done) {
     failed = true;
@@ -205,7 +233,7 @@ std::optional<Value> Names::fact(Fact fact, std::string_view resource, std::uint
   if (target != kNone) return factOfShape(fact, target, mip, level, place);
   if (!model_.stopped && std::ranges::find(entity.candidates, kNone) == entity.candidates.end())
     report(model_, Code::conditionLeavesSlotEmpty, place,
-           fmt::format("no alternative of '{}' holds, so it has no size", entity.name),
+           fmt::format("no alternative of '{}' holds, so it has no {}", entity.name, nameOf(fact)),
            {.resource = entity.name});
   return Value{};
 }

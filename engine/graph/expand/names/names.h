@@ -57,6 +57,8 @@ std::uint32_t findAsked(Model& model, Scope& scope, std::string_view name);
 // What has(name) is about where no resource has the name: a pass of the scope's own file, or `include.pass` of one included
 // below, and the scope whose file declares it. Null: there is none.
 std::pair<const PassDesc*, Scope*> findAskedPass(Scope& scope, std::string_view name);
+// "post" of "post.hdr".
+std::string_view firstPart(std::string_view name);
 // Follows the prefixes of a dotted name into the files that are included under them; `name` gets what is left.
 Scope& scopeOf(Scope& scope, std::string_view& name);
 // The scope of the include that an entry of "bind" names whole, for all inputs that have its names; null for another entry.
@@ -69,7 +71,8 @@ bool isUnread(const Scope& from, std::string_view name);
 Variable findVariable(Model& model, Scope& scope, std::string_view name);
 // What a name that nothing has stands for when it is the declaration of a parameter or let, an edit away, that is misspelt:
 // nothing reads it under its own name, and more than one expression or "set" asks for `name`. That is one mistake, which is
-// reported at the declaration. Files ask for what they declare, what those declare that include them, and what those declare that they include.
+// reported at the declaration. So is a pass whose parameters are asked for as "pass.parameter". Files ask for what they declare,
+// what those declare that include them, and what those declare that they include.
 Variable declarationMeant(Model& model, Scope& user, std::string_view name);
 // The parameters, of those whose path begins with `prefix`, that `name` may mean: the one that is called so, else all whose
 // dotted name ends in it.

@@ -331,11 +331,11 @@ std::uint32_t findImport(Model& model, const Scope& from, std::string_view name)
   return type == model.imports.end() ? kNone : type->second;
 }
 
+}  // namespace
+
 std::string_view firstPart(std::string_view name) {
   return name.substr(0, name.find('.'));
 }
-
-}  // namespace
 
 Scope& scopeOf(Scope& scope, std::string_view& name) {
   const std::size_t dot = name.find('.');
