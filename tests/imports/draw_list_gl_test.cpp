@@ -7,6 +7,8 @@
 
 #include "tests/runtime/stage.h"
 
+namespace draw_list_test {
+
 using namespace weft;
 using namespace weft::runtime;
 using namespace weft::runtime::test;
@@ -184,3 +186,5 @@ TEST_CASE("what a list draws last is the nearest, the farthest, or what has the 
     CHECK(wrong == 0);
   }
 }
+
+}  // namespace draw_list_test

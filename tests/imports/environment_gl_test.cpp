@@ -6,6 +6,8 @@
 #include "engine/imports/environment/environment.h"
 #include "tests/runtime/stage.h"
 
+namespace environment_test {
+
 using namespace weft;
 using namespace weft::imports;
 using namespace weft::runtime;
@@ -219,3 +221,5 @@ TEST_CASE("the stand-in for an environment has all its levels") {
     CHECK(meanOf(level) == doctest::Approx(meanOf(levels[0])).epsilon(0.02));
   }
 }
+
+}  // namespace environment_test

@@ -3,6 +3,8 @@
 #include "tests/runtime/stage.h"
 #include "tests/temporary_folder.h"
 
+namespace generation_test {
+
 using namespace weft;
 using namespace weft::runtime::test;
 
@@ -151,3 +153,5 @@ TEST_CASE("what a camera resets begins again when it moves, and not by its jitte
   CHECK(frame() == 1);
   CHECK(frame() == 2);
 }
+
+}  // namespace generation_test

@@ -10,6 +10,8 @@
 #include "tests/runtime/stage.h"
 #include "tests/temporary_folder.h"
 
+namespace image_test {
+
 using namespace weft;
 using namespace weft::runtime;
 using namespace weft::runtime::test;
@@ -209,3 +211,5 @@ TEST_CASE("a part of a sequence that plays is that of the picture that is shown"
     CHECK(seen(stage, "stored") == std::string(frame % 2 == 0 ? "1 1 0 100" : "1 1 0 60"));
   }
 }
+
+}  // namespace image_test

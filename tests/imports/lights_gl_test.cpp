@@ -6,6 +6,8 @@
 #include "engine/scene/light_views.h"
 #include "tests/runtime/stage.h"
 
+namespace lights_test {
+
 using namespace weft;
 using namespace weft::runtime;
 using namespace weft::runtime::test;
@@ -182,3 +184,5 @@ TEST_CASE(
   moving.stage.world.setScene(std::move(dark));
   CHECK_FALSE(moving.stage.load());  // what is read without `?` is missing
 }
+
+}  // namespace lights_test

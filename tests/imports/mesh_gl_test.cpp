@@ -5,6 +5,8 @@
 
 #include "tests/runtime/stage.h"
 
+namespace mesh_test {
+
 using namespace weft;
 using namespace weft::runtime;
 using namespace weft::runtime::test;
@@ -149,3 +151,5 @@ TEST_CASE("a pass that runs on change follows meshes that move; another scene re
   drawn.stage.run(22);
   for (const float value : drawn.stage.read("seen")) REQUIRE(value == 0);
 }
+
+}  // namespace mesh_test

@@ -8,6 +8,8 @@
 
 #include "tests/runtime/stage.h"
 
+namespace mesh_order_test {
+
 using namespace weft;
 using namespace weft::runtime;
 using namespace weft::runtime::test;
@@ -131,3 +133,5 @@ TEST_CASE("a frame of many moving meshes is the same picture on one thread and o
   }
   CHECK(pictures[0] == pictures[1]);
 }
+
+}  // namespace mesh_order_test

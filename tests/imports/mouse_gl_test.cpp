@@ -3,6 +3,8 @@
 
 #include "tests/runtime/stage.h"
 
+namespace mouse_test {
+
 using namespace weft;
 using namespace weft::runtime;
 using namespace weft::runtime::test;
@@ -78,3 +80,5 @@ TEST_CASE("a graph follows the mouse when a pass that is not culled reads it") {
   REQUIRE_MESSAGE(glow.load(), glow.diagnostics.text());
   CHECK_FALSE(glow.execution().followsPointer());
 }
+
+}  // namespace mouse_test

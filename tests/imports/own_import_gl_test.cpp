@@ -9,6 +9,8 @@
 #include "tests/runtime/stage.h"
 #include "tests/temporary_folder.h"
 
+namespace own_import_test {
+
 using namespace weft;
 using namespace weft::runtime;
 using namespace weft::runtime::test;
@@ -254,3 +256,5 @@ TEST_CASE(
   CHECK(width == 1);
   CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
 }
+
+}  // namespace own_import_test

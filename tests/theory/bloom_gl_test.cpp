@@ -10,6 +10,8 @@
 
 #include "tests/theory/lab.h"
 
+namespace bloom_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -253,3 +255,5 @@ TEST_CASE("fog that thins out with height: the optical depth is the integral of 
     }
   }
 }
+
+}  // namespace bloom_test

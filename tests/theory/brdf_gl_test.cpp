@@ -7,6 +7,8 @@
 #include "tests/theory/lab.h"
 #include "tests/theory/oracle.h"
 
+namespace brdf_test {
+
 using namespace weft::theory;
 
 TEST_CASE("BRDF table: both channels within 0.005 of the integral at texel centers") {
@@ -31,3 +33,5 @@ TEST_CASE("BRDF table: both channels within 0.005 of the integral at texel cente
   CHECK(sum < 0.004);
   CHECK(lab.reports() == "");
 }
+
+}  // namespace brdf_test

@@ -9,6 +9,8 @@
 #include "tests/theory/lab.h"
 #include "tests/theory/oracle.h"
 
+namespace coverage_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -254,3 +256,5 @@ TEST_CASE("octagons draw what rectangles draw, byte for byte") {
       CHECK(texelsOf(scenes[i], fov, true) == texelsOf(scenes[i], fov, false));
     }
 }
+
+}  // namespace coverage_test

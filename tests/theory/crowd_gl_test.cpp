@@ -3,6 +3,8 @@
 
 #include "tests/theory/lab.h"
 
+namespace crowd_test {
+
 using namespace weft::theory;
 
 TEST_CASE("a million spheres: rendered, and one picture for all sorts") {
@@ -32,3 +34,5 @@ TEST_CASE("a million spheres: rendered, and one picture for all sorts") {
     CHECK(lab.reports() == "");
   }
 }
+
+}  // namespace crowd_test

@@ -8,6 +8,8 @@
 
 #include "tests/theory/lab.h"
 
+namespace display_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -83,3 +85,5 @@ TEST_CASE("anti-aliasing leaves a flat picture as it is, and can be switched off
   const Levels without = levelsOf(0.3f, {{"bloom", "false"}, {"fxaa", "false"}}, "post.ldr");
   CHECK(with.mean == without.mean);
 }
+
+}  // namespace display_test

@@ -8,6 +8,8 @@
 #include "tests/theory/lab.h"
 #include "tests/theory/oracle.h"
 
+namespace draw_modes_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -170,3 +172,5 @@ TEST_CASE("the sorts on the CPU and on the GPU give one picture, byte for byte")
   const Picture first = draw(studio({{"sort", "gpu_bitonic"}}));
   CHECK(first.texels == draw(studio({{"sort", "cpu_radix"}})).texels);
 }
+
+}  // namespace draw_modes_test

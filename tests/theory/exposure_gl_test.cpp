@@ -9,6 +9,8 @@
 
 #include "tests/theory/lab.h"
 
+namespace exposure_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -131,3 +133,5 @@ TEST_CASE(
     CHECK(lab.reports() == "");
   }
 }
+
+}  // namespace exposure_test

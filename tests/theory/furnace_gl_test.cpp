@@ -10,6 +10,8 @@
 #include "tests/theory/lab.h"
 #include "tests/theory/oracle.h"
 
+namespace furnace_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -171,3 +173,5 @@ TEST_CASE("a sphere's radiance does not depend on the resolution it is drawn at"
   }
   for (int c = 0; c < 3; ++c) CHECK(value[0][c] == doctest::Approx(value[1][c]).epsilon(0.002));
 }
+
+}  // namespace furnace_test

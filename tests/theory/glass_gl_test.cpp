@@ -5,6 +5,8 @@
 
 #include "tests/theory/mesh_scene.h"
 
+namespace glass_test {
+
 using namespace weft;
 using namespace weft::theory;
 using runtime::test::CleanScope;
@@ -82,3 +84,5 @@ TEST_CASE(
     CHECK(render(without, Pane::glass).radiance == behind.radiance);
   }
 }
+
+}  // namespace glass_test

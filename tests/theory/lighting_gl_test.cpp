@@ -11,6 +11,8 @@
 #include "tests/theory/lab.h"
 #include "tests/theory/oracle.h"
 
+namespace lighting_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -315,3 +317,5 @@ TEST_CASE("the maps made in slices are those made at once, byte for byte") {
   CHECK(sliced.readBuffer("ibl.luminance", 1) == whole.readBuffer("ibl.luminance", 1));
   CHECK(sliced.reports() == "");
 }
+
+}  // namespace lighting_test

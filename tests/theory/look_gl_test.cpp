@@ -10,6 +10,8 @@
 
 #include "tests/theory/lab.h"
 
+namespace look_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -358,3 +360,5 @@ TEST_CASE(
   CHECK(with < 0.008);
   CHECK(without > 0.2);
 }
+
+}  // namespace look_test

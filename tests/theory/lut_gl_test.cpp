@@ -14,6 +14,8 @@
 #include "tests/temporary_folder.h"
 #include "tests/theory/lab.h"
 
+namespace lut_test {
+
 using namespace weft::theory;
 namespace graph = weft::graph;
 
@@ -166,3 +168,5 @@ TEST_CASE("a table that cannot be used is an error of the graph, before anything
   CHECK(codesOf(folder.write("curves.cube", "LUT_1D_SIZE 2\n0 0 0\n1 1 1\n")) == "");
   CHECK(codesOf(folder.write("both.cube", "LUT_1D_SIZE 2\nLUT_3D_SIZE 2\n0 0 0\n1 1 1\n")) == "W154 ");
 }
+
+}  // namespace lut_test

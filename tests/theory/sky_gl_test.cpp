@@ -10,6 +10,8 @@
 #include "tests/theory/lab.h"
 #include "tests/theory/oracle.h"
 
+namespace sky_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -181,3 +183,5 @@ TEST_CASE("a blurred background keeps the light of a sun") {
   CHECK(mean > 2);
   for (const double blur : {2.0, 4.0}) CHECK(meanAt(blur, map)[0] == doctest::Approx(mean).epsilon(0.01));
 }
+
+}  // namespace sky_test

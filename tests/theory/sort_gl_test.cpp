@@ -10,6 +10,8 @@
 #include "engine/scene/sort.h"
 #include "tests/theory/lab.h"
 
+namespace sort_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -78,3 +80,5 @@ TEST_CASE("sort: more than a million") {
 TEST_CASE("sort: all equal") {
   compare(std::vector<Ball>(3000));
 }
+
+}  // namespace sort_test

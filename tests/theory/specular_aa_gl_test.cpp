@@ -10,6 +10,8 @@
 #include "tests/load_image.h"
 #include "tests/theory/lab.h"
 
+namespace specular_aa_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -136,3 +138,5 @@ TEST_CASE("specular anti-aliasing: a white furnace stays white within 0.3 %, how
     CHECK(worst < 0.003);
   }
 }
+
+}  // namespace specular_aa_test

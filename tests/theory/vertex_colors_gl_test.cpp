@@ -6,6 +6,8 @@
 
 #include "tests/theory/mesh_scene.h"
 
+namespace vertex_colors_test {
+
 using namespace weft;
 using namespace weft::theory;
 using runtime::test::CleanScope;
@@ -120,3 +122,5 @@ TEST_CASE("where the alpha of vertices makes a hole of a mask, the sun shines th
   CHECK(worstOf(none, whole) > 0.3);
   CHECK(worstOf(none, hole) < 1e-3);
 }
+
+}  // namespace vertex_colors_test

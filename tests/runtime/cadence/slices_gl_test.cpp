@@ -7,6 +7,8 @@
 #include "tests/runtime/frame_allocations.h"
 #include "tests/runtime/stage.h"
 
+namespace cadence_slices_test {
+
 using namespace weft;
 using namespace weft::runtime::test;
 
@@ -158,3 +160,5 @@ TEST_CASE("slices: a frame that goes on with a pass allocates nothing") {
   }
   CHECK(allocations == 0);
 }
+
+}  // namespace cadence_slices_test

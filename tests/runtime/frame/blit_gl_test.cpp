@@ -3,6 +3,8 @@
 
 #include "tests/runtime/stage.h"
 
+namespace frame_blit_test {
+
 using namespace weft;
 using namespace weft::runtime::test;
 
@@ -40,3 +42,5 @@ TEST_CASE(
   CHECK(at(0, 0)[2] == 7);    // each thread had a place of its own
   CHECK(at(15, 15)[3] == 7);  // and all of it was copied
 }
+
+}  // namespace frame_blit_test

@@ -8,6 +8,8 @@
 #include "engine/gl/context/debug.h"
 #include "tests/runtime/stage.h"
 
+namespace frame_disable_test {
+
 using namespace weft;
 using namespace weft::runtime::test;
 
@@ -138,3 +140,5 @@ TEST_CASE("disable: every pass of the probes of deferred_gi alone") {
   stage.settings.sets = {{"sun_texels", "256"}, {"lamp_texels", "64"}, {"probes_debug", "true"}};
   tryAll(stage, false, "gi", 4);  // as above
 }
+
+}  // namespace frame_disable_test

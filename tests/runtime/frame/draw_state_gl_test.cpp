@@ -4,6 +4,8 @@
 
 #include "tests/runtime/stage.h"
 
+namespace frame_draw_state_test {
+
 using namespace weft;
 using namespace weft::runtime::test;
 
@@ -82,3 +84,5 @@ TEST_CASE("each pass draws under the state that it says, and under no other") {
   stage.run(1);
   compare(stage, 246);
 }
+
+}  // namespace frame_draw_state_test

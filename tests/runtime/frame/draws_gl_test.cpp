@@ -4,6 +4,8 @@
 
 #include "tests/runtime/stage.h"
 
+namespace frame_draws_test {
+
 using namespace weft;
 using namespace weft::runtime::test;
 
@@ -65,3 +67,5 @@ TEST_CASE("a dispatch and a list say how much runs; a raster without attachments
       for (std::size_t i = 0; i < texels.size(); i += 4) CHECK(texels[i] == static_cast<float>(layer + 1));
     }
 }
+
+}  // namespace frame_draws_test

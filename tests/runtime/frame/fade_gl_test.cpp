@@ -5,6 +5,8 @@
 
 #include "tests/runtime/stage.h"
 
+namespace frame_fade_test {
+
 using namespace weft;
 using namespace weft::runtime::test;
 
@@ -267,3 +269,5 @@ TEST_CASE(
     }
   }
 }
+
+}  // namespace frame_fade_test

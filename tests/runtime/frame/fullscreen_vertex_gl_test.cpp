@@ -1,6 +1,8 @@
 // A fullscreen pass with a vertex shader of its own covers every pixel; the shader has the slots and parameters of the pass.
 #include "tests/runtime/stage.h"
 
+namespace frame_fullscreen_vertex_test {
+
 using namespace weft;
 using namespace weft::runtime::test;
 
@@ -19,3 +21,5 @@ TEST_CASE("what a vertex shader of a fullscreen pass computes arrives at every p
       CHECK(texel[3] == 1);
     }
 }
+
+}  // namespace frame_fullscreen_vertex_test

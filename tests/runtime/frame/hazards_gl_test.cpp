@@ -11,7 +11,7 @@
 #include "tests/runtime/gl_hazards.h"
 #include "tests/runtime/stage.h"
 
-namespace weft::runtime::test {
+namespace weft::runtime::test::frame_hazards_test {
 
 namespace {
 
@@ -135,4 +135,4 @@ TEST_CASE("hazards: what stands in for the environment ends with the bit that it
   CHECK(findHazard(trace, {last, GL_TEXTURE_FETCH_BARRIER_BIT}) != "");
 }
 
-}  // namespace weft::runtime::test
+}  // namespace weft::runtime::test::frame_hazards_test

@@ -3,6 +3,8 @@
 
 #include "tests/runtime/stage.h"
 
+namespace frame_history_test {
+
 using namespace weft;
 using namespace weft::runtime::test;
 
@@ -119,3 +121,5 @@ TEST_CASE("history: age counts seconds since the publication, and is infinite fr
     CHECK(live.value() == doctest::Approx(std::min((time - 10.0) / 2.0, 1.0)));  // min(age(pulse) / 2, 1)
   }
 }
+
+}  // namespace frame_history_test

@@ -3,6 +3,8 @@
 #include "engine/scene/files/scene_file.h"
 #include "tests/runtime/stage.h"
 
+namespace frame_includes_test {
+
 using namespace weft;
 using namespace weft::runtime;
 using namespace weft::runtime::test;
@@ -60,3 +62,5 @@ TEST_CASE("four includes with a camera each are the pictures of the four cameras
   }
   CHECK(seen[1] != seen[2]);  // the spheres stand in another order from there
 }
+
+}  // namespace frame_includes_test

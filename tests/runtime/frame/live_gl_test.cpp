@@ -7,6 +7,8 @@
 #include "tests/runtime/frame_allocations.h"
 #include "tests/runtime/stage.h"
 
+namespace frame_live_test {
+
 using namespace weft;
 using namespace weft::graph;
 using namespace weft::runtime;
@@ -288,3 +290,5 @@ TEST_CASE("live: values of imports follow the world frame by frame, and wake a p
   CHECK(stage.read("same")[0] == 0);
   CHECK(stage.renderer().plansBuilt() == plans);
 }
+
+}  // namespace frame_live_test

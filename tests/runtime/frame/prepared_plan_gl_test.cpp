@@ -6,6 +6,8 @@
 #include "tests/runtime/stage.h"
 #include "tests/temporary_folder.h"
 
+namespace frame_prepared_plan_test {
+
 using namespace weft;
 using namespace weft::runtime::test;
 using runtime::ShaderFiles;
@@ -97,3 +99,5 @@ TEST_CASE("storage that cannot be made leaves the running plan as it was") {
   for (std::size_t r = 0; r < before.size(); ++r)
     CHECK((*next->pool)[r].texture == (*running.pool)[r].texture);
 }
+
+}  // namespace frame_prepared_plan_test

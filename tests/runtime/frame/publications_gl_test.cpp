@@ -8,7 +8,7 @@
 #include "engine/runtime/frame/publications.h"
 #include "tests/runtime/stage.h"
 
-namespace weft::runtime {
+namespace weft::runtime::frame_publications_test {
 
 namespace {
 
@@ -188,4 +188,4 @@ TEST_CASE(
   CHECK(after.publications.ageOf(sum) == 2);  // published at 4
 }
 
-}  // namespace weft::runtime
+}  // namespace weft::runtime::frame_publications_test

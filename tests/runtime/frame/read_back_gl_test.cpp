@@ -6,6 +6,8 @@
 #include "tests/runtime/frame_allocations.h"
 #include "tests/runtime/stage.h"
 
+namespace frame_read_back_test {
+
 using namespace weft;
 using namespace weft::runtime::test;
 
@@ -160,3 +162,5 @@ TEST_CASE("outputs of post.json: the histogram without auto-exposure, and both w
                            stage.execution().readBack().find("post.exposure")->bytes));
   CHECK(stage.execution().readBack().find("post.exposure")->number(0) > 0);
 }
+
+}  // namespace frame_read_back_test

@@ -9,7 +9,7 @@
 #include "tests/runtime/gl_replay.h"
 #include "tests/runtime/stage.h"
 
-namespace weft::runtime::test {
+namespace weft::runtime::test::frame_recording_test {
 
 namespace {
 
@@ -280,4 +280,4 @@ TEST_CASE("the same where histories begin with a texture, an image and a buffer"
   CHECK(tally.stateCalls > 0);
 }
 
-}  // namespace weft::runtime::test
+}  // namespace weft::runtime::test::frame_recording_test

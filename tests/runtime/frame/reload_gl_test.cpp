@@ -10,6 +10,8 @@
 #include "tests/runtime/stage.h"
 #include "tests/temporary_folder.h"
 
+namespace frame_reload_test {
+
 using namespace weft;
 using namespace weft::runtime::test;
 
@@ -362,3 +364,5 @@ TEST_CASE("reload: a resize reruns what depends on the size, and only that") {
   CHECK(stage.ran("fixed_once"));
   CHECK(stage.value() == 32 + 100);
 }
+
+}  // namespace frame_reload_test

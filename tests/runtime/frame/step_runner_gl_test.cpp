@@ -8,6 +8,8 @@
 #include "tests/runtime/plan_on_device.h"
 #include "tests/runtime/stage.h"
 
+namespace frame_step_runner_test {
+
 using namespace weft;
 using namespace weft::runtime::test;
 
@@ -83,3 +85,5 @@ TEST_CASE("a step that runs again sets no state again, until others may have cha
   steps.runner.forgetState();
   CHECK(stateCalls() == first);
 }
+
+}  // namespace frame_step_runner_test

@@ -7,6 +7,8 @@
 #include "tests/runtime/plan_on_device.h"
 #include "tests/runtime/stage.h"
 
+namespace frame_steps_test {
+
 using namespace weft;
 using namespace weft::runtime::test;
 using graph::Value;
@@ -106,3 +108,5 @@ TEST_CASE("what follows an execution of the same passes runs none of them again"
   CHECK(runsKept(nullptr));
   CHECK_FALSE(runsKept(&live.steps));
 }
+
+}  // namespace frame_steps_test

@@ -7,6 +7,8 @@
 #include "tests/runtime/frame_allocations.h"
 #include "tests/runtime/stage.h"
 
+namespace frame_studio_test {
+
 using namespace weft;
 using namespace weft::runtime::test;
 
@@ -131,3 +133,5 @@ TEST_CASE("studio: nothing is left when everything is destroyed") {
   }
   CHECK(gl::toText(gl::liveObjects()) == "none");
 }
+
+}  // namespace frame_studio_test

@@ -2,6 +2,8 @@
 #include "tests/runtime/frame_allocations.h"
 #include "tests/runtime/stage.h"
 
+namespace frame_timed_test {
+
 using namespace weft;
 using namespace weft::runtime;
 using namespace weft::runtime::test;
@@ -74,3 +76,5 @@ TEST_CASE("every(n): a pass sees the frames 0, n, 2n, and its picture stays unti
     CHECK(both[1] == static_cast<float>(frame));
   }
 }
+
+}  // namespace frame_timed_test

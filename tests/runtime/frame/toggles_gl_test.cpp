@@ -17,6 +17,8 @@
 #include "tests/runtime/stage.h"
 #include "tests/temporary_folder.h"
 
+namespace frame_toggles_test {
+
 using namespace weft;
 using namespace weft::runtime::test;
 
@@ -288,3 +290,5 @@ TEST_CASE("what is switched and switched back gives the picture of a fresh start
                   << judge.found.size() << " differ");
   }
 }
+
+}  // namespace frame_toggles_test

@@ -11,6 +11,8 @@
 #include "tests/skip.h"
 #include "tests/temporary_folder.h"
 
+namespace frame_variants_test {
+
 using namespace weft;
 using namespace weft::runtime::test;
 
@@ -106,3 +108,5 @@ TEST_CASE("three thousand toggles: each variant is compiled once") {
     CHECK(stats.binaryRejects == 0);
   }
 }
+
+}  // namespace frame_variants_test

@@ -7,6 +7,8 @@
 #include "engine/runtime/inspection/capture.h"
 #include "tests/runtime/stage.h"
 
+namespace inspection_capture_test {
+
 using namespace weft;
 using namespace weft::runtime;
 using namespace weft::runtime::test;
@@ -133,3 +135,5 @@ TEST_CASE("what cannot be picked is said, with what there is") {
   CHECK(said("first after two").code == text::Code::unknownPass);
   CHECK(said("first after two").expected == "one");
 }
+
+}  // namespace inspection_capture_test

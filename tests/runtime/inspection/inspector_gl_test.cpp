@@ -7,6 +7,8 @@
 #include "engine/runtime/inspection/inspector.h"
 #include "tests/runtime/stage.h"
 
+namespace inspection_inspector_test {
+
 using namespace weft;
 using namespace weft::runtime;
 using namespace weft::runtime::test;
@@ -202,3 +204,5 @@ TEST_CASE("an inspector changes nothing but itself: the picture, and a graph rep
   stage.run();
   CHECK(inspector.copies() == 3);
 }
+
+}  // namespace inspection_inspector_test

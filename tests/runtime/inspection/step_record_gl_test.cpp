@@ -8,6 +8,8 @@
 #include "engine/runtime/inspection/step_record.h"
 #include "tests/runtime/stage.h"
 
+namespace inspection_step_record_test {
+
 using namespace weft;
 using namespace weft::runtime;
 using namespace weft::runtime::test;
@@ -135,3 +137,5 @@ TEST_CASE("poison is what a pass finds, and no pass of a sound graph shows it") 
     }
   }
 }
+
+}  // namespace inspection_step_record_test

@@ -5,6 +5,8 @@
 #include "engine/runtime/storage/caches.h"
 #include "tests/runtime/stage.h"
 
+namespace prepare_sampler_cache_test {
+
 using namespace weft;
 using namespace weft::runtime::test;
 using graph::Compare;
@@ -82,3 +84,5 @@ TEST_CASE(
   glGetSamplerParameterIiv(signedBorder, GL_TEXTURE_BORDER_COLOR, wholes.data());
   CHECK(wholes == std::array<GLint, 4>{-3, 7, 0, 2147483647});
 }
+
+}  // namespace prepare_sampler_cache_test

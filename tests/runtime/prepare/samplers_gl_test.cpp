@@ -3,6 +3,8 @@
 
 #include "tests/runtime/stage.h"
 
+namespace prepare_samplers_test {
+
 using namespace weft;
 using namespace weft::runtime::test;
 
@@ -55,3 +57,5 @@ TEST_CASE("a depth sampler compares as the reference says") {
   checkChannel<6>(stage, "third", 0, {0, 0, 0, 0, 0, 0});   // never
   checkChannel<6>(stage, "third", 1, {1, 0, 1, 1, 1, 1});   // less_equal, and outside a depth of 1
 }
+
+}  // namespace prepare_samplers_test

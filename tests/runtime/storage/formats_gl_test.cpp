@@ -8,6 +8,8 @@
 #include "engine/runtime/storage/formats.h"
 #include "tests/runtime/stage.h"
 
+namespace storage_formats_test {
+
 using namespace weft;
 using namespace weft::runtime::test;
 
@@ -139,3 +141,5 @@ TEST_CASE("a format can what the list says that it can") {
     CHECK(compilesAsImage(name, info.kind) == uses.image);
   }
 }
+
+}  // namespace storage_formats_test

@@ -8,6 +8,8 @@
 #include "tests/runtime/plan_on_device.h"
 #include "tests/runtime/stage.h"
 
+namespace uniforms_frame_uniforms_test {
+
 using namespace weft;
 using namespace weft::runtime::test;
 using graph::Value;
@@ -138,3 +140,5 @@ TEST_CASE("blocks are at aligned offsets, and what changes reaches the buffer wi
   CHECK(live.uniforms.hash(kept.parametersOffset, kept.parametersBlock, 1) != hash);
   CHECK(live.uniforms.hash(0, nullptr, 5) == 5);
 }
+
+}  // namespace uniforms_frame_uniforms_test

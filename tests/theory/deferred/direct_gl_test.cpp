@@ -10,6 +10,8 @@
 #include "tests/theory/lab.h"
 #include "tests/theory/oracle.h"
 
+namespace deferred_direct_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -191,3 +193,5 @@ TEST_CASE("occlusion takes from the environment's light alone; emissive light is
   const Picture lit = render("seen", "1"), lit_half = render("seen", "0.5");
   for (std::uint32_t x = 0; x < kWidth; ++x) CHECK(lit.at(x, 5)[0] == lit_half.at(x, 5)[0]);
 }
+
+}  // namespace deferred_direct_test

@@ -8,6 +8,8 @@
 #include "tests/theory/lab.h"
 #include "tests/theory/oracle.h"
 
+namespace deferred_forward_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -79,3 +81,5 @@ TEST_CASE(
   CHECK(lab.reports() == "");
   MESSAGE("worst difference in steps of 255: ", worst);
 }
+
+}  // namespace deferred_forward_test

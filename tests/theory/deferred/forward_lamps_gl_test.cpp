@@ -6,6 +6,8 @@
 
 #include "tests/theory/mesh_scene.h"
 
+namespace deferred_forward_lamps_test {
+
 using namespace weft;
 using namespace weft::theory;
 using runtime::test::CleanScope;
@@ -93,3 +95,5 @@ TEST_CASE("clustered lamps: with tiles or slices disabled spheres and glass are 
       CHECK(whole == render(way, scene, {std::string(pass)}));
   }
 }
+
+}  // namespace deferred_forward_lamps_test

@@ -7,6 +7,8 @@
 
 #include "tests/theory/lab.h"
 
+namespace deferred_gbuffer_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -105,3 +107,5 @@ TEST_CASE("G-buffer: exponents of Blinn-Phong come back within 1.4 %") {
     CHECK(seen > 5);
   }
 }
+
+}  // namespace deferred_gbuffer_test

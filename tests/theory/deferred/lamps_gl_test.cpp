@@ -9,6 +9,8 @@
 
 #include "tests/theory/lab.h"
 
+namespace deferred_lamps_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -113,3 +115,5 @@ TEST_CASE("clustered lamps: a pixel goes through few more than reach it") {
   CHECK(looked_at > 5);
   CHECK(looked_at < 60);
 }
+
+}  // namespace deferred_lamps_test

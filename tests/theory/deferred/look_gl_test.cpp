@@ -7,6 +7,8 @@
 
 #include "tests/theory/lab.h"
 
+namespace deferred_look_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -117,3 +119,5 @@ TEST_CASE("dots of several pixels are the small ones, enlarged; by channels ther
   CHECK(std::abs(means[1] - 0.3) <= 1.0 / 32);
   CHECK(std::abs(means[2] - 0.1) <= 1.0 / 32);
 }
+
+}  // namespace deferred_look_test

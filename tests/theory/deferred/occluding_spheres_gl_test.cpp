@@ -8,6 +8,8 @@
 
 #include "tests/theory/mesh_scene.h"
 
+namespace deferred_occluding_spheres_test {
+
 using namespace weft;
 using namespace weft::theory;
 using runtime::test::CleanScope;
@@ -135,3 +137,5 @@ TEST_CASE("spheres that are not drawn hide no light from meshes, and throw none 
   CHECK(worst < 0.002f);  // a step of a half between 1 and 2 is 0.001
   CHECK(darker > 200);
 }
+
+}  // namespace deferred_occluding_spheres_test

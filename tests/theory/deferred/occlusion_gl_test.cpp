@@ -10,6 +10,8 @@
 
 #include "tests/theory/lab.h"
 
+namespace deferred_occlusion_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -194,3 +196,5 @@ TEST_CASE(
   CHECK(faded == 0);
   CHECK(dark_beside > 3);
 }
+
+}  // namespace deferred_occlusion_test

@@ -5,6 +5,8 @@
 
 #include "tests/runtime/stage.h"
 
+namespace deferred_positions_test {
+
 using namespace weft;
 using namespace weft::runtime::test;
 
@@ -69,3 +71,5 @@ TEST_CASE(
     CHECK(found.worst > 0.5);  // it is halves that are compared
   }
 }
+
+}  // namespace deferred_positions_test

@@ -11,6 +11,8 @@
 #include "tests/theory/lab.h"
 #include "tests/theory/oracle.h"
 
+namespace deferred_shadows_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -208,3 +210,5 @@ TEST_CASE("lamps: no direct light behind spheres, all of it elsewhere; nothing o
     CHECK(lit_outside == 0);
   }
 }
+
+}  // namespace deferred_shadows_test

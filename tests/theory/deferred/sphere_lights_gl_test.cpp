@@ -8,6 +8,8 @@
 
 #include "tests/theory/mesh_scene.h"
 
+namespace deferred_sphere_lights_test {
+
 using namespace weft;
 using namespace weft::theory;
 using runtime::test::CleanScope;
@@ -130,3 +132,5 @@ TEST_CASE("ray-traced spheres get the light of sun, lamp and spot that meshes of
   }
   CHECK(sums[3] < 0.97 * sums[2]);  // the square's shadow
 }
+
+}  // namespace deferred_sphere_lights_test

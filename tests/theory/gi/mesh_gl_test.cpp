@@ -9,6 +9,8 @@
 #include "tests/theory/gi/probe_reference.h"
 #include "tests/theory/mesh_scene.h"
 
+namespace gi_mesh_test {
+
 using namespace weft;
 using namespace weft::theory;
 using runtime::test::CleanScope;
@@ -103,3 +105,5 @@ TEST_CASE("gi: without a bounce the deferred picture is that of deferred.json by
   const CleanScope clean;
   CHECK(render("graphs/deferred_gi.json", {{"bounce", "false"}}) == render("graphs/deferred.json", {}));
 }
+
+}  // namespace gi_mesh_test

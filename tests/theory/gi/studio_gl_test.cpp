@@ -12,6 +12,8 @@
 #include "tests/theory/gi/probe_reference.h"
 #include "tests/theory/lab.h"
 
+namespace gi_studio_test {
+
 using namespace weft;
 using namespace weft::theory;
 
@@ -267,3 +269,5 @@ TEST_CASE(
     CHECK(worst < 1.5e-3);  // a pixel is two halves, about 1
   }
 }
+
+}  // namespace gi_studio_test

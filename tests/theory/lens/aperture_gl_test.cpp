@@ -8,6 +8,8 @@
 #include "tests/theory/lab.h"
 #include "tests/theory/lens/compare.h"
 
+namespace lens_aperture_test {
+
 using namespace weft;
 using namespace weft::theory;
 
@@ -212,3 +214,5 @@ TEST_CASE("aperture: small discs behind the focus are what 64 places on the lens
     CHECK(full.above32 < (blades ? 0.00011 : 0.00004));
   }
 }
+
+}  // namespace lens_aperture_test

@@ -6,6 +6,8 @@
 
 #include "tests/theory/lab.h"
 
+namespace lens_bokeh_test {
+
 using namespace weft::theory;
 
 TEST_CASE(
@@ -138,3 +140,5 @@ TEST_CASE("focus: highlights that overlap are as bright as a half float can be, 
       CHECK(greatest <= 65504);
     }
 }
+
+}  // namespace lens_bokeh_test

@@ -8,6 +8,8 @@
 
 #include "tests/theory/lab.h"
 
+namespace lens_focus_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -341,3 +343,5 @@ TEST_CASE("focus: without dof.reach there is still a blurred picture, and GL has
   CHECK(darkOf(panels, true).variance > darkOf(panels, false).variance + 17);
   CHECK(darkOf(panels, true).mass == doctest::Approx(darkOf(panels, false).mass).epsilon(0.039));
 }
+
+}  // namespace lens_focus_test

@@ -10,6 +10,8 @@
 
 #include "tests/theory/lab.h"
 
+namespace lens_fog_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -133,3 +135,5 @@ TEST_CASE(
     CHECK(independent > 10);  // the picture has crossings that tell
   }
 }
+
+}  // namespace lens_fog_test

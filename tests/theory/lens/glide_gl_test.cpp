@@ -8,6 +8,8 @@
 
 #include "tests/theory/lens/thin_lens.h"
 
+namespace lens_glide_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -207,3 +209,5 @@ TEST_CASE(
     CHECK(course.least_overlap > (glide.from > 0 ? 0.8 : glide.passing > 0 ? 0.88 : 0.92));
   }
 }
+
+}  // namespace lens_glide_test

@@ -7,6 +7,8 @@
 
 #include "tests/theory/lab.h"
 
+namespace lens_motion_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -167,3 +169,5 @@ TEST_CASE(
     }
   CHECK(largest * kWidth > 2);  // pixels: the test tests something
 }
+
+}  // namespace lens_motion_test

@@ -7,6 +7,8 @@
 
 #include "tests/theory/lab.h"
 
+namespace lens_shape_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -295,3 +297,5 @@ TEST_CASE("shape: a disc of a few pixels is as wide in all directions, and no cr
         CHECK(std::abs(shape.found.cross) < (diameter < 6 ? 0.05 : 0.075));
       }
 }
+
+}  // namespace lens_shape_test

@@ -11,6 +11,8 @@
 #include "tests/theory/lens/compare.h"
 #include "tests/theory/lens/one_picture.h"
 
+namespace lens_shutter_test {
+
 using namespace weft;
 using namespace weft::theory;
 
@@ -221,3 +223,5 @@ TEST_CASE("shutter: where motions cross, the picture is the mean of 64 moments")
     CHECK(better.percentile99 < each.two.most);
   }
 }
+
+}  // namespace lens_shutter_test

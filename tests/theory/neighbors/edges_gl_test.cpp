@@ -10,6 +10,8 @@
 #include "tests/theory/neighbors/metals.h"
 #include "tests/theory/statistics.h"
 
+namespace neighbors_edges_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -137,3 +139,5 @@ TEST_CASE("ground: it gets some of the sky's light and no more than there is, wh
     }
   CHECK(bad == 0);
 }
+
+}  // namespace neighbors_edges_test

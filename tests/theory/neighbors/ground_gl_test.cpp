@@ -7,6 +7,8 @@
 #include "tests/theory/lab.h"
 #include "tests/theory/neighbors/oracle.h"
 
+namespace neighbors_ground_test {
+
 using namespace weft;
 using namespace weft::theory;
 
@@ -252,3 +254,5 @@ TEST_CASE("ground: towards the computed sky's horizon no strip is darker than wh
   // Least where sky and surface are about as bright, and the ground between is darker.
   CHECK(deepest > 0.86);
 }
+
+}  // namespace neighbors_ground_test

@@ -7,6 +7,8 @@
 
 #include "tests/theory/lab.h"
 
+namespace neighbors_lists_test {
+
 using namespace weft;
 using namespace weft::theory;
 
@@ -191,3 +193,5 @@ TEST_CASE("neighbors: the studio makes lists of up to 65,536 spheres, and none o
     CHECK(listed == (count >= 1 && count <= 65536));
   }
 }
+
+}  // namespace neighbors_lists_test

@@ -8,6 +8,8 @@
 #include "tests/theory/neighbors/metals.h"
 #include "tests/theory/statistics.h"
 
+namespace neighbors_metals_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -124,3 +126,5 @@ TEST_CASE("metals: on a ground they reflect one another and it as paths say") {
                                             .allPercentile = 17,
                                             .allRadiance = 1.2});
 }
+
+}  // namespace neighbors_metals_test

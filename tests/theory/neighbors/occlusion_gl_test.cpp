@@ -7,6 +7,8 @@
 #include "tests/theory/lab.h"
 #include "tests/theory/neighbors/oracle.h"
 
+namespace neighbors_occlusion_test {
+
 using namespace weft;
 using namespace weft::theory;
 
@@ -262,3 +264,5 @@ TEST_CASE(
     CHECK(least > -0.02);
   }
 }
+
+}  // namespace neighbors_occlusion_test

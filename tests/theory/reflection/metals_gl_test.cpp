@@ -7,6 +7,8 @@
 #include "tests/theory/reflection/wall.h"
 #include "tests/theory/statistics.h"
 
+namespace reflection_metals_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -101,3 +103,5 @@ TEST_CASE(
 TEST_CASE("reflection: against the sun as well") {
   compare(215);
 }
+
+}  // namespace reflection_metals_test

@@ -10,6 +10,8 @@
 #include "tests/theory/mesh_scene.h"
 #include "tests/theory/statistics.h"
 
+namespace shadows_meshes_test {
+
 using namespace weft;
 using namespace weft::theory;
 using runtime::test::CleanScope;
@@ -246,3 +248,5 @@ TEST_CASE("mesh shadows: what is left of the sky on the ground") {
   CHECK(mean < 0.014);
   CHECK(high < 0.085);
 }
+
+}  // namespace shadows_meshes_test

@@ -12,6 +12,8 @@
 #include "tests/load_image.h"
 #include "tests/theory/lab.h"
 
+namespace temporal_glints_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -176,3 +178,5 @@ TEST_CASE("glints: moving mirrors keep their light under temporal anti-aliasing"
     CHECK(std::abs(share - 1) < 0.03);
   }
 }
+
+}  // namespace temporal_glints_test

@@ -10,6 +10,8 @@
 #include "tests/load_image.h"
 #include "tests/theory/lab.h"
 
+namespace temporal_taa_test {
+
 using namespace weft::theory;
 
 namespace {
@@ -206,3 +208,5 @@ TEST_CASE("temporal anti-aliasing: light that changes on still things is followe
   MESSAGE("a tenth darker; after 12 frames: ", mean() / before);
   CHECK(std::abs(mean() / before - 0.9) < 0.01);
 }
+
+}  // namespace temporal_taa_test
