@@ -97,6 +97,8 @@ class Panels {
   // Brings one to the front by its name, which names() has.
   void open(std::string_view tab);
   static std::vector<std::string> names();
+  // Brings a pass and what it writes to the front, by its full instance name.
+  void select(std::string_view pass);
   // The height of text in pixels, and the size of the window; to be called before the functions below.
   void measure(float textSize, float width, float height);
   // Pixels of the window, from its lower left corner, that are the picture's.

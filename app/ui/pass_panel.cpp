@@ -41,6 +41,18 @@ void Panels::drawPasses(text::Diagnostics& diagnostics) {
   ImGui::EndTable();
 }
 
+void Panels::select(std::string_view pass) {
+  const graph::Plan& plan = renderer_.execution()->plan();
+  const auto at = std::ranges::find(plan.graph->passNames, pass);
+  if (at == plan.graph->passNames.end()) return;
+  const auto index = static_cast<std::uint32_t>(at - plan.graph->passNames.begin());
+  const auto row = std::ranges::find_if(
+      rows_, [&](const PassRow& each) { return std::ranges::find(each.passes, index) != each.passes.end(); });
+  selected_ = static_cast<std::uint32_t>(row - rows_.begin());
+  inspector_.select(plan, index);
+  open("selected");
+}
+
 void Panels::drawPassRow(std::size_t index, text::Diagnostics& diagnostics) {
   const PassRow& row = rows_[index];
   runtime::Execution& execution = *renderer_.execution();

@@ -34,6 +34,7 @@ constexpr KeyBinding kBindings[] = {
     {'.', kAlone, "step", ".", "one frame of 1/60 s, and time stands still"},
     {GLFW_KEY_HOME, kAlone, "reset_time", "Home", "time begins anew"},
     {'P', kAlone, "profile", "P", "measure each pass (slower on software)"},
+    {'N', kAlone, "find_nan", "N", "name the first pass that writes NaN or an infinity, and select it"},
     {'V', kAlone, "vsync", "V", "wait for the screen's refresh, or not"},
     {'I', kAlone, "idle", "I", "idle mode: draw only when something changed"},
     {'-', kAlone, "render_scale_down", "- =", "render with fewer or more pixels than the picture has"},

@@ -127,6 +127,11 @@ void Viewer::addActions() {
                  clock_.begin();
                  rest_.disturb();
                }},
+              {"find_nan",
+               [this] {
+                 scan_ = true;
+                 rest_.disturb();
+               }},
               {"vsync", [this] { glfwSwapInterval((vsync_ = !vsync_) ? 1 : 0); }},
               {"idle", [this] { idle_ = !idle_; }},
               {"render_scale_down", [this] { renderScale_ = std::max(renderScale_ - 0.25, 0.25); }},
@@ -399,6 +404,10 @@ void Viewer::frame() {
   // A recording has the frames that `weft render` makes. The first frame of a window that waited does not fade in.
   in.headless = !options_.record.empty() || (options_.waitForAssets && frame_ == 0);
   panels_.beforeFrame();
+  runtime::StepRecorder steps;
+  if (scan_)
+    renderer_.execution()->watch(
+        {.after = [&](std::uint32_t step) { steps.look(*renderer_.execution(), step); }});
   report_ = renderer_.frame(live_.world(), in, diagnostics_);
   // While an import is on its way no pass runs, and a click is kept for the frame in which one does.
   if (!readsMouse() || report_.passesRun + report_.passesSkipped > 0) input_.pointerShown();
@@ -408,6 +417,22 @@ void Viewer::frame() {
   ++frame_;
   show();
   panels_.afterFrame();
+  if (std::exchange(scan_, false)) tellBroken(steps.take());
+}
+
+void Viewer::tellBroken(const std::vector<runtime::StepRecord>& records) {
+  renderer_.execution()->watch({});
+  const auto broken = [](const runtime::StepRecord& each) {
+    return each.signature && each.signature->broken > 0;
+  };
+  const auto first = std::ranges::find_if(records, broken);
+  told_ = first == records.end()
+              ? fmt::format("no NaN and no infinity in what {} write", text::counted(records.size(), "pass"))
+              : fmt::format("pass '{}' is the first with NaN or infinities: {:.3g} % of the texels of '{}'",
+                            first->pass, 100 * first->signature->broken, first->resource);
+  say("scan " + told_);
+  restless_ = kRestlessAfterEvent;
+  if (first != records.end()) panels_.select(first->pass);
 }
 
 void Viewer::show() {

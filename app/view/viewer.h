@@ -7,6 +7,7 @@
 #include "app/ui/panels.h"
 #include "app/view/frame_clock.h"
 #include "app/view/window_input.h"
+#include "engine/runtime/inspection/step_record.h"
 
 namespace weft::app {
 
@@ -64,6 +65,8 @@ class Viewer {
   imports::Pointer pointer();
   // May end without a picture, when files change meanwhile.
   void frame();
+  // What the scan for NaN found: the passes' records of this frame, in order.
+  void tellBroken(const std::vector<runtime::StepRecord>& records);
   void show();
   void moveCamera(const FrameClock::Tick& tick);
   void judgeRest();
@@ -110,6 +113,7 @@ class Viewer {
   gl::Size size_;  // of the window, as it was said last
   double renderScale_ = 1;
   bool vsync_ = true, idle_ = false, help_ = false, minimized_ = false;
+  bool scan_ = false;                       // for NaN, in the next frame
   bool resting_ = false, shown_ = false;    // as it was said last; a picture was
   bool lastSaved_ = false, leave_ = false;  // --screenshot is done; the window closes whatever is unsaved
   bool broken_ = false;                     // the driver or an output reported an error

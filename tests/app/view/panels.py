@@ -13,7 +13,7 @@ import sys
 from pictures import read_png
 from program import Report, temporary_folder
 from screen import Screen
-from window import Session, copy_of_tree, inside_display
+from window import Session, copy_of_tree, edit, inside_display, save
 
 TABS = ["parameters", "passes", "selected", "times", "storage", "histogram", "messages"]
 
@@ -188,6 +188,39 @@ def hidden(weft, folder, report):
         live.stop()
 
 
+BROKEN = """{
+  "resources": { "a": { "texture": "rgba16f" }, "b": { "texture": "rgba16f" }, "ldr": { "texture": "rgba8" } },
+  "passes": [
+    { "name": "good", "shader": "broken.frag.glsl", "write": { "result": "a" }, "parameters": { "of": 1.0 } },
+    { "name": "bad", "shader": "broken.frag.glsl", "write": { "result": "b" }, "parameters": { "of": { "default": -1.0 } } },
+    { "name": "show", "shader": "broken_show.frag.glsl", "read": ["a", "b"], "write": { "result": "ldr" } } ],
+  "present": "ldr"
+}
+"""
+
+
+def scan(weft, folder, report):
+    """N names the first pass whose results are not finite, until there is none."""
+    (folder / "shaders/broken.frag.glsl").write_text(
+        "layout(std140) uniform Parameters { float of; };\nin vec2 uv;\nout vec4 result;\nvoid main() { result = vec4(uv.x < 0.25 ? sqrt(of) : 1.0); }\n")
+    (folder / "shaders/broken_show.frag.glsl").write_text(
+        "uniform sampler2D a, b;\nin vec2 uv;\nout vec4 result;\nvoid main() { result = texture(a, uv) + texture(b, uv); }\n")
+    save(folder / "graphs/broken.json", BROKEN)
+    live = Session(weft, folder, "--idle", graph="graphs/broken.json")
+    try:
+        live.open(40, 40)
+        live.key("n")
+        report.check(live.event("scan pass 'bad' is the first with NaN or infinities: 25 % of the texels of 'b'"), f"NaN was not found\n{live.lines()}")
+        since = live.mark()
+        edit(folder / "graphs/broken.json", '"default": -1.0', '"default": 1.0')
+        live.event("files good", since)
+        live.key("n")
+        report.check(live.event("scan no NaN and no infinity in what 3 passes write", since), f"NaN where none is\n{live.lines()}")
+        live.leave(report)
+    finally:
+        live.stop()
+
+
 def main():
     weft, report = os.path.abspath(sys.argv[1]), Report()
     display = inside_display(report, weft, "none", __file__)
@@ -205,6 +238,7 @@ def main():
         effects(weft, folder, report)
         write_back(weft, folder, report)
         hidden(weft, folder, report)
+        scan(weft, folder, report)
     report.end()
 
 
