@@ -56,11 +56,11 @@ std::string presetFile(const std::string& preset, const std::string& own) {
 }
 
 runtime::WorldFacts factsWithoutWorld() {
-  runtime::WorldFacts facts;
-  // What the scene that could not be read has is not known, and nothing is said of it.
-  facts.sun = facts.ground = true;
-  facts.lamps = facts.castingLamps = 1;
-  return facts;
+  scene::Scene scene;
+  scene.sun.emplace();
+  scene.ground.emplace();
+  scene.lamps.add({.shadow = true});
+  return {.scene = std::make_shared<const scene::Scene>(std::move(scene))};
 }
 
 graph::Settings settingsOf(const Options& options, bool software) {

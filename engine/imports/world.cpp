@@ -1,10 +1,6 @@
 #include "engine/imports/world.h"
 
-#include <algorithm>
-#include <bit>
 #include <cassert>
-
-#include "engine/imports/material_textures.h"
 
 namespace weft::imports {
 
@@ -39,26 +35,8 @@ WorldFacts World::facts() const {
     facts.environmentWidth = environment_->width;
     facts.environmentHeight = environment_->height;
   }
-  facts.things = scene_;
-  const scene::Scene& scene = *scene_;
-  facts.materials = scene.materials.size();
-  for (const MaterialArray& array : batchTextures(scene)) {
-    WorldFacts::Maps& maps = facts.maps;
-    ++maps.arrays;
-    maps.width = std::max(maps.width, array.width);
-    maps.height = std::max(maps.height, array.height);
-    maps.layers = std::max(maps.layers, static_cast<std::uint32_t>(array.textures.size()));
-    maps.mips = static_cast<std::uint32_t>(std::bit_width(std::max(maps.width, maps.height)));
-  }
-  facts.skins = scene.skins.size();
-  facts.coloredVertices = scene.meshData ? scene.meshData->colors.size() : 0;
-  facts.sun = scene.sun.has_value();
-  facts.castingSun = facts.sun && scene.sun->shadow;
-  facts.ground = scene.ground.has_value();
-  facts.lamps = static_cast<std::uint32_t>(scene.lamps.size());
-  facts.castingLamps =
-      static_cast<std::uint32_t>(std::ranges::count_if(scene.lamps.rows(), &scene::Lamp::shadow));
-  for (const scene::Camera& camera : scene.cameras.rows()) facts.cameras.push_back(camera.name);
+  facts.scene = scene_;
+  facts.known = true;
   return facts;
 }
 

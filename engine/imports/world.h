@@ -16,23 +16,14 @@ namespace weft::imports {
 struct WorldFacts {
   bool environment = false;  // one was loaded, or is on its way
   std::uint32_t environmentWidth = 1024, environmentHeight = 512;
-  std::shared_ptr<const scene::Scene> things;  // that draw lists choose from; null: it is not known
-  std::uint64_t materials = 0;
-  struct Maps {  // the arrays that materials' textures are batched in: how many, and the greatest of each
-    std::uint32_t arrays = 0, width = 1, height = 1, layers = 1, mips = 1;
-    friend bool operator==(const Maps&, const Maps&) = default;
-  } maps;
-  std::uint64_t skins = 0;
-  std::uint64_t coloredVertices = 0;     // vertices of the scene, where any has a color of its own
-  bool sun = false, castingSun = false;  // any; one with a shadow
-  bool ground = false;
-  std::uint32_t lamps = 0, castingLamps = 0;  // all; those with a shadow
-  std::vector<std::string> cameras;
+  std::shared_ptr<const scene::Scene> scene = std::make_shared<const scene::Scene>();  // never null
+  bool known =
+      false;  // false: `scene` takes the place of one that could not be read, and nothing is said of it
   double spheresOf(const scene::Selection& list) const {
-    return things ? static_cast<double>(scene::countInstances(*things, list)) : 0;
+    return static_cast<double>(scene::countInstances(*scene, list));
   }
   double meshesOf(const scene::Selection& list) const {
-    return things ? static_cast<double>(scene::countMeshInstances(*things, list)) : 0;
+    return static_cast<double>(scene::countMeshInstances(*scene, list));
   }
   friend bool operator==(const WorldFacts&, const WorldFacts&) = default;
 };

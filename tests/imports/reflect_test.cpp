@@ -167,9 +167,14 @@ TEST_CASE("a sun is there if the scene has one, if it casts, or if the graph say
     return factsOf(request, world).exists;
   };
   const graph::Value yes = graph::Value::boolean(true), up{graph::Value::Type::list, 3, {0, 1, 0}, {}};
-  CHECK(is("casting", yes, {.sun = true, .castingSun = true}));
-  CHECK_FALSE(is("casting", yes, {.sun = true, .castingSun = false}));
-  CHECK(is("casting", graph::Value::boolean(false), {.sun = true, .castingSun = false}));
+  const auto withSun = [](bool casts) {
+    scene::Scene scene;
+    scene.sun = scene::Sun{.shadow = casts};
+    return World(std::move(scene)).facts();
+  };
+  CHECK(is("casting", yes, withSun(true)));
+  CHECK_FALSE(is("casting", yes, withSun(false)));
+  CHECK(is("casting", graph::Value::boolean(false), withSun(false)));
   CHECK_FALSE(is("casting", graph::Value::boolean(false), {}));
   CHECK(is("direction", up, {}));
 }

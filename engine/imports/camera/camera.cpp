@@ -78,7 +78,8 @@ graph::ImportFacts CameraProvider::facts(const graph::ImportRequest& request, co
                                          Files&) {
   graph::ImportFacts facts{.exists = true};
   const std::string& name = request.at("name").symbol;
-  const std::vector<std::string>& known = world.cameras;
+  std::vector<std::string> known;
+  for (const scene::Camera& camera : world.scene->cameras.rows()) known.push_back(camera.name);
   if (!name.empty() && !known.empty() && std::ranges::find(known, name) == known.end())
     facts.problems.push_back(badArgument(fmt::format("the scene has no camera '{}'", name), "", "",
                                          text::nearestHint(name, known)));

@@ -72,7 +72,7 @@ class DrawListProvider : public Provider {
     const scene::Selection list = selectionOf(request);
     const double count = world.spheresOf(list) + world.meshesOf(list);
     graph::ImportFacts facts{.exists = count > 0, .count = count};
-    if (count == 0 && world.things) facts.problems.push_back(saysNothing(list, *world.things));
+    if (count == 0 && world.known) facts.problems.push_back(saysNothing(list, *world.scene));
     return facts;
   }
 

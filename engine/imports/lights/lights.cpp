@@ -64,7 +64,8 @@ class SunProvider : public Provider {
 
   static graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) {
     const bool casting = request.at("casting").truth();
-    const bool exists = directionOf(request) || (casting ? world.castingSun : world.sun);
+    const std::optional<scene::Sun>& sun = world.scene->sun;
+    const bool exists = directionOf(request) || (sun && (sun->shadow || !casting));
     return {.exists = exists, .count = exists ? 1.0 : 0.0};
   }
 
@@ -158,7 +159,9 @@ class LampsProvider : public Provider {
   }
 
   static graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) {
-    const std::uint32_t count = request.at("casting").truth() ? world.castingLamps : world.lamps;
+    const bool casting = request.at("casting").truth();
+    const auto count = std::ranges::count_if(
+        world.scene->lamps.rows(), [&](const scene::Lamp& lamp) { return lamp.shadow || !casting; });
     return {.exists = count > 0, .count = static_cast<double>(count)};
   }
 

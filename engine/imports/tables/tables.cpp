@@ -132,7 +132,8 @@ struct Joints : SceneTable<scene::Joint> {
             column<Row, &Row::previous>("previous", "of the frame before")};
   }
   static ImportFacts facts(const WorldFacts& world) {
-    return {.exists = world.skins > 0, .count = static_cast<double>(world.skins)};
+    const std::size_t skins = world.scene->skins.size();
+    return {.exists = skins > 0, .count = static_cast<double>(skins)};
   }
   static std::span<const Row> rows(const Frame& frame) { return frame.tables.meshFrame().joints(); }
   static std::uint64_t generation(const Frame& frame) { return frame.tables.meshFrame().jointsGeneration(); }
@@ -150,12 +151,13 @@ struct VertexColors : SceneTable<glm::vec4> {
     return {column<Row, std::identity{}>("color", "linear; a factor of the material's albedo and alpha")};
   }
   static ImportFacts facts(const WorldFacts& world) {
-    return {.exists = world.coloredVertices > 0, .count = static_cast<double>(world.coloredVertices)};
+    const std::size_t count = of(*world.scene).size();
+    return {.exists = count > 0, .count = static_cast<double>(count)};
   }
-  static std::span<const Row> rows(const Frame& frame) {
-    const scene::MeshData* data = frame.world.scene().meshData.get();
-    return data ? std::span(data->colors) : std::span<const Row>();
+  static std::span<const Row> of(const scene::Scene& scene) {
+    return scene.meshData ? std::span(scene.meshData->colors) : std::span<const Row>();
   }
+  static std::span<const Row> rows(const Frame& frame) { return of(frame.world.scene()); }
 };
 
 // A mesh's row says which one it has.
@@ -189,7 +191,7 @@ struct Materials : SceneTable<scene::Material> {
         column<Row, &Row::unlit>("unlit", "1: it shows emissive alone, times its vertex colors")};
   }
   static ImportFacts facts(const WorldFacts& world) {
-    return {.exists = true, .count = static_cast<double>(world.materials)};
+    return {.exists = true, .count = static_cast<double>(world.scene->materials.size())};
   }
   static std::vector<Row> rows(const Frame& frame) {
     const scene::Scene& scene = frame.world.scene();
@@ -217,7 +219,8 @@ struct Ground : SceneTable<scene::Ground> {
                 "radius", "of its surface; 0: it has none and shows the environment")};
   }
   static ImportFacts facts(const WorldFacts& world) {
-    return {.exists = world.ground, .count = world.ground ? 1.0 : 0.0};
+    const bool exists = world.scene->ground.has_value();
+    return {.exists = exists, .count = exists ? 1.0 : 0.0};
   }
   static auto rows(const Frame& frame) { return std::array{frame.world.scene().ground.value_or(Row{})}; }
 };
@@ -265,15 +268,18 @@ class MaterialMapsProvider : public Provider {
   }
 
   static graph::ImportFacts facts(const graph::ImportRequest&, const WorldFacts& world, Files&) {
-    const WorldFacts::Maps& maps = world.maps;
-    return {.exists = maps.arrays > 0,
-            .format = graph::Format::rgba8,
-            .width = maps.width,
-            .height = maps.height,
-            .layers = maps.layers,
-            .mips = maps.mips,
-            .layered = true,
-            .count = static_cast<double>(maps.arrays)};
+    const std::vector<MaterialArray> arrays = batchTextures(*world.scene);
+    graph::ImportFacts facts{.exists = !arrays.empty(),
+                             .format = graph::Format::rgba8,
+                             .layered = true,
+                             .count = static_cast<double>(arrays.size())};
+    for (const MaterialArray& array : arrays) {  // the greatest of each
+      facts.width = std::max(facts.width, array.width);
+      facts.height = std::max(facts.height, array.height);
+      facts.layers = std::max(facts.layers, static_cast<std::uint32_t>(array.textures.size()));
+    }
+    facts.mips = static_cast<std::uint32_t>(std::bit_width(std::max(facts.width, facts.height)));
+    return facts;
   }
 
   explicit MaterialMapsProvider(const graph::ImportRequest& request) : element_(graph::elementOf(request)) {}

@@ -60,10 +60,8 @@ void changeWorld(graph::Registry& registry, const PlugIns& plugIns, const import
   const auto look = [&](const auto& row) {
     if (row.lists != 0 && row.lists != std::remove_cvref_t<decltype(row)>{}.lists) ++unusual[row.lists];
   };
-  if (const scene::Scene* scene = facts.things.get()) {
-    std::ranges::for_each(scene->spheres.rows(), look);
-    std::ranges::for_each(scene->meshInstances.rows(), look);
-  }
+  std::ranges::for_each(facts.scene->spheres.rows(), look);
+  std::ranges::for_each(facts.scene->meshInstances.rows(), look);
   for (const auto& [mask, count] : unusual) {
     graph::Registry::Things& things = registry.things.emplace_back();
     things.count = count;
