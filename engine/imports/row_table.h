@@ -67,7 +67,7 @@ struct Column {
 
 // `Get` is a member of Row or a function of a row. What it gives says the type of the column; a bool is a uint.
 template <class Row, auto Get>
-Column<Row> column(std::string name, std::string doc) {
+Column<Row> column(std::string name, std::string doc = {}) {
   using Given = std::remove_cvref_t<std::invoke_result_t<decltype(Get), const Row&>>;
   using Value = std::conditional_t<std::is_same_v<Given, bool>, std::uint32_t, Given>;
   return {{std::move(name), glslTypeOf<Value>(), std::move(doc)},

@@ -60,7 +60,7 @@ Columns<scene::ViewData> cameraColumns() {
       column<Row, &Row::projection>("projection",
                                     "that to clip space, with the picture's shape and its jitter"),
       column<Row, &Row::view_projection>("view_projection", "projection * view"),
-      column<Row, &Row::inverse_view_projection>("inverse_view_projection", "")};
+      column<Row, &Row::inverse_view_projection>("inverse_view_projection")};
 }
 
 graph::ImportType CameraProvider::reflect() {

@@ -185,7 +185,7 @@ struct Materials : SceneTable<scene::Material> {
         column<Row, &Row::normalMap>("normal_map", "tangent space"),
         column<Row, &Row::metallicRoughnessMap>("metallic_roughness_map", "metallic in b, roughness in g"),
         column<Row, &Row::occlusionMap>("occlusion_map", "in r"),
-        column<Row, &Row::emissiveMap>("emissive_map", ""),
+        column<Row, &Row::emissiveMap>("emissive_map"),
         column<Row, &Row::blinnPhong>("blinn_phong", "1: specular and shininess are what the file has"),
         column<Row, &Row::doubleSided>("double_sided", "0 or 1"),
         column<Row, &Row::unlit>("unlit", "1: it shows emissive alone, times its vertex colors")};

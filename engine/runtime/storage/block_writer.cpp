@@ -6,7 +6,8 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <variant>
+
+#include "engine/imports/row_table.h"
 
 namespace weft::runtime {
 
@@ -43,40 +44,26 @@ bool putScalar(std::byte* at, GLenum base, double x) {
   }
 }
 
-void putMatrix(std::byte* at, const gl::BlockMember& member, const glm::mat4& matrix) {
-  const std::uint32_t stride = member.matrixStride ? member.matrixStride : 16;
-  for (int column = 0; column < 4; ++column)
-    for (int row = 0; row < 4; ++row) {
-      const int major = member.rowMajor ? row : column, minor = member.rowMajor ? column : row;
-      std::memcpy(at + static_cast<std::size_t>(major) * stride + static_cast<std::size_t>(minor) * 4,
-                  &matrix[column][row], 4);
-    }
+// What the View block may declare.
+const imports::Columns<scene::ViewData>& viewColumns() {
+  using V = scene::ViewData;
+  using imports::column;
+  static const imports::Columns<V> kColumns = {
+      column<V, &V::view>("view"),
+      column<V, &V::projection>("projection"),
+      column<V, &V::view_projection>("view_projection"),
+      column<V, &V::inverse_view_projection>("inverse_view_projection"),
+      column<V, &V::previous_view_projection>("previous_view_projection"),
+      column<V, &V::eye>("eye"),
+      column<V, &V::previous_eye>("previous_eye"),
+      column<V, &V::near_plane>("near_plane"),
+      column<V, &V::viewport>("viewport"),
+      column<V, &V::jitter>("jitter"),
+      column<V, &V::frame>("frame"),
+      column<V, &V::time>("time"),
+      column<V, &V::delta_time>("delta_time")};
+  return kColumns;
 }
-
-using ViewField =
-    std::variant<glm::mat4 scene::ViewData::*, glm::vec3 scene::ViewData::*, glm::vec2 scene::ViewData::*,
-                 float scene::ViewData::*, std::uint32_t scene::ViewData::*>;
-struct ViewMember {
-  const char* name;
-  ViewField field;
-  bool time = false;
-};
-using V = scene::ViewData;
-const ViewMember kViewMembers[] = {
-    {"view", &V::view},
-    {"projection", &V::projection},
-    {"view_projection", &V::view_projection},
-    {"inverse_view_projection", &V::inverse_view_projection},
-    {"previous_view_projection", &V::previous_view_projection},
-    {"eye", &V::eye},
-    {"previous_eye", &V::previous_eye},
-    {"near_plane", &V::near_plane},
-    {"viewport", &V::viewport},
-    {"jitter", &V::jitter},
-    {"frame", &V::frame, true},
-    {"time", &V::time, true},
-    {"delta_time", &V::delta_time, true},
-};
 
 }  // namespace
 
@@ -128,33 +115,24 @@ bool writeValue(std::byte* block, const Field& field, const graph::Value& value)
 
 std::vector<std::string> viewMemberNames() {
   std::vector<std::string> names;
-  for (const ViewMember& member : kViewMembers) names.emplace_back(member.name);
+  for (const auto& column : viewColumns()) names.push_back(column.told.name);
   return names;
 }
 
-void writeView(std::byte* block, const gl::Block& layout, const scene::ViewData& view, glm::vec2 viewport,
+void writeView(std::byte* block, const gl::Block& layout, scene::ViewData view, glm::vec2 viewport,
                bool timeless) {
+  view.viewport = viewport;
+  if (timeless) view.time = view.delta_time = 0, view.frame = 0;
   for (const gl::BlockMember& member : layout.members)
-    for (const ViewMember& known : kViewMembers) {
-      if (member.name != known.name) continue;
-      std::byte* at = block + member.offset;
-      if (known.time && timeless) {
-        std::memset(at, 0, 4);
-        continue;
-      }
-      std::visit(
-          [&](auto field) {
-            using T = std::remove_cvref_t<decltype(view.*field)>;
-            if constexpr (std::is_same_v<T, glm::mat4>) {
-              putMatrix(at, member, view.*field);
-            } else {
-              T value = view.*field;
-              if constexpr (std::is_same_v<T, glm::vec2>)
-                if (field == &V::viewport) value = viewport;
-              std::memcpy(at, &value, sizeof value);
-            }
-          },
-          known.field);
+    for (const auto& column : viewColumns()) {
+      if (member.name != column.told.name) continue;
+      std::byte* const at = block + member.offset;
+      column.write({&view, 1}, at, 0);
+      if (!member.rowMajor || member.matrixStride == 0) continue;
+      glm::mat4 matrix;
+      std::memcpy(&matrix, at, sizeof matrix);
+      matrix = glm::transpose(matrix);
+      std::memcpy(at, &matrix, sizeof matrix);
     }
 }
 

@@ -37,7 +37,7 @@ bool writeValue(std::byte* block, const Field& field, const graph::Value& value)
 std::vector<std::string> viewMemberNames();
 // Writes the members of `layout` that are view members. `viewport` (pixels) replaces the camera's. `timeless`: frame and
 // times are 0, as for passes that are not `always`.
-void writeView(std::byte* block, const gl::Block& layout, const scene::ViewData& view, glm::vec2 viewport,
+void writeView(std::byte* block, const gl::Block& layout, scene::ViewData view, glm::vec2 viewport,
                bool timeless);
 
 }  // namespace weft::runtime
