@@ -131,10 +131,10 @@ std::optional<ShaderStanza> stanzaFor(const std::string& path, glsl::SourceLoade
   const auto [root, file] = rootOf(path);
   const bool compute = file.ends_with(".comp.glsl"), vertex = file.ends_with(".vert.glsl");
   if (!compute && !vertex && !file.ends_with(".frag.glsl")) {
-    text::Diagnostic& d = diagnostics.error(text::Code::unreadableShader, {path, 1, 1},
-                                            fmt::format("'{}' is no stage of a shader", path));
-    d.expected = "a name that ends in .frag.glsl, .vert.glsl or .comp.glsl";
-    d.hint = "a file that others include is checked with a shader that includes it";
+    diagnostics.error(text::Code::unreadableShader, {path, 1, 1},
+                      fmt::format("'{}' is no stage of a shader", path),
+                      {.expected = "a name that ends in .frag.glsl, .vert.glsl or .comp.glsl",
+                       .hint = "a file that others include is checked with a shader that includes it"});
     return std::nullopt;
   }
   ShaderStanza made;

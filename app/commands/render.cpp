@@ -204,12 +204,12 @@ std::vector<Part> matchingParts(const DumpOptions& options, const graph::Plan& p
   for (const std::string& pattern : options.patterns) {
     const bool unread = !graph::suffixMatches(names, pattern).empty();
     if (runtime::captureItems(plan, {&pattern, 1}).empty())
-      diagnostics
-          .error(text::Code::unknownResource, text::placeOfOption(pattern),
-                 unread ? fmt::format("'{}' is not attached in a pass that runs: nobody reads it", pattern)
-                        : fmt::format("no pass that runs writes a resource '{}'", pattern))
-          .hint = unread ? fmt::format("`weft render -o {}=FILE` reads it", pattern)
-                         : graph::suffixHint(pattern, names);
+      diagnostics.error(
+          text::Code::unknownResource, text::placeOfOption(pattern),
+          unread ? fmt::format("'{}' is not attached in a pass that runs: nobody reads it", pattern)
+                 : fmt::format("no pass that runs writes a resource '{}'", pattern),
+          {.hint = unread ? fmt::format("`weft render -o {}=FILE` reads it", pattern)
+                          : graph::suffixHint(pattern, names)});
   }
   std::vector<Part> parts;
   for (const runtime::CaptureItem& item : runtime::captureItems(plan, options.patterns)) {

@@ -55,11 +55,9 @@ std::optional<std::vector<std::uint8_t>> readMask(const TestCase& test, const as
   auto mask = assets::loadImage8(test.mask, 1, diagnostics);
   if (!mask) return std::nullopt;
   if (mask->width != picture.width || mask->height != picture.height) {
-    text::Diagnostic& d =
-        diagnostics.error(text::Code::badImageSize, test.place,
-                          fmt::format("the mask '{}' has another size than the picture", test.mask));
-    d.expected = sizeText(picture);
-    d.found = sizeText(*mask);
+    diagnostics.error(text::Code::badImageSize, test.place,
+                      fmt::format("the mask '{}' has another size than the picture", test.mask),
+                      {.expected = sizeText(picture), .found = sizeText(*mask)});
     return std::nullopt;
   }
   for (std::uint8_t& weight : mask->texels) weight = weight >= 128;

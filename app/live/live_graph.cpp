@@ -371,10 +371,9 @@ bool LiveGraph::write(const graph::WriteBack& plan, text::Diagnostics& diagnosti
   const bool wefts = std::ranges::any_of(plan.files, isWefts, &graph::WriteBack::File::path);
   for (const graph::WriteBack::File& file : plan.files)
     if (isWefts(file.path))
-      diagnostics
-          .error(text::Code::cannotWriteBack, {file.path},
-                 fmt::format("'{}' is Weft's own, and is not written over", file.path))
-          .hint = "save the changes as a preset, or work on a copy of the graph";
+      diagnostics.error(text::Code::cannotWriteBack, {file.path},
+                        fmt::format("'{}' is Weft's own, and is not written over", file.path),
+                        {.hint = "save the changes as a preset, or work on a copy of the graph"});
   if (wefts || !graph::saveWriteBack(plan, diagnostics)) return false;
   Moment before = now();
   before.files = reversed(plan);
@@ -389,9 +388,9 @@ std::optional<std::string> LiveGraph::savePreset(const std::string& name, text::
   const std::string file = presetFolder_ + "/" + name + ".json";
   std::error_code ignored;
   if (name.find_first_of("/.") != std::string::npos || fs::exists(file, ignored) || isWefts(file)) {
-    diagnostics
-        .error(text::Code::outputNotWritten, {file}, fmt::format("there is a preset '{}' already", name))
-        .hint = "give it another name, without '/' and '.'";
+    diagnostics.error(text::Code::outputNotWritten, {file},
+                      fmt::format("there is a preset '{}' already", name),
+                      {.hint = "give it another name, without '/' and '.'"});
     return std::nullopt;
   }
   nlohmann::ordered_json text = {{"name", name}};

@@ -89,10 +89,9 @@ std::optional<std::string> firstEnvironment(const std::string& fileOrFolder, tex
   if (!std::filesystem::is_directory(fileOrFolder, ignored)) return fileOrFolder;
   const std::vector<std::string> files = listEnvironments(fileOrFolder);
   if (!files.empty()) return files.front();
-  text::Diagnostic& d =
-      diagnostics.error(text::Code::unreadableImage, {fileOrFolder},
-                        fmt::format("there is no environment in the folder '{}'", fileOrFolder));
-  d.expected = "a .hdr or .exr file in it";
+  diagnostics.error(text::Code::unreadableImage, {fileOrFolder},
+                    fmt::format("there is no environment in the folder '{}'", fileOrFolder),
+                    {.expected = "a .hdr or .exr file in it"});
   return std::nullopt;
 }
 

@@ -94,19 +94,19 @@ bool PictureWriter::save(runtime::Renderer& renderer, const std::string& path,
 
 void PictureWriter::tell(text::Diagnostics& diagnostics) {
   if (first_.pixels == 0) return;
-  auto& d = diagnostics.warning(
+  std::string found = fmt::format("NaN in {} and infinity in {}", first_.nan, first_.infinite);
+  if (const std::uint64_t more = counts_.broken - brokenBefore_ - 1; more > 0)
+    found += fmt::format("; {} more of the pictures after it have such pixels", more);
+  diagnostics.warning(
       text::Code::pictureNotFinite, {first_.file, 0, 0},
       fmt::format("{} of the picture {} NaN or infinite, the first at x {}, y {} from the upper left",
                   text::counted(first_.pixels, "pixel"), first_.pixels == 1 ? "is" : "are", first_.x,
-                  first_.y));
-  d.resource = first_.resource;
-  d.expected = "finite numbers";
-  d.found = fmt::format("NaN in {} and infinity in {}", first_.nan, first_.infinite);
-  if (const std::uint64_t more = counts_.broken - brokenBefore_ - 1; more > 0)
-    d.found += fmt::format("; {} more of the pictures after it have such pixels", more);
-  d.hint =
-      "look for a division by 0, a root of what may be negative, or too large a value; `weft view` marks "
-      "them";
+                  first_.y),
+      {.expected = "finite numbers",
+       .found = std::move(found),
+       .hint = "look for a division by 0, a root of what may be negative, or too large a value; `weft view` "
+               "marks them",
+       .resource = first_.resource});
   first_ = {};
   brokenBefore_ = counts_.broken;
 }

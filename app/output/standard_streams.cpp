@@ -78,13 +78,12 @@ int finishStreams(int exitCode) {
   if (outputFailure == EPIPE) return exitCode == 0 ? kReaderLeft : exitCode;
   if (outputFailure != 0) {
     text::Diagnostics diagnostics;
-    diagnostics
-        .error(text::Code::outputNotWritten, {},
-               fmt::format("not everything could be written to standard output: {}",
-                           std::strerror(outputFailure)))
-        .hint = outputFailure == ENOSPC || outputFailure == EFBIG
-                    ? "free some space, or send it somewhere else"
-                    : "send it to a file or a pipe that takes it";
+    const bool full = outputFailure == ENOSPC || outputFailure == EFBIG;
+    diagnostics.error(
+        text::Code::outputNotWritten, {},
+        fmt::format("not everything could be written to standard output: {}", std::strerror(outputFailure)),
+        {.hint = full ? "free some space, or send it somewhere else"
+                      : "send it to a file or a pipe that takes it"});
     printError(diagnostics.text());
   }
   // Messages that nobody could read are no success; a reader that left wanted no more of them.

@@ -197,8 +197,8 @@ runtime::FrameReport drawFrame(runtime::Renderer& renderer, const runtime::World
 
 bool checkPresents(const Options& options, runtime::Renderer& renderer, text::Diagnostics& diagnostics) {
   if (renderer.execution()->presented().id != 0) return true;
-  diagnostics.error(text::Code::presentsNothing, {options.graph, 1, 1}, "the graph presents nothing to write")
-      .hint = "add \"present\": \"<texture>\", and enable a pass that writes it";
+  diagnostics.error(text::Code::presentsNothing, {options.graph, 1, 1}, "the graph presents nothing to write",
+                    {.hint = "add \"present\": \"<texture>\", and enable a pass that writes it"});
   return false;
 }
 

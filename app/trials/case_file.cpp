@@ -77,23 +77,21 @@ class CaseReader {
     const bool picture =
         fields.find("mask") || fields.find("tolerance") || fields.find("frame") || fields.find("frames");
     if (test.plan && picture)
-      diagnostics_
-          .error(Code::keysExclude, value.place,
-                 fmt::format("case '{}' compares a plan, which has no picture", test.name))
-          .hint = "remove \"frame\", \"frames\", \"mask\" and \"tolerance\", or \"plan\"";
+      diagnostics_.error(Code::keysExclude, value.place,
+                         fmt::format("case '{}' compares a plan, which has no picture", test.name),
+                         {.hint = "remove \"frame\", \"frames\", \"mask\" and \"tolerance\", or \"plan\""});
     cases.push_back(std::move(test));
   }
 
   void readName(const std::string& name, const text::Place& place, TestCase& test) {
     test.name = name;
     if (!isCaseName(name)) {
-      text::Diagnostic& d =
-          diagnostics_.error(Code::notAName, place, fmt::format("'{}' is no name for a case", name));
-      d.expected = "letters, digits, _ and -, because its golden is a file of that name";
+      diagnostics_.error(Code::notAName, place, fmt::format("'{}' is no name for a case", name),
+                         {.expected = "letters, digits, _ and -, because its golden is a file of that name"});
     } else if (!names_.insert(name).second) {
-      diagnostics_
-          .error(Code::duplicateName, place, fmt::format("there are two cases of the name '{}'", name))
-          .hint = "give one of them another name: each has a golden of its own";
+      diagnostics_.error(Code::duplicateName, place,
+                         fmt::format("there are two cases of the name '{}'", name),
+                         {.hint = "give one of them another name: each has a golden of its own"});
     }
   }
 
@@ -131,11 +129,10 @@ class CaseReader {
   void readSet(const JsonMember& member, TestCase& test) {
     const JsonValue& value = member.value;
     if (value.is(JsonValue::Type::null) || value.is(JsonValue::Type::object)) {
-      diagnostics_
-          .error(Code::wrongType, value.place,
-                 fmt::format("the value of the parameter '{}' cannot be {}", member.key,
-                             text::nameOf(value.type)))
-          .expected = "a number, a boolean, a string or a list of numbers";
+      diagnostics_.error(
+          Code::wrongType, value.place,
+          fmt::format("the value of the parameter '{}' cannot be {}", member.key, text::nameOf(value.type)),
+          {.expected = "a number, a boolean, a string or a list of numbers"});
       return;
     }
     // As it would be behind --set NAME=.
@@ -172,8 +169,8 @@ class CaseReader {
       if (const auto number = text::readNumber(item, "a frame", kFrame, Code::outOfRange, diagnostics_))
         numbers.insert(static_cast<std::uint32_t>(*number));
     if (frames->items.empty())
-      diagnostics_.error(Code::outOfRange, frames->place, "\"frames\" is empty, so nothing would be compared")
-          .hint = "name a frame, such as [0]";
+      diagnostics_.error(Code::outOfRange, frames->place, "\"frames\" is empty, so nothing would be compared",
+                         {.hint = "name a frame, such as [0]"});
     if (!numbers.empty()) test.frames.assign(numbers.begin(), numbers.end());
   }
 
@@ -207,8 +204,9 @@ std::vector<std::string> findCaseFiles(const std::string& path, text::Diagnostic
                       fmt::format("cannot read a folder in it: {}", ec.message()));
   std::ranges::sort(files);
   if (files.empty() && !diagnostics.hasErrors())
-    diagnostics.error(Code::unreadableFile, {path}, "the folder has no file of cases").hint =
-        fmt::format("write one whose name ends in {}: docs/testing_pictures.md", kSuffix);
+    diagnostics.error(
+        Code::unreadableFile, {path}, "the folder has no file of cases",
+        {.hint = fmt::format("write one whose name ends in {}: docs/testing_pictures.md", kSuffix)});
   return files;
 }
 

@@ -149,10 +149,9 @@ std::optional<PassRecords> readRecords(const std::string& path, text::Diagnostic
                       : number == 2 ? line.starts_with("driver ")
                                     : readLine(line, records);
     if (good) continue;
-    text::Diagnostic& d =
-        diagnostics.error(text::Code::wrongType, {path, number, 1}, "this is no line of a record of passes");
-    d.found = text::shortened(text::printable(line));
-    d.hint = "write the file anew: weft test --accept";
+    diagnostics.error(
+        text::Code::wrongType, {path, number, 1}, "this is no line of a record of passes",
+        {.found = text::shortened(text::printable(line)), .hint = "write the file anew: weft test --accept"});
     return std::nullopt;
   }
   return records;

@@ -27,19 +27,14 @@ namespace weft::assets {
 
 using text::Code;
 using text::Diagnostics;
-using text::Place;
 
 namespace {
 
-Place placeOf(const std::string& name) {
-  return {name};
-}
-
 void reportUnknownKind(Diagnostics& diagnostics, const std::string& name, std::string expected) {
-  text::Diagnostic& d = diagnostics.error(Code::unknownImageKind, placeOf(name),
-                                          fmt::format("'{}' is no kind of image that is known", name));
-  d.expected = std::move(expected);
-  d.found = lowerExtension(name).empty() ? "no extension" : lowerExtension(name);
+  diagnostics.error(Code::unknownImageKind, {name},
+                    fmt::format("'{}' is no kind of image that is known", name),
+                    {.expected = std::move(expected),
+                     .found = lowerExtension(name).empty() ? "no extension" : lowerExtension(name)});
 }
 
 // Solid angle of a texel of row `y` of an equirectangular map, in units of one at the equator.
@@ -113,19 +108,17 @@ ImageKind kindOfName(const std::string& name) {
 }
 
 void reportUnreadable(Diagnostics& diagnostics, const std::string& name, const std::string& why) {
-  diagnostics.error(Code::unreadableImage, placeOf(name),
-                    fmt::format("cannot read image '{}': {}", name, why));
+  diagnostics.error(Code::unreadableImage, {name}, fmt::format("cannot read image '{}': {}", name, why));
 }
 
 bool checkSize(Diagnostics& diagnostics, const std::string& name, long long width, long long height) {
   const bool tooLarge = width > kMaxImageSide || height > kMaxImageSide ||
                         width * height > static_cast<long long>(kMaxImageTexels);
   if (width >= 1 && height >= 1 && !tooLarge) return true;
-  text::Diagnostic& d =
-      diagnostics.error(Code::badImageSize, placeOf(name),
-                        fmt::format("image '{}' is {}", name, tooLarge ? "too large" : "empty"));
-  d.expected = fmt::format("1 to {} texels a side, at most {} in all", kMaxImageSide, kMaxImageTexels);
-  d.found = fmt::format("{} x {}", width, height);
+  diagnostics.error(
+      Code::badImageSize, {name}, fmt::format("image '{}' is {}", name, tooLarge ? "too large" : "empty"),
+      {.expected = fmt::format("1 to {} texels a side, at most {} in all", kMaxImageSide, kMaxImageTexels),
+       .found = fmt::format("{} x {}", width, height)});
   return false;
 }
 
@@ -240,13 +233,10 @@ std::optional<ImageF> decodeEnvironment(std::string_view bytes, const std::strin
   std::optional<ImageF> image = decodeImage(bytes, name, diagnostics);
   if (!image) return {};
   if (kindOfName(name) == ImageKind::eight_bit)
-    diagnostics.add(
-        {.severity = text::Severity::warning,
-         .code = Code::displayReferred,
-         .message = fmt::format(
-             "the environment '{}' holds colors of a screen: no light in it is brighter than 1", name),
-         .place = placeOf(name),
-         .expected = "radiance, as .hdr and .exr hold it",
+    diagnostics.warning(
+        Code::displayReferred, {name},
+        fmt::format("the environment '{}' holds colors of a screen: no light in it is brighter than 1", name),
+        {.expected = "radiance, as .hdr and .exr hold it",
          .found = "sRGB, which was decoded to linear light",
          .hint = "take an .hdr or .exr of the place, in which the sun is as bright as it was"});
   ImageF wide = widenToRgba(std::move(*image));
@@ -299,20 +289,20 @@ void sanitizeRadiance(ImageF& image, const std::string& name, Diagnostics& diagn
   constexpr double kNoLoss = 5e-4;
   if (undefined + negative + infinite == 0 && lost < kNoLoss * whole) return;
   const std::size_t colors = image.texels.size() / channels * 3;
-  text::Diagnostic& d =
-      diagnostics.add({.severity = undefined + negative > 0 ? text::Severity::warning : text::Severity::note,
-                       .code = Code::texelsReplaced,
-                       .message = fmt::format("{} of {} color values are no radiance and were replaced",
-                                              undefined + negative + infinite + tooBright, colors),
-                       .place = placeOf(name)});
-  d.expected = fmt::format("numbers from 0 to {}", kHalfMax);
-  d.found = fmt::format("{} not a number, {} negative (both now 0), {} infinite (now {})", undefined,
-                        negative, infinite, kHalfMax);
+  std::string found = fmt::format("{} not a number, {} negative (both now 0), {} infinite (now {})",
+                                  undefined, negative, infinite, kHalfMax);
   if (tooBright > 0)
-    d.found += fmt::format(
+    found += fmt::format(
         ", {} above the range (their light is spread over the texels around them, {:.2g} % of the map's "
         "is lost)",
         tooBright, whole > 0 ? 100 * lost / whole : 0.0);
+  diagnostics.add({.severity = undefined + negative > 0 ? text::Severity::warning : text::Severity::note,
+                   .code = Code::texelsReplaced,
+                   .message = fmt::format("{} of {} color values are no radiance and were replaced",
+                                          undefined + negative + infinite + tooBright, colors),
+                   .place = text::Place{name},
+                   .expected = fmt::format("numbers from 0 to {}", kHalfMax),
+                   .found = std::move(found)});
 }
 
 float decodeSrgb(float encoded) {

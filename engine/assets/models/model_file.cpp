@@ -28,10 +28,9 @@ std::optional<Model> loadModel(const std::string& path, text::Diagnostics& diagn
   const std::string kind = lowerExtension(path);
   const bool made = kind == ".fbx";
   if (!isModelName(path)) {
-    text::Diagnostic& d = said.error(text::Code::unreadableModel, mine.place(),
-                                     fmt::format("'{}' is no kind of model that is known", path));
-    d.expected = ".gltf, .glb, .obj or .fbx";
-    d.found = kind.empty() ? "no extension" : kind;
+    said.error(text::Code::unreadableModel, mine.place(),
+               fmt::format("'{}' is no kind of model that is known", path),
+               {.expected = ".gltf, .glb, .obj or .fbx", .found = kind.empty() ? "no extension" : kind});
   } else if (auto bytes = mine.readModel()) {
     if (made) bytes = glbOfFbx(*bytes, mine);
     good = kind == ".obj" ? bytes && readObj(*bytes, mine, model)
@@ -46,9 +45,9 @@ std::optional<Model> loadModel(const std::string& path, text::Diagnostics& diagn
   if (files) *files = model.files;
   if (!good || mine.gaveUp()) return {};
   if (model.instances.empty()) {
-    text::Diagnostic& d = diagnostics.error(text::Code::unreadableModel, mine.place(),
-                                            fmt::format("the model '{}' has nothing to draw", path));
-    d.expected = "at least one mesh of triangles in its scene";
+    diagnostics.error(text::Code::unreadableModel, mine.place(),
+                      fmt::format("the model '{}' has nothing to draw", path),
+                      {.expected = "at least one mesh of triangles in its scene"});
     return {};
   }
   windMirrored(model);

@@ -132,11 +132,11 @@ std::vector<std::uint32_t> numbersOf(const SequencePattern& pattern, text::Diagn
       numbers.push_back(*number);
   std::ranges::sort(numbers);
   if (numbers.empty()) {
-    text::Diagnostic& d = diagnostics.error(text::Code::unreadableImage, place,
-                                            fmt::format("the sequence '{}' has no pictures", pattern.text));
-    d.expected = fmt::format("files such as {}", pattern.nameOf(1));
-    d.found = ec ? fmt::format("a folder that cannot be listed: {}", ec.message()) : "none";
-    d.hint = "write as many # as the numbers have digits, or %d for numbers without leading zeros";
+    diagnostics.error(
+        text::Code::unreadableImage, place, fmt::format("the sequence '{}' has no pictures", pattern.text),
+        {.expected = fmt::format("files such as {}", pattern.nameOf(1)),
+         .found = ec ? fmt::format("a folder that cannot be listed: {}", ec.message()) : "none",
+         .hint = "write as many # as the numbers have digits, or %d for numbers without leading zeros"});
   }
   return numbers;
 }
@@ -286,13 +286,13 @@ class ImageProvider : public Provider {
   // A sequence has one size: the graph's sizes depend on it.
   bool fits(const ImageHeader& header, const std::string& path, text::Diagnostics& diagnostics) const {
     if (textureDescOf(header, request_) == texture_.desc()) return true;
-    text::Diagnostic& d =
-        diagnostics.error(text::Code::badImageSize, {path},
-                          fmt::format("a picture of the sequence '{}' has another size", pattern_->text));
-    d.expected =
-        fmt::format("{} x {}, as the pictures before", texture_.desc().width, texture_.desc().height);
-    d.found = fmt::format("{} x {}, or other bits a channel", header.width, header.height);
-    d.hint = "save all pictures of a sequence in one size and with equally many bits";
+    const gl::TextureDesc& before = texture_.desc();
+    diagnostics.error(
+        text::Code::badImageSize, {path},
+        fmt::format("a picture of the sequence '{}' has another size", pattern_->text),
+        {.expected = fmt::format("{} x {}, as the pictures before", before.width, before.height),
+         .found = fmt::format("{} x {}, or other bits a channel", header.width, header.height),
+         .hint = "save all pictures of a sequence in one size and with equally many bits"});
     return false;
   }
 

@@ -43,8 +43,9 @@ class LightReader {
     if (const double length = glm::length(direction); length >= 1e-6)
       out = glm::vec3(direction / length);
     else
-      failAt(diagnostics_, Code::badSceneValue, *fields.find("direction"),
-             fmt::format("the direction of {} has no length", what), "give a vector such as [0, 1, 0]");
+      diagnostics_.error(Code::badSceneValue, fields.find("direction")->place,
+                         fmt::format("the direction of {} has no length", what),
+                         {.hint = "give a vector such as [0, 1, 0]"});
   }
 
   glm::vec3 toUnits(double photometric, glm::vec3 color) const {
@@ -91,8 +92,9 @@ class LightReader {
     const bool aimed = fields.find("direction") != nullptr;
     fields.finish();
     if ((inner || outer) && !aimed)
-      failAt(diagnostics_, Code::badSceneValue, value, fmt::format("{} has a cone but no 'direction'", what),
-             "say where the lamp shines: \"direction\": [0, -1, 0]");
+      diagnostics_.error(Code::badSceneValue, value.place,
+                         fmt::format("{} has a cone but no 'direction'", what),
+                         {.hint = "say where the lamp shines: \"direction\": [0, -1, 0]"});
     if (aimed) setCone(value, what, inner.value_or(0), outer.value_or(45), lamp);
     if (hasRoom(value, 1)) scene_.lamps.add(std::move(lamp));
   }
@@ -112,10 +114,10 @@ class LightReader {
 
   void setCone(const JsonValue& value, const std::string& what, double inner, double outer, Lamp& lamp) {
     if (inner > outer) {
-      text::Diagnostic& d = failAt(diagnostics_, Code::badSceneValue, value,
-                                   fmt::format("the inner cone of {} is wider than the outer one", what));
-      d.expected = fmt::format("an 'inner' of at most {} degrees", outer);
-      d.found = fmt::format("{}", inner);
+      diagnostics_.error(Code::badSceneValue, value.place,
+                         fmt::format("the inner cone of {} is wider than the outer one", what),
+                         {.expected = fmt::format("an 'inner' of at most {} degrees", outer),
+                          .found = fmt::format("{}", inner)});
       return;
     }
     lamp.cosInner = static_cast<float>(std::cos(inner * std::numbers::pi / 180));

@@ -9,19 +9,12 @@
 
 namespace weft::scene {
 
-text::Diagnostic& failAt(text::Diagnostics& diagnostics, text::Code code, const text::JsonValue& value,
-                         std::string message, std::string hint) {
-  text::Diagnostic& d = diagnostics.error(code, value.place, std::move(message));
-  d.hint = std::move(hint);
-  return d;
-}
-
 void failTooMany(text::Diagnostics& diagnostics, const text::JsonValue& value, std::string message,
                  std::size_t most, std::string found, std::string hint) {
-  text::Diagnostic& d =
-      failAt(diagnostics, text::Code::badSceneValue, value, std::move(message), std::move(hint));
-  d.expected = fmt::format("at most {} in all", most);
-  d.found = std::move(found);
+  diagnostics.error(text::Code::badSceneValue, value.place, std::move(message),
+                    {.expected = fmt::format("at most {} in all", most),
+                     .found = std::move(found),
+                     .hint = std::move(hint)});
 }
 
 std::optional<std::uint8_t> readLists(text::JsonFields& fields, const std::string& what,
@@ -35,8 +28,9 @@ std::optional<std::uint8_t> readLists(text::JsonFields& fields, const std::strin
     if (const auto list = findDrawList(*name))
       mask = static_cast<std::uint8_t>(mask | maskOf(*list));
     else
-      failAt(diagnostics, text::Code::unknownSceneList, item, fmt::format("unknown draw list '{}'", *name),
-             text::nearestHint(*name, drawListNames()));
+      diagnostics.error(text::Code::unknownSceneList, item.place,
+                        fmt::format("unknown draw list '{}'", *name),
+                        {.hint = text::nearestHint(*name, drawListNames())});
   }
   return mask;
 }
@@ -48,8 +42,8 @@ std::vector<std::string> readTags(text::JsonFields& fields, const std::string& w
   for (std::size_t i = 0; all && i < all->items.size(); ++i) {
     const auto tag = text::readText(all->items[i], fmt::format("a tag of {}", what), diagnostics);
     if (tag && (tag->empty() || !std::ranges::all_of(*tag, text::isIdentChar)))
-      failAt(diagnostics, text::Code::badSceneValue, all->items[i], fmt::format("'{}' is no tag", *tag),
-             "write letters, digits and _, as a graph can name them");
+      diagnostics.error(text::Code::badSceneValue, all->items[i].place, fmt::format("'{}' is no tag", *tag),
+                        {.hint = "write letters, digits and _, as a graph can name them"});
     if (tag) tags.push_back(*tag);
   }
   return tags;

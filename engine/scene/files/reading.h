@@ -33,8 +33,6 @@ class SceneFields : public text::JsonFields {
   void read(std::string_view key, bool& out) { out = boolean(key).value_or(out); }
 };
 
-text::Diagnostic& failAt(text::Diagnostics& diagnostics, text::Code code, const text::JsonValue& value,
-                         std::string message, std::string hint = "");
 // What is more than `most`.
 void failTooMany(text::Diagnostics& diagnostics, const text::JsonValue& value, std::string message,
                  std::size_t most, std::string found, std::string hint = "");

@@ -110,9 +110,10 @@ class Reader {
     if (!root) return {};
     for (const char* key : {"passes", "extends"})
       if (root->find(key)) {
-        fail(Code::wrongType, *root, fmt::format("this file has \"{}\": it is a graph, not a scene", key),
-             fmt::format("a graph stands without --scene: weft render {} --scene SCENE", name_))
-            .expected = "a scene, with \"cameras\", \"grid\", \"spheres\", \"models\", \"sun\" or \"lamps\"";
+        fail(
+            Code::wrongType, *root, fmt::format("this file has \"{}\": it is a graph, not a scene", key),
+            {.expected = "a scene, with \"cameras\", \"grid\", \"spheres\", \"models\", \"sun\" or \"lamps\"",
+             .hint = fmt::format("a graph stands without --scene: weft render {} --scene SCENE", name_)});
         return {};
       }
     SceneFields fields(*root, "the scene", Code::badSceneValue, diagnostics_);
@@ -224,16 +225,15 @@ class Reader {
       camera.pose.nearPlane = from.nearPlane;
       camera.pose.height = from.height;
       if (node.valid() && transforms.isMoving(node.index))
-        diagnostics_
-            .warning(Code::modelPartLeftOut, text::Place{name_},
-                     fmt::format("the motion of camera '{}' was left out", from.name))
-            .hint = "a scene file moves a camera along a \"path\"";
+        diagnostics_.warning(Code::modelPartLeftOut, {name_},
+                             fmt::format("the motion of camera '{}' was left out", from.name),
+                             {.hint = "a scene file moves a camera along a \"path\""});
       scene_.cameras.add(std::move(camera));
     }
   }
 
-  text::Diagnostic& fail(Code code, const JsonValue& value, std::string message, std::string hint = "") {
-    return failAt(diagnostics_, code, value, std::move(message), std::move(hint));
+  void fail(Code code, const JsonValue& value, std::string message, text::Says says = {}) {
+    diagnostics_.error(code, value.place, std::move(message), std::move(says));
   }
 
   void failNoGrid(const JsonValue& where) {
@@ -258,7 +258,7 @@ class Reader {
       std::vector<std::string> names;
       for (const Camera& camera : cameras) names.push_back(camera.name);
       fail(Code::badSceneValue, where, fmt::format("the scene has no camera '{}'", name),
-           names.empty() ? "name one under \"cameras\"" : text::nearestHint(name, names));
+           {.hint = names.empty() ? "name one under \"cameras\"" : text::nearestHint(name, names)});
       return false;
     }
     std::rotate(cameras.begin(), chosen, chosen + 1);
@@ -274,11 +274,10 @@ class Reader {
     fields.read("radius", kSize, ground.radius);
     if (fields.find("albedo")) fields.read("albedo", kUnit, ground.albedo.emplace());
     if (fields.find("radius") && !fields.find("albedo")) {
-      text::Diagnostic& d =
-          fail(Code::badSceneValue, *fields.find("radius"), "the ground has a radius but no surface",
-               "give it an \"albedo\", or leave \"radius\" out");
-      d.expected = "an albedo beside it";
-      d.found = "a ground that shows the environment, which ends nowhere";
+      fail(Code::badSceneValue, *fields.find("radius"), "the ground has a radius but no surface",
+           {.expected = "an albedo beside it",
+            .found = "a ground that shows the environment, which ends nowhere",
+            .hint = "give it an \"albedo\", or leave \"radius\" out"});
     }
     fields.finish();
     scene_.ground = ground;
@@ -328,8 +327,8 @@ class Reader {
     material.name = name;
     fields.finish();
     if (byName_.contains(name)) {
-      diagnostics_.error(Code::duplicateMaterial, place, fmt::format("a second material '{}'", name)).hint =
-          "rename it; the library has one of this name";
+      diagnostics_.error(Code::duplicateMaterial, place, fmt::format("a second material '{}'", name),
+                         {.hint = "rename it; the library has one of this name"});
       return byName_[name];
     }
     return add(std::move(material));
@@ -344,8 +343,8 @@ class Reader {
     std::vector<std::string> names;
     for (const auto& [known, id] : byName_) names.push_back(known);
     fail(Code::unknownMaterial, value, fmt::format("unknown material '{}'", *name),
-         names.empty() ? "name a \"library\", or define it under \"materials\""
-                       : text::nearestHint(*name, names));
+         {.hint = names.empty() ? "name a \"library\", or define it under \"materials\""
+                                : text::nearestHint(*name, names)});
     return {};
   }
 
@@ -426,7 +425,8 @@ class Reader {
     fields.finish();
     if (!path) checkDirection(value, what, camera.pose.position, camera.pose.target);
     if (path && camera.orbitDegreesPerSecond != 0)
-      fail(Code::badSceneValue, *path, fmt::format("{} has both 'path' and 'orbit'", what), "keep one");
+      fail(Code::badSceneValue, *path, fmt::format("{} has both 'path' and 'orbit'", what),
+           {.hint = "keep one"});
     if (path) readPath(*path, what, camera);
     scene_.cameras.add(std::move(camera));
   }
@@ -435,7 +435,7 @@ class Reader {
                       glm::dvec3 target) {
     if (glm::length(position - target) < 1e-6)
       fail(Code::badSceneValue, value, fmt::format("{} stands on its target", what),
-           "move 'position' or 'target'");
+           {.hint = "move 'position' or 'target'"});
   }
 
   void readPath(const JsonValue& path, const std::string& what, Camera& camera) {
@@ -551,11 +551,11 @@ class Reader {
       copy.animation = static_cast<std::uint32_t>(row);
       return;
     }
-    text::Diagnostic& d = fail(Code::unknownAnimation, value, fmt::format("{} has no such animation", what));
-    d.expected =
-        names.empty() ? "none: its file has no animation" : fmt::format("{}", fmt::join(names, ", "));
-    d.found = describe(value);
-    if (value.is(JsonValue::Type::string)) d.hint = text::nearestHint(value.text, names);
+    fail(Code::unknownAnimation, value, fmt::format("{} has no such animation", what),
+         {.expected =
+              names.empty() ? "none: its file has no animation" : fmt::format("{}", fmt::join(names, ", ")),
+          .found = describe(value),
+          .hint = value.is(JsonValue::Type::string) ? text::nearestHint(value.text, names) : ""});
   }
 
   void addCopies(const JsonValue& value, const std::string& name, const Loaded& loaded, ModelCopy copy,
@@ -579,11 +579,11 @@ class Reader {
       sunOf_ = name;
     } else if (copy.lights && suns > 0 &&
                !sunOf_.empty()) {  // a sun of the scene file takes the place of all
-      text::Diagnostic& d = diagnostics_.warning(Code::modelPartLeftOut, value.place,
-                                                 fmt::format("the sun of model '{}' was left out", name));
-      d.expected = "one model with a directional light, or a 'sun' in the scene file";
-      d.found = fmt::format("the sun of model '{}'", sunOf_);
-      d.hint = "\"lights\": false leaves the lights of a model out";
+      diagnostics_.warning(Code::modelPartLeftOut, value.place,
+                           fmt::format("the sun of model '{}' was left out", name),
+                           {.expected = "one model with a directional light, or a 'sun' in the scene file",
+                            .found = fmt::format("the sun of model '{}'", sunOf_),
+                            .hint = "\"lights\": false leaves the lights of a model out"});
     }
     grid.forEach([&](std::size_t index, glm::vec3 place) {
       copy.root.name = total > 1 ? fmt::format("{}[{}]", name, index) : name;
@@ -625,8 +625,8 @@ std::optional<std::vector<Material>> readMaterialLibrary(std::string_view text, 
     for (const char* told : {"category", "source"}) fields.text(told);  // to people
     fields.finish();
     if (!material.name.empty() && !names.insert(material.name).second)
-      failAt(diagnostics, Code::duplicateMaterial, item, fmt::format("a second material '{}'", material.name),
-             "rename one");
+      diagnostics.error(Code::duplicateMaterial, item.place,
+                        fmt::format("a second material '{}'", material.name), {.hint = "rename one"});
     materials.push_back(std::move(material));
   }
   if (diagnostics.errorCount() > before) return {};

@@ -347,10 +347,10 @@ std::optional<std::string> glbOfFbx(const std::string& bytes, ModelFiles& files)
   if (!goOn(0)) return {};
   const char what = end.said.empty() ? '\0' : end.said.back();
   if (what == kMadeWithoutLights)
-    files.diagnostics()
-        .warning(Code::modelPartLeftOut, files.place(),
-                 "the lights of the model were left out: the format says no unit of their brightness")
-        .hint = "give the scene file a 'sun' and 'lamps'";
+    files.diagnostics().warning(
+        Code::modelPartLeftOut, files.place(),
+        "the lights of the model were left out: the format says no unit of their brightness",
+        {.hint = "give the scene file a 'sun' and 'lamps'"});
   if (what == kMade || what == kMadeWithoutLights) return std::move(end.made);
   text::Diagnostic& d = files.diagnostics().error(
       Code::unreadableModel, files.place(),

@@ -390,11 +390,8 @@ class ObjReader {
     return place;
   }
   void fail(std::string message, std::string expected, std::string found) {
-    diagnostics_.add({.code = Code::badModelValue,
-                      .message = std::move(message),
-                      .place = here(),
-                      .expected = std::move(expected),
-                      .found = std::move(found)});
+    diagnostics_.error(Code::badModelValue, here(), std::move(message),
+                       {.expected = std::move(expected), .found = std::move(found)});
   }
 
   // A line, and those that it goes on in behind '\\'.
@@ -452,19 +449,17 @@ class ObjReader {
 
   void reportLeftOut() {
     if (colored_ && colorless_)
-      diagnostics_
-          .warning(Code::modelPartLeftOut, files_.place(),
-                   "the vertex colors were left out: some vertices have none")
-          .hint = "export the mesh again, with a color for every vertex";
+      diagnostics_.warning(Code::modelPartLeftOut, files_.place(),
+                           "the vertex colors were left out: some vertices have none",
+                           {.hint = "export the mesh again, with a color for every vertex"});
     for (const auto& [what, where] : leftOut_) {
       line_ = where.first;
-      text::Diagnostic& d = diagnostics_.warning(
-          Code::modelPartLeftOut, here(),
-          what.find(' ') != what.npos ? what
-                                      : fmt::format("statements '{}' of the model were left out", what));
-      d.expected = "triangles and polygons: v, vt, vn, f, o, g, usemtl, mtllib";
-      d.found = fmt::format("{} of them", where.second);
-      if (what == "p" || what == "l") d.hint = "points and lines are not drawn";
+      const bool sentence = what.find(' ') != what.npos, drawn = what != "p" && what != "l";
+      diagnostics_.warning(Code::modelPartLeftOut, here(),
+                           sentence ? what : fmt::format("statements '{}' of the model were left out", what),
+                           {.expected = "triangles and polygons: v, vt, vn, f, o, g, usemtl, mtllib",
+                            .found = fmt::format("{} of them", where.second),
+                            .hint = drawn ? "" : "points and lines are not drawn"});
     }
   }
 
