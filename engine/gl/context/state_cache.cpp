@@ -8,6 +8,8 @@ namespace weft::gl {
 // Keeps the vectors' memory: a frame allocates nothing.
 void StateCache::forget() {
   known_ = {};
+  enabled_ = {};
+  stencil_ = {};
   for (auto* list : {&textures_, &samplers_}) std::ranges::fill(*list, std::nullopt);
   for (auto* list : {&uniformBuffers_, &storageBuffers_}) std::ranges::fill(*list, std::nullopt);
   std::ranges::fill(images_, std::nullopt);
@@ -28,7 +30,7 @@ void StateCache::enable(GLenum capability, bool on) {
   const auto index =
       static_cast<std::size_t>(std::ranges::find(kCapabilities, capability) - kCapabilities.begin());
   assert(index < kCapabilities.size());
-  if (!takes(known_.enabled[index], on)) return;
+  if (!takes(enabled_[index], on)) return;
   if (on)
     glEnable(capability);
   else

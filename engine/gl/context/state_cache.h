@@ -7,7 +7,9 @@
 #include <glad/gl.h>
 
 #include <array>
+#include <cstdint>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 namespace weft::gl {
@@ -20,9 +22,7 @@ class StateCache {
 
   void forget();
 
-  void useProgram(GLuint program) {
-    if (takes(known_.program, program)) glUseProgram(program);
-  }
+  void useProgram(GLuint program) { set(known_.program, glUseProgram, program); }
   void bindTexture(GLuint unit, GLuint texture) {
     if (takes(slotAt(textures_, unit), texture)) glBindTextureUnit(unit, texture);
   }
@@ -36,53 +36,34 @@ class StateCache {
   // `size` 0: the whole buffer. `target`: uniform or shader storage.
   void bindBuffer(GLenum target, GLuint index, GLuint buffer, GLintptr offset, GLsizeiptr size);
   // For drawing and for reading.
-  void bindFramebuffer(GLuint framebuffer) {
-    if (takes(known_.framebuffer, framebuffer)) glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  }
-  void bindVertexArray(GLuint vertexArray) {
-    if (takes(known_.vertexArray, vertexArray)) glBindVertexArray(vertexArray);
-  }
+  void bindFramebuffer(GLuint name) { set(known_.framebuffer, glBindFramebuffer, GL_FRAMEBUFFER, name); }
+  void bindVertexArray(GLuint vertexArray) { set(known_.vertexArray, glBindVertexArray, vertexArray); }
 
   // One of kCapabilities.
   void enable(GLenum capability, bool on);
   void viewport(GLint x, GLint y, GLsizei width, GLsizei height) {
-    if (takes(known_.viewport, {x, y, width, height})) glViewport(x, y, width, height);
+    set(known_.viewport, glViewport, x, y, width, height);
   }
   void scissor(GLint y, GLsizei width, GLsizei height) {
-    if (takes(known_.scissor, {y, width, height})) glScissor(0, y, width, height);
+    set(known_.scissor, glScissor, 0, y, width, height);
   }
-  void depthFunc(GLenum compare) {
-    if (takes(known_.depthFunc, compare)) glDepthFunc(compare);
-  }
-  void depthMask(bool open) {
-    if (takes(known_.depthMask, open)) glDepthMask(open ? GL_TRUE : GL_FALSE);
-  }
+  void depthFunc(GLenum compare) { set(known_.depthFunc, glDepthFunc, compare); }
+  void depthMask(bool open) { set(known_.depthMask, glDepthMask, open ? GL_TRUE : GL_FALSE); }
   // Bits 0 to 3: red, green, blue, alpha. Of all draw buffers, or of one after that.
   void colorMask(unsigned mask) {
-    if (takes(known_.colorMask, mask)) glColorMask(mask & 1, mask >> 1 & 1, mask >> 2 & 1, mask >> 3 & 1);
+    set(known_.colorMask, glColorMask, mask & 1, mask >> 1 & 1, mask >> 2 & 1, mask >> 3 & 1);
   }
   void colorMask(GLuint index, unsigned mask) {
     glColorMaski(index, mask & 1, mask >> 1 & 1, mask >> 2 & 1, mask >> 3 & 1);
     known_.colorMask.reset();
   }
-  void stencilMask(GLuint mask) {
-    if (takes(known_.stencilMask, mask)) glStencilMask(mask);
-  }
-  void cullFace(GLenum face) {
-    if (takes(known_.cullFace, face)) glCullFace(face);
-  }
-  void polygonMode(GLenum mode) {
-    if (takes(known_.polygonMode, mode)) glPolygonMode(GL_FRONT_AND_BACK, mode);
-  }
-  void polygonOffset(GLfloat factor, GLfloat units) {
-    if (takes(known_.offset, {factor, units})) glPolygonOffset(factor, units);
-  }
-
-  void sampleMask(GLbitfield mask) {
-    if (takes(known_.sampleMask, mask)) glSampleMaski(0, mask);
-  }
+  void stencilMask(GLuint mask) { set(known_.stencilMask, glStencilMask, mask); }
+  void cullFace(GLenum face) { set(known_.cullFace, glCullFace, face); }
+  void polygonMode(GLenum mode) { set(known_.polygonMode, glPolygonMode, GL_FRONT_AND_BACK, mode); }
+  void polygonOffset(GLfloat factor, GLfloat units) { set(known_.offset, glPolygonOffset, factor, units); }
+  void sampleMask(GLbitfield mask) { set(known_.sampleMask, glSampleMaski, 0, mask); }
   void blendColor(const std::array<GLfloat, 4>& color) {
-    if (takes(known_.blendColor, color)) glBlendColor(color[0], color[1], color[2], color[3]);
+    set(known_.blendColor, glBlendColor, color[0], color[1], color[2], color[3]);
   }
 
   struct Stencil {
@@ -93,7 +74,7 @@ class StateCache {
     friend bool operator==(const Stencil&, const Stencil&) = default;
   };
   void stencil(bool back, const Stencil& stencil) {
-    if (!takes(known_.stencil[back ? 1 : 0], stencil)) return;
+    if (!takes(stencil_[back ? 1 : 0], stencil)) return;
     const GLenum face = back ? GL_BACK : GL_FRONT;
     glStencilFuncSeparate(face, stencil.test, stencil.reference, stencil.mask);
     glStencilOpSeparate(face, stencil.fail, stencil.depthFail, stencil.pass);
@@ -125,6 +106,12 @@ class StateCache {
     std::optional<bool> on;
     std::optional<Blend> mode;
   };
+  using Numbers = std::array<double, 4>;  // of a call; each number of GL is one
+  template <class... Arguments>
+  static void set(std::optional<Numbers>& known, void (*call)(Arguments...),
+                  std::type_identity_t<Arguments>... arguments) {
+    if (takes(known, Numbers{static_cast<double>(arguments)...})) call(arguments...);
+  }
   // Whether `value` is news; it is what is known from now on.
   template <class T>
   static bool takes(std::optional<T>& known, const T& value) {
@@ -138,19 +125,12 @@ class StateCache {
     return slots[index];
   }
 
-  struct Known {
-    std::optional<GLuint> program, framebuffer, vertexArray, stencilMask;
-    std::array<std::optional<bool>, kCapabilities.size()> enabled;
-    std::optional<bool> depthMask;
-    std::optional<unsigned> colorMask;
-    std::optional<std::array<GLint, 4>> viewport;
-    std::optional<GLbitfield> sampleMask;
-    std::optional<std::array<GLfloat, 4>> blendColor;
-    std::array<std::optional<Stencil>, 2> stencil;  // of front and back faces
-    std::optional<std::array<GLint, 3>> scissor;
-    std::optional<GLenum> depthFunc, cullFace, polygonMode;
-    std::optional<std::array<GLfloat, 2>> offset;
+  struct {  // what calls without an index have set
+    std::optional<Numbers> program, framebuffer, vertexArray, viewport, scissor, depthFunc, depthMask,
+        colorMask, stencilMask, cullFace, polygonMode, offset, sampleMask, blendColor;
   } known_;
+  std::array<std::optional<bool>, kCapabilities.size()> enabled_;
+  std::array<std::optional<Stencil>, 2> stencil_;  // of front and back faces
   std::vector<std::optional<GLuint>> textures_, samplers_;
   std::vector<std::optional<Image>> images_;
   std::vector<std::optional<Range>> uniformBuffers_, storageBuffers_;
