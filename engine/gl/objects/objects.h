@@ -152,15 +152,12 @@ struct Raster {
   friend bool operator==(const Raster&, const Raster&) = default;
 };
 
-class Framebuffer : public Owner<ObjectKind::framebuffer> {
- public:
+struct Framebuffer : Owner<ObjectKind::framebuffer> {
+  using Owner::Owner;
   // Draw buffer i writes GL_COLOR_ATTACHMENTi when that is attached, else nothing. Without attachments, `raster` is
   // the area that is rasterized. When the framebuffer is incomplete, reports W115 with the reason.
   static std::optional<Framebuffer> create(std::span<const Attachment> attachments, std::string_view label,
                                            text::Diagnostics& diagnostics, const Raster& raster = {});
-
- private:
-  using Owner::Owner;
 };
 
 struct SamplerDesc {
@@ -173,12 +170,9 @@ struct SamplerDesc {
   friend bool operator==(const SamplerDesc&, const SamplerDesc&) = default;
 };
 
-class SamplerObject : public Owner<ObjectKind::sampler> {
- public:
-  static SamplerObject create(const SamplerDesc& desc, std::string_view label);
-
- private:
+struct SamplerObject : Owner<ObjectKind::sampler> {
   using Owner::Owner;
+  static SamplerObject create(const SamplerDesc& desc, std::string_view label);
 };
 
 struct VertexAttribute {
@@ -189,8 +183,8 @@ struct VertexAttribute {
   bool integer = false;
 };
 
-class VertexArray : public Owner<ObjectKind::vertex_array> {
- public:
+struct VertexArray : Owner<ObjectKind::vertex_array> {
+  using Owner::Owner;
   static VertexArray create(std::string_view label);
   // Takes attributes from one interleaved buffer, at binding point `binding`. With `divisor` 1 each instance takes one
   // element. `buffer` may be 0. Buffers are not owned.
@@ -200,19 +194,13 @@ class VertexArray : public Owner<ObjectKind::vertex_array> {
     for (const VertexAttribute& attribute : attributes) glDisableVertexArrayAttrib(id_, attribute.location);
   }
   void setIndices(GLuint buffer) { glVertexArrayElementBuffer(id_, buffer); }
-
- private:
-  using Owner::Owner;
 };
 
-class Query : public Owner<ObjectKind::query> {
- public:
+struct Query : Owner<ObjectKind::query> {
+  using Owner::Owner;
   static Query create(GLenum target, std::string_view label);  // GL_TIMESTAMP, GL_TIME_ELAPSED, …
   bool available() const;
   std::uint64_t result() const;  // waits when not available
-
- private:
-  using Owner::Owner;
 };
 
 // A fence sync object. Default-made: nothing was inserted and isSignalled() is true.
