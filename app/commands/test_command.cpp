@@ -38,11 +38,6 @@ struct CaseResult {
 
 using State = CaseResult::State;
 
-bool isThere(const std::string& path) {
-  std::error_code ignored;
-  return std::filesystem::exists(path, ignored);
-}
-
 bool fits(const PictureDifference& found, const Tolerance& tolerance) {
   return found.flip.mean <= tolerance.flip && found.flip.peak <= tolerance.flipPeak &&
          found.bytes.maxDifference <= tolerance.step && found.share <= tolerance.fraction;
@@ -93,7 +88,8 @@ CaseResult runPlan(const TestCase& test, bool accept, text::Diagnostics& diagnos
   const OutputFile written{"--accept", file, OutputFile::Over::file};
   if (accept && !checkDistinct({&written, 1}, diagnostics)) return result;
   text::Diagnostics ignored;  // what cannot be read is written anew
-  const auto golden = isThere(file) ? text::readFile(file, accept ? ignored : diagnostics) : std::nullopt;
+  const auto golden =
+      text::isThere(file) ? text::readFile(file, accept ? ignored : diagnostics) : std::nullopt;
   if (!golden)
     result.lines.push_back(fmt::format("there is no golden plan '{}' yet; --accept writes it", file));
   if (golden == text) return result;
@@ -109,7 +105,7 @@ bool judgePicture(const TestCase& test, std::uint32_t frame, const assets::Image
   const std::string file = test.goldenOf(frame);
   text::Diagnostics ignored;  // what cannot be read is written anew
   const auto golden =
-      isThere(file) ? assets::loadImage8(file, 4, accept ? ignored : diagnostics) : std::nullopt;
+      text::isThere(file) ? assets::loadImage8(file, 4, accept ? ignored : diagnostics) : std::nullopt;
   const auto weights = readMask(test, picture, diagnostics);
   if (!weights || diagnostics.hasErrors()) return false;
   std::optional<PictureDifference> found;
@@ -170,13 +166,13 @@ CaseResult runPictures(const TestCase& test, const TestOptions& options,
     if (diagnostics.hasErrors()) return result;  // a picture is not written: the record would be of another
     text::Diagnostics ignored;
     const std::string text = toText(shot->records);
-    const auto before = isThere(record) ? text::readFile(record, ignored) : std::nullopt;
+    const auto before = text::isThere(record) ? text::readFile(record, ignored) : std::nullopt;
     if (before != text) text::writeFile(record, text, diagnostics);
     result.state = same && before == text ? State::same : State::written;
     return result;
   }
   result.state = same ? State::same : State::different;
-  if (!same && isThere(record))
+  if (!same && text::isThere(record))
     if (const auto before = readRecords(record, diagnostics))
       result.first = findDivergence(*before, shot->records);
   return result;

@@ -148,12 +148,8 @@ void LiveGraph::watch(text::Diagnostics* diagnostics) {
 bool LiveGraph::wantsLoad(double now) {
   const std::vector<std::string> changed = watcher_.poll();
   if (!changed.empty()) {
-    const auto gone = [](const std::string& file) {
-      std::error_code ignored;
-      return !std::filesystem::exists(file, ignored);
-    };
     changedAt_ = now;
-    untried_ = std::ranges::none_of(changed, gone);
+    untried_ = std::ranges::all_of(changed, text::isThere);
     quiet_ = untried_ ? kQuietSeconds : kGoneSeconds;
   }
   for (const std::string& file : changed) {
@@ -387,7 +383,7 @@ std::optional<std::string> LiveGraph::savePreset(const std::string& name, text::
   ++changes_;
   const std::string file = presetFolder_ + "/" + name + ".json";
   std::error_code ignored;
-  if (name.find_first_of("/.") != std::string::npos || fs::exists(file, ignored) || isWefts(file)) {
+  if (name.find_first_of("/.") != std::string::npos || text::isThere(file) || isWefts(file)) {
     diagnostics.error(text::Code::outputNotWritten, {file},
                       fmt::format("there is a preset '{}' already", name),
                       {.hint = "give it another name, without '/' and '.'"});
@@ -420,8 +416,7 @@ std::optional<std::string> LiveGraph::savePreset(const std::string& name, text::
 bool LiveGraph::open(const std::string& file, text::Diagnostics& diagnostics) {
   ++changes_;
   text::chooseFile(file);
-  std::error_code ignored;
-  if (assets::isEnvironmentName(file) || fs::is_directory(file, ignored)) {
+  if (assets::isEnvironmentName(file) || text::isFolder(file)) {
     const auto first = firstEnvironment(file, diagnostics);
     if (first) environment_.request(*first);
     return first.has_value();

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "engine/text/files/file.h"
+
 namespace weft::app {
 
 namespace {
@@ -85,8 +87,7 @@ std::optional<LoadStatus> LiveScene::status() const {
 }
 
 std::optional<std::string> firstEnvironment(const std::string& fileOrFolder, text::Diagnostics& diagnostics) {
-  std::error_code ignored;
-  if (!std::filesystem::is_directory(fileOrFolder, ignored)) return fileOrFolder;
+  if (!text::isFolder(fileOrFolder)) return fileOrFolder;
   const std::vector<std::string> files = listEnvironments(fileOrFolder);
   if (!files.empty()) return files.front();
   diagnostics.error(text::Code::unreadableImage, {fileOrFolder},

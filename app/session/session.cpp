@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <future>
 
 #include "app/output/standard_streams.h"
@@ -43,14 +42,12 @@ std::vector<std::string> presetFolders(const std::string& own) {
 }
 
 std::string presetFile(const std::string& preset, const std::string& own) {
-  std::error_code ignored;
   const bool name = !preset.empty() && preset.find_first_of("/.") == std::string::npos;
-  const auto here = std::filesystem::status(preset, ignored);
-  if (!name || (std::filesystem::exists(here) && !std::filesystem::is_directory(here))) return preset;
+  if (!name || (text::isThere(preset) && !text::isFolder(preset))) return preset;
   std::string file;
   for (const std::string& folder : presetFolders(own)) {
     file = folder + "/" + preset + ".json";
-    if (std::filesystem::exists(file, ignored)) break;
+    if (text::isThere(file)) break;
   }
   return file;
 }

@@ -191,8 +191,7 @@ class CaseReader {
 
 std::vector<std::string> findCaseFiles(const std::string& path, text::Diagnostics& diagnostics) {
   namespace fs = std::filesystem;
-  std::error_code ignored;
-  if (!fs::is_directory(path, ignored)) return {path};
+  if (!text::isFolder(path)) return {path};
   std::vector<std::string> files;
   std::error_code ec;
   for (fs::recursive_directory_iterator at(path, ec), end; !ec && at != end; at.increment(ec))

@@ -8,7 +8,7 @@
 #include <imgui_freetype.h>
 #include <imgui_internal.h>
 
-#include <filesystem>
+#include "engine/text/files/file.h"
 
 namespace weft::app::ui {
 
@@ -38,9 +38,8 @@ void Overlay::setScale(float scale) {
   static constexpr ImWchar kScripts[] = {0x20, 0x52f, 0x1e00, 0x22ff, 0x25a0, 0x25ff, 0};
   ImGuiIO& io = ImGui::GetIO();
   io.Fonts->Clear();
-  std::error_code ignored;
-  const bool own = std::filesystem::exists(kFont, ignored) &&
-                   io.Fonts->AddFontFromFileTTF(kFont, textSize(scale), nullptr, kScripts);
+  const bool own =
+      text::isThere(kFont) && io.Fonts->AddFontFromFileTTF(kFont, textSize(scale), nullptr, kScripts);
   if (!own) io.Fonts->AddFontDefault();
   io.FontGlobalScale = own ? 1 : scale;
   ImGui_ImplOpenGL3_DestroyFontsTexture();  // made anew by the next frame

@@ -13,6 +13,7 @@
 #include "app/output/output_files.h"
 #include "app/output/standard_streams.h"
 #include "app/view/key_bindings.h"
+#include "engine/text/files/file.h"
 #include "engine/text/hash.h"
 #include "engine/text/json/report.h"
 #include "engine/text/printable.h"
@@ -209,10 +210,9 @@ void Viewer::toggleFlight() {
 
 void Viewer::toggleRecording() {
   if (!recording_.empty()) return stopRecording();
-  std::error_code ignored;
   recording_ = options_.record;
   for (int i = 1; recording_.empty(); ++i)
-    if (const std::string folder = fmt::format("record_{}", i); !std::filesystem::exists(folder, ignored))
+    if (const std::string folder = fmt::format("record_{}", i); !text::isThere(folder))
       recording_ = folder + "/f_%05d.png";
   recorded_ = 0;
   if (checkOutput(recording_, 0, true, diagnostics_))
@@ -522,9 +522,7 @@ void Viewer::saveScreenshot() {
   if (screenshot_.empty()) return;
   const std::string kind = std::exchange(screenshot_, {});
   std::string name = fmt::format("weft_{:05}{}", frame_, kind);
-  std::error_code ignored;
-  for (int i = 2; std::filesystem::exists(name, ignored); ++i)
-    name = fmt::format("weft_{:05}_{}{}", frame_, i, kind);
+  for (int i = 2; text::isThere(name); ++i) name = fmt::format("weft_{:05}_{}{}", frame_, i, kind);
   if (live_.running() && writer_.save(renderer_, name, diagnostics_)) {
     told_ = "wrote " + name;
     print(fmt::format("wrote {}\n", text::printable(name)));

@@ -36,16 +36,11 @@ std::vector<std::string> shaderFoldersOf(std::span<const std::string> files, con
   return folders;
 }
 
-bool isFolder(const std::string& path) {
-  std::error_code ignored;
-  return std::filesystem::is_directory(path, ignored);
-}
-
 }  // namespace
 
 std::vector<std::string> shaderRootsOf(std::span<const std::string> files, const std::string& dataFolder) {
   std::vector<std::string> roots = shaderFoldersOf(files, dataFolder);
-  std::erase_if(roots, [](const std::string& root) { return !isFolder(root); });
+  std::erase_if(roots, [](const std::string& root) { return !text::isFolder(root); });
   return roots;
 }
 
@@ -108,7 +103,7 @@ bool Renderer::load(const graph::Settings& settings, const World& world, text::D
   if (!desc) return false;
   // A folder that comes may hold what is to be found before other files.
   for (const std::string& folder : shaderFoldersOf(desc->files, options_.dataFolder))
-    if (!isFolder(folder)) triedFiles_.push_back(folder);
+    if (!text::isFolder(folder)) triedFiles_.push_back(folder);
   const std::vector<std::string> running = device_->sources.roots();
   device_->sources.setRoots(shaderRootsOf(desc->files, options_.dataFolder));
   if (!said.hasErrors() && switchTo(desc, ShaderFiles::read, settings, world, diagnostics)) return true;

@@ -219,11 +219,19 @@ std::string besideFile(const Place& place, const std::string& path) {
   return (fs::path(*place.file).parent_path() / path).lexically_normal().string();
 }
 
+bool isThere(const std::string& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
+bool isFolder(const std::string& path) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored);
+}
+
 std::string dataFolder() {
   if (const char* folder = std::getenv("WEFT_DATA")) return folder;
-  std::error_code ignored;
-  if (fs::is_directory(WEFT_DATA_SOURCE, ignored)) return WEFT_DATA_SOURCE;
-  return WEFT_DATA_INSTALLED;
+  return isFolder(WEFT_DATA_SOURCE) ? WEFT_DATA_SOURCE : WEFT_DATA_INSTALLED;
 }
 
 std::optional<std::string> readFile(const std::string& path, Diagnostics& diagnostics, Code code,

@@ -54,6 +54,10 @@ std::string besideFile(const Place& place, const std::string& path);
 // A path from the root, without "." and "..", and without a slash at its end. Links are not followed.
 std::string absolutePath(const std::string& path);
 
+// Whether something has this path; whether that is a folder. No error is one of these.
+bool isThere(const std::string& path);
+bool isFolder(const std::string& path);
+
 // The folder that holds graphs/, shaders/, scenes/ and materials/: $WEFT_DATA, else where Weft was built, else where it was
 // installed. It need not be there.
 std::string dataFolder();
