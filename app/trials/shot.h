@@ -7,7 +7,7 @@
 #include "engine/assets/images/flip.h"
 #include "engine/assets/images/image.h"
 #include "engine/graph/compile/compile.h"
-#include "engine/runtime/inspection/step_record.h"
+#include "engine/runtime/inspection/step_watches.h"
 
 namespace weft::app {
 

@@ -1,5 +1,6 @@
-// What each pass of a frame left in what it writes, small enough to be kept beside a picture: a hash, and means over parts
-// of it, by which frames of different drivers can be compared. So two frames tell the first pass at which they differ.
+// Two watches over the steps of a frame (StepWatch). Records: what each pass left in what it writes, small enough to be kept beside
+// a picture: a hash, and means over parts of it, by which frames of different drivers can be compared. So two frames tell the
+// first pass at which they differ. And poison.
 #pragma once
 
 #include <array>
@@ -45,6 +46,7 @@ class StepRecorder {
   std::vector<StepRecord> records_;
 };
 
+// ---- poison ----
 // Fills what a transient resource finds in its storage with values that no pass would write, right before the first step
 // that touches it. A pass that promised to write everything and does not, or that reads what nobody wrote, then shows in
 // the picture.

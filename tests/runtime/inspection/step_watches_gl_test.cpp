@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "engine/graph/subresource.h"
-#include "engine/runtime/inspection/step_record.h"
+#include "engine/runtime/inspection/step_watches.h"
 #include "tests/runtime/stage.h"
 
-namespace inspection_step_record_test {
+namespace inspection_step_watches_test {
 
 using namespace weft;
 using namespace weft::runtime;
@@ -138,4 +138,4 @@ TEST_CASE("poison is what a pass finds, and no pass of a sound graph shows it") 
   }
 }
 
-}  // namespace inspection_step_record_test
+}  // namespace inspection_step_watches_test
