@@ -2,7 +2,7 @@
 #include "app/commands/commands.h"
 #include "app/output/pictures.h"
 #include "engine/graph/language/names.h"
-#include "engine/runtime/inspection/capture.h"
+#include "engine/runtime/inspection/inspector.h"
 
 namespace weft::app {
 

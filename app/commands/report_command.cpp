@@ -11,7 +11,7 @@
 #include "engine/assets/images/image.h"
 #include "engine/glsl/source.h"
 #include "engine/graph/print/print.h"
-#include "engine/runtime/inspection/capture.h"
+#include "engine/runtime/inspection/inspector.h"
 #include "engine/text/json/report.h"
 
 namespace weft::app {

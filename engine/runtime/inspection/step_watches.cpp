@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/graph/pick/pick.h"
+#include "engine/graph/subresource.h"
 #include "engine/runtime/frame/gl_state.h"
 #include "engine/runtime/storage/resource_pool.h"
 #include "engine/text/hash.h"

@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "engine/runtime/inspection/capture.h"
+#include "engine/runtime/inspection/inspector.h"
 #include "tests/runtime/stage.h"
 
 namespace inspection_capture_test {
