@@ -21,54 +21,44 @@ namespace fs = std::filesystem;
 
 // ---- the schema ----
 
-const Json& schema() {
-  static const Json parsed = Json::parse(graph::kGraphSchema);
-  return parsed;
-}
-
 // What a value may be.
-using Shapes = std::vector<const Json*>;
+using Shapes = std::vector<const graph::Shape*>;
 
-void addShape(const Json& shape, Shapes& out) {
+void addShape(const graph::Shape& shape, Shapes& out) {
   out.push_back(&shape);
-  if (const auto other = shape.find("$ref"); other != shape.end())
-    addShape(schema().at(Json::json_pointer(other->get<std::string>().substr(1))), out);
-  if (const auto any = shape.find("anyOf"); any != shape.end())
-    for (const Json& each : *any) addShape(each, out);
+  for (const graph::Shape* each : shape.anyOf) addShape(*each, out);
 }
 
-bool areShapes(const Shapes& shapes, const char* kind) {
-  return std::ranges::find(shapes, &schema().at("$defs").at(kind)) != shapes.end();
+bool areShapes(const Shapes& shapes, std::string_view kind) {
+  return std::ranges::find(shapes, kind, &graph::Shape::kind) != shapes.end();
+}
+
+const graph::KeySpec* keyOf(const graph::Shape& shape, std::string_view key) {
+  const auto found = std::ranges::find(shape.keys, key, &graph::KeySpec::key);
+  return found == shape.keys.end() ? nullptr : &*found;
 }
 
 // Of the innermost value around a spot.
 Shapes shapesAt(const Spot& spot) {
-  Shapes shapes{&schema()};
-  // A graph has less in it than an overlay.
-  if (!spot.values[0]->find("extends") && !spot.values[0]->find("set"))
-    shapes.insert(shapes.begin(), &schema().at("then"));
+  Shapes shapes{&graph::shapeOfFile(spot.values[0]->find("extends") || spot.values[0]->find("set"))};
   for (const std::string_view step : spot.keys) {
-    const std::string key(step);
     Shapes inner;
-    for (const Json* shape : shapes)
-      if (inner.empty() && shape->contains("properties") && shape->at("properties").contains(key))
-        addShape(shape->at("properties").at(key), inner);
-    for (const char* others : {"additionalProperties", "items"})
-      for (const Json* shape : inner.empty() ? shapes : Shapes())
-        if (shape->contains(others) && shape->at(others).is_object() && (key == "[]") == (*others == 'i'))
-          addShape(shape->at(others), inner);
+    for (const graph::Shape* shape : shapes)
+      if (const graph::KeySpec* key = inner.empty() ? keyOf(*shape, step) : nullptr)
+        addShape(*key->shape, inner);
+    for (const graph::Shape* shape : inner.empty() ? shapes : Shapes())
+      if (const graph::Shape* each = step == "[]" ? shape->items : shape->others) addShape(*each, inner);
     shapes = std::move(inner);
   }
   return shapes;
 }
 
 // Whether an object may become of this shape.
-bool fits(const Json& shape, const JsonValue& object, const JsonMember* typed) {
-  const Json& keys = shape.at("properties");
-  const bool others = shape.contains("additionalProperties") && shape.at("additionalProperties").is_object();
+bool fits(const graph::Shape& shape, const JsonValue& object, const JsonMember* typed) {
+  const auto needed = std::ranges::find_if(shape.keys, &graph::KeySpec::required);
+  const bool others = shape.others && needed != shape.keys.end() && object.find(needed->key);
   return std::ranges::all_of(object.members, [&](const JsonMember& member) {
-    return &member == typed || keys.contains(member.key) ||
-           (others && object.find(shape.at("required").at(0).get_ref<const std::string&>()));
+    return &member == typed || keyOf(shape, member.key) || others;
   });
 }
 
@@ -262,9 +252,7 @@ class Completer {
     const bool item = way.back() == "[]", pass = (spot_.stanza() || way[0] == "sets") && way.size() > 2;
     const std::string_view key = item && way.size() > 1 ? way[way.size() - 2] : way.back();
     const Shapes shapes = shapesAt(spot_);
-    for (const Json* shape : shapes)
-      for (const char* words : {"enum", "examples"})
-        if (shape->contains(words)) addWords(shape->at(words));
+    for (const graph::Shape* shape : shapes) addWords(shape->words);
     if (way[0] == "extends" || (pass && key == "include")) files();
     if (pass && key == "type") addTypes(registry_.passTypes);
     if (pass && way[2] == "shader") shaders(key);
@@ -373,10 +361,10 @@ class Completer {
 std::vector<KeyDoc> keysAt(const graph::Registry& registry, const Spot& spot) {
   const JsonValue& object = spot.value();
   std::vector<KeyDoc> keys;
-  for (const Json* shape : shapesAt(spot))
-    if (shape->contains("properties") && (spot.keys.empty() || fits(*shape, object, spot.key)))
-      for (const auto& [key, about] : shape->at("properties").items())
-        if (about.contains("description")) keys.push_back({key, about.at("description").get<std::string>()});
+  for (const graph::Shape* shape : shapesAt(spot))
+    if (spot.keys.empty() || fits(*shape, object, spot.key))
+      for (const graph::KeySpec& key : shape->keys)
+        keys.push_back({std::string(key.key), std::string(key.doc)});
   for (const graph::ImportType& type : registry.imports)
     if (type.name == textOf(object, "import"))
       for (const graph::ImportArgument& argument : type.arguments)

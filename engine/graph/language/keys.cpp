@@ -76,8 +76,18 @@ const Shape& shapeOfJson(const Json& json) {
   return at->second;
 }
 
-// Of a file that changes no other.
-const Shape& shapeOfGraph() {
+// What a stanza of an overlay may say that no pass and no include says.
+std::span<const KeySpec> keysOfPlaces() {
+  static std::vector<KeySpec> keys = shapeOf("passChange").keys;
+  for (const auto others : {kPassKeys, kIncludeKeys})
+    for (const KeySpec& other : others)
+      std::erase_if(keys, [&](const KeySpec& each) { return each.key == other.key; });
+  return keys;
+}
+
+}  // namespace
+
+const Shape& shapeOfFile(bool changes) {
   static const Shape whole = [] {
     Shape shape = shapeOfJson(schema());
     const Json& then = schema().at("then");
@@ -89,19 +99,8 @@ const Shape& shapeOfGraph() {
     }
     return shape;
   }();
-  return whole;
+  return changes ? shapeOfJson(schema()) : whole;
 }
-
-// What a stanza of an overlay may say that no pass and no include says.
-std::span<const KeySpec> keysOfPlaces() {
-  static std::vector<KeySpec> keys = shapeOf("passChange").keys;
-  for (const auto others : {kPassKeys, kIncludeKeys})
-    for (const KeySpec& other : others)
-      std::erase_if(keys, [&](const KeySpec& each) { return each.key == other.key; });
-  return keys;
-}
-
-}  // namespace
 
 const Shape& shapeOf(std::string_view kind) {
   static std::map<std::string, Shape, std::less<>> known;
@@ -133,7 +132,7 @@ std::span<const std::string_view> stateWords(std::string_view path) {
   return key ? key->words : std::span<const std::string_view>();
 }
 
-const std::span<const KeySpec> kGraphKeys = shapeOfGraph().keys;
+const std::span<const KeySpec> kGraphKeys = shapeOfFile(false).keys;
 const std::span<const KeySpec> kPassKeys = shapeOf("pass").keys;
 const std::span<const KeySpec> kIncludeKeys = shapeOf("include").keys;
 const std::span<const KeySpec> kStateKeys = shapeOf("state").keys;

@@ -44,6 +44,8 @@ struct Shape {
 };
 // Of a definition of the schema: "resource".
 const Shape& shapeOf(std::string_view kind);
+// Of a whole file: of a graph, or of one that changes others.
+const Shape& shapeOfFile(bool changes);
 
 extern const std::span<const KeySpec> kGraphKeys;
 extern const std::span<const KeySpec> kPassKeys;
