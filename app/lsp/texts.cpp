@@ -187,18 +187,13 @@ void Texts::close(const std::string& path) {
 
 std::shared_ptr<const Text> Texts::of(const std::string& path) const {
   if (const auto found = texts_.find(path); found != texts_.end()) return found->second;
-  std::error_code ec;
-  const auto time = fs::last_write_time(path, ec);
-  const auto bytes = ec ? 0 : fs::file_size(path, ec);
-  if (ec) return nullptr;
-  Known& known = onDisk_[path];
-  const auto stamp = static_cast<std::int64_t>(time.time_since_epoch().count());
-  if (known.text && known.time == stamp && known.bytes == bytes) return known.text;
+  const auto read = [](const std::string& file, text::Diagnostics& said) {
+    auto text = text::readTextFile(file, said);
+    return text ? std::optional(std::make_shared<const Text>(file, *std::move(text))) : std::nullopt;
+  };
   text::Diagnostics ignored;
-  auto text = text::readTextFile(path, ignored);
-  if (!text) return nullptr;
-  known = {std::make_shared<const Text>(path, *std::move(text)), stamp, bytes};
-  return known.text;
+  const auto known = onDisk_.get<std::shared_ptr<const Text>>(path, read, ignored);
+  return known ? *known : nullptr;
 }
 
 }  // namespace weft::app::lsp

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/glsl/interface.h"
+#include "engine/imports/files.h"
 #include "engine/text/files/file.h"
 #include "engine/text/json/dom.h"
 
@@ -102,14 +103,9 @@ class Texts {
   std::shared_ptr<const Text> of(const std::string& path) const;
 
  private:
-  struct Known {
-    std::shared_ptr<const Text> text;
-    std::int64_t time = 0;
-    std::uint64_t bytes = 0;
-  };
   std::map<std::string, std::int64_t> opened_;
   std::map<std::string, std::shared_ptr<const Text>> texts_;  // of opened_
-  mutable std::map<std::string, Known> onDisk_;
+  mutable imports::Files onDisk_;
 };
 
 }  // namespace weft::app::lsp
