@@ -185,7 +185,7 @@ bool LiveGraph::poll(double now, text::Diagnostics& diagnostics) {
 bool LiveGraph::pollEnvironment(text::Diagnostics& diagnostics) {
   auto* provider = renderer_.device().imports.find<imports::EnvironmentProvider>();
   assert(provider && "the viewer runs with all built-in imports");
-  const auto event = environment_.poll(provider->textures(), diagnostics);
+  const auto event = environment_.poll(*provider, diagnostics);
   if (!event) return false;
   runtime::World world = world_;
   if (*event) world.setEnvironment(*event);

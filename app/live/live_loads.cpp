@@ -118,7 +118,7 @@ bool LiveEnvironment::step(int by) {
   return true;
 }
 
-std::optional<LiveEnvironment::Map> LiveEnvironment::poll(imports::EnvironmentTextures& textures,
+std::optional<LiveEnvironment::Map> LiveEnvironment::poll(imports::EnvironmentProvider& provider,
                                                           text::Diagnostics& diagnostics) {
   auto result = loader_.poll();
   if (result) {
@@ -127,13 +127,13 @@ std::optional<LiveEnvironment::Map> LiveEnvironment::poll(imports::EnvironmentTe
     said_ = std::move(result->diagnostics);
   }
   if (!result && !incoming_) return std::nullopt;
-  const std::optional<float> sent = incoming_ ? textures.send(incoming_, diagnostics) : std::nullopt;
+  const std::optional<float> sent = incoming_ ? provider.send(incoming_, diagnostics) : std::nullopt;
   if (sent && (sent_ = *sent) < 1) return std::nullopt;
   if (!incoming_ || sent) diagnostics.append(said_);
   if (sent)
     shown_ = wanted_;
   else
-    textures.stopSending();
+    provider.stopSending();
   return sent ? std::exchange(incoming_, nullptr) : (incoming_ = nullptr);
 }
 

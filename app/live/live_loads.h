@@ -93,7 +93,7 @@ std::optional<std::string> firstEnvironment(const std::string& fileOrFolder, tex
 // thread and sends to the GPU a portion per frame. A failed load changes nothing but what is said.
 class LiveEnvironment {
  public:
-  using Map = imports::EnvironmentTextures::Map;
+  using Map = imports::EnvironmentProvider::Map;
 
   // `path` is already shown.
   void assume(std::string path) { wanted_ = shown_ = std::move(path); }
@@ -104,7 +104,7 @@ class LiveEnvironment {
 
   // Once per frame: something came of the last request. A map is whole on the GPU and to be taken into use at once; null: it
   // failed, and `diagnostics` says why.
-  std::optional<Map> poll(imports::EnvironmentTextures& textures, text::Diagnostics& diagnostics);
+  std::optional<Map> poll(imports::EnvironmentProvider& provider, text::Diagnostics& diagnostics);
 
   // What is on its way.
   std::optional<LoadStatus> status() const;

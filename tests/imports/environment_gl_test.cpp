@@ -15,7 +15,7 @@ using namespace weft::runtime::test;
 
 namespace {
 
-EnvironmentTextures::Map makeMap(std::uint32_t width, std::uint32_t height, std::uint32_t seed) {
+EnvironmentProvider::Map makeMap(std::uint32_t width, std::uint32_t height, std::uint32_t seed) {
   auto map = std::make_shared<assets::EnvironmentMap>();
   map->width = width;
   map->height = height;
@@ -32,7 +32,7 @@ std::vector<std::vector<float>> levelsOf(const gl::TextureRef& texture) {
 }
 
 // Calls until it is there.
-int sendAll(EnvironmentTextures& textures, const EnvironmentTextures::Map& map,
+int sendAll(EnvironmentProvider& textures, const EnvironmentProvider::Map& map,
             text::Diagnostics& diagnostics) {
   int calls = 0;
   float before = 0;
@@ -51,15 +51,15 @@ TEST_CASE("an environment that was sent in portions is the one uploaded at once,
   context();
   const CleanScope scope;
   text::Diagnostics diagnostics;
-  EnvironmentTextures sent, direct;
+  EnvironmentProvider sent, direct;
   for (const auto& map : {makeMap(2048, 1024, 1), makeMap(37, 19, 2), makeMap(1, 1, 3), makeMap(1500, 750, 4),
                           makeMap(1501, 751, 5)}) {  // no powers of two
     const int calls = sendAll(sent, map, diagnostics);
-    CHECK(static_cast<std::size_t>(calls) >= map->texels.size() * 2 / EnvironmentTextures::kBytesPerFrame);
+    CHECK(static_cast<std::size_t>(calls) >= map->texels.size() * 2 / EnvironmentProvider::kBytesPerFrame);
     REQUIRE(sent.use(map, diagnostics));
     REQUIRE(direct.use(map, diagnostics));
-    CHECK(sent.current()->ref().desc == direct.current()->ref().desc);
-    CHECK(levelsOf(sent.current()->ref()) == levelsOf(direct.current()->ref()));
+    CHECK(sent.hold()->ref().desc == direct.hold()->ref().desc);
+    CHECK(levelsOf(sent.hold()->ref()) == levelsOf(direct.hold()->ref()));
   }
   CHECK(diagnostics.empty());
 }
@@ -68,29 +68,29 @@ TEST_CASE("the environment in use stays as it is while another is sent, dropped,
   context();
   const CleanScope scope;
   text::Diagnostics diagnostics;
-  EnvironmentTextures textures;
+  EnvironmentProvider textures;
   const auto a = makeMap(64, 32, 1), b = makeMap(2048, 1024, 2), c = makeMap(32, 16, 3);
   REQUIRE(textures.use(a, diagnostics));
-  const gl::TextureRef first = textures.current()->ref();
+  const gl::TextureRef first = textures.hold()->ref();
   const auto levels = levelsOf(first);
   const auto objects = gl::liveObjects();
   textures.send(b, diagnostics);
-  CHECK(textures.current()->id() == first.id);
+  CHECK(textures.hold()->id() == first.id);
   textures.stopSending();
   CHECK(gl::liveObjects() == objects);
   textures.send(b, diagnostics);
   sendAll(textures, c, diagnostics);
-  CHECK(levelsOf(textures.current()->ref()) == levels);
+  CHECK(levelsOf(textures.hold()->ref()) == levels);
   const auto alive = [] { return gl::liveObjects().of(gl::ObjectKind::texture); };
   CHECK(alive() == 2);
   REQUIRE(textures.use(c, diagnostics));
-  CHECK(textures.current()->ref().desc.width == 32);
+  CHECK(textures.hold()->ref().desc.width == 32);
   CHECK(alive() == 1);
   // Taken before all of it was sent: uploaded at once. What somebody holds stays.
-  auto held = textures.current();
+  auto held = textures.hold();
   textures.send(b, diagnostics);
   REQUIRE(textures.use(b, diagnostics));
-  CHECK(textures.current()->ref().desc.width == 2048);
+  CHECK(textures.hold()->ref().desc.width == 2048);
   CHECK(alive() == 2);
   REQUIRE(textures.use(a, diagnostics));
   CHECK(alive() == 2);
@@ -128,7 +128,7 @@ TEST_CASE("a map that the GPU cannot hold is refused, and the one in use stays")
   context();
   const CleanScope scope;
   text::Diagnostics diagnostics;
-  EnvironmentTextures textures;
+  EnvironmentProvider textures;
   const auto good = makeMap(8, 4, 1);
   auto wide = std::make_shared<assets::EnvironmentMap>(assets::EnvironmentMap{1u << 20, 1, {}});
   wide->texels.resize(std::size_t{4} << 20);
@@ -136,7 +136,7 @@ TEST_CASE("a map that the GPU cannot hold is refused, and the one in use stays")
   CHECK(!textures.send(wide, diagnostics));
   CHECK(!textures.use(wide, diagnostics));
   CHECK(diagnostics.contains(text::Code::textureNotCreated));
-  CHECK(textures.current()->ref().desc.width == 8);
+  CHECK(textures.hold()->ref().desc.width == 8);
 }
 
 TEST_CASE(
@@ -155,7 +155,7 @@ TEST_CASE(
       for (std::size_t i = 0; i < pixels.size(); ++i) REQUIRE(pixels[i] == (i % 4 == 3 ? 255 : 0));
     }
     text::Diagnostics diagnostics;
-    sendAll(late.renderer().device().imports.find<EnvironmentProvider>()->textures(), map, diagnostics);
+    sendAll(*late.renderer().device().imports.find<EnvironmentProvider>(), map, diagnostics);
     late.world.setEnvironment(map);
     CHECK(!late.world.environmentPending());
     REQUIRE(late.renderer().apply(late.settings, late.world, late.diagnostics));

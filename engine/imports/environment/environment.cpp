@@ -26,7 +26,7 @@ class Environment : public ImportOf<EnvironmentProvider> {
 
 }  // namespace
 
-std::optional<float> EnvironmentTextures::send(const Map& map, text::Diagnostics& diagnostics) {
+std::optional<float> EnvironmentProvider::send(const Map& map, text::Diagnostics& diagnostics) {
   if (incoming_.map != map) {
     incoming_ = {};
     const gl::TextureDesc desc{.format = GL_RGBA16F,
@@ -55,7 +55,7 @@ std::optional<float> EnvironmentTextures::send(const Map& map, text::Diagnostics
   return incoming_.last.isSignalled() ? 1.0f : kShareOfRows;
 }
 
-bool EnvironmentTextures::use(const Map& map, text::Diagnostics& diagnostics) {
+bool EnvironmentProvider::use(const Map& map, text::Diagnostics& diagnostics) {
   if (isNewest(*map)) return true;
   assert(!map->texels.empty() && "dropped before they were used here");
   do
@@ -89,13 +89,13 @@ std::unique_ptr<Import> makeEnvironment() {
 
 gl::TextureRef EnvironmentProvider::texture(const Frame& frame, text::Diagnostics& diagnostics) {
   if (!frame.world.environment()) return {};
-  textures_.use(frame.world.environment(), diagnostics);
-  return textures_.current() ? textures_.current()->ref() : gl::TextureRef{};
+  use(frame.world.environment(), diagnostics);
+  return current_ ? current_->ref() : gl::TextureRef{};
 }
 
 void EnvironmentProvider::dropUploaded(World& world) const {
   const auto& map = world.environment();
-  if (map && textures_.isNewest(*map)) world.dropEnvironmentTexels();
+  if (map && isNewest(*map)) world.dropEnvironmentTexels();
 }
 
 }  // namespace weft::imports

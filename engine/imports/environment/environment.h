@@ -13,9 +13,12 @@
 
 namespace weft::imports {
 
-class EnvironmentTextures {
+class EnvironmentProvider : public Provider {
  public:
   using Map = std::shared_ptr<const assets::EnvironmentMap>;
+  static graph::ImportType reflect();
+  static graph::ImportFacts facts(const graph::ImportRequest&, const WorldFacts& world, Files&);
+
   // One frame's portion. Copying 4 MiB takes about a millisecond, little beside a frame of 16; a 1k map is
   // there in one frame, an 8k map (256 MiB) in 64 frames, about a second at 60 Hz.
   static constexpr std::size_t kBytesPerFrame = std::size_t{4} << 20;
@@ -24,12 +27,18 @@ class EnvironmentTextures {
   // GPU has no room: W116.
   std::optional<float> send(const Map& map, text::Diagnostics& diagnostics);
   void stopSending() { incoming_ = {}; }
-
   // Makes `map` the newest: the texture that was sent, or one uploaded here and now. False after errors, and
   // the newest stays. Cheap when it is the newest already; then `map` needs no texels any more.
-  bool isNewest(const assets::EnvironmentMap& map) const { return current_ && currentId_ == map.id; }
   bool use(const Map& map, text::Diagnostics& diagnostics);
-  const std::shared_ptr<const gl::Texture>& current() const { return current_; }  // null: none was used yet
+
+  gl::TextureRef texture(const Frame& frame, text::Diagnostics& diagnostics) override;
+  std::uint64_t generation(const Frame& frame) override { return frame.world.environmentGeneration(); }
+  bool isStill(const World&) const override { return true; }
+  std::shared_ptr<const gl::Texture> hold() const override { return current_; }
+  bool isPending(const World& world) const override { return world.environmentPending(); }
+  // Always kept, because what the world has dropped cannot be uploaded again.
+  bool renew(bool) override { return true; }
+  void dropUploaded(World& world) const override;
 
  private:
   struct Incoming {
@@ -38,30 +47,11 @@ class EnvironmentTextures {
     std::uint32_t rows = 0;  // that are sent
     gl::Fence last;          // behind the levels, which are made when all rows are sent
   };
+  bool isNewest(const assets::EnvironmentMap& map) const { return current_ && currentId_ == map.id; }
+
   Incoming incoming_;
   std::uint64_t currentId_ = 0;
-  std::shared_ptr<const gl::Texture> current_;
-};
-
-class EnvironmentProvider : public Provider {
- public:
-  static graph::ImportType reflect();
-  static graph::ImportFacts facts(const graph::ImportRequest&, const WorldFacts& world, Files&);
-
-  // For sending the next environment beside the one in use.
-  EnvironmentTextures& textures() { return textures_; }
-
-  gl::TextureRef texture(const Frame& frame, text::Diagnostics& diagnostics) override;
-  std::uint64_t generation(const Frame& frame) override { return frame.world.environmentGeneration(); }
-  bool isStill(const World&) const override { return true; }
-  std::shared_ptr<const gl::Texture> hold() const override { return textures_.current(); }
-  bool isPending(const World& world) const override { return world.environmentPending(); }
-  // Always kept, because what the world has dropped cannot be uploaded again.
-  bool renew(bool) override { return true; }
-  void dropUploaded(World& world) const override;
-
- private:
-  EnvironmentTextures textures_;
+  std::shared_ptr<const gl::Texture> current_;  // null: none was used yet
 };
 
 }  // namespace weft::imports
