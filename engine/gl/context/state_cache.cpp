@@ -52,4 +52,22 @@ void StateCache::blend(GLuint index, const std::optional<Blend>& mode) {
   known.mode = mode;
 }
 
+void StateCache::openMasks() {
+  colorMask(15);
+  depthMask(true);
+  stencilMask(0xff);
+  enable(GL_SCISSOR_TEST, false);
+  enable(GL_FRAMEBUFFER_SRGB, false);  // clears and copies do not convert
+}
+
+void releaseBindings() {
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glDisable(GL_FRAMEBUFFER_SRGB);  // presenting does not convert
+  glUseProgram(0);
+  glBindVertexArray(0);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTextureUnit(0, 0);
+  glBindSampler(0, 0);
+}
+
 }  // namespace weft::gl

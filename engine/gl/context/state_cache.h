@@ -89,6 +89,9 @@ class StateCache {
   // Sets the blending of one draw buffer; without `mode` it does not blend.
   void blend(GLuint index, const std::optional<Blend>& mode);
 
+  // Opens every mask and turns the scissor off, as clears and blits need it.
+  void openMasks();
+
  private:
   struct Image {
     GLuint texture;
@@ -136,5 +139,9 @@ class StateCache {
   std::vector<std::optional<Range>> uniformBuffers_, storageBuffers_;
   std::vector<DrawBuffer> drawBuffers_;
 };
+
+// Binds framebuffer 0 for drawing and reading, and no program, vertex array, or texture and sampler in unit 0. A library that
+// draws over the picture starts from there, so that it puts back nothing afterwards that a reload may have deleted.
+void releaseBindings();
 
 }  // namespace weft::gl

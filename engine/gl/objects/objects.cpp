@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "engine/gl/context/debug.h"
+#include "engine/gl/context/state_cache.h"
 
 namespace weft::gl {
 
@@ -409,6 +410,30 @@ FormatClass classOf(GLenum format) {
     return FormatClass::depth;
   if (isOneOf(format, {GL_DEPTH24_STENCIL8, GL_DEPTH32F_STENCIL8})) return FormatClass::depth_stencil;
   return FormatClass::floating;
+}
+
+GLenum attachmentPointOf(GLenum format) {
+  const FormatClass kind = classOf(format);
+  return kind == FormatClass::depth           ? GL_DEPTH_ATTACHMENT
+         : kind == FormatClass::depth_stencil ? GL_DEPTH_STENCIL_ATTACHMENT
+                                              : GL_COLOR_ATTACHMENT0;
+}
+
+bool resolveSamples(const TextureRef& from, GLuint to) {
+  text::Diagnostics ignored;
+  const GLenum point = attachmentPointOf(from.desc.format);
+  const Attachment ends[] = {{.point = point, .texture = from.id}, {.point = point, .texture = to}};
+  const auto source = Framebuffer::create({&ends[0], 1}, "samples", ignored),
+             target = Framebuffer::create({&ends[1], 1}, "samples", ignored);
+  if (!source || !target) return false;
+  StateCache().openMasks();
+  const GLint width = toInt(from.desc.width), height = toInt(from.desc.height);
+  const GLbitfield mask = point == GL_COLOR_ATTACHMENT0  ? GL_COLOR_BUFFER_BIT
+                          : point == GL_DEPTH_ATTACHMENT ? GL_DEPTH_BUFFER_BIT
+                                                         : GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT;
+  glBlitNamedFramebuffer(source->id(), target->id(), 0, 0, width, height, 0, 0, width, height, mask,
+                         GL_NEAREST);
+  return true;
 }
 
 ClientFormat clientFormatOf(GLenum internalFormat) {

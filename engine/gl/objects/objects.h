@@ -252,5 +252,20 @@ std::uint32_t texelBytes(GLenum format, GLenum type);
 // Whether an internal format holds unsigned or signed integers, depth, or depth and stencil.
 enum class FormatClass : std::uint8_t { floating, unsigned_integer, signed_integer, depth, depth_stencil };
 FormatClass classOf(GLenum internalFormat);
+// GL_COLOR_ATTACHMENT0, GL_DEPTH_ATTACHMENT or GL_DEPTH_STENCIL_ATTACHMENT, by the internal format.
+GLenum attachmentPointOf(GLenum internalFormat);
+// Writes the mean of the samples, or the first sample of depth and stencil, of a texture to one of the same format and size.
+// False when the driver has no framebuffer for them.
+bool resolveSamples(const TextureRef& from, GLuint to);
+
+// The rows of a picture, of `row` numbers each, the last one first.
+template <class To, class From>
+std::vector<To> flipped(const std::vector<From>& texels, std::size_t row) {
+  std::vector<To> out;
+  out.reserve(texels.size());
+  for (std::size_t end = texels.size(); end > 0; end -= row)
+    for (std::size_t i = end - row; i < end; ++i) out.push_back(static_cast<To>(texels[i]));
+  return out;
+}
 
 }  // namespace weft::gl

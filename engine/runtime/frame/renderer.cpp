@@ -6,12 +6,12 @@
 #include <set>
 #include <type_traits>
 
+#include "engine/gl/context/state_cache.h"
 #include "engine/graph/read/read.h"
 #include "engine/imports/files.h"
 #include "engine/passes/draw/geometry.h"
 #include "engine/runtime/frame/device.h"
 #include "engine/runtime/frame/execution.h"
-#include "engine/runtime/frame/gl_state.h"
 #include "engine/text/files/file.h"
 
 namespace weft::runtime {
@@ -234,7 +234,7 @@ std::optional<assets::ImageF> Renderer::readPresentedFloat() {
   const std::size_t channels = gl::clientFormatOf(texture.desc.format).channels;
   return assets::ImageF{static_cast<int>(extent.width), static_cast<int>(extent.height),
                         static_cast<int>(channels),
-                        flipped<float>(gl::readFloats(texture), extent.width * channels)};
+                        gl::flipped<float>(gl::readFloats(texture), extent.width * channels)};
 }
 
 assets::Image8 toBytes(const assets::ImageF& picture) {
@@ -257,8 +257,8 @@ std::optional<assets::Image8> Renderer::readPresented8() {
 
 void Renderer::present(std::uint32_t width, std::uint32_t height, std::uint32_t x, std::uint32_t y) {
   const gl::TextureRef texture = execution_ ? execution_->presented() : gl::TextureRef{};
-  openMasks();
-  releaseBindings();
+  gl::StateCache().openMasks();
+  gl::releaseBindings();
   if (texture.id == 0) {
     const float black[4] = {0, 0, 0, 1};
     glClearNamedFramebufferfv(0, GL_COLOR, 0, black);

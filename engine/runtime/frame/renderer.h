@@ -110,7 +110,7 @@ class Renderer {
   std::optional<assets::Image8> readPresented8();
   std::optional<assets::ImageF> readPresentedFloat();
   // Copies the presented texture to framebuffer 0 (a window's), bit for bit when the sizes agree. Leaves framebuffer 0
-  // bound, after releaseBindings() (gl_state.h). `x`, `y`: its lower left corner there.
+  // bound, after gl::releaseBindings(). `x`, `y`: its lower left corner there.
   void present(std::uint32_t width, std::uint32_t height, std::uint32_t x = 0, std::uint32_t y = 0);
 
  private:

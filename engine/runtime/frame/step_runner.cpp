@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include "engine/gl/context/debug.h"
-#include "engine/runtime/frame/gl_state.h"
 #include "engine/runtime/storage/formats.h"
 
 namespace weft::runtime {
@@ -131,7 +130,7 @@ void StepRunner::run(std::size_t step, PreparedPass& pass, bool clears, text::Di
     applyState(pass, states_);
     scissorTo(pass, states_);
   } else {
-    openMasks(states_);
+    states_.openMasks();
   }
   if (pass.feedback) glTextureBarrier();
   if (bound) pass.type->execute(pass.context);
@@ -139,7 +138,7 @@ void StepRunner::run(std::size_t step, PreparedPass& pass, bool clears, text::Di
 }
 
 void StepRunner::clear(const PreparedPass& pass, GLuint framebuffer, text::Diagnostics& diagnostics) {
-  openMasks(states_);
+  states_.openMasks();
   for (const ClearCommand& clear : pass.clears) {
     const GpuResource& resource = pool_[clear.use.resource];
     const std::uint32_t copy = resource.copyOf(0, pass.group);
@@ -301,7 +300,7 @@ bool StepRunner::bindFixed(const FixedBinding& binding, PreparedPass& pass, text
   bound.level = static_cast<GLint>(binding.mip);
   bound.layer = std::max(0, binding.layer);
   if (pass.context.exact) return true;
-  const gl::Attachment attachment{.point = attachmentPointOf(glFormatOf(shape.format)),
+  const gl::Attachment attachment{.point = gl::attachmentPointOf(glFormatOf(shape.format)),
                                   .texture = whole,
                                   .mip = binding.mip,
                                   .layer = binding.layer};

@@ -8,8 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "engine/gl/context/state_cache.h"
 #include "engine/graph/subresource.h"
-#include "engine/runtime/frame/gl_state.h"
 #include "engine/runtime/prepare/program_request.h"
 
 namespace weft::runtime {
@@ -156,7 +156,7 @@ void Inspector::copy() {
     const gl::TextureRef from = execution_->texture(resource_, history_);
     hasPicture_ = from.id != 0 && mip_ < from.desc.mips && prepareTexture(from);
     if (hasPicture_ && desc.samples > 1)
-      hasPicture_ = resolveSamples(from, picture_.id());
+      hasPicture_ = gl::resolveSamples(from, picture_.id());
     else if (hasPicture_)
       glCopyImageSubData(from.id, from.desc.target, static_cast<GLint>(mip_), 0, 0,
                          static_cast<GLint>(layer_), picture_.id(), GL_TEXTURE_2D, 0, 0, 0, 0,
@@ -223,7 +223,7 @@ GLuint Inspector::draw(const InspectView& view, std::uint32_t width, std::uint32
   gl::uploadBuffer(uniforms_.id(), 0, bytes);
   if (!vertices_) vertices_ = gl::VertexArray::create("inspector");
 
-  openMasks();
+  gl::StateCache().openMasks();
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   glDisable(GL_BLEND);
@@ -240,7 +240,7 @@ GLuint Inspector::draw(const InspectView& view, std::uint32_t width, std::uint32
   }
   glBindBufferRange(GL_UNIFORM_BUFFER, block->binding, uniforms_.id(), 0, block->bytes);
   glDrawArrays(GL_TRIANGLES, 0, 3);
-  releaseBindings();
+  gl::releaseBindings();
   return canvas_.id();
 }
 
@@ -352,16 +352,17 @@ std::optional<assets::Image8> Inspector::drawWhole(const InspectView& view, text
   whole.texelsPerPixel = 1;
   if (draw(whole, picture_.desc().width, picture_.desc().height, diagnostics) == 0) return std::nullopt;
   const gl::TextureDesc& size = canvas_.desc();
-  return assets::Image8{static_cast<int>(size.width), static_cast<int>(size.height), 4,
-                        flipped<std::uint8_t>(gl::readTexture(canvas_.ref(), 0, 0, GL_RGBA, GL_UNSIGNED_BYTE),
-                                              std::size_t{size.width} * 4)};
+  return assets::Image8{
+      static_cast<int>(size.width), static_cast<int>(size.height), 4,
+      gl::flipped<std::uint8_t>(gl::readTexture(canvas_.ref(), 0, 0, GL_RGBA, GL_UNSIGNED_BYTE),
+                                std::size_t{size.width} * 4)};
 }
 
 std::optional<assets::ImageF> Inspector::values() const {
   if (!hasPicture_) return std::nullopt;
   const std::uint32_t width = picture_.desc().width, rows = picture_.desc().height;
   return assets::ImageF{static_cast<int>(width), static_cast<int>(rows), static_cast<int>(numbers()),
-                        flipped<float>(read(0, 0, width, rows), std::size_t{width} * numbers())};
+                        gl::flipped<float>(read(0, 0, width, rows), std::size_t{width} * numbers())};
 }
 
 std::vector<std::byte> Inspector::bytes(std::uint64_t offset, std::uint64_t count) const {

@@ -7,7 +7,6 @@
 
 #include "engine/graph/pick/pick.h"
 #include "engine/graph/subresource.h"
-#include "engine/runtime/frame/gl_state.h"
 #include "engine/runtime/storage/resource_pool.h"
 #include "engine/text/hash.h"
 
@@ -78,7 +77,7 @@ std::vector<float> readSamples(const gl::TextureRef& texture) {
   const auto resolved = gl::Texture::create(
       {.format = texture.desc.format, .width = texture.desc.width, .height = texture.desc.height}, "record",
       ignored);
-  if (!resolved || !resolveSamples(texture, resolved->id())) return {};
+  if (!resolved || !gl::resolveSamples(texture, resolved->id())) return {};
   return gl::readFloats(resolved->ref());
 }
 
