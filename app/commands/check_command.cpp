@@ -38,14 +38,6 @@ std::pair<fs::path, std::string> rootOf(const std::string& path) {
   return {root.empty() ? "." : root, file.lexically_relative(root).generic_string()};
 }
 
-bool isNeeded(const glsl::Interface& shader, const Declaration& declared) {
-  const bool block = declared.role == Role::uniform_block || declared.role == Role::storage_block;
-  return declared.role == Role::output || shader.isLive(declared) ||
-         (block && std::ranges::any_of(shader.declarations, [&](const Declaration& each) {
-            return each.role == Role::member && each.owner == declared.name && shader.isLive(each.name);
-          }));
-}
-
 // Zeros for a member of that type.
 Json zeroOf(const Declaration& member) {
   if (member.type == "bool") return false;
@@ -68,7 +60,8 @@ class StanzaMaker {
   void add(const glsl::ShaderSource& source, bool last) {
     const glsl::Interface& shader = source.ofAllBranches();
     for (const Declaration& declared : shader.declarations)
-      if (isNeeded(shader, declared)) add(declared, last, !source.interfaceWith({}).find(declared.name));
+      if (declared.role == Role::output || shader.isLive(declared))
+        add(declared, last, !source.interfaceWith({}).find(declared.name));
     const glsl::Conditions conditions = glsl::conditionsOf(source.text);
     // `compiled`: nothing compiles without.
     const auto define = [&](std::string_view word, int value, bool compiled) {

@@ -476,6 +476,15 @@ const Declaration* Interface::find(std::string_view name) const {
   return best;
 }
 
+bool Interface::isLive(const Declaration& declared) const {
+  if (!declared.instance.empty()) return isLive(declared.instance);
+  if (declared.role != Role::uniform_block && declared.role != Role::storage_block)
+    return isLive(declared.name);
+  return unsure || std::ranges::any_of(declarations, [&](const Declaration& each) {
+           return each.role == Role::member && each.owner == declared.name && isLive(each.name);
+         });
+}
+
 Interface readInterface(std::span<const Token> tokens) {
   Interface out;
   InterfaceReader(tokens, out).run();

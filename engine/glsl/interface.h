@@ -79,9 +79,7 @@ struct Interface {
   // The plainest thing that the name is: what an interface has before what a function has.
   const Declaration* find(std::string_view name) const;
   bool isLive(std::string_view name) const { return unsure || live.contains(name); }
-  bool isLive(const Declaration& declaration) const {
-    return isLive(declaration.instance.empty() ? declaration.name : declaration.instance);
-  }
+  bool isLive(const Declaration& declaration) const;  // of a block without an instance: one of its members
 };
 
 // Reports each count that is above its limit (W203). True when there is none.

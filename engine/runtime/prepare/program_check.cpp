@@ -206,13 +206,8 @@ class Checker {
       return r.findSampler(name) || r.findImage(name) || r.findUniformBlock(name) ||
              r.findStorageBlock(name) || r.findOutput(name);
     }
-    return std::ranges::any_of(stagesFor(declaration.role), [&](const gl::StageSource& stage) {
-      const glsl::Interface& interface = of(stage);
-      if (!isBlock(declaration.role) || !declaration.instance.empty()) return interface.isLive(declaration);
-      return std::ranges::any_of(interface.declarations, [&](const Declaration& each) {
-        return each.role == Role::member && each.owner == declaration.name && interface.isLive(each.name);
-      });
-    });
+    return std::ranges::any_of(stagesFor(declaration.role),
+                               [&](const gl::StageSource& stage) { return of(stage).isLive(declaration); });
   }
   const FlatResource& resourceOf(const FlatUse& use) const { return graph_.resources[use.resource]; }
   const std::string& nameOf(const FlatUse& use) const { return graph_.resourceNames[use.resource]; }

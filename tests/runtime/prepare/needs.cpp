@@ -27,12 +27,6 @@ StageNeeds needsOf(const StageSource& stage, std::span<const glsl::Define> defin
     components += one.components * elements;
   };
   const glsl::Interface& interface = stage.source->interfaceWith(defines);
-  const auto isUsed = [&](const glsl::Declaration& block) {
-    if (!block.instance.empty()) return interface.isLive(block.instance);
-    return std::ranges::any_of(interface.declarations, [&](const glsl::Declaration& member) {
-      return member.role == Role::member && member.owner == block.name && interface.isLive(member.name);
-    });
-  };
   const bool fragment = stage.stage == GL_FRAGMENT_SHADER;
   const Role varying = fragment ? Role::input : Role::output;
   StageNeeds needs;
@@ -42,7 +36,7 @@ StageNeeds needsOf(const StageSource& stage, std::span<const glsl::Define> defin
       Locations& whole = structures[each.owner];
       add(whole.locations, whole.components, each);
     } else if (each.role == Role::storage_block) {
-      if (isUsed(each)) needs.storageBlocks += elements;
+      if (interface.isLive(each)) needs.storageBlocks += elements;
     } else if (each.name.starts_with("gl_") || !interface.isLive(each)) {
       continue;
     } else if (each.role == Role::sampler) {
