@@ -356,7 +356,8 @@ class InterfaceReader {
   Interface& out_;
   CallTree calls_;
   std::map<std::string_view, std::int64_t> constants_;
-  bool shared_ = false;  // the statement declares what a work group shares, which devices bound by themselves
+  bool shared_ =
+      false;  // the statement declares what a work group shares, which devices bound, or glsl::clampShared()
 };
 
 bool isControl(const Token& token) {

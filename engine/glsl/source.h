@@ -125,4 +125,8 @@ class SourceLoader {
 constexpr std::uint32_t kTextLine = 10001;
 std::string assembleSource(const ShaderSource& source, std::span<const Define> defines);
 
+// The text with the indices of what a work group shares kept within their arrays. Software drivers do so with all other arrays, but here
+// they read and write whatever memory there is. Lines stay.
+std::string clampShared(std::string_view text);
+
 }  // namespace weft::glsl

@@ -320,3 +320,32 @@ TEST_CASE("text in memory includes from the roots only, and the prefix holds ver
   CHECK(assembleSource(*source, defines)
             .starts_with("#version 450 core\n#define HAS_BLOOM 1\n#define CURVE 2\n#line 10001\nfloat a;\n"));
 }
+
+TEST_CASE("indices of what a work group shares stay within its arrays") {
+  const auto clamped = [](const std::string& statement) {
+    const std::string before =
+        "struct S { float list[4]; };\n#define ALIAS table\n#define AT(i) table[i]\nlayout(shared) uniform B "
+        "{ float other[4]; };\n"
+        "shared float table[64], more[4];\nshared S records[8];\nvoid main() { float own[3];\n";
+    const std::string text = clampShared(before + statement + "\n}\n");
+    return text.substr(text.find("own[3];\n") + 8, text.rfind("\n}") - text.find("own[3];\n") - 8);
+  };
+  CHECK(clamped("x = table[i + 1];") == "x = table[min(uint(i + 1), uint(table.length()) - 1u)];");
+  CHECK(clamped("x = ALIAS[i];") == "x = ALIAS[min(uint(i), uint(ALIAS.length()) - 1u)];");
+  CHECK(clamped("x = (table)[i];") == "x = (table)[min(uint(i), uint((table).length()) - 1u)];");
+  CHECK(clamped("more[table[i]]++;") ==
+        "more[min(uint(table[min(uint(i), uint(table.length()) - 1u)]), uint(more.length()) - 1u)]++;");
+  CHECK(clamped("x = records[i].list[j];") ==
+        "x = records[min(uint(i), uint(records.length()) - 1u)].list[min(uint(j), "
+        "uint(records[0].list.length()) - 1u)];");
+  CHECK(clamped("if (a) return table[i]; else table[i] = 1.0;")
+            .find("uint(i), uint(table.length()) - 1u)]; else table[min(") != std::string::npos);
+  for (const char* same :
+       {"x = other[i] + own[j] + table[3] + b.table + AT(3);", "float table[n];", "float[2] more[n];"})
+    CHECK(clamped(same) == same);
+  CHECK(clampShared("#define T table\nshared float table[4];\n#define AT(i) T[i]\n").find("T[min(uint(i)") !=
+        std::string::npos);
+  for (const char* text :
+       {"", "[", "shared", "shared float a[", "shared float a[4]; a[", "a]", "shared float a[4]; ][x"})
+    CHECK(clampShared(text) == text);
+}

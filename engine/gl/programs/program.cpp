@@ -55,13 +55,20 @@ void reportLog(const std::string& log, const glsl::ShaderSource& source, Code co
 bool compileStage(const Shader& shader, const StageSource& stage, std::span<const glsl::Define> defines,
                   Diagnostics& diagnostics) {
   const std::string text = glsl::assembleSource(*stage.source, defines);
-  const GLchar* start = text.data();
-  const auto length = static_cast<GLint>(text.size());
-  glShaderSource(shader.id(), 1, &start, &length);
-  glCompileShader(shader.id());
-  GLint compiled = 0, logLength = 0;
-  glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
-  if (compiled) return true;
+  const auto isCompiled = [&](const std::string& of) {
+    const GLchar* start = of.data();
+    const auto length = static_cast<GLint>(of.size());
+    glShaderSource(shader.id(), 1, &start, &length);
+    glCompileShader(shader.id());
+    GLint compiled = 0;
+    glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
+    return compiled != 0;
+  };
+  const std::string clamped = stage.clamped ? glsl::clampShared(text) : text;
+  // What is wrong is told of the text as it is, unless that is nothing.
+  if (isCompiled(clamped)) return true;
+  if (clamped != text && isCompiled(text)) isCompiled(clamped);
+  GLint logLength = 0;
   glGetShaderiv(shader.id(), GL_INFO_LOG_LENGTH, &logLength);
   const std::string log = textOf(logLength, shader.id(), glGetShaderInfoLog);
   reportLog(log, *stage.source, Code::shaderDoesNotCompile, "the shader does not compile", diagnostics,

@@ -82,6 +82,7 @@ struct Reflection {
 struct StageSource {
   GLenum stage = GL_FRAGMENT_SHADER;  // GL_VERTEX_SHADER, GL_FRAGMENT_SHADER or GL_COMPUTE_SHADER
   std::shared_ptr<const glsl::ShaderSource> source;
+  bool clamped = false;  // see glsl::clampShared()
 };
 
 struct ProgramBinary {

@@ -41,7 +41,8 @@ std::string makeKey(const std::vector<StageSource>& stages, const ProgramRequest
   std::string text = device.driverKey + nameOf(device.backend);
   const auto add = [&](std::string_view part) { text += fmt::format("\n{}:{}", part.size(), part); };
   for (const StageSource& stage : stages)
-    text += fmt::format("\n{:x} {:016x} {}", stage.stage, stage.source->hash, stage.source->text.size());
+    text += fmt::format("\n{:x} {:016x} {}{}", stage.stage, stage.source->hash, stage.source->text.size(),
+                        stage.clamped ? " clamped" : "");
   for (const glsl::Define& define : request.defines) {
     add(define.name);
     add(define.value);
@@ -76,7 +77,8 @@ std::shared_ptr<const Variant> ProgramCache::get(const ProgramRequest& request, 
   for (const ProgramRequest::Stage& stage : request.stages) {
     auto source = stage.text.empty() ? loader_.load(stage.file, found, request.place)
                                      : loader_.loadText(stage.text, stage.file, found);
-    if (source) stages.push_back({stage.stage, std::move(source)});
+    const bool clamped = device_.software && stage.stage == GL_COMPUTE_SHADER;
+    if (source) stages.push_back({stage.stage, std::move(source), clamped});
   }
   appendFor(request, found, diagnostics);
   if (stages.size() != request.stages.size()) return nullptr;

@@ -272,3 +272,58 @@ TEST_CASE("types have names and shapes") {
   CHECK(shapeOf(GL_FLOAT_MAT4x3)->columns == 4);
   CHECK_FALSE(shapeOf(GL_SAMPLER_2D));
 }
+
+TEST_CASE("a clamped shader reads and writes only what its work group shares") {
+  CleanScope clean;
+  constexpr const char* kBefore = R"(
+layout(local_size_x = 8) in;
+struct Record { float list[2]; };
+shared float table[8];
+shared uint counts[8];
+shared vec2 pairs[8];
+shared Record records[8];
+#define ALIAS table
+layout(std430) buffer Out { float result[8]; };
+layout(std140) uniform Far { int far; };
+void main() {
+  int me = int(gl_LocalInvocationIndex);
+  table[me] = float(me);
+  counts[me] = uint(me);
+  pairs[me] = vec2(me, 10.0);
+  records[me].list[0] = 1.0;
+  records[me].list[1] = float(me);
+  barrier();
+  result[me] = )";
+  for (const auto& [value, expected] : std::vector<std::pair<std::string, float>>{
+           {"table[far]", 7},
+           {"ALIAS[me * far + far]", 7},
+           {"(table)[far]", 7},
+           {"float(atomicOr(counts[far], 0u))", 7},
+           {"pairs[0][far]", 10},
+           {"records[far].list[far]", 7},
+           {"0.0; barrier(); table[far] = 3.0; barrier(); result[me] = table[7]", 3}}) {
+    CAPTURE(value);
+    Diagnostics diagnostics;
+    SourceLoader loader({});
+    const StageSource stage{GL_COMPUTE_SHADER,
+                            loader.loadText(kBefore + value + ";\n}\n", "<test>", diagnostics), true};
+    const auto program = Program::compile({&stage, 1}, {}, {}, "far", diagnostics);
+    REQUIRE_MESSAGE(program, diagnostics.text());
+    GLuint buffers[2] = {};
+    const GLint far[4] = {100'000'000, 0, 0, 0};
+    const float zeros[8] = {};
+    glCreateBuffers(2, buffers);
+    glNamedBufferStorage(buffers[0], sizeof zeros, zeros, 0);
+    glNamedBufferStorage(buffers[1], sizeof far, far, 0);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffers[0]);
+    glBindBufferBase(GL_UNIFORM_BUFFER, 0, buffers[1]);
+    glUseProgram(program->id());
+    glDispatchCompute(1, 1, 1);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    float results[8] = {};
+    glGetNamedBufferSubData(buffers[0], 0, sizeof results, results);
+    for (const float result : results) CHECK(result == expected);
+    glUseProgram(0);
+    glDeleteBuffers(2, buffers);
+  }
+}
