@@ -3,6 +3,7 @@
 #include <poll.h>
 
 #include <cctype>
+#include <ranges>
 
 #include "app/commands/commands.h"
 #include "engine/glsl/interface.h"
@@ -315,6 +316,18 @@ Checked checkOnce(const CheckOptions& options) {
     checked.matrix =
         graph::tryMatrix(*desc, runtime::makeRegistry({}, facts), settingsOf(options, true), wanted);
   }
+  std::set<std::string> off;
+  if (checked.plan && !options.allVariants)
+    for (const graph::DisabledPass& each : checked.plan->graph->disabled)
+      if (std::string name = each.name.substr(0, each.name.find('[')); !checked.shaders.passes.contains(name))
+        off.insert(std::move(name));
+  constexpr std::size_t kNamed = 6;
+  if (!off.empty())
+    checked.shaders.unread.warning(
+        text::Code::unreadableShader, {options.graph},
+        fmt::format("{} that {} off: {}{} (--all switches on what it can)", text::counted(off.size(), "pass"),
+                    off.size() == 1 ? "is" : "are", fmt::join(off | std::views::take(kNamed), ", "),
+                    off.size() > kNamed ? ", …" : ""));
   // Passes whose shaders no plan has: what switches them on is the size of a picture, or several parameters at once.
   if (vary && options.allVariants && !diagnostics.hasErrors())
     graph::eachPass(*desc, [&](const std::string& name, const graph::PassDesc& pass) {

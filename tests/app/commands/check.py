@@ -199,6 +199,24 @@ def check_scene_lists(weft, report):
             report.check(len(done.codes("warning")) == said, f"{lists}: {done.err}")
 
 
+def check_off(weft, report):
+    """Passes that are off are named: nobody has looked at their shaders. With --all only those that no switch turns on."""
+    with temporary_folder() as name:
+        graph = pathlib.Path(name, "g.json")
+        graph.write_text(json.dumps({
+            "parameters": {"more": {"default": False}}, "resources": {"a": {"texture": "rgba8", "size": [4, 4]}},
+            "passes": [{"name": "fill", "shader": "a.frag.glsl", "write": {"result": "a"}},
+                       {"name": "again", "shader": "a.frag.glsl", "write": {"result": "a"}, "enabled": "$more"},
+                       {"name": "grow", "shader": "wrong.frag.glsl", "write": {"result": "a"}, "enabled": "size(a).x > 64"}],
+            "present": "a"}))
+        pathlib.Path(name, "shaders").mkdir()
+        pathlib.Path(name, "shaders/a.frag.glsl").write_text("out vec4 result; void main() { result = vec4(1.0); }")
+        pathlib.Path(name, "shaders/wrong.frag.glsl").write_text("out vec4 result; void main() { result = undeclared; }")
+        for options, said in (([], "not looked at: 2 passes that are off: again, grow"), (["--all"], "not looked at: the shader of 'grow'")):
+            done = run(weft, "check", graph, *options)
+            report.check(done.code == 0 and done.out.count(said) == 1 and done.out.count("not looked at") == 1, f"{options}: {done.code}\n{done.out}{done.err}")
+
+
 def check_missing_shader(weft, report):
     """With --no-shaders a shader that is not there is no mistake, and not silent."""
     with temporary_folder() as name:
@@ -398,6 +416,7 @@ def main():
     weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
     if "--gl" in sys.argv:
         check_all(weft, report)
+        check_off(weft, report)
         check_present(weft, report)
         check_time(weft, report)
         check_shader(weft, report)
