@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <set>
 
 #include "engine/graph/language/expr.h"
@@ -343,6 +342,17 @@ std::string newNameOf(std::string_view name) {
   return {};
 }
 
+// A call of pow() with a whole number as exponent; but not in a constant, which takes no functions of ISF's.
+bool isWholePower(const std::vector<glsl::Token>& tokens, std::size_t i) {
+  if (!tokens[i].is("pow")) return false;
+  std::size_t end = i + 1;
+  for (int open = 0; end < tokens.size() && (open += tokens[end].is("(") - tokens[end].is(")")) > 0;) ++end;
+  while (i > 0 && !tokens[i].is("const") && !tokens[i].is(";") && !tokens[i].is("}")) --i;
+  return end < tokens.size() && tokens[end - 2].is(",") && !tokens[i].is("const") &&
+         std::fmod(std::strtod(std::string(tokens[end - 1].text).c_str(), nullptr), 1.0) == 0.0 &&
+         tokens[end - 1].kind == glsl::TokenKind::number;
+}
+
 constexpr std::array<std::string_view, 6> kVariables{"TIME", "RENDERSIZE", "PASSINDEX",
                                                      "DATE", "TIMEDELTA",  "FRAMEINDEX"};
 
@@ -431,6 +441,7 @@ class ShaderTranslator {
       return i + ahead < tokens.size() ? tokens[i + ahead].text : std::string_view();
     };
     if (const std::string name = newNameOf(token.text); !name.empty()) return text.replace(i, i, name);
+    if (isWholePower(tokens, i)) return text.replace(i, i, "isf_pow");
     if (token.is("varying")) return text.replace(i, i, isVertex ? "out" : "in");
     if (token.is("gl_FragColor") && !isVertex) return text.replace(i, i, kIsfOutput);
     if (token.is("gl_FragData") && !isVertex) {

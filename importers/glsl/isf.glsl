@@ -11,6 +11,9 @@ float TIME = time;
 float TIMEDELTA = delta_time;
 int FRAMEINDEX = int(frame);
 
+// For whole exponents: GLSL leaves pow() of a negative number open, and most devices multiply.
+float isf_pow(float x, float exponent) { return (mod(exponent, 2.0) == 1.0 ? sign(x) : 1.0) * pow(abs(x), exponent); }
+
 // Pictures have their first row at the bottom.
 vec4 IMG_NORM_PIXEL(sampler2D image, vec2 place) { return texture(image, place); }
 vec4 IMG_PIXEL(sampler2D image, vec2 pixel) { return texture(image, pixel / vec2(textureSize(image, 0))); }

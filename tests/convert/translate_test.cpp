@@ -38,6 +38,14 @@ std::string mpvGraphOf(const std::string& text) {
 
 }  // namespace
 
+TEST_CASE("a whole power of a negative number is a product, as on most devices") {
+  CHECK(has(
+      fragmentOf("void main() { gl_FragColor = vec4(pow(pow(x, y), 3.0), pow(x, 2.5), pow(x, n), 1.0); }"),
+      "vec4(isf_pow(pow(x, y), 3.0), pow(x, 2.5), pow(x, n), 1.0)"));
+  CHECK(has(fragmentOf("const float k = pow(2.0, 3.0); void main() { float pow = pow(k, 3); }"),
+            "const float k = pow(2.0, 3.0); void main() { float pow = isf_pow(k, 3); }"));
+}
+
 TEST_CASE("older GLSL becomes GLSL 4.5 by tokens") {
   CHECK(fragmentOf("void main() { gl_FragColor = vec4(1.0); } // gl_FragColor\n") ==
         "void main() { isf_FragColor = vec4(1.0); } // gl_FragColor\n");
