@@ -143,9 +143,10 @@ void noteOff(const SlotContext& context, const Leaf& leaf, const RefDesc& ref) {
 }
 
 // All concrete candidates of a reference whose conditions hold, in order; the others are noted. `leaf` says what `ref` means, and what
-// is said of it from outside; `sample` how that is sampled by itself. False after a report.
+// is said of it from outside; `sample` how that is sampled by itself; `unbound` becomes an input to which nothing is bound. False after a
+// report.
 bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref, const RefDesc* sample,
-                   Leaf leaf, std::vector<Leaf>& leaves) {
+                   Leaf leaf, std::vector<Leaf>& leaves, std::string& unbound) {
   Model& model = context.model;
   if (!addSelection(context, names, ref, leaf.selection)) return false;
   if (!leaf.kind) leaf.kind = ref.kind;
@@ -161,6 +162,7 @@ bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref,
     return true;
   }
   if (entity.state == Progress::failed) return false;  // reported
+  if (entity.desc->kind == ResourceDesc::Kind::input && !leaf.off) unbound = entity.desc->name;
   Names listNames(model, *entity.scope);
   bool good = true;
   for (std::size_t i = 0; i < entity.candidates.size(); ++i) {
@@ -174,8 +176,9 @@ bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref,
     within.entity = entity.candidates[i];
     within.conditional = leaf.conditional || alternative.condition.present();
     within.off = leaf.off || !*holds;
-    good =
-        collectLeaves(context, listNames, alternative, entity.samples[i], std::move(within), leaves) && good;
+    good = collectLeaves(context, listNames, alternative, entity.samples[i], std::move(within), leaves,
+                         unbound) &&
+           good;
   }
   return good;
 }
@@ -200,6 +203,7 @@ struct SlotChoice {
   const SlotDesc& slot;
   std::uint32_t pass;  // whose the slot is, for what is missing
   const std::vector<Leaf>& leaves;
+  const std::string& unbound;  // an input
   std::vector<MissingRead::Wanted> wanted{};
 
   // The first alternative that has a version, or the first with no more than version zero, or nothing.
@@ -242,7 +246,7 @@ struct SlotChoice {
                                        : onlyImports  ? Why::import
                                                       : Why::version,
                                        pass, context.model.position, slot.name, slot.ref, false, slot.access,
-                                       std::move(wanted)});
+                                       std::move(wanted), leaves.empty() ? unbound : ""});
     return work;
   }
 
@@ -305,8 +309,9 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
                                                  verbOf(slot.access), context.pass, &sample);
   if (found == kNone || (slot.access != Access::read && !isWritable(context, slot, found))) return failed;
   std::vector<Leaf> leaves;
-  if (!collectLeaves(context, context.names, ref, sample, {.entity = found}, leaves)) return failed;
-  return SlotChoice{context, slot, pass, leaves}.choose();
+  std::string unbound;
+  if (!collectLeaves(context, context.names, ref, sample, {.entity = found}, leaves, unbound)) return failed;
+  return SlotChoice{context, slot, pass, leaves, unbound}.choose();
 }
 
 // ---- what is read in the place of a publication that is not there yet ----

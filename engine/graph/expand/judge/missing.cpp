@@ -168,6 +168,10 @@ Cause causeOf(const Model& model, const MissingRead& missing, const Writers& wri
       missing.first ? "name another texture or buffer as \"first\""
                     : fmt::format("read '{}@-1' for what it was in the frame before", missing.ref.name);
   const bool modifies = missing.access == Access::modify;
+  if (!missing.unbound.empty())
+    return Cause{Code::unboundInput,
+                 fmt::format(", and nothing is bound to the input '{}'", missing.unbound),
+                 {kMayBeEmpty}};
   if (missing.cause == MissingRead::Cause::condition)
     return Cause{Code::conditionLeavesSlotEmpty,
                  fmt::format(", whose condition is false: slot '{}' stays empty", missing.slot),

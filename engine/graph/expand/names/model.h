@@ -200,6 +200,7 @@ struct MissingRead {
   bool first = false;  // `ref` is the "first" of what the slot reads
   Access access = Access::read;
   std::vector<Wanted> wanted;
+  std::string unbound{};  // the input to which nothing is bound, where that is why
 };
 
 // What messages call a thing: a format with perhaps one name in it, "the size of '{}'". The name outlives it.
