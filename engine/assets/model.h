@@ -60,6 +60,25 @@ struct Texture {
 // How a texture is looked up, in bits: wrap of u, of v, and whether texels are seen as they are where they are magnified.
 enum MapSampler : std::uint8_t { repeat = 0, clampU = 1, mirrorU = 2, clampV = 4, mirrorV = 8, nearest = 16 };
 
+// What glTF's extensions say of a material: its dielectric reflection, a coat, a sheen, brushed grooves, a thin film. As it
+// is here it is nothing.
+struct MaterialLayers {
+  glm::vec3 specularColor{1};
+  float specular = 1, ior = 1.5f;  // of the dielectric; the factor counts at grazing angles, too
+  float coat = 0, coatRoughness = 0, coatNormalScale = 1;
+  glm::vec3 sheen{0};
+  float sheenRoughness = 0;
+  float anisotropy = 0, anisotropyTurn = 0;                      // radians from the tangent
+  bool layered = false;                                          // it is something
+  float film = 0, filmIor = 1.3f, filmMin = 100, filmMax = 400;  // nm
+  std::uint32_t specularMap = kNoRow, specularColorMap = kNoRow, coatMap = kNoRow, coatRoughnessMap = kNoRow,
+                coatNormalMap = kNoRow, sheenMap = kNoRow, sheenRoughnessMap = kNoRow, anisotropyMap = kNoRow,
+                filmMap = kNoRow, filmThicknessMap = kNoRow;
+  friend bool operator==(const MaterialLayers&, const MaterialLayers&) = default;
+};
+
+constexpr std::size_t kMaterialMaps = 15;
+
 struct Material {
   std::string name;
   glm::vec3 albedo{
@@ -81,11 +100,16 @@ struct Material {
   // occlusion r.
   std::uint32_t albedoMap = kNoRow, normalMap = kNoRow, metallicRoughnessMap = kNoRow, occlusionMap = kNoRow,
                 emissiveMap = kNoRow;
+  MaterialLayers layers{};
 
-  std::array<std::uint8_t, 5> samplers{};  // MapSampler, in the order of maps()
+  std::array<std::uint8_t, kMaterialMaps> samplers{};  // MapSampler, in the order of maps()
 
-  std::array<std::uint32_t*, 5> maps() {
-    return {&albedoMap, &normalMap, &metallicRoughnessMap, &occlusionMap, &emissiveMap};
+  std::array<std::uint32_t*, kMaterialMaps> maps() {
+    MaterialLayers& on = layers;
+    return {&albedoMap,           &normalMap,        &metallicRoughnessMap, &occlusionMap,
+            &emissiveMap,         &on.specularMap,   &on.specularColorMap,  &on.coatMap,
+            &on.coatRoughnessMap, &on.coatNormalMap, &on.sheenMap,          &on.sheenRoughnessMap,
+            &on.anisotropyMap,    &on.filmMap,       &on.filmThicknessMap};
   }
 };
 

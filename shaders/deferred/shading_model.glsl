@@ -21,6 +21,9 @@
 #include "common/view.glsl"
 #include "shading/brdf.glsl"
 #include "shading/point.glsl"
+#ifdef HAS_MATERIAL_LAYERS
+#include "shading/layers.glsl"
+#endif
 
 Point pointAt(vec3 position, vec3 normal, float sky_visible) {
   vec3 v = towardsEye(position);
@@ -38,6 +41,9 @@ Response modelResponse(Surface surface, float exponent, float nv) {
 // Radiance towards the eye of the environment's light. Occlusion of the lobe: Lagarde and de Rousiers, "Moving Frostbite to physically
 // based rendering", SIGGRAPH 2014 courses, 4.10.2.
 vec3 ambientRadiance(Point point, Response response, Ambient ambient) {
+#ifdef HAS_MATERIAL_LAYERS
+  if (layers.on) return layeredAmbient(point, response, ambient);
+#endif
   float visible = point.sky_visible, width = exp2(-16.0 * response.roughness - 1.0);
   float lobe_visible = clamp(pow(point.nv + visible, width) - 1.0 + visible, 0.0, 1.0);
   return ambient.reflected * lobe_visible + (response.multiple + response.diffuse) * ambient.mean * visible;
@@ -45,6 +51,9 @@ vec3 ambientRadiance(Point point, Response response, Ambient ambient) {
 
 // Radiance towards the eye for an irradiance of 1 from the unit direction `l`.
 vec3 directRadiance(Point point, Response response, vec3 l) {
+#ifdef HAS_MATERIAL_LAYERS
+  if (layers.on) return layeredDirect(point, response, l);
+#endif
 #if MODEL == MODEL_COOK_TORRANCE
   return cookTorrance(response, point.normal, point.to_eye, l);
 #elif MODEL == MODEL_BLINN_PHONG

@@ -1,28 +1,60 @@
-// A transparent mesh, lit by the lights of the G-buffer; without screen-space occlusion. Behind meshes/surface.vert.glsl.
+// A transparent mesh, lit by the lights of the G-buffer; or an opaque one whose material has layers, in place of what the G-buffer made of
+// it. Behind meshes/surface.vert.glsl.
 // read    materials, material_maps?   see meshes/surface.glsl
+//         material_layers?            see meshes/layers.glsl
+//         ao?                         as in deferred/lighting.frag.glsl
 //         air?                        see fog/fog.glsl
 //         the lights: shading/light.glsl
 // modify  radiance   scene-referred, premultiplied by the material's alpha: blend "premultiplied"
+// define  LAYERED   1: materials with layers alone
 // params, defines    see shading/light.glsl and shading_model.glsl
 #include "fog/fog.glsl"
 #include "meshes/surface.glsl"
 #include "shading_model.glsl"
+#ifdef HAS_MATERIAL_LAYERS
+#include "meshes/layers.glsl"
+#endif
 #include "shading/light.glsl"
 #include "shading/lobe.glsl"
 
+#ifdef HAS_AO
+uniform sampler2D ao;
+#endif
 #ifdef HAS_RADIANCE
 out vec4 radiance;
 #endif
 
 void main() {
+#ifdef HAS_MATERIAL_LAYERS
+  layers = meshLayers();
+#endif
   MeshSurface self = meshSurface();
 #ifdef HAS_RADIANCE
-  Point point = pointAt(world_position, self.normal, self.occlusion);
-  Response response = modelResponse(Surface(self.albedo, self.metallic, self.roughness), self.shininess, point.nv);
+#if LAYERED && defined HAS_MATERIAL_LAYERS
+  if (layers_of[row].layered == 0u) discard;
+  self.alpha = 1.0;
+#endif
+  float visible = self.occlusion;
+#ifdef HAS_AO
+  visible = min(visible, texelFetch(ao, ivec2(gl_FragCoord.xy), 0).r);
+#endif
+  Point point = pointAt(world_position, self.normal, visible);
+  Surface surface = Surface(self.albedo, self.metallic, self.roughness);
+  Response response = modelResponse(surface, self.shininess, point.nv);
 
   LightsSeen seen = lightsSeen(point);
-  Ambient ambient = ambientOf(point, response, lobeOf(response.roughness, 0.0), seen);
-  vec3 light = lightOf(point, response, ambient, seen).radiance * self.lit + self.emissive;
+  vec3 light = self.emissive;
+#ifdef HAS_MATERIAL_LAYERS
+  if (layers.on) response = enterLayers(point, surface);
+  for (int layer = 0; layer < 2; ++layer) {
+#endif
+    Ambient ambient = ambientOf(point, response, lobeOf(response.roughness, 0.0), seen);
+    light += lightOf(point, response, ambient, seen).radiance * self.lit;
+#ifdef HAS_MATERIAL_LAYERS
+    if (!layers.on || layers.coat <= 0.0) break;
+    light *= coverWithCoat(point, response);
+  }
+#endif
 #ifdef HAS_AIR
   light = mix(fog_light.rgb, light, throughFog(world_position - eye));
 #endif

@@ -1,5 +1,6 @@
 // A mesh, lit as it is drawn. Behind meshes/surface.vert.glsl.
 // read    materials, material_maps?   see meshes/surface.glsl
+//         material_layers?            see meshes/layers.glsl
 //         air?                        see fog/fog.glsl
 //         the lights: shading/light.glsl
 // modify  radiance   scene-referred; alpha 1, with BLEND premultiplied by the material's: blend "premultiplied"
@@ -10,6 +11,9 @@
 #include "fog/fog.glsl"
 #include "meshes/surface.glsl"
 #include "shading/cook_torrance.glsl"
+#ifdef HAS_MATERIAL_LAYERS
+#include "meshes/layers.glsl"
+#endif
 #include "shading/light.glsl"
 #include "shading/lobe.glsl"
 
@@ -25,15 +29,29 @@ out vec2 velocity;
 #endif
 
 void main() {
+#ifdef HAS_MATERIAL_LAYERS
+  layers = meshLayers();
+#endif
   MeshSurface self = meshSurface();
 #ifdef HAS_RADIANCE
   vec3 v = normalize(eye - world_position), n = self.normal;
   Point point = Point(world_position, n, v, reflect(-v, n), clamp(dot(n, v), 0.0, 1.0), self.occlusion);
-  Response response = responseOf(Surface(self.albedo, self.metallic, self.roughness), point.nv);
+  Surface surface = Surface(self.albedo, self.metallic, self.roughness);
+  Response response = responseOf(surface, point.nv);
 
   LightsSeen seen = lightsSeen(point);
-  Ambient ambient = ambientOf(point, response, lobeOf(self.roughness, 0.0), seen);
-  vec3 light = lightOf(point, response, ambient, seen).radiance * self.lit + self.emissive;
+  vec3 light = self.emissive;
+#ifdef HAS_MATERIAL_LAYERS
+  if (layers.on) response = enterLayers(point, surface);
+  for (int layer = 0; layer < 2; ++layer) {
+#endif
+    Ambient ambient = ambientOf(point, response, lobeOf(response.roughness, 0.0), seen);
+    light += lightOf(point, response, ambient, seen).radiance * self.lit;
+#ifdef HAS_MATERIAL_LAYERS
+    if (!layers.on || layers.coat <= 0.0) break;
+    light *= coverWithCoat(point, response);
+  }
+#endif
 #ifdef HAS_AIR
   light = mix(fog_light.rgb, light, throughFog(world_position - eye));
 #endif

@@ -7,6 +7,7 @@ in vec3 normal;
 in vec4 tangent;
 in vec2 uv;
 
+invariant gl_Position;  // some meshes are drawn twice
 out vec3 world_position;
 out vec3 world_normal;
 out vec4 world_tangent;   // w: sign of the bitangent

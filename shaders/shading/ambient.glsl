@@ -46,7 +46,7 @@ float spotStrength(Point point, Lobe lobe) {
 // Radiance towards the eye of the spot's reflection, with Schlick's Fresnel.
 vec3 reflectedSpot(Point point, Response response, Lobe lobe, float strength) {
   float m = 1.0 - 0.5 * sqrt(spotHalf2(point, lobe)), m2 = m * m;
-  vec3 fresnel = response.f0 + (1.0 - response.f0) * (m2 * m2 * m);
+  vec3 fresnel = response.f0 + (response.f90 - response.f0) * (m2 * m2 * m);
   return fresnel * lobe.spot_light * strength;
 }
 #endif

@@ -18,7 +18,7 @@ vec3 cookTorrance(Response response, vec3 n, vec3 v, vec3 l) {
   float distribution = a2 / (kPi * d * d);
   float masking = 0.5 / (nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2));
   float m = 1.0 - vh, m2 = m * m;
-  vec3 fresnel = response.f0 + (1.0 - response.f0) * (m2 * m2 * m);
+  vec3 fresnel = response.f0 + (response.f90 - response.f0) * (m2 * m2 * m);
   return nl * (distribution * masking * fresnel + (response.multiple + response.diffuse) * (1.0 / kPi));
 }
 

@@ -4,14 +4,23 @@
 
 #include "shading/brdf.glsl"
 #include "shading/point.glsl"
+#ifdef HAS_MATERIAL_LAYERS
+#include "shading/layers.glsl"
+#endif
 
 // Radiance towards the eye of the environment's light.
 vec3 ambientRadiance(Point point, Response response, Ambient ambient) {
+#ifdef HAS_MATERIAL_LAYERS
+  if (layers.on) return layeredAmbient(point, response, ambient);
+#endif
   return (ambient.reflected + (response.multiple + response.diffuse) * ambient.mean) * point.sky_visible;
 }
 
 // Radiance towards the eye for an irradiance of 1 from the unit direction `l`.
 vec3 directRadiance(Point point, Response response, vec3 l) {
+#ifdef HAS_MATERIAL_LAYERS
+  if (layers.on) return layeredDirect(point, response, l);
+#endif
   return cookTorrance(response, point.normal, point.to_eye, l);
 }
 

@@ -22,7 +22,7 @@ struct Surface {
 
 // A surface seen from one direction.
 struct Response {
-  vec3 f0;
+  vec3 f0, f90;       // reflectance at normal and at grazing incidence
   vec3 single;        // share of the environment's light that single scattering reflects
   vec3 multiple;      // share that leaves after several bounces, in all directions
   vec3 diffuse;       // share that the diffuse layer below reflects
@@ -39,6 +39,7 @@ Response responseOf(Surface surface, float nv) {
   float metallic = surface.metallic, dielectric = 0.04 * split.x + split.y;
   Response response;
   response.f0 = mix(vec3(0.04), surface.albedo, metallic);
+  response.f90 = vec3(1.0);
   response.single = response.f0 * split.x + split.y;
   response.multiple = vec3(0.0);
   response.roughness = surface.roughness;
@@ -68,7 +69,7 @@ float roughnessOfExponent(float exponent) { return sqrt(sqrt(2.0 / (exponent + 2
 Response phongResponse(Surface surface, float exponent) {
   vec3 specular = mix(vec3(0.04), surface.albedo, surface.metallic);
   vec3 diffuse = surface.albedo * (1.0 - surface.metallic) * (1.0 - specular);
-  return Response(specular, specular, vec3(0.0), diffuse, roughnessOfExponent(exponent), exponent, 0.0, 0.0);
+  return Response(specular, vec3(1.0), specular, vec3(0.0), diffuse, roughnessOfExponent(exponent), exponent, 0.0, 0.0);
 }
 
 #endif

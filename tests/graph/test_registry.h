@@ -106,6 +106,7 @@ inline std::vector<ImportType> testImports() {
        .views = true},
       {.name = "meshes", .kind = ImportKind::buffer, .doc = "", .arguments = {drawListArgument()}},
       {.name = "materials", .kind = ImportKind::buffer, .doc = ""},
+      {.name = "material_layers", .kind = ImportKind::buffer, .doc = ""},
       {.name = "joints", .kind = ImportKind::buffer, .doc = ""},
       {.name = "vertex_colors", .kind = ImportKind::buffer, .doc = ""},
       {.name = "material_maps", .kind = ImportKind::texture, .doc = "", .array = 8},
@@ -153,6 +154,8 @@ inline ImportFacts testFacts(const World& world, const ImportRequest& request) {
     facts.width = 2048;
     facts.height = 1024;
     facts.mips = 12;
+  } else if (request.type == "material_layers") {
+    facts.exists = false;
   } else if (request.type == "material_maps") {
     facts.format = Format::rgba8;
     facts.layered = true;

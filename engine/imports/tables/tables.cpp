@@ -207,6 +207,54 @@ struct Materials : SceneTable<scene::Material> {
   }
 };
 
+struct Layers : SceneTable<assets::MaterialLayers> {
+  static ImportType reflect() {
+    return {
+        .name = "material_layers",
+        .doc =
+            "What glTF's extensions say of the scene's materials, one row each, in the order of "
+            "`materials`; shaders/scene/material_layers.glsl reads them. Not there when they say nothing."};
+  }
+  static Columns<Row> columns() {
+    return {column<Row, &Row::specularColor>("specular_color", "linear, at normal incidence"),
+            column<Row, &Row::specular>("specular", "of the dielectric, at all angles"),
+            column<Row, &Row::sheen>("sheen", "linear"),
+            column<Row, &Row::sheenRoughness>("sheen_roughness", "perceptual"),
+            column<Row, &Row::ior>("ior", "0: it reflects all"),
+            column<Row, &Row::layered>("layered", "1: the others say something"),
+            column<Row, &Row::coat>("coat", "clear coat of ior 1.5"),
+            column<Row, &Row::coatRoughness>("coat_roughness", "perceptual"),
+            column<Row, &Row::coatNormalScale>("coat_normal_scale", "of the map's x and y"),
+            column<Row, &Row::anisotropy>("anisotropy", "0 to 1"),
+            column<Row, &Row::anisotropyTurn>("anisotropy_turn", "radians from the tangent"),
+            column<Row, &Row::film>("film", "iridescence, 0 to 1"),
+            column<Row, &Row::filmIor>("film_ior", ""),
+            column<Row, &Row::filmMin>("film_min", "nm, where its map is 0"),
+            column<Row, &Row::filmMax>("film_max", "nm, where it is 1, and without it"),
+            column<Row, &Row::specularMap>("specular_map", "in a; as in `materials`"),
+            column<Row, &Row::specularColorMap>("specular_color_map", ""),
+            column<Row, &Row::coatMap>("coat_map", "in r"),
+            column<Row, &Row::coatRoughnessMap>("coat_roughness_map", "in g"),
+            column<Row, &Row::coatNormalMap>("coat_normal_map", "tangent space"),
+            column<Row, &Row::sheenMap>("sheen_map", ""),
+            column<Row, &Row::sheenRoughnessMap>("sheen_roughness_map", "in a"),
+            column<Row, &Row::anisotropyMap>("anisotropy_map", "direction in r and g, strength in b"),
+            column<Row, &Row::filmMap>("film_map", "in r"),
+            column<Row, &Row::filmThicknessMap>("film_thickness_map", "in g")};
+  }
+  static ImportFacts facts(const WorldFacts& world) {
+    const auto& materials = world.scene->materials;
+    const auto says = [](const scene::Material& each) { return each.layers.layered; };
+    return {.exists = std::ranges::any_of(materials.rows(), says),
+            .count = static_cast<double>(materials.size())};
+  }
+  static std::vector<Row> rows(const Frame& frame) {
+    std::vector<Row> rows;
+    for (const scene::Material& each : Materials::rows(frame)) rows.push_back(each.layers);
+    return rows;
+  }
+};
+
 struct Ground : SceneTable<scene::Ground> {
   static ImportType reflect() {
     return {.name = "ground", .doc = "The plane that the scene stands on: one row."};
@@ -430,9 +478,10 @@ class CutProvider : public Provider {
 
 void addTables(graph::PlugIns<Import>& imports) {
   const auto add = [&]<class... Made>() { (imports.add(std::make_unique<ImportOf<Made>>()), ...); };
-  add.operator()<SpheresProvider, MeshesProvider, TableProvider<Materials>, TableProvider<Joints>,
-                 TableProvider<VertexColors>, TableProvider<Ground>, TableProvider<Mouse>,
-                 MaterialMapsProvider, DrawOrderProvider, SilhouettesProvider, CutProvider>();
+  add.
+  operator()<SpheresProvider, MeshesProvider, TableProvider<Materials>, TableProvider<Layers>,
+             TableProvider<Joints>, TableProvider<VertexColors>, TableProvider<Ground>, TableProvider<Mouse>,
+             MaterialMapsProvider, DrawOrderProvider, SilhouettesProvider, CutProvider>();
 }
 
 }  // namespace weft::imports

@@ -6,7 +6,9 @@
 #include <webp/encode.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "tests/assets/models/failure.h"
 #include "tests/assets/models/loading.h"
@@ -48,15 +50,16 @@ std::size_t viewOf(GltfMaker& maker, const std::string& bytes) {
 
 TEST_CASE("each extension that is not known is one warning that names it, wherever it is") {
   GltfMaker maker = plainSquare();
-  maker.document["materials"] = {{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatFactor", 1}}}}}},
-                                 {{"extensions", {{"KHR_materials_clearcoat", json::object()}}}}};
+  maker.document["materials"] = {
+      {{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}},
+      {{"extensions", {{"KHR_materials_transmission", json::object()}}}}};
   maker.document["nodes"][0]["extensions"]["EXT_new"] = json::object();
   maker.document["extras"]["extensions"]["EXT_not_one"] = json::object();
   const TemporaryFolder folder;
   text::Diagnostics diagnostics;
   REQUIRE(loadModel(folder.write("m.gltf", maker.gltf()), diagnostics));
   REQUIRE_MESSAGE(diagnostics.size() == 2, diagnostics.text());
-  for (const char* name : {"KHR_materials_clearcoat", "EXT_new"})
+  for (const char* name : {"KHR_materials_transmission", "EXT_new"})
     CHECK(std::ranges::any_of(diagnostics.items(), [&](const text::Diagnostic& d) {
       return d.code == Code::modelPartLeftOut && d.message.find(name) != std::string::npos;
     }));
@@ -71,10 +74,44 @@ TEST_CASE("samplers: wrap of both axes and what is magnified") {
   maker.document["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}}, json::object()};
   maker.document["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 0}, {"sampler", 1}}};
   maker.document["materials"] = {
-      {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}, {"normalTexture", {{"index", 1}}}}};
+      {{"pbrMetallicRoughness",
+        {{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", {{"index", 1}}}}},
+       {"normalTexture", {{"index", 0}}}}};
   const Model model = make(maker);
-  CHECK(model.materials[0].samplers[0] == (clampU | mirrorV | nearest));
-  CHECK(model.materials[0].samplers[1] == repeat);
+  const Material& material = model.materials[0];
+  const std::array<std::uint8_t, 3> samplers = {clampU | mirrorV | nearest, clampU | mirrorV | nearest,
+                                                repeat};
+  CHECK(std::ranges::equal(samplers,
+                           std::span(material.samplers).first(3)));  // of albedo, normal, metallic-roughness
+}
+
+TEST_CASE("layers: what the extensions of a material say; what changes nothing is none") {
+  Model model = withMaterial(
+      {{"extensions",
+        {{"KHR_materials_ior", {{"ior", 1.8}}},
+         {"KHR_materials_specular", {{"specularFactor", 0.5}, {"specularColorFactor", {1, 0.5, 0.25}}}},
+         {"KHR_materials_clearcoat", {{"clearcoatFactor", 0.75}, {"clearcoatRoughnessFactor", 0.25}}},
+         {"KHR_materials_sheen", {{"sheenColorFactor", {0.5, 0, 1}}, {"sheenRoughnessFactor", 0.5}}},
+         {"KHR_materials_anisotropy", {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 1}}},
+         {"KHR_materials_iridescence",
+          {{"iridescenceFactor", 1}, {"iridescenceIor", 1.5}, {"iridescenceThicknessMinimum", 200}}}}}});
+  MaterialLayers layers = model.materials[0].layers;
+  CHECK(layers == MaterialLayers{.specularColor = {1, 0.5f, 0.25f},
+                                 .specular = 0.5f,
+                                 .ior = 1.8f,
+                                 .coat = 0.75f,
+                                 .coatRoughness = 0.25f,
+                                 .sheen = {0.5f, 0, 1},
+                                 .sheenRoughness = 0.5f,
+                                 .anisotropy = 0.5f,
+                                 .anisotropyTurn = 1,
+                                 .layered = true,
+                                 .film = 1,
+                                 .filmIor = 1.5f,
+                                 .filmMin = 200});
+  model = withMaterial(
+      {{"extensions", {{"KHR_materials_ior", {{"ior", 1.5}}}, {"KHR_materials_specular", json::object()}}}});
+  CHECK(model.materials[0].layers == MaterialLayers{});
 }
 
 TEST_CASE("unlit: the base color is what is seen, and nothing reflects") {

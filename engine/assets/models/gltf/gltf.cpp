@@ -22,26 +22,6 @@ using text::JsonValue;
 
 namespace {
 
-// Which uv set a material's maps are looked up with, and how they are moved: KHR_texture_transform. One for all maps of a
-// material, because a vertex has one uv; maps that want another are left out, with W168.
-struct GltfUv {
-  std::uint32_t set = 0;
-  std::array<float, 2> offset{0, 0}, scale{1, 1};
-  float rotation = 0;  // radians
-  friend bool operator==(const GltfUv&, const GltfUv&) = default;
-};
-
-constexpr struct {
-  std::string_view object, key;  // in a material; "" for the material itself
-  TextureUse use;
-  std::uint32_t Material::*map;
-} kMaps[] = {{"pbrMetallicRoughness", "baseColorTexture", TextureUse::color, &Material::albedoMap},
-             {"pbrMetallicRoughness", "metallicRoughnessTexture", TextureUse::numbers,
-              &Material::metallicRoughnessMap},
-             {"", "normalTexture", TextureUse::numbers, &Material::normalMap},
-             {"", "occlusionTexture", TextureUse::numbers, &Material::occlusionMap},
-             {"", "emissiveTexture", TextureUse::color, &Material::emissiveMap}};
-
 // The place of a word among others; their number when it is none of them.
 std::size_t rowOf(std::string_view word, std::initializer_list<std::string_view> words) {
   return static_cast<std::size_t>(std::ranges::find(words, word) - words.begin());
@@ -56,14 +36,14 @@ class GltfReader {
         model_(model),
         made_(made),
         builder_(model),
-        pool_(files),
+        materials_(document, files, model, made),
         rows_(document.rows("nodes")) {}
 
   void read() {
     readNodes();
     findShown();
     for (const JsonValue& row : document_.rows("skins")) readSkin(row);
-    readMaterials();
+    materials_.read();
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       goOn(LoadStage::converting, static_cast<double>(i) / static_cast<double>(rows_.size()));
       if (shown_[i]) readInstances(rows_[i], rowOf_[i]);
@@ -177,183 +157,6 @@ class GltfReader {
       skin.inverseBind[j] = glm::make_mat4(values.data() + 16 * j);
   }
 
-  // --- materials
-
-  static Material defaultMaterial(std::string name) {
-    return {.name = std::move(name), .albedo = glm::vec3(1), .metallic = 1, .roughness = 1};
-  }
-
-  void readMaterials() {
-    const std::size_t before = diagnostics_.errorCount();
-    const std::vector<JsonValue>& rows = document_.rows("materials");
-    images_.resize(document_.rows("images").size());
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      goOn(LoadStage::decoding, 0);
-      readMaterial(rows[i], i);
-    }
-    model_.materials.push_back(defaultMaterial("default"));
-    uvs_.emplace_back();
-    GltfDocument::refuseUnless(diagnostics_.errorCount() == before && pool_.finish(model_));
-  }
-
-  struct Image {
-    bool tried = false;
-    std::uint32_t number = kNoRow;  // in the pool
-    std::string name = "missing";
-  };
-
-  // Put into the pool once.
-  const Image& imageOf(const JsonValue& texture) {
-    static const Image kNone;
-    const JsonValue *webp = valueOf(texture, {"extensions", "EXT_texture_webp", "source"}),
-                    *source = webp ? webp : texture.find("source");
-    if (!source) return kNone;
-    const std::uint32_t row = document_.index("images", *source);
-    Image& image = images_[row];
-    if (std::exchange(image.tried, true)) return image;
-    const JsonValue& value = document_.rows("images")[row];
-    const JsonValue *uri = value.find("uri"), *view = value.find("bufferView");
-    image.name = textOf(value, "name", fmt::format("image {}", row));
-    const JsonValue& where = uri ? *uri : view ? *view : value;
-    std::optional<std::string> bytes;
-    if (uri && uri->text.starts_with("data:")) {
-      bytes = decodeDataUri(uri->text);
-      if (!bytes) pool_.reportMissing(image.name, "its base64 is damaged", where.place);
-      GltfDocument::refuseUnless(!bytes || files_.count(bytes->size(), where.place));
-    } else if (uri) {
-      image.name = made_ ? files_.namedBeside(uri->text) : uri->text;
-      bytes = files_.readOptional(image.name, where.place, Code::missingModelTexture, !made_);
-    } else if (view) {
-      bytes = std::string(document_.view(*view).bytes);
-    } else {
-      pool_.reportMissing(image.name, "it has neither 'uri' nor 'bufferView'", where.place);
-    }
-    if (bytes) image.number = pool_.put(std::move(*bytes), image.name, where.place);
-    return image;
-  }
-
-  // glTF 2.0, 5.26. What is made smaller is always mixed from texels and levels.
-  std::uint8_t samplerOf(const JsonValue& texture) {
-    const JsonValue* which = texture.find("sampler");
-    if (!which) return repeat;
-    const JsonValue& row = document_.rows("samplers")[document_.index("samplers", *which)];
-    const auto bitsOf = [&](const char* key, std::initializer_list<std::pair<int, MapSampler>> values) {
-      const JsonValue* value = row.find(key);
-      for (const auto& [number, bits] : values)
-        if (value && value->number == number) return int{bits};
-      return 0;
-    };
-    return static_cast<std::uint8_t>(bitsOf("wrapS", {{33071, clampU}, {33648, mirrorU}}) |
-                                     bitsOf("wrapT", {{33071, clampV}, {33648, mirrorV}}) |
-                                     bitsOf("magFilter", {{9728, nearest}}));
-  }
-
-  GltfUv readUv(const JsonValue& info) {
-    GltfUv uv;
-    uv.set = static_cast<std::uint32_t>(document_.number(info, "texCoord", 0, 0, 63));
-    const JsonValue* transform = valueOf(info, {"extensions", "KHR_texture_transform"});
-    if (!transform) return uv;
-    document_.numbers(*transform, "offset", uv.offset);
-    document_.numbers(*transform, "scale", uv.scale);
-    uv.rotation = document_.number(*transform, "rotation", 0, -1e6, 1e6);
-    uv.set = static_cast<std::uint32_t>(document_.number(*transform, "texCoord", uv.set, 0, 63));
-    return uv;
-  }
-
-  void readMaterial(const JsonValue& value, std::size_t number) {
-    Material material = defaultMaterial(textOf(value, "name", fmt::format("material {}", number)));
-    std::optional<GltfUv> uv;
-    const JsonValue* gloss = valueOf(value, {"extensions", "KHR_materials_pbrSpecularGlossiness"});
-    const bool unlit = valueOf(value, {"extensions", "KHR_materials_unlit"});
-    std::array<Image, std::size(kMaps)> images;
-    for (std::size_t i = 0; i < images.size(); ++i) {
-      const auto& map = kMaps[i];
-      const JsonValue* info = map.object.empty() ? value.find(map.key)
-                              : gloss ? gloss->find(i == 0 ? "diffuseTexture" : "specularGlossinessTexture")
-                                      : valueOf(value, {map.object, map.key});
-      if (!info || (unlit && i > 0)) continue;
-      const GltfUv mine = readUv(*info);
-      if (uv.value_or(mine) != mine) {
-        document_.leaveOut(*info, fmt::format("'{}' of material {} was left out", map.key, number),
-                           "one set of texture coordinates and one transform for all maps of a material",
-                           "another one than that of its first map");
-        continue;
-      }
-      uv = mine;
-      const JsonValue& texture =
-          document_.rows("textures")[document_.index("textures", document_.need(*info, "index"))];
-      images[i] = imageOf(texture);
-      if (!images[i].tried)
-        pool_.reportMissing("a texture", "it names no image that Weft can read", texture.place);
-      material.samplers[i] = samplerOf(texture);
-      const TextureUse use = info->find("bump") ? TextureUse::bump : map.use;
-      material.*map.map = pool_.use(images[i].number, images[i].name, use, texture.place);
-    }
-    uvs_.push_back(uv.value_or(GltfUv{}));
-    const auto numberOf = [&](std::initializer_list<std::string_view> object, std::string_view key,
-                              double otherwise, double min, double max) {
-      const JsonValue* of = valueOf(value, object);
-      return of ? document_.number(*of, key, otherwise, min, max) : static_cast<float>(otherwise);
-    };
-    std::array<float, 4> factor{1, 1, 1, 1};
-    if (const JsonValue* pbr = value.find("pbrMetallicRoughness"))
-      document_.numbers(*pbr, "baseColorFactor", factor);
-    material.albedo = {factor[0], factor[1], factor[2]};
-    material.metallic = numberOf({"pbrMetallicRoughness"}, "metallicFactor", 1, 0, 1);
-    material.roughness = numberOf({"pbrMetallicRoughness"}, "roughnessFactor", 1, 0, 1);
-    if (gloss) factor[3] = readGloss(*gloss, images[0], images[1], material);
-    material.normalScale = numberOf({"normalTexture"}, "scale", 1, -1e3, 1e3);
-    material.occlusionStrength = numberOf({"occlusionTexture"}, "strength", 1, 0, 1);
-    document_.numbers(value, "emissiveFactor", {&material.emissive.x, 3});
-    material.emissive *=
-        numberOf({"extensions", "KHR_materials_emissive_strength"}, "emissiveStrength", 1, 0, 1e9);
-    if (const JsonValue* shine = valueOf(value, {"extensions", "WEFT_blinn_phong"})) {
-      document_.numbers(*shine, "specular", {&material.specular.x, 3});
-      material.shininess = document_.number(*shine, "shininess", 0, 0, 10000);
-      toMetallicRoughness(material);
-    }
-    const std::string mode = textOf(value, "alphaMode");
-    material.blend = mode == "BLEND";
-    material.alpha = material.blend ? factor[3] : 1;
-    if (mode == "MASK") {
-      // The mask compares factor * texel; Weft's materials compare the texel.
-      const float cutoff = document_.number(value, "alphaCutoff", 0.5, 0, 1e3);
-      material.alphaCutoff = factor[3] > 0 ? cutoff / factor[3] : 2;
-    }
-    const JsonValue* both = value.find("doubleSided");
-    material.doubleSided = both && both->flag;
-    if (unlit) {
-      material.unlit = material.blinnPhong = true;
-      material.shininess = material.metallic = 1;
-      material.emissive = std::exchange(material.albedo, glm::vec3(0));
-      material.emissiveMap = material.albedoMap;
-      material.samplers[4] = material.samplers[0];
-    }
-    model_.materials.push_back(std::move(material));
-  }
-
-  // KHR_materials_pbrSpecularGlossiness: maps are made of its two. The alpha factor.
-  float readGloss(const JsonValue& value, const Image& diffuse, const Image& specular, Material& material) {
-    std::array<float, 4> factor{1, 1, 1, 1};
-    document_.numbers(value, "diffuseFactor", factor);
-    SpecGloss gloss{.diffuse = {factor[0], factor[1], factor[2]}};
-    document_.numbers(value, "specularFactor", {&gloss.specular.x, 3});
-    gloss.glossiness = document_.number(value, "glossinessFactor", 1, 0, 1);
-    const Metallic whole = toMetallic(gloss);
-    std::tie(material.albedo, material.metallic, material.roughness) =
-        std::tie(whole.albedo, whole.metallic, whole.roughness);
-    if (diffuse.number == kNoRow && specular.number == kNoRow) return factor[3];
-    material.albedo = glm::vec3(1);
-    material.metallic = material.roughness = 1;
-    material.albedoMap = pool_.useMade(diffuse.number, specular.number, makeAlbedo(gloss), diffuse.name,
-                                       TextureUse::color, value.place);
-    material.metallicRoughnessMap =
-        pool_.useMade(diffuse.number, specular.number, makeMetallicRoughness(gloss), specular.name,
-                      TextureUse::numbers, value.place);
-    material.samplers[diffuse.number == kNoRow ? 0 : 1] = material.samplers[diffuse.number == kNoRow ? 1 : 0];
-    return factor[3];
-  }
-
   // glTF 2.0, 3.10: at the origin of its node.
   void readCamera(const JsonValue& value, std::size_t node) {
     ModelCamera camera{
@@ -462,7 +265,7 @@ class GltfReader {
     // Normals and tangents that are no numbers are made anew.
     mesh.normals = take(attribute<glm::vec3>(attributes, "NORMAL", {}), mesh, &RawVertex::normal);
     take(attribute<glm::vec4>(attributes, "TANGENT", {}), mesh, &RawVertex::tangent);
-    readUvs(attributes, uvs_[part.material], mesh);
+    readUvs(attributes, materials_.uvOf(part.material), mesh);
     readColors(attributes, mesh);
     morph(value, weights, mesh);
     if (skinned) part.joints = readWeights(attributes, mesh);
@@ -764,12 +567,10 @@ class GltfReader {
   Model& model_;
   const bool made_;  // of a file of another format
   MeshBuilder builder_;
-  TexturePool pool_;
+  GltfMaterials materials_;
   const std::vector<JsonValue>& rows_;  // of nodes
   std::vector<std::uint32_t> rowOf_;    // by the file's index of a node: its row in the model
   std::vector<bool> shown_;             // by the file's index: in the scene that is shown
-  std::vector<Image> images_;
-  std::vector<GltfUv> uvs_;  // parallel to the materials
   std::map<std::tuple<std::uint32_t, bool, std::vector<float>>, std::vector<Part>> parts_;
   std::uint32_t count_ = 0;  // of vertices of the primitive that is read
 };

@@ -4,6 +4,7 @@
 // to the folder.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -148,6 +149,46 @@ Metallic toMetallic(const SpecGloss& from);
 // Of a texel of the diffuse map and one of the specular-glossiness map, with these factors.
 MakeTexel makeAlbedo(const SpecGloss& factors);
 MakeTexel makeMetallicRoughness(const SpecGloss& factors);
+
+// Which uv set a material's maps are looked up with, and how they are moved: KHR_texture_transform. One for all maps of a
+// material, because a vertex has one uv; maps that want another are left out, with W168.
+struct GltfUv {
+  std::uint32_t set = 0;
+  std::array<float, 2> offset{0, 0}, scale{1, 1};
+  float rotation = 0;  // radians
+  friend bool operator==(const GltfUv&, const GltfUv&) = default;
+};
+
+// The materials of a document, and one more for meshes without: goes to the model as `read` is called.
+class GltfMaterials {
+ public:
+  GltfMaterials(GltfDocument& document, ModelFiles& files, Model& model, bool made)
+      : document_(document), files_(files), model_(model), made_(made), pool_(files) {}
+  void read();
+  const GltfUv& uvOf(std::uint32_t material) const { return uvs_[material]; }
+
+ private:
+  struct Image {
+    bool tried = false;
+    std::uint32_t number = kNoRow;  // in the pool
+    std::string name = "missing";
+  };
+  const Image& imageOf(const text::JsonValue& texture);
+  std::uint8_t samplerOf(const text::JsonValue& texture);
+  GltfUv readUv(const text::JsonValue& info);
+  void readMaterial(const text::JsonValue& value, std::size_t number);
+  void readLayers(const text::JsonValue& extensions, Material& material);
+  float readGloss(const text::JsonValue& value, const Image& diffuse, const Image& specular,
+                  Material& material);
+
+  GltfDocument& document_;
+  ModelFiles& files_;
+  Model& model_;
+  const bool made_;  // of a file of another format
+  TexturePool pool_;
+  std::vector<Image> images_;
+  std::vector<GltfUv> uvs_;  // parallel to the materials
+};
 
 // The file as a Model; `made`: it was made of one of another format, whose paths may be those of another machine and whose
 // vertices are one for each corner. Left out, with W168: points and lines, the motion of morph targets, further uv sets, a second sun, extensions
