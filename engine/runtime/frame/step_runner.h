@@ -29,7 +29,7 @@ class StepRunner {
 
  private:
   void clear(const PreparedPass& pass, GLuint framebuffer, text::Diagnostics& diagnostics);
-  static void clearAttachment(GLuint framebuffer, GLenum point, const ClearCommand& clear);
+  void clearAttachment(GLuint framebuffer, GLenum point, const ClearCommand& clear);
   // False: a pass type without a shader lacks the texture of an import, which was reported.
   bool bind(PreparedPass& pass, text::Diagnostics& diagnostics);
   void gatherMeshes(PreparedPass& pass, text::Diagnostics& diagnostics);
