@@ -7,7 +7,7 @@
 #include "app/ui/panels.h"
 #include "app/view/frame_clock.h"
 #include "app/view/window_input.h"
-#include "engine/runtime/inspection/step_record.h"
+#include "engine/runtime/inspection/step_watches.h"
 
 namespace weft::app {
 
