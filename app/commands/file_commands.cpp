@@ -31,7 +31,7 @@ void formatFile(const std::string& path, bool checkOnly, text::Diagnostics& diag
   const std::size_t before = diagnostics.errorCount();
   if (text) text::parseJson(*text, file, diagnostics);
   if (!text || diagnostics.errorCount() > before) return;
-  const std::string laid = text::layoutJson(graph::withNewSpelling(*text));
+  const std::string laid = graph::layoutGraph(*text);
   if (laid == *text) return;
   if (checkOnly) {
     const auto same = std::ranges::mismatch(*text, laid).in1;

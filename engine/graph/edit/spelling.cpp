@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -15,87 +16,20 @@ namespace weft::graph {
 
 namespace {
 
-using text::JsonMember;
-using text::JsonValue;
+using Item = text::LayoutItem;
+using Node = text::LayoutNode;
 
-constexpr std::size_t kMaxWritten = std::size_t{16} << 20;  // bytes of passes that are like others
+constexpr std::size_t kMaxWritten = std::size_t{1} << 20;  // values of passes that are like others
 
-// A value as it is written, whose members or items can be moved with their comments.
-struct Part {
-  std::string key;          // of a member
-  std::string before = {};  // in front of it: blanks and comments, without the comma
-  std::string head = {};    // the key as it is written, up to the value
-  std::string text = {};    // of a number, a word or a string
-  std::string word = {};    // what a string says
-  char open = '\0';         // of an object or a list
-  std::vector<Part> parts = {};
-  std::string behind = {};  // in front of the closing bracket
+std::size_t valuesOf(const Node& node) {
+  std::size_t count = 1;
+  for (const Item& item : node.items) count += valuesOf(item.value);
+  return count;
+}
 
-  Part* find(std::string_view wanted) {
-    const auto found = std::ranges::find(parts, wanted, &Part::key);
-    return found == parts.end() ? nullptr : &*found;
-  }
-  bool says(std::string_view wanted, std::string_view written) {
-    const Part* part = find(wanted);
-    return part && part->text == written;
-  }
-};
-
-class Reader {
- public:
-  explicit Reader(std::string_view text) : text_(text), tree_(text::parseJsonTree(text)) {}
-
-  Part whole() const {
-    Part root = partOf(tree_.root);
-    root.before = of(0, tree_.root.begin);
-    return root;
-  }
-  std::string_view behindWhole() const { return text_.substr(tree_.root.end); }
-
- private:
-  std::string of(std::size_t begin, std::size_t end) const {
-    return std::string(text_.substr(begin, end - begin));
-  }
-
-  std::string withoutComma(std::size_t begin, std::size_t end) const {
-    for (std::size_t at = begin; at < end; ++at)
-      if (const std::size_t behind = tree_.behindComment(at); behind > at)
-        at = behind - 1;
-      else if (text_[at] == ',')
-        return of(begin, at) + of(at + 1, end);
-    return of(begin, end);
-  }
-
-  Part partOf(const JsonValue& value) const {
-    Part part{.key = {}, .word = value.text};
-    if (!value.is(JsonValue::Type::object) && !value.is(JsonValue::Type::array)) {
-      part.text = of(value.begin, value.end);
-      return part;
-    }
-    part.open = text_[value.begin];
-    std::size_t behind = value.begin + 1;
-    const auto add = [&](const JsonValue& child, std::size_t begin, std::string key) {
-      Part& made = part.parts.emplace_back(partOf(child));
-      made.key = std::move(key);
-      made.before = withoutComma(std::exchange(behind, child.end), begin);
-      made.head = of(begin, child.begin);
-    };
-    for (const JsonMember& member : value.members) add(member.value, member.begin, member.key);
-    for (const JsonValue& item : value.items) add(item, item.begin, "");
-    part.behind = of(behind, value.end - 1);
-    return part;
-  }
-
-  std::string_view text_;
-  text::JsonTree tree_;
-};
-
-std::string textOf(const Part& part) {
-  if (part.open == '\0') return part.text;
-  std::string all(1, part.open);
-  for (const Part& each : part.parts)
-    all += (&each == part.parts.data() ? "" : ",") + each.before + each.head + textOf(each);
-  return all + part.behind + (part.open == '{' ? '}' : ']');
+bool says(Node& node, std::string_view key, std::string_view written) {
+  const Item* item = node.find(key);
+  return item && item->value.line == written;
 }
 
 std::string headOf(std::string_view key) {
@@ -104,125 +38,135 @@ std::string headOf(std::string_view key) {
 
 // `own` over what it is like: objects merge, null takes away, anything else replaces. What is taken over stands where "like" does,
 // else first. `other` is the pass `name`, or what it has under `group`.
-Part laidOver(const Part& own, Part other, const std::string& name, std::string_view group) {
+Node laidOver(Node own, Node other, const std::string& name, std::string_view group) {
   constexpr std::string_view kOwn[] = {"name", "before", "after", "remove"};
-  const auto refer = [&](std::string_view in, Part& part) {  // a parameter is declared once
-    if (in != "parameters" || part.open != '{') return;
-    part.open = '\0';
-    part.text = fmt::format("\"${}.{}\"", name, part.key);
+  const auto refer = [&](std::string_view in, Item& item) {  // a parameter is declared once
+    if (in == "parameters" && item.value.kind == Node::Kind::object)
+      item.value = {.line = fmt::format("\"${}.{}\"", name, item.name()), .items = {}, .dangling = {}};
   };
-  std::vector<Part> taken;
-  for (Part& part : other.parts) {
-    const bool stays = group.empty() && std::ranges::find(kOwn, part.key) != std::end(kOwn);
-    if (stays || std::ranges::find(own.parts, part.key, &Part::key) != own.parts.end()) continue;
-    part.before = " ";
-    refer(group, part);
-    for (Part& each : part.parts) refer(group.empty() ? part.key : "", each);
-    taken.push_back(part);
+  std::vector<Item> taken;
+  for (Item& item : other.items) {
+    const bool stays = group.empty() && std::ranges::find(kOwn, item.name()) != std::end(kOwn);
+    if (stays || own.find(item.name())) continue;
+    item.leading.clear();
+    item.trailing.clear();
+    refer(group, item);
+    if (group.empty())
+      for (Item& each : item.value.items) refer(item.name(), each);
+    taken.push_back(item);
   }
-  Part made{.key = own.key, .before = own.before, .head = own.head, .open = '{', .behind = own.behind};
-  if (!group.empty()) made.parts = taken;
-  for (const Part& part : own.parts) {
-    const Part* below = other.find(part.key);
-    if (group.empty() && part.key == "like") {
-      if (!taken.empty()) taken.front().before = part.before;
-      made.parts.insert(made.parts.end(), taken.begin(), taken.end());
-    } else if (below && below->open == '{' && part.open == '{') {
-      Part held = laidOver(part, *below, name, part.key);
-      if (!held.parts.empty()) made.parts.push_back(std::move(held));
-    } else if (part.text != "null") {
-      made.parts.push_back(part);
+  std::vector<Item> parts = std::exchange(own.items, group.empty() ? std::vector<Item>() : taken);
+  for (Item& item : parts) {
+    const Item* below = other.find(item.name());
+    if (group.empty() && item.name() == "like") {
+      if (!taken.empty()) taken.front().leading = item.leading;
+      if (!taken.empty()) taken.back().trailing = item.trailing;
+      own.items.insert(own.items.end(), taken.begin(), taken.end());
+    } else if (below && below->value.kind == Node::Kind::object && item.value.kind == Node::Kind::object) {
+      item.value = laidOver(std::move(item.value), below->value, name, item.name());
+      if (!item.value.items.empty()) own.items.push_back(std::move(item));
+    } else if (item.value.line != "null") {
+      own.items.push_back(std::move(item));
     }
   }
-  return made;
+  return own;
 }
 
-void writePassesWhole(Part& passes) {
-  std::map<std::string, const Part*> whole;  // passes above, by name
+void writePassesWhole(Node& passes) {
+  std::map<std::string_view, const Node*> whole;  // passes above, by name
   std::size_t written = 0;
-  for (Part& stanza : passes.parts) {
-    const Part *name = stanza.find("name"), *like = stanza.find("like");
-    const auto above = like ? whole.find(like->word) : whole.end();
-    if (above != whole.end() && (written += textOf(*above->second).size()) <= kMaxWritten)
-      stanza = laidOver(stanza, *above->second, like->word, "");
-    if (name = stanza.find("name"); name && stanza.find("type")) whole.try_emplace(name->word, &stanza);
+  for (Item& stanza : passes.items) {
+    const Item* like = stanza.value.find("like");
+    const auto above = like ? whole.find(like->value.word()) : whole.end();
+    if (above != whole.end() && (written += valuesOf(*above->second)) <= kMaxWritten)
+      stanza.value = laidOver(stanza.value, *above->second, std::string(above->first), "");
+    if (const Item* name = stanza.value.find("name"); name && stanza.value.find("type"))
+      whole.try_emplace(name->value.word(), &stanza.value);
   }
 }
 
 // The '?' and the `if` of slots that read.
-void mendSlots(Part& resources, Part& passes) {
-  for (Part& stanza : passes.parts)
-    if (Part* members = stanza.find("passes")) mendSlots(resources, *members);
+void mendSlots(Node& resources, Node& passes) {
+  for (Item& stanza : passes.items)
+    if (Item* members = stanza.value.find("passes")) mendSlots(resources, members->value);
   std::set<std::string> names, optional;
-  for (Part& part : resources.parts) {
-    names.insert(part.key);
-    if (part.find("input") && part.says("optional", "true")) optional.insert(part.key);
+  for (Item& item : resources.items) {
+    names.emplace(item.name());
+    if (item.value.find("input") && says(item.value, "optional", "true")) optional.emplace(item.name());
   }
-  for (Part& stanza : passes.parts) {
-    Part* slots = stanza.find("read");
-    if (!slots) continue;
-    for (Part& slot : slots->parts) {
-      std::string_view ref = trimmed(slot.word);
+  for (Item& stanza : passes.items) {
+    Item* slots = stanza.value.find("read");
+    if (!slots || slots->value.kind != Node::Kind::object) continue;
+    for (Item& slot : slots->value.items) {
+      std::string_view ref = trimmed(slot.value.word());
       const bool may = ref.ends_with('?');
       if (may) ref = trimmed(ref.substr(0, ref.size() - 1));
       const std::string name(dottedNameIn(ref));
       const std::size_t at = ref.find(" if ");
-      const Part* pass = stanza.find("name");
+      const Item* pass = stanza.value.find("name");
       std::string mended(ref);
       if (at != std::string_view::npos) {
-        if (name.empty() || !pass || stanza.find("repeat")) continue;
+        if (name.empty() || !pass || stanza.value.find("repeat")) continue;
         // The list has the name of the slot, if it is free.
-        std::string list = names.contains(slot.key) ? pass->word + "_" + slot.key : slot.key;
+        std::string list(slot.name());
+        if (names.contains(list)) list = std::string(pass->value.word()) + "_" + list;
         while (!names.insert(list).second) list += "_";
-        resources.parts.push_back(
-            {.key = list,
-             .before = "\n",
-             .head = headOf(list),
-             .text = fmt::format("[{}]",
-                                 text::quoteJson(name + " if " + std::string(trimmed(ref.substr(at + 4)))))});
+        Item& made = resources.items.emplace_back();
+        made.key = headOf(list);
+        made.value.kind = Node::Kind::array;
+        made.value.items.emplace_back().value.line =
+            text::quoteJson(name + " if " + std::string(trimmed(ref.substr(at + 4))));
         mended = list + std::string(ref.substr(name.size(), at - name.size())) + (may ? " ?" : "");
       } else if (!may || !optional.contains(name)) {
         continue;
       }
-      slot.text = text::quoteJson(mended);
+      slot.value.line = text::quoteJson(mended);
     }
   }
 }
 
-void moveInputs(Part& root) {
-  const auto section = std::ranges::find(root.parts, "resources", &Part::key);
-  if (section == root.parts.end()) return;
-  const auto first = std::ranges::stable_partition(section->parts, [](Part& part) {
-                       const Part* input = part.find("input");
-                       return !input || !input->text.starts_with('"');
+void moveInputs(Node& root) {
+  Item* const section = root.find("resources");
+  if (!section || section->value.kind != Node::Kind::object) return;
+  std::vector<Item>& resources = section->value.items;
+  const auto first = std::ranges::stable_partition(resources, [](Item& item) {
+                       const Item* input = item.value.find("input");
+                       return !input || input->value.word().empty();
                      }).begin();
-  if (first == section->parts.end()) return;
-  Part inputs{.key = "inputs", .before = section->before, .head = headOf("inputs"), .open = '['};
-  for (Part& part : std::ranges::subrange(first, section->parts.end())) {
-    part.head = text::quoteJson(part.key + (part.says("optional", "true") ? " ?" : ""));
-    std::erase_if(part.parts, [](const Part& each) { return each.key == "input" || each.key == "optional"; });
-    std::string rest = part.parts.empty() ? "" : fmt::format(": {}", textOf(part));
-    inputs.parts.push_back({.key = {},
-                            .before = part.before,
-                            .text = rest.empty() ? part.head : fmt::format("{{ {}{} }}", part.head, rest)});
+  if (first == resources.end()) return;
+  Item inputs;
+  inputs.key = headOf("inputs");
+  inputs.value.kind = Node::Kind::array;
+  inputs.leading = std::exchange(section->leading, {});
+  inputs.blankBefore = std::exchange(section->blankBefore, false);
+  for (Item& item : std::ranges::subrange(first, resources.end())) {
+    const std::string name =
+        text::quoteJson(std::string(item.name()) + (says(item.value, "optional", "true") ? " ?" : ""));
+    std::erase_if(item.value.items,
+                  [](const Item& each) { return each.name() == "input" || each.name() == "optional"; });
+    Item& made = inputs.value.items.emplace_back();
+    std::swap(made.leading, item.leading);
+    std::swap(made.trailing, item.trailing);
+    made.value.line = name;
+    if (item.value.items.empty()) continue;
+    made.value.kind = Node::Kind::object;
+    item.key = name + ": ";
+    made.value.items.push_back(std::move(item));
   }
-  inputs.behind = section->before = "\n";
-  section->parts.erase(first, section->parts.end());
-  const auto place = root.parts.insert(section, std::move(inputs));
-  if (place[1].parts.empty()) root.parts.erase(place + 1);
+  resources.erase(first, resources.end());
+  const auto place = root.items.insert(root.items.begin() + (section - root.items.data()), std::move(inputs));
+  if (place[1].value.items.empty()) root.items.erase(place + 1);
 }
 
 }  // namespace
 
-std::string withNewSpelling(std::string_view text) {
-  if (!text::JsonEdit(text)) return std::string(text);
-  const Reader reader(text);
-  Part root = reader.whole();
-  Part *resources = root.find("resources"), *passes = root.find("passes");
-  if (passes) writePassesWhole(*passes);
-  if (passes && resources && !resources->parts.empty()) mendSlots(*resources, *passes);
-  moveInputs(root);
-  return root.before + textOf(root) + std::string(reader.behindWhole());
+std::string layoutGraph(std::string_view text) {
+  return text::layoutJson(text, [](Node& root) {
+    Item *resources = root.find("resources"), *passes = root.find("passes");
+    if (passes) writePassesWhole(passes->value);
+    if (passes && resources && !resources->value.items.empty()) mendSlots(resources->value, passes->value);
+    moveInputs(root);
+  });
 }
 
 }  // namespace weft::graph

@@ -2,6 +2,7 @@
 // and items take the style of those around them: a line of their own or the same line, the indentation, tabs.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,8 +51,48 @@ std::string quoteJson(std::string_view text);
 // text, and that text stays as it is. Strings and numbers keep the way they are written; a string or
 // a comment that is too long is not broken.
 
+// A comment as it is written, with its slashes, without a line end.
+struct LayoutComment {
+  std::string_view text;
+  bool blankBefore = false;
+  bool toLineEnd() const { return text.starts_with("//"); }
+  // Nothing else stands in its last line.
+  bool endsLine() const { return toLineEnd() || text.find('\n') != std::string_view::npos; }
+};
+
+struct LayoutItem;
+
+// A value with its comments.
+struct LayoutNode {
+  enum class Kind : unsigned char { scalar, object, array };
+  Kind kind = Kind::scalar;
+  std::string line;                     // of a scalar, as it is written
+  std::vector<LayoutItem> items;        // of an object or an array
+  std::vector<LayoutComment> dangling;  // in front of the closing bracket
+  bool isContainer() const { return kind != Kind::scalar; }
+  // The member of that key, or null.
+  LayoutItem* find(std::string_view key);
+  // What a string says, without its quotes; "" of another value.
+  std::string_view word() const {
+    return line.starts_with('"') ? std::string_view(line).substr(1, line.size() - 2) : std::string_view();
+  }
+};
+
+// A member of an object or an item of an array.
+struct LayoutItem {
+  std::vector<LayoutComment> leading;  // in front of it
+  std::string key;                     // with its quotes and the colon, "\"name\": "; empty in an array
+  LayoutNode value;
+  std::vector<LayoutComment> trailing;  // behind it, on its last line
+  bool blankBefore = false;  // between the leading comments, or what is before, and the key or value
+  std::string line;          // all of it on one line, with key and comments; empty when it cannot be
+  std::string_view name() const {
+    return key.empty() ? std::string_view() : std::string_view(key).substr(1, key.size() - 4);
+  }
+};
+
 // `text` is what parseJson takes without a report. Line ends (the first one's kind) and a byte order mark
-// stay.
-std::string layoutJson(std::string_view text);
+// stay. `change` may change the values before they are laid out.
+std::string layoutJson(std::string_view text, const std::function<void(LayoutNode& root)>& change = {});
 
 }  // namespace weft::text

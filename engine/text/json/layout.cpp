@@ -19,35 +19,9 @@ constexpr std::string_view kPacked = "\"set\": ";
 // The member of a stanza whose items stand below the other keys.
 constexpr std::string_view kGroup = "\"passes\": ";
 
-struct Comment {
-  std::string_view text;  // with its slashes, without a line end
-  bool blankBefore = false;
-  bool toLineEnd() const { return text.starts_with("//"); }
-  // Nothing else stands in its last line.
-  bool endsLine() const { return toLineEnd() || text.find('\n') != std::string_view::npos; }
-};
-
-struct Item;
-
-// A value with its comments.
-struct Node {
-  enum class Kind : unsigned char { scalar, object, array };
-  Kind kind = Kind::scalar;
-  std::string line;               // all of it on one line; empty when it cannot be
-  std::vector<Item> items;        // of an object or an array
-  std::vector<Comment> dangling;  // in front of the closing bracket
-  bool isContainer() const { return kind != Kind::scalar; }
-};
-
-// A member of an object or an item of an array.
-struct Item {
-  std::vector<Comment> leading;  // in front of it
-  std::string key;               // with its quotes and the colon, "\"name\": "; empty in an array
-  Node value;
-  std::vector<Comment> trailing;  // behind it, on its last line
-  bool blankBefore = false;       // between the leading comments, or what is before, and the key or value
-  std::string line;               // as that of a node, with key and comments
-};
+using Comment = LayoutComment;
+using Item = LayoutItem;
+using Node = LayoutNode;
 
 bool endsLine(const Item& item) {
   return std::ranges::any_of(item.trailing, &Comment::endsLine);
@@ -65,7 +39,7 @@ int widthOf(std::string_view text) {
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }));
 }
 
-// Gives each comment to the value that it is about, and measures.
+// Gives each comment to the value that it is about.
 class Arranger {
  public:
   explicit Arranger(std::string_view text) : text_(text), tree_(parseJsonTree(text)) {}
@@ -117,7 +91,6 @@ class Arranger {
       out.kind = value.is(JsonValue::Type::object) ? Node::Kind::object : Node::Kind::array;
       at_ = value.begin + 1;
       items(value, out);
-      out.line = lineOf(out);
     } else {
       out.line = text_.substr(value.begin, value.end - value.begin);
     }
@@ -140,7 +113,6 @@ class Arranger {
       }
       item.value = node(child);
       leading = behind(item, blank);
-      item.line = lineOf(item);
     };
     for (const JsonMember& member : value.members) add(&member, member.value);
     for (const JsonValue& each : value.items) add(nullptr, each);
@@ -183,33 +155,34 @@ class Arranger {
     return next;
   }
 
-  static std::string lineOf(const Item& item) {
-    if (item.value.line.empty() || std::ranges::any_of(item.leading, &Comment::endsLine) || endsLine(item))
-      return {};
-    std::string line;
-    for (const Comment& each : item.leading) (line += each.text) += ' ';
-    line += item.key + item.value.line;
-    for (const Comment& each : item.trailing) (line += ' ') += each.text;
-    return line;
-  }
-
-  static std::string lineOf(const Node& node) {
-    if (!node.dangling.empty()) return {};
-    const bool object = node.kind == Node::Kind::object;
-    if (node.items.empty()) return object ? "{}" : "[]";
-    std::string line = object ? "{ " : "[";
-    for (const Item& item : node.items) {
-      if (item.line.empty()) return {};
-      if (&item != &node.items.front()) line += ", ";
-      line += item.line;
-    }
-    return line + (object ? " }" : "]");
-  }
-
   const std::string_view text_;
   const JsonTree tree_;
   std::size_t at_ = 0;
 };
+
+// Finds the line of each item and container; "" of one that cannot be on one line.
+void measure(Node& node) {
+  const bool object = node.kind == Node::Kind::object;
+  bool fits = node.dangling.empty();
+  std::string line;
+  for (Item& item : node.items) {
+    measure(item.value);
+    item.line.clear();
+    if (!item.value.line.empty() && std::ranges::none_of(item.leading, &Comment::endsLine) &&
+        !endsLine(item)) {
+      for (const Comment& each : item.leading) (item.line += each.text) += ' ';
+      item.line += item.key + item.value.line;
+      for (const Comment& each : item.trailing) (item.line += ' ') += each.text;
+    }
+    fits = fits && !item.line.empty();
+    if (fits) line += (line.empty() ? "" : ", ") + item.line;
+  }
+  if (!node.isContainer()) return;
+  node.line = !fits                ? ""
+              : node.items.empty() ? object ? "{}" : "[]"
+              : object             ? "{ " + line + " }"
+                                   : "[" + line + "]";
+}
 
 bool startsBlank(const Item& item) {
   return item.leading.empty() ? item.blankBefore : item.leading.front().blankBefore;
@@ -440,14 +413,22 @@ class Writer {
 
 }  // namespace
 
-std::string layoutJson(std::string_view text) {
+LayoutItem* LayoutNode::find(std::string_view key) {
+  const auto found = kind == Kind::object ? std::ranges::find(items, key, &LayoutItem::name) : items.end();
+  return found == items.end() ? nullptr : &*found;
+}
+
+std::string layoutJson(std::string_view text, const std::function<void(LayoutNode& root)>& change) {
   const bool marked = text.starts_with(kByteOrderMark);
   if (marked) text.remove_prefix(kByteOrderMark.size());
   const std::size_t end = text.find('\n');
   const bool carriage = end != std::string_view::npos && end > 0 && text[end - 1] == '\r';
   std::string plain(text);
   std::erase(plain, '\r');
-  const std::string laid = Writer().write(Arranger(plain).run());
+  Document document = Arranger(plain).run();
+  if (change) change(document.root);
+  measure(document.root);
+  const std::string laid = Writer().write(document);
   std::string out(marked ? kByteOrderMark : "");
   for (const char c : laid) {
     if (c == '\n' && carriage) out += '\r';

@@ -2,7 +2,6 @@
 
 #include "engine/graph/edit/edit.h"
 #include "engine/graph/read/read.h"
-#include "engine/text/json/edit.h"
 
 using namespace weft;
 using namespace weft::graph;
@@ -10,7 +9,7 @@ using namespace weft::graph;
 namespace {
 
 std::string laidOut(std::string_view text) {
-  return text::layoutJson(withNewSpelling(text));
+  return layoutGraph(text);
 }
 
 }  // namespace
