@@ -1,7 +1,5 @@
 #include "engine/graph/subresource.h"
 
-#include <algorithm>
-
 namespace weft::graph {
 
 namespace {
@@ -9,9 +7,10 @@ namespace {
 // Texels of all levels and layers of the part that `use` covers.
 std::uint64_t texelsOf(const FlatUse& use, const FlatResource& r) {
   std::uint64_t total = 0;
-  for (std::uint32_t mip = use.mip; mip < std::uint32_t{use.mip} + use.mips; ++mip)
-    total += std::uint64_t{std::max(1u, r.width >> mip)} * std::max(1u, r.height >> mip) *
-             (r.target == Target::texture_3d ? std::max(1u, r.depth >> mip) : 1u);
+  for (std::uint32_t mip = use.mip; mip < std::uint32_t{use.mip} + use.mips; ++mip) {
+    const auto [width, height, depth] = sizeAt(r, mip);
+    total += std::uint64_t{width} * height * depth;
+  }
   return total * use.layers;
 }
 

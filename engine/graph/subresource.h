@@ -22,9 +22,14 @@ inline bool isBuffer(const FlatResource& r) {
 inline bool isImported(const FlatResource& r) {
   return r.kind == ResourceKind::imported_texture || r.kind == ResourceKind::imported_buffer;
 }
+// Width, height and depth of a level, in texels.
+inline std::array<std::uint32_t, 3> sizeAt(const FlatResource& r, std::uint32_t mip) {
+  const std::uint32_t by = std::min(mip, 31u);
+  return {std::max(1u, r.width >> by), std::max(1u, r.height >> by), std::max(1u, r.depth >> by)};
+}
 // Layers of one level, faces included; of a 3D texture its slices there.
 inline std::uint32_t slicesOf(const FlatResource& r, std::uint32_t mip) {
-  return r.target == Target::texture_3d ? std::max(1u, r.depth >> std::min(mip, 31u)) : r.layers;
+  return r.target == Target::texture_3d ? sizeAt(r, mip)[2] : r.layers;
 }
 inline bool isCube(const FlatResource& r) {
   return r.target == Target::texture_cube || r.target == Target::texture_cube_array;

@@ -135,11 +135,10 @@ bool checkAttachments(const SlotContext& context, const std::vector<SlotWork>& s
     const FlatResource& shape = context.model.entities[work.entity].shape;
     const SlotDesc& slot = *work.slot;
     if (work.use.kind == Kind::color) ++colors;
-    const auto side = [&](std::uint32_t texels) { return std::max(1u, texels >> work.use.mip); };
-    const std::array<std::uint32_t, 5> here = {
-        side(shape.width), side(shape.height),
-        shape.target == Target::texture_3d ? side(shape.depth) : work.use.layers, shape.samples,
-        work.use.mips};
+    const auto [width, height, depth] = sizeAt(shape, work.use.mip);
+    const std::array<std::uint32_t, 5> here = {width, height,
+                                               shape.target == Target::texture_3d ? depth : work.use.layers,
+                                               shape.samples, work.use.mips};
     if (!first) all = here;
     if (!first) first = &work;
     if (work.use.mips > 1 || here != all)
@@ -228,11 +227,7 @@ bool checkCopy(const SlotContext& context, const std::vector<SlotWork>& slots) {
     if (side->use.mips != 1 || side->use.layers != 1 || (side == from ? a : b).target == Target::texture_3d)
       return refuse(Code::badSlots, *side, "it has several levels, layers or slices",
                     "one level and layer, such as 'x.mip[0]'; a pass may repeat over them");
-  const auto side = [](std::uint32_t texels, const SlotWork& work) {
-    return std::max(1u, texels >> work.use.mip);
-  };
-  const bool oneSize =
-      side(a.width, *from) == side(b.width, *to) && side(a.height, *from) == side(b.height, *to);
+  const bool oneSize = sizeAt(a, from->use.mip) == sizeAt(b, to->use.mip);
   const bool several = a.samples > 1 || b.samples > 1, depth = isDepth(a.format) || isDepth(b.format);
   if (several && (!oneSize || (a.samples > 1 && b.samples > 1 && a.samples != b.samples)))
     return refuse(Code::badSlots, *to, "the sides differ in size or samples",

@@ -267,8 +267,7 @@ void settleCopies(FlatGraph& graph) {
     const auto fits = [&](const FlatUse& use) {
       const FlatResource& other = graph.resources[use.resource];
       return isPlainImage(use, other) && other.format == r.format &&
-             std::max(1u, other.width >> use.mip) == std::max(1u, r.width >> first.mip) &&
-             std::max(1u, other.height >> use.mip) == std::max(1u, r.height >> first.mip);
+             sizeAt(other, use.mip) == sizeAt(r, first.mip);
     };
     const bool exact = uses.size() > 1 && std::ranges::all_of(uses, fits);
     for (FlatUse& use : uses) use.exact = exact;

@@ -151,9 +151,7 @@ class PassWalk {
     for (const SlotDesc& slot : desc.slots) {
       if (slot.access == Access::read) continue;
       const std::uint32_t found = findEntity(model_, scope, slot.ref.name, slot.ref.import);
-      const bool known = found != kNone && model_.entities[found].kind != ResourceDesc::Kind::import &&
-                         model_.entities[found].kind != ResourceDesc::Kind::alternatives;
-      model_.leftOut.insert(known ? found : kNone);
+      model_.leftOut.insert(found != kNone && model_.entities[found].isOwn() ? found : kNone);
     }
   }
 

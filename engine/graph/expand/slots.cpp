@@ -1,5 +1,6 @@
 // Declared in passes.h.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -130,8 +131,7 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
 // not be there: nobody reads it.
 void noteOff(const SlotContext& context, const Leaf& leaf, const RefDesc& ref) {
   const Entity& entity = context.model.entities[leaf.entity];
-  const bool own = entity.kind == ResourceDesc::Kind::texture || entity.kind == ResourceDesc::Kind::buffer;
-  if (!own || entity.state != Progress::done) return;
+  if (!entity.isOwn() || entity.state != Progress::done) return;
   SlotContext off = context;
   off.ranges = false;
   off.quiet = true;
@@ -189,8 +189,7 @@ const char* verbOf(Access access) {
 
 bool isWritable(const SlotContext& context, const SlotDesc& slot, std::uint32_t found) {
   const Entity& entity = context.model.entities[found];
-  const bool own = entity.kind == ResourceDesc::Kind::texture || entity.kind == ResourceDesc::Kind::buffer;
-  return (own && slot.ref.history == 0) ||
+  return (entity.isOwn() && slot.ref.history == 0) ||
          context.report(Code::notWritable, slot.ref.place,
                         fmt::format("{} '{}', which is an import, a list or an earlier publication",
                                     verbOf(slot.access), slot.ref.text),
@@ -321,10 +320,8 @@ namespace {
 // "a texture of 8x8, 6 layers, rgba16f"
 std::string shapeText(const FlatResource& shape, std::uint32_t mip, std::uint32_t layers) {
   if (isBuffer(shape)) return fmt::format("a buffer of {} bytes", shape.bytes);
-  const auto side = [&](std::uint32_t texels) { return std::max(1u, texels >> mip); };
-  return fmt::format("a {} of {}x{}x{}, {} layers, {} samples, {}", isCube(shape) ? "cube" : "texture",
-                     side(shape.width), side(shape.height), side(shape.depth), layers, shape.samples,
-                     infoOf(shape.format).name);
+  return fmt::format("a {} of {}, {} layers, {} samples, {}", isCube(shape) ? "cube" : "texture",
+                     fmt::join(sizeAt(shape, mip), "x"), layers, shape.samples, infoOf(shape.format).name);
 }
 
 // Whether `first`, the whole of `theirs`, can be read where `work` reads the history of `mine`.

@@ -451,10 +451,8 @@ void addThreads(const SlotContext& context, const PassDesc& desc, const std::vec
     if (work.entity == kNone || work.state == SlotWork::State::failed) continue;
     const FlatResource& shape = context.model.entities[work.entity].shape;
     if (shape.kind != ResourceKind::texture) continue;
-    const auto side = [&](std::uint32_t texels) { return std::max(1u, texels >> work.use.mip); };
-    spec.threads[0] = side(shape.width);
-    spec.threads[1] = side(shape.height);
-    spec.threads[2] = shape.target == Target::texture_3d ? side(shape.depth) : work.use.layers;
+    std::ranges::copy(sizeAt(shape, work.use.mip), spec.threads);
+    if (shape.target != Target::texture_3d) spec.threads[2] = work.use.layers;
     return;
   }
   if (!failed)

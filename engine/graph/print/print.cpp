@@ -68,10 +68,8 @@ Json framebufferData(const Plan& plan, std::uint32_t pass) {
     const FlatUse& use = graph.uses[u];
     if (plan.attached[u] == 0 || (use.kind != Kind::color && use.kind != Kind::depth)) continue;
     const FlatResource& r = graph.resources[use.resource];
-    if (json.is_null())
-      json = {{"size", {std::max(1u, r.width >> use.mip), std::max(1u, r.height >> use.mip)}},
-              {"color", Json::array()},
-              {"depth", ""}};
+    const auto [width, height, depth] = sizeAt(r, use.mip);
+    if (json.is_null()) json = {{"size", {width, height}}, {"color", Json::array()}, {"depth", ""}};
     if (use.kind == Kind::color)
       json["color"].push_back(textOf(graph, use));
     else

@@ -28,9 +28,7 @@ Line lineOf(const Model& model, std::uint32_t use, std::uint32_t who) {
 }
 
 bool isOwn(const Model& model, std::uint32_t entity) {
-  if (entity == kNone) return false;
-  const ResourceDesc::Kind kind = model.entities[entity].kind;
-  return kind == ResourceDesc::Kind::texture || kind == ResourceDesc::Kind::buffer;
+  return entity != kNone && model.entities[entity].isOwn();
 }
 
 // Calls f(write) for each WriteRecord and WouldUse that writes something, if what is switched off now were there.

@@ -197,7 +197,7 @@ void warnUnused(Model& model) {
     warnOfResource(model, entity);
     if (entity.kind == ResourceDesc::Kind::alternatives)
       warnOfList(model, entity);
-    else if (entity.kind <= ResourceDesc::Kind::buffer)
+    else if (entity.isOwn())
       warnOfParts(model, entity);
   }
 }

@@ -119,6 +119,8 @@ struct Entity {
   // Some reference or expression names it, whatever the conditions say now; by @-n.
   bool named = false, lookedBackAt = false;
   Selected levels, layers, ofArray;
+  // A texture or buffer of the graph.
+  bool isOwn() const { return kind == ResourceDesc::Kind::texture || kind == ResourceDesc::Kind::buffer; }
 };
 
 // One file instance.

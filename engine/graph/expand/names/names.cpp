@@ -250,18 +250,16 @@ std::optional<Value> Names::factOfShape(Fact fact, std::uint32_t target, std::ui
             .resource = entity.name});
     return Value{};
   }
-  mip = std::min(mip + level, 31u);
-  const auto side = [&](std::uint32_t texels) { return static_cast<double>(std::max(1u, texels >> mip)); };
   if (fact == Fact::count && entity.kind == ResourceDesc::Kind::import) return Value::number(entity.count);
   if (fact == Fact::count && entity.arrayCount > 0) return Value::number(entity.arrayCount);
   if (fact == Fact::format && !isBuffer(shape)) return Value::text(infoOf(shape.format).name);
   if (fact == Fact::mips && !isBuffer(shape)) return Value::number(shape.mips);
   if (fact == Fact::size && isBuffer(shape)) return Value::number(static_cast<double>(shape.bytes));
   if (fact == Fact::size) {
-    const bool deep = shape.target == Target::texture_3d;
-    return Value{.type = Value::Type::list,
-                 .count = static_cast<std::uint8_t>(deep ? 3 : 2),
-                 .v = {side(shape.width), side(shape.height), deep ? side(shape.depth) : 0.0, 0}};
+    Value size{.type = Value::Type::list, .count = std::uint8_t{2}};
+    if (shape.target == Target::texture_3d) size.count = 3;
+    std::ranges::copy_n(sizeAt(shape, mip + level).begin(), size.count, size.v.begin());
+    return size;
   }
   report(model_, Code::wrongValueType, place,
          fmt::format("'{}' is asked for what it does not have", entity.name),

@@ -307,10 +307,11 @@ bool evaluateTexture(Model& model, Names& names, Entity& entity) {
   entity.writtenMips = desc.fullMips ? full : static_cast<std::uint16_t>(*mips);
   shape.mips = std::min(entity.writtenMips, full);
   if (!decideTarget(model, entity)) return false;
-  for (std::uint16_t level = 0; level < shape.mips; ++level)
-    shape.bytes += static_cast<std::uint64_t>(std::max(1u, shape.width >> level)) *
-                   std::max(1u, shape.height >> level) * std::max(1u, shape.depth >> level) * shape.layers *
-                   shape.samples * infoOf(shape.format).bytes;
+  for (std::uint16_t level = 0; level < shape.mips; ++level) {
+    const auto [width, height, depth] = sizeAt(shape, level);
+    shape.bytes +=
+        std::uint64_t{width} * height * depth * shape.layers * shape.samples * infoOf(shape.format).bytes;
+  }
   return true;
 }
 
@@ -375,8 +376,8 @@ void deepen(Model& model, std::uint32_t target, std::uint32_t input, std::uint32
   for (std::size_t i = 0; i < entity.candidates.size(); ++i)
     if (entity.candidates[i] != kNone && entity.desc->alternatives[i].history == 0)
       deepen(model, entity.candidates[i], input, depth);
-  const bool own = entity.kind == ResourceDesc::Kind::texture || entity.kind == ResourceDesc::Kind::buffer;
-  if (!own || std::ranges::find(entity.inputs, input) != entity.inputs.end() || !ensureShape(model, target))
+  if (!entity.isOwn() || std::ranges::find(entity.inputs, input) != entity.inputs.end() ||
+      !ensureShape(model, target))
     return;
   entity.depth = std::max(entity.depth, depth);
   entity.inputs.push_back(input);
@@ -530,8 +531,7 @@ void wouldUse(Model& model, std::uint32_t index, Access access, int history) {
   for (std::size_t i = 0; i < entity.candidates.size(); ++i)
     if (entity.candidates[i] != kNone)
       wouldUse(model, entity.candidates[i], access, history + entity.desc->alternatives[i].history);
-  const bool own = entity.kind == ResourceDesc::Kind::texture || entity.kind == ResourceDesc::Kind::buffer;
-  if (!own || entity.state != Progress::done) return;
+  if (!entity.isOwn() || entity.state != Progress::done) return;
   FlatUse whole = wholeUse(0, entity.shape, Kind::copy, access);
   whole.history = static_cast<std::uint8_t>(history);
   wouldUse(model, {{index, 0, std::max(1u, entity.arrayCount), whole}});
