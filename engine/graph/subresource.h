@@ -169,6 +169,12 @@ constexpr const char* nameOf(Access access) {
   return kAccessNames[static_cast<std::size_t>(access)];
 }
 
+// "reads", "writes", "modifies".
+constexpr const char* verbOf(Access access) {
+  constexpr const char* kVerbs[] = {"reads", "writes", "modifies"};
+  return kVerbs[static_cast<std::size_t>(access)];
+}
+
 // "mip 2, layer 1" of a sub-resource of `r`; "" when it has only one.
 std::string subresourceText(const FlatResource& r, std::uint32_t index);
 

@@ -183,10 +183,6 @@ bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref,
   return good;
 }
 
-const char* verbOf(Access access) {
-  return access == Access::read ? "reads" : access == Access::write ? "writes" : "modifies";
-}
-
 bool isWritable(const SlotContext& context, const SlotDesc& slot, std::uint32_t found) {
   const Entity& entity = context.model.entities[found];
   return (entity.isOwn() && slot.ref.history == 0) ||

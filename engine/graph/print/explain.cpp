@@ -34,10 +34,7 @@ std::string textOf(const FlatGraph& graph, const BarrierAccess& access) {
   if (access.pass == kNone) return fmt::format("the end of the frame reads '{}'", what);
   const std::string& pass = graph.passNames[access.pass];
   if (access.clear) return fmt::format("the clear before '{}' writes '{}'", pass, what);
-  const char* const verb = access.use.access == Access::read    ? "reads"
-                           : access.use.access == Access::write ? "writes"
-                                                                : "modifies";
-  return fmt::format("'{}' {} '{}' as {}", pass, verb, what, nameOf(access.use.kind));
+  return fmt::format("'{}' {} '{}' as {}", pass, verbOf(access.use.access), what, nameOf(access.use.kind));
 }
 
 }  // namespace

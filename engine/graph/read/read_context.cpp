@@ -100,12 +100,7 @@ std::optional<RefDesc> ReadContext::ref(const JsonValue& object, std::string_vie
 Expr ReadContext::exprOf(const JsonValue& value) {
   if (value.is(Type::number)) return Expr::constant(Value::number(value.number), value.place);
   if (value.is(Type::boolean)) return Expr::constant(Value::boolean(value.flag), value.place);
-  if (value.is(Type::string)) {
-    text::Diagnostics said;
-    std::optional<Expr> parsed = Expr::parse(value.text, value.textPlace(), said);
-    adopt(said);
-    return parsed.value_or(Expr());
-  }
+  if (value.is(Type::string)) return parsed(value, Expr::parse).value_or(Expr());
   std::vector<Expr> items;
   for (const JsonValue& item : value.items)
     if (Expr one = exprOf(item); one.present()) items.push_back(std::move(one));
@@ -115,17 +110,15 @@ Expr ReadContext::exprOf(const JsonValue& value) {
 
 std::optional<RefDesc> ReadContext::refOf(const JsonValue& value, bool alternative) {
   if (!value.is(Type::string)) return std::nullopt;
-  text::Diagnostics said;
-  std::optional<RefDesc> parsed = parseRef(value.text, value.textPlace(), said);
-  adopt(said);
-  if (!parsed || alternative || !parsed->condition.present()) return parsed;
-  auto& d = error(Code::badReference, parsed->condition.place(), "an 'if' outside of a list of alternatives");
-  d.found = fmt::format("\"{}\"", value.text);
-  d.hint =
-      fmt::format("declare \"maybe_{0}\": [\"{0} if {1}\"] under \"resources\", and read \"maybe_{0} ?\"",
-                  parsed->name, parsed->condition.text());
-  parsed->condition = Expr();
-  return parsed;
+  std::optional<RefDesc> ref = parsed(value, parseRef);
+  if (!ref || alternative || !ref->condition.present()) return ref;
+  error(Code::badReference, ref->condition.place(), "an 'if' outside of a list of alternatives",
+        {.found = fmt::format("\"{}\"", value.text),
+         .hint = fmt::format(
+             "declare \"maybe_{0}\": [\"{0} if {1}\"] under \"resources\", and read \"maybe_{0} ?\"",
+             ref->name, ref->condition.text())});
+  ref->condition = Expr();
+  return ref;
 }
 
 const JsonValue* valueIn(const JsonValue& object, std::string_view key) {

@@ -60,13 +60,21 @@ class ReadContext {
   // Code::badReference for an `if` where none may stand.
   std::optional<RefDesc> refOf(const JsonValue& value, bool alternative = false);
 
-  // For the parsers of strings, which know no pass: adopt() what they said into a fresh Diagnostics.
-  void adopt(const text::Diagnostics& said);
+  // What `parse` makes of a string. Parsers know no pass: what they say gets it here.
+  template <class Parse>
+  auto parsed(const JsonValue& value, Parse&& parse) {
+    text::Diagnostics said;
+    auto made = parse(value.text, value.textPlace(), said);
+    adopt(said);
+    return made;
+  }
 
   // False once there are enough errors: further ones are not kept.
   bool goesOn() const { return !enoughErrors(diagnostics_); }
 
  private:
+  void adopt(const text::Diagnostics& said);
+
   text::Diagnostics& diagnostics_;
   text::Diagnostic unkept_;
 };

@@ -578,9 +578,7 @@ void inferType(ReadContext& context, const JsonValue& value, PassDesc& out) {
 void readGeometry(ReadContext& context, const JsonValue& value, PassDesc& out) {
   const JsonValue* geometry = valueIn(value, "geometry");
   if (!geometry) return;
-  text::Diagnostics said;
-  std::optional<CallText> call = parseCallText(geometry->text, geometry->textPlace(), said);
-  context.adopt(said);
+  std::optional<CallText> call = context.parsed(*geometry, parseCallText);
   out.geometry = call ? std::move(call->name) : "";
   if (call) out.geometryArguments = std::move(call->arguments);
 }
@@ -591,9 +589,7 @@ void readUpdate(ReadContext& context, const JsonValue& value, PassDesc& out) {
   const auto word = std::ranges::find(kUpdateWords, update->text);
   out.cadence = static_cast<Cadence>(word - kUpdateWords.begin());
   if (word != kUpdateWords.end()) return;
-  text::Diagnostics said;
-  const std::optional<CallText> call = parseCallText(update->text, update->textPlace(), said);
-  context.adopt(said);
+  const std::optional<CallText> call = context.parsed(*update, parseCallText);
   out.cadence = Cadence::always;
   if (!call) return;
   if (call->name != "every" || call->arguments.size() != 1) {

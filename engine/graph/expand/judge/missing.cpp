@@ -114,7 +114,7 @@ std::string whoReads(const Model& model, const MissingRead& missing) {
 
 const char* verbOf(const MissingRead& missing) {
   if (missing.pass == kNone) return missing.slot == "present" ? "shows" : "reads";
-  return missing.access == Access::modify ? "modifies" : "reads";
+  return verbOf(missing.access);
 }
 
 std::string thingOf(const Model& model, const MissingRead& missing) {
