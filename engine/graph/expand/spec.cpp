@@ -347,7 +347,7 @@ void addDefine(const SlotContext& context, PassSpec& spec, const NamedExpr& defi
   if (context.model.diagnostics.errorCount() > before) return;
   std::vector<std::string> choices;
   if (value.type == Value::Type::symbol)
-    for (const std::string& variable : variablesOf(define.expr)) {
+    for (const std::string& variable : define.expr.variables()) {
       choices = context.names.choicesOf(variable);
       if (std::ranges::find(choices, value.symbol) != choices.end()) break;
     }

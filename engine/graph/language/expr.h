@@ -167,8 +167,4 @@ class Expr {
   std::shared_ptr<const std::vector<std::string>> variables_;  // null: there are none
 };
 
-inline const std::vector<std::string>& variablesOf(const Expr& expr) {
-  return expr.variables();
-}
-
 }  // namespace weft::graph

@@ -6,7 +6,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <regex>
 #include <utility>
 
 #include "engine/graph/language/expr.h"
@@ -18,37 +17,6 @@
 namespace weft::graph {
 
 namespace {
-
-// Values as other formats spell them, and what is said of each. "$1" is the first group.
-struct Spelling {
-  std::regex theirs;
-  const char* hint;
-};
-
-// What to write for a value in another format's spelling: "50%", "1920x1080", "512px", a color of the web; "" for anything else.
-std::string hintForSize(std::string_view text) {
-  constexpr std::size_t kLongest = 80;  // a longer text is no slip of this kind
-  if (text.size() > kLongest) return {};
-  static const Spelling kSpellings[] = {
-      {std::regex("#[0-9a-fA-F]{3,8}"),
-       "a color is a list of numbers, which Weft takes as they are, such as [1, 0.5, 0]"},
-      {std::regex(R"(([\d.]+)%)"), "write the part of what it is: 'screen*0.5' for 50%"},
-      {std::regex(R"((.*[*/])([\d.]+)%)"), "write '$1 0.5' for 50%"},
-      {std::regex(R"(([\d.]+)\s*[xX,]\s*([\d.]+))"), "write [$1, $2]"},
-      {std::regex(R"(([\d.]+)x)"), "write 'screen*$1'"},
-      {std::regex(R"(([\d.]+)[KM]i?B)"), "sizes of buffers are bytes: write $1*1024, or $1*1048576"},
-      {std::regex(R"(([\d.]+)[A-Za-z]+)"), "numbers have no unit and no ending: write $1"},
-      {std::regex(R"((.*)px)"), "texels have no unit: write '$1'"},
-      {std::regex(R"(\w+\[(\d+)\])"), "sizes of buffers are bytes: write $1*4 for that many words"},
-      {std::regex(R"(width\s*,\s*height)"), "write 'screen'"},
-      {std::regex(R"(width\s*/\s*([\d.]+)\s*,.*)"), "write 'screen/$1'"},
-      {std::regex(R"((.*)\.width)"), "a size has .x and .y: write '$1.x'"},
-      {std::regex(R"((.*)\.height)"), "a size has .x and .y: write '$1.y'"}};
-  std::cmatch found;
-  for (const auto& [theirs, hint] : kSpellings)
-    if (std::regex_match(text.data(), text.data() + text.size(), found, theirs)) return found.format(hint);
-  return {};
-}
 
 // ---- tokens: numbers, identifiers, operators ----
 
@@ -131,7 +99,7 @@ class Parser {
   }
 
   ExprPtr failUnexpected(const char* expected) {
-    if (std::string hint = hintForSize(text_); !hint.empty()) {
+    if (std::string hint = text::hintForSpelling(text_); !hint.empty()) {
       diagnostics_.error(text::Code::badExpression, place_, fmt::format("'{}' is no value", text_),
                          {.expected = "a number, a list or an expression", .hint = std::move(hint)});
       return nullptr;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -14,18 +15,24 @@ namespace weft::text {
 
 namespace {
 
+const nlohmann::ordered_json& foreignTable() {
+  static const auto table = [] {
+    std::ifstream file(dataFolder() + "/engine/text/words/foreign.json");
+    auto json = nlohmann::ordered_json::parse(file, nullptr, false);
+    return json.is_object() ? json : nlohmann::ordered_json::object();
+  }();
+  return table;
+}
+
 // By kind and their word, "pass_key/inputs". In the file, what is to be written comes first, and then all words that mean it. Of
 // a key of ours that is meant, hints follow, "" where its name alone says all, and then the words.
 const ForeignWord& findForeign(const std::string& word) {
   static const auto table = [] {
     std::unordered_map<std::string, ForeignWord> all;
-    std::ifstream file(dataFolder() + "/engine/text/words/foreign.json");
-    const auto json = nlohmann::json::parse(file, nullptr, false);
-    if (!json.is_object()) return all;
-    for (const auto& [group, rows] : json.items())
+    for (const auto& [group, rows] : foreignTable().items())
       for (const auto& [ours, words] : rows.items()) {
         const bool plain = words.is_array();
-        const nlohmann::json hints = plain ? nlohmann::json{{ours, words}} : words;
+        const nlohmann::ordered_json hints = plain ? nlohmann::ordered_json{{ours, words}} : words;
         for (const auto& [hint, list] : hints.items())
           for (const auto& theirs : list)
             all.emplace(
@@ -53,6 +60,18 @@ const ForeignWord& findForeignWord(std::string_view kind, std::string_view word)
     std::erase_if(wanted, [](char c) { return c == '_' || c == '-' || c == ' '; });
   }
   return findForeign(std::string(kind) + "/" + wanted);
+}
+
+std::string hintForSpelling(std::string_view value) {
+  constexpr std::size_t kLongest = 80;  // a longer text is no slip of this kind
+  const auto patterns = foreignTable().find("value_pattern");
+  if (value.size() > kLongest || patterns == foreignTable().end()) return {};
+  for (const auto& [hint, all] : patterns->items())
+    for (const auto& pattern : all)
+      if (std::cmatch found; std::regex_match(value.data(), value.data() + value.size(), found,
+                                              std::regex(pattern.get<std::string>())))
+        return found.format(hint);
+  return {};
 }
 
 namespace {

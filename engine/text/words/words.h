@@ -21,6 +21,10 @@ inline std::string hintForForeign(std::string_view kind, std::string_view word) 
   return findForeignWord(kind, word).hint;
 }
 
+// The same for a value that is spelled as elsewhere, by the regular expressions of "value_pattern", the first that fits: "50%",
+// "1920x1080", "512px", a color of the web.
+std::string hintForSpelling(std::string_view value);
+
 // Words that GLSL 4.5 keeps for itself, so that what a graph names does not hide them. The table translates those of
 // versions before.
 

@@ -59,7 +59,7 @@ class MentionWalk {
 
   void add(Scope& scope, const Expr& expr, bool structural) {
     if (!expr.present() || expr.isConstant()) return;
-    for (const std::string& name : variablesOf(expr)) {
+    for (const std::string& name : expr.variables()) {
       const Variable found = findVariable(model_, scope, name);
       if (found.kind == Variable::Kind::let) {
         Let& let = model_.lets[found.index];

@@ -216,7 +216,7 @@ void linkAlternatives(Model& model) {
 template <class See>
 bool anyVariable(Model& model, Scope& scope, const Expr& expr, See&& see) {
   if (!expr.present() || expr.isConstant()) return false;
-  return std::ranges::any_of(variablesOf(expr),
+  return std::ranges::any_of(expr.variables(),
                              [&](const std::string& name) { return see(findVariable(model, scope, name)); });
 }
 
