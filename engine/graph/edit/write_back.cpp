@@ -54,21 +54,6 @@ struct TextEdit {
   std::string path, text;
 };
 
-// The declaration of a parameter, by its full name.
-const ParameterDesc* findDeclared(const GraphDesc& desc, const std::string& path) {
-  const ParameterDesc* found = nullptr;
-  const auto look = [&](const ParameterDesc& parameter, const std::string& prefix) {
-    if (prefix + parameter.name == path) found = &parameter;
-  };
-  eachFile(desc, [&](const std::string& prefix, const GraphDesc& file) {
-    for (const ParameterDesc& parameter : file.parameters) look(parameter, prefix);
-    for (const PassDesc& pass : file.passes)
-      for (const PassParameterDesc& parameter : pass.parameters)
-        if (parameter.declared) look(*parameter.declared, prefix + pass.name + ".");
-  });
-  return found;
-}
-
 std::string shortest(const std::string& path, std::span<const std::string> paths) {
   for (std::size_t dot = path.rfind('.'); dot != std::string::npos && dot > 0;
        dot = path.rfind('.', dot - 1)) {
@@ -139,18 +124,16 @@ void addEdit(std::vector<TextEdit>& edits, const FileTexts& texts, const std::st
   if (auto edited = change(*text->second)) edits.push_back({path, *std::move(edited)});
 }
 
-// Where in the files `wanted.value` may be written for `wanted.path`, the best place first, as whole edited texts; `paths` are the
-// full names of all parameters.
+// Where in the files `wanted.value` may be written for `wanted.path`, the best place first, as whole edited texts; `declared` is its
+// declaration in them, `paths` are the full names of all parameters.
 std::vector<TextEdit> editsOfParameter(const GraphDesc& desc, std::span<const std::string> presets,
                                        const FileTexts& texts, const ParameterSpec& wanted,
-                                       std::span<const std::string> paths) {
-  const ParameterDesc* found = findDeclared(desc, wanted.path);
-  if (!found) return {};
+                                       const ParameterDesc& declared, std::span<const std::string> paths) {
   std::vector<TextEdit> edits;
   // A path is written from the folder of the file it stands in.
   const auto valueIn = [&](const std::string& path) {
     Value value = wanted.value;
-    if (found->type != ParameterDesc::Type::file || value.symbol.empty()) return value;
+    if (declared.type != ParameterDesc::Type::file || value.symbol.empty()) return value;
     if (std::filesystem::path(value.symbol).is_absolute()) return value;
     const std::filesystem::path whole = text::absolutePath(value.symbol);
     value.symbol =
@@ -177,7 +160,7 @@ std::vector<TextEdit> editsOfParameter(const GraphDesc& desc, std::span<const st
         put(set->valuePlace);
   });
   if (const auto overlay = overlayOf(desc, presets)) putSet(*overlay);
-  put(found->initialPlace);
+  put(declared.initialPlace);
   putSet(desc.path);
   return edits;
 }
@@ -231,8 +214,9 @@ class Planner {
     wanted_ = expand(desc_);
     if (!wanted_) return fail("the graph with these changes", "nothing: it is not valid"), std::nullopt;
     for (const ParameterSpec& parameter : wanted_->parameters) paths_.push_back(parameter.path);
-    for (const ParameterSpec& parameter : wanted_->parameters)
-      if (!writeParameter(parameter)) return std::nullopt;
+    files_ = wanted_;
+    for (std::size_t i = 0; i < wanted_->parameters.size(); ++i)
+      if (!writeParameter(wanted_->parameters[i], i)) return std::nullopt;
     const std::vector<Disable> disables = out_.rest.disables;
     for (const Disable& disable : disables)
       if (!writePass(disable.name)) return std::nullopt;
@@ -253,19 +237,23 @@ class Planner {
     auto graph = expandGraph(desc, registry_, out_.rest, said);
     return said.hasErrors() ? nullptr : graph;
   }
-  bool isWanted(const GraphDesc& desc) const {
-    const auto made = expand(desc);
-    return made && sameGraph(*made, *wanted_);
+  // Whether files give the graph that runs; it becomes files_.
+  bool giveWanted(const GraphDesc& desc) {
+    auto made = expand(desc);
+    if (!made || !sameGraph(*made, *wanted_)) return false;
+    files_ = std::move(made);
+    return true;
   }
 
-  bool writeParameter(const ParameterSpec& wanted) {
+  bool writeParameter(const ParameterSpec& wanted, std::size_t index) {
     const auto means = [&](const Setting& set) {
       const auto found = suffixMatches(paths_, set.name);
       return found.size() == 1 && paths_[found[0]] == wanted.path;
     };
-    if (std::erase_if(out_.rest.sets, means) == 0 || isWanted(*now_))
+    if (std::erase_if(out_.rest.sets, means) == 0 || giveWanted(*now_))
       return true;  // the files say so already
-    for (const TextEdit& edit : editsOfParameter(*now_, presets_, texts_, wanted, paths_))
+    for (const TextEdit& edit :
+         editsOfParameter(*now_, presets_, texts_, wanted, files_->parameters[index].desc, paths_))
       if (take(edit)) {
         out_.parameters.push_back(wanted.path);
         return true;
@@ -281,7 +269,7 @@ class Planner {
     if (found.empty()) return true;  // an instance
     const std::string& pass = declared[found[0]];
     std::erase_if(out_.rest.disables, [&](const Disable& each) { return each.name == name; });
-    if (isWanted(*now_)) return true;
+    if (giveWanted(*now_)) return true;
     for (const TextEdit& edit : editsOfPass(*now_, presets_, texts_, pass))
       if (take(edit)) {
         out_.passes.push_back(pass);
@@ -297,7 +285,7 @@ class Planner {
     texts[edit.path] = std::make_shared<const std::string>(edit.text);
     Diagnostics said;
     auto desc = readGraph(desc_.path, presets_, texts, said);
-    if (!desc || said.hasErrors() || !isWanted(*desc)) return false;
+    if (!desc || said.hasErrors() || !giveWanted(*desc)) return false;
     texts_ = std::move(texts);
     kept_ = std::move(desc);
     now_ = kept_.get();
@@ -308,7 +296,7 @@ class Planner {
   std::span<const std::string> presets_;
   const Registry& registry_;
   Diagnostics& diagnostics_;
-  std::shared_ptr<const FlatGraph> wanted_;
+  std::shared_ptr<const FlatGraph> wanted_, files_;  // what runs; the same of the files with the edits so far
   std::vector<std::string> paths_;
   std::shared_ptr<const GraphDesc> kept_;
   const GraphDesc* now_;  // with the edits so far
