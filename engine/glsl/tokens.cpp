@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cerrno>
 #include <cstdlib>
+#include <iterator>
 #include <memory>
 #include <unordered_map>
 #include <utility>
@@ -43,11 +44,18 @@ std::vector<Token> splitTokens(std::string_view text) {
   std::uint32_t line = 1;
   std::size_t lineStart = 0;
   bool first = true;
-  for (std::size_t i = 0; i < text.size();) {
+  std::size_t i = 0;
+  const auto goTo = [&](std::size_t end) {
+    for (; i < end; ++i)
+      if (text[i] == '\n') {
+        ++line;
+        first = true;
+        lineStart = i + 1;
+      }
+  };
+  while (i < text.size()) {
     if (text[i] == '\n') {
-      ++line;
-      first = true;
-      lineStart = ++i;
+      goTo(i + 1);
     } else if (const std::size_t skip = continuationAt(text, i); skip > 0) {
       ++line;
       lineStart = i += skip;
@@ -61,13 +69,7 @@ std::vector<Token> splitTokens(std::string_view text) {
       }
     } else if (text.substr(i, 2) == "/*") {
       const std::size_t found = text.find("*/", i + 2);
-      const std::size_t end = found == std::string_view::npos ? text.size() : found + 2;
-      for (; i < end; ++i)
-        if (text[i] == '\n') {
-          ++line;
-          lineStart = i + 1;
-          first = true;
-        }
+      goTo(found == std::string_view::npos ? text.size() : found + 2);
     } else {
       Token token{.text = {}, .line = line, .column = static_cast<std::uint32_t>(i - lineStart + 1)};
       token.first = std::exchange(first, false);
@@ -99,6 +101,33 @@ namespace {
 
 using Value = std::optional<std::int64_t>;
 
+// Of whole numbers, which wrap around. The higher rank binds tighter.
+struct Operator {
+  std::string_view sign;
+  int rank;
+  std::int64_t (*apply)(std::int64_t, std::int64_t);
+};
+using Bits = std::uint64_t;
+constexpr Operator kOperators[] = {
+    {"||", 1, [](auto a, auto b) { return std::int64_t{a != 0 || b != 0}; }},
+    {"&&", 2, [](auto a, auto b) { return std::int64_t{a != 0 && b != 0}; }},
+    {"|", 3, [](auto a, auto b) { return a | b; }},
+    {"^", 4, [](auto a, auto b) { return a ^ b; }},
+    {"&", 5, [](auto a, auto b) { return a & b; }},
+    {"==", 6, [](auto a, auto b) { return std::int64_t{a == b}; }},
+    {"!=", 6, [](auto a, auto b) { return std::int64_t{a != b}; }},
+    {"<", 7, [](auto a, auto b) { return std::int64_t{a < b}; }},
+    {">", 7, [](auto a, auto b) { return std::int64_t{a > b}; }},
+    {"<=", 7, [](auto a, auto b) { return std::int64_t{a <= b}; }},
+    {">=", 7, [](auto a, auto b) { return std::int64_t{a >= b}; }},
+    {"<<", 8, [](auto a, auto b) { return static_cast<std::int64_t>(Bits(a) << (Bits(b) & 63)); }},
+    {">>", 8, [](auto a, auto b) { return a >> (Bits(b) & 63); }},
+    {"+", 9, [](auto a, auto b) { return static_cast<std::int64_t>(Bits(a) + Bits(b)); }},
+    {"-", 9, [](auto a, auto b) { return static_cast<std::int64_t>(Bits(a) - Bits(b)); }},
+    {"*", 10, [](auto a, auto b) { return static_cast<std::int64_t>(Bits(a) * Bits(b)); }},
+    {"/", 10, [](auto a, auto b) { return a / b; }},
+    {"%", 10, [](auto a, auto b) { return a % b; }}};
+
 class Evaluator {
  public:
   Evaluator(std::span<const Token> tokens, const std::function<Value(std::string_view)>& valueOf,
@@ -111,47 +140,16 @@ class Evaluator {
   }
 
  private:
-  static int rankOf(std::string_view sign) {
-    constexpr std::pair<std::string_view, int> kRanks[] = {
-        {"||", 1}, {"&&", 2}, {"|", 3},  {"^", 4},  {"&", 5}, {"==", 6}, {"!=", 6}, {"<", 7},  {">", 7},
-        {"<=", 7}, {">=", 7}, {"<<", 8}, {">>", 8}, {"+", 9}, {"-", 9},  {"*", 10}, {"/", 10}, {"%", 10}};
-    for (const auto& [text, rank] : kRanks)
-      if (text == sign) return rank;
-    return 0;
-  }
-
-  static Value combine(std::string_view sign, std::int64_t a, std::int64_t b) {
-    const auto ua = static_cast<std::uint64_t>(a), ub = static_cast<std::uint64_t>(b);
-    if (sign == "||") return a != 0 || b != 0;
-    if (sign == "&&") return a != 0 && b != 0;
-    if (sign == "|") return a | b;
-    if (sign == "^") return a ^ b;
-    if (sign == "&") return a & b;
-    if (sign == "==") return a == b;
-    if (sign == "!=") return a != b;
-    if (sign == "<") return a < b;
-    if (sign == ">") return a > b;
-    if (sign == "<=") return a <= b;
-    if (sign == ">=") return a >= b;
-    if (sign == "<<") return static_cast<std::int64_t>(ua << (ub & 63));
-    if (sign == ">>") return a >> (ub & 63);
-    if (sign == "+") return static_cast<std::int64_t>(ua + ub);
-    if (sign == "-") return static_cast<std::int64_t>(ua - ub);
-    if (sign == "*") return static_cast<std::int64_t>(ua * ub);
-    if (b == 0 || b == -1) return std::nullopt;
-    return sign == "/" ? a / b : a % b;
-  }
-
   Value parse(int above) {
     Value left = unary();
     while (left && at_ < tokens_.size()) {
-      const std::string_view sign = tokens_[at_].text;
-      const int rank = rankOf(sign);
-      if (rank <= above) break;
+      const auto infix = std::ranges::find(kOperators, tokens_[at_].text, &Operator::sign);
+      if (infix == std::end(kOperators) || infix->rank <= above) break;
       ++at_;
-      const Value right = parse(rank);
-      if (!right) return std::nullopt;
-      left = combine(sign, *left, *right);
+      const Value right = parse(infix->rank);
+      const bool divides = infix->sign == "/" || infix->sign == "%";
+      if (!right || (divides && (*right == 0 || *right == -1))) return std::nullopt;
+      left = infix->apply(*left, *right);
     }
     return left;
   }
