@@ -285,11 +285,8 @@ class PassWalk {
   void disable(const StanzaWalk& stanza, const SlotContext& context, DisabledPass pass) {
     const auto index = static_cast<std::uint32_t>(graph_.disabled.size());
     graph_.disabled.push_back(std::move(pass));
-    if (stanza.desc.sideEffect) wouldUse(model_, WouldUse{});
     for (const SlotWork& work : slots_)
-      if (work.state == State::empty && !work.reads())
-        wouldUse(model_, WouldUse{});  // who knows what reads it at another size
-      else if (work.isConnected() && work.reads())
+      if (work.isConnected() && work.reads())
         wouldUse(model_, {work});
       else if (work.isConnected())
         record(work, kNone, index);

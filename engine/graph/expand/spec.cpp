@@ -88,10 +88,6 @@ void checkIndirect(const SlotContext& context, const PassDesc& desc) {
       context.report(Code::keyNotTaken, place,
                      fmt::format("has {} and takes its arguments from '{}'", what, slot->ref.name),
                      {.hint = "leave one of the two out: the records of the buffer say how much is run"});
-  if (!slot && desc.draws.present())
-    context.report(Code::keyNotTaken, desc.draws.place(),
-                   "has \"draws\" and no buffer that says what to draw",
-                   {.hint = "read the buffer as indirect: \"read\": { \"commands\": \"x as indirect\" }"});
 }
 
 void checkKeys(const SlotContext& context, const PassDesc& desc) {
@@ -121,13 +117,22 @@ void checkKeys(const SlotContext& context, const PassDesc& desc) {
                      fmt::format("has the key '{}', which a {} pass does not take", key, context.type->name),
                      {.hint = fmt::format("remove \"{}\"", key)});
   const auto modifies = [](const SlotDesc& slot) { return slot.access == Access::modify; };
-  if (desc.feedback && std::ranges::none_of(desc.slots, modifies))
-    context.report(Code::keyNotTaken, desc.namePlace, "has the key 'feedback' and modifies nothing",
-                   {.hint = "leave \"feedback\" out, or say \"modify\" where the slot says \"write\""});
-  if (!desc.list.empty() && desc.instances.present())
-    context.report(Code::keyNotTaken, desc.instances.place(),
-                   "has \"instances\" and a \"list\", which says how many",
-                   {.hint = "leave one of the two out"});
+  const struct {
+    bool idle;
+    Place place;
+    const char *what, *hint;
+  } rules[] = {{desc.feedback && std::ranges::none_of(desc.slots, modifies), desc.namePlace,
+                "has the key 'feedback' and modifies nothing",
+                "leave \"feedback\" out, or say \"modify\" where the slot says \"write\""},
+               {!desc.list.empty() && desc.instances.present(), desc.instances.place(),
+                "has \"instances\" and a \"list\", which says how many", "leave one of the two out"},
+               {desc.draws.present() && !findIndirect(desc), desc.draws.place(),
+                "has \"draws\" and no buffer that says what to draw",
+                "read the buffer as indirect: \"read\": { \"commands\": \"x as indirect\" }"},
+               {hasShader && desc.samples.present() && !desc.raster.present(), desc.samples.place(),
+                "has \"samples\" and no \"raster\"", "write \"samples\" on the textures that it draws into"}};
+  for (const auto& [idle, place, what, hint] : rules)
+    if (idle) context.report(Code::keyNotTaken, place, what, {.hint = hint});
   checkIndirect(context, desc);
   if (!hasShader) return;
   checkShaders(context, desc);
@@ -137,9 +142,6 @@ void checkKeys(const SlotContext& context, const PassDesc& desc) {
                                       !isCounted(context, desc) && !findIndirect(desc)
                                   ? "what to draw: \"list\" or \"instances\""
                                   : nullptr;
-  if (!desc.raster.present() && desc.samples.present())
-    context.report(Code::keyNotTaken, desc.samples.place(), "has \"samples\" and no \"raster\"",
-                   {.hint = "write \"samples\" on the textures that it draws into"});
   if (lacking)
     context.report(Code::keyNeeded, desc.namePlace, "lacks a key or a slot", {.expected = lacking});
 }

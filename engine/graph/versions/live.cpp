@@ -94,25 +94,21 @@ Groups formGroups(const FlatGraph& graph, const Liveness& live) {
     parents[std::max(a, b)] = std::min(a, b);
     return a != b;
   };
-  const auto joinWriters = [&] {
-    for (const std::uint32_t p : members)
-      eachWrite(p, [&](const FlatUse& use) {
-        if (joint[use.resource] != 0) join(firstWriter[use.resource], p);
-      });
-  };
-  joinWriters();
   // A time-sliced group takes in who writes what it writes, the `on_change` passes whose results it reads, and other
   // time-sliced groups that read an import it reads, until nothing is left to join.
   std::vector<std::uint32_t> maker(graph.resources.size(), kNone);  // a pass; of an import, one that reads it
   for (const std::uint32_t p : members)
     if (graph.passes[p].cadence == Cadence::on_change)
       eachWrite(p, [&](const FlatUse& use) { maker[use.resource] = p; });
-  const auto sliced = [&](std::uint32_t p) { return graph.passes[p].slices > 1; };
-  for (bool changed = std::ranges::any_of(members, sliced); changed;) {
+  for (bool changed = true; changed;) {
     changed = false;
+    for (const std::uint32_t p : members)
+      eachWrite(p, [&](const FlatUse& use) {
+        if (joint[use.resource] != 0) join(firstWriter[use.resource], p);
+      });
     std::vector<std::uint8_t> slicedRoot(graph.passes.size(), 0);
     for (const std::uint32_t p : members)
-      if (sliced(p)) slicedRoot[rootOf(parents, p)] = 1;
+      if (graph.passes[p].slices > 1) slicedRoot[rootOf(parents, p)] = 1;
     for (const std::uint32_t p : members) {
       if (slicedRoot[rootOf(parents, p)] == 0) continue;
       for (const std::uint32_t u : graph.usesOf(p)) {
@@ -124,7 +120,6 @@ Groups formGroups(const FlatGraph& graph, const Liveness& live) {
           changed |= std::exchange(joint[use.resource], std::uint8_t{1}) == 0;
       }
     }
-    if (changed) joinWriters();
   }
 
   std::vector<std::uint32_t> size(graph.passes.size(), 0), groupOfRoot(graph.passes.size(), kNone);

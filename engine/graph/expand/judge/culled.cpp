@@ -68,31 +68,30 @@ Reach findReach(const Model& model) {
                              model.entities[i].shape);
     }
   std::vector<Line> lines;
-  std::set<std::uint32_t> kept{kNone};  // positions; what is read after all passes counts
-  for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
-    if (graph.passes[p].sideEffect) kept.insert(model.positionOf[p]);
+  for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
     for (const std::uint32_t u : graph.usesOf(p)) lines.push_back(lineOf(model, u, u));
-  }
   const auto add = [&](Line line) {
     // It may test the depth, or read the storage, that it modifies; color it only draws over.
     line.use.keep = line.use.access == Access::modify && line.use.kind != Kind::color;
     if (line.use.access == Access::write) line.use.access = Access::modify;  // it removes nothing now
-    if (!std::ranges::binary_search(model.positionOf, line.position)) kept.insert(line.position);
     lines.push_back(line);
   };
   eachOffWrite(model, [&](const auto& what) { add({what, what.position}); });
   for (const WouldUse& would : model.would)
-    if (would.entity == kNone)
-      kept.insert(would.position);
-    else if (would.use.access == Access::read)
-      add({would, would.position});
+    if (would.use.access == Access::read) add({would, would.position});
+  // What is off now is never culled; what is read after all passes counts.
+  const auto isKept = [&](std::uint32_t position) {
+    const auto at = std::ranges::lower_bound(model.positionOf, position) - model.positionOf.begin();
+    const auto p = static_cast<std::size_t>(at);
+    return p == graph.passes.size() || model.positionOf[p] != position || graph.passes[p].sideEffect;
+  };
   std::ranges::stable_sort(lines, {}, &Line::position);
   std::vector<std::uint32_t> useOf;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const Line& line = lines[i];
     if (i == 0 || line.position != lines[i - 1].position)
-      whole.passes.push_back({.firstUse = static_cast<std::uint32_t>(whole.uses.size()),
-                              .sideEffect = kept.contains(line.position)});
+      whole.passes.push_back(
+          {.firstUse = static_cast<std::uint32_t>(whole.uses.size()), .sideEffect = isKept(line.position)});
     for (std::uint32_t e = 0; isOwn(model, line.entity) && e < line.elementCount; ++e) {
       whole.uses.push_back(line.use);
       whole.uses.back().resource = resourceOf[line.entity] + line.firstElement + e;

@@ -168,7 +168,7 @@ struct WriteRecord : Part {
 
 // A read or write that is not in the graph. It would be there if a pass or a condition that is switched off now were not, or
 // if there were something to read.
-struct WouldUse : Part {  // of no entity: whatever the pass does, it counts
+struct WouldUse : Part {
   enum class Why : std::uint8_t {
     off,    // of a disabled pass, or its condition is false
     empty,  // an optional slot or an alternative that nothing wrote so far

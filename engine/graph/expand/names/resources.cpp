@@ -520,7 +520,7 @@ std::uint32_t resourceToWrite(Model& model, std::uint32_t index, std::uint32_t e
 }
 
 void wouldUse(Model& model, WouldUse use) {
-  if (use.entity != kNone && model.entities[use.entity].kind == ResourceDesc::Kind::import) return;
+  if (model.entities[use.entity].kind == ResourceDesc::Kind::import) return;
   use.position = model.position;
   use.slot = model.slot;
   model.would.push_back(use);
