@@ -47,6 +47,8 @@ void addKeys(Shape& shape, const Json& object) {
 Shape makeShape(const Json& json) {
   static std::deque<std::vector<std::string_view>> words;
   Shape shape;
+  if (const auto doc = json.find("description"); doc != json.end())
+    shape.doc = doc->get_ref<const std::string&>();
   if (json.contains("type")) shape.types = typesOf(json["type"]);
   if (json.contains("properties")) addKeys(shape, json);
   if (const auto others = json.find("additionalProperties"); others != json.end() && others->is_object())
@@ -109,8 +111,6 @@ const Shape& shapeOf(std::string_view kind) {
     const Json& json = schema().at("$defs").at(at->first);
     at->second = makeShape(json);
     at->second.kind = at->first;
-    if (const auto doc = json.find("description"); doc != json.end())
-      at->second.doc = doc->get_ref<const std::string&>();
   }
   return at->second;
 }

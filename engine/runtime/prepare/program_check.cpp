@@ -395,8 +395,8 @@ class Checker {
     fail(Code::parameterNotInShader, uniform.place,
          fmt::format("parameter '{}' is {} in the shader '{}'", uniform.name,
                      what ? fmt::format("{}, not a member of the block Parameters,", what) : "not", shaders_),
-         {.hint = "declare it in `layout(std140) uniform Parameters { … };`" +
-                  (near.empty() ? "" : fmt::format(", or did you mean '{}'?", near))});
+         {.hint = (near.empty() ? "" : fmt::format("did you mean '{}'? Else ", near)) +
+                  "declare it in `layout(std140) uniform Parameters { … };`"});
   }
 
   void reportMember(const graph::UniformSpec& uniform, const gl::GlslType& type,
