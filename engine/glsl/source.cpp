@@ -41,15 +41,6 @@ std::string folderOf(const std::string& path) {
   return folder.empty() ? "." : folder;
 }
 
-// text::readFile() of a file of at most `most` bytes. Of a larger one `bytes` says how many it has, and nothing is reported.
-std::optional<std::string> readWithin(const std::string& path, std::uint64_t most, std::uint64_t& bytes,
-                                      Diagnostics& diagnostics, Code code, const Place& place) {
-  return text::readFile(path, diagnostics, code, place, [&](std::uint64_t done, std::uint64_t total) {
-    bytes = std::max(done, total);
-    return bytes <= most;
-  });
-}
-
 // The first that may not be read, where nothing is said of whether it is there.
 std::optional<std::string> outsideOf(std::span<const std::string> candidates) {
   const auto outside =
@@ -206,7 +197,7 @@ class IncludeExpander {
     const FileStamp stamp = stampOf(*path);
     std::uint64_t bytes = 0;
     const std::optional<std::string> text =
-        readWithin(*path, room, bytes, diagnostics_, Code::missingShaderInclude, place);
+        text::readWithin(*path, room, bytes, diagnostics_, Code::missingShaderInclude, place);
     if (!text) missing_.push_back(*path);
     if (bytes > room) {
       diagnostics_.error(Code::malformedInclude, place,
@@ -358,7 +349,7 @@ std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, 
   const std::uint64_t most = std::max<std::uint64_t>(kMaxText, text::raised(kMaxShaderBytes));
   std::uint64_t bytes = 0;
   const std::optional<std::string> text =
-      readWithin(*where, most, bytes, diagnostics, Code::unreadableShader, place);
+      text::readWithin(*where, most, bytes, diagnostics, Code::unreadableShader, place);
   touched_.insert(*where);
   if (bytes > most) {
     ShaderSource large;

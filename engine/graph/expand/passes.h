@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "engine/graph/expand/names/names.h"
-#include "engine/text/words/words.h"
 
 namespace weft::graph::expansion {
 
@@ -125,9 +124,6 @@ void checkAccumulation(const SlotContext& context, const SlotWork& work, std::ui
 
 // ---- what the executor needs besides: state, defines, uniforms, threads, draw list, geometry and view ----
 
-// What a word of another program means here, else the nearest of `known`.
-std::string hintOrNearest(std::string_view kind, const std::string& name,
-                          const std::vector<std::string>& known);
 void fillState(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots,
                StateSpec& state);
 // Fills everything of `spec`, of `pass`, but names, slots and the values of uniforms whose expression contains age().

@@ -10,17 +10,10 @@
 #include "engine/graph/desc_walk.h"
 #include "engine/graph/expand/passes.h"
 #include "engine/graph/language/expr_node.h"
-#include "engine/text/chars.h"
 #include "engine/text/nearest.h"
 #include "engine/text/words/words.h"
 
 namespace weft::graph::expansion {
-
-std::string hintOrNearest(std::string_view kind, const std::string& name,
-                          const std::vector<std::string>& known) {
-  std::string theirs = text::hintForForeign(kind, name);
-  return theirs.empty() ? text::nearestHint(text::lowered(name), known) : theirs;
-}
 
 // ---- what is checked once per stanza, however often it repeats ----
 
@@ -248,7 +241,7 @@ bool checkStanza(const SlotContext& context, const PassDesc& desc) {
   } else {
     context.report(
         Code::unknownPassType, desc.typePlace, fmt::format("is of the unknown type '{}'", desc.type),
-        {.hint = hintOrNearest("pass_type", desc.type, namesOf(context.model.registry.passTypes))});
+        {.hint = text::hintOrNearest("pass_type", desc.type, namesOf(context.model.registry.passTypes))});
   }
   const auto check = [&](const Expr& expr) {
     checkExpr(context.model, context.names.scope(), expr, desc.repeat);

@@ -68,7 +68,7 @@ struct StateFiller {
     refuse(said, value, fmt::format("{}", fmt::join(words, ", ")),
            said.name.starts_with("blend.") && words.size() != kBlends.size()  // a factor, no whole blend
                ? text::nearestHint(text::lowered(text).substr(text.starts_with("GL_") ? 3 : 0), words)
-               : hintOrNearest("state_word", text, words));
+               : text::hintOrNearest("state_word", text, words));
     return 0;
   }
   template <class Enum>
@@ -124,7 +124,7 @@ struct StateFiller {
       return error(said.place,
                    fmt::format("{} '{}', which is no color slot of it", masks ? "masks" : "blends", slot),
                    {.expected = "one word, \"blend\": \"alpha\", or one for each color slot",
-                    .hint = hintOrNearest("state_key", slot, colors)});
+                    .hint = text::hintOrNearest("state_key", slot, colors)});
     }
     if (!all) colors = {slot};
     for (const std::string& color : colors) {

@@ -11,7 +11,6 @@
 #include "engine/graph/language/expr.h"
 #include "engine/graph/language/expr_node.h"
 #include "engine/graph/language/names.h"
-#include "engine/text/nearest.h"
 #include "engine/text/words/words.h"
 
 namespace weft::graph {
@@ -371,10 +370,9 @@ class Parser {
       for (const Fact fact : kFacts) known.emplace_back(nameOf(fact));
       for (auto op = ExprOp::minimum; op <= kLastOp; op = static_cast<ExprOp>(static_cast<int>(op) + 1))
         known.emplace_back(infoOf(op).spelling);
-      auto& d = diagnostics_.error(text::Code::badFunctionCall, placeOf(word),
-                                   fmt::format("unknown function '{}'", word.text),
-                                   {.hint = text::hintForForeign("expression", word.text)});
-      if (d.hint.empty()) d.hint = text::nearestHint(word.text, known);
+      diagnostics_.error(text::Code::badFunctionCall, placeOf(word),
+                         fmt::format("unknown function '{}'", word.text),
+                         {.hint = text::hintOrNearest("expression", word.text, known)});
       return nullptr;
     }
     std::vector<ExprPtr> arguments;

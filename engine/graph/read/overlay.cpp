@@ -641,23 +641,22 @@ std::optional<JsonValue> SourceLoader::parse(const std::string& path, const text
   return root;
 }
 
-bool SourceLoader::mayCopy(const Source& source, const text::Place& place) {
-  values_ += source.values;
-  if (!tooMany_ && values_ <= text::raised(text::kMaxValues)) return true;
+bool SourceLoader::mayAdd(std::uint64_t count, std::uint64_t& sum, std::uint64_t bound,
+                          const text::Place& place, const char* message) {
+  sum += count;
+  if (!tooMany_ && sum <= text::raised(bound)) return true;
   if (!std::exchange(tooMany_, true))
-    text::reportLimit(diagnostics_, place,
-                      "the files of the graph and the copies that overlays change hold too many values",
-                      text::kMaxValues, "values")
-        .found = fmt::format("{} with '{}'", values_, source.path);
+    text::reportLimit(diagnostics_, place, message, bound, "values").found = fmt::format("{} so far", sum);
   return false;
 }
 
+bool SourceLoader::mayCopy(const Source& source, const text::Place& place) {
+  return mayAdd(source.values, values_, text::kMaxValues, place,
+                "the files of the graph and the copies that overlays change hold too many values");
+}
+
 bool SourceLoader::mayShare(const JsonValue& set, const text::Place& place) {
-  shared_ += valuesOf(set);
-  if (!tooMany_ && shared_ <= text::raised(kMaxShared)) return true;
-  if (!std::exchange(tooMany_, true))
-    text::reportLimit(diagnostics_, place, "passes hold too much of sets and groups", kMaxShared, "values");
-  return false;
+  return mayAdd(valuesOf(set), shared_, kMaxShared, place, "passes hold too much of sets and groups");
 }
 
 // A file without "extends" is a graph; one with it is what it extends, with the others of the list and itself laid over that.

@@ -64,6 +64,8 @@ class SourceLoader {
  private:
   std::optional<text::JsonValue> parse(const std::string& path, const text::Place& from, bool preset);
   std::shared_ptr<const Source> complete(text::JsonValue root, const std::string& path);
+  bool mayAdd(std::uint64_t count, std::uint64_t& sum, std::uint64_t bound, const text::Place& place,
+              const char* message);
   // False after a report. `written`: an entry of "extends".
   bool mayExtend(const text::JsonValue& written);
   // Lays an overlay over `made`, a file after those that it extends. `written`: what names it; null: the command line.

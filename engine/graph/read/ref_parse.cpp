@@ -251,8 +251,7 @@ class RefParser {
   bool failWord(string_view word, std::size_t wordAt) {
     std::vector<std::string> known(kKindNames.begin(), kKindNames.end());
     known.insert(known.end(), kSamplerWords.begin(), kSamplerWords.end());
-    std::string hint = text::hintForForeign("sampling", word);
-    if (hint.empty()) hint = text::nearestHint(word, known);
+    std::string hint = text::hintOrNearest("sampling", word, known);
     if (hint.empty()) hint = fmt::format("known: {}", fmt::join(known, " "));
     return fail(wordAt, fmt::format("unknown word '{}' after 'as'", word), std::move(hint));
   }
@@ -277,12 +276,9 @@ class RefParser {
       ref_.sampler.function = static_cast<Compare>(found - kCompareNames.begin());
       return true;
     }
-    std::string hint = text::hintForForeign("state_word", argument);
-    if (hint.empty())
-      hint =
-          text::nearestHint(argument, std::vector<std::string>(kCompareNames.begin(), kCompareNames.end()));
+    const std::vector<std::string> known(kCompareNames.begin(), kCompareNames.end());
     return fail(wordAt, fmt::format("'{}' is no comparison", text_.substr(wordAt, at_ - wordAt)),
-                std::move(hint));
+                text::hintOrNearest("state_word", argument, known));
   }
 
   bool parseCondition() {

@@ -280,19 +280,21 @@ void reportTooLarge(const Place& place, std::uint64_t bytes, Diagnostics& diagno
       .found = fmt::format("{} bytes", bytes);
 }
 
+std::optional<std::string> readWithin(const std::string& path, std::uint64_t most, std::uint64_t& bytes,
+                                      Diagnostics& diagnostics, Code code, const Place& place) {
+  return readFile(path, diagnostics, code, place, [&](std::uint64_t done, std::uint64_t total) {
+    bytes = std::max(done, total);
+    return bytes <= most;
+  });
+}
+
 std::optional<std::string> readTextFile(const std::string& path, Diagnostics& diagnostics, Code code,
                                         const Place& place) {
   const std::uint64_t most = raised(kMaxTextBytes);
-  bool tooLarge = false;
-  std::uint64_t found = 0;  // of a pipe: so far
-  const auto within = [&](std::uint64_t bytes, std::uint64_t total) {
-    found = std::max(bytes, total);
-    tooLarge = found > most;
-    return !tooLarge;
-  };
-  std::optional<std::string> bytes = readFile(path, diagnostics, code, place, within);
-  if (tooLarge) reportTooLarge({path, 0, 0}, found, diagnostics);
-  return bytes;
+  std::uint64_t bytes = 0;  // of a pipe: so far
+  std::optional<std::string> text = readWithin(path, most, bytes, diagnostics, code, place);
+  if (bytes > most) reportTooLarge({path, 0, 0}, bytes, diagnostics);
+  return text;
 }
 
 bool writeFile(const std::string& path, std::span<const char> bytes, Diagnostics& diagnostics) {

@@ -37,6 +37,9 @@ std::optional<std::string> readFile(const std::string& path, Diagnostics& diagno
                                     Code code = Code::unreadableFile, const Place& place = {},
                                     const ReadProgress& goOn = {});
 
+// The same of at most `most` bytes; of a larger file `bytes` says how many it has, and nothing is reported.
+std::optional<std::string> readWithin(const std::string& path, std::uint64_t most, std::uint64_t& bytes,
+                                      Diagnostics& diagnostics, Code code, const Place& place);
 // The same of a JSON file or a .cube table. Code::limitExceeded for more than kMaxTextBytes, of which only the beginning is read.
 std::optional<std::string> readTextFile(const std::string& path, Diagnostics& diagnostics,
                                         Code code = Code::unreadableFile, const Place& place = {});

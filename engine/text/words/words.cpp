@@ -10,6 +10,7 @@
 
 #include "engine/text/chars.h"
 #include "engine/text/files/file.h"
+#include "engine/text/nearest.h"
 
 namespace weft::text {
 
@@ -60,6 +61,11 @@ const ForeignWord& findForeignWord(std::string_view kind, std::string_view word)
     std::erase_if(wanted, [](char c) { return c == '_' || c == '-' || c == ' '; });
   }
   return findForeign(std::string(kind) + "/" + wanted);
+}
+
+std::string hintOrNearest(std::string_view kind, std::string_view word, std::span<const std::string> known) {
+  std::string theirs = hintForForeign(kind, word);
+  return theirs.empty() ? nearestHint(word, known) : theirs;
 }
 
 std::string hintForSpelling(std::string_view value) {

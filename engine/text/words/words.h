@@ -21,6 +21,8 @@ inline std::string hintForForeign(std::string_view kind, std::string_view word) 
   return findForeignWord(kind, word).hint;
 }
 
+// The same, else the nearest of `known`.
+std::string hintOrNearest(std::string_view kind, std::string_view word, std::span<const std::string> known);
 // The same for a value that is spelled as elsewhere, by the regular expressions of "value_pattern", the first that fits: "50%",
 // "1920x1080", "512px", a color of the web.
 std::string hintForSpelling(std::string_view value);
