@@ -84,7 +84,7 @@ struct VersionRun {
 
 // Which use wrote what each use sees. For every sub-resource of a read or modify that is the latest writer in an earlier
 // pass, in declared order; for a read of @-n, for `present` and for outputs it is the last writer of all. VersionWalk
-// (versions/version_walk.h) makes the links while passes are expanded or read; checks, liveness, dependencies and
+// (versions/versions.h) makes the links while passes are expanded or read; checks, liveness, dependencies and
 // compile() only read them. A link is one number: the index of the use that wrote all of it; or kNone when no use did,
 // and for a write; or kRuns plus the index of the first of several runs.
 struct VersionLinks {

@@ -45,7 +45,7 @@ struct Storage {
   std::uint64_t bytes = 0;  // of all copies
 };
 
-// Groups: of the passes of a group all run or none, and they publish together (versions/live.cpp forms groups). A
+// Groups: of the passes of a group all run or none, and they publish together (versions/versions.cpp forms groups). A
 // time-sliced group runs one slice of one pass per frame and writes a copy that only its own passes see. All other
 // passes read the latest publication; none of them writes it. When the last slice has run, the group publishes at the
 // start of the next frame.

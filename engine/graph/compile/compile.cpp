@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "engine/graph/compile/steps.h"
-#include "engine/graph/versions/live.h"
+#include "engine/graph/versions/versions.h"
 #include "engine/text/limits.h"
 
 namespace weft::graph {

@@ -9,7 +9,7 @@
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/plan.h"
 #include "engine/graph/subresource.h"
-#include "engine/graph/versions/version_walk.h"
+#include "engine/graph/versions/versions.h"
 
 namespace weft::graph {
 

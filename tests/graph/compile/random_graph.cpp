@@ -3,7 +3,7 @@
 #include <random>
 #include <vector>
 
-#include "engine/graph/versions/live.h"
+#include "engine/graph/versions/versions.h"
 
 namespace weft::graph {
 

@@ -1,7 +1,7 @@
 // Version links of random graphs against their definition; corners of the walk; liveness along the links.
 #include <doctest/doctest.h>
 
-#include "engine/graph/versions/live.h"
+#include "engine/graph/versions/versions.h"
 #include "tests/graph/compile/random_graph.h"
 #include "tests/graph/versions/brute_links.h"
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "engine/graph/compile/compile.h"
-#include "engine/graph/versions/version_walk.h"
+#include "engine/graph/versions/versions.h"
 
 using namespace weft::graph;
 using weft::runtime::FrameCadence;

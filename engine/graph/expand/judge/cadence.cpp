@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/graph/expand/judge/judge.h"
-#include "engine/graph/versions/live.h"
+#include "engine/graph/versions/versions.h"
 
 namespace weft::graph::expansion {
 

@@ -8,8 +8,7 @@
 
 #include "engine/graph/expand/judge/judge.h"
 #include "engine/graph/subresource.h"
-#include "engine/graph/versions/live.h"
-#include "engine/graph/versions/version_walk.h"
+#include "engine/graph/versions/versions.h"
 
 namespace weft::graph::expansion {
 

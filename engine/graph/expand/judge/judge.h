@@ -1,5 +1,5 @@
 // What is said of a graph when all of its passes are known: reads that nothing feeds, passes that reach nothing, declarations
-// that nothing uses, and "update" and "slices" that do not fit. What is alive is found by findLive (versions/live.h), by
+// that nothing uses, and "update" and "slices" that do not fit. What is alive is found by findLive (versions/versions.h), by
 // which the compiler culls.
 #pragma once
 

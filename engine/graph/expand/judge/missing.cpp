@@ -8,7 +8,7 @@
 
 #include "engine/graph/expand/judge/judge.h"
 #include "engine/graph/expand/names/names.h"
-#include "engine/graph/versions/live.h"
+#include "engine/graph/versions/versions.h"
 
 namespace weft::graph::expansion {
 

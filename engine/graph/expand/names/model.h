@@ -18,7 +18,7 @@
 #include "engine/graph/flat_graph.h"
 #include "engine/graph/registry.h"
 #include "engine/graph/subresource.h"
-#include "engine/graph/versions/version_walk.h"
+#include "engine/graph/versions/versions.h"
 #include "engine/text/diagnostic.h"
 
 namespace weft::graph::expansion {

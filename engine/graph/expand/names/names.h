@@ -186,7 +186,7 @@ const ImportType* findImportType(const Registry& registry, std::string_view name
 std::string hintForImport(const Registry& registry, std::string_view name);
 
 // ---- versions (resources.cpp): which FlatResource an entity is at this point of the declared order. A whole rewrite makes
-// another ("hdr#2"). Who wrote what is the VersionWalk's (engine/graph/versions/version_walk.h) ----
+// another ("hdr#2"). Who wrote what is the VersionWalk's (engine/graph/versions/versions.h) ----
 
 // The current FlatResource of an element, made when there is none yet. The shape must be ensured.
 std::uint32_t currentResource(Model& model, std::uint32_t entity, std::uint32_t element);
