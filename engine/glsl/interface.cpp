@@ -239,14 +239,13 @@ class InterfaceReader {
       made.writes = !has(words.first(first), "readonly");
       shared_ = has(words.first(first), "shared");
       const Role role = kind.role ? *kind.role : roleOf(words.first(first), type->text);
-      takeName(words, made, role, word, type->text, array + arrayOfType,
-               addTimes(0, elements * elementsOfType, kind.times), at);
-      while (at + 1 < words.size() && words[at].is(",")) {
-        const Token& next = words[++at];
-        const std::size_t begin = ++at;
+      for (at = dimensions; at <= words.size(); at += 2) {  // behind the name, then behind the next
+        const std::size_t begin = at;
         const std::uint64_t own = elementsAt(words, at);
-        takeName(words, made, role, next, type->text, textOf(words.subspan(begin, at - begin)) + arrayOfType,
+        takeName(words, made, role, words[begin - 1], type->text,
+                 textOf(words.subspan(begin, at - begin)) + arrayOfType,
                  addTimes(0, own * elementsOfType, kind.times), at);
+        if (at >= words.size() || !words[at].is(",")) return;
       }
       return;
     }

@@ -376,6 +376,13 @@ struct FlatGraph {
       links.forEachWriter(links.seen[u], [&](std::uint32_t writer) { f(u, links.passOf[writer]); });
   }
 
+  // The value of an import that a uniform follows while the plan runs, one of them; null: it follows none.
+  const WatchedValue* followedBy(const UniformSpec& uniform) const {
+    const std::vector<std::uint32_t> keys = uniform.dynamic.parameterKeys();
+    return keys.empty() || keys.back() < parameters.size() ? nullptr
+                                                           : &watched[keys.back() - parameters.size()];
+  }
+
   BorderColor borderOf(const SlotSpec& slot) const {
     return slot.border == kNone ? BorderColor{} : borders[slot.border];
   }

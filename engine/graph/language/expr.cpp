@@ -124,13 +124,13 @@ namespace {
 
 // Canonical text; parentheses only where the grammar needs them. `outer` is the precedence of the
 // surroundings.
-void print(const ExprNode& node, int outer, std::string& out) {
+void print(const ExprNode& node, int outer, const Expr::KeyText& called, std::string& out) {
   const OpInfo info = infoOf(node.op);
   const bool parens = info.precedence > 0 && info.precedence < outer;
   const auto list = [&](const char* open, char close) {
     for (std::size_t i = 0; i < node.children.size(); ++i) {
       out += i > 0 ? ", " : open;
-      print(*node.children[i], 0, out);
+      print(*node.children[i], 0, called, out);
     }
     out += close;
   };
@@ -163,25 +163,27 @@ void print(const ExprNode& node, int outer, std::string& out) {
       break;
     case ExprOp::age_key:
     case ExprOp::parameter_key:
-      out += fmt::format("{}{}{}", node.op == ExprOp::age_key ? "age(#" : "$#", node.key,
-                         node.op == ExprOp::age_key ? ")" : "");
+      if (called)
+        out += called(node.key, node.op == ExprOp::age_key);
+      else
+        out += fmt::format(fmt::runtime(node.op == ExprOp::age_key ? "age(#{})" : "$#{}"), node.key);
       break;
     case ExprOp::component:
-      print(*node.children[0], info.precedence, out);
+      print(*node.children[0], info.precedence, called, out);
       out += '.';
       out += "xyzw"[node.key];
       break;
     case ExprOp::negate:
     case ExprOp::logical_not:
       out += info.spelling;
-      print(*node.children[0], info.precedence + 1, out);
+      print(*node.children[0], info.precedence + 1, called, out);
       break;
     case ExprOp::conditional:
-      print(*node.children[0], 2, out);
+      print(*node.children[0], 2, called, out);
       out += " ? ";
-      print(*node.children[1], 0, out);
+      print(*node.children[1], 0, called, out);
       out += " : ";
-      print(*node.children[2], 1, out);
+      print(*node.children[2], 1, called, out);
       break;
     default:
       if (info.precedence == 0) {
@@ -190,9 +192,9 @@ void print(const ExprNode& node, int outer, std::string& out) {
         break;
       }
       // Comparisons do not chain, so both their sides need a tighter operator.
-      print(*node.children[0], info.precedence + (info.precedence == 4 ? 1 : 0), out);
+      print(*node.children[0], info.precedence + (info.precedence == 4 ? 1 : 0), called, out);
       out += fmt::format(" {} ", info.spelling);
-      print(*node.children[1], info.precedence + 1, out);
+      print(*node.children[1], info.precedence + 1, called, out);
   }
   if (parens) out += ')';
 }
@@ -277,9 +279,9 @@ std::vector<std::uint32_t> Expr::parameterKeys() const {
   return {keys.begin(), keys.end()};
 }
 
-std::string Expr::text() const {
+std::string Expr::text(const KeyText& called) const {
   std::string out;
-  if (root_) print(*root_, 0, out);
+  if (root_) print(*root_, 0, called, out);
   return out;
 }
 

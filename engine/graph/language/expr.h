@@ -128,8 +128,9 @@ class Expr {
   Expr column(std::uint8_t part) const;
   // The keys of those, each once, ascending.
   std::vector<std::uint32_t> parameterKeys() const;
-  // Canonical text, fit to be parsed again.
-  std::string text() const;
+  // Canonical text, fit to be parsed again; of a folded expression with `called(key, ofAge)` for each of its keys, where that is given.
+  using KeyText = std::function<std::string(std::uint32_t key, bool ofAge)>;
+  std::string text(const KeyText& called = {}) const;
   const text::Place& place() const { return start_; }
   // Every $variable it names, each once (for culling conditions, hot reload and `explain`).
   const std::vector<std::string>& variables() const;

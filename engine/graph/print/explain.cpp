@@ -359,16 +359,11 @@ class Describer {
       if (wanted(uniform.name))
         line(1, "parameter {} = {}{}{}", uniform.text(), toText(uniform.value),
              uniform.path.empty() ? "" : fmt::format(" ({})", uniform.path),
-             follows(uniform)                                         ? ", follows an import"
-             : uniform.dynamic.present() && uniform.dynamic.dynamic() ? ", changes with time"
-                                                                      : "");
+             graph_.followedBy(uniform)  ? ", follows an import"
+             : uniform.dynamic.dynamic() ? ", changes with time"
+                                         : "");
     for (const SlotSpec& slot : graph_.slotsOf(spec))
       if (wanted(slot.name)) addSlot(slot, pass);
-  }
-
-  bool follows(const UniformSpec& uniform) const {
-    const std::vector<std::uint32_t> keys = uniform.dynamic.parameterKeys();
-    return !keys.empty() && keys.back() >= graph_.parameters.size();
   }
 
   void addSlot(const SlotSpec& slot, std::uint32_t pass) {
@@ -434,8 +429,7 @@ class Describer {
                               : "live: a change writes bytes of uniforms");
     for (const PassSpec& spec : graph_.specs)
       for (const UniformSpec& uniform : spec.uniforms) {
-        const std::vector<std::uint32_t> keys =
-            uniform.dynamic.present() ? uniform.dynamic.parameterKeys() : std::vector<std::uint32_t>{};
+        const std::vector<std::uint32_t> keys = uniform.dynamic.parameterKeys();
         const bool live = std::ranges::find(keys, index) != keys.end();
         if (live || uniform.path == parameter.path)
           line(1, "is read by '{}' as '{}'", spec.name, uniform.text());

@@ -131,23 +131,17 @@ class FileWriter {
 
   // A folded expression, with names and values for its keys: "age(#3)" and "$#2".
   std::string expressionText(const Expr& expr) {
-    std::string text = expr.text();
-    for (std::size_t at = text.find('#'); at != std::string::npos; at = text.find('#', at + 1)) {
-      const std::size_t end = std::min(text.find_first_not_of("0123456789", at + 1), text.size());
-      const auto key = static_cast<std::uint32_t>(std::stoul(text.substr(at + 1, end - at - 1)));
-      if (key >= graph_.parameters.size() && text[at - 1] == '$') {
-        const WatchedValue& watched = graph_.watched[key - graph_.parameters.size()];
-        text.replace(at - 1, end - at + 1, "@" + importName(watched.import) + watched.text());
-      } else if (text[at - 1] == '$') {
-        text.replace(at - 1, end - at + 1, graph::toText(graph_.parameters[key].value));
-      } else {
+    return expr.text([&](std::uint32_t key, bool ofAge) {
+      if (ofAge) {
         use(key);
         const std::uint32_t import = graph_.resources[key].import;
-        text.replace(at, end - at,
-                     import == kNone ? elementName(graph_.resourceNames[key]).array : importName(import));
+        return fmt::format(
+            "age({})", import == kNone ? elementName(graph_.resourceNames[key]).array : importName(import));
       }
-    }
-    return text;
+      if (key < graph_.parameters.size()) return graph::toText(graph_.parameters[key].value);
+      const WatchedValue& watched = graph_.watched[key - graph_.parameters.size()];
+      return "@" + importName(watched.import) + watched.text();
+    });
   }
 
   // ---- resources ----
@@ -249,10 +243,9 @@ class FileWriter {
     for (const DefineSpec& define : spec.defines)
       defines[define.name] = Json::parse(define.text, nullptr, false);
     for (const UniformSpec& uniform : spec.uniforms) {
-      const std::vector<std::uint32_t> keys = uniform.dynamic.parameterKeys();
-      const bool follows = !keys.empty() && keys.back() >= graph_.parameters.size();
-      const bool timed = follows || (uniform.dynamic.present() && uniform.dynamic.dynamic());
-      if (follows && graph_.watched[keys.back() - graph_.parameters.size()].part != kWholeValue) {
+      const WatchedValue* const followed = graph_.followedBy(uniform);
+      const bool timed = followed || uniform.dynamic.dynamic();
+      if (followed && followed->part != kWholeValue) {
         parameters[uniform.name] = expressionText(uniform.dynamic);  // all columns of a matrix
         continue;
       }
