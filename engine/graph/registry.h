@@ -2,6 +2,7 @@
 // plain data, so that a graph can be checked without a device.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cassert>
@@ -154,6 +155,13 @@ struct Registry {
   std::vector<GeometryType> geometries;  // "quad", "icosphere", "mesh", "triangle"
   std::function<ImportFacts(const ImportRequest&)> factsOf;
 };
+
+// The thing of that name, of a list; null when there is none.
+template <class Things>
+auto* findNamed(Things& things, std::string_view name) {
+  const auto found = std::ranges::find_if(things, [&](const auto& each) { return each.name == name; });
+  return found == things.end() ? nullptr : &*found;
+}
 
 // The plug-ins of one kind that an engine knows, pass types or imports, by the name that each reflects.
 template <class PlugIn>

@@ -10,18 +10,12 @@ namespace weft::graph::expansion {
 
 bool coversAll(const PassType* type, const PassDesc& desc, const SlotWork& work) {
   const bool attached = work.use.kind == Kind::color || work.use.kind == Kind::depth;
-  const bool part = std::ranges::find(desc.state, "viewport", &NamedExpr::name) != desc.state.end();
-  return !attached || !type || (type->shader != ShaderShape::draw && !part);
+  return !attached || !type || (type->shader != ShaderShape::draw && !findNamed(desc.state, "viewport"));
 }
 
 bool isInteger(Format format) {
   const TexelKind kind = infoOf(format).kind;
   return kind == TexelKind::unsigned_integer || kind == TexelKind::signed_integer;
-}
-
-const PassType* findPassType(const Registry& registry, std::string_view name) {
-  const auto found = std::ranges::find(registry.passTypes, name, &PassType::name);
-  return found == registry.passTypes.end() ? nullptr : &*found;
 }
 
 Kind defaultKind(const PassType* type, Access access, const FlatResource& shape) {

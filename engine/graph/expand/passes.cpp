@@ -132,7 +132,7 @@ class PassWalk {
       if (scope.passes.find(desc.name)->second != &desc) continue;  // a name that another has
       StanzaWalk stanza{.scope = scope,
                         .desc = desc,
-                        .type = findPassType(model_.registry, desc.type),
+                        .type = findNamed(model_.registry.passTypes, desc.type),
                         .declared = scope.prefix + desc.name,
                         .why = why,
                         .slots = slotsOf(desc)};

@@ -106,7 +106,6 @@ SlotWork resolveFirst(const SlotContext& context, const SlotWork& work, std::uin
 // taken. (That slots, parameters and defines share one namespace is the reader's.)
 bool checkStanza(const SlotContext& context, const PassDesc& desc);
 bool isInteger(Format format);
-const PassType* findPassType(const Registry& registry, std::string_view name);
 // Not an attachment of a draw, of which only what its geometry covers is drawn, or of a pass with a viewport.
 bool coversAll(const PassType* type, const PassDesc& desc, const SlotWork& work);
 // The kind of a use whose reference names none.

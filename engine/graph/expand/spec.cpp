@@ -45,9 +45,7 @@ void checkShaders(const SlotContext& context, const PassDesc& desc) {
 }
 
 const GeometryType* findGeometry(const SlotContext& context, const PassDesc& desc) {
-  const auto& types = context.model.registry.geometries;
-  const auto found = std::ranges::find(types, desc.geometry, &GeometryType::name);
-  return found == types.end() ? nullptr : &*found;
+  return findNamed(context.model.registry.geometries, desc.geometry);
 }
 const SlotDesc* findIndirect(const PassDesc& desc) {
   const auto found = std::ranges::find(desc.slots, std::optional(Kind::indirect),
@@ -141,7 +139,7 @@ void checkKeys(const SlotContext& context, const PassDesc& desc) {
 
 // Reports what a list of the graph's own says of meshes, while spheres are drawn.
 void checkOwnList(const SlotContext& context, const PassDesc& desc, const ImportRequest& list) {
-  const ImportType& type = *findImportType(context.model.registry, list.type);
+  const ImportType& type = *findNamed(context.model.registry.imports, list.type);
   for (const ImportArgument& argument : type.arguments)
     if (argument.ofMeshes && !(list.at(argument.name) == argument.initial))
       context.report(
@@ -190,12 +188,10 @@ void checkFixedSlots(const SlotContext& context, const PassDesc& desc) {
   const auto& slots = desc.slots;
   if (fixed.empty()) return;
   const auto isWrong = [&](const SlotDesc& slot) {
-    const auto own = std::ranges::find(fixed, slot.name, &FixedSlot::name);
-    return own == fixed.end() || (own->access == Access::read) != (slot.access == Access::read);
+    const FixedSlot* const own = findNamed(fixed, slot.name);
+    return !own || (own->access == Access::read) != (slot.access == Access::read);
   };
-  const auto isLacking = [&](const FixedSlot& slot) {
-    return std::ranges::find(slots, slot.name, &SlotDesc::name) == slots.end();
-  };
+  const auto isLacking = [&](const FixedSlot& slot) { return !findNamed(slots, slot.name); };
   const auto wrong = std::ranges::find_if(slots, isWrong);
   if (wrong == slots.end() && std::ranges::none_of(fixed, isLacking)) return;
   std::string expected;
@@ -276,7 +272,7 @@ void resolveView(const SlotContext& context, const PassDesc& desc, PassSpec& spe
   if (found == kNone || !ensureShape(model, found)) return;
   const Entity& entity = model.entities[found];
   const ImportSpec* import = entity.import == kNone ? nullptr : &model.graph.imports[entity.import];
-  const ImportType* type = import ? findImportType(model.registry, import->request.type) : nullptr;
+  const ImportType* type = import ? findNamed(model.registry.imports, import->request.type) : nullptr;
   const bool views = import && (import->kind == ImportKind::view || (type && type->views));
   const bool missing = context.versions && !entity.exists;
   RefDesc whole = ref;

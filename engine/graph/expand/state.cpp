@@ -37,10 +37,7 @@ struct StateFiller {
   void error(const Place& place, std::string_view message, Says says) const {
     context.report(Code::badState, place, message, std::move(says));
   }
-  const NamedExpr* find(std::string_view name) const {
-    const auto found = std::ranges::find(desc.state, name, &NamedExpr::name);
-    return found == desc.state.end() ? nullptr : &*found;
-  }
+  const NamedExpr* find(std::string_view name) const { return findNamed(desc.state, name); }
 
   // The first that is said of a key with keys of its own: "stencil".
   const NamedExpr* findWithin(const std::string& key) const {

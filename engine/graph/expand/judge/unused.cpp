@@ -58,7 +58,7 @@ void warnOfVariables(Model& model) {
 // A view that is declared under the name of its type is that of all passes.
 bool servesAll(const Model& model, const ResourceDesc& resource) {
   const ImportType* type = resource.kind == ResourceDesc::Kind::import
-                               ? findImportType(model.registry, resource.import.type)
+                               ? findNamed(model.registry.imports, resource.import.type)
                                : nullptr;
   return type && type->everyPass && type->name == resource.name;
 }
@@ -160,7 +160,7 @@ void warnOfSceneLists(Model& model) {
   if (drawn.empty()) return;  // it shows no things
   for (const ImportSpec& import : model.graph.imports) {
     if (import.kind == ImportKind::list) return;  // it chooses things by more than their lists
-    const ImportType* type = findImportType(model.registry, import.request.type);
+    const ImportType* type = findNamed(model.registry.imports, import.request.type);
     if (std::ranges::count(model.registry.drawLists, import.request.type) > 0)
       drawn.insert(import.request.type);  // its rows
     for (std::size_t i = 0; type && i < import.request.arguments.size() && i < type->arguments.size(); ++i)
@@ -184,8 +184,8 @@ void warnUnused(Model& model) {
   warnOfVariables(model);
   for (const Scope& scope : model.scopes)
     for (const auto& [name, place] : scope.desc->slotSets) {
-      const auto uses = [&](const PassDesc& pass) {
-        return std::ranges::find(pass.uses, name, &UsedSet::name) != pass.uses.end();
+      const auto uses = [&name = name](const PassDesc& pass) {
+        return findNamed(pass.uses, name) != nullptr;
       };
       if (scope.desc->unread.empty() && std::ranges::none_of(scope.desc->passes, uses) &&
           isOnTop(scope, place))

@@ -354,10 +354,9 @@ FoundValue findValue(Model& model, Scope& scope, const ImportValue& asked) {
   FoundValue found{.entity = findEntity(model, scope, asked.import, true)};
   if (found.entity == kNone || !ensureShape(model, found.entity)) return found;
   const std::uint32_t import = model.entities[found.entity].import;
-  found.type = findImportType(model.registry, model.graph.imports[import].request.type);
-  const auto column = std::ranges::find(found.type->columns, asked.value, &TableColumn::name);
-  found.column = static_cast<std::uint32_t>(column - found.type->columns.begin());
-  if (column != found.type->columns.end()) found.told = &*column;
+  found.type = findNamed(model.registry.imports, model.graph.imports[import].request.type);
+  found.told = findNamed(found.type->columns, asked.value);
+  if (found.told) found.column = static_cast<std::uint32_t>(found.told - found.type->columns.data());
   return found;
 }
 

@@ -181,7 +181,6 @@ void takeInputHistories(Model& model);
 // The entity itself, or of a list of alternatives the first whose condition holds and which exists, whether or not it has
 // a version. kNone when there is none. `mip` gets the level that its reference selects, 0 when it selects none.
 std::uint32_t staticTarget(Model& model, std::uint32_t entity, std::uint32_t* mip = nullptr);
-const ImportType* findImportType(const Registry& registry, std::string_view name);
 // What else an unknown import may mean: what Weft calls it, the nearest of its types, or all of them.
 std::string hintForImport(const Registry& registry, std::string_view name);
 

@@ -14,11 +14,6 @@ namespace weft::graph::expansion {
 
 // ---- imports: their arguments, and what the registry says of them ----
 
-const ImportType* findImportType(const Registry& registry, std::string_view name) {
-  const auto found = std::ranges::find(registry.imports, name, &ImportType::name);
-  return found == registry.imports.end() ? nullptr : &*found;
-}
-
 std::string hintForImport(const Registry& registry, std::string_view name) {
   for (const char* kind : {"value", "import_type"})
     if (std::string foreign = text::hintForForeign(kind, name); !foreign.empty()) return foreign;
@@ -70,23 +65,22 @@ bool evaluateArguments(Model& model, const Entity& entity, const ImportType& typ
   const ImportRequest* base = shaped ? &model.graph.imports[model.entities[bound].import].request : nullptr;
   if (base && base->type != type.name) base = nullptr;  // reported
   for (const NamedExpr& argument : given)
-    if (std::ranges::find(type.arguments, argument.name, &ImportArgument::name) == type.arguments.end())
+    if (!findNamed(type.arguments, argument.name))
       good = report(
           model, Code::badImportArgument, argument.place,
           fmt::format("import '{}' has no argument '{}'", type.name, argument.name),
           {.hint = text::nearestHint(argument.name, namesOf(type.arguments)), .resource = entity.name});
   for (const ImportArgument& argument : type.arguments) {
-    const auto found = std::ranges::find(given, argument.name, &NamedExpr::name);
-    const bool says = found != given.end();
+    const NamedExpr* const says = findNamed(given, argument.name);
     Value value = base ? base->at(argument.name) : argument.initial;
-    if (says) value = found->expr.evaluate(names, model.diagnostics);
+    if (says) value = says->expr.evaluate(names, model.diagnostics);
     const ImportRequest* named = !says && base ? base->named(argument.name) : nullptr;
     if (const std::uint32_t other = named ? kNone : findNamed(model, *entity.scope, argument, value);
         other != kNone) {
       good = ensureShape(model, other) && good;
       if (good) named = &model.graph.imports[model.entities[other].import].request;
     } else if (says) {
-      good = value.type != Value::Type::none && checkArgument(model, entity, argument, *found, value) && good;
+      good = value.type != Value::Type::none && checkArgument(model, entity, argument, *says, value) && good;
     } else if (value.type == Value::Type::none && good) {
       good = report(model, Code::badImportArgument, entity.desc ? entity.desc->place : Place{},
                     fmt::format("import '{}' needs the argument '{}'", type.name, argument.name),
@@ -182,7 +176,7 @@ bool evaluateImport(Model& model, Entity& entity) {
   const std::vector<NamedExpr>& given = entity.desc ? entity.desc->import.arguments : kNoArguments;
   ImportRequest request{.type = entity.desc ? entity.desc->import.type
                                             : entity.name.substr(entity.scope->prefix.size() + 1)};
-  const ImportType* type = findImportType(model.registry, request.type);
+  const ImportType* type = findNamed(model.registry.imports, request.type);
   if (!type)
     return report(model, Code::unknownImport, entity.desc->place,
                   fmt::format("resource '{}' is of the unknown import '{}'", entity.name, request.type),

@@ -46,10 +46,9 @@ bool hasOwn(const Model& model, const Scope& scope, const std::string& name) {
 
 // The type of the import that a file names or declares under a name. Null: there is none.
 const ImportType* importTypeOf(const Model& model, const GraphDesc& file, std::string_view name) {
-  const auto own = std::ranges::find(file.resources, name, &ResourceDesc::name);
-  const bool declared = own != file.resources.end();
-  if (declared && own->kind != ResourceDesc::Kind::import) return nullptr;
-  return findImportType(model.registry, declared ? std::string_view(own->import.type) : name);
+  const ResourceDesc* const own = findNamed(file.resources, name);
+  if (own && own->kind != ResourceDesc::Kind::import) return nullptr;
+  return findNamed(model.registry.imports, own ? std::string_view(own->import.type) : name);
 }
 
 // An input takes the whole of a resource.
@@ -57,10 +56,9 @@ void checkBind(Model& model, Scope& scope, const IncludeDesc& include, const std
                const RefDesc& ref) {
   if (includeBound(scope, name, ref)) return;
   const auto& resources = include.graph->resources;
-  const auto found = std::ranges::find(resources, name, &ResourceDesc::name);
+  const ResourceDesc* const found = findNamed(resources, name);
   // A file that cannot be read was reported: it may be what is bound.
-  if (!scope.broken && (found == resources.end() || !isInput(*found)) &&
-      !importTypeOf(model, *include.graph, name)) {
+  if (!scope.broken && (!found || !isInput(*found)) && !importTypeOf(model, *include.graph, name)) {
     std::vector<std::string> inputs;
     for (const ResourceDesc& resource : resources)
       if (isInput(resource)) inputs.push_back(resource.name);
@@ -150,10 +148,10 @@ void checkBoundImports(Model& model, Scope& scope) {
         type ? findEntityOrReport(model, *scope.parent, ref, "\"bind\"", "names") : kNone;
     if (bound == kNone) continue;
     const Entity& entity = model.entities[bound];
-    const ImportType* given =
-        entity.kind != ResourceDesc::Kind::import
-            ? nullptr
-            : findImportType(model.registry, entity.desc ? entity.desc->import.type : entity.name.substr(1));
+    const ImportType* given = entity.kind != ResourceDesc::Kind::import
+                                  ? nullptr
+                                  : findNamed(model.registry.imports,
+                                              entity.desc ? entity.desc->import.type : entity.name.substr(1));
     if (!given || given->kind != type->kind || (declared && given != type))
       report(model, Code::badBind, ref.place,
              fmt::format("include '{}' binds the import '{}' to '{}', which is another kind of thing",
@@ -416,7 +414,7 @@ namespace {
 std::string hintForResource(const Model& model, const Scope& scope, std::string_view name) {
   // A whole name in its own file.
   if (!scope.prefix.empty() && name.starts_with(scope.prefix)) name.remove_prefix(scope.prefix.size());
-  if (findImportType(model.registry, name)) return fmt::format("did you mean the import '@{}'?", name);
+  if (findNamed(model.registry.imports, name)) return fmt::format("did you mean the import '@{}'?", name);
   for (const Scope* outer = scope.parent; outer; outer = outer->parent)
     if (outer->resources.contains(name) || outer->includes.contains(firstPart(name)))
       return fmt::format("the including file has it: write \"inputs\": [\"{}\"] in the file of the pass",
@@ -481,7 +479,7 @@ std::uint32_t findFileView(Model& model, Scope& scope) {
 std::uint32_t findDeclared(Model& model, Scope& scope, std::string_view name, ImportKind kind) {
   const std::uint32_t found = name.empty() ? kNone : findEntity(model, scope, name, true);
   if (found == kNone || !model.entities[found].desc) return kNone;
-  const ImportType* type = findImportType(model.registry, model.entities[found].desc->import.type);
+  const ImportType* type = findNamed(model.registry.imports, model.entities[found].desc->import.type);
   return type && type->kind == kind ? found : kNone;
 }
 
