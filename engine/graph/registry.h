@@ -21,7 +21,7 @@
 namespace weft::graph {
 
 // One bit per glMemoryBarrier bit that a plan can need (OpenGL 4.5 core, 7.12.2). Which access needs which is
-// compile/barrier_rules.h; the runtime maps them to GL enums.
+// compile/hazards.cpp; the runtime maps them to GL enums.
 enum BarrierBit : std::uint16_t {
   kBarrierUniform = 1 << 0,        // UNIFORM
   kBarrierTexture = 1 << 1,        // TEXTURE_FETCH

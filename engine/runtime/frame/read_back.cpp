@@ -161,7 +161,7 @@ void ReadBack::copy(const graph::Plan& plan, ResourcePool& pool, FramebufferCach
   ring_->next = (ring_->next + 1) % kRing;
 }
 
-// The copy goes through a framebuffer, as the plan's barriers expect (barrier_rules.h).
+// The copy goes through a framebuffer, as the plan's barriers expect (engine/graph/compile/hazards.cpp).
 void ReadBack::copyTexture(const graph::Plan& plan, const FlatUse& use, ResourcePool& pool,
                            FramebufferCache& framebuffers, const Slot& slot, std::uint64_t offset,
                            text::Diagnostics& diagnostics) {

@@ -17,7 +17,7 @@ TEST_CASE("a plan without barriers, or with one bit less, is caught") {
   for (std::uint64_t seed = 1; seed <= kGraphs; ++seed) {
     const Plan plan = randomGraph(seed).compiled();
     std::vector<Plan> dropped = oracle::withoutOneBit(plan);
-    if (!plan.groups.ofResource.empty()) dropped.clear();  // their bits may be redundant, see barrier_rules.h
+    if (!plan.groups.ofResource.empty()) dropped.clear();  // their bits may be redundant, see hazards.cpp
     for (const Plan& mutant : dropped) {
       ++mutants;
       mutantsCaught += oracle::findHazard(mutant, oracle::everythingRuns(plan)).empty() ? 0 : 1;
