@@ -82,26 +82,20 @@ std::string hintForSpelling(std::string_view value) {
 
 namespace {
 
-std::vector<std::string_view> wordsOf(std::string_view all) {
+// Those of a paragraph of glsl_words.txt.
+std::vector<std::string_view> wordsOf(int paragraph) {
+  std::string_view all = kGlslWords;
+  const std::size_t gap = all.find("\n\n");
+  all = paragraph == 0 ? all.substr(0, gap) : all.substr(gap);
   std::vector<std::string_view> words;
-  while (!all.empty()) words.push_back(takeWord(all));
+  for (all = trimmed(all); !all.empty();) words.push_back(takeWord(all));
   return words;
 }
 
 }  // namespace
 
 bool isGlslWord(std::string_view word) {
-  static const std::vector<std::string_view> kWords = wordsOf(
-      "attribute const uniform varying buffer shared coherent volatile restrict readonly writeonly "
-      "atomic_uint layout centroid flat smooth noperspective patch sample break continue do for while "
-      "switch case default if else subroutine in out inout float double int void bool true false "
-      "invariant precise discard return uint lowp mediump highp precision struct common partition active "
-      "asm class union enum typedef template this resource goto inline noinline public static extern "
-      "external interface long short half fixed unsigned superp input output filter sizeof cast namespace "
-      "using sampler3DRect main "
-      "vec2 vec3 vec4 ivec2 ivec3 ivec4 uvec2 uvec3 uvec4 bvec2 bvec3 bvec4 dvec2 dvec3 dvec4 hvec2 hvec3 "
-      "hvec4 fvec2 fvec3 fvec4 mat2 mat3 mat4 mat2x2 mat2x3 mat2x4 mat3x2 mat3x3 mat3x4 mat4x2 mat4x3 "
-      "mat4x4 dmat2 dmat3 dmat4 dmat2x2 dmat2x3 dmat2x4 dmat3x2 dmat3x3 dmat3x4 dmat4x2 dmat4x3 dmat4x4");
+  static const std::vector<std::string_view> kWords = wordsOf(0);
   if (std::ranges::find(kWords, word) != kWords.end()) return true;
   if (word.starts_with("gl_")) return true;
   if (word.starts_with("is") || word.starts_with("ii") || word.starts_with('u')) word.remove_prefix(1);
@@ -112,25 +106,7 @@ bool isGlslWord(std::string_view word) {
 }
 
 std::span<const std::string_view> glslFunctions() {
-  static const std::vector<std::string_view> kFunctions = wordsOf(
-      "abs acos acosh all any asin asinh atan atanh atomicAdd atomicAnd atomicCompSwap atomicExchange "
-      "atomicMax atomicMin atomicOr atomicXor barrier bitCount bitfieldExtract bitfieldInsert "
-      "bitfieldReverse ceil clamp cos cosh cross dFdx dFdxCoarse dFdxFine dFdy dFdyCoarse dFdyFine degrees "
-      "determinant distance dot equal exp exp2 faceforward findLSB findMSB floatBitsToInt floatBitsToUint "
-      "floor fma fract frexp fwidth fwidthCoarse fwidthFine greaterThan greaterThanEqual "
-      "groupMemoryBarrier imageAtomicAdd imageAtomicAnd imageAtomicCompSwap imageAtomicExchange "
-      "imageAtomicMax imageAtomicMin imageAtomicOr imageAtomicXor imageLoad imageSamples imageSize "
-      "imageStore imulExtended intBitsToFloat interpolateAtCentroid interpolateAtOffset "
-      "interpolateAtSample inverse inversesqrt isinf isnan ldexp length lessThan lessThanEqual log log2 "
-      "matrixCompMult max memoryBarrier memoryBarrierAtomicCounter memoryBarrierBuffer memoryBarrierImage "
-      "memoryBarrierShared min mix mod modf normalize not notEqual outerProduct packDouble2x32 "
-      "packHalf2x16 packSnorm2x16 packSnorm4x8 packUnorm2x16 packUnorm4x8 pow radians reflect refract "
-      "round roundEven sign sin sinh smoothstep sqrt step tan tanh texelFetch texelFetchOffset texture "
-      "textureGather textureGatherOffset textureGatherOffsets textureGrad textureGradOffset textureLod "
-      "textureLodOffset textureOffset textureProj textureProjGrad textureProjGradOffset textureProjLod "
-      "textureProjLodOffset textureProjOffset textureQueryLevels textureQueryLod textureSamples "
-      "textureSize transpose trunc uaddCarry uintBitsToFloat umulExtended unpackDouble2x32 unpackHalf2x16 "
-      "unpackSnorm2x16 unpackSnorm4x8 unpackUnorm2x16 unpackUnorm4x8 usubBorrow");
+  static const std::vector<std::string_view> kFunctions = wordsOf(1);
   return kFunctions;
 }
 

@@ -28,7 +28,8 @@ std::string hintOrNearest(std::string_view kind, std::string_view word, std::spa
 std::string hintForSpelling(std::string_view value);
 
 // Words that GLSL 4.5 keeps for itself, so that what a graph names does not hide them. The table translates those of
-// versions before.
+// versions before. They are glsl_words.txt beside this file, which the build puts into the program.
+extern const char* const kGlslWords;
 
 // Whether GLSL 4.5 keeps the word: a keyword, a type, or one that is reserved. Nothing in a shader can have such a name.
 bool isGlslWord(std::string_view word);
