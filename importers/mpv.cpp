@@ -511,9 +511,7 @@ class MpvWriter {
   // An expression in reverse Polish as one of Weft: "MAIN.w 2 *" becomes "(size(main).x * 2)".
   std::optional<std::string> expressionOf(const PlacedText& expression) {
     const auto wrong = [&](std::size_t at, std::string message) {
-      text::Place place = expression.place;
-      place.column += static_cast<std::uint32_t>(at);
-      fail(Code::badMpvHeader, place, std::move(message),
+      fail(Code::badMpvHeader, expression.place.after(at), std::move(message),
            "write reverse Polish of numbers, NAME.w, NAME.h, + - * / % > < = !: HOOKED.w 2 * is twice the "
            "width of what is hooked");
       return std::nullopt;

@@ -35,6 +35,10 @@ struct Place {
   FileName file;
   std::uint32_t line = 0;
   std::uint32_t column = 0;
+  // So many bytes further on in its line; an unknown column stays unknown.
+  Place after(std::size_t bytes) const {
+    return {file, line, column > 0 ? column + static_cast<std::uint32_t>(bytes) : 0};
+  }
   friend bool operator==(const Place&, const Place&) = default;
 };
 

@@ -21,13 +21,8 @@ NamePlace orderOf(const Place& place, bool key = false) {
   return {place.file ? *place.file : "", place.line, place.column, key};
 }
 
-Place placeAfter(Place place, std::size_t bytes) {
-  place.column += static_cast<std::uint32_t>(bytes);
-  return place;
-}
-
 Place insideOf(const Place& quote) {
-  return placeAfter(quote, 1);
+  return quote.after(1);
 }
 
 class NameFinder {
@@ -116,14 +111,14 @@ class NameFinder {
       addTo(*in, *child->second->stanza, place);
       in = child->second;
       name.remove_prefix(dot + 1);
-      place = placeAfter(place, dot + 1);
+      place = place.after(dot + 1);
     }
     return *in;
   }
 
   void addRef(Scope& scope, const RefDesc& ref) {
     const std::size_t at = ref.text.find(ref.name);
-    if (at != std::string::npos) addResource(scope, ref.name, placeAfter(ref.place, at), ref.import);
+    if (at != std::string::npos) addResource(scope, ref.name, ref.place.after(at), ref.import);
   }
 
   // A word that may name an import which a file declares.
@@ -171,15 +166,15 @@ class NameFinder {
           addTo(in, *pass->second, at);
       break;
     }
-    add(UseOf::variable, name.substr(leaf), full, placeAfter(place, leaf), insideOf(declared));
+    add(UseOf::variable, name.substr(leaf), full, place.after(leaf), insideOf(declared));
   }
 
   void addNode(Scope& scope, const ExprNode& node) {
     if (node.op == ExprOp::variable) {
-      addVariable(scope, node.name, placeAfter(node.place, 1));
+      addVariable(scope, node.name, node.place.after(1));
     } else if (node.op == ExprOp::fact) {
       const bool import = node.name.starts_with('@');
-      addResource(scope, std::string_view(node.name).substr(import ? 1 : 0), placeAfter(node.place, node.key),
+      addResource(scope, std::string_view(node.name).substr(import ? 1 : 0), node.place.after(node.key),
                   import);
     }
     for (const ExprPtr& child : node.children) addNode(scope, *child);

@@ -83,11 +83,7 @@ class Parser {
   }
 
  private:
-  text::Place placeOf(const Token& token) const {
-    text::Place place = place_;
-    if (place.column > 0) place.column += static_cast<std::uint32_t>(token.begin);
-    return place;
-  }
+  text::Place placeOf(const Token& token) const { return place_.after(token.begin); }
 
   ExprPtr fail(const Token& token, std::string message, std::string hint = {}, std::string expected = {}) {
     auto& diagnostic = diagnostics_.error(text::Code::badExpression, placeOf(token), std::move(message));

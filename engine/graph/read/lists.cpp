@@ -136,9 +136,9 @@ class Lists {
         said_.error(Code::notAName, item, fmt::format("an item of \"{}\" begins with no name", list.key),
                     {.hint = fmt::format("write {{ \"name\": \"{}\" }}", item.text)});
       if (name.empty()) continue;
-      Place place = item.textPlace();  // of the character before the name, as of any key
-      if (place.column > 0) place.column += static_cast<std::uint32_t>(name.data() - item.text.data()) - 1;
-      add({std::string(name), std::move(place), item, item.begin, item.end});
+      // At the character before the name, as any key.
+      const Place place = item.place.after(static_cast<std::size_t>(name.data() - item.text.data()));
+      add({std::string(name), place, item, item.begin, item.end});
     }
   }
 

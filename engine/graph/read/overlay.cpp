@@ -290,7 +290,7 @@ class Applier {
           if (set.index)
             target_.named.push_back({name.text, name.place, set.declared});
           else
-            name.place.column += static_cast<std::uint32_t>(name.text.size() - set.own.size());
+            name.place = name.place.after(name.text.size() - set.own.size());
           name.text = std::move(set.own);
         }
     return stanza;

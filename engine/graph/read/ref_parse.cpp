@@ -21,11 +21,6 @@ namespace {
 using std::string_view;
 using text::Code;
 
-Place shifted(Place place, std::size_t columns) {
-  if (place.column > 0) place.column += static_cast<std::uint32_t>(columns);
-  return place;
-}
-
 // The offset of the first `wanted` outside of brackets in text[from, end), or `end`. Kinds of brackets are not told apart: a
 // mixed pair is left for the expression parser to object to.
 std::size_t findOutside(string_view text, std::size_t from, std::size_t end, string_view wanted) {
@@ -70,7 +65,7 @@ class RefParser {
       dropSpaceBehind();
     }
     skipSpace();
-    ref_.place = shifted(place_, at_);
+    ref_.place = place_.after(at_);
     return parseName() && parseSelectors() && parseHistory() && parseWords() && parseCondition()
                ? std::optional(std::move(ref_))
                : std::nullopt;
@@ -78,7 +73,7 @@ class RefParser {
 
  private:
   bool fail(std::size_t offset, std::string message, std::string hint) {
-    diagnostics_.error(Code::badReference, shifted(place_, offset), std::move(message),
+    diagnostics_.error(Code::badReference, place_.after(offset), std::move(message),
                        {.found = fmt::format("\"{}\"", whole_), .hint = std::move(hint)});
     return false;
   }
@@ -129,7 +124,7 @@ class RefParser {
 
   std::optional<Expr> parseInner(std::size_t from, std::size_t end) {
     while (from < end && isSpace(text_[from])) ++from;
-    return Expr::parse(text_.substr(from, end - from), shifted(place_, from), diagnostics_);
+    return Expr::parse(text_.substr(from, end - from), place_.after(from), diagnostics_);
   }
 
   // The offset of the bracket that closes the one at at_; 0 after a report, also of empty brackets. Moves behind it.
@@ -333,7 +328,7 @@ std::optional<CallText> parseCallText(string_view text, const Place& place, text
   call.name = text.substr(0, at);
   if (!isIdent(call.name) || (at < text.size() && (text[at] != '(' || text.back() != ')' ||
                                                    closingBracket(text, at) != text.size() - 1))) {
-    diagnostics.error(Code::badReference, shifted(place, isIdent(call.name) ? at : 0),
+    diagnostics.error(Code::badReference, place.after(isIdent(call.name) ? at : 0),
                       "this is no word with its arguments",
                       {.expected = "a word with its arguments, such as \"quad\" or \"icosphere(2)\"",
                        .found = fmt::format("\"{}\"", text)});
@@ -342,7 +337,7 @@ std::optional<CallText> parseCallText(string_view text, const Place& place, text
   const std::size_t end = text.empty() ? 0 : text.size() - 1;
   for (std::size_t from = at + 1; from <= end;) {
     const std::size_t comma = findOutside(text, from, end, ",");
-    auto argument = Expr::parse(text.substr(from, comma - from), shifted(place, from), diagnostics);
+    auto argument = Expr::parse(text.substr(from, comma - from), place.after(from), diagnostics);
     if (!argument) return std::nullopt;
     call.arguments.push_back(*std::move(argument));
     from = comma + 1;

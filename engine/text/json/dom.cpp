@@ -389,12 +389,6 @@ const JsonValue* JsonValue::find(std::string_view key) const {
   return nullptr;
 }
 
-Place JsonValue::textPlace() const {
-  Place inner = place;
-  ++inner.column;
-  return inner;
-}
-
 std::size_t JsonTree::behindComment(std::size_t at) const {
   const auto found = std::ranges::lower_bound(comments, at, {}, &ByteRange::begin);
   return found != comments.end() && found->begin == at ? found->end : at;
