@@ -29,10 +29,9 @@ std::string hintToRaise(std::uint64_t bound, std::uint64_t needed) {
 
 Diagnostic& reportLimit(Diagnostics& diagnostics, Where place, std::string message, std::uint64_t bound,
                         std::string_view counts, std::uint64_t needed) {
-  Diagnostic& d = diagnostics.error(
+  return diagnostics.error(
       Code::limitExceeded, std::move(place), std::move(message),
       {.expected = fmt::format("at most {} {}", raised(bound), counts), .hint = hintToRaise(bound, needed)});
-  return d;
 }
 
 }  // namespace weft::text

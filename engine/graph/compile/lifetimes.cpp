@@ -82,22 +82,19 @@ void findAttachedClears(const FlatGraph& graph, const Step& step, Plan& plan) {
 
 bool isLiveOutput(const FlatGraph& graph, std::size_t output, const Plan& plan, const Scratch& scratch) {
   const FlatUse& use = graph.outputs[output];
-  const FlatResource& r = graph.resources[use.resource];
   const std::uint8_t flags = scratch.flags[use.resource];
-  if ((flags & Scratch::kImported) == 0 && plan.firstStep[use.resource] == kNone) return false;
-  bool zero = false;
-  graph.links.forEachRun(graph.links.outputs[output],
-                         [&](std::uint32_t writer, std::uint32_t) { zero = zero || writer == kNone; });
-  if (!zero || (flags & Scratch::kImported) != 0) return true;
-  if ((flags & Scratch::kClear) == 0) return false;
+  if ((flags & Scratch::kImported) != 0) return true;
+  if (plan.firstStep[use.resource] == kNone) return false;
   // What nobody writes is version zero, which is there when something cleared it.
-  const std::uint32_t base = scratch.cellBase[use.resource];
-  if ((flags & Scratch::kGranular) == 0) return scratch.cleared[base] != 0;
+  const bool granular = (flags & Scratch::kGranular) != 0;
+  const auto isCleared = [&](std::uint32_t s) {
+    return (flags & Scratch::kClear) != 0 &&
+           scratch.cleared[scratch.cellBase[use.resource] + (granular ? s : 0)] != 0;
+  };
   bool live = true;
-  forEachVersion(graph.links, graph.links.outputs[output], use, r,
-                 [&](std::uint32_t s, std::uint32_t writer) {
-                   live = live && (writer != kNone || scratch.cleared[base + s] != 0);
-                 });
+  forEachVersion(
+      graph.links, graph.links.outputs[output], use, graph.resources[use.resource],
+      [&](std::uint32_t s, std::uint32_t writer) { live = live && (writer != kNone || isCleared(s)); });
   return live;
 }
 

@@ -192,6 +192,13 @@ bool isWritable(const SlotContext& context, const SlotDesc& slot, std::uint32_t 
                         {.hint = "write a texture or buffer of the graph's own", .resource = entity.name});
 }
 
+SlotWork noneOf(const SlotDesc& slot) {
+  SlotWork work;
+  work.slot = &slot;
+  work.use.access = slot.access;
+  return work;
+}
+
 // A slot, which its alternatives may leave without a resource.
 struct SlotChoice {
   const SlotContext& context;
@@ -206,8 +213,8 @@ struct SlotChoice {
     bool onlyImports = !leaves.empty(), byCondition = false;
     std::optional<SlotWork> zero, first;
     for (std::size_t i = 0; i < leaves.size(); ++i) {
-      SlotWork work = none();
-      if (!place(leaves[i], work)) return none();
+      SlotWork work = noneOf(slot);
+      if (!place(leaves[i], work)) return noneOf(slot);
       if (work.state == State::empty) {
         if (slot.ref.optional) work.state = State::absent;
         return work;
@@ -231,7 +238,7 @@ struct SlotChoice {
       if (!first) first = std::move(work);
     }
     if (zero && !slot.ref.optional) return *zero;
-    SlotWork work = first.value_or(none());
+    SlotWork work = first.value_or(noneOf(slot));
     // A mistake, unless the slot says that it can do without.
     const bool missing = context.versions && !slot.ref.optional;
     work.state = missing ? State::missing : State::absent;
@@ -242,13 +249,6 @@ struct SlotChoice {
                                                       : Why::version,
                                        pass, context.model.position, slot.name, slot.ref, false, slot.access,
                                        std::move(wanted), leaves.empty() ? unbound : ""});
-    return work;
-  }
-
-  SlotWork none() const {
-    SlotWork work;
-    work.slot = &slot;
-    work.use.access = slot.access;
     return work;
   }
 
@@ -296,16 +296,15 @@ bool SlotContext::report(Code code, const Place& place, std::string_view message
 
 SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint32_t pass) {
   const RefDesc& ref = slot.ref;
-  SlotWork failed;
-  failed.slot = &slot;
-  failed.use.access = slot.access;
   const RefDesc* sample = nullptr;
   const std::uint32_t found = findEntityOrReport(context.model, context.names.scope(), ref, context.user,
                                                  verbOf(slot.access), context.pass, &sample);
-  if (found == kNone || (slot.access != Access::read && !isWritable(context, slot, found))) return failed;
+  if (found == kNone || (slot.access != Access::read && !isWritable(context, slot, found)))
+    return noneOf(slot);
   std::vector<Leaf> leaves;
   std::string unbound;
-  if (!collectLeaves(context, context.names, ref, sample, {.entity = found}, leaves, unbound)) return failed;
+  if (!collectLeaves(context, context.names, ref, sample, {.entity = found}, leaves, unbound))
+    return noneOf(slot);
   return SlotChoice{context, slot, pass, leaves, unbound}.choose();
 }
 

@@ -17,8 +17,7 @@ namespace weft::graph::expansion {
 std::string hintForImport(const Registry& registry, std::string_view name) {
   for (const char* kind : {"value", "import_type"})
     if (std::string foreign = text::hintForForeign(kind, name); !foreign.empty()) return foreign;
-  std::vector<std::string> types;
-  for (const ImportType& type : registry.imports) types.push_back(type.name);
+  const std::vector<std::string> types = namesOf(registry.imports);
   std::string hint = text::nearestHint(name, types);
   return hint.empty() ? fmt::format("imports are {}", fmt::join(types, ", ")) : hint;
 }
