@@ -213,16 +213,17 @@ void checkCadence(const SlotContext& context, const PassDesc& desc) {
                      {.hint = "slices go with \"update\": \"on_change\" or \"once\""});
     return;
   }
-  const auto check = [&](const Expr& expr, Called what) {
+  const auto check = [&](const Expr& expr, std::string_view what) {
     if (isDynamic(context.model, context.names.scope(), expr))
       context.report(Code::badTime, expr.place(),
-                     fmt::format("sees time in {}, but does not run in every frame", what.text()),
+                     fmt::format("sees time in {}, but does not run in every frame", what),
                      {.found = expr.text(),
                       .hint = "use age() in passes that are \"update\": \"always\" or \"every(n)\""});
   };
   for (const PassParameterDesc& parameter : desc.parameters)
     if (!parameter.declared)
-      for (const Expr& value : parameter.values()) check(value, {"parameter '{}'", parameter.name});
+      for (const Expr& value : parameter.values())
+        check(value, fmt::format("parameter '{}'", parameter.name));
   check(desc.instances, "\"instances\"");
 }
 
@@ -258,8 +259,8 @@ void resolveView(const SlotContext& context, const PassDesc& desc, PassSpec& spe
   Scope& scope = context.names.scope();
   spec.screen = screenOf(model, scope);
   if (desc.screen.present())
-    if (const auto size =
-            evaluateSize(context.names, desc.screen, kMaxSize, {"the screen of pass '{}'", context.pass}))
+    if (const auto size = evaluateSize(context.names, desc.screen, kMaxSize,
+                                       fmt::format("the screen of pass '{}'", context.pass)))
       spec.screen = *size;
   if (!desc.view) {
     if (const std::uint32_t view = findFileView(model, scope); view != kNone)
@@ -428,9 +429,9 @@ void addThreads(const SlotContext& context, const PassDesc& desc, const std::vec
   spec.threadsPlace = said.present() ? said.place() : desc.namePlace;
   if (said.present()) {
     constexpr std::uint64_t kMax = 2147483647, kBounds[] = {kMax, kMax, kMax};
-    const auto threads =
-        evaluateCounts(context.names, said, kBounds, {"the number of threads of pass '{}'", context.pass},
-                       "a number, or a list of 2 or 3");
+    const auto threads = evaluateCounts(context.names, said, kBounds,
+                                        fmt::format("the number of threads of pass '{}'", context.pass),
+                                        "a number, or a list of 2 or 3");
     for (std::size_t i = 0; threads && i < 3; ++i)
       spec.threads[i] = static_cast<std::uint32_t>(threads->each[i]);
     return;
@@ -497,8 +498,8 @@ void addRaster(const SlotContext& context, const PassDesc& desc, const std::vect
                    "has \"raster\" and an attachment, which says how large it is",
                    {.hint = "leave one of the two out"});
   // kMaxSize is GL_MAX_FRAMEBUFFER_WIDTH and _HEIGHT of every device.
-  const auto size =
-      evaluateSize(context.names, desc.raster, kMaxSize, {"the raster of pass '{}'", context.pass});
+  const auto size = evaluateSize(context.names, desc.raster, kMaxSize,
+                                 fmt::format("the raster of pass '{}'", context.pass));
   const auto samples = evaluateWhole(context.names, desc.samples, 1, 1, 4, "the number of samples");
   if (!size || !samples) return;
   spec.raster = *size;

@@ -74,12 +74,14 @@ struct StateFiller {
   }
   template <class Number>
   void takeWhole(const NamedExpr& said, Number& value, std::int64_t most) {
-    const auto whole = evaluateWhole(context.names, said.expr, 0, 0, most, {"the state '{}'", said.name});
+    const auto whole =
+        evaluateWhole(context.names, said.expr, 0, 0, most, fmt::format("the state '{}'", said.name));
     failed = failed || !whole;
     value = static_cast<Number>(whole.value_or(0));
   }
   void take(const NamedExpr& said, bool& value) {
-    value = evaluateCondition(context.names, said.expr, true, {"the state '{}'", said.name}).value_or(value);
+    value = evaluateCondition(context.names, said.expr, true, fmt::format("the state '{}'", said.name))
+                .value_or(value);
   }
   // A list of so many numbers as `into` has.
   void takeList(const NamedExpr& said, std::span<double> into, const char* expected) {

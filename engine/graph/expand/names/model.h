@@ -205,14 +205,6 @@ struct MissingRead {
   std::string unbound{};  // the input to which nothing is bound, where that is why
 };
 
-// What messages call a thing: a format with perhaps one name in it, "the size of '{}'". The name outlives it.
-struct Called {
-  const char* format;
-  std::string_view name;
-  Called(const char* text, std::string_view of = {}) : format(text), name(of) {}  // NOLINT: a text calls it
-  std::string text() const;
-};
-
 struct Model {
   const GraphDesc& desc;
   const Registry& registry;
@@ -256,10 +248,10 @@ struct Model {
   std::set<std::uint32_t> leftOut{};
   bool toInclude =
       false;  // the file that was opened has inputs: it is to be included, and its own names are not all
-  std::uint32_t position = 0;        // of the instance being expanded
-  std::uint32_t slot = kNone;        // of it, while it is resolved
-  std::vector<Called> evaluating{};  // what is being evaluated now, for the path of a cycle
-  bool stopped = false;              // a bound was exceeded and reported: nothing more is expanded
+  std::uint32_t position = 0;             // of the instance being expanded
+  std::uint32_t slot = kNone;             // of it, while it is resolved
+  std::vector<std::string> evaluating{};  // what is being evaluated now, for the path of a cycle
+  bool stopped = false;                   // a bound was exceeded and reported: nothing more is expanded
 };
 
 bool isOver(const Model& model);  // nothing more is worth expanding
@@ -278,7 +270,7 @@ void warn(Model& model, Code code, const Where& place, std::string message, Says
 class Evaluation {
  public:
   static constexpr std::uint32_t kMax = 32;
-  Evaluation(Model& model, Progress& state, Called label, const Place& place, std::size_t most = kMax);
+  Evaluation(Model& model, Progress& state, std::string label, const Place& place, std::size_t most = kMax);
   ~Evaluation();
   Evaluation(const Evaluation&) = delete;
   Evaluation& operator=(const Evaluation&) = delete;

@@ -34,30 +34,24 @@ void warn(Model& model, Code code, const Where& place, std::string message, Says
   model.diagnostics.warning(code, place, std::move(message), std::move(says));
 }
 
-std::string Called::text() const {
-  return fmt::format(fmt::runtime(format), name);
-}
-
-Evaluation::Evaluation(Model& model, Progress& state, Called label, const Place& place, std::size_t most)
+Evaluation::Evaluation(Model& model, Progress& state, std::string label, const Place& place, std::size_t most)
     : model_(model), good_(false) {
   auto& stack = model.evaluating;
   if (state == Progress::active) {
-    const std::string own = label.text();
     std::string path;
-    for (const Called& each : stack)
-      if (const std::string text = each.text(); text == own || !path.empty()) path += text + " -> ";
-    report(model, Code::dependsOnItself, place, fmt::format("{} depends on itself: {}{}", own, path, own),
+    for (const std::string& each : stack)
+      if (each == label || !path.empty()) path += each + " -> ";
+    report(model, Code::dependsOnItself, place, fmt::format("{} depends on itself: {}{}", label, path, label),
            {.hint = "one of them must not refer to the next"});
   } else if (stack.size() >= most) {
     if (!std::exchange(model.stopped, true))
-      report(
-          model, Code::limitExceeded, place,
-          fmt::format("definitions depend on each other in too long a row, which ends at {}", label.text()),
-          {.expected = fmt::format("at most {} in a row", kMax),
-           .hint = "let some of them use fewer others"});
+      report(model, Code::limitExceeded, place,
+             fmt::format("definitions depend on each other in too long a row, which ends at {}", label),
+             {.expected = fmt::format("at most {} in a row", kMax),
+              .hint = "let some of them use fewer others"});
   } else {
     good_ = true;
-    stack.push_back(label);
+    stack.push_back(std::move(label));
   }
   state = good_ ? Progress::active : Progress::failed;
 }
@@ -73,7 +67,7 @@ std::optional<Value> letValue(Names& user, Let& let) {
   Model& model = user.model();
   if (let.state == Progress::done) return let.value;
   if (let.state == Progress::failed) return Value{};
-  const Evaluation evaluation(model, let.state, {"${}", let.path}, let.desc->place);
+  const Evaluation evaluation(model, let.state, "$" + let.path, let.desc->place);
   if (!evaluation.good()) return Value{};
   Names names(model, *let.scope);
   names.follows = user.follows;
@@ -318,7 +312,7 @@ const Expr* Names::folded(std::string_view variable) {
   if (!kept || let.watched) {
     Progress own = Progress::fresh;
     Progress& state = live ? own : let.state;
-    const Evaluation evaluation(model_, state, {"${}", let.path}, let.desc->place);
+    const Evaluation evaluation(model_, state, "$" + let.path, let.desc->place);
     if (live || !evaluation.good()) kept = Expr();  // met again in a circle, it fails
     if (evaluation.good()) {
       text::Diagnostics ignored;  // a branch that is not taken now
@@ -448,17 +442,18 @@ std::nullopt_t refuse(Names& names, Code code, const Expr& expr, std::string mes
 
 }  // namespace
 
-std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absent, Called what) {
+std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absent, std::string_view what) {
   if (!expr.present()) return absent;
   const Value value = expr.evaluate(names, names.model().diagnostics);
   if (value.type == Value::Type::none) return std::nullopt;
   if (value.isNumeric()) return value.truth();
-  return refuse(names, Code::wrongValueType, expr, fmt::format("{} is no condition", what.text()),
+  return refuse(names, Code::wrongValueType, expr, fmt::format("{} is no condition", what),
                 "true, false or a number", value);
 }
 
 std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::int64_t absent,
-                                          std::int64_t low, std::int64_t high, Called what, bool floors) {
+                                          std::int64_t low, std::int64_t high, std::string_view what,
+                                          bool floors) {
   if (!expr.present()) return absent;
   const Value value = expr.evaluate(names, names.model().diagnostics);
   if (value.type == Value::Type::none) return std::nullopt;
@@ -467,18 +462,18 @@ std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::i
   if (whole && number >= static_cast<double>(low) && number <= static_cast<double>(high))
     return static_cast<std::int64_t>(number);
   return refuse(names, whole ? Code::numberOutOfRange : Code::wrongValueType, expr,
-                fmt::format("{} is {}", what.text(), whole ? "out of its range" : "not a whole number"),
+                fmt::format("{} is {}", what, whole ? "out of its range" : "not a whole number"),
                 fmt::format("a whole number from {} to {}", low, high), value);
 }
 
 std::optional<Counts> evaluateCounts(Names& names, const Expr& expr, std::span<const std::uint64_t> bounds,
-                                     Called what, const char* expected) {
+                                     std::string_view what, const char* expected) {
   const Value value = expr.evaluate(names, names.model().diagnostics);
   if (value.type == Value::Type::none) return std::nullopt;
   const bool list = value.type == Value::Type::list;
   if (!value.isNumeric() && (!list || value.count < 2 || value.count > bounds.size()))
     return refuse(
-        names, Code::wrongValueType, expr, what.text() + " is no size", expected, value,
+        names, Code::wrongValueType, expr, fmt::format("{} is no size", what), expected, value,
         names.scope().resources.contains(value.symbol) ? fmt::format("write 'size({})'", value.symbol) : "");
   Counts counts{.size = list ? value.count : 1u};
   const std::uint64_t bound = bounds[counts.size - 1];
@@ -490,7 +485,7 @@ std::optional<Counts> evaluateCounts(Names& names, const Expr& expr, std::span<c
                                               !countsElements(names.model(), names.scope(), expr));
     if (!std::isfinite(count) || low || count > static_cast<double>(bound)) {
       return refuse(
-          names, Code::numberOutOfRange, expr, what.text() + " is out of its range",
+          names, Code::numberOutOfRange, expr, fmt::format("{} is out of its range", what),
           fmt::format("1 to {}", bound), value,
           expr.isConstant() ? "" : fmt::format("it is computed: write 'max(…, 1)' or 'min(…, {})'", bound));
     }
@@ -500,7 +495,7 @@ std::optional<Counts> evaluateCounts(Names& names, const Expr& expr, std::span<c
 }
 
 std::optional<std::array<std::uint32_t, 2>> evaluateSize(Names& names, const Expr& expr, std::uint64_t most,
-                                                         Called what) {
+                                                         std::string_view what) {
   const std::uint64_t bounds[] = {most, most};
   const auto counts =
       evaluateCounts(names, expr, bounds, what, "a number, or a list of 2, such as \"screen/2\"");
@@ -514,7 +509,7 @@ std::array<std::uint32_t, 2> screenOf(Model& model, Scope& scope) {
   const IncludeDesc& include = *scope.stanza->include;
   if (!include.screen.present()) return screenOf(model, *scope.parent);
   if (scope.screenState == Progress::done || scope.screenState == Progress::failed) return scope.screen;
-  const Called screen{"the screen of '{}'", include.as};
+  const std::string screen = fmt::format("the screen of '{}'", include.as);
   const Evaluation evaluation(model, scope.screenState, screen, include.screen.place());
   if (!evaluation.good()) return scope.screen;
   Names names(model, *scope.parent);

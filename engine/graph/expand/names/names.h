@@ -151,10 +151,10 @@ class Names final : public EvalScope {
 bool isMatrix(Model& model, Scope& scope, const Expr& expr);
 
 // Evaluation with the expected type held: nullopt after a report, which calls it `what`. An absent expression yields `absent`.
-std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absent, Called what);
+std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absent, std::string_view what);
 // A whole number from `low` to `high`, floored first when `floors`.
 std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::int64_t absent,
-                                          std::int64_t low, std::int64_t high, Called what,
+                                          std::int64_t low, std::int64_t high, std::string_view what,
                                           bool floors = false);
 // A number, or a list of up to as many as there are bounds, floored, each from 1 to the bound for so many numbers. 0 is a
 // mistake, but for the count of an empty list and the computed size of a buffer; what is computed between 0 and 1 is 1.
@@ -163,11 +163,11 @@ struct Counts {
   std::array<std::uint64_t, 3> each{1, 1, 1};
 };
 std::optional<Counts> evaluateCounts(Names& names, const Expr& expr, std::span<const std::uint64_t> bounds,
-                                     Called what, const char* expected);
+                                     std::string_view what, const char* expected);
 
 // The same of one or two, from 1 to `most` each.
 std::optional<std::array<std::uint32_t, 2>> evaluateSize(Names& names, const Expr& expr, std::uint64_t most,
-                                                         Called what);
+                                                         std::string_view what);
 
 // What `screen` means in a file, in pixels.
 std::array<std::uint32_t, 2> screenOf(Model& model, Scope& scope);

@@ -214,7 +214,7 @@ Value evaluateTexel(Names& names, const Expr& expr, const std::string& name, con
 bool evaluateSize(Names& names, Entity& entity) {
   constexpr std::uint64_t kBounds[] = {kMaxSize, kMaxSize, kMaxSize3d};
   const auto size =
-      evaluateCounts(names, entity.desc->size, kBounds, {"the size of '{}'", entity.name},
+      evaluateCounts(names, entity.desc->size, kBounds, fmt::format("the size of '{}'", entity.name),
                      "\"screen\", \"screen/2\", \"size(x)\", a number, or a list of 2 or 3 numbers");
   if (!size) return false;
   entity.shape.width = static_cast<std::uint32_t>(size->each[0]);
@@ -311,7 +311,7 @@ bool evaluateTexture(Model& model, Names& names, Entity& entity) {
 bool evaluateBuffer(Names& names, Entity& entity) {
   entity.shape.kind = ResourceKind::buffer;
   const auto bytes = evaluateCounts(names, entity.desc->bytes, {&kMaxBufferBytes, 1},
-                                    {"the size of '{}'", entity.name}, "a number of bytes");
+                                    fmt::format("the size of '{}'", entity.name), "a number of bytes");
   if (bytes) entity.shape.bytes = bytes->each[0];
   return bytes.has_value();
 }
@@ -351,7 +351,7 @@ bool ensureShape(Model& model, std::uint32_t index) {
   Entity& entity = model.entities[index];
   if (entity.state == Progress::done) return true;
   if (entity.state == Progress::failed) return false;
-  const Evaluation evaluation(model, entity.state, {"'{}'", entity.name},
+  const Evaluation evaluation(model, entity.state, "'" + entity.name + "'",
                               entity.desc ? entity.desc->place : Place{});
   if (!evaluation.good()) return false;
   const bool good = entity.kind == ResourceDesc::Kind::import ? evaluateImport(model, entity)
@@ -401,7 +401,7 @@ std::uint32_t staticTarget(Model& model, std::uint32_t index, std::uint32_t* mip
   if (entity.kind != ResourceDesc::Kind::alternatives) return index;
   const Progress before = entity.state;
   if (before == Progress::active) return kNone;  // its own condition asks for its size
-  const Evaluation evaluation(model, entity.state, {"'{}'", entity.name}, entity.desc->place);
+  const Evaluation evaluation(model, entity.state, "'" + entity.name + "'", entity.desc->place);
   if (!evaluation.good()) return kNone;
   std::uint32_t result = kNone;
   Names names(model, *entity.scope);

@@ -179,7 +179,7 @@ void reportToInclude(Model& model) {
 void followList(Model& model, std::uint32_t index, std::uint64_t& count) {
   Entity& entity = model.entities[index];
   if (entity.kind != ResourceDesc::Kind::alternatives || entity.state == Progress::failed) return;
-  const Evaluation evaluation(model, entity.state, {"'{}'", entity.name}, entity.desc->place,
+  const Evaluation evaluation(model, entity.state, "'" + entity.name + "'", entity.desc->place,
                               ~std::size_t{0});
   if (!evaluation.good()) return;
   for (const std::uint32_t candidate : entity.candidates) {
@@ -309,7 +309,7 @@ std::uint32_t followInput(Model& model, std::uint32_t index) {
   Entity& entity = model.entities[index];
   if (entity.kind != ResourceDesc::Kind::input) return index;
   if (entity.state == Progress::done || entity.state == Progress::failed) return entity.bound;
-  const Evaluation evaluation(model, entity.state, {"'{}'", entity.name}, entity.desc->place);
+  const Evaluation evaluation(model, entity.state, "'" + entity.name + "'", entity.desc->place);
   if (!evaluation.good()) return kNone;
   entity.bound = boundTo(model, entity, index);
   entity.state = entity.bound == kNone ? Progress::failed : Progress::done;
