@@ -73,6 +73,7 @@ struct RefDesc {
   bool optional = false;                     // trailing ?, or what it names is an optional input
   std::uint32_t wordsAt = 0, wordsSize = 0;  // of "as linear wrap", in `text`
   std::string_view words() const { return std::string_view(text).substr(wordsAt, wordsSize); }
+  bool selects() const { return mip || layer || face || element || stencil; }
 };
 
 struct ParameterDesc {

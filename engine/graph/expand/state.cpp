@@ -144,13 +144,13 @@ struct StateFiller {
     const bool alpha = key.ends_with(end);
     if (alpha) key.resize(key.size() - end.size());
     BlendPart& part = alpha ? blend.alpha : blend.color;
-    if (key == "source") take(said, part.source);
-    if (key == "destination") take(said, part.destination);
-    if (key == "equation") take(said, part.equation);
-    if (alpha || find(apart)) return;
-    if (key == "source") blend.alpha.source = part.source;
-    if (key == "destination") blend.alpha.destination = part.destination;
-    if (key == "equation") blend.alpha.equation = part.equation;
+    const auto set = [&](auto BlendPart::*member) {
+      take(said, part.*member);
+      if (!alpha && !find(apart)) blend.alpha.*member = part.*member;
+    };
+    if (key == "source") set(&BlendPart::source);
+    if (key == "destination") set(&BlendPart::destination);
+    if (key == "equation") set(&BlendPart::equation);
   }
 
   // What is said of front faces holds for back faces, too, unless that is said apart.

@@ -276,8 +276,7 @@ bool readFullMips(ReadContext& context, const JsonValue& mips) {
 bool readInput(ReadContext& context, const JsonValue& input, ResourceDesc& out) {
   std::optional<RefDesc> ref = context.refOf(input);
   if (!ref) return false;
-  const bool plain = !ref->import && !ref->mip && !ref->layer && !ref->face && !ref->element && !ref->stencil;
-  if (!plain || ref->kind || ref->history > 0)
+  if (ref->import || ref->selects() || ref->kind || ref->history > 0)
     context.error(Code::badReference, ref->place, fmt::format("the input '{}' is more than a name", out.name),
                   {.hint = "an input is a name, perhaps with 'as', words for sampling, and '?'; say the rest "
                            "where it is used"});

@@ -283,8 +283,7 @@ class Evaluation {
 
 // Whether a reference names a whole resource of this frame, perhaps by a condition.
 inline bool isWhole(const RefDesc& ref) {
-  return !ref.mip && !ref.layer && !ref.face && !ref.element && !ref.stencil && ref.history == 0 &&
-         ref.wordsSize == 0 && !ref.optional;
+  return !ref.selects() && ref.history == 0 && ref.wordsSize == 0 && !ref.optional;
 }
 
 }  // namespace weft::graph::expansion
