@@ -583,16 +583,14 @@ class Applier {
 // ---- files ----
 
 // What "extends" names: a path, or a list of paths. Empty after a report.
-std::vector<const JsonValue*> namesIn(const JsonValue& extends, text::Diagnostics& diagnostics) {
-  std::vector<const JsonValue*> names;
-  if (extends.is(Type::string)) names.push_back(&extends);
-  for (const JsonValue& item : extends.items) names.push_back(&item);
+std::span<const JsonValue> namesIn(const JsonValue& extends, text::Diagnostics& diagnostics) {
+  const std::span<const JsonValue> names = stringsOf(extends);
   const auto wrong =
-      std::ranges::find_if(names, [](const JsonValue* name) { return !name->is(Type::string); });
+      std::ranges::find_if(names, [](const JsonValue& name) { return !name.is(Type::string); });
   if (!names.empty() && wrong == names.end()) return names;
-  const JsonValue& found = names.empty() ? extends : **wrong;
   ReadContext(diagnostics)
-      .wrongType(found, "\"extends\"", "the path of a graph, or a list of that and of overlays");
+      .wrongType(names.empty() ? extends : *wrong, "\"extends\"",
+                 "the path of a graph, or a list of that and of overlays");
   return {};
 }
 
@@ -684,17 +682,17 @@ std::shared_ptr<const Source> SourceLoader::complete(JsonValue root, const std::
     open_.pop_back();
     return std::make_shared<const Source>(std::move(source));
   }
-  const std::vector<const JsonValue*> below = namesIn(*extends, diagnostics_);
+  const std::span<const JsonValue> below = namesIn(*extends, diagnostics_);
   open_.emplace_back(source.identity, path);
   const std::shared_ptr<const Source> base =
-      !below.empty() && mayExtend(*below[0]) ? file(pathBeside(*below[0]), below[0]->place) : nullptr;
+      !below.empty() && mayExtend(below[0]) ? file(pathBeside(below[0]), below[0].place) : nullptr;
   bool good = base != nullptr;
   if (good) {
     source = *base;
     source.path = path;
     source.identity = identityOf(path);
     for (std::size_t i = 1; i < below.size(); ++i)
-      good = layFile(source, pathBeside(*below[i]), below[i], false) && good;
+      good = layFile(source, pathBeside(below[i]), &below[i], false) && good;
     std::erase_if(source.root.members, [](const JsonMember& member) {  // of the base
       return member.key == "name" || member.key == "description";
     });
@@ -751,13 +749,13 @@ bool SourceLoader::layFile(Source& made, const std::string& path, const JsonValu
   }
   open_.emplace_back(own, path);
   if (extends) {
-    const std::vector<const JsonValue*> below = namesIn(*extends, diagnostics_);
+    const std::span<const JsonValue> below = namesIn(*extends, diagnostics_);
     good = !below.empty();
-    for (const JsonValue* each : below) {
-      const std::string file = pathBeside(*each), identity = identityOf(file);
+    for (const JsonValue& each : below) {
+      const std::string file = pathBeside(each), identity = identityOf(file);
       const bool there = std::ranges::find(made.files, identity, identityOf) != made.files.end();
       if (there && !isOpen(identity)) continue;  // it is below already
-      good = layFile(made, file, each, preset) && good;
+      good = layFile(made, file, &each, preset) && good;
     }
   }
   good = good && lay(made, *root, path, preset);
