@@ -18,7 +18,7 @@ class IndexClamper {
     for (int round = 0; round < 16 && addMacros();) ++round;
     std::map<std::size_t, std::string> added;  // by where
     for (std::size_t i = 1; i < tokens_.size(); ++i) {
-      const std::size_t end = tokens_[i].is("[") ? pairOf(i, 1) : 0;
+      const std::size_t end = tokens_[i].is("[") && !declarations_.contains(i) ? pairOf(i, 1) : 0;
       if (end <= i + 1 || (end == i + 2 && tokens_[i + 1].kind == TokenKind::number)) continue;
       const Indexed what = indexedAt(i);
       if (!what.named || what.declared) continue;
@@ -90,7 +90,7 @@ class IndexClamper {
   bool findShared() {
     for (std::size_t i = 1; i < tokens_.size(); ++i)
       if (tokens_[i].is("shared") && !tokens_[i - 1].is("(") && !tokens_[i - 1].is(","))
-        for (i += 2; i + 1 < tokens_.size() && !tokens_[i].is(";"); ++i)
+        for (i += 2; i + 1 < tokens_.size() && !tokens_[i].is(";"); declarations_.insert(i++))
           if (isWord(i) && (tokens_[i + 1].is("[") || tokens_[i + 1].is(",") || tokens_[i + 1].is(";")))
             names_.insert(tokens_[i].text);
     return !names_.empty();
@@ -111,6 +111,7 @@ class IndexClamper {
   std::string_view text_;
   std::vector<Token> tokens_;
   std::set<std::string_view> names_;
+  std::set<std::size_t> declarations_;  // tokens of theirs
 };
 
 }  // namespace

@@ -345,7 +345,7 @@ TEST_CASE("indices of what a work group shares stay within its arrays") {
     CHECK(clamped(same) == same);
   CHECK(clampShared("#define T table\nshared float table[4];\n#define AT(i) T[i]\n").find("T[min(uint(i)") !=
         std::string::npos);
-  for (const char* text :
-       {"", "[", "shared", "shared float a[", "shared float a[4]; a[", "a]", "shared float a[4]; ][x"})
+  for (const char* text : {"", "[", "shared", "shared float a[", "shared float a[4]; a[", "a]",
+                           "shared float a[4]; ][x", "shared uint a[n], b[n], c[n][m + 1];"})
     CHECK(clampShared(text) == text);
 }

@@ -117,7 +117,7 @@ TEST_CASE("sun: no direct light below a roof and behind spheres, all of it elsew
         const float seen = shaded.at(x, y)[0], all = open.at(x, y)[0];
         if (inside > 0) {
           ++count.dark;
-          count.wrong_dark += seen != 0;
+          count.wrong_dark += seen > 1e-6f;  // a GPU may round nine ninths
         } else {
           ++count.bright;
           count.wrong_bright += seen != all;
@@ -194,7 +194,7 @@ TEST_CASE("lamps: no direct light behind spheres, all of it elsewhere; nothing o
         const float seen = shaded.at(x, y)[0], all = open.at(x, y)[0];
         if (inside > 0) {
           ++count.dark;
-          count.wrong_dark += seen != 0;
+          count.wrong_dark += seen > 1e-6f;  // a GPU may round nine ninths
         } else {
           ++count.bright;
           count.wrong_bright += seen != all;
