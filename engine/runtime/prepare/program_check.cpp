@@ -395,7 +395,7 @@ class Checker {
     fail(Code::parameterNotInShader, uniform.place,
          fmt::format("parameter '{}' is {} in the shader '{}'", uniform.name,
                      what ? fmt::format("{}, not a member of the block Parameters,", what) : "not", shaders_),
-         {.hint = (near.empty() ? "" : fmt::format("did you mean '{}'? Else ", near)) +
+         {.hint = (near.empty() ? "" : fmt::format("the shader has '{}': name it so, or ", near)) +
                   "declare it in `layout(std140) uniform Parameters { … };`"});
   }
 
