@@ -158,24 +158,24 @@ void StepRunner::clearAttachment(GLuint framebuffer, GLenum point, const ClearCo
   const ClearTexel texel = clearTexelOf(clear.format, clear.value);
   const auto index = static_cast<GLint>(point - GL_COLOR_ATTACHMENT0);
   const void* const bytes = texel.bytes.data();
-  const bool twice =
-      !device_.context.device().software;  // depth-remembered-past-clears, gl/context/workarounds.md
+  // depth-remembered-past-clears, gl/context/workarounds.md
+  const bool depth = texel.format == GL_DEPTH_STENCIL || texel.format == GL_DEPTH_COMPONENT;
+  const bool twice = depth && !device_.context.device().software && cleared_.insert(framebuffer).second;
   if (texel.format == GL_DEPTH_STENCIL) {
-    GLfloat depth = 0;
+    GLfloat value = 0;
     GLint stencil = 0;
-    std::memcpy(&depth, texel.bytes.data(), 4);
+    std::memcpy(&value, texel.bytes.data(), 4);
     std::memcpy(&stencil, texel.bytes.data() + 4, 4);
-    if (twice) glClearNamedFramebufferfi(framebuffer, GL_DEPTH_STENCIL, 0, 1 - depth, stencil);
-    glClearNamedFramebufferfi(framebuffer, GL_DEPTH_STENCIL, 0, depth, stencil);
+    if (twice) glClearNamedFramebufferfi(framebuffer, GL_DEPTH_STENCIL, 0, 1 - value, stencil);
+    glClearNamedFramebufferfi(framebuffer, GL_DEPTH_STENCIL, 0, value, stencil);
   } else if (texel.type == GL_UNSIGNED_INT) {
     glClearNamedFramebufferuiv(framebuffer, GL_COLOR, index, static_cast<const GLuint*>(bytes));
   } else if (texel.type == GL_INT) {
     glClearNamedFramebufferiv(framebuffer, GL_COLOR, index, static_cast<const GLint*>(bytes));
   } else {
-    const bool depth = texel.format == GL_DEPTH_COMPONENT;
     const auto* const value = static_cast<const GLfloat*>(bytes);
     const GLfloat other = 1 - *value;
-    if (depth && twice) glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &other);
+    if (twice) glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &other);
     glClearNamedFramebufferfv(framebuffer, depth ? GL_DEPTH : GL_COLOR, depth ? 0 : index, value);
   }
 }

@@ -43,6 +43,7 @@ class StepRunner {
 
   const graph::Plan& plan_;
   Device& device_;
+  std::set<GLuint> cleared_;  // framebuffers whose depth was cleared
   ResourcePool& pool_;
   const FrameUniforms& uniforms_;
   FramebufferCache framebuffers_;
