@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <thread>
 
 #include "app/output/output_files.h"
@@ -426,8 +427,12 @@ void Viewer::tellBroken(const std::vector<runtime::StepRecord>& records) {
     return each.signature && each.signature->broken > 0;
   };
   const auto first = std::ranges::find_if(records, broken);
+  std::set<std::string_view> passes;  // that write textures
+  for (const runtime::StepRecord& each : records)
+    if (each.signature) passes.insert(each.pass);
   told_ = first == records.end()
-              ? fmt::format("no NaN and no infinity in what {} write", text::counted(records.size(), "pass"))
+              ? fmt::format("no NaN and no infinity in the textures that {} write",
+                            text::counted(passes.size(), "pass"))
               : fmt::format("pass '{}' is the first with NaN or infinities: {:.3g} % of the texels of '{}'",
                             first->pass, 100 * first->signature->broken, first->resource);
   say("scan " + told_);
