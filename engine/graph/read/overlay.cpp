@@ -442,6 +442,14 @@ class Applier {
     said_.pass.clear();
   }
 
+  // An include called by its file, which cannot be read: the reader reports that, and the name may be wrong with it.
+  bool isMisspeltInclude(std::string_view name) const {
+    return std::ranges::any_of(sectionOf(target_, "passes")->items, [&](const JsonValue& stanza) {
+      return stanzaName(stanza) == name && stanza.find("include") && !stanza.find("as") &&
+             !fileOf(target_, stanza);
+    });
+  }
+
   std::vector<JsonValue>& passesOf(Source& source) { return memberOf(source.root, "passes")->value.items; }
 
   // A new pass, or one that moves.
@@ -450,10 +458,11 @@ class Applier {
     Spot beside = find("passes", anchor.text, anchor.place);
     if (!beside.index) {
       const Meant meant = meantBy(anchor.text, "passes");
-      said_.error(Code::passWithoutPlace, anchor.place,
-                  fmt::format("pass '{}' stands {} '{}', which is not there", said_.pass,
-                              after ? "after" : "before", anchor.text),
-                  {.expected = "the name of a pass, or the prefix of an include", .hint = meant.hint});
+      if (!isMisspeltInclude(meant.near))
+        said_.error(Code::passWithoutPlace, anchor.place,
+                    fmt::format("pass '{}' stands {} '{}', which is not there", said_.pass,
+                                after ? "after" : "before", anchor.text),
+                    {.expected = "the name of a pass, or the prefix of an include", .hint = meant.hint});
       // Where it was probably meant, else at the end, so that what stands beside it is no second mistake.
       if (!meant.near.empty()) beside = locate("passes", meant.near);
     }

@@ -501,9 +501,10 @@ bool isUnread(const Scope& from, std::string_view name) {
       child != from.includes.end() && name.find('.') != std::string_view::npos)
     return isUnread(*child->second, name.substr(name.find('.') + 1));
   const std::string_view leaf = name.substr(name.rfind('.') + 1);
-  for (const Scope* scope = &from; scope; scope = scope->parent)
-    if (const auto& unread = scope->desc->unread; std::ranges::find(unread, leaf) != unread.end())
-      return true;
+  for (const Scope* scope = &from; scope; scope = scope->parent) {
+    const auto& unread = scope->desc->unread;
+    if ((scope->broken && leaf != name) || std::ranges::find(unread, leaf) != unread.end()) return true;
+  }
   return false;
 }
 
