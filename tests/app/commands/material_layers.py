@@ -236,7 +236,7 @@ def material(base, layers):
 
 def leaves(brdf, n, v, everywhere):
     """Radiance towards the eye."""
-    lights = directions(56, n) if everywhere else [(TO_LIGHT, 1)]
+    lights = directions(32, n) if everywhere else [(TO_LIGHT, 1)]
     return [sum(parts) for parts in zip(*([f * dot(n, l) * weight for f in brdf(n, v, l)] for l, weight in lights))]
 
 
