@@ -3,19 +3,13 @@
 // read    materials, material_maps?   see meshes/surface.glsl
 //         material_layers?            see meshes/layers.glsl
 //         ao?                         as in deferred/lighting.frag.glsl
-//         air?                        see fog/fog.glsl
-//         the lights: shading/light.glsl
+//         air?, the lights            see meshes/radiance.glsl
 // modify  radiance   scene-referred, premultiplied by the material's alpha: blend "premultiplied"
 // define  LAYERED   1: materials with layers alone
 // params, defines    see shading/light.glsl and shading_model.glsl
-#include "fog/fog.glsl"
 #include "meshes/surface.glsl"
 #include "shading_model.glsl"
-#ifdef HAS_MATERIAL_LAYERS
-#include "meshes/layers.glsl"
-#endif
-#include "shading/light.glsl"
-#include "shading/lobe.glsl"
+#include "meshes/radiance.glsl"
 
 #ifdef HAS_AO
 uniform sampler2D ao;
@@ -41,23 +35,7 @@ void main() {
   Point point = pointAt(world_position, self.normal, visible);
   Surface surface = Surface(self.albedo, self.metallic, self.roughness);
   Response response = modelResponse(surface, self.shininess, point.nv);
-
-  LightsSeen seen = lightsSeen(point);
-  vec3 light = self.emissive;
-#ifdef HAS_MATERIAL_LAYERS
-  if (layers.on) response = enterLayers(point, surface);
-  for (int layer = 0; layer < 2; ++layer) {
-#endif
-    Ambient ambient = ambientOf(point, response, lobeOf(response.roughness, 0.0), seen);
-    light += lightOf(point, response, ambient, seen).radiance * self.lit;
-#ifdef HAS_MATERIAL_LAYERS
-    if (!layers.on || layers.coat <= 0.0) break;
-    light *= coverWithCoat(point, response);
-  }
-#endif
-#ifdef HAS_AIR
-  light = mix(fog_light.rgb, light, throughFog(world_position - eye));
-#endif
+  vec3 light = meshRadiance(self, surface, response, point);
   radiance = vec4(light * self.alpha, self.alpha);
 #endif
 }

@@ -1,0 +1,34 @@
+// What a mesh emits and reflects towards the eye, through the layers of its material and the air. Behind meshes/surface.glsl and a
+// shading model. Slots: air?, see fog/fog.glsl; material_layers?, see meshes/layers.glsl; the lights, see shading/light.glsl
+#ifndef MESHES_RADIANCE_GLSL
+#define MESHES_RADIANCE_GLSL
+
+#include "fog/fog.glsl"
+#include "meshes/surface.glsl"
+#ifdef HAS_MATERIAL_LAYERS
+#include "meshes/layers.glsl"
+#endif
+#include "shading/light.glsl"
+#include "shading/lobe.glsl"
+
+vec3 meshRadiance(MeshSurface self, Surface surface, Response response, Point point) {
+  LightsSeen seen = lightsSeen(point);
+  vec3 light = self.emissive;
+#ifdef HAS_MATERIAL_LAYERS
+  if (layers.on) response = enterLayers(point, surface);
+  for (int layer = 0; layer < 2; ++layer) {
+#endif
+    Ambient ambient = ambientOf(point, response, lobeOf(response.roughness, 0.0), seen);
+    light += lightOf(point, response, ambient, seen).radiance * self.lit;
+#ifdef HAS_MATERIAL_LAYERS
+    if (!layers.on || layers.coat <= 0.0) break;
+    light *= coverWithCoat(point, response);
+  }
+#endif
+#ifdef HAS_AIR
+  light = mix(fog_light.rgb, light, throughFog(world_position - eye));
+#endif
+  return light;
+}
+
+#endif
