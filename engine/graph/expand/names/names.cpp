@@ -126,7 +126,12 @@ Variable declarationMeant(Model& model, Scope& user, std::string_view name) {
     const auto asks = [&](const auto& asked) { return asked.second == name && sees(*asked.first, from); };
     const auto asked = std::ranges::count_if(model.unknownVariables, asks);
     const bool let = meant.kind == Variable::Kind::let;
-    if (asked < 2 || (let ? model.lets[meant.index].named : model.parameters[meant.index].named)) continue;
+    // In any of the places where the file is included.
+    const auto isNamed = [&](const auto& all) {
+      return std::ranges::any_of(
+          all, [&](const auto& each) { return each.desc == all[meant.index].desc && each.named; });
+    };
+    if (asked < 2 || (let ? isNamed(model.lets) : isNamed(model.parameters))) continue;
     report(model, Code::unknownVariable,
            let ? model.lets[meant.index].desc->place : model.parameters[meant.index].desc->place,
            fmt::format("nothing reads '${}', and '${}' is asked for {} times", near->first, name, asked),
