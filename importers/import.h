@@ -1,5 +1,5 @@
 // Pipelines that were written for other programs, as graphs: ISF files (Interactive Shader Format, versions 1 and 2) and user
-// shaders of mpv (docs/importing.md). What cannot be mapped is refused with a place and a code (W220 to W226). `weft check`
+// shaders of mpv (docs/importing.md); and graphs of the language's first edition. What cannot be mapped is refused with a place and a code (W220 to W226). `weft check`
 // checks the graph that comes out.
 #pragma once
 
@@ -63,5 +63,12 @@ std::optional<Converted> convertIsf(const IsfSource& source, const ConvertOption
 // the start and back at the end.
 std::optional<Converted> convertMpv(std::string_view text, const std::string& file,
                                     const ConvertOptions& options, text::Diagnostics& diagnostics);
+
+// The text of a graph file as `weft format` writes it: laid out (engine/text/json/edit.h), and a file that was written before the
+// language's second edition in its words. Each pass that is "like" one above it is written out whole: what it has of the other
+// stands in the place of "like", without comments. Inputs move from "resources" to "inputs", with their comments; each '?' at a
+// slot that reads an optional input goes; an `if` at a slot that reads becomes alternatives, except in a pass with "repeat". What
+// cannot be decided stays as it is. `text` is what parseJson takes without a report.
+std::string layoutGraph(std::string_view text);
 
 }  // namespace weft::importing

@@ -3,7 +3,6 @@
 
 #include "app/commands/commands.h"
 #include "engine/assets/images/image.h"
-#include "engine/graph/edit/edit.h"
 #include "engine/graph/language/names.h"
 #include "engine/graph/read/read.h"
 #include "engine/text/json/dom.h"
@@ -31,7 +30,7 @@ void formatFile(const std::string& path, bool checkOnly, text::Diagnostics& diag
   const std::size_t before = diagnostics.errorCount();
   if (text) text::parseJson(*text, file, diagnostics);
   if (!text || diagnostics.errorCount() > before) return;
-  const std::string laid = graph::layoutGraph(*text);
+  const std::string laid = importing::layoutGraph(*text);
   if (laid == *text) return;
   if (checkOnly) {
     const auto same = std::ranges::mismatch(*text, laid).in1;

@@ -58,11 +58,4 @@ void eachPass(const GraphDesc& desc, const Visit& visit) {
   });
 }
 
-// The text of a graph file as `weft format` writes it: laid out (engine/text/json/edit.h), and a file that was written before the
-// language's second edition in its words. Each pass that is "like" one above it is written out whole: what it has of the other
-// stands in the place of "like", without comments. Inputs move from "resources" to "inputs", with their comments; each '?' at a
-// slot that reads an optional input goes; an `if` at a slot that reads becomes alternatives, except in a pass with "repeat". What
-// cannot be decided stays as it is. `text` is what parseJson takes without a report.
-std::string layoutGraph(std::string_view text);
-
 }  // namespace weft::graph

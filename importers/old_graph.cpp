@@ -1,4 +1,4 @@
-// Declared in edit.h.
+// Graphs of the language's first edition. Declared in import.h.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "engine/graph/edit/edit.h"
 #include "engine/graph/language/names.h"
 #include "engine/text/json/edit.h"
+#include "importers/import.h"
 
-namespace weft::graph {
+namespace weft::importing {
 
 namespace {
 
@@ -98,10 +98,10 @@ void mendSlots(Node& resources, Node& passes) {
     Item* slots = stanza.value.find("read");
     if (!slots || slots->value.kind != Node::Kind::object) continue;
     for (Item& slot : slots->value.items) {
-      std::string_view ref = trimmed(slot.value.word());
+      std::string_view ref = graph::trimmed(slot.value.word());
       const bool may = ref.ends_with('?');
-      if (may) ref = trimmed(ref.substr(0, ref.size() - 1));
-      const std::string name(dottedNameIn(ref));
+      if (may) ref = graph::trimmed(ref.substr(0, ref.size() - 1));
+      const std::string name(graph::dottedNameIn(ref));
       const std::size_t at = ref.find(" if ");
       const Item* pass = stanza.value.find("name");
       std::string mended(ref);
@@ -115,7 +115,7 @@ void mendSlots(Node& resources, Node& passes) {
         made.key = headOf(list);
         made.value.kind = Node::Kind::array;
         made.value.items.emplace_back().value.line =
-            text::quoteJson(name + " if " + std::string(trimmed(ref.substr(at + 4))));
+            text::quoteJson(name + " if " + std::string(graph::trimmed(ref.substr(at + 4))));
         mended = list + std::string(ref.substr(name.size(), at - name.size())) + (may ? " ?" : "");
       } else if (!may || !optional.contains(name)) {
         continue;
@@ -169,4 +169,4 @@ std::string layoutGraph(std::string_view text) {
   });
 }
 
-}  // namespace weft::graph
+}  // namespace weft::importing

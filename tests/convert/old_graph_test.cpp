@@ -1,10 +1,10 @@
 #include <doctest/doctest.h>
 
-#include "engine/graph/edit/edit.h"
 #include "engine/graph/read/read.h"
+#include "importers/import.h"
 
 using namespace weft;
-using namespace weft::graph;
+using namespace weft::importing;
 
 namespace {
 
@@ -41,7 +41,7 @@ TEST_CASE("inputs move to their list, with their comments") {
 )J");
   CHECK(laidOut(made) == made);
   text::Diagnostics said;
-  readGraphText(made, "test.json", said);
+  graph::readGraphText(made, "test.json", said);
   CHECK_MESSAGE(said.empty(), said.text());
 }
 
