@@ -128,7 +128,7 @@ text::Place Text::placeOf(std::size_t offset) const {
 }
 
 const text::JsonTree& Text::json() const {
-  if (!json_) json_ = text::parseJsonTree(bytes_);
+  if (!json_) json_ = text::parseJsonTree(isLarge() ? std::string_view() : bytes_);
   return *json_;
 }
 

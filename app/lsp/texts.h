@@ -15,6 +15,7 @@
 #include "engine/imports/files.h"
 #include "engine/text/files/file.h"
 #include "engine/text/json/dom.h"
+#include "engine/text/limits.h"
 
 namespace weft::app::lsp {
 
@@ -71,6 +72,11 @@ class Text {
   // Where Weft counts lines and bytes, both from 1.
   text::Place placeOf(std::size_t offset) const;
 
+  // Nothing is said of what such a text holds: an editor asks at each key.
+  bool isLarge() const { return bytes_.size() > text::raised(kMaxBytes); }
+  static constexpr std::uint64_t kMaxBytes = 1 << 20;
+
+  // Empty for a large text.
   const text::JsonTree& json() const;
   // GLSL as it stands: the words outside comments and the paths of includes, and what all branches of every #if declare.
   const std::vector<GlslWord>& words() const;

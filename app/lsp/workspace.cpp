@@ -72,7 +72,7 @@ bool Workspace::isInFolders(const std::string& path) const {
 // A file with a key that only graphs, overlays and presets have, or one that had it: a mistake may hide it now.
 bool Workspace::isGraph(const std::string& path) const {
   const auto text = path.ends_with(".json") && text::mayRead(path) ? texts_.of(path) : nullptr;
-  if (!text || graphs_.contains(path)) return text != nullptr;
+  if (!text || text->isLarge() || graphs_.contains(path)) return text != nullptr;
   constexpr const char* kKeys[] = {"passes", "resources", "parameters", "let",
                                    "set",    "extends",   "present",    "outputs"};
   const JsonValue& root = text->json().root;
@@ -97,6 +97,14 @@ void Workspace::read(const std::string& path, Graph& graph) {
   const auto isSame = [&](const auto& known) { return texts_.of(known.first) == known.second; };
   if (!graph.texts.empty() && std::ranges::all_of(graph.texts, isSame)) return;
   graph.readSaid.clear();
+  if (const auto text = texts_.of(path); text && text->isLarge()) {
+    graph.texts = {{path, text}};
+    graph.read = graph.desc = nullptr;
+    text::reportLimit(graph.readSaid, {path, 1, 1}, "the file is too large to be looked at in an editor",
+                      Text::kMaxBytes, "bytes", text->bytes().size())
+        .hint += ", or check it by `weft check`";
+    return;
+  }
   graph.read = graph::readGraph(path, graph.readSaid);
   if (graph.read || !graph.desc) graph.texts.clear();
   graph.texts[path];

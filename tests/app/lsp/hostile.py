@@ -169,6 +169,23 @@ def check_shader_memory(weft, report, folder):
     editor.end()
 
 
+def check_large(weft, report, folder):
+    """A file of 10 MB has one message, its limit, and what is typed in it costs nothing more; below the limit it is looked at."""
+    editor = Editor(weft, folder)
+    editor.ask("initialize", {"capabilities": {}, "rootUri": None})
+    editor.open("large.json", '{"resources": [' + ",".join(["1"] * 5_000_000) + "]}")
+    editor.settle("large.json")
+    said = [d["code"] for d in editor.published["large.json"]["diagnostics"]]
+    report.check(said == ["W201"], f"10 MB: {said}")
+    answer = editor.ask("textDocument/completion", editor.at("large.json", "0:5"))
+    report.check("result" in answer, f"completion in 10 MB: {answer}")
+    editor.change("large.json", [(None, '{"resources": []}')])
+    editor.settle("large.json")
+    said = [d["code"] for d in editor.published["large.json"]["diagnostics"]]
+    report.check(said and "W201" not in said, f"17 bytes: {said}")
+    editor.end()
+
+
 def check_typing(weft, report, folder):
     """A graph as it is typed: its beginning up to any byte has an error at a line of it, a mistake before all else hides no message, and passes below an open comment are known."""
     editor = Editor(weft, folder)
@@ -224,7 +241,7 @@ def check_typing(weft, report, folder):
 def main():
     weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
     with temporary_folder() as folder:
-        for name, check in (("bounds", check_bounds), ("hints", check_hints), ("memory", check_shader_memory), ("typing", check_typing), ("odd", check_hostile)):
+        for name, check in (("bounds", check_bounds), ("hints", check_hints), ("memory", check_shader_memory), ("typing", check_typing), ("large", check_large), ("odd", check_hostile)):
             pathlib.Path(folder, name).mkdir()
             check(weft, report, pathlib.Path(folder, name).resolve())
     report.end()
