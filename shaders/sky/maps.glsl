@@ -12,13 +12,18 @@ uniform sampler2D blurred;
 #endif
 #endif
 
-#if defined HAS_SKY_TURN || defined HAS_BLUR
+#if defined HAS_SKY_TURN || defined HAS_BLUR || defined HAS_ELEVATION
 layout(std140) uniform Parameters {
 #ifdef HAS_SKY_TURN
   float sky_turn;
 #endif
 #ifdef HAS_BLUR
   float blur;
+#endif
+#ifdef HAS_ELEVATION
+  float elevation;
+  float azimuth;
+  float turbidity;
 #endif
 };
 #endif
