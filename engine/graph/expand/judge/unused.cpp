@@ -26,13 +26,6 @@ void warnAt(Model& model, const Place& place, std::string message, std::string h
        {.hint = std::move(hint), .resource = resource});
 }
 
-// Whether an instance of a file that is included more than once is named, too, when `own` is not.
-template <class Things, class Thing>
-bool isNamed(const Things& all, const Thing& own) {
-  return own.named ||
-         std::ranges::any_of(all, [&](const Thing& each) { return each.desc == own.desc && each.named; });
-}
-
 // ---- parameters and lets ----
 
 void warnOfVariables(Model& model) {

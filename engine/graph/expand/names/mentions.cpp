@@ -44,17 +44,19 @@ class MentionWalk {
 
  private:
   static constexpr std::uint32_t kUnknown = kNone - 1;
+  using Asked = Model::Asked::Kind;
 
   // What no expression and no reference asks for.
   void askForOthers(Scope& scope) {
     const GraphDesc& desc = *scope.desc;
     for (const SetDesc& set : desc.sets)
       if (parametersMeant(model_, scope.prefix, set.name).empty())
-        model_.unknownVariables.emplace_back(&scope,
-                                             std::string_view(set.name).substr(set.name.rfind('.') + 1));
-    if (scope.parent)
-      for (const ResourceDesc& input : desc.resources)
-        if (input.kind == ResourceDesc::Kind::input) askForInput(scope, input);
+        ask(Asked::variable, scope, std::string_view(set.name).substr(set.name.rfind('.') + 1));
+    for (const ResourceDesc& input : desc.resources)
+      if (scope.parent && input.kind == ResourceDesc::Kind::input && !input.optional)
+        if (const std::uint32_t own = find(scope, input.name, false); behind(own) == kNone)
+          if (const Behind from = behindInput(model_, model_.entities[own]); !from.bind)
+            ask(Asked::resource, *from.scope, input.name);
   }
 
   void add(Scope& scope, const Expr& expr, bool structural) {
@@ -75,7 +77,7 @@ class MentionWalk {
       if (asks_ && found.kind == Variable::Kind::none)
         visitNodes(*expr.root(), [&](const ExprNode& node) {
           if (node.op == ExprOp::variable && node.name == name)
-            model_.unknownVariables.emplace_back(&scope, name);
+            ask(name.find('.') == std::string::npos ? Asked::variable : Asked::pass, scope, name);
         });
       if (found.kind == Variable::Kind::ambiguous)
         for (const std::uint32_t each : parametersMeant(model_, scope.prefix, name))
@@ -86,13 +88,13 @@ class MentionWalk {
       if (found != kNone)
         mark(found, false);
       else if (!name.starts_with('@') && (fact != Fact::has || !findAskedPass(scope, name).first))
-        ask(scope, name, 1);
+        ask(Asked::resource, scope, name);
     }
   }
 
   void add(Scope& scope, const RefDesc& ref) {
     const std::uint32_t named = find(scope, ref.name, ref.import), found = mark(named, ref.history > 0);
-    if (named == kNone && !ref.import) ask(scope, ref.name, 1);
+    if (named == kNone && !ref.import) ask(Asked::resource, scope, ref.name);
     if (found == kNone || ref.import) return;
     Entity& entity = model_.entities[found];
     entity.levels.add(ref.mip);
@@ -101,36 +103,22 @@ class MentionWalk {
   }
 
   // Nothing has the name.
-  void ask(Scope& scope, std::string_view name, int times) {
-    if (!asks_) return;
-    const Scope& in = scopeOf(scope, name);
-    model_.unknown[{&in, std::string(firstPart(name))}] += times;
-  }
-
-  // The includer is asked for what it does not bind.
-  void askForInput(const Scope& scope, const ResourceDesc& input) {
-    Scope& parent = *scope.parent;
-    const auto& binds = scope.stanza->include->binds;
-    if (std::ranges::any_of(binds, [&](const auto& bind) { return bind.first == input.name; })) return;
-    const auto askIn = [&](Scope& in) {
-      if (!in.resources.contains(input.name)) ask(in, input.name, input.optional ? 0 : 1);
-    };
-    for (const auto& [own, ref] : binds)
-      if (Scope* const include = includeBound(parent, own, ref)) askIn(*include);
-    askIn(parent);
+  void ask(Asked kind, Scope& scope, std::string_view name) {
+    Scope& in = kind == Asked::resource ? scopeOf(scope, name) : scope;
+    const bool unread =
+        kind == Asked::resource ? isUnread(in, firstPart(name)) : model_.toInclude || isUnread(in, name);
+    if (asks_ && !unread) model_.asked.push_back({kind, &in, firstPart(name)});
   }
 
   // What a name means as it is written: an input is itself. kNone for what no file declares.
-  std::uint32_t find(const Scope& scope, std::string_view name, bool import) const {
+  std::uint32_t find(Scope& scope, std::string_view name, bool import) const {
     if (name.starts_with('@')) return find(scope, name.substr(1), true);
-    for (const Scope* at = &scope; at; at = import ? at->parent : nullptr)
+    import = import && name.find('.') == std::string_view::npos;
+    for (const Scope* at = &scopeOf(scope, name); at; at = import ? at->parent : nullptr)
       if (const auto found = at->resources.find(name); found != at->resources.end())
         if (!import || model_.entities[found->second].kind == ResourceDesc::Kind::import)
           return found->second;
-    const std::size_t dot = name.find('.');
-    if (dot == std::string_view::npos) return kNone;
-    const auto child = scope.includes.find(name.substr(0, dot));
-    return child == scope.includes.end() ? kNone : find(*child->second, name.substr(dot + 1), false);
+    return kNone;
   }
 
   // An input, and all that is bound to it, the last of which is returned; of what is looked back at also what the list may mean.
@@ -144,24 +132,16 @@ class MentionWalk {
         for (const RefDesc& ref : entity.desc->alternatives)
           mark(find(*entity.scope, ref.name, ref.import), true);
       if (entity.kind != ResourceDesc::Kind::input || !entity.scope->parent) return index;
-      if (behind_[index] == kUnknown) behind_[index] = findBehind(entity);
-      index = behind_[index];
+      index = behind(index);
     }
     return kNone;
   }
 
-  // What an include binds to an input, or has of its name.
-  std::uint32_t findBehind(const Entity& input) const {
-    Scope& parent = *input.scope->parent;
-    const std::string& name = input.desc->name;
-    const auto& binds = input.scope->stanza->include->binds;
-    if (const auto bound = std::ranges::find(binds, name, &std::pair<std::string, RefDesc>::first);
-        bound != binds.end() && !includeBound(parent, name, bound->second))
-      return find(parent, bound->second.name, bound->second.import);
-    for (const auto& [own, ref] : binds)
-      if (const Scope* all = includeBound(parent, own, ref))
-        if (const std::uint32_t found = find(*all, name, false); found != kNone) return found;
-    return find(parent, name, false);
+  std::uint32_t behind(std::uint32_t input) {
+    std::uint32_t& known = behind_[input];
+    if (known != kUnknown) return known;
+    const Behind from = behindInput(model_, model_.entities[input]);
+    return known = find(*from.scope, from.name, from.import);
   }
 
   Model& model_;
@@ -172,7 +152,6 @@ class MentionWalk {
 }  // namespace
 
 void noteMentions(Model& model, bool unknown) {
-  if (unknown && std::exchange(model.unknownNoted, true)) return;
   MentionWalk walk(model, unknown);
   for (Scope& scope : model.scopes) walk.add(scope);
 }

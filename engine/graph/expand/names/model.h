@@ -236,11 +236,15 @@ struct Model {
   // What names of `name.…` begin with where the file includes nothing under it: one report is enough.
   std::set<std::pair<const Scope*, std::string>> unincluded{};
   std::deque<Expr> matrixColumns{};  // of parameters that are a matrix of an import
-  // What the files ask for and nothing has. Of resources the first part of what is left of the name in the scope that should have
-  // it, and how often; who can do without asks 0 times. Of variables who asks, once for each expression and "set".
-  std::map<std::pair<const Scope*, std::string>, int> unknown{};
-  std::vector<std::pair<const Scope*, std::string_view>> unknownVariables{};
-  bool unknownNoted = false;
+  // What the files ask for and nothing has, once for each use: resources in the scope that should have them, variables and passes of
+  // "$pass.parameter" in the scope that asks. Of a dotted name the first part.
+  struct Asked {
+    enum class Kind : std::uint8_t { resource, variable, pass };
+    Kind kind;
+    Scope* scope;
+    std::string_view name;
+  };
+  std::vector<Asked> asked{};
   std::deque<std::string> misspelt{};  // names that files use of what is declared under a misspelt one
   bool mended = false;                 // mendDeclarations() was called
   bool incomplete = false;             // the reader left something out for its mistakes

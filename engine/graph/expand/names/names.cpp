@@ -79,76 +79,14 @@ std::optional<Value> letValue(Names& user, Let& let) {
   return let.value;
 }
 
-bool sees(const Scope& a, const Scope& b) {
-  return a.prefix.starts_with(b.prefix) || b.prefix.starts_with(a.prefix);
-}
-
-// In the file of the declaration, and where it is found from below.
-void alsoCall(Model& model, Scope& from, std::string_view name, const Variable& meant) {
-  from.variables.try_emplace(model.misspelt.emplace_back(name), meant);
-  for (Scope* outer = from.parent; outer; outer = outer->parent) outer->below[std::string(name)] = meant;
-}
-
-// The parameters of a pass are asked for by another name of the pass.
-Variable passMeant(Model& model, Scope& user, std::string_view name) {
-  const std::string_view pass = firstPart(name), leaf = name.substr(pass.size());
-  for (Scope& from : model.scopes)
-    for (const auto& [near, stanza] : from.passes) {
-      const auto meant = from.variables.find(std::string(near).append(leaf));
-      if (leaf.empty() || meant == from.variables.end() || !sees(from, user)) continue;
-      const auto asked = std::ranges::count_if(model.unknownVariables, [&](const auto& each) {
-        return firstPart(each.second) == pass && sees(*each.first, from);
-      });
-      if (asked < 2 || text::editDistance(near, pass, 1) > 1) continue;
-      report(model, Code::unknownVariable, stanza->namePlace,
-             fmt::format("parameters of the pass '{}' are asked for as '${}.…' {} times", near, pass, asked),
-             {.hint = fmt::format("did you mean '{}'?", pass)});
-      const Variable found = meant->second;
-      for (const auto& [path, variable] : KnownNames<Variable>(from.variables))
-        if (firstPart(path) == near)
-          alsoCall(model, from, std::string(pass).append(path.substr(near.size())), variable);
-      return found;
-    }
-  return {};
-}
-
 }  // namespace
 
-Variable declarationMeant(Model& model, Scope& user, std::string_view name) {
-  noteMentions(model, true);
-  for (Scope& from : model.scopes) {
-    if (!sees(from, user)) continue;
-    const auto near = std::ranges::find_if(from.variables, [&](const auto& each) {
-      return each.first.find('.') == std::string_view::npos && text::editDistance(each.first, name, 1) <= 1;
-    });
-    if (near == from.variables.end()) continue;
-    const Variable meant = near->second;
-    const auto asks = [&](const auto& asked) { return asked.second == name && sees(*asked.first, from); };
-    const auto asked = std::ranges::count_if(model.unknownVariables, asks);
-    const bool let = meant.kind == Variable::Kind::let;
-    // In any of the places where the file is included.
-    const auto isNamed = [&](const auto& all) {
-      return std::ranges::any_of(
-          all, [&](const auto& each) { return each.desc == all[meant.index].desc && each.named; });
-    };
-    if (asked < 2 || (let ? isNamed(model.lets) : isNamed(model.parameters))) continue;
-    report(model, Code::unknownVariable,
-           let ? model.lets[meant.index].desc->place : model.parameters[meant.index].desc->place,
-           fmt::format("nothing reads '${}', and '${}' is asked for {} times", near->first, name, asked),
-           {.hint = fmt::format("did you mean '{}'?", name)});
-    alsoCall(model, from, name, meant);
-    return meant;
-  }
-  return passMeant(model, user, name);
-}
-
 std::optional<Value> Names::variable(std::string_view name) {
-  Variable found = findVariable(model_, scope_, name);
+  const Variable found = findVariable(model_, scope_, name);
   if (found.kind == Variable::Kind::none) {
     if (model_.toInclude || isUnread(scope_, name)) return Value{};
-    found = declarationMeant(model_, scope_, name);
+    return mendDeclarations(model_) ? variable(name) : std::nullopt;
   }
-  if (found.kind == Variable::Kind::none) return std::nullopt;
   if (found.kind == Variable::Kind::parameter) return model_.parameters[found.index].value;
   if (found.kind == Variable::Kind::ambiguous) {
     std::vector<std::string> all;

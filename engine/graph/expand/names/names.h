@@ -49,8 +49,10 @@ std::uint32_t findFileView(Model& model, Scope& scope);
 std::uint32_t findBoundImport(Model& model, const Scope& scope, std::string_view name);
 // The import of a kind that is declared under a name, or bound to it, here or in an enclosing file: an entity. kNone: there is none.
 std::uint32_t findDeclared(Model& model, Scope& scope, std::string_view name, ImportKind kind);
-// A resource that nothing names, while what is named more than once is not there and one slip away, is one mistake, at the
-// declaration: it is reported, and found by that name, too. True when it was done now: then a name may be found after all.
+// A declaration that nothing names, while what is named more than once is not there and one slip away, is one mistake, at the
+// declaration: it is reported, and found by that name, too. So is a pass whose parameters are asked for as "$pass.parameter". Files ask
+// for variables of their own, of files that include them, and of those that they include. True when it was done now: then a name may
+// be found after all.
 bool mendDeclarations(Model& model);
 // As findEntity(), for the name that a fact asks of; it may be that of a pass.
 std::uint32_t findAsked(Model& model, Scope& scope, std::string_view name);
@@ -59,6 +61,15 @@ std::uint32_t findAsked(Model& model, Scope& scope, std::string_view name);
 std::pair<const PassDesc*, Scope*> findAskedPass(Scope& scope, std::string_view name);
 // "post" of "post.hdr".
 std::string_view firstPart(std::string_view name);
+// Where what stands behind an input is looked for: what the include binds to it, else what has its name in an include that is bound
+// whole, else in the including file, which there is.
+struct Behind {
+  Scope* scope;
+  std::string_view name;
+  bool import = false;
+  const RefDesc* bind = nullptr;
+};
+Behind behindInput(const Model& model, const Entity& input);
 // Follows the prefixes of a dotted name into the files that are included under them; `name` gets what is left.
 Scope& scopeOf(Scope& scope, std::string_view& name);
 // The scope of the include that an entry of "bind" names whole, for all inputs that have its names; null for another entry.
@@ -69,18 +80,13 @@ std::vector<std::string> resourceNames(const Model& model, const Scope& scope);
 bool isUnread(const Scope& from, std::string_view name);
 
 Variable findVariable(Model& model, Scope& scope, std::string_view name);
-// What a name that nothing has stands for when it is the declaration of a parameter or let, an edit away, that is misspelt:
-// nothing reads it under its own name, and more than one expression or "set" asks for `name`. That is one mistake, which is
-// reported at the declaration. So is a pass whose parameters are asked for as "pass.parameter". Files ask for what they declare,
-// what those declare that include them, and what those declare that they include.
-Variable declarationMeant(Model& model, Scope& user, std::string_view name);
 // The parameters, of those whose path begins with `prefix`, that `name` may mean: the one that is called so, else all whose
 // dotted name ends in it.
 std::vector<std::uint32_t> parametersMeant(const Model& model, std::string_view prefix,
                                            std::string_view name);
 // Notes what the expressions and references of all files name, whatever the conditions say now; parameters that decide more
-// than the values of uniforms become structural. buildScopes() calls it; whoever finds a mistake, again for what nothing has,
-// Model::unknown, which is noted once (mentions.cpp).
+// than the values of uniforms become structural. buildScopes() calls it; mendDeclarations() again for what nothing has, Model::asked
+// (mentions.cpp).
 void noteMentions(Model& model, bool unknown = false);
 // Marks every parameter that `expr` depends on, directly or through lets, as structural.
 void markStructural(Model& model, Scope& scope, const Expr& expr);
@@ -95,6 +101,13 @@ bool countsElements(Model& model, Scope& scope, const Expr& expr);
 // Checks the names (variables, choices, resources) in all branches, also in those that are not taken.
 // `repeat`: of the pass, whose indices are bare.
 void checkExpr(Model& model, Scope& scope, const Expr& expr, std::span<const RangeDesc> repeat = {});
+
+// Whether something names `own`, perhaps in another instance of a file that is included more than once.
+template <class Things, class Thing>
+bool isNamed(const Things& all, const Thing& own) {
+  return own.named ||
+         std::ranges::any_of(all, [&](const Thing& each) { return each.desc == own.desc && each.named; });
+}
 
 // ---- values (names.cpp) ----
 

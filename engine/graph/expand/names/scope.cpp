@@ -260,29 +260,18 @@ void buildScopes(Model& model) {
 
 namespace {
 
-// What the includer binds to an input, or what it has of its name; the input itself, which becomes a list of none, where it may
-// be left out. kNone after a report.
+// What stands behind an input; the input itself, which becomes a list of none, where it may be left out. kNone after a report.
 std::uint32_t boundTo(Model& model, Entity& input, std::uint32_t index) {
   Scope* const parent = input.scope->parent;
   const std::string& name = input.desc->name;
-  const RefDesc* bind = nullptr;
-  Scope* all = nullptr;  // an include whose resource of the name is bound
-  const auto findBind = [&] {
-    for (const auto& [own, ref] : input.scope->stanza->include->binds) {
-      Scope* const include = includeBound(*parent, own, ref);
-      if (!include && own == name) bind = &ref;
-      if (include && !all && hasOwn(model, *include, name)) all = include;
-    }
-  };
-  if (parent) findBind();
-  const RefDesc* sample = nullptr;
-  std::uint32_t target = bind ? findEntityOrReport(model, *parent, *bind, "\"bind\"", "names", {}, &sample)
-                         : parent ? findEntity(model, all ? *all : *parent, name, false, &sample)
-                                  : kNone;
-  if (target == kNone && !bind && parent && !input.desc->optional && mendDeclarations(model)) {
-    findBind();
-    target = findEntity(model, all ? *all : *parent, name, false, &sample);
-  }
+  const Behind from = parent ? behindInput(model, input) : Behind{};
+  const RefDesc *const bind = from.bind, *sample = nullptr;
+  const std::uint32_t target =
+      bind     ? findEntityOrReport(model, *parent, *bind, "\"bind\"", "names", {}, &sample)
+      : parent ? findEntity(model, *from.scope, name, false, &sample)
+               : kNone;
+  if (target == kNone && !bind && parent && !input.desc->optional && mendDeclarations(model))
+    return boundTo(model, input, index);
   if (!input.sample) input.sample = sample;
   if (target != kNone) return target;
   // One of the includer's own that has nothing behind it was reported there, as was a file that cannot be read and may have one, and
@@ -330,6 +319,18 @@ std::uint32_t findImport(Model& model, const Scope& from, std::string_view name)
 }
 
 }  // namespace
+
+Behind behindInput(const Model& model, const Entity& input) {
+  Scope& parent = *input.scope->parent;
+  const std::string& name = input.desc->name;
+  Behind behind{&parent, name};
+  for (const auto& [own, ref] : input.scope->stanza->include->binds) {
+    Scope* const include = includeBound(parent, own, ref);
+    if (!include && own == name) return {&parent, ref.name, ref.import, &ref};
+    if (include && behind.scope == &parent && hasOwn(model, *include, name)) behind.scope = include;
+  }
+  return behind;
+}
 
 std::string_view firstPart(std::string_view name) {
   return name.substr(0, name.find('.'));
@@ -379,31 +380,68 @@ std::vector<std::string> resourceNames(const Model& model, const Scope& scope) {
   return names;
 }
 
-bool mendDeclarations(Model& model) {
+namespace {
+
+bool sees(const Scope& a, const Scope& b) {
+  return a.prefix.starts_with(b.prefix) || b.prefix.starts_with(a.prefix);
+}
+
+// The name that a misspelt declaration is meant to have, after a report; null when it is not misspelt.
+const std::string* nameMeant(Model& model, Model::Asked::Kind kind, const Scope& scope, std::string_view name,
+                             const Place& place) {
   constexpr std::size_t kShortest = 3;  // shorter names are near to each other by chance
+  const bool resource = kind == Model::Asked::Kind::resource;
+  const auto isNear = [&](const Model::Asked& each) {
+    return each.kind == kind && each.name.size() >= kShortest &&
+           text::editDistance(each.name, name, 1) <= 1 &&
+           (resource ? each.scope == &scope && !scope.includes.contains(each.name)
+                     : sees(*each.scope, scope));
+  };
+  std::map<std::string_view, int> asked;
+  for (const Model::Asked& each : model.asked) asked[each.name] += isNear(each) ? 1 : 0;
+  const auto meant = std::ranges::find_if(asked, [](const auto& each) { return each.second > 1; });
+  if (meant == asked.end() || isOver(model)) return nullptr;
+  report(model, resource ? Code::unknownResource : Code::unknownVariable, place,
+         fmt::format("nothing names '{}', and '{}', which is not there, is named {} times", name,
+                     meant->first, meant->second),
+         {.hint = fmt::format("did you mean '{}'?", meant->first),
+          .resource = resource ? std::string(name) : ""});
+  const std::string& known = model.misspelt.emplace_back(meant->first);
+  std::erase_if(model.asked, [&](const auto& each) { return each.name == known && isNear(each); });
+  return &known;
+}
+
+}  // namespace
+
+bool mendDeclarations(Model& model) {
+  using enum Model::Asked::Kind;
   if (std::exchange(model.mended, true)) return false;
   noteMentions(model, true);
   for (Scope& scope : model.scopes) {
-    std::vector<std::string> unknown;  // in the order of the alphabet
-    for (auto at = model.unknown.lower_bound({&scope, ""});
-         at != model.unknown.end() && at->first.first == &scope; ++at)
-      if (const std::string& name = at->first.second; at->second > 1 && name.size() >= kShortest &&
-                                                      !scope.includes.contains(name) &&
-                                                      !isUnread(scope, name))
-        unknown.push_back(name);
-    for (const ResourceDesc& resource : scope.desc->resources) {
-      if (isOver(model)) return true;
-      if (model.entities[scope.resources.at(resource.name)].named) continue;
-      const auto meant = std::ranges::find_if(
-          unknown, [&](const std::string& name) { return text::editDistance(name, resource.name, 1) <= 1; });
-      if (meant == unknown.end()) continue;
-      report(model, Code::unknownResource, resource.place,
-             fmt::format("nothing names the resource '{}', and the resource '{}' is not there", resource.name,
-                         *meant),
-             {.hint = fmt::format("did you mean '{}'?", *meant), .resource = resource.name});
-      scope.resources.try_emplace(model.misspelt.emplace_back(*meant), scope.resources.at(resource.name));
-      unknown.erase(meant);
+    // In the file of the declaration, and where it is found from below.
+    const auto alsoCall = [&](std::string_view name, const Variable& found) {
+      scope.variables.try_emplace(name, found);
+      for (Scope* outer = scope.parent; outer; outer = outer->parent) outer->below[std::string(name)] = found;
+    };
+    for (const ResourceDesc& each : scope.desc->resources)
+      if (const std::uint32_t index = scope.resources.at(each.name);
+          !isNamed(model.entities, model.entities[index]))
+        if (const auto* name = nameMeant(model, resource, scope, each.name, each.place))
+          scope.resources.try_emplace(*name, index);
+    for (const auto& [own, found] : KnownNames<Variable>(scope.variables)) {
+      const auto mend = [&](const auto& all) {
+        const auto& declared = all[found.index];
+        if (!isNamed(all, declared))
+          if (const auto* name = nameMeant(model, variable, scope, own, declared.desc->place))
+            alsoCall(*name, found);
+      };
+      found.kind == Variable::Kind::let ? mend(model.lets) : mend(model.parameters);
     }
+    for (const auto& [own, stanza] : scope.passes)
+      if (const auto* name = nameMeant(model, pass, scope, own, stanza->namePlace))
+        for (const auto& [path, found] : KnownNames<Variable>(scope.variables))
+          if (firstPart(path) == own && path != own)
+            alsoCall(model.misspelt.emplace_back(*name).append(path.substr(own.size())), found);
   }
   return true;
 }

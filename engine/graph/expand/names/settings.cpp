@@ -100,10 +100,10 @@ Parameter* applySet(Model& model, Scope& scope, const std::string& wanted, const
                     const std::optional<std::string>& path, const Where& by) {
   std::vector<std::uint32_t> found = parametersMeant(model, scope.prefix, wanted);
   if (found.empty() && isUnread(scope, wanted)) return nullptr;
-  if (found.empty())
-    if (const Variable meant =
-            declarationMeant(model, scope, std::string_view(wanted).substr(wanted.rfind('.') + 1));
-        meant.kind == Variable::Kind::parameter)
+  if (found.empty()) mendDeclarations(model);
+  const std::string leaf = wanted.substr(wanted.rfind('.') + 1);
+  if (found.empty() && std::ranges::find(model.misspelt, leaf) != model.misspelt.end())
+    if (const Variable meant = findVariable(model, scope, leaf); meant.kind == Variable::Kind::parameter)
       found = {meant.index};
   if (found.size() != 1) {
     std::vector<std::string> names;
