@@ -22,7 +22,6 @@ void addExplain(CommandLine& line);
 void addDiff(CommandLine& line);
 void addReport(CommandLine& line);
 void addTest(CommandLine& line);
-void addAblate(CommandLine& line);
 void addFuzz(CommandLine& line);
 void addNew(CommandLine& line);
 void addParams(CommandLine& line);

@@ -52,7 +52,7 @@ std::string encodeBase64(std::string_view bytes);
 // The address of a picture that is in the page, without alpha, as a screen shows it; "" for no picture.
 std::string pictureAddress(const assets::Image8& image);
 
-// The page that draws `report`: {"command", "states", …} of a frame, {"cases"} or {"ablation"}; app/report/page.js says what is in
+// The page that draws `report`: {"command", "states", …} of a frame, or {"cases"}; app/report/page.js says what is in
 // them. Nothing after W150, when a file of the page is not there.
 std::optional<std::string> pageOf(const nlohmann::ordered_json& report, std::string_view title,
                                   text::Diagnostics& diagnostics);

@@ -1,5 +1,5 @@
 // The page of `weft report`: draws itself from the JSON in it (app/commands/report_command.cpp says what that holds), with nothing from elsewhere.
-// Of one or two states, a graph and what it is compared with, one is shown at a time. `weft test` and `weft ablate` have pages of their own.
+// Of one or two states, a graph and what it is compared with, one is shown at a time. `weft test` has a page of its own.
 "use strict";
 const report = JSON.parse(document.getElementById("report").textContent);
 const COLUMN = 56, ROW = 20;
@@ -557,7 +557,7 @@ function drawFrame() {
   draw();
 }
 
-// ---- the pages of weft test and weft ablate ----
+// ---- the page of weft test ----
 
 function drawCases() {
   document.body.classList.add("plain");
@@ -578,20 +578,4 @@ function drawCases() {
   }
 }
 
-function drawAblation() {
-  const { graph, sum, table: [titles, ...cells], picture, rows } = report.ablation, page = add(document.body, "main");
-  document.body.classList.add("plain");
-  add(page, "h1", {}, `${graph}: what each pass costs and does`);
-  add(page, "p", {}, sum);
-  add(page, "img", { class: "wide", src: picture, alt: "the whole frame" });
-  const table = add(page, "table"), heads = add(table, "tr");
-  for (const title of [...titles, "without it", "difference"]) add(heads, "th", { scope: "col" }, title);
-  rows.forEach((row, at) => {
-    const line = add(table, "tr");
-    for (const cell of cells[at]) add(line, "td", {}, cell);
-    if (row.needed) add(line, "td", { colspan: 6 }, row.needed);
-    else for (const [source, word] of [[row.picture, "without it"], [row.map, "difference"]]) add(line, "td", {}, add(null, "img", { src: source, alt: word, width: 160 }));
-  });
-}
-
-if (report.cases) drawCases(); else if (report.ablation) drawAblation(); else drawFrame();
+if (report.cases) drawCases(); else drawFrame();

@@ -76,9 +76,6 @@ std::optional<Shot> takeShot(gl::Context& context, const Options& options, const
   }
   writer.tell(diagnostics);
   execution.watch({});
-  if (wish.repeats > 0)
-    shot.milliseconds =
-        measureSteps(renderer, world, options, wish.frames.back() + 1, wish.repeats, diagnostics);
   return shot;
 }
 

@@ -14,7 +14,6 @@ namespace weft::app {
 struct ShotWish {
   std::vector<std::uint32_t> frames = {0};  // ascending; the ones to look at
   bool records = false;                     // of those frames, and of the first that runs
-  std::uint32_t repeats = 0;                // frames to measure behind the last one
   graph::CompileOptions compile{};
   std::optional<runtime::PoisonPattern> poison{};
 };
@@ -35,7 +34,6 @@ struct Shot {
   std::map<std::uint32_t, assets::Image8> pictures;  // RGBA, by frame
   PassRecords records;
   std::shared_ptr<const graph::Plan> plan;
-  std::vector<double> milliseconds;  // of the plan's steps, as measureSteps() has them
 };
 
 // The graph, scene, settings and size of `options`. Empty after errors.

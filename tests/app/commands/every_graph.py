@@ -201,7 +201,7 @@ def run_on_device(sheet, folder, other, shown, runs, texture):
     sheet.graph("check all", "check --all")
     # What presents nothing cannot be shown or compared.
     for column, command, more in (("render", "render", ["--quiet", "-o", f"{folder}/picture.png"]), ("fuzz", "fuzz", ["--runs", "1"]),
-                                  ("report", "report", ["-o", f"{folder}/page.html"]), ("ablate", "ablate", ["--repeats", "1"])):
+                                  ("report", "report", ["-o", f"{folder}/page.html"])):
         sheet.graph(column, command, *more, *SMALL, code=0 if shown else WRONG.get(column, 1))
     check_case(sheet, folder, "test picture", {"size": SMALL[1]}, shown)
     check_view(sheet, True)
@@ -225,7 +225,7 @@ def refuse_on_device(sheet, folder):
     sheet.watching = temporary = pathlib.Path(folder, "watched")
     temporary.mkdir()
     for column, command, more in (("check all", "check --all", []), ("render", "render --quiet", ["-o", f"{left}.png"]), ("dump", "dump", ["*", "-o", left]),
-                                  ("fuzz", "fuzz", ["--runs", "1"]), ("ablate", "ablate", []), ("bisect", "bisect", [])):
+                                  ("fuzz", "fuzz", ["--runs", "1"]), ("bisect", "bisect", [])):
         sheet.graph(column, command, *more, *([] if column == "check all" else SMALL), sound=False)
     sheet.graph("diff render", "diff --render", sheet.path, *SMALL, "-o", left, sound=False)
     check_case(sheet, folder, "test picture", {"size": SMALL[1]}, False)

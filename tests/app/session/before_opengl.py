@@ -33,7 +33,7 @@ def main():
         cases.mkdir()
         (cases / "a.cases.json").write_text(f'{{"cases": [{{"name": "a", "graph": "{pathlib.Path(WRONG).resolve()}", "size": "64x36"}}]}}')
         for code, *command in ((1, "render", WRONG, "-o", f"{folder}/a.png"), (1, "dump", WRONG, "*", "-o", f"{folder}/b"), (2, "fuzz", WRONG),
-                               (1, "ablate", WRONG), (2, "bisect", WRONG), (2, "bisect", GLOW, WRONG), (2, "diff", "--render", WRONG, GLOW), (2, "diff", "--render", GLOW, WRONG)):
+                               (2, "bisect", WRONG), (2, "bisect", GLOW, WRONG), (2, "diff", "--render", WRONG, GLOW), (2, "diff", "--render", GLOW, WRONG)):
             done, found = drivers(weft, *command, *SMALL)
             report.check(done.code == code and done.codes() == ["W004"] and not found, f"{command}: {done.code}, loads {found}\n{done.err}")
         done, found = drivers(weft, "test", cases)

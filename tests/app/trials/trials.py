@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""weft test, bisect, ablate, fuzz and new: exit codes, places of mistakes, what they find and what they leave behind.
+"""weft test, bisect, fuzz and new: exit codes, places of mistakes, what they find and what they leave behind.
 
     trials.py WEFT
 """
@@ -295,22 +295,6 @@ def check_bisect(weft, report, folder):
         report.check(result.code == 2 and [(d["place"], d["code"]) for d in result.diagnostics] == [(f"command line: {option} {text}", code)], f"{option}: {result.code} {result.err}")
 
 
-def check_ablate(weft, report):
-    result = run(weft, "ablate", GLOW, "--size", SIZE, "--repeats", "1", "--format", "json")
-    report.check(result.code == 0, result.err)
-    table = json.loads(result.out)
-    rows = {row["pass"]: row for row in table["passes"]}
-    report.check(list(rows) == ["sky", "glow_prefilter", "glow_down", "glow_up", "composite"], f"{list(rows)}")
-    report.check("needed" in rows["composite"] and "flip" not in rows["composite"], f"{rows['composite']}")
-    up = rows["glow_up"]
-    report.check(up["flip"] > 0 and up["flip_peak"] >= up["flip"] and up["steps_gone"] >= 5, f"{up}")
-    report.check(table["ms"] > 0 and all(row["own_ms"] > 0 for row in rows.values()), f"{table}")
-    text = run(weft, "ablate", GLOW, "--size", SIZE, "--repeats", "1", "--disable", "glow_up").out
-    report.check("glow_up" not in text and "glow_prefilter" in text and "needed" in text, text)
-    page = run(weft, "ablate", GLOW, "--size", SIZE, "--repeats", "1", "--format", "html").out
-    report.check(page.startswith("<!doctype html>") and page.count("data:image/png") == 1 + 2 * sum("flip" in row for row in rows.values()), page[:200])
-
-
 def check_new(weft, report, folder):
     result = run(weft, "new", "pass", "mip", "-o", folder / "word")
     report.check(result.code != 0 and result.codes() == ["W012"] and not (folder / "word").exists(), f"a reserved word: {result.code}\n{result.out}{result.err}")
@@ -349,8 +333,7 @@ def main():
     for check in (check_test, check_defaults, check_mistakes, check_files, check_bisect, check_fuzz, check_new):
         with temporary_folder() as folder:
             check(weft, report, pathlib.Path(folder))
-    check_ablate(weft, report)
-    for command in ("test", "diff", "ablate", "fuzz"):
+    for command in ("test", "diff", "fuzz"):
         help_ = run(weft, command, "--help")
         report.check(help_.code == 0 and f"Example: weft {command}" in help_.out, help_.out)
     report.check("Example: weft new" in run(weft, "new", "pass", "--help").out, "new pass --help")
