@@ -1,4 +1,4 @@
-// Finds the hazards of a plan whose frames follow each other for ever. Declared in steps.h.
+// Which barrier bit each use needs, and the hazards of a plan whose frames follow each other for ever. Declared in steps.h.
 //
 // Two rules make every barrier of a plan:
 //  (a) Between an image or buffer store of a shader and a later use of the same physical sub-resource there must be the
@@ -122,8 +122,7 @@ class RangeMap {
 // How a resource's accesses are followed.
 enum class Mode : std::uint8_t {
   ignored,  // nothing ever stores to its storage: no hazard can touch it
-  single,   // one cell
-  multi,    // one cell per sub-resource
+  plain,    // one row of cells
   history,  // two rows of cells: the copy that is written, and the oldest one
   arena,    // one cell, which takes over what earlier owners of its bytes left
 };
@@ -136,6 +135,7 @@ struct Track {
   std::uint32_t group = kNone;  // the time-sliced group that writes it
   std::uint16_t depth = 0;
   Mode mode = Mode::ignored;
+  bool granular = false;  // a row has a cell per sub-resource, else one
 };
 
 template <class Stamp>
@@ -187,14 +187,10 @@ class Collector {
       const std::uint8_t flags = storage == kNone ? scratch_.flags[r] : storageFlags[storage];
       const bool arena = plan_.bufferOffsetOf[r] != Plan::kNoOffset;
       if (arena ? !arenaStored : (flags & Scratch::kStored) == 0) continue;
-      const std::uint32_t cells =
-          (flags & Scratch::kGranular) != 0 ? subresourceCount(graph_.resources[r]) : 1u;
       track.group = plan_.groups.slicedWriterOf(r);
       track.depth = static_cast<std::uint16_t>(graph_.resources[r].history + (track.group != kNone ? 1 : 0));
-      track.mode = arena                               ? Mode::arena
-                   : track.depth > 0                   ? Mode::history
-                   : (flags & Scratch::kGranular) != 0 ? Mode::multi
-                                                       : Mode::single;
+      track.mode = arena ? Mode::arena : track.depth > 0 ? Mode::history : Mode::plain;
+      track.granular = (flags & Scratch::kGranular) != 0;
       if (arena) anyArena_ = true;
       if (track.mode == Mode::history) histories_.push_back(r);
       if (storage != kNone && storageBase[storage] != kNone) {
@@ -203,13 +199,22 @@ class Collector {
       }
       track.base = next;
       if (storage != kNone) storageBase[storage] = next;
-      next += track.mode == Mode::history ? 2 * cells : cells;
+      next += (track.mode == Mode::history ? 2 : 1) * cellsOf(r);
     }
     cells_.assign(next, {});
   }
 
   std::uint32_t cellsOf(std::uint32_t r) const {
-    return (scratch_.flags[r] & Scratch::kGranular) != 0 ? subresourceCount(graph_.resources[r]) : 1u;
+    return tracks_[r].granular ? subresourceCount(graph_.resources[r]) : 1u;
+  }
+
+  // Calls f(number) for each cell of a row that `use` touches.
+  template <class F>
+  void eachCell(const FlatUse& use, const Track& track, F&& f) const {
+    if (track.granular)
+      forEachSubresource(use, graph_.resources[use.resource], f);
+    else
+      f(0u);
   }
 
   // From the end of one frame to the start of the next. A history resource has rotated by then: what is now
@@ -284,57 +289,30 @@ class Collector {
     return (scratch_.flags[use.resource] & Scratch::kBuffer) != 0;
   }
 
-  // Notes that each of `bits` must come after the last store (any access, for a store).
-  void need(const FlatUse& use, std::uint32_t who, std::uint16_t bits, bool store) {
-    const Track track = tracks_[use.resource];
-    who_ = who;
-    const auto from = [&](const Cell& cell) { require(bits, store ? cell.access : cell.store); };
-    switch (track.mode) {
-      case Mode::ignored:
-        return;
-      case Mode::single:
-      case Mode::arena:
-        from(cells_[track.base]);
-        return;
-      case Mode::multi:
-        forEachSubresource(use, graph_.resources[use.resource],
-                           [&](std::uint32_t s) { from(cells_[track.base + s]); });
-        return;
-      case Mode::history:
-        needHistory(use, bits, store);
-        return;
-    }
-  }
-
   // How far behind the copy that is written the current step looks.
   std::uint32_t ageOf(const FlatUse& use, const Track& track) const {
     return use.history + (track.group != group_ && track.group != kNone ? 1u : 0u);
   }
 
-  void needHistory(const FlatUse& use, std::uint16_t bits, bool store) {
-    const FlatResource& r = graph_.resources[use.resource];
-    const Track& track = tracks_[use.resource];
+  // Notes that each of `bits` must come after the last store (any access, for a store).
+  void need(const FlatUse& use, std::uint32_t who, std::uint16_t bits, bool store) {
+    const Track track = tracks_[use.resource];
+    if (track.mode == Mode::ignored) return;
+    who_ = who;
+    const auto from = [&](const Cell& cell) { require(bits, store ? cell.access : cell.store); };
+    if (track.mode != Mode::history)
+      return eachCell(use, track, [&](std::uint32_t s) { from(cells_[track.base + s]); });
     const auto age = static_cast<std::int32_t>(ageOf(use, track));
-    const std::uint32_t base = tracks_[use.resource].base, count = cellsOf(use.resource);
-    const auto visit = [&](std::uint32_t s) {
-      const Cell& current = cells_[base + s];
-      const Stamp stored = cells_[base + count + s].store;
-      if (age > 0) {
-        require(bits, back(stored, age * circle_));
-      } else if (store) {
-        require(bits, current.access);
-      } else {
-        require(bits, current.store);
-        // In a frame in which every writer is skipped nothing rotates, and the store was in the frame before.
-        if (track.group == kNone && use.access == Access::read && current.store < 0 &&
-            (scratch_.flags[use.resource] & Scratch::kWrittenAlways) == 0)
-          require(bits, back(stored, circle_));
-      }
-    };
-    if (count == 1)
-      visit(0);
-    else
-      forEachSubresource(use, r, visit);
+    // In a frame in which every writer is skipped nothing rotates, and the store was in the frame before.
+    const bool mayStay = !store && track.group == kNone && use.access == Access::read &&
+                         (scratch_.flags[use.resource] & Scratch::kWrittenAlways) == 0;
+    const std::uint32_t oldest = track.base + cellsOf(use.resource);
+    eachCell(use, track, [&](std::uint32_t s) {
+      const Cell& cell = cells_[track.base + s];
+      if (age > 0) return require(bits, back(cells_[oldest + s].store, age * circle_));
+      from(cell);
+      if (mayStay && cell.store < 0) require(bits, back(cells_[oldest + s].store, circle_));
+    });
   }
 
   void require(std::uint16_t bits, Stamp from) {
@@ -361,38 +339,19 @@ class Collector {
   void mark(const FlatUse& use, std::uint32_t who, bool store, std::int32_t position) {
     const Track track = tracks_[use.resource];
     const Stamp access = stampOf<Stamp>(position, who);
-    const auto set = [&](Cell& cell) {
+    if (track.mode == Mode::ignored) return;
+    std::uint32_t row = track.base;
+    if (track.mode == Mode::history) {
+      const std::uint32_t age = ageOf(use, track);
+      if (age != 0 && age != track.depth) return;
+      if (age != 0) row += cellsOf(use.resource);
+      store = store && age == 0;
+    }
+    eachCell(use, track, [&](std::uint32_t s) {
+      Cell& cell = cells_[row + s];
       cell.access = access;
       if (store) cell.store = access;
-    };
-    switch (track.mode) {
-      case Mode::ignored:
-        return;
-      case Mode::single:
-      case Mode::arena:
-        set(cells_[track.base]);
-        return;
-      case Mode::multi:
-        forEachSubresource(use, graph_.resources[use.resource],
-                           [&](std::uint32_t s) { set(cells_[track.base + s]); });
-        return;
-      case Mode::history: {
-        const FlatResource& r = graph_.resources[use.resource];
-        const std::uint32_t count = cellsOf(use.resource);
-        const std::uint32_t age = ageOf(use, track);
-        if (age != 0 && age != track.depth) return;
-        const auto visit = [&](std::uint32_t s) {
-          if (age == 0)
-            set(cells_[track.base + s]);
-          else
-            cells_[track.base + count + s].access = access;
-        };
-        if (count == 1)
-          visit(0);
-        else
-          forEachSubresource(use, r, visit);
-      }
-    }
+    });
   }
 
   // Transient buffers: a first step takes over what was done to its bytes, a last step leaves what it did.

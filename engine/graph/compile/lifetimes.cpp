@@ -32,36 +32,27 @@ void clearCells(const FlatUse& use, const FlatResource& r, Plan& plan, Scratch& 
     }
     return mask;
   };
+  FlatUse clear = wholeUse(use.resource, r, Kind::copy, Access::write);
+  clear.mips = clear.layers = 1;
+  std::vector<FlatUse> row;
   for (std::uint32_t layer = use.layer; layer < std::uint32_t{use.layer} + use.layers; ++layer) {
-    const std::size_t row = plan.clears.size();
+    row.clear();
+    clear.layer = static_cast<std::uint16_t>(layer);
     for (std::uint32_t mip = use.mip; mip < std::uint32_t{use.mip} + use.mips; ++mip) {
-      const std::uint8_t mask = takePlanes(mip, layer);
-      if (mask == 0) continue;
-      if (plan.clears.size() > row) {
-        FlatUse& before = plan.clears.back().use;
-        if (before.planes == mask && before.mip + before.mips == static_cast<int>(mip)) {
-          ++before.mips;
-          continue;
-        }
-      }
-      FlatUse clear = wholeUse(use.resource, r, Kind::copy, Access::write);
       clear.mip = static_cast<std::uint16_t>(mip);
-      clear.mips = 1;
-      clear.layer = static_cast<std::uint16_t>(layer);
-      clear.layers = 1;
-      clear.planes = mask;
-      plan.clears.push_back({clear});
+      clear.planes = takePlanes(mip, layer);
+      if (!row.empty() && row.back().planes == clear.planes && row.back().mip + row.back().mips == clear.mip)
+        ++row.back().mips;
+      else if (clear.planes != 0)
+        row.push_back(clear);
     }
     // A row of one rectangle that continues the rectangle of the layers above it joins it.
-    if (plan.clears.size() == row + 1 && row > first) {
-      const FlatUse clear = plan.clears.back().use;
-      FlatUse& above = plan.clears[row - 1].use;
-      if (above.layer + above.layers == clear.layer && above.mip == clear.mip && above.mips == clear.mips &&
-          above.planes == clear.planes) {
-        ++above.layers;
-        plan.clears.pop_back();
-      }
-    }
+    FlatUse* const above = plan.clears.size() > first ? &plan.clears.back().use : nullptr;
+    if (above && row.size() == 1 && above->layer + above->layers == clear.layer && above->mip == row[0].mip &&
+        above->mips == row[0].mips && above->planes == row[0].planes)
+      ++above->layers;
+    else
+      for (const FlatUse& each : row) plan.clears.push_back({each});
   }
 }
 
