@@ -57,7 +57,8 @@ std::vector<std::string> below(std::span<const std::string> folders, const std::
 }
 
 // For a file that is not there: one of the same name in another folder or of another stage, else one of nearly the same stem.
-std::string hintForFile(const std::string& name, const std::vector<std::string>& names) {
+std::string hintForFile(const std::string& name, std::span<const std::string> roots) {
+  const std::vector<std::string> names = shadersBelow(roots);
   const std::string stem = name.substr(0, name.find('.', name.rfind('/') + 1)) + ".";
   for (const std::string& each : names)
     if (each.ends_with("/" + name) || name.ends_with("/" + each) || each.starts_with(stem))
@@ -245,7 +246,7 @@ class IncludeExpander {
     diagnostics_.error(Code::missingShaderInclude, place, fmt::format("included file '{}' not found", name),
                        {.expected = fmt::format("a file beside the including one or below {}",
                                                 fmt::join(loader_.roots_, ", ")),
-                        .hint = hintForFile(name, loader_.names())});
+                        .hint = hintForFile(name, loader_.roots_)});
     return std::nullopt;
   }
 
@@ -305,11 +306,6 @@ std::shared_ptr<const ShaderSource> SourceLoader::expand(const std::string& key,
   return (cache_[key] = {std::move(source), std::move(stamps)}).source;
 }
 
-const std::vector<std::string>& SourceLoader::names() {
-  if (!names_) names_ = shadersBelow(roots_);
-  return *names_;
-}
-
 std::optional<std::string> SourceLoader::locate(const std::string& path,
                                                 std::set<std::string>* before) const {
   std::vector<std::string> candidates;
@@ -332,7 +328,7 @@ void SourceLoader::reportMissing(const std::string& path, Diagnostics& diagnosti
   diagnostics.error(Code::unreadableShader, place, fmt::format("shader '{}' not found", path),
                     {.expected = roots_.empty() ? "an existing file"
                                                 : fmt::format("a file below {}", fmt::join(roots_, ", ")),
-                     .hint = hintForFile(path, names())});
+                     .hint = hintForFile(path, roots_)});
 }
 
 std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, Diagnostics& diagnostics,

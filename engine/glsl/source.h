@@ -81,10 +81,7 @@ class SourceLoader {
   // Where load() would find `path`, or nullopt. `before` gets the places where it was looked for in vain.
   std::optional<std::string> locate(const std::string& path, std::set<std::string>* before = nullptr) const;
   // Forgets everything (files will be read again).
-  void clear() {
-    cache_.clear();
-    names_.reset();
-  }
+  void clear() { cache_.clear(); }
   const std::vector<std::string>& roots() const { return roots_; }
   // Forgets everything when they are others: names may lead to other files.
   void setRoots(std::vector<std::string> roots) {
@@ -94,10 +91,7 @@ class SourceLoader {
   }
   // The files to watch: every path that was read or looked for since forgetTouched(), whether or not it exists.
   const std::set<std::string>& touched() const { return touched_; }
-  void forgetTouched() {
-    touched_.clear();
-    names_.reset();
-  }
+  void forgetTouched() { touched_.clear(); }
   // Files expanded so far, not answered from the cache.
   std::uint64_t expansions() const { return expansions_; }
 
@@ -111,12 +105,10 @@ class SourceLoader {
   std::shared_ptr<const ShaderSource> expand(const std::string& key, const FileStamp& own,
                                              std::string_view text, text::Diagnostics& diagnostics);
   void reportMissing(const std::string& path, text::Diagnostics& diagnostics, const text::Place& place);
-  const std::vector<std::string>& names();
 
   std::vector<std::string> roots_;
   std::unordered_map<std::string, Entry> cache_;
   std::set<std::string> touched_;
-  std::optional<std::vector<std::string>> names_;  // of the files below the roots, for hints
   std::uint64_t expansions_ = 0;
 };
 
