@@ -108,14 +108,12 @@ class GraphReader {
   // What reads an optional input may do without it.
   void takeOptional(GraphDesc& graph) {
     std::set<std::string_view> optional;
-    std::set<std::pair<std::uint32_t, std::uint32_t>> said;  // where; passes may share a slot
     for (const ResourceDesc& resource : graph.resources)
       if (resource.kind == ResourceDesc::Kind::input && resource.optional) optional.insert(resource.name);
     for (PassDesc& pass : graph.passes)
       for (SlotDesc& slot : pass.slots) {
         if (slot.access == Access::write || slot.ref.import || !optional.contains(slot.ref.name)) continue;
-        if (std::exchange(slot.ref.optional, true) &&
-            said.emplace(slot.ref.place.line, slot.ref.place.column).second)
+        if (std::exchange(slot.ref.optional, true))
           diagnostics_.warning(
               Code::unusedDeclaration, slot.ref.place,
               fmt::format("the '?' of \"{}\" says nothing new: the input is optional", slot.ref.text),

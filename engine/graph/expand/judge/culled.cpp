@@ -236,6 +236,24 @@ void addNames(std::string& message, const char* word, const std::vector<std::str
 
 // ---- what is lost ----
 
+// A pass, and those whose results go into what it makes, directly or through others, by the uses for which follows(use, its source).
+template <class Follows>
+std::vector<bool> findSources(const FlatGraph& graph, std::uint32_t pass, const Follows& follows) {
+  std::vector<bool> found(graph.passes.size(), false);
+  std::vector<std::uint32_t> open{pass};
+  found[pass] = true;
+  while (!open.empty()) {
+    const std::uint32_t next = open.back();
+    open.pop_back();
+    graph.forEachSource(next, [&](std::uint32_t use, std::uint32_t source) {
+      if (found[source] || !follows(use, source)) return;
+      found[source] = true;
+      open.push_back(source);
+    });
+  }
+  return found;
+}
+
 // In order of what a message says before the others.
 enum class Reason : std::uint8_t { overwritten, readerAbove, unread, writesNothing };
 
@@ -351,29 +369,20 @@ void warnOfLosses(Model& model, const Reach& reach, const std::vector<Missed>& m
     if (fresh) losses.push_back(loss);
     return at->second;
   };
-  // Calls f(feeder) for what a pass that does not run reads of others that do not.
-  const auto eachFeeder = [&](std::uint32_t pass, const auto& f) {
-    graph.forEachSource(pass, [&](std::uint32_t, std::uint32_t feeder) {
-      if (feeder != pass && !runs(feeder) && !runs(pass)) f(feeder);
-    });
-  };
   // What only feeds a lost pass is lost with it.
   const auto spread = [&](const Loss& loss) {
     const std::uint32_t at = add(loss);
-    std::vector<std::uint32_t> open{loss.pass};
-    told[loss.pass] = at;
-    while (!open.empty()) {
-      const std::uint32_t pass = open.back();
-      open.pop_back();
-      eachFeeder(pass, [&](std::uint32_t feeder) {
-        if (told[feeder] == kNone) open.push_back(feeder);
-        if (told[feeder] == kNone) told[feeder] = at;
-      });
-    }
+    const std::vector<bool> with = findSources(graph, loss.pass, [&](std::uint32_t, std::uint32_t feeder) {
+      return !runs(loss.pass) && !runs(feeder) && told[feeder] == kNone;
+    });
+    for (std::size_t p = 0; p < with.size(); ++p)
+      if (with[p]) told[p] = at;
   };
   std::vector<bool> feeds(graph.passes.size(), false);
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
-    eachFeeder(p, [&](std::uint32_t feeder) { feeds[feeder] = true; });
+    graph.forEachSource(p, [&](std::uint32_t, std::uint32_t feeder) {
+      if (feeder != p && !runs(feeder) && !runs(p)) feeds[feeder] = true;
+    });
   // A pass that no other lost pass reads is the cause of its own loss. What is left then waits for itself, by a history.
   for (const auto& [p, loss] : lossOf)
     if (reach.isLost(p) && !feeds[p]) spread(loss);
@@ -398,24 +407,6 @@ void warnOfLosses(Model& model, const Reach& reach, const std::vector<Missed>& m
 }
 
 // ---- what stands on the wrong side ----
-
-// The passes whose results go, directly or through others, into what a pass makes; itself among them.
-std::vector<bool> findNeeded(const FlatGraph& graph, std::uint32_t pass) {
-  std::vector<bool> needed(graph.passes.size(), false);
-  std::vector<std::uint32_t> open{pass};
-  needed[pass] = true;
-  while (!open.empty()) {
-    const std::uint32_t next = open.back();
-    open.pop_back();
-    graph.forEachSource(next, [&](std::uint32_t u, std::uint32_t before) {
-      // What is drawn over needs nothing of what is there.
-      if (needed[before] || (graph.uses[u].access == Access::modify && !isStore(graph.uses[u]))) return;
-      needed[before] = true;
-      open.push_back(before);
-    });
-  }
-  return needed;
-}
 
 // The stanzas of an entry of the file, and of `writers`, that are culled without being lost, with what only feeds them.
 std::vector<std::string_view> findCulled(const FlatGraph& graph, const Reach& reach, const std::string& entry,
@@ -458,7 +449,12 @@ void warnMisplaced(Model& model, const Reach& reach, const std::vector<Missed>& 
     if (writer == kNone || reach.live.pass[reader] == 0 || off.nearest(miss.line, false) != kNone) continue;
     const std::string &name = graph.specs[reader].declared, &other = graph.specs[writer].declared;
     const bool begins = graph.slots[graph.specs[reader].firstSlot + miss.slot].useCount > 0;
-    if (name == other || (begins && reach.live.pass[writer] != 0 && findNeeded(graph, writer)[reader]))
+    // What is drawn over needs nothing of what is there.
+    const auto needs = [&](std::uint32_t use, std::uint32_t) {
+      return graph.uses[use].access != Access::modify || isStore(graph.uses[use]);
+    };
+    if (name == other ||
+        (begins && reach.live.pass[writer] != 0 && findSources(graph, writer, needs)[reader]))
       continue;
     auto entries = entriesOf(name, other);
     auto at = std::ranges::find(mistakes, entries, &Mistake::entries);

@@ -218,6 +218,12 @@ bool anyVariable(Model& model, Scope& scope, const Expr& expr, See&& see) {
                              [&](const std::string& name) { return see(findVariable(model, scope, name)); });
 }
 
+bool anyLet(Model& model, Scope& scope, const Expr& expr, bool Let::*flag) {
+  return anyVariable(model, scope, expr, [&](const Variable& used) {
+    return used.kind == Variable::Kind::let && model.lets[used.index].*flag;
+  });
+}
+
 // Sets `flag` of the lets for which `holds`, and of all that use them, perhaps through others. There are at most 256.
 template <class Holds>
 void spread(Model& model, bool Let::*flag, Holds&& holds) {
@@ -225,10 +231,7 @@ void spread(Model& model, bool Let::*flag, Holds&& holds) {
   for (bool more = true; more;) {
     more = false;
     for (Let& let : model.lets)
-      if (!(let.*flag) && anyVariable(model, *let.scope, let.desc->expr, [&](const Variable& used) {
-            return used.kind == Variable::Kind::let && model.lets[used.index].*flag;
-          }))
-        more = let.*flag = true;
+      if (!(let.*flag) && anyLet(model, *let.scope, let.desc->expr, flag)) more = let.*flag = true;
   }
 }
 
@@ -248,11 +251,8 @@ void buildScopes(Model& model) {
   spread(model, &Let::dynamic, [](const Let& let) { return let.desc->expr.dynamic(); });
   spread(model, &Let::watched, [](const Let& let) { return let.desc->expr.watched(); });
   noteMentions(model);
-  spread(model, &Let::live, [&](const Let& let) {
-    return let.watched || anyVariable(model, *let.scope, let.desc->expr, [&](const Variable& used) {
-             return used.kind == Variable::Kind::parameter && !model.parameters[used.index].structural;
-           });
-  });
+  spread(model, &Let::live,
+         [&](const Let& let) { return let.watched || isLive(model, *let.scope, let.desc->expr); });
   linkAlternatives(model);
 }
 
@@ -610,23 +610,17 @@ bool countsElements(Model& model, Scope& scope, const Expr& expr) {
 }
 
 bool isDynamic(Model& model, Scope& scope, const Expr& expr) {
-  return expr.present() && (expr.dynamic() || anyVariable(model, scope, expr, [&](const Variable& used) {
-                              return used.kind == Variable::Kind::let && model.lets[used.index].dynamic;
-                            }));
+  return expr.dynamic() || anyLet(model, scope, expr, &Let::dynamic);
 }
 
 bool isWatched(Model& model, Scope& scope, const Expr& expr) {
-  return expr.present() && (expr.watched() || anyVariable(model, scope, expr, [&](const Variable& used) {
-                              return used.kind == Variable::Kind::let && model.lets[used.index].watched;
-                            }));
+  return expr.watched() || anyLet(model, scope, expr, &Let::watched);
 }
 
 bool isLive(Model& model, Scope& scope, const Expr& expr) {
-  return anyVariable(model, scope, expr, [&](const Variable& used) {
-    return used.kind == Variable::Kind::let         ? model.lets[used.index].live
-           : used.kind == Variable::Kind::parameter ? !model.parameters[used.index].structural
-                                                    : false;
-  });
+  return anyLet(model, scope, expr, &Let::live) || anyVariable(model, scope, expr, [&](const Variable& used) {
+           return used.kind == Variable::Kind::parameter && !model.parameters[used.index].structural;
+         });
 }
 
 void markStructural(Model& model, Scope& scope, const Expr& expr) {
