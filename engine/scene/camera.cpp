@@ -102,6 +102,7 @@ ViewData makeView(const ViewRequest& request) {
   data.eye = glm::vec3(request.pose.position);
   data.previous_eye = glm::vec3(request.previousPose.position);
   data.near_plane = static_cast<float>(request.pose.nearPlane);
+  data.target_distance = static_cast<float>(glm::distance(request.pose.position, request.pose.target));
   data.viewport = glm::vec2(request.viewport);
   data.jitter = request.jitter;
   data.frame = request.frame;

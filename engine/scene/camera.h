@@ -53,7 +53,7 @@ struct ViewData {
   // two projections of a point is its motion, free of jitter.
   glm::mat4 previous_view_projection{1};
   glm::vec3 eye{0}, previous_eye{0};
-  float near_plane = 0.1f;
+  float near_plane = 0.1f, target_distance = 1;
   glm::vec2 viewport{1};  // pixels
   glm::vec2 jitter{0};    // pixels; already in projection
   std::uint32_t frame = 0;

@@ -50,6 +50,7 @@ Columns<scene::ViewData> cameraColumns() {
           "direction", "unit, where it looks, world"),
       column<Row, &Row::near_plane>("near_plane",
                                     "world units before it; depth 1. A perspective has no far plane"),
+      column<Row, &Row::target_distance>("target_distance", "from the eye to what it looks at"),
       column<Row,
              [](const Row& row) {
                const bool perspective = row.projection[2][3] != 0;
