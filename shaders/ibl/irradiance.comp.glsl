@@ -1,6 +1,7 @@
 // Cosine-weighted mean radiance around each direction (irradiance / pi), equirectangular.
 // read   environment  equirectangular with mips, `as linear wrap`
 //        brightest?   see brightest.glsl
+// define ABOVE: of what is above the horizon alone, as the light of a plain without light would be
 // write  result       rgba16f; COLUMNS wide: every row is one work group. a: the mean cosine of the spot's light on the coarse grid: a
 //                     times the spot's irradiance / pi is its part of rgb
 //
@@ -12,7 +13,10 @@
 #include "common/slice.glsl"
 #include "brightest.glsl"
 
-const int kRows = COLUMNS / 2;
+#ifndef ABOVE
+#define ABOVE 0
+#endif
+const int kRows = COLUMNS / 2, kLit = ABOVE == 1 ? kRows / 2 : kRows;  // rows of cells; those that count, from the top
 layout(local_size_x = COLUMNS) in;
 uniform sampler2D environment;
 layout(rgba16f) uniform writeonly image2D result;
@@ -56,7 +60,7 @@ void main() {
       vec3 radiance = textureLod(environment, vec2(u + float(k) / float(COLUMNS), v), level).rgb;
       radiance += textureLod(environment, vec2(u - float(k) / float(COLUMNS), v), level).rgb;
 #endif
-      sum += weight * vec4(radiance, 2.0);
+      sum += weight * vec4(y < kLit ? radiance : vec3(0.0), 2.0);
     }
   }
   float spot = 0.0;
@@ -66,7 +70,7 @@ void main() {
   float wide = sqrt(3.0 * brightest_light.w), from_pole = sqrt(max(1.0 - brightest_at.y * brightest_at.y, 1e-4));
   vec2 reach = clamp(vec2(wide / from_pole * 0.5, wide) * cells / kPi, 1e-3, 0.5 * float(COLUMNS));
   vec2 first = at - reach, last = at + reach;
-  for (int r = max(int(floor(first.y)), 0); r <= min(int(floor(last.y)), kRows - 1); ++r) {
+  for (int r = max(int(floor(first.y)), 0); r <= min(int(floor(last.y)), kLit - 1); ++r) {
     float of_row = min(last.y, float(r + 1)) - max(first.y, float(r)), part = 0.0;
     for (int c = int(floor(first.x)); c <= int(floor(last.x)); ++c)
       part += (min(last.x, float(c + 1)) - max(first.x, float(c))) * weights[r * COLUMNS + (c - x + 2 * COLUMNS) % COLUMNS];

@@ -1,6 +1,7 @@
 // Light of the environment on a sphere among others: what they hide of it, and the light that they and the ground
 // reflect in its place. In place of ambientOf() of shading/ambient.glsl.
 // read    neighbors   see spheres/neighbors/listed.glsl
+//         irradiance_above?   `as linear wrap`: the irradiance map of what is above the horizon, with a ground
 #ifndef SPHERES_NEIGHBORS_AMBIENT_GLSL
 #define SPHERES_NEIGHBORS_AMBIENT_GLSL
 
@@ -11,6 +12,10 @@
 #include "spheres/neighbors/occluder_light.glsl"
 #endif
 
+#ifdef HAS_IRRADIANCE_ABOVE
+uniform sampler2D irradiance_above;
+#endif
+
 // `radius`: of the sphere that has the point.
 Ambient ambientAmongSpheres(Occlusion occlusion, Point point, Surface surface, Response response, Lobe lobe,
                             LightsSeen seen, float radius) {
@@ -18,6 +23,8 @@ Ambient ambientAmongSpheres(Occlusion occlusion, Point point, Surface surface, R
   GroundPlane plane = occlusion.plane;
   LobeGround ground = occlusion.ground;
   GroundLight ground_light = groundLight(lobe, sky_above.rgb);
+  float surface_below = surfaceOf(plane, point.position);
+  seen.spot *= lobe.spot.y < 0.0 ? 1.0 - surface_below : 1.0;
 #ifdef HAS_SPECULAR
   vec3 axis = overGround(lobeAxis(point, response), occlusion.lobe.width, ground.surface);
   vec3 sky = reflectedEnvironment(point, response, lobe, axis);
@@ -29,9 +36,14 @@ Ambient ambientAmongSpheres(Occlusion occlusion, Point point, Surface surface, R
 #endif
 #endif
 #ifdef HAS_IRRADIANCE
-  vec4 mean = irradianceTowards(occlusion.sky.bent, lobe);
-  vec3 open_ground = mix(sky_below.rgb, plane.albedo * totalOf(ground_light), surfaceOf(plane, point.position));
-  ambient.mean = irradianceSeen(occlusion.sky, point.normal, lobe, mean, seen.spot, sky_below.rgb, open_ground);
+  vec3 bent = occlusion.sky.bent;
+  vec4 mean = irradianceTowards(bent, lobe);
+  vec3 open_ground = mix(sky_below.rgb, plane.albedo * totalOf(ground_light), surface_below);
+#ifdef HAS_IRRADIANCE_ABOVE
+  vec4 above = sampleEquirect(irradiance_above, equirectUv(bent) - vec2(sky_turn, 0.0), vec2(0.0, lobe.irradiance_pole));
+  mean = mix(mean, vec4(above.rgb + open_ground * (0.5 - 0.5 * bent.y), above.a), surface_below);
+#endif
+  ambient.mean = irradianceSeen(occlusion.sky, point.normal, lobe, mean, seen.spot, open_ground);
 #ifdef HAS_PROBES
   ambient.mean += bouncedIrradiance(point, lobe);
 #endif

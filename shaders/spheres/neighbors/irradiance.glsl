@@ -5,12 +5,12 @@
 #include "spheres/neighbors/ground_light.glsl"
 
 // Over pi. `mean` is the irradiance map in the bent direction, with its alpha; `spot_seen` the visible share of the
-// spot; `below` the map straight down, in whose place is `ground`. What hides a share of the sky is lit as this point
+// spot; `ground` what the ground below reflects. What hides a share of the sky is lit as this point
 // is, so that light bounces between them: a geometric series (Stewart and Langer, "Towards accurate recovery of shape from
 // shading under diffuse lighting", PAMI 1997).
-vec3 irradianceSeen(SkyOcclusion occlusion, vec3 n, Lobe lobe, vec4 mean, float spot_seen, vec3 below, vec3 ground) {
+vec3 irradianceSeen(SkyOcclusion occlusion, vec3 n, Lobe lobe, vec4 mean, float spot_seen, vec3 ground) {
   vec3 seen = vec3(occlusion.seen);
-  vec3 sky = max(mean.rgb + (ground - below) * (0.5 - 0.5 * occlusion.bent.y), vec3(0.0));
+  vec3 sky = mean.rgb;
 #ifdef HAS_BRIGHTEST
   vec3 spot = spotIrradiance().rgb;
   sky = max(sky - spot * mean.a, vec3(0.0));

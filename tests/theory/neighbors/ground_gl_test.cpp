@@ -6,6 +6,7 @@
 
 #include "tests/theory/lab.h"
 #include "tests/theory/neighbors/oracle.h"
+#include "tests/theory/neighbors/tracer.h"
 
 namespace neighbors_ground_test {
 
@@ -217,6 +218,44 @@ TEST_CASE("ground: spheres that are not drawn leave it as it is in a scene witho
     for (std::size_t i = 0; i < drawn.texels.size(); ++i) darker += drawn.texels[i] < never.texels[i] - 0.1f;
     CHECK(darker > 100);
   }
+}
+
+// Such light would come through the ground.
+TEST_CASE("ground: spheres get no light from below it, and are not darker than traced paths for that") {
+  Setup setup = studio(twoBalls(0.7f));
+  setup.sets = {{"occlusion", "true"}};
+  setup.camera.fovDegrees = 30;
+  setup.ground = scene::Ground{.albedo = glm::vec3(0.4f), .radius = 1e5f};
+  setup.environment = makeEnvironment([](int x, int y) {
+    const Vec3 to = equirectDirection(x, y, 256, 128);
+    const bool softbox = to.y < -0.6 && to.y > -0.95 && to.x > 0;
+    return std::array{softbox ? 22.0 : 0.15, softbox ? 20.0 : 0.15, softbox ? 18.0 : 0.2};
+  });
+  Lab lab(setup);
+  lab.frame();
+  CHECK(lab.reports() == "");
+  const Picture picture = lab.read("hdr");
+  const MetalTracer tracer(setup);
+  std::mt19937 random(5);
+  double least = 10, most = 0;
+  int count = 0;
+  for (std::uint32_t y = 1; y < kHigh; y += 2)
+    for (std::uint32_t x = 1; x < kWide; x += 2) {
+      const Ray ray = rayOf(setup, x, y);
+      const glm::dvec3 to = glm::normalize(ray.direction);
+      bool whole = true;
+      for (const glm::dvec3 off : {glm::dvec3(0.02, 0, 0), {-0.02, 0, 0}, {0, 0.02, 0}, {0, -0.02, 0}})
+        whole = whole && tracer.sphereAt(ray.eye, glm::normalize(to + off)) >= 0;
+      if (!whole) continue;
+      const double ratio = double(picture.at(x, y)[0]) / tracer.radiance(ray.eye, to, 400, random).x;
+      least = std::min(least, ratio);
+      most = std::max(most, ratio);
+      ++count;
+    }
+  MESSAGE(count, " points, from ", least, " to ", most, " of what paths say");
+  CHECK(count > 100);
+  CHECK(least > 0.95);
+  CHECK(most < 1.25);  // their gloss, which the paths lack
 }
 
 // A photographer's view: the surface of the ground ends in the distance, and the computed sky's own ground is behind it.

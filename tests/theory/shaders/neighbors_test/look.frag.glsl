@@ -36,7 +36,7 @@ void main() {
   shares = vec4(all.sky.seen, all.lobe.seen, all.lights.sun, 1.0);
   vec4 below = irradianceTowards(vec3(0.0, -1.0, 0.0), lobe);
   vec4 sky = vec4(irradianceTowards(all.sky.bent, lobe).rgb, 0.0);
-  around = vec4(irradianceSeen(all.sky, n, lobe, sky, all.lights.spot, below.rgb, below.rgb), 1.0);
+  around = vec4(irradianceSeen(all.sky, n, lobe, sky, all.lights.spot, below.rgb), 1.0);
   place = vec4(position, 1.0);
   facing = vec4(n, 0.0);
 }
