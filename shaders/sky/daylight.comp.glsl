@@ -1,7 +1,7 @@
 // An analytic clear sky with a sun and a plain ground, as an equirectangular map: the environment when none is loaded.
 // Sky: Preetham, Shirley and Smits, "A practical analytic model for daylight", SIGGRAPH 1999 (luminance and its x).
 // Sun: its light after Rayleigh and aerosol extinction, in a lobe a few degrees wide with the right irradiance, so that a
-// small map can hold it; sky/sun.glsl draws the disc that is seen. Ground: Lambertian, lit by both; towards the horizon it fades into the sky above, as far as the air is hazy.
+// small map can hold it. Ground: Lambertian, lit by both; towards the horizon it fades into the sky above, as far as the air is hazy.
 // Each thread makes the 2 x 2 texels of level 0 that are one of level 1, and that one.
 // write   radiance, radiance_1   levels 0 and 1, rgba16f; scene-referred, 17 kcd/m2 is 1: a white diffuse surface under a high sun is near
 //                                1 at exposure 0
@@ -35,7 +35,36 @@ layout(std140) uniform Parameters {
   float turbidity;
 };
 
-#include "daylight.glsl"
+const float kUnit = 0.06;           // per kcd/m2
+const float kSunLuminance = 128.0;  // klx above the atmosphere
+
+// Luminance and x of the model at the angle theta from the zenith and `gamma` from the sun, not normalized.
+vec2 perez(float cos_theta, float gamma, float cos_gamma) {
+  float t = turbidity;
+  vec2 a = vec2(0.1787 * t - 1.4630, -0.0193 * t - 0.2592);
+  vec2 b = vec2(-0.3554 * t + 0.4275, -0.0665 * t + 0.0008);
+  vec2 c = vec2(-0.0227 * t + 5.3251, -0.0004 * t + 0.2125);
+  vec2 d = vec2(0.1206 * t - 2.5771, -0.0641 * t - 0.8989);
+  vec2 e = vec2(-0.0670 * t + 0.3703, -0.0033 * t + 0.0452);
+  return (1.0 + a * exp(b / cos_theta)) * (1.0 + c * exp(d * gamma) + e * cos_gamma * cos_gamma);
+}
+
+vec2 zenith(float theta) {
+  float t = turbidity, t2 = theta * theta, t3 = t2 * theta;
+  float chi = (4.0 / 9.0 - t / 120.0) * (kPi - 2.0 * theta);
+  float luminance = (4.0453 * t - 4.9710) * tan(chi) - 0.2155 * t + 2.4192;
+  float x = (0.00166 * t3 - 0.00375 * t2 + 0.00209 * theta) * t * t +
+            (-0.02903 * t3 + 0.06377 * t2 - 0.03202 * theta + 0.00394) * t +
+            (0.11693 * t3 - 0.21196 * t2 + 0.06052 * theta + 0.25886);
+  return vec2(max(luminance, 0.0), x);
+}
+
+// The model's own y turns purple at the horizon; y is taken from the CIE daylight locus (Judd et al. 1964) instead.
+vec3 colorOf(vec2 luminance_x) {
+  float luminance = luminance_x.x, x = luminance_x.y, y = (2.870 - 3.000 * x) * x - 0.275;
+  vec3 xyz = vec3(x, y, 1.0 - x - y) * (luminance / y);
+  return max(mat3(3.2406, -0.9689, 0.0557, -1.5372, 1.8758, -0.2040, -0.4986, 0.0415, 1.0570) * xyz, vec3(0.0));
+}
 
 const float kWidth2 = 0.035 * 0.035;  // of the sun's lobe, radians squared; its integral is pi times this
 
@@ -43,12 +72,21 @@ float most(vec3 color) { return max(color.r, max(color.g, color.b)); }
 
 void main() {
   ivec2 corner = 2 * ivec2(gl_GlobalInvocationID.xy);
-  Daylight day = daylight();
-  vec3 to_sun = day.to_sun, sun_light = day.sun_light, peak = sun_light / (kPi * kWidth2);
+  float high = radians(elevation), theta_sun = 0.5 * kPi - high;
+  vec3 to_sun = vec3(cos(high) * cos(radians(azimuth)), sin(high), cos(high) * sin(radians(azimuth)));
+  vec2 top = zenith(theta_sun), scale = top / perez(1.0, theta_sun, to_sun.y);
+
+  // Optical depths of 680, 550 and 440 nm along the relative air mass of Kasten and Young 1989.
+  float air_mass = 1.0 / (sin(high) + 0.50572 * pow(elevation + 6.07995, -1.6364));
+  vec3 depth = vec3(0.041, 0.097, 0.243) + (0.046 * turbidity - 0.046) * vec3(0.76, 1.0, 1.34);
+  vec3 sun_light = kUnit * kSunLuminance * exp(-depth * air_mass), peak = sun_light / (kPi * kWidth2);
+  vec3 sky_light = kUnit * colorOf(top) * kPi;
+  vec3 ground = vec3(0.24, 0.21, 0.17) * (sun_light * to_sun.y + sky_light) / kPi;
+  float haze = 0.01 + 0.01 * turbidity;
 
 #if defined HAS_REST || defined HAS_SUN
   // Light above this belongs to the sun. Near 16 times the mean luminance, as in ibl/brightest.comp, while the sun is not low in haze.
-  vec3 around = kUnit * colorOf(day.scale * perez(max(to_sun.y, 0.01), 0.0, 1.0));
+  vec3 around = kUnit * colorOf(scale * perez(max(to_sun.y, 0.01), 0.0, 1.0));
   float limit = max(most(peak) * (0.005906 + 0.0000673 * elevation), 2.0 * most(around));
 #endif
 
@@ -59,8 +97,9 @@ void main() {
     ivec2 texel = corner + ivec2(i & 1, i >> 1);
     vec3 direction = equirectDirection((vec2(texel) + 0.5) / vec2(imageSize(radiance)));
     float cos_gamma = clamp(dot(direction, to_sun), -1.0, 1.0), gamma = acos(cos_gamma);
+    vec3 sky = kUnit * colorOf(scale * perez(max(direction.y, 0.01), gamma, cos_gamma));
     vec3 lobe = peak * exp(-gamma * gamma / kWidth2) * step(gamma, 0.15) * smoothstep(-0.011, 0.007, direction.y);
-    vec3 color = min(radianceOf(day, direction, gamma, cos_gamma) + lobe, vec3(60000.0));
+    vec3 color = min(mix(ground, sky, exp(min(direction.y, 0.0) / haze)) + lobe, vec3(60000.0));
     imageStore(radiance, texel, vec4(color, 1.0));
     sum += color;
 #ifdef HAS_REST
@@ -86,7 +125,7 @@ void main() {
   float moment = 1.0 - (1.0 + reach) * least - 0.5 * reach * reach * above / highest;
   float share_of_sky = reach - limit / base * log(limit / (max(least, 1e-6) * (base + highest)));
   // The horizon hides what is below it of a Gaussian: the rest of its light, where that is on average, and how wide.
-  float x = (radians(elevation) + 0.003) / sqrt(kWidth2);
+  float x = (high + 0.003) / sqrt(kWidth2);
   float seen = 1.0 / (1.0 + exp(-x * (2.257 + 0.2018 * x * x))), lean = exp(-x * x) / (sqrt(2.0 * kPi) * seen);
   vec3 up = normalize(vec3(0.0, 1.0, 0.0) - to_sun.y * to_sun + vec3(1e-6, 0.0, 0.0));
   at = vec4(normalize(to_sun + up * (sqrt(0.5 * kWidth2) * lean)), limit);

@@ -12,18 +12,13 @@ uniform sampler2D blurred;
 #endif
 #endif
 
-#if defined HAS_SKY_TURN || defined HAS_BLUR || defined HAS_ELEVATION
+#if defined HAS_SKY_TURN || defined HAS_BLUR
 layout(std140) uniform Parameters {
 #ifdef HAS_SKY_TURN
   float sky_turn;
 #endif
 #ifdef HAS_BLUR
   float blur;
-#endif
-#ifdef HAS_ELEVATION
-  float elevation;
-  float azimuth;
-  float turbidity;
 #endif
 };
 #endif

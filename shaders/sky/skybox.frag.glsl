@@ -6,14 +6,9 @@
 // write   radiance   scene-referred, linear; alpha 1
 //         velocity   screen UV per frame of a point at infinity
 // params  sky_turn?  rotation of the environment, in full turns, from +X towards +Z
-//         elevation?, azimuth, turbidity   of the computed sky, see daylight.comp.glsl: draws what is around its sun, a "quad"
 //         blur?      four times the roughness of a mirror that would blur it so; up to 0.4 a mix with `sky`
 #include "fog/sky.glsl"
 #include "maps.glsl"
-#ifdef HAS_ELEVATION
-#include "common/view.glsl"
-#include "sun.glsl"
-#endif
 
 noperspective in vec3 direction;
 noperspective in vec2 uv;
@@ -21,9 +16,6 @@ noperspective in vec2 uv;
 noperspective in vec3 before;
 #endif
 flat in vec2 sky_lookup;
-#ifdef HAS_ELEVATION
-flat in Daylight day;
-#endif
 #ifdef HAS_BLURRED
 flat in vec2 blurred_lookup;
 flat in float blurred_share;
@@ -44,10 +36,6 @@ void main() {
 #ifdef HAS_RADIANCE
   vec2 at = equirectUv(direction) - vec2(sky_turn, 0.0);
   vec3 color = sampleEquirect(sky, at, sky_lookup).rgb;
-#ifdef HAS_ELEVATION
-  float away = length(direction);
-  color = withSun(day, color, direction / away, pixelAngle() / away);
-#endif
 #ifdef HAS_BLURRED
   vec3 soft = sampleEquirect(blurred, at, blurred_lookup).rgb;
 #ifdef HAS_BRIGHTEST

@@ -1,10 +1,7 @@
-// The environment as background, or the part around its sun. Directions are linear over the picture, and levels constant, so both are computed here.
+// The environment as background. Directions are linear over the picture, and levels constant, so both are computed here.
 #include "common/view.glsl"
 #include "maps.glsl"
 #include "ibl/roughness_level.glsl"
-#ifdef HAS_ELEVATION
-#include "sun.glsl"
-#endif
 
 noperspective out vec3 direction;  // world, not normalized
 noperspective out vec2 uv;
@@ -13,9 +10,6 @@ noperspective out vec3 before;     // the direction in last frame's clip space: 
 #endif
 // Lookups, see common/equirect.glsl; the level is 0 as long as the map is magnified.
 flat out vec2 sky_lookup;
-#ifdef HAS_ELEVATION
-flat out Daylight day;  // turned as the map is
-#endif
 #ifdef HAS_BLURRED
 flat out vec2 blurred_lookup;
 flat out float blurred_share;
@@ -33,19 +27,6 @@ vec2 lookupOf(sampler2D map, float least) {
 
 void main() {
   uv = vec2(gl_VertexID == 1 ? 2.0 : 0.0, gl_VertexID == 2 ? 2.0 : 0.0);
-#ifdef HAS_ELEVATION
-  // The corners of a square before the sun; the whole picture where some of them are beside the eye or behind it.
-  day = daylight();
-  vec2 turned = vec2(cos(2.0 * kPi * sky_turn), sin(2.0 * kPi * sky_turn));
-  day.to_sun.xz = mat2(turned, -turned.y, turned.x) * day.to_sun.xz;
-  vec3 at = day.to_sun, side = normalize(vec3(-at.z, 0.0, at.x) + vec3(1e-6, 0.0, 0.0));
-  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
-  vec4 clip = view_projection * vec4(at + kAround * (corner.x * side + corner.y * cross(at, side)), 0.0);
-  float before_eye = -(view * vec4(at, 0.0)).z;
-  if (before_eye > 1.5 * kAround) corner = clip.xy / clip.w;
-  if (before_eye < -1.5 * kAround) corner = vec2(2.0);
-  uv = corner * 0.5 + 0.5;
-#endif
   gl_Position = vec4(uv * 2.0 - 1.0, 0.0, 1.0);
   direction = viewRay(uv);
 #ifdef HAS_VELOCITY
