@@ -128,7 +128,8 @@ text::Place Text::placeOf(std::size_t offset) const {
 }
 
 const text::JsonTree& Text::json() const {
-  if (!json_) json_ = text::parseJsonTree(isLarge() ? std::string_view() : bytes_);
+  if (!json_)
+    json_ = text::parseJsonTree(std::string_view(bytes_).substr(0, isLarge() ? kBeginning : bytes_.size()));
   return *json_;
 }
 

@@ -15,7 +15,6 @@
 #include "engine/imports/files.h"
 #include "engine/text/files/file.h"
 #include "engine/text/json/dom.h"
-#include "engine/text/limits.h"
 
 namespace weft::app::lsp {
 
@@ -72,11 +71,10 @@ class Text {
   // Where Weft counts lines and bytes, both from 1.
   text::Place placeOf(std::size_t offset) const;
 
-  // Nothing is said of what such a text holds: an editor asks at each key.
-  bool isLarge() const { return bytes_.size() > text::raised(kMaxBytes); }
-  static constexpr std::uint64_t kMaxBytes = 1 << 20;
+  // An editor asks at each key: of a large text no more is looked at than its beginning.
+  bool isLarge() const { return bytes_.size() > kMaxBytes; }
+  static constexpr std::size_t kMaxBytes = 1 << 20, kBeginning = 4096;
 
-  // Empty for a large text.
   const text::JsonTree& json() const;
   // GLSL as it stands: the words outside comments and the paths of includes, and what all branches of every #if declare.
   const std::vector<GlslWord>& words() const;

@@ -1,5 +1,7 @@
 #include "app/lsp/workspace.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "app/session/session.h"
@@ -72,7 +74,7 @@ bool Workspace::isInFolders(const std::string& path) const {
 // A file with a key that only graphs, overlays and presets have, or one that had it: a mistake may hide it now.
 bool Workspace::isGraph(const std::string& path) const {
   const auto text = path.ends_with(".json") && text::mayRead(path) ? texts_.of(path) : nullptr;
-  if (!text || text->isLarge() || graphs_.contains(path)) return text != nullptr;
+  if (!text || graphs_.contains(path)) return text != nullptr;
   constexpr const char* kKeys[] = {"passes", "resources", "parameters", "let",
                                    "set",    "extends",   "present",    "outputs"};
   const JsonValue& root = text->json().root;
@@ -100,9 +102,9 @@ void Workspace::read(const std::string& path, Graph& graph) {
   if (const auto text = texts_.of(path); text && text->isLarge()) {
     graph.texts = {{path, text}};
     graph.read = graph.desc = nullptr;
-    text::reportLimit(graph.readSaid, {path, 1, 1}, "the file is too large to be looked at in an editor",
-                      Text::kMaxBytes, "bytes", text->bytes().size())
-        .hint += ", or check it by `weft check`";
+    graph.readSaid.error(
+        text::Code::limitExceeded, {path, 1, 1}, "the file is too large to be looked at in an editor",
+        {.expected = fmt::format("at most {} bytes", Text::kMaxBytes), .hint = "use `weft check`"});
     return;
   }
   graph.read = graph::readGraph(path, graph.readSaid);
