@@ -24,7 +24,6 @@ Ambient ambientAmongSpheres(Occlusion occlusion, Point point, Surface surface, R
   LobeGround ground = occlusion.ground;
   GroundLight ground_light = groundLight(lobe, sky_above.rgb);
   float surface_below = surfaceOf(plane, point.position);
-  seen.spot *= lobe.spot.y < 0.0 ? 1.0 - surface_below : 1.0;
 #ifdef HAS_SPECULAR
   vec3 axis = overGround(lobeAxis(point, response), occlusion.lobe.width, ground.surface);
   vec3 sky = reflectedEnvironment(point, response, lobe, axis);
