@@ -70,7 +70,7 @@ MeshSurface meshSurface() {
   surface.occlusion = mix(1.0, texel[3].r, self.occlusion_strength);
   surface.shininess = self.blinn_phong != 0u ? self.shininess : 0.0;
 #if SPECULAR_AA
-  float variance = min(0.01 * (dot(n_dx, n_dx) + dot(n_dy, n_dy)), 0.18);
+  float variance = 0.01 * (dot(n_dx, n_dx) + dot(n_dy, n_dy));
   float alpha = surface.roughness * surface.roughness;
   surface.roughness = sqrt(sqrt(clamp(alpha * alpha + variance, 0.0, 1.0)));
 #endif
