@@ -170,7 +170,7 @@ class Reader {
           loaded->model.cameras.end())
         scene_.cameras.add({.name = kViews[i].first, .pose = framePose(box, kViews[i].second)});
     }
-    addCameras(loaded->model, nodes, box.center());
+    addCameras(loaded->model, nodes, box);
     if (!scene_.sun && scene_.lamps.size() == 0)
       scene_.sun = Sun{.direction = glm::normalize(glm::vec3(0.4f, 0.8f, 0.6f)),
                        .irradiance = glm::vec3(kSunLux / scene_.nits)};
@@ -208,8 +208,8 @@ class Reader {
     return seen;
   }
 
-  // The cameras of a model as they stand at the beginning. `center`: what the viewer turns them about.
-  void addCameras(const assets::Model& model, const std::vector<NodeId>& nodes, glm::dvec3 center) {
+  // The cameras of a model as they stand at the beginning. `box`: of the model.
+  void addCameras(const assets::Model& model, const std::vector<NodeId>& nodes, const Box& box) {
     WorldTransforms transforms;
     transforms.prepare(scene_, 1, 0, 0);
     for (const assets::ModelCamera& from : model.cameras) {
@@ -217,9 +217,12 @@ class Reader {
       const glm::mat4 world = node.valid() ? transforms.now()[node.index] : glm::mat4(1);
       Camera camera{.name = from.name};
       const glm::dvec3 towards(turnDirection(world, {0, 0, -1}));
-      const double distance = glm::dot(center - glm::dvec3(world[3]), towards);
+      // What it looks at: the model's center, or what it has before the camera.
+      const double distance = glm::dot(glm::dvec3(box.center()) - glm::dvec3(world[3]), towards);
+      const double reach = glm::dot(glm::dvec3(box.high - box.low) * 0.5, glm::abs(towards));
+      const double ahead = distance > 0 ? distance : distance + reach;
       camera.pose.position = glm::dvec3(world[3]);
-      camera.pose.target = camera.pose.position + towards * std::max(distance, 10 * from.nearPlane);
+      camera.pose.target = camera.pose.position + towards * std::max(ahead, 10 * from.nearPlane);
       camera.pose.up = glm::dvec3(turnDirection(world, {0, 1, 0}));
       camera.pose.fovDegrees = from.fovDegrees;
       camera.pose.nearPlane = from.nearPlane;
