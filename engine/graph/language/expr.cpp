@@ -472,7 +472,7 @@ class Evaluator {
   bool fits(const Value& operand, const ExprNode& from, const ExprNode& node, bool lists = false) {
     const bool good = operand.isNumeric() || (lists && operand.type == Value::Type::list);
     if (!good)
-      misfit(from, fmt::format("'{}' takes no such value", infoOf(node.op).spelling),
+      misfit(from, fmt::format("'{}' needs a {}", infoOf(node.op).spelling, lists ? "number" : "condition"),
              lists ? "a number or a list" : "true, false or a number", operand);
     return good;
   }
@@ -546,12 +546,15 @@ class Evaluator {
   }
 
   Value order(const ExprNode& node) {
-    std::array<Value, 2> sides;
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-      sides[i] = run(*node.children[i]);
-      if (!fits(sides[i], sides[i].type == Value::Type::symbol ? *node.children[i] : node, node)) return {};
-    }
-    return Value::boolean(infoOf(node.op).apply(sides[0].v[0], sides[1].v[0]) != 0);
+    const Value left = run(*node.children[0]);
+    const Value right = run(*node.children[1]);
+    if (left.type == Value::Type::none || right.type == Value::Type::none) return {};
+    for (const Value* operand : {&left, &right})
+      if (!operand->isNumeric())
+        return misfit(operand->type == Value::Type::symbol ? *node.children[operand == &left ? 0 : 1] : node,
+                      fmt::format("'{}' compares numbers only", infoOf(node.op).spelling), "a number",
+                      *operand);
+    return Value::boolean(infoOf(node.op).apply(left.v[0], right.v[0]) != 0);
   }
 
   Value apply(const ExprNode& node, const Value& left, const Value& right) {

@@ -401,9 +401,13 @@ const std::string* nameMeant(Model& model, Model::Asked::Kind kind, const Scope&
   for (const Model::Asked& each : model.asked) asked[each.name] += isNear(each) ? 1 : 0;
   const auto meant = std::ranges::find_if(asked, [](const auto& each) { return each.second > 1; });
   if (meant == asked.end() || isOver(model)) return nullptr;
-  report(model, resource ? Code::unknownResource : Code::unknownVariable, place,
-         fmt::format("nothing names '{}', and '{}', which is not there, is named {} times", name,
-                     meant->first, meant->second),
+  const std::string message =
+      kind == Model::Asked::Kind::pass
+          ? fmt::format("parameters of the pass '{}' are asked for under '{}', which is not there, {} times",
+                        name, meant->first, meant->second)
+          : fmt::format("nothing names '{}', and '{}', which is not there, is named {} times", name,
+                        meant->first, meant->second);
+  report(model, resource ? Code::unknownResource : Code::unknownVariable, place, message,
          {.hint = fmt::format("did you mean '{}'?", meant->first),
           .resource = resource ? std::string(name) : ""});
   const std::string& known = model.misspelt.emplace_back(meant->first);
