@@ -55,8 +55,12 @@ class MentionWalk {
     for (const ResourceDesc& input : desc.resources)
       if (scope.parent && input.kind == ResourceDesc::Kind::input && !input.optional)
         if (const std::uint32_t own = find(scope, input.name, false); behind(own) == kNone)
-          if (const Behind from = behindInput(model_, model_.entities[own]); !from.bind)
+          if (const Behind from = behindInput(model_, model_.entities[own]); !from.bind) {
             ask(Asked::resource, *from.scope, input.name);
+            for (const auto& [bound, ref] : scope.stanza->include->binds)
+              if (Scope* const include = includeBound(*scope.parent, bound, ref))
+                ask(Asked::resource, *include, input.name);
+          }
   }
 
   void add(Scope& scope, const Expr& expr, bool structural) {
