@@ -71,7 +71,7 @@ class Text {
   // Where Weft counts lines and bytes, both from 1.
   text::Place placeOf(std::size_t offset) const;
 
-  // An editor asks at each key: of a large text no more is looked at than its beginning.
+  // Editors ask at each keystroke, so of a large text only the beginning is looked at.
   bool isLarge() const { return bytes_.size() > kMaxBytes; }
   static constexpr std::size_t kMaxBytes = 1 << 20, kBeginning = 4096;
 

@@ -1,7 +1,7 @@
 // Cosine-weighted mean radiance around each direction (irradiance / pi), equirectangular.
 // read   environment  equirectangular with mips, `as linear wrap`
 //        brightest?   see brightest.glsl
-// define ABOVE: of what is above the horizon alone, as the light of a plain without light would be
+// define ABOVE  1: of the half above the horizon alone; what is below counts as black
 // write  result       rgba16f; COLUMNS wide: every row is one work group. a: the mean cosine of the spot's light on the coarse grid: a
 //                     times the spot's irradiance / pi is its part of rgb
 //

@@ -1,8 +1,8 @@
 // Evaluates the material and the normal of a mesh at a pixel, with their maps.
 // Slots: materials (@materials), material_maps? (@material_maps as linear wrap). Behind meshes/surface.vert.glsl.
 // define SPECULAR_AA: the variation of the normal, mapped or not, within the pixel widens the roughness (Tokuyoshi and Kaplanyan,
-// "Improved geometric specular antialiasing", I3D 2019). Their listing blurs mirrors ten times as much as 64 samples per pixel do: the
-// factor is the best for those, for metals of roughness 0 to 0.3.
+// "Improved geometric specular antialiasing", I3D 2019). The factor of their listing, 0.5, blurs mirrors more than a pixel does; 0.01
+// comes nearest to 64 samples per pixel, for metals of roughness 0 to 0.3.
 #ifndef MESHES_SURFACE_GLSL
 #define MESHES_SURFACE_GLSL
 

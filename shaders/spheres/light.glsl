@@ -19,7 +19,7 @@ Light sphereLight(Point point, Surface surface, Lobe lobe, float glint, uint row
   // The shadow maps may contain spheres too.
   seen.sun = min(seen.sun, occlusion.lights.sun);
   seen.spot = min(seen.spot, occlusion.lights.spot);
-  if (lobe.spot.y < 0.0) seen.spot *= 1.0 - surfaceOf(occlusion.plane, point.position);  // behind the ground
+  if (lobe.spot.y < 0.0) seen.spot *= 1.0 - surfaceOf(occlusion.plane, point.position);  // the ground hides it
   Ambient ambient = ambientAmongSpheres(occlusion, point, surface, response, lobe, seen, radius);
 #else
   Ambient ambient = ambientOf(point, response, lobe, seen);

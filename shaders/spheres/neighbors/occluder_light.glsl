@@ -78,7 +78,7 @@ vec3 occluderRadiance(Occlusion occlusion, Point point, Surface own, float own_r
     float metal = 0.5 * a2 * nl / (d * d * max(masking, 1e-4));
     // This sphere may hide the light.
     float past = 1.0 - ballShare(own_radius, spot.w, reflected.width * away, lobe.spot, to, distance2);
-    if (lobe.spot.y < 0.0) past *= 1.0 - surface;  // behind the ground
+    if (lobe.spot.y < 0.0) past *= 1.0 - surface;  // the ground hides it
     light += spot.rgb * (mix(nl, metal, metallic) * past);
 #endif
     sum = light * color * hidden;
