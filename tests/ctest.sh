@@ -7,6 +7,8 @@ build=$1
 shift
 results=$(mktemp)
 trap 'rm -f "$results"' EXIT
+# As ./run sets it.
+export GLIBC_TUNABLES=${GLIBC_TUNABLES-glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=33554432:glibc.malloc.trim_threshold=268435456}
 code=0
 ctest --test-dir "$build" --output-on-failure --output-junit "$results" "$@" || code=$?
 python3 "$here/skipped.py" "$results" || true
