@@ -258,6 +258,31 @@ TEST_CASE("ground: spheres get no light from below it, and are not darker than t
   CHECK(most < 1.25);  // their gloss, which the paths lack
 }
 
+TEST_CASE("ground: a small bright light below it is seen in no sphere") {
+  Setup setup = studio(twoBalls(0.7f));
+  setup.balls[0].metallic = 1;
+  setup.balls[0].roughness = 0.3f;
+  setup.sets = {{"occlusion", "true"}};
+  setup.ground = scene::Ground{.albedo = glm::vec3(0.4f), .radius = 1e5f};
+  const Vec3 below{0.196, -0.588, 0.784};
+  std::vector<Picture> pictures;
+  for (const double radiance : {0.15, 5000.0}) {
+    setup.environment = makeEnvironment([&](int x, int y) {
+      const double own = dot(equirectDirection(x, y, 256, 128), below) > 0.999 ? radiance : 0.15;
+      return std::array{own, own, own};
+    });
+    Lab lab(setup);
+    lab.frame();
+    CHECK(lab.reports() == "");
+    pictures.push_back(lab.read("hdr"));
+  }
+  double worst = 0;
+  for (std::size_t i = 0; i < pictures[0].texels.size(); ++i)
+    worst = std::max(worst, std::abs(double(pictures[1].texels[i]) - double(pictures[0].texels[i])));
+  MESSAGE("off by at most ", worst);
+  CHECK(worst < 0.01);
+}
+
 // A photographer's view: the surface of the ground ends in the distance, and the computed sky's own ground is behind it.
 TEST_CASE("ground: towards the computed sky's horizon no strip is darker than what is below and above it") {
   double deepest = 1;
