@@ -402,48 +402,40 @@ void measure(Words tokens, ShaderSize& size) {
       ++levels.back().operators;
       ++depth;
     }
-    if (depth <= size.depth.count) continue;
+    if (depth <= size.depth) continue;
     const Token& from = tokens[std::min(statement, i)];
-    size.depth = {.count = depth, .line = from.line, .column = from.column, .name = {}};
+    size.depth = depth;
+    size.line = from.line;
+    size.column = from.column;
   }
 }
 
 }  // namespace
 
 bool checkShaderSize(const ShaderSize& size, const ShaderSource& source, text::Diagnostics& diagnostics) {
-  const auto check = [&](std::uint64_t bound, const char* counts, const ShaderCount& count,
-                         const std::string& message, const char* fix) {
+  const auto check = [&](std::uint64_t bound, const char* counts, std::uint64_t count,
+                         const text::Place& place, const char* message, const char* fix) {
     const std::uint64_t most = text::raised(bound);
-    if (count.count <= most) return true;
-    const text::Place place =
-        count.line == 0 ? text::Place{source.file, 0, 0} : source.placeOf(count.line, count.column);
-    text::Diagnostic& error = diagnostics.error(
-        text::Code::shaderTooLarge, place, message,
-        {.expected = fmt::format("at most {} {}", most, counts),
-         .found = bound == kMaxShaderTokens ? fmt::format("more than {}", most)  // counting ended there
-                                            : fmt::format("{}", count.count),
-         .hint = fix});
+    if (count <= most) return true;
+    text::Diagnostic& error = diagnostics.error(text::Code::shaderTooLarge, place, message,
+                                                {.expected = fmt::format("at most {} {}", most, counts),
+                                                 .found = fmt::format("{}", count),
+                                                 .hint = fix});
     if (const std::string raise = text::hintToRaise(bound); !raise.empty()) error.hint += "; or " + raise;
     return false;
   };
-  bool good =
-      check(kMaxShaderBytes, "bytes of one shader with what it includes", {.count = size.bytes, .name = {}},
-            "the shader is too large", "include less, or move tables into buffers");
-  good &=
-      check(kMaxShaderTokens, "tokens of one shader after its macros", size.tokens,
-            size.tokens.name.empty() ? "the shader is too long"
-                                     : fmt::format("the macro '{}' expands to too much", size.tokens.name),
-            "use functions and loops instead of macros that repeat");
-  good &= check(kMaxShaderDepth, "brackets, operators or blocks around one another", size.depth,
-                "brackets, operators or blocks are nested too deeply", "split it into several statements");
-  return good;
+  return check(kMaxShaderBytes, "bytes of one shader with what it includes", size.bytes, {source.file, 0, 0},
+               "the shader is too large", "include less, or move tables into buffers") &&
+         check(kMaxShaderDepth, "brackets, operators or blocks around one another", size.depth,
+               source.placeOf(size.line, size.column), "brackets, operators or blocks are nested too deeply",
+               "split it into several statements");
 }
 
 bool isUnusual(const Interface& interface) {
   constexpr std::uint64_t kUsualTokens = 25'000, kUsualDepth = 60, kUsualElements = 128;
   const ShaderSize& size = interface.size;
-  return interface.unsure || size.tokens.count > kUsualTokens || size.inlined > kUsualTokens ||
-         size.depth.count > kUsualDepth || size.elements > kUsualElements;
+  return interface.unsure || size.tokens > kUsualTokens || size.inlined > kUsualTokens ||
+         size.depth > kUsualDepth || size.elements > kUsualElements;
 }
 
 const char* nameOf(Role role) {
@@ -492,7 +484,6 @@ Interface readInterface(std::span<const Token> tokens) {
 }
 
 Interface readInterface(std::string_view text, std::span<const Define> defines, Branches branches) {
-  const std::uint64_t most = text::raised(kMaxShaderTokens);
   const auto deepest =
       static_cast<std::uint32_t>(std::min<std::uint64_t>(text::raised(kMaxShaderDepth), 5000));
   if (text.size() > text::raised(kMaxShaderBytes)) {
@@ -501,15 +492,12 @@ Interface readInterface(std::string_view text, std::span<const Define> defines, 
     none.size.bytes = text.size();
     return none;
   }
-  TokenList list = expandTokens(text, defines, most, deepest + 1, branches);
+  TokenList list = expandTokens(text, defines, deepest + 1, branches);
   Interface out = readInterface(list.tokens);
-  out.unsure = out.unsure || list.exceeded || list.uncertain;
+  out.unsure = out.unsure || list.uncertain;
   out.pasted = std::move(list.pasted);
   out.size.bytes = text.size();
-  out.size.tokens = {.count = list.exceeded ? most + 1 : list.tokens.size(),
-                     .line = list.at.line,
-                     .column = list.at.column,
-                     .name = list.macro};
+  out.size.tokens = list.tokens.size();
   measure(list.tokens, out.size);
   return out;
 }

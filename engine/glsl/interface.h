@@ -18,9 +18,8 @@
 
 namespace weft::glsl {
 
-// Of one shader with what it includes; `--limit` raises them. Tokens: after its macros. Depth: of brackets, operators or blocks
-// around one another.
-constexpr std::uint64_t kMaxShaderBytes = 1ull << 20, kMaxShaderTokens = 200'000, kMaxShaderDepth = 500;
+// Of one shader with what it includes; `--limit` raises them. Depth: of brackets, operators or blocks around one another.
+constexpr std::uint64_t kMaxShaderBytes = 1ull << 20, kMaxShaderDepth = 500;
 
 enum class Role : std::uint8_t {
   sampler,
@@ -53,19 +52,13 @@ struct Declaration {
   Token begin, end;                      // of the statement; of a block up to its '{'
 };
 
-// A count, and where in the text the thing that has it begins (from 1).
-struct ShaderCount {
-  std::uint64_t count = 0;
-  std::uint32_t line = 0, column = 0;
-  std::string name;  // of the macro, or empty
-};
-
 struct ShaderSize {
-  ShaderCount tokens;  // after macros; counting ends above the limit
-  ShaderCount depth;   // brackets, blocks and operators around one another
   std::uint64_t bytes = 0;
-  std::uint64_t inlined = 0;   // tokens of all functions, once calls are replaced by what they call
-  std::uint64_t elements = 0;  // of the largest array, blocks aside
+  std::uint64_t depth = 0;             // brackets, blocks and operators around one another
+  std::uint32_t line = 0, column = 0;  // where in the text the deepest statement begins, from 1
+  std::uint64_t tokens = 0;            // after macros
+  std::uint64_t inlined = 0;           // tokens of all functions, once calls are replaced by what they call
+  std::uint64_t elements = 0;          // of the largest array, blocks aside
 };
 
 struct Interface {

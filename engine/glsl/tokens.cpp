@@ -230,8 +230,7 @@ struct Source {
 
 class Expander {
  public:
-  Expander(std::span<const Define> defines, std::uint64_t most, std::uint32_t deepest, bool all)
-      : most_(most), deepest_(deepest), all_(all) {
+  Expander(std::span<const Define> defines, std::uint32_t deepest, bool all) : deepest_(deepest), all_(all) {
     add("__VERSION__", "450");
     add("__LINE__", "1");
     add("__FILE__", "0");
@@ -242,7 +241,7 @@ class Expander {
   TokenList run(std::string_view text) {
     const Tokens all = splitTokens(text);
     std::size_t begin = 0;  // of tokens between two directives
-    for (std::size_t i = 0; i < all.size() && !out_.exceeded; ++i) {
+    for (std::size_t i = 0; i < all.size() && spend(0); ++i) {
       if (!all[i].first || !all[i].is("#")) continue;
       std::size_t end = i + 1;
       while (end < all.size() && !all[end].first) ++end;
@@ -251,7 +250,7 @@ class Expander {
       begin = end;
       i = end - 1;
     }
-    if (taken() && !out_.exceeded) expandText(std::span(all).subspan(begin));
+    if (taken()) expandText(std::span(all).subspan(begin));
     return std::move(out_);
   }
 
@@ -354,13 +353,12 @@ class Expander {
 
   void expandText(std::span<const Token> text) { expand(text, out_.tokens, 0); }
 
-  bool spend(std::uint64_t count, const Token& at) {
+  // Tokens that macros make on the way count as well. False when there were too many.
+  bool spend(std::uint64_t count) {
+    constexpr std::uint64_t kMost = 1'000'000;
     spent_ += count;
-    if (spent_ <= most_ || out_.exceeded) return !out_.exceeded;
-    out_.exceeded = true;
-    out_.at = at;
-    out_.macro = top_;
-    return false;
+    out_.uncertain |= spent_ > kMost;
+    return spent_ <= kMost;
   }
 
   // Appends what `text` stands for to `to`. `depth`: of arguments of macros in arguments of macros.
@@ -368,7 +366,7 @@ class Expander {
     std::vector<Source> stack;
     stack.push_back({.own = nullptr, .tokens = text});
     Token place;
-    while (!stack.empty() && !out_.exceeded) {
+    while (!stack.empty() && spend(0)) {
       Source& source = stack.back();
       if (source.at == source.tokens.size()) {
         if (source.macro) --source.macro->open;
@@ -382,16 +380,15 @@ class Expander {
       token.column = place.column;
       const auto found =
           token.kind == TokenKind::word && !token.inert ? macros_.find(token.text) : macros_.end();
-      if (outside && depth == 0) top_ = found == macros_.end() ? std::string_view() : found->first;
-      if (!spend(1, place)) break;
+      if (!spend(1)) break;
       if (found == macros_.end()) {
         to.push_back(token);
       } else if (found->second.open > 0) {
         token.inert = true;
         to.push_back(token);
       } else if (!found->second.function) {
-        push(stack, found->second, found->second.body, place);
-      } else if (!call(stack, found->second, place, depth)) {
+        push(stack, found->second, found->second.body);
+      } else if (!call(stack, found->second, depth)) {
         to.push_back(token);
       }
     }
@@ -399,10 +396,10 @@ class Expander {
       if (left.macro) --left.macro->open;
   }
 
-  void push(std::vector<Source>& stack, Macro& macro, Tokens body, const Token& place) {
+  void push(std::vector<Source>& stack, Macro& macro, Tokens body) {
     ++macro.open;
     paste(body);
-    if (!spend(body.size(), place)) body.clear();
+    if (!spend(body.size())) body.clear();
     auto own = std::make_shared<const Tokens>(std::move(body));
     const std::span<const Token> tokens(*own);
     stack.push_back({.own = std::move(own), .tokens = tokens, .macro = &macro});
@@ -421,7 +418,7 @@ class Expander {
   }
 
   // A use of a function-like macro: false when no bracket follows, and the name stands for itself.
-  bool call(std::vector<Source>& stack, Macro& macro, const Token& place, std::uint32_t depth) {
+  bool call(std::vector<Source>& stack, Macro& macro, std::uint32_t depth) {
     const Token* next = peek(stack);
     if (!next || !next->is("(")) {
       out_.uncertain |= !next && depth == 0;
@@ -431,7 +428,7 @@ class Expander {
     int brackets = 0;
     do {
       next = peek(stack);
-      if (!next || !spend(1, place)) {
+      if (!next || !spend(1)) {
         out_.uncertain = true;  // a directive stands between its brackets
         return true;
       }
@@ -447,15 +444,14 @@ class Expander {
       out_.uncertain = true;
       return true;
     }
-    push(stack, macro, substitute(macro, arguments, place, depth), place);
+    push(stack, macro, substitute(macro, arguments, depth));
     return true;
   }
 
-  Tokens substitute(const Macro& macro, const std::vector<Tokens>& arguments, const Token& place,
-                    std::uint32_t depth) {
+  Tokens substitute(const Macro& macro, const std::vector<Tokens>& arguments, std::uint32_t depth) {
     std::vector<std::optional<Tokens>> expanded(arguments.size());
     Tokens made;
-    for (std::size_t i = 0; i < macro.body.size() && !out_.exceeded; ++i) {
+    for (std::size_t i = 0; i < macro.body.size() && spend(0); ++i) {
       const Token& token = macro.body[i];
       const auto found = token.kind == TokenKind::word
                              ? std::find(macro.parameters.begin(), macro.parameters.end(), token.text)
@@ -469,7 +465,7 @@ class Expander {
           (i > 0 && macro.body[i - 1].is("##")) || (i + 1 < macro.body.size() && macro.body[i + 1].is("##"));
       if (!pasted && !expanded[index]) expand(arguments[index], expanded[index].emplace(), depth + 1);
       const Tokens& from = pasted ? arguments[index] : *expanded[index];
-      if (!spend(from.size(), place)) break;
+      if (!spend(from.size())) break;
       made.insert(made.end(), from.begin(), from.end());
     }
     return made;
@@ -489,11 +485,9 @@ class Expander {
     body = std::move(made);
   }
 
-  const std::uint64_t most_;
   const std::uint32_t deepest_;
   const bool all_;  // branches
   std::uint64_t spent_ = 0;
-  std::string_view top_;  // the macro of the text that is being expanded, or empty
   std::unordered_map<std::string_view, Macro> macros_;
   std::vector<Branch> branches_;
   TokenList out_;
@@ -501,9 +495,9 @@ class Expander {
 
 }  // namespace
 
-TokenList expandTokens(std::string_view text, std::span<const Define> defines, std::uint64_t most,
-                       std::uint32_t deepest, Branches branches) {
-  return Expander(defines, most, deepest, branches == Branches::all).run(text);
+TokenList expandTokens(std::string_view text, std::span<const Define> defines, std::uint32_t deepest,
+                       Branches branches) {
+  return Expander(defines, deepest, branches == Branches::all).run(text);
 }
 
 Conditions conditionsOf(std::string_view text) {

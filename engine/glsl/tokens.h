@@ -1,6 +1,6 @@
 // A shader's text as the tokens that a compiler gets: comments and directives gone, conditionals decided,
-// macros expanded, each token with the line of the text that it comes from. The work is bounded, so that
-// macros which double again and again cost what the bound allows. Where a condition hangs on what only the
+// macros expanded, each token with the line of the text that it comes from. The work is bounded: macros that
+// double again and again are given up. Where a condition hangs on what only the
 // driver knows (a macro GL_…), all its branches are taken. Whether the text is right, the compiler says.
 #pragma once
 
@@ -30,21 +30,17 @@ struct Token {
 };
 
 struct TokenList {
-  std::vector<Token> tokens;       // all of them, or as many as `most` allows
+  std::vector<Token> tokens;
   std::deque<std::string> pasted;  // what views of `tokens` may look into besides the text
-  bool exceeded = false;           // there are more than `most`
-  Token at;                        // the token of the text where that came to light
-  std::string macro;               // which was being expanded there, or empty
-  // A call of a macro that a directive interrupts or that is nested too deeply: how much it makes was not counted. Or an #if
-  // that was too long to look at.
+  // Tokens are missing: macros make too many, or a call of one is interrupted by a directive or nested too deeply. Or an #if was
+  // too long to look at.
   bool uncertain = false;
 };
 
-// `text` as ShaderSource::text; `defines` as assembleSource() puts them before it. Tokens that macros make on
-// the way count as well. `deepest`: nesting beyond it is cut off. `branches`: those of conditionals, the taken ones or all of them.
+// `text` as ShaderSource::text; `defines` as assembleSource() puts them before it. `deepest`: nesting beyond it is cut off. `branches`: those of conditionals, the taken ones or all of them.
 enum class Branches : std::uint8_t { taken, all };
-TokenList expandTokens(std::string_view text, std::span<const Define> defines, std::uint64_t most,
-                       std::uint32_t deepest, Branches branches = Branches::taken);
+TokenList expandTokens(std::string_view text, std::span<const Define> defines, std::uint32_t deepest,
+                       Branches branches = Branches::taken);
 
 // The words of the conditionals of a text, in any branch. Views look into the text.
 struct Conditions {

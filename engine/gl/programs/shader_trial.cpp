@@ -129,7 +129,8 @@ bool survivesTrial(Trials& trials, const DeviceInfo& device, std::span<const Sta
     if (result.what.empty()) return true;
   }
   const StageSource& largest = *std::ranges::max_element(stages, {}, [&](const StageSource& stage) {
-    return stage.source->interfaceWith(defines).size.inlined;
+    const glsl::Interface& interface = stage.source->interfaceWith(defines);
+    return std::pair(interface.unsure, interface.size.inlined);
   });
   const bool tried = !std::exchange(trials.died, true);
   text::Diagnostic& error =
