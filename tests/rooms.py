@@ -92,7 +92,7 @@ OUTSIDE = {
     "EGL/": {"gl"},
     "GL/": {"gl"},
     "GLFW/": {"gl", "app"},
-    "stb_": {"assets"}, "stb/": {"assets"}, "OpenEXR/": {"assets"}, "assimp/": {"assets"}, "draco/": {"assets"}, "meshoptimizer": {"assets"}, "webp/": {"assets"},
+    "stb_": {"assets"}, "stb/": {"assets"}, "OpenEXR/": {"assets"}, "Imath/": {"assets"}, "assimp/": {"assets"}, "draco/": {"assets"}, "meshoptimizer": {"assets"}, "webp/": {"assets"},
     "glm/": {"assets", "scene", "passes", "imports", "runtime", "app"},
     "CLI/": {"app"}, "imgui": {"app"}, "benchmark/": {"app"}, "tbb/": {"assets", "scene"},
 }

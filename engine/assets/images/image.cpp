@@ -1,26 +1,21 @@
 #include "engine/assets/images/image.h"
 
+#include <Imath/half.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cassert>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <exception>
 #include <filesystem>
 #include <limits>
-#include <memory>
 #include <numbers>
 #include <utility>
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
-
 #include "engine/assets/images/image_codecs.h"
+#include "engine/text/chars.h"
 #include "engine/text/files/file.h"
 
 namespace weft::assets {
@@ -93,9 +88,7 @@ ImageF widenToRgba(ImageF image) {
 }
 
 std::string lowerExtension(const std::string& name) {
-  std::string extension = std::filesystem::path(name).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
+  return text::lowered(std::filesystem::path(name).extension().string());
 }
 
 ImageKind kindOfName(const std::string& name) {
@@ -368,47 +361,17 @@ EnvironmentMap toEnvironmentMap(const ImageF& image) {
   return map;
 }
 
-namespace {
-
-#if defined(__aarch64__)
-using Half = __fp16;
-#else
-using Half = _Float16;
-#endif
-
-#if defined(__x86_64__)
-
-// How many elements it did: the greatest multiple of 8.
-__attribute__((target("avx,f16c"))) std::size_t convertEights(const float* from, std::uint16_t* to,
-                                                              std::size_t count) {
-  std::size_t i = 0;
-  for (; i + 8 <= count; i += 8) {
-    const __m128i halves = _mm256_cvtps_ph(_mm256_loadu_ps(from + i), _MM_FROUND_TO_NEAREST_INT);
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(to + i), halves);
-  }
-  return i;
-}
-
-#endif
-
-}  // namespace
-
 std::uint16_t floatToHalf(float value) {
-  return std::bit_cast<std::uint16_t>(static_cast<Half>(value));
+  return imath_float_to_half(value);
 }
 
 float halfToFloat(std::uint16_t half) {
-  return static_cast<float>(std::bit_cast<Half>(half));
+  return imath_half_to_float(half);
 }
 
 void floatsToHalves(std::span<const float> from, std::span<std::uint16_t> to) {
   assert(from.size() == to.size());
-  std::size_t done = 0;
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx") && __builtin_cpu_supports("f16c"))
-    done = convertEights(from.data(), to.data(), from.size());
-#endif
-  for (std::size_t i = done; i < from.size(); ++i) to[i] = floatToHalf(from[i]);
+  std::ranges::transform(from, to.begin(), floatToHalf);
 }
 
 }  // namespace weft::assets

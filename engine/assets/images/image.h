@@ -106,7 +106,7 @@ Image8 resize(const Image8& image, int width, int height, bool srgb);
 float decodeSrgb(float encoded);  // IEC 61966-2-1; input and output 0..1
 
 // IEEE 754 binary16 <-> binary32. To half rounds to nearest even, overflows to infinity, keeps subnormals; a
-// NaN stays a quiet NaN with the top ten bits of its payload (what F16C does, so that every path gives the same bits).
+// NaN stays a NaN.
 constexpr float kHalfMax = 65504.0f;
 
 std::uint16_t floatToHalf(float value);
