@@ -1,12 +1,12 @@
 #include "engine/assets/models/parts/mesh_builder.h"
 
 #include <fmt/format.h>
+#include <meshoptimizer.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <map>
-#include <string_view>
 #include <unordered_map>
 #include <utility>
 
@@ -111,18 +111,13 @@ bool isSound(const RawVertex& v) {
 
 // Equal vertices become one, in the order in which they come first.
 void joinVertices(RawMesh& mesh) {
-  std::unordered_map<std::string_view, std::uint32_t> known;
-  known.reserve(mesh.vertices.size());
-  std::vector<RawVertex> kept;
-  std::vector<std::uint32_t> to;
-  for (const RawVertex& v : mesh.vertices) {
-    const std::string_view bytes(reinterpret_cast<const char*>(&v), sizeof v);
-    const auto [found, isNew] = known.try_emplace(bytes, static_cast<std::uint32_t>(kept.size()));
-    if (isNew) kept.push_back(v);
-    to.push_back(found->second);
-  }
-  for (std::uint32_t& index : mesh.indices) index = to[index];
-  mesh.vertices = std::move(kept);
+  RawVertex* const all = mesh.vertices.data();
+  std::vector<unsigned> to(mesh.vertices.size());
+  const std::size_t kept =
+      meshopt_generateVertexRemap(to.data(), nullptr, to.size(), all, to.size(), sizeof *all);
+  meshopt_remapVertexBuffer(all, all, to.size(), sizeof *all, to.data());
+  meshopt_remapIndexBuffer(mesh.indices.data(), mesh.indices.data(), mesh.indices.size(), to.data());
+  mesh.vertices.resize(kept);
 }
 
 }  // namespace
