@@ -15,15 +15,9 @@ using assets::TrackPath;
 
 namespace {
 
-glm::vec4 slerp(glm::vec4 a, glm::vec4 b, float f) {
-  float cosine = glm::dot(a, b);
-  if (cosine < 0) {
-    b = -b;
-    cosine = -cosine;
-  }
-  if (cosine > 0.9995f) return glm::normalize(a + (b - a) * f);
-  const float angle = std::acos(cosine);
-  return (a * std::sin((1 - f) * angle) + b * std::sin(f * angle)) / std::sin(angle);
+glm::vec4 slerp(const glm::vec4& a, const glm::vec4& b, float f) {
+  const glm::quat q = glm::slerp(glm::quat(a.w, a.x, a.y, a.z), glm::quat(b.w, b.x, b.y, b.z), f);
+  return {q.x, q.y, q.z, q.w};
 }
 
 constexpr std::uint32_t kNoNode = 0xffffffffu;
