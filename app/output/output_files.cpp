@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <memory>
 #include <vector>
 
+#include "engine/text/chars.h"
 #include "engine/text/files/file.h"
 
 namespace weft::app {
@@ -61,10 +60,7 @@ std::optional<std::string> outputNameOf(const std::string& pattern, std::uint32_
 }
 
 std::string pictureKindOf(const std::string& path) {
-  std::string extension = fs::path(path).extension().string();
-  for (char& letter : extension)
-    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
-  return extension;
+  return text::lowered(fs::path(path).extension().string());
 }
 
 bool checkOutput(const std::string& pattern, std::uint32_t firstFrame, bool several,

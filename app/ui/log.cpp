@@ -23,10 +23,6 @@ void Log::addPast(const text::Diagnostics& diagnostics) {
   }
 }
 
-void Log::dismiss() {
-  for (Entry& entry : entries_) entry.dismissed = true;
-}
-
 std::size_t Log::errors() const {
   const auto isError = [](const text::Diagnostic* each) { return each->severity == text::Severity::error; };
   return static_cast<std::size_t>(std::ranges::count_if(shown(true), isError));

@@ -16,8 +16,10 @@ class Log {
 
   void set(Topic topic, std::vector<text::Diagnostic> items);
   void addPast(const text::Diagnostics& diagnostics);  // keeps the last hundred
-  void dismiss();                                      // all there is now
-  std::size_t errors() const;                          // that are not dismissed
+  void dismiss() {                                     // all there is now
+    for (Entry& entry : entries_) entry.dismissed = true;
+  }
+  std::size_t errors() const;  // that are not dismissed
   // What is not dismissed: errors, warnings, notes; within each the newest first, what was set together in its order. Without `all`, only
   // what stands on screen while the panels are hidden.
   std::vector<const text::Diagnostic*> shown(bool all) const;

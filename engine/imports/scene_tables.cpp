@@ -161,10 +161,6 @@ const SceneTables::List& SceneTables::factsOf(scene::DrawList list) {
   return mine;
 }
 
-std::uint32_t SceneTables::countOf(scene::DrawList list) {
-  return factsOf(list).count;
-}
-
 std::uint64_t SceneTables::generation(scene::DrawList list) {
   const std::uint64_t still = world_->sceneGeneration() << 32;
   return factsOf(list).moving ? still + moments_ : still;

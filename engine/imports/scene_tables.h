@@ -87,7 +87,7 @@ class SceneTables {
   // The spheres of a draw list.
   BufferRef spheres(scene::DrawList list, const RowLayout& layout, text::Diagnostics& diagnostics);
   const std::vector<scene::Instance>& rows(scene::DrawList list);
-  std::uint32_t countOf(scene::DrawList list);
+  std::uint32_t countOf(scene::DrawList list) { return factsOf(list).count; }
   // Moves when a row may be another.
   std::uint64_t generation(scene::DrawList list);
   // False before the first frame.

@@ -68,8 +68,4 @@ std::string Imports::standInGraph(const graph::ImportSpec& import, const World& 
                                                                                            : graph;
 }
 
-void Imports::dropUploaded(World& world) const {
-  for (const Held& each : held_) each.provider->dropUploaded(world);
-}
-
 }  // namespace weft::runtime

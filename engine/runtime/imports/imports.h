@@ -82,7 +82,9 @@ class Imports : public imports::Providers {
   }
 
   // Frees what the world holds and the device has.
-  void dropUploaded(World& world) const;
+  void dropUploaded(World& world) const {
+    for (const Held& each : held_) each.provider->dropUploaded(world);
+  }
 
   // A provider of a class that the caller knows. Types whose arguments all have defaults have one from the start; null: it
   // went in a prepare(), or there is none yet.

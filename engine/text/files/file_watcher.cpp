@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <utility>
 
 #include "engine/text/files/file.h"
 
@@ -90,10 +89,6 @@ void FileWatcher::tell(int error, const std::string& file) {
   d.found = fmt::format("inotify: {}", std::strerror(error));
   d.hint =
       "make its folder readable, or raise fs.inotify.max_user_watches and max_user_instances with sysctl";
-}
-
-Diagnostics FileWatcher::takeNotices() {
-  return std::exchange(notices_, {});
 }
 
 std::vector<std::string> FileWatcher::poll() {

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/text/diagnostic.h"
@@ -33,7 +34,7 @@ class FileWatcher {
   std::vector<std::string> poll();
 
   // A file that is not watched, and why (W205), as a note; once in the life of this.
-  Diagnostics takeNotices();
+  Diagnostics takeNotices() { return std::exchange(notices_, {}); }
 
  private:
   void arm();

@@ -6,7 +6,6 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
-#include <memory>
 
 #include "engine/text/files/file.h"
 #include "engine/text/json/report.h"
@@ -36,10 +35,6 @@ bool leadsOut(const std::filesystem::path& relative) {
 
 ModelFiles::ModelFiles(std::string path, text::Diagnostics& diagnostics, const LoadObserver& observer)
     : path_(std::move(path)), diagnostics_(diagnostics), observer_(observer), files_{path_} {}
-
-Place ModelFiles::place() const {
-  return {path_};
-}
 
 std::optional<std::string> ModelFiles::readModel() {
   return readCounted(path_, {}, Code::unreadableModel, diagnostics_);

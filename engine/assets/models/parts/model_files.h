@@ -28,7 +28,7 @@ class ModelFiles {
   text::Diagnostics& diagnostics() const { return diagnostics_; }
   // Tells the observer how far the load is. False: it gives up.
   bool goOn(LoadStage stage, double done) const { return !observer_ || observer_(stage, done); }
-  text::Place place() const;  // of the model's own file
+  text::Place place() const { return {path_}; }  // of the model's own file
   // Everything that was read or should have been, each once, the model's own first.
   const std::vector<std::string>& files() const { return files_; }
   bool gaveUp() const { return gaveUp_; }
