@@ -8,7 +8,6 @@
 #include "app/commands/commands.h"
 #include "engine/glsl/interface.h"
 #include "engine/glsl/tokens.h"
-#include "engine/graph/compile/compile.h"
 #include "engine/graph/edit/edit.h"
 #include "engine/graph/read/read.h"
 #include "engine/graph/survey/matrix.h"

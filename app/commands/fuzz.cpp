@@ -1,6 +1,5 @@
 // weft fuzz: whatever a plan leaves open, the picture is the same.
 #include "app/commands/commands.h"
-#include "app/output/pictures.h"
 #include "app/trials/divergence.h"
 
 namespace weft::app {

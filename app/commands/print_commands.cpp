@@ -8,7 +8,6 @@
 #include "app/commands/commands.h"
 #include "engine/graph/language/keys.h"
 #include "engine/graph/print/print.h"
-#include "engine/graph/read/read.h"
 #include "engine/text/json/dom.h"
 #include "engine/text/json/edit.h"
 #include "engine/text/nearest.h"

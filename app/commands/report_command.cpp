@@ -1,5 +1,4 @@
 // weft report: one HTML page of a frame, or of what differs between two: app/report/page.html with the data that its script draws.
-#include <fmt/ranges.h>
 
 #include <cmath>
 #include <cstdio>

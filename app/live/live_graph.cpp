@@ -9,13 +9,10 @@
 
 #include "app/session/session.h"
 #include "engine/assets/models/model_file.h"
-#include "engine/graph/edit/edit.h"
 #include "engine/graph/language/names.h"
 #include "engine/graph/print/print.h"
 #include "engine/text/files/file.h"
-#include "engine/text/json/dom.h"
 #include "engine/text/json/edit.h"
-#include "engine/text/json/report.h"
 
 namespace weft::app {
 

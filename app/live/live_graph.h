@@ -5,7 +5,6 @@
 #include "app/live/live_loads.h"
 #include "app/session/options.h"
 #include "engine/graph/edit/edit.h"
-#include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/renderer.h"
 #include "engine/text/files/file_watcher.h"
 

@@ -10,7 +10,6 @@
 #include "engine/graph/read/read.h"
 #include "engine/runtime/frame/renderer.h"
 #include "engine/runtime/prepare/program_request.h"
-#include "engine/text/nearest.h"
 
 namespace weft::app::lsp {
 

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
-#include <memory>
 #include <utility>
 
 #include "app/output/output_files.h"

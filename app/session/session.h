@@ -8,7 +8,6 @@
 
 #include "app/session/options.h"
 #include "engine/gl/context/context.h"
-#include "engine/graph/desc.h"
 #include "engine/graph/plan.h"
 #include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/renderer.h"

@@ -1,8 +1,6 @@
 #include "app/ui/pass_rows.h"
 
-#include <algorithm>
 #include <map>
-#include <utility>
 
 #include "engine/graph/flat_graph.h"
 #include "engine/graph/language/names.h"

@@ -4,8 +4,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "engine/assets/images/image.h"
 #include "engine/scene/scene.h"

@@ -5,7 +5,6 @@
 #include <stb/stb_image_write.h>
 
 #include <cassert>
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <memory>

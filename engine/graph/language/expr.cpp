@@ -10,7 +10,6 @@
 #include <set>
 
 #include "engine/graph/language/expr_node.h"
-#include "engine/text/chars.h"
 #include "engine/text/nearest.h"
 #include "engine/text/words/words.h"
 

@@ -2,13 +2,11 @@
 // printed from that. Also the table of formats. Declared in print.h.
 #include "engine/graph/print/print.h"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <set>
 
 #include "engine/graph/subresource.h"

@@ -6,7 +6,6 @@
 
 #include "engine/graph/language/expr_node.h"
 #include "engine/runtime/frame/renderer.h"
-#include "engine/runtime/prepare/prepared_pass.h"
 #include "engine/runtime/storage/formats.h"
 #include "engine/text/hash.h"
 

@@ -8,7 +8,6 @@
 
 namespace weft::runtime {
 
-using graph::FlatUse;
 using graph::kNone;
 
 namespace {

@@ -3,8 +3,6 @@
 
 #include <cstdint>
 #include <span>
-#include <string>
-#include <string_view>
 
 #include "engine/gl/context/context.h"
 #include "engine/gl/programs/program_cache.h"

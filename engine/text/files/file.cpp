@@ -16,7 +16,6 @@
 #include <filesystem>
 #include <map>
 #include <mutex>
-#include <set>
 #include <utility>
 #include <vector>
 

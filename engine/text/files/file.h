@@ -18,7 +18,6 @@
 #include <set>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "engine/text/diagnostic.h"
 

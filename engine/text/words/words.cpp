@@ -4,7 +4,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
-#include <string>
 #include <unordered_map>
 #include <vector>
 

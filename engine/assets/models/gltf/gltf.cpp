@@ -16,7 +16,6 @@
 
 namespace weft::assets {
 
-using text::Code;
 using text::Diagnostics;
 using text::JsonValue;
 
