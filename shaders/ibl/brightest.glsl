@@ -17,11 +17,12 @@ const vec4 brightest_at = vec4(0.0, 1.0, 0.0, 65504.0), brightest_light = vec4(0
 const float kWindow = 0.0873;       // radians around the spot that are cut: 5 degrees
 const float kNearCosine = 0.98481;  // of twice as much
 
-// Towards it when the environment is rotated by `turn` of a full turn.
-vec3 towardsBrightest(float turn) {
+// A direction of the environment when it is rotated by `turn` of a full turn.
+vec3 turnedAbout(vec3 at, float turn) {
   float c = cos(turn * 2.0 * kPi), s = sin(turn * 2.0 * kPi);
-  return vec3(c * brightest_at.x - s * brightest_at.z, brightest_at.y, s * brightest_at.x + c * brightest_at.z);
+  return vec3(c * at.x - s * at.z, at.y, s * at.x + c * at.z);
 }
+vec3 towardsBrightest(float turn) { return turnedAbout(brightest_at.xyz, turn); }
 
 // Its irradiance over pi on a surface that faces it; w: half the angle of its disc, radians. The same for all pixels.
 vec4 spotIrradiance() { return vec4(brightest_light.rgb / kPi, max(2.0 * sqrt(brightest_light.w), 0.002)); }

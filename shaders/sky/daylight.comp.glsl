@@ -1,12 +1,14 @@
 // An analytic clear sky with a sun and a plain ground, as an equirectangular map: the environment when none is loaded.
 // Sky: Preetham, Shirley and Smits, "A practical analytic model for daylight", SIGGRAPH 1999 (luminance and its x).
 // Sun: its light after Rayleigh and aerosol extinction, in a lobe a few degrees wide with the right irradiance, so that a
-// small map can hold it. Ground: Lambertian, lit by both; towards the horizon it fades into the sky above, as far as the air is hazy.
+// small map can hold it; sky/skybox draws the disc. Ground: Lambertian, lit by both; towards the horizon it fades into the sky above, as
+// far as the air is hazy.
 // Each thread makes the 2 x 2 texels of level 0 that are one of level 1, and that one.
 // write   radiance, radiance_1   levels 0 and 1, rgba16f; scene-referred, 17 kcd/m2 is 1: a white diffuse surface under a high sun is near
 //                                1 at exposure 0
 //         rest, rest_1           the same without the sun
 //         sun                    two vec4, `brightest` of ibl/brightest.glsl
+//         disc                   two vec4: direction and radius of the sun that is seen, radians; its irradiance on a surface that faces it
 // params  elevation  of the sun above the horizon, degrees; the model ends near 2
 //         azimuth    of the sun, degrees from +X towards +Z
 //         turbidity  2 (clear) to 8 (hazy)
@@ -27,6 +29,12 @@ layout(rgba16f) uniform writeonly image2D rest_1;
 layout(std430) writeonly buffer sun {
   vec4 at;
   vec4 light;
+};
+#endif
+#ifdef HAS_DISC
+layout(std430) writeonly buffer disc {
+  vec4 disc_at;
+  vec4 disc_light;
 };
 #endif
 layout(std140) uniform Parameters {
@@ -84,12 +92,6 @@ void main() {
   vec3 ground = vec3(0.24, 0.21, 0.17) * (sun_light * to_sun.y + sky_light) / kPi;
   float haze = 0.01 + 0.01 * turbidity;
 
-#if defined HAS_REST || defined HAS_SUN
-  // Light above this belongs to the sun. Near 16 times the mean luminance, as in ibl/brightest.comp, while the sun is not low in haze.
-  vec3 around = kUnit * colorOf(scale * perez(max(to_sun.y, 0.01), 0.0, 1.0));
-  float limit = max(most(peak) * (0.005906 + 0.0000673 * elevation), 2.0 * most(around));
-#endif
-
   vec3 sum = vec3(0.0), sum_rest = vec3(0.0);
   int texels = imageSize(radiance).x > 1 ? 4 : 1;  // not a constant: unrolled, the loop takes longer to translate
   for (int i = 0; i < texels; ++i) {
@@ -99,13 +101,12 @@ void main() {
     float cos_gamma = clamp(dot(direction, to_sun), -1.0, 1.0), gamma = acos(cos_gamma);
     vec3 sky = kUnit * colorOf(scale * perez(max(direction.y, 0.01), gamma, cos_gamma));
     vec3 lobe = peak * exp(-gamma * gamma / kWidth2) * step(gamma, 0.15) * smoothstep(-0.011, 0.007, direction.y);
-    vec3 color = min(mix(ground, sky, exp(min(direction.y, 0.0) / haze)) + lobe, vec3(60000.0));
+    vec3 without = mix(ground, sky, exp(min(direction.y, 0.0) / haze)), color = without + lobe;
     imageStore(radiance, texel, vec4(color, 1.0));
     sum += color;
 #ifdef HAS_REST
-    color *= min(limit / most(color), 1.0);
-    imageStore(rest, texel, vec4(color, 1.0));
-    sum_rest += color;
+    imageStore(rest, texel, vec4(without, 1.0));
+    sum_rest += without;
 #endif
   }
 #ifdef HAS_RADIANCE_1
@@ -115,21 +116,20 @@ void main() {
   imageStore(rest_1, corner / 2, vec4(0.25 * sum_rest, 1.0));
 #endif
 
-#ifdef HAS_SUN
   if (corner != ivec2(0)) return;
-  // Sky and lobe, around + peak g with g = exp(-gamma^2 / kWidth2), cut in proportion where their largest channel is above the limit: for g
-  // from `least` to 1. Integrals over gamma^2 in closed form, in units of kWidth2.
-  float highest = most(peak), base = most(around), above = limit - base;
-  float least = clamp(above / highest, 0.0, 1.0), reach = -log(max(least, 1e-6));
-  float lobe = 1.0 - least - reach * above / highest;
-  float moment = 1.0 - (1.0 + reach) * least - 0.5 * reach * reach * above / highest;
-  float share_of_sky = reach - limit / base * log(limit / (max(least, 1e-6) * (base + highest)));
+#ifdef HAS_SUN
   // The horizon hides what is below it of a Gaussian: the rest of its light, where that is on average, and how wide.
   float x = (high + 0.003) / sqrt(kWidth2);
   float seen = 1.0 / (1.0 + exp(-x * (2.257 + 0.2018 * x * x))), lean = exp(-x * x) / (sqrt(2.0 * kPi) * seen);
   vec3 up = normalize(vec3(0.0, 1.0, 0.0) - to_sun.y * to_sun + vec3(1e-6, 0.0, 0.0));
-  at = vec4(normalize(to_sun + up * (sqrt(0.5 * kWidth2) * lean)), limit);
-  light = vec4(kPi * kWidth2 * seen * (peak * lobe + (around - peak * (base / highest)) * share_of_sky),
-               0.5 * kWidth2 * moment / max(lobe, 1e-6) * (1.0 - 0.5 * lean * (sqrt(2.0) * x + lean)));
+  // Lookups of the map that leave the sun out are cut a little above the sky around it.
+  vec3 around = kUnit * colorOf(scale * perez(max(to_sun.y, 0.01), 0.0, 1.0));
+  at = vec4(normalize(to_sun + up * (sqrt(0.5 * kWidth2) * lean)), 1.25 * most(around));
+  light = vec4(sun_light * seen, 0.5 * kWidth2 * (1.0 - 0.5 * lean * (sqrt(2.0) * x + lean)));
+#endif
+#ifdef HAS_DISC
+  // A high sun is brighter than half floats are: it is drawn larger instead, up to 0.68 degrees.
+  disc_at = vec4(to_sun, max(radians(0.2665), sqrt(most(sun_light) / (kPi * 64000.0))));
+  disc_light = vec4(sun_light, 0.0);
 #endif
 }

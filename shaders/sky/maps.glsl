@@ -3,13 +3,17 @@
 #define SKY_MAPS_GLSL
 
 #include "common/equirect.glsl"
+#include "ibl/brightest.glsl"
 
 uniform sampler2D sky;
 #ifdef HAS_BLURRED
 uniform sampler2D blurred;
-#ifdef HAS_BRIGHTEST
-#include "ibl/brightest.glsl"
 #endif
+#ifdef HAS_DISC
+layout(std140) uniform disc {
+  vec4 disc_at;
+  vec4 disc_light;
+};
 #endif
 
 #if defined HAS_SKY_TURN || defined HAS_BLUR

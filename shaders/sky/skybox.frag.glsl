@@ -2,6 +2,7 @@
 // read    sky        equirectangular with mips, `as linear wrap`
 //         blurred?   the same, prefiltered for roughness in its levels (ibl/prefilter), from roughness 0.1 on instead of it
 //         brightest? the spot that `blurred` lacks, see ibl/brightest.glsl
+//         disc?      the sun that `sky` and `blurred` lack, see sky/daylight.comp.glsl; instead of `brightest`
 //         air?       see fog/sky.glsl
 // write   radiance   scene-referred, linear; alpha 1
 //         velocity   screen UV per frame of a point at infinity
@@ -20,10 +21,14 @@ flat in vec2 sky_lookup;
 flat in vec2 blurred_lookup;
 flat in float blurred_share;
 #ifdef HAS_BRIGHTEST
-flat in vec3 spot;
 flat in vec4 spot_shape;
 flat in vec3 spot_light;
 #endif
+#endif
+flat in vec3 spot;
+#ifdef HAS_DISC
+flat in vec2 disc_edge;
+flat in vec3 disc_radiance;
 #endif
 #ifdef HAS_RADIANCE
 out vec4 radiance;
@@ -37,13 +42,16 @@ void main() {
   vec2 at = equirectUv(direction) - vec2(sky_turn, 0.0);
   vec3 color = sampleEquirect(sky, at, sky_lookup).rgb;
 #ifdef HAS_BLURRED
-  vec3 soft = sampleEquirect(blurred, at, blurred_lookup).rgb;
+  color = mix(color, sampleEquirect(blurred, at, blurred_lookup).rgb, blurred_share);
 #ifdef HAS_BRIGHTEST
   float cosine = dot(normalize(direction), spot);
   SpotShape shape = SpotShape(spot_shape.x, spot_shape.y, spot_shape.z, spot_shape.w);
-  soft += spot_light * spotDistribution(shape, 0.5 - 0.5 * cosine, 1.0, max(cosine, 0.0), 1.0);
+  color += spot_light * spotDistribution(shape, 0.5 - 0.5 * cosine, 1.0, max(cosine, 0.0), 1.0);
 #endif
-  color = mix(color, soft, blurred_share);
+#endif
+#ifdef HAS_DISC
+  float along = max(dot(direction, spot), 1e-6);
+  color += disc_radiance * smoothstep(0.0, 1.0, disc_edge.x - disc_edge.y * length(direction - along * spot) / along);
 #endif
 #ifdef HAS_AIR
   color = mix(fog_light.rgb, color, throughFogOfSky(direction));

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "tests/theory/lab.h"
 #include "tests/theory/oracle.h"
@@ -91,6 +92,7 @@ std::array<double, 3> meanAt(double blur, std::shared_ptr<const weft::assets::Im
   std::array<double, 3> sum{};
   double weights = 0;
   Setup setup = studio(0, 25, blur);
+  setup.daylight = map == nullptr;
   setup.environment = std::move(map);
   setup.width = setup.height = 64;
   setup.balls = {{.center = {0, 0, 1000}, .radius = 0.001f}};
@@ -182,6 +184,121 @@ TEST_CASE("a blurred background keeps the light of a sun") {
     }
   CHECK(mean > 2);
   for (const double blur : {2.0, 4.0}) CHECK(meanAt(blur, map)[0] == doctest::Approx(mean).epsilon(0.01));
+}
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+struct Disc {
+  double light[3] = {};  // irradiance on what faces it
+  double degrees = 0;    // across, where it is brighter than half of its brightest
+  double white = 0;      // across, where a picture is white whatever the curve
+};
+
+// Of the disc in a picture of the sky alone, around `at` of the camera's own axes, within so many degrees and two pixels; less the sky of a
+// ring around that.
+Disc discIn(const Picture& picture, double fov, const glm::dvec3& at, double reach) {
+  const double pixel = 2 * std::tan(fov * kDegree / 2) / picture.height;
+  const double from[] = {reach * kDegree + 2 * pixel, reach * kDegree + 4 * pixel};
+  double brightest = 0, half = 0, white = 0, inside = 0, ring[4] = {};
+  Disc disc;
+  for (std::uint32_t y = 0; y < picture.height; ++y)
+    for (std::uint32_t x = 0; x < picture.width; ++x) {
+      const double u = pixel * (x + 0.5 - picture.width / 2.0), v = pixel * (y + 0.5 - picture.height / 2.0);
+      const double angle = pixel * pixel * std::pow(1 + u * u + v * v, -1.5);
+      const double away = glm::distance(glm::normalize(glm::dvec3(u, v, -1)), at);
+      const float* here = picture.at(x, y);
+      brightest = std::max<double>(brightest, here[1]);
+      white += here[1] > 16 ? angle : 0;
+      if (away > from[1]) continue;
+      for (std::size_t c = 0; c < 3; ++c) (away < from[0] ? disc.light[c] : ring[c]) += here[c] * angle;
+      (away < from[0] ? inside : ring[3]) += angle;
+    }
+  for (std::size_t c = 0; c < 3; ++c) disc.light[c] -= ring[c] * inside / ring[3];
+  for (std::size_t i = 1; i < picture.texels.size(); i += 4)
+    half += picture.texels[i] > 0.5 * brightest ? pixel * pixel : 0;
+  disc.degrees = 2 * std::sqrt(half / std::numbers::pi) / kDegree;
+  disc.white = 2 * std::sqrt(white / std::numbers::pi) / kDegree;
+  return disc;
+}
+
+glm::dvec3 toSun(double elevation) {
+  return {0, std::sin(elevation * kDegree), std::cos(elevation * kDegree)};
+}
+
+// Towards the sun at this elevation, but for as many degrees to the side.
+Setup towardsSun(double elevation, double blur, std::uint32_t side, std::span<const double> fovs,
+                 double beside) {
+  Setup setup = studio(0, 25, blur);
+  setup.width = setup.height = side;
+  setup.daylight = true;
+  setup.sets.emplace_back("sun_elevation", std::to_string(elevation));
+  setup.sets.emplace_back("sun_azimuth", "65");  // with the rotation along +Z
+  setup.balls = {{.center = {0, 0, -1000}, .radius = 0.001f}};
+  for (const double fov : fovs) {
+    const double to = beside * fov * kDegree;
+    setup.path.push_back({double(setup.path.size()) / 60,
+                          {0, 0, 0},
+                          std::cos(to) * toSun(elevation) + std::sin(to) * glm::dvec3(1, 0, 0),
+                          fov});
+  }
+  setup.camera = {.position = {0, 0, 0}, .target = {0, 0, 1}, .fovDegrees = 60, .nearPlane = 0.1};
+  return setup;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "the computed sun has all of its light in every picture: a disc, or a pixel or two wherever they are") {
+  double least = 1, most = 1;
+  const double fovs[] = {1, 1.7, 4, 9, 20, 37, 60, 61, 62.3, 90, 110};
+  for (const double elevation : {2.0, 10.0, 35.0, 60.0, 85.0})
+    for (const double beside : {0.0, 0.2133, 0.391}) {
+      Lab lab(towardsSun(elevation, 0, 128, fovs, beside));
+      for (std::uint32_t i = 0; i < std::size(fovs); ++i) {
+        const double fov = fovs[i], pixel = 2 * std::tan(fov * kDegree / 2) / 128 / kDegree;
+        if ((0.5 - beside) * fov < 0.4 + 4 * pixel) continue;  // it would be cut
+        lab.frame(i);
+        const Disc disc =
+            discIn(lab.read("hdr"), fov, glm::dmat3(lab.viewAt(i).view) * toSun(elevation), 0.4);
+        CAPTURE(elevation);
+        CAPTURE(beside);
+        CAPTURE(fov);
+        // 128 klx before the air; optical depths of 680, 550 and 440 nm at the turbidity of 2.5; Kasten and Young 1989.
+        const double mass =
+            1 / (std::sin(elevation * kDegree) + 0.50572 * std::pow(elevation + 6.07995, -1.6364));
+        const double depths[] = {0.041 + 0.069 * 0.76, 0.097 + 0.069, 0.243 + 0.069 * 1.34};
+        for (std::size_t c = 0; c < 3; ++c) {
+          const double share = disc.light[c] / (0.06 * 128 * std::exp(-depths[c] * mass));
+          CHECK(share == doctest::Approx(1).epsilon(0.015));
+          least = std::min(least, share);
+          most = std::max(most, share);
+        }
+        if (fov > 4) continue;
+        CHECK(disc.degrees > 0.525);
+        CHECK(disc.degrees < (elevation > 11 ? 0.69 : 0.55));
+        CHECK(disc.white < disc.degrees + 2 * pixel + 0.02);
+      }
+      CHECK(lab.reports() == "");
+    }
+  MESSAGE("shares of the light: ", least, " to ", most);
+}
+
+TEST_CASE("a blur of the sky blurs the computed sun by as much and keeps its light") {
+  const double sharp = meanAt(0, nullptr)[1], fovs[] = {10};
+  double last = 0;
+  for (const double blur : {0.02, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 4.0}) {
+    CAPTURE(blur);
+    CHECK(meanAt(blur, nullptr)[1] == doctest::Approx(sharp).epsilon(0.01));
+    if (blur > 0.5) continue;
+    Lab lab(towardsSun(20, blur, 256, fovs, 0));
+    lab.frame();
+    const Disc disc = discIn(lab.read("hdr"), 10, {0, 0, -1}, 0.4);
+    CHECK(disc.white >= last);
+    if (blur < 0.11) CHECK(disc.white < 0.75);
+    last = disc.white;
+  }
 }
 
 }  // namespace sky_test
