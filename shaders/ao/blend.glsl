@@ -4,17 +4,21 @@
 
 #include "surface.glsl"
 
-// Weight of a neighbor by its distance from the tangent plane, 0 at `thickness`; `pixel` is the neighbor's in the depth.
-float onPlane(vec3 place, vec3 n, float thickness, ivec2 pixel, float neighbor_distance) {
-  if (neighbor_distance <= 0.0) return 0.0;
-  vec3 other = axisRay(vec2(pixel) + 0.5) * neighbor_distance;
-  float off = abs(dot(other - place, n)) / thickness;
-  return max(1.0 - off * off, 0.0);
+struct Surface {
+  vec3 place, plane;  // the tangent plane over its thickness, in view space
+};
+
+// A hundredth of the radius thick, and the width of two pixels there; distances are stored as halves.
+Surface surfaceAt(ivec2 pixel, float z, float radius) {
+  vec3 place = placeAt(pixel, z);
+  return Surface(place, facing(pixel) / (0.01 * radius - place.z * (2.0 / focalPixels().y + 1e-3)));
 }
 
-// A tenth of the radius, and the width of four pixels there; distances are stored as halves.
-float thicknessAt(float radius, float view_distance) {
-  return 0.1 * radius + view_distance * (4.0 / focalPixels().y + 1e-3);
+// Weight of a neighbor by its distance from the tangent plane; `pixel` is the neighbor's in the depth.
+float onSurface(Surface surface, ivec2 pixel, float neighbor_distance) {
+  if (neighbor_distance <= 0.0) return 0.0;
+  float off = dot(axisRay(vec2(pixel) + 0.5) * neighbor_distance - surface.place, surface.plane);
+  return max(1.0 - off * off, 0.0);
 }
 
 #endif

@@ -39,9 +39,11 @@ void main() {
   vec3 place = placeAt(pixel, z), n = facing(pixel), v = normalize(-place);
   vec2 focal = focalPixels();
 
-  // Directions and first steps vary over 4 x 4 pixels as in the paper; ao/smooth averages them.
-  float turn = float((((half_texel.x + half_texel.y) & 3) << 2) + (half_texel.x & 3)) / 16.0;
-  float start = float((half_texel.y - half_texel.x) & 3) / 4.0;
+  // Directions and first steps vary over 8 x 8 pixels, and evenly over each 4 x 4 of them: ordered dither.
+  uvec2 tile = uvec2(half_texel) & 7u;
+  uint mixed = tile.x ^ tile.y, place_in_order = (mixed & 1u) << 5 | (tile.y & 1u) << 4 | (mixed & 2u) << 2 | (tile.y & 2u) << 1 |
+                                                 (mixed & 4u) >> 1 | tile.y >> 2;
+  float turn = (float(place_in_order) + 0.5) / 64.0, start = fract(float(place_in_order) * 0.618034);
   float visibility = 0.0, whole = 1e-6;
   for (int i = 0; i < slices; ++i) {
     float phi = (float(i) + turn) / float(slices) * kPi;
@@ -59,7 +61,7 @@ void main() {
     for (int side = 0; side < 2; ++side) {
       vec2 way = side == 0 ? reach : -reach;
       for (int j = 0; j < steps; ++j) {
-        float t = (float(j) + start + 0.125) / float(steps);
+        float t = (float(j) + start) / float(steps);
         float far = max(t * t, (float(j) + 1.0) / max(pixels, 1e-3));  // dense near the pixel, never the pixel itself
         vec2 to = vec2(pixel) + 0.5 + way * far;
         ivec2 at = ivec2(floor(to));
@@ -94,5 +96,5 @@ void main() {
     visibility += share * seen;
     whole += share * (cos_tilt + tilt * sin(tilt));  // without occluders; its mean over all directions is 1
   }
-  result = vec2(min(max(visibility, 0.0) / whole, 1.0), -place.z);
+  result = vec2(1.0 - (whole - visibility) / float(slices), -place.z);
 }

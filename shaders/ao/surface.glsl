@@ -23,8 +23,8 @@ float depthOfOccluder(ivec2 pixel) {
 
 // View-space ray through a point of the target in pixels; times the distance along the axis it is the position.
 vec3 axisRay(vec2 pixel) {
-  vec2 ndc = pixel / vec2(textureSize(depth, 0)) * 2.0 - 1.0;
-  return vec3((ndc + projection[2].xy) / vec2(projection[0].x, projection[1].y), -1.0);
+  vec2 wide = vec2(projection[0].x, projection[1].y);  // both quotients are the same for all pixels
+  return vec3(pixel * (2.0 / (wide * vec2(textureSize(depth, 0)))) + (projection[2].xy - 1.0) / wide, -1.0);
 }
 vec3 placeAt(ivec2 pixel, float z) { return axisRay(vec2(pixel) + 0.5) * distanceOfDepth(z); }
 

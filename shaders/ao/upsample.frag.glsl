@@ -18,20 +18,20 @@ void main() {
   float z = texelFetch(depth, pixel, 0).r;
   result = 1.0;
   if (z <= 0.0) return;
-  vec3 place = placeAt(pixel, z), n = facing(pixel);
-  float thickness = thicknessAt(radius, -place.z), sum = 0.0, weights = 0.0, nearest = 1.0, least = 1e30;
+  Surface surface = surfaceAt(pixel, z, radius);
+  float sum = 0.0, weights = 0.0, nearest = 1.0, least = 1e30;
   for (int i = 0; i < 4; ++i) {
     ivec2 step = ivec2(i & 1, i >> 1), there = min(pixel / 2 + step, last);
     vec2 other = texelFetch(source, there, 0).rg;
     vec2 share = mix(1.0 - 0.5 * vec2(pixel & 1), 0.5 * vec2(pixel & 1), equal(step, ivec2(1)));
-    float weight = share.x * share.y * onPlane(place, n, thickness, pixelOf(there), other.g);
+    float weight = share.x * share.y * onSurface(surface, pixelOf(there), other.g);
     sum += weight * other.r;
     weights += weight;
-    float apart = abs(other.g + place.z);
+    float apart = abs(other.g + surface.place.z);
     if (other.g > 0.0 && apart < least) {
       least = apart;
       nearest = other.r;
     }
   }
-  result = pow(weights > 0.01 ? sum / weights : nearest, strength);
+  result = pow(max(weights > 0.01 ? sum / weights : nearest, 0.0), strength);
 }
