@@ -1,5 +1,9 @@
 #include "engine/graph/registry.h"
 
+#include <algorithm>
+#include <bit>
+#include <cassert>
+
 #include "engine/text/hash.h"
 
 namespace weft::graph {

@@ -96,7 +96,7 @@ GlSpan bytesOf(GLuint buffer, std::int64_t begin = 0, std::int64_t bytes = kAll)
 
 // "layout(std430) readonly buffer rows {": the names of blocks without the word.
 void noteWritten(const std::string& source, std::set<std::string>& blocks) {
-  const glsl::TokenList list = glsl::expandTokens(source, {}, 1'000'000, 100);
+  const glsl::TokenList list = glsl::expandTokens(source, {}, 100);
   std::size_t begin = 0;
   for (std::size_t i = 0; i < list.tokens.size(); ++i) {
     if (list.tokens[i].is(";") || list.tokens[i].is("}")) begin = i + 1;
