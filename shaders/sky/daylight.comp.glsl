@@ -93,11 +93,16 @@ void main() {
   float haze = 0.01 + 0.01 * turbidity;
 
   vec3 sum = vec3(0.0), sum_rest = vec3(0.0);
-  int texels = imageSize(radiance).x > 1 ? 4 : 1;  // not a constant: unrolled, the loop takes longer to translate
+#ifdef HAS_RADIANCE
+  ivec2 size = imageSize(radiance);
+#else
+  ivec2 size = imageSize(rest);  // a background alone
+#endif
+  int texels = size.x > 1 ? 4 : 1;  // not a constant: unrolled, the loop takes longer to translate
   for (int i = 0; i < texels; ++i) {
     // Row 0 of the map is the top. Texels outside are not stored.
     ivec2 texel = corner + ivec2(i & 1, i >> 1);
-    vec3 direction = equirectDirection((vec2(texel) + 0.5) / vec2(imageSize(radiance)));
+    vec3 direction = equirectDirection((vec2(texel) + 0.5) / vec2(size));
     float cos_gamma = clamp(dot(direction, to_sun), -1.0, 1.0), gamma = acos(cos_gamma);
     vec3 sky = kUnit * colorOf(scale * perez(max(direction.y, 0.01), gamma, cos_gamma));
     vec3 lobe = peak * exp(-gamma * gamma / kWidth2) * step(gamma, 0.15) * smoothstep(-0.011, 0.007, direction.y);

@@ -46,7 +46,7 @@ void main() {
 #ifdef HAS_DISC
   spot = turnedAbout(disc_at.xyz, sky_turn);
   // From this least size on, the sum over pixels is within 1 % the same wherever the middle is in its pixel.
-  float pixel = pixelAngle() * max(dot(spot, -transpose(mat3(view))[2]), 0.0), seen = max(disc_at.w, 1.1 * pixel), edge = 1.8 * pixel;
+  float pixel = pixelAngle() * max(dot(spot, -transpose(mat3(view))[2]), 0.01), seen = max(disc_at.w, 1.1 * pixel), edge = 1.8 * pixel;
   disc_edge = vec2(seen / edge + 0.5, 1.0 / edge);
   // Up to a blur as wide as the disc, a mix with the spot.
   float alpha = alphaOfRoughness(roughness), spot_share = clamp(2.0 * alpha / seen - 0.5, 0.0, 1.0);
