@@ -46,8 +46,7 @@ vec3 ambientRadiance(Point point, Response response, Ambient ambient) {
 #endif
   float visible = point.sky_visible, width = exp2(-16.0 * response.roughness - 1.0);
   float lobe_visible = clamp(pow(point.nv + visible, width) - 1.0 + visible, 0.0, 1.0);
-  return ambient.reflected * lobe_visible + (response.multiple + response.diffuse) * ambient.mean * visible +
-         sceneInstead(ambient, lobe_visible);
+  return ambient.reflected * lobe_visible + (response.multiple + response.diffuse) * ambient.mean * visible;
 }
 
 // Radiance towards the eye for an irradiance of 1 from the unit direction `l`.

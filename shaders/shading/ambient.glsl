@@ -1,7 +1,6 @@
 // Light of the environment: what a lobe reflects of its maps, its brightest spot in closed form, and irradiance.
 // read    irradiance?, specular?, environment?, brightest?   see shading/environment.glsl; without one its light is missing
 //         probes?, sh?   light that other things reflect, see gi/bounce.glsl
-//         mirrored?, or scene_light?, scene_depth, scene_nearest, scene_backs?   the scene in reflections, see reflections/seen.glsl
 #ifndef SHADING_AMBIENT_GLSL
 #define SHADING_AMBIENT_GLSL
 
@@ -10,10 +9,6 @@
 #include "shading/point.glsl"
 #ifdef HAS_PROBES
 #include "gi/bounce.glsl"
-#endif
-#if defined HAS_SPECULAR && (defined HAS_MIRRORED || defined HAS_SCENE_LIGHT)
-#include "reflections/seen.glsl"
-#define SEES_SCENE 1
 #endif
 
 // Axis of the reflected lobe, not normalized.
@@ -76,23 +71,11 @@ vec3 bouncedIrradiance(Point point, Lobe lobe) {
 #endif
 
 Ambient ambientOf(Point point, Response response, Lobe lobe, LightsSeen seen) {
-  Ambient ambient = Ambient(vec3(0.0), vec3(0.0), vec3(0.0), 1.0);
+  Ambient ambient = Ambient(vec3(0.0), vec3(0.0));
 #ifdef HAS_SPECULAR
-#ifdef SEES_SCENE
-  vec4 scene = seenOfScene(point, response);
-  scene.rgb = max(scene.rgb, vec3(0.0));
-#endif
   ambient.reflected = reflectedEnvironment(point, response, lobe, lobeAxis(point, response)) * response.single;
-#ifdef SEES_SCENE
-  ambient.traced = scene.rgb * response.single;
-  ambient.open = 1.0 - scene.a;
-  // What a smooth lobe meets hides the spot; a rough one sees it from aside.
-  float spot_seen = seen.spot * mix(1.0, 1.0 / max(ambient.open, 1e-3), smoothstep(0.1, 0.4, response.roughness));
-#else
-  float spot_seen = seen.spot;
-#endif
 #ifdef HAS_BRIGHTEST
-  ambient.reflected += reflectedSpot(point, response, lobe, spotStrength(point, lobe) * spot_seen);
+  ambient.reflected += reflectedSpot(point, response, lobe, spotStrength(point, lobe) * seen.spot);
 #endif
 #endif
 #ifdef HAS_IRRADIANCE
@@ -100,9 +83,6 @@ Ambient ambientOf(Point point, Response response, Lobe lobe, LightsSeen seen) {
   ambient.mean = max(mean.rgb - spotIrradiance().rgb * (mean.a * (1.0 - seen.spot)), vec3(0.0));
 #ifdef HAS_PROBES
   ambient.mean += bouncedIrradiance(point, lobe);
-#endif
-#ifdef SEES_SCENE
-  ambient.traced += response.multiple * (scene.rgb - scene.a * ambient.mean);
 #endif
 #endif
   return ambient;

@@ -13,7 +13,7 @@ vec3 ambientRadiance(Point point, Response response, Ambient ambient) {
 #ifdef HAS_MATERIAL_LAYERS
   if (layers.on) return layeredAmbient(point, response, ambient);
 #endif
-  return (ambient.reflected + (response.multiple + response.diffuse) * ambient.mean) * point.sky_visible + sceneInstead(ambient, point.sky_visible);
+  return (ambient.reflected + (response.multiple + response.diffuse) * ambient.mean) * point.sky_visible;
 }
 
 // Radiance towards the eye for an irradiance of 1 from the unit direction `l`.

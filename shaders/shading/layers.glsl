@@ -187,8 +187,7 @@ float coverWithCoat(inout Point point, out Response response) {
 }
 
 vec3 layeredAmbient(Point point, Response response, Ambient ambient) {
-  vec3 light = (ambient.reflected + (response.multiple + response.diffuse) * ambient.mean) * point.sky_visible +
-               sceneInstead(ambient, point.sky_visible);
+  vec3 light = (ambient.reflected + (response.multiple + response.diffuse) * ambient.mean) * point.sky_visible;
   if (greatest(layers.sheen) <= 0.0) return light;
   float sheen = sheenReflectance(point.nv), mean = sheenReflectance(0.6);  // of light that arrives from everywhere
   return light * (1.0 - greatest(layers.sheen) * max(sheen, mean)) + layers.sheen * sheen * ambient.mean * point.sky_visible;

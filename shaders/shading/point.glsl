@@ -15,12 +15,7 @@ struct Point {
 struct Ambient {
   vec3 reflected;  // radiance that leaves towards the eye by single scattering
   vec3 mean;       // irradiance over pi
-  vec3 traced;     // radiance towards the eye of what the lobe meets of the scene
-  float open;      // share of the lobe that meets nothing; `reflected` is that of the whole lobe
 };
-
-// What to add to the reflection of an environment of which occlusion leaves `visible`.
-vec3 sceneInstead(Ambient ambient, float visible) { return ambient.traced - ambient.reflected * max(visible - ambient.open, 0.0); }
 
 // The visible shares of two lights far away: the sun, and the environment's brightest spot.
 struct LightsSeen {

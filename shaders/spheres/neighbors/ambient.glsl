@@ -19,7 +19,7 @@ uniform sampler2D irradiance_above;
 // `radius`: of the sphere that has the point.
 Ambient ambientAmongSpheres(Occlusion occlusion, Point point, Surface surface, Response response, Lobe lobe,
                             LightsSeen seen, float radius) {
-  Ambient ambient = Ambient(vec3(0.0), vec3(0.0), vec3(0.0), 1.0);
+  Ambient ambient = Ambient(vec3(0.0), vec3(0.0));
   GroundPlane plane = occlusion.plane;
   LobeGround ground = occlusion.ground;
   GroundLight ground_light = groundLight(lobe, sky_above.rgb);
