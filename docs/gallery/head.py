@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""The pictures at the head of README: ../images/dusk.webp, strips.webp (one frame, in the order in which it is made, each part above its JSON) and
-halftone.webp (an effect is typed). Needs Debian's packages `python3-pil` and `webp`.
+"""The pictures at the head of README: ../images/dusk.webp, strips.webp (five of its steps, each above its JSON) and
+halftone.webp (an effect is typed). Needs Debian's packages `python3-pil`, `webp`
+and `fonts-dejavu-core`.
 
     docs/gallery/head.py WEFT
 """

@@ -37,7 +37,8 @@ struct TokenList {
   bool uncertain = false;
 };
 
-// `text` as ShaderSource::text; `defines` as assembleSource() puts them before it. `deepest`: nesting beyond it is cut off. `branches`: those of conditionals, the taken ones or all of them.
+// `text` as ShaderSource::text; `defines` as assembleSource() puts them before it. `deepest`: nesting beyond it is cut off.
+// `branches`: those of conditionals, the taken ones or all of them.
 enum class Branches : std::uint8_t { taken, all };
 TokenList expandTokens(std::string_view text, std::span<const Define> defines, std::uint32_t deepest,
                        Branches branches = Branches::taken);
