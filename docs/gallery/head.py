@@ -59,7 +59,7 @@ def save(folder, name, picture):
 
 def strips(weft, folder):
     wide, high, gap, text = 320, 860, 4, 132
-    font, title = ImageFont.truetype(FONT, 16), ImageFont.truetype(FONT, 22)
+    font, title = ImageFont.truetype(FONT, 15), ImageFont.truetype(FONT, 22)
     whole = Image.new("RGB", (len(STRIPS) * (wide + gap) - gap, high + text), BACK)
     draw = ImageDraw.Draw(whole)
     for i, (name, path, lines, options) in enumerate(STRIPS):
