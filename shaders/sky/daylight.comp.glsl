@@ -93,10 +93,10 @@ void main() {
   float haze = 0.01 + 0.01 * turbidity;
 
   vec3 sum = vec3(0.0), sum_rest = vec3(0.0);
-#ifdef HAS_RADIANCE
-  ivec2 size = imageSize(radiance);
+#ifdef HAS_REST
+  ivec2 size = imageSize(rest);  // alone where only the background is seen
 #else
-  ivec2 size = imageSize(rest);  // a background alone
+  ivec2 size = imageSize(radiance);
 #endif
   int texels = size.x > 1 ? 4 : 1;  // not a constant: unrolled, the loop takes longer to translate
   for (int i = 0; i < texels; ++i) {
