@@ -94,7 +94,7 @@ void main() {
 
   vec3 sum = vec3(0.0), sum_rest = vec3(0.0);
 #ifdef HAS_REST
-  ivec2 size = imageSize(rest);  // alone where only the background is seen
+  ivec2 size = imageSize(rest);  // nobody reads `radiance` where only the background is drawn
 #else
   ivec2 size = imageSize(radiance);
 #endif
