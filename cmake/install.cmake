@@ -31,7 +31,8 @@ set(weft_package ${CMAKE_INSTALL_LIBDIR}/cmake/weft)
 install(EXPORT weft_core NAMESPACE weft:: FILE weftCore.cmake DESTINATION ${weft_package})
 if(WEFT_GL)
   install(TARGETS weft RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  install(DIRECTORY ${CMAKE_BINARY_DIR}/glad/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/weft)
+  install(DIRECTORY ${CMAKE_BINARY_DIR}/glad/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/weft
+    PATTERN EGL EXCLUDE PATTERN egl.h EXCLUDE)
   install(EXPORT weft_gl NAMESPACE weft:: FILE weftGl.cmake DESTINATION ${weft_package})
 endif()
 # As seen from the folder of the .pc files, so that the prefix may be chosen when it is installed.

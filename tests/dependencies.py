@@ -10,13 +10,13 @@ import sys
 PROVIDED = {
     "fmt": "libfmt-dev", "nlohmann_json": "nlohmann-json3-dev", "doctest": "doctest-dev", "CLI11": "libcli11-dev",
     "glfw3": "libglfw3-dev", "imgui": "libimgui-dev", "Freetype": "libfreetype-dev", "libstb": "libstb-dev", "glm": "libglm-dev", "OpenEXR": "libopenexr-dev", "ZLIB": "zlib1g-dev", "assimp": "libassimp-dev", "draco": "libdraco-dev", "meshoptimizer": "libmeshoptimizer-dev", "webp": "libwebp-dev", "TBB": "libtbb-dev", "glad": "python3-glad",
-    "OSMesa": "libosmesa6-dev", "EGL": "libegl-dev", "xvfb-run": "xvfb", "Xvfb": "xvfb", "xdotool": "xdotool", "dot": "graphviz",
+    "OSMesa": "libosmesa6-dev", "xvfb-run": "xvfb", "Xvfb": "xvfb", "xdotool": "xdotool", "dot": "graphviz",
     "glslangValidator": "glslang-tools", "clang-format": "clang-format", "jsonschema": "python3-jsonschema", "nvim": "neovim",
     "bash": None, "ccache": None, "git": None, "weft": None,
     "chromium": None, "mpv": None, "node": None, "emacs": None,  # judges of imports and of the language server, which CI does without
 }
 # Needed without being looked for: by cmake, by xvfb-run, by snippets of the docs, at run time, or as a header only.
-IMPLIED = {"g++", "fonts-dejavu-core", "cmake", "ninja-build", "python3", "xauth", "libegl-mesa0", "libgl1-mesa-dri", "libstb-dev", "graphviz", "pkg-config"}
+IMPLIED = {"g++", "fonts-dejavu-core", "cmake", "ninja-build", "python3", "xauth", "libegl1", "libgl1-mesa-dri", "libstb-dev", "graphviz", "pkg-config"}
 
 
 def sought(top: pathlib.Path) -> dict:

@@ -89,7 +89,6 @@ OUTSIDE = {
     "fmt/": set(ROOMS),
     "nlohmann/": {"text", "graph", "assets", "scene", "importers", "app"},
     "glad/": {"gl", "passes", "imports", "runtime"},
-    "EGL/": {"gl"},
     "GL/": {"gl"},
     "GLFW/": {"gl", "app"},
     "stb_": {"assets"}, "stb/": {"assets"}, "OpenEXR/": {"assets"}, "Imath/": {"assets"}, "assimp/": {"assets"}, "draco/": {"assets"}, "meshoptimizer": {"assets"}, "webp/": {"assets"},

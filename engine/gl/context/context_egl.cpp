@@ -1,9 +1,8 @@
 // EGL without a display: every device that the device platform lists. Needs no X, no Wayland and no DRM master, so that a GPU
-// of a headless machine works.
+// of a headless machine works. libEGL is loaded when the first context is made, as OSMesa is.
 #define EGL_NO_X11
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
 #include <fmt/format.h>
+#include <glad/egl.h>
 
 #include <algorithm>
 #include <string>
@@ -43,8 +42,7 @@ class EglContext final : public Context {
 
 // A current context on `display`, or null with the reason in `why`. Terminates the display on failure.
 std::unique_ptr<Context> openOn(EGLDisplay display, const ContextOptions& options, std::string& why) {
-  EGLint major = 0, minor = 0;
-  if (display == EGL_NO_DISPLAY || !eglInitialize(display, &major, &minor)) {
+  if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) {
     why = fmt::format("eglInitialize failed ({})", display == EGL_NO_DISPLAY ? "no display" : errorText());
     return nullptr;
   }
@@ -53,16 +51,15 @@ std::unique_ptr<Context> openOn(EGLDisplay display, const ContextOptions& option
     eglTerminate(display);
     return nullptr;
   };
-  if (major * 10 + minor < 15) return fail(fmt::format("EGL {}.{} is older than 1.5", major, minor));
+  gladLoaderLoadEGL(display);  // what this one has
+  if (!GLAD_EGL_VERSION_1_5) return fail("its EGL is older than 1.5");
   if (!eglBindAPI(EGL_OPENGL_API)) return fail("it has no desktop OpenGL");
-  const char* extensions = eglQueryString(display, EGL_EXTENSIONS);
-  if (!hasExtension(extensions, "EGL_KHR_surfaceless_context"))
-    return fail("EGL_KHR_surfaceless_context is missing");
+  if (!GLAD_EGL_KHR_surfaceless_context) return fail("EGL_KHR_surfaceless_context is missing");
   const EGLint wanted[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint count = 0;
   if (!eglChooseConfig(display, wanted, &config, 1, &count) || count == 0) {
-    if (!hasExtension(extensions, "EGL_KHR_no_config_context")) return fail("no configuration for OpenGL");
+    if (!GLAD_EGL_KHR_no_config_context) return fail("no configuration for OpenGL");
     config = EGL_NO_CONFIG_KHR;
   }
   // clang-format off
@@ -87,32 +84,22 @@ struct Device {
   std::string name;
 };
 
-template <class Function>
-Function load(const char* name) {
-  return reinterpret_cast<Function>(eglGetProcAddress(name));
-}
-
 // Hardware first, otherwise in the driver's order. Empty with a reason in `failures` when devices cannot be
 // listed.
-std::vector<Device> listDevices(const char* client, std::vector<std::string>& failures) {
-  const auto query = load<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
-  const auto text = load<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
-  if (!hasExtension(client, "EGL_EXT_platform_device") || !query) {
-    failures.emplace_back("EGL devices: EGL_EXT_platform_device is missing");
-    return {};
-  }
+std::vector<Device> listDevices(std::vector<std::string>& failures) {
   EGLDeviceEXT handles[32];
   EGLint count = 0;
-  if (!query(32, handles, &count) || count == 0) {
+  if (!eglQueryDevicesEXT(32, handles, &count) || count == 0) {
     failures.emplace_back("EGL devices: none are listed");
     return {};
   }
   std::vector<Device> devices;
   for (EGLint i = 0; i < count; ++i) {
-    const char* extensions = text ? text(handles[i], EGL_EXTENSIONS) : nullptr;
+    const char* extensions = eglQueryDeviceStringEXT(handles[i], EGL_EXTENSIONS);
     const bool software = hasExtension(extensions, "EGL_MESA_device_software");
-    const char* file =
-        hasExtension(extensions, "EGL_EXT_device_drm") ? text(handles[i], EGL_DRM_DEVICE_FILE_EXT) : nullptr;
+    const char* file = hasExtension(extensions, "EGL_EXT_device_drm")
+                           ? eglQueryDeviceStringEXT(handles[i], EGL_DRM_DEVICE_FILE_EXT)
+                           : nullptr;
     devices.push_back({handles[i], software,
                        fmt::format("EGL device {} ({})", i,
                                    software ? "software"
@@ -127,18 +114,17 @@ std::vector<Device> listDevices(const char* client, std::vector<std::string>& fa
 
 OpenedContext openEgl(const ContextOptions& options, bool hardwareOnly, std::vector<std::string>& failures) {
   const GlLoader loader = [](const char* name) { return eglGetProcAddress(name); };
-  const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-  const auto display = load<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
-  if (!client || !display) {
-    failures.emplace_back("EGL: the library has no platform extensions");
+  if (!gladLoaderLoadEGL(EGL_NO_DISPLAY) || !GLAD_EGL_EXT_platform_device || !eglQueryDevicesEXT) {
+    failures.emplace_back("EGL: libEGL is missing, or has no EGL_EXT_platform_device");
     return {};
   }
   std::string why;
   bool seenHardware = false;
-  for (const Device& device : listDevices(client, failures)) {
+  for (const Device& device : listDevices(failures)) {
     if (hardwareOnly && device.software) continue;
     seenHardware |= !device.software;
-    if (auto context = openOn(display(EGL_PLATFORM_DEVICE_EXT, device.handle, nullptr), options, why))
+    if (auto context =
+            openOn(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device.handle, nullptr), options, why))
       return {std::move(context), loader, device.name};
     failures.push_back(fmt::format("{}: {}", device.name, why));
   }
