@@ -10,7 +10,6 @@
 #include "app/output/standard_streams.h"
 #include "app/session/command_line.h"
 #include "app/view/viewer.h"
-#include "engine/assets/models/fbx/fbx.h"
 #include "engine/gl/programs/program_cache.h"
 
 namespace {
@@ -34,8 +33,6 @@ int main(int argc, char** argv) {
   using namespace weft::app;
   const std::string_view first = argc > 1 ? argv[1] : "";
   if (first == weft::gl::kTrialWord) weft::gl::runTrial(argc - 1, argv + 1);
-  if (first == weft::assets::kModelWord) weft::assets::runModelReader(argc - 1, argv + 1);
-  weft::assets::readModelsApart({"/proc/self/exe"});
   std::set_terminate(endAtOnce);
   prepareStreams();
   CommandLine line;

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "tests/other_programs.h"
 #include "tests/skip.h"
 
 namespace weft::test {
@@ -65,7 +64,6 @@ void skipAll(const std::string& why) {
 
 int main(int argc, char** argv) {
   using namespace weft::test;
-  if (argc > 1 && otherPrograms().contains(argv[1])) otherPrograms()[argv[1]](argc - 1, argv + 1);
   doctest::Context context(argc, argv);
   const int result = context.run();
   if (context.shouldExit() || result != 0) return result;

@@ -12,12 +12,10 @@
 #include <cstring>
 
 #include "engine/assets/images/image.h"
-#include "engine/assets/models/fbx/fbx.h"
 #include "engine/assets/models/model_file.h"
 #include "engine/text/files/file.h"
 #include "tests/assets/models/fbx_records.h"
 #include "tests/assets/models/loading.h"
-#include "tests/other_programs.h"
 
 using namespace weft;
 using namespace weft::assets;
@@ -27,13 +25,6 @@ using weft::test::loadGood;
 using weft::test::worldOf;
 
 namespace {
-
-// As the program reads them.
-[[maybe_unused]] const bool apart = [] {
-  weft::test::otherPrograms()[kModelWord] = runModelReader;
-  readModelsApart({"/proc/self/exe"});
-  return true;
-}();
 
 void writeColor(const std::string& path, std::array<std::uint8_t, 3> color) {
   text::Diagnostics diagnostics;
