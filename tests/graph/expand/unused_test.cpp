@@ -114,29 +114,3 @@ TEST_CASE("what lies under an overlay is not judged, what it declares itself is"
   CHECK(count("less.json") == 0);
   CHECK(count("more.json") == 1);
 }
-
-TEST_CASE("levels, elements and layers are used where any reference may select another one") {
-  const auto count = [](const std::string& texture, const std::string& first, const std::string& second) {
-    const Expanded expanded = expandText(R"J({ "parameters": { "on": { "default": false } }, "resources": {
-    "ldr": { "texture": "rgba8", "size": 8 }, "tex": { "texture": "rgba8", "size": 8, )J" +
-                                         texture + R"J( } },
-  "passes": [ { "name": "fill", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "result": ")J" +
-                                         first + R"J(" } },
-    { "name": "more", "type": "fullscreen", "shader": "a.frag.glsl", "enabled": "$on", "write": { "result": ")J" +
-                                         second + R"J(" } },
-    { "name": "show", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "s": ")J" +
-                                         first + R"J(" }, "write": { "result": "ldr" } } ],
-  "present": "ldr" })J");
-    INFO(texture, first, second, expanded.text());
-    REQUIRE(expanded.graph);
-    return countOf(expanded);
-  };
-  CHECK(count(R"J("mips": 3)J", "tex.mip[0]", "tex.mip[0]") == 1);
-  CHECK(count(R"J("mips": "full")J", "tex.mip[0]", "tex.mip[0]") == 1);
-  CHECK(count(R"J("mips": 3)J", "tex.mip[0]", "tex.mip[2]") == 0);
-  CHECK(count(R"J("mips": 1)J", "tex.mip[0]", "tex.mip[0]") == 0);
-  CHECK(count(R"J("array": 2)J", "tex[0]", "tex[0]") == 1);
-  CHECK(count(R"J("array": 2)J", "tex[0]", "tex[1]") == 0);
-  CHECK(count(R"J("layers": 2)J", "tex.layer[1]", "tex.layer[1]") == 1);
-  CHECK(count(R"J("layers": 2)J", "tex.layer[1]", "tex.layer[0]") == 0);
-}

@@ -29,7 +29,7 @@ void checkSlices(Model& model);
 void warnUnread(Model& model);
 
 // W089 for what the files declare and nothing uses: parameters, lets of the opened file, resources, inputs, a history that
-// nobody reads, alternatives that cannot be reached, levels, layers and elements of textures; a pass alone in a group whose
+// nobody reads, alternatives that cannot be reached; a pass alone in a group whose
 // name is nearly that of another; lists of the scene that no pass draws. What a disabled pass or a condition that is false
 // now would use counts as used. What lies under an overlay or a preset is not judged: they may have removed what used it.
 void warnUnused(Model& model);

@@ -74,32 +74,6 @@ void warnOfResource(Model& model, const Entity& entity) {
            fmt::format("read '{}@-1' where that is meant, or leave \"history\" out", name), name);
 }
 
-void warnOfParts(Model& model, const Entity& entity) {
-  const ResourceDesc& desc = *entity.desc;
-  const struct {
-    Selected Entity::*selected;
-    std::uint32_t count;
-    const Expr& said;
-    const char *key, *word, *selector;
-  } kinds[] = {{&Entity::levels, entity.shape.mips, desc.mips, "mips", "level", ".mip[i]"},
-               {&Entity::ofArray, entity.arrayCount, desc.array, "array", "element", "[i]"},
-               {&Entity::layers, desc.layers.present() ? entity.shape.layers : 0u, desc.layers, "layers",
-                "layer", ".layer[i]"}};
-  for (const auto& [selected, count, said, key, word, selector] : kinds) {
-    if (count < 2 || (entity.*selected).several || !(entity.*selected).one) continue;
-    Selected all;  // of the instances of a file that is included more than once
-    for (const Entity& each : model.entities)
-      if (each.desc == &desc) all.add(each.*selected);
-    if (!all.several)
-      warnAt(model, said.present() ? said.place() : desc.place,
-             fmt::format("'{}' has {} {}s, and all that is written and read is {} {}", entity.name, count,
-                         word, word, all.one->text()),
-             fmt::format("leave \"{}\" out, or use the others, such as '{}{}' in a pass with \"repeat\"", key,
-                         desc.name, selector),
-             entity.name);
-  }
-}
-
 // A stanza that nothing in the files leaves out.
 bool isUnconditional(const Scope& scope, const PassDesc& pass) {
   bool conditional = pass.enabled.present() || !pass.repeat.empty();
@@ -188,10 +162,7 @@ void warnUnused(Model& model) {
   for (const Entity& entity : model.entities) {
     if (!entity.desc || !isOnTop(*entity.scope, entity.desc->place)) continue;
     warnOfResource(model, entity);
-    if (entity.kind == ResourceDesc::Kind::alternatives)
-      warnOfList(model, entity);
-    else if (entity.isOwn())
-      warnOfParts(model, entity);
+    if (entity.kind == ResourceDesc::Kind::alternatives) warnOfList(model, entity);
   }
 }
 

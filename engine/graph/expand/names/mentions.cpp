@@ -9,14 +9,6 @@
 
 namespace weft::graph::expansion {
 
-void Selected::add(const Expr* first, const Expr* last) {
-  if (several) return;
-  const auto isNumber = [](const Expr* expr) { return expr && expr->isConstant(); };
-  several = !isNumber(first) || !isNumber(last) || (first != last && first->text() != last->text()) ||
-            (one && one != first && one->text() != first->text());
-  one = first;
-}
-
 namespace {
 
 class MentionWalk {
@@ -97,13 +89,9 @@ class MentionWalk {
   }
 
   void add(Scope& scope, const RefDesc& ref) {
-    const std::uint32_t named = find(scope, ref.name, ref.import), found = mark(named, ref.history > 0);
+    const std::uint32_t named = find(scope, ref.name, ref.import);
+    mark(named, ref.history > 0);
     if (named == kNone && !ref.import) ask(Asked::resource, scope, ref.name);
-    if (found == kNone || ref.import) return;
-    Entity& entity = model_.entities[found];
-    entity.levels.add(ref.mip);
-    entity.layers.add(ref.layer);
-    entity.ofArray.add(ref.element ? &*ref.element : nullptr, ref.element ? &*ref.element : nullptr);
   }
 
   // Nothing has the name.
@@ -125,8 +113,8 @@ class MentionWalk {
     return kNone;
   }
 
-  // An input, and all that is bound to it, the last of which is returned; of what is looked back at also what the list may mean.
-  std::uint32_t mark(std::uint32_t index, bool back) {
+  // An input, and all that is bound to it; of what is looked back at also what the list may mean.
+  void mark(std::uint32_t index, bool back) {
     while (index != kNone) {
       Entity& entity = model_.entities[index];
       const bool fresh = back && !entity.lookedBackAt;
@@ -135,10 +123,9 @@ class MentionWalk {
       if (fresh)
         for (const RefDesc& ref : entity.desc->alternatives)
           mark(find(*entity.scope, ref.name, ref.import), true);
-      if (entity.kind != ResourceDesc::Kind::input || !entity.scope->parent) return index;
+      if (entity.kind != ResourceDesc::Kind::input || !entity.scope->parent) return;
       index = behind(index);
     }
-    return kNone;
   }
 
   std::uint32_t behind(std::uint32_t input) {

@@ -74,21 +74,6 @@ struct Element {
   bool zeroUsed = false;           // version zero was read or modified
 };
 
-// Which levels, layers or elements all references to a resource select.
-struct Selected {
-  bool several = false;       // all of them, several, or one that depends on something
-  const Expr* one = nullptr;  // the only number so far
-
-  void add(const Expr* first, const Expr* last);
-  void add(const std::optional<SpanDesc>& span) {
-    add(span ? &span->first : nullptr, span ? (span->range ? &span->last : &span->first) : nullptr);
-  }
-  void add(const Selected& other) {
-    if (other.several) several = true;
-    if (other.one) add(other.one, other.one);
-  }
-};
-
 struct Entity {
   ResourceDesc::Kind kind = ResourceDesc::Kind::texture;
   const ResourceDesc* desc = nullptr;  // null: one of Model::imports
@@ -118,7 +103,6 @@ struct Entity {
   std::uint32_t firstRead = kNone;  // the first position at which some slot names it
   // Some reference or expression names it, whatever the conditions say now; by @-n.
   bool named = false, lookedBackAt = false;
-  Selected levels, layers, ofArray;
   // A texture or buffer of the graph.
   bool isOwn() const { return kind == ResourceDesc::Kind::texture || kind == ResourceDesc::Kind::buffer; }
 };
