@@ -81,7 +81,6 @@ int renderBoth(gl::Context& context, const DiffOptions& options, std::span<const
                      {"pass", first->pass},
                      {"resource", first->resource},
                      {"frame", first->frame},
-                     {"amount", first->amount},
                      {"text", first->text()}};
   text += first ? "\nfirst that differs: " + text::shortened(text::printable(first->text())) + "\n"
                 : "\nno pass differs\n";

@@ -7,7 +7,6 @@
 #include <sstream>
 #include <string_view>
 
-#include "engine/assets/images/image.h"
 #include "engine/text/files/file.h"
 #include "engine/text/printable.h"
 
@@ -15,47 +14,16 @@ namespace weft::app {
 
 namespace {
 
-constexpr std::string_view kHeading = "weft passes 1";
+constexpr std::string_view kHeading = "weft passes 2";
 
 using Key = std::pair<std::string_view, std::string_view>;
 Key keyOf(const runtime::StepRecord& step) {
   return {step.pass, step.resource};
 }
 
-template <class Signature, class Visit>
-void forEachNumber(Signature& signature, Visit&& visit) {
-  for (auto& part : signature.parts) visit(part);
-  for (auto& channel : signature.channels) visit(channel);
-  visit(signature.broken);
-}
-
-std::string signatureText(const std::optional<runtime::Signature>& signature) {
-  if (!signature) return "-";
-  std::string text;
-  forEachNumber(*signature, [&](float value) {
-    text +=
-        fmt::format("{:04x}", assets::floatToHalf(std::clamp(value, -assets::kHalfMax, assets::kHalfMax)));
-  });
-  return text;
-}
-
 bool readHex(std::string_view text, std::uint64_t& out) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out, 16);
   return error == std::errc{} && end == text.data() + text.size();
-}
-
-bool readSignature(std::string_view text, std::optional<runtime::Signature>& out) {
-  if (text == "-") return true;
-  out.emplace();
-  bool good = true;
-  forEachNumber(*out, [&](float& value) {
-    std::uint64_t half = 0;
-    good = good && text.size() >= 4 && readHex(text.substr(0, 4), half);
-    if (!good) return;
-    value = assets::halfToFloat(static_cast<std::uint16_t>(half));
-    text.remove_prefix(4);
-  });
-  return good && text.empty();
 }
 
 std::vector<std::string> split(const std::string& line) {
@@ -73,11 +41,11 @@ bool readLine(const std::string& line, PassRecords& records) {
     return error == std::errc{} && end == line.data() + line.size();
   }
   const std::vector<std::string> fields = split(line);
-  if (fields.size() != 4 || records.frames.empty()) return false;
+  if (fields.size() != 3 || records.frames.empty()) return false;
   runtime::StepRecord& step = records.frames.back().steps.emplace_back();
-  step.pass = fields[2];
-  step.resource = fields[3];
-  return readHex(fields[0], step.hash) && readSignature(fields[1], step.signature);
+  step.pass = fields[1];
+  step.resource = fields[2];
+  return readHex(fields[0], step.hash);
 }
 
 std::optional<Divergence> compareFrames(const FrameRecord& before, const FrameRecord& after, bool exact,
@@ -86,14 +54,14 @@ std::optional<Divergence> compareFrames(const FrameRecord& before, const FrameRe
   std::map<Key, std::size_t> old, fresh;
   for (std::size_t i = 0; i < before.steps.size(); ++i) old[keyOf(before.steps[i])] = i;
   for (std::size_t i = 0; i < after.steps.size(); ++i) fresh[keyOf(after.steps[i])] = i;
-  const auto found = [&](Divergence::Kind kind, const runtime::StepRecord& step, double amount) {
-    return Divergence{kind, after.frame, step.pass, step.resource, amount, exact};
+  const auto found = [&](Divergence::Kind kind, const runtime::StepRecord& step) {
+    return Divergence{kind, after.frame, step.pass, step.resource};
   };
   std::size_t passed = 0;  // of `before`
   const auto goOnTo = [&](std::size_t end) -> std::optional<Divergence> {
     for (; passed < end; ++passed) {
       if (fresh.contains(keyOf(before.steps[passed]))) continue;
-      auto missing = found(Divergence::Kind::missing, before.steps[passed], 0);
+      auto missing = found(Divergence::Kind::missing, before.steps[passed]);
       if (std::ranges::find(culled, missing.pass) == culled.end()) return missing;
       if (!follower) follower = std::move(missing);
     }
@@ -101,13 +69,9 @@ std::optional<Divergence> compareFrames(const FrameRecord& before, const FrameRe
   };
   for (const runtime::StepRecord& step : after.steps) {
     const auto known = old.find(keyOf(step));
-    if (known == old.end()) return found(Divergence::Kind::added, step, 0);
+    if (known == old.end()) return found(Divergence::Kind::added, step);
     if (auto missing = goOnTo(known->second)) return missing;
-    const runtime::StepRecord& golden = before.steps[known->second];
-    const bool both = golden.signature && step.signature;
-    const double amount = both ? runtime::differenceOf(*golden.signature, *step.signature) : 0;
-    if (exact ? golden.hash != step.hash : amount > kSignatureNoise)
-      return found(Divergence::Kind::differs, step, amount);
+    if (exact && before.steps[known->second].hash != step.hash) return found(Divergence::Kind::differs, step);
   }
   return goOnTo(before.steps.size());
 }
@@ -119,10 +83,7 @@ std::string Divergence::text() const {
     return fmt::format("pass '{}' writes '{}' in frame {}, which it did not", pass, resource, frame);
   if (kind == Kind::missing)
     return fmt::format("pass '{}' no longer writes '{}' in frame {}", pass, resource, frame);
-  const std::string much = amount >= 0.002 ? fmt::format(" (by {:.2g} % of a part of it)", 100 * amount)
-                           : exact         ? " (in single texels)"
-                                           : "";
-  return fmt::format("pass '{}' writes another '{}' in frame {}{}", pass, resource, frame, much);
+  return fmt::format("pass '{}' writes another '{}' in frame {}", pass, resource, frame);
 }
 
 std::string toText(const PassRecords& records) {
@@ -130,8 +91,7 @@ std::string toText(const PassRecords& records) {
   for (const FrameRecord& frame : records.frames) {
     text += fmt::format("frame {}\n", frame.frame);
     for (const runtime::StepRecord& step : frame.steps)
-      text += fmt::format("{:016x}\t{}\t{}\t{}\n", step.hash, signatureText(step.signature), step.pass,
-                          step.resource);
+      text += fmt::format("{:016x}\t{}\t{}\n", step.hash, step.pass, step.resource);
   }
   return text;
 }

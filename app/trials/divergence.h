@@ -1,12 +1,12 @@
 // What every pass of a frame wrote, as a text file beside a golden picture; and the first pass at which two such records
-// differ. On one driver every byte is compared, on another one only what rounding leaves alone.
+// differ. What the same pass wrote is compared on one driver alone: another rounds differently.
 #pragma once
 
 #include "app/trials/shot.h"
 
 namespace weft::app {
 
-// One line per pass and resource: hash, signature, pass, resource, with tabs between.
+// One line per pass and resource: hash, pass, resource, with tabs between.
 std::string toText(const PassRecords& records);
 // Empty after an error (W001, or W003 with its line).
 std::optional<PassRecords> readRecords(const std::string& path, text::Diagnostics& diagnostics);
@@ -16,13 +16,8 @@ struct Divergence {
   Kind kind = Kind::differs;
   std::uint32_t frame = 0;
   std::string pass, resource;
-  double amount = 0;         // relative, of the signatures
-  bool exact = false;        // found by the bytes
-  std::string text() const;  // "pass 'sky' writes another 'scene' in frame 0 (by 3 %)"
+  std::string text() const;  // "pass 'sky' writes another 'scene' in frame 0"
 };
-
-// Above this relative difference two signatures of different drivers are not the same picture.
-constexpr double kSignatureNoise = 1.0 / 64;
 
 // The first pass at which the records differ; one that is culled only where nothing else differs.
 std::optional<Divergence> findDivergence(const PassRecords& before, const PassRecords& after);

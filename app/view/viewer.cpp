@@ -423,18 +423,15 @@ void Viewer::frame() {
 
 void Viewer::tellBroken(const std::vector<runtime::StepRecord>& records) {
   renderer_.execution()->watch({});
-  const auto broken = [](const runtime::StepRecord& each) {
-    return each.signature && each.signature->broken > 0;
-  };
-  const auto first = std::ranges::find_if(records, broken);
+  const auto first = std::ranges::find_if(records, [](const auto& each) { return each.broken > 0; });
   std::set<std::string_view> passes;  // that write textures
   for (const runtime::StepRecord& each : records)
-    if (each.signature) passes.insert(each.pass);
+    if (each.texture) passes.insert(each.pass);
   told_ = first == records.end()
               ? fmt::format("no NaN and no infinity in the textures that {} write",
                             text::counted(passes.size(), "pass"))
               : fmt::format("pass '{}' is the first with NaN or infinities: {:.3g} % of the texels of '{}'",
-                            first->pass, 100 * first->signature->broken, first->resource);
+                            first->pass, 100 * first->broken, first->resource);
   say("scan " + told_);
   restless_ = kRestlessAfterEvent;
   if (first != records.end()) panels_.select(first->pass);

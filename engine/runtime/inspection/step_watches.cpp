@@ -1,9 +1,11 @@
 #include "engine/runtime/inspection/step_watches.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <span>
 
 #include "engine/graph/pick/pick.h"
 #include "engine/graph/subresource.h"
@@ -26,74 +28,32 @@ std::uint64_t hashOf(const void* data, std::size_t bytes, std::uint64_t hash) {
   return text::hashCombine(hash, rest + bytes);
 }
 
-// The sums of one resource, over all that the step wrote of it.
+// Of one resource, over all that the step wrote of it.
 struct RecordSum {
-  static constexpr std::size_t kParts = Signature::kSide * Signature::kSide;
   std::uint64_t hash = text::kHashSeed;
-  std::array<double, kParts> parts{};
-  std::array<double, kParts> weights{};
-  std::array<double, 4> channels{};
-  double texels = 0, broken = 0;
-  bool texture = false;
+  std::size_t texels = 0, broken = 0;
 
-  void addLayer(const std::vector<float>& values, std::uint32_t width, std::uint32_t height,
-                std::uint32_t stride) {
-    for (std::uint32_t y = 0; y < height; ++y)
-      for (std::uint32_t x = 0; x < width; ++x) {
-        const float* texel = &values[(std::size_t{y} * width + x) * stride];
-        double weighted = 0;
-        bool finite = true;
-        for (std::uint32_t c = 0; c < stride; ++c) {
-          finite = finite && std::isfinite(texel[c]);
-          weighted += (c + 1.0) * static_cast<double>(texel[c]);
-        }
-        texels += 1;
-        if (!finite) {
-          broken += 1;
-          continue;
-        }
-        const std::size_t part =
-            y * Signature::kSide / height * Signature::kSide + x * Signature::kSide / width;
-        parts[part] += weighted;
-        weights[part] += 1;
-        for (std::uint32_t c = 0; c < stride; ++c) channels[c] += static_cast<double>(texel[c]);
-      }
-  }
-
-  Signature signature() const {
-    Signature out;
-    for (std::size_t i = 0; i < kParts; ++i)
-      out.parts[i] = static_cast<float>(parts[i] / std::max(1.0, weights[i]));
-    for (std::size_t c = 0; c < 4; ++c)
-      out.channels[c] = static_cast<float>(channels[c] / std::max(1.0, texels - broken));
-    out.broken = static_cast<float>(broken / std::max(1.0, texels));
-    return out;
+  // As floats, or as whole numbers of 32 bits.
+  void add(std::span<const std::byte> values, const gl::ClientFormat& client) {
+    hash = hashOf(values.data(), values.size(), hash);
+    const std::size_t size = client.channels * sizeof(float);
+    texels += values.size() / size;
+    for (std::size_t at = 0; client.type == GL_FLOAT && at < values.size(); at += size) {
+      std::array<float, 4> texel{};
+      std::memcpy(texel.data(), &values[at], size);
+      broken += std::ranges::all_of(texel, [](float v) { return std::isfinite(v); }) ? 0 : 1;
+    }
   }
 };
 
 // The mean of the samples, through a texture of one sample.
-std::vector<float> readSamples(const gl::TextureRef& texture) {
+std::vector<std::byte> readSamples(const gl::TextureRef& texture, const gl::ClientFormat& client) {
   text::Diagnostics ignored;
   const auto resolved = gl::Texture::create(
       {.format = texture.desc.format, .width = texture.desc.width, .height = texture.desc.height}, "record",
       ignored);
   if (!resolved || !gl::resolveSamples(texture, resolved->id())) return {};
-  return gl::readFloats(resolved->ref());
-}
-
-std::vector<float> readRecorded(const gl::TextureRef& texture, std::uint32_t mip, std::uint32_t layer,
-                                std::uint64_t& hash) {
-  std::vector<float> values = texture.desc.target == GL_TEXTURE_2D_MULTISAMPLE
-                                  ? readSamples(texture)
-                                  : gl::readFloats(texture, mip, layer);
-  const gl::ClientFormat client = gl::clientFormatOf(texture.desc.format);
-  if (client.type != GL_FLOAT && texture.desc.samples <= 1) {  // floats do not hold all whole numbers
-    const std::vector<std::byte> exact = gl::readTexture(texture, mip, layer, client.format, client.type);
-    hash = hashOf(exact.data(), exact.size(), hash);
-  } else {
-    hash = hashOf(values.data(), values.size() * sizeof(float), hash);
-  }
-  return values;
+  return gl::readTexture(resolved->ref(), 0, 0, client.format, client.type);
 }
 
 void addWrite(Execution& execution, const graph::FlatUse& use, RecordSum& sum) {
@@ -108,17 +68,16 @@ void addWrite(Execution& execution, const graph::FlatUse& use, RecordSum& sum) {
   }
   const gl::TextureRef texture = execution.texture(use.resource);
   if (texture.id == 0) return;
-  sum.texture = true;
-  const std::uint32_t stride = gl::clientFormatOf(texture.desc.format).channels;
+  const gl::ClientFormat client = gl::clientFormatOf(texture.desc.format);
   for (std::uint32_t mip = use.mip; mip < use.mip + use.mips; ++mip) {
-    const gl::Extent extent = gl::extentOf(texture.desc, mip);
     const bool volume = desc.target == graph::Target::texture_3d;
-    const std::uint32_t first = volume ? 0 : use.layer, count = volume ? extent.layers : use.layers;
-    for (std::uint32_t layer = first; layer < first + count; ++layer) {
-      const std::vector<float> values = readRecorded(texture, mip, layer, sum.hash);
-      if (values.size() < std::size_t{extent.width} * extent.height * stride) continue;
-      sum.addLayer(values, extent.width, extent.height, stride);
-    }
+    const std::uint32_t first = volume ? 0 : use.layer,
+                        count = volume ? gl::extentOf(texture.desc, mip).layers : use.layers;
+    for (std::uint32_t layer = first; layer < first + count; ++layer)
+      sum.add(texture.desc.target == GL_TEXTURE_2D_MULTISAMPLE
+                  ? readSamples(texture, client)
+                  : gl::readTexture(texture, mip, layer, client.format, client.type),
+              client);
   }
 }
 
@@ -133,24 +92,6 @@ double valueFor(graph::Format format, PoisonPattern pattern) {
 }
 
 }  // namespace
-
-double differenceOf(const Signature& a, const Signature& b) {
-  float largest = 1e-6f;
-  const auto measure = [&](const auto& values) {
-    for (const float v : values) largest = std::max(largest, std::abs(v));
-  };
-  measure(a.parts);
-  measure(b.parts);
-  double worst = std::abs(static_cast<double>(a.broken) - static_cast<double>(b.broken));
-  const auto compare = [&](float x, float y) {
-    // A part that is nearly black says little, so none counts as less than a sixteenth of the brightest.
-    const float size = std::max({std::abs(x), std::abs(y), largest / 16});
-    worst = std::max(worst, static_cast<double>(std::abs(x - y) / size));
-  };
-  for (std::size_t i = 0; i < a.parts.size(); ++i) compare(a.parts[i], b.parts[i]);
-  for (std::size_t i = 0; i < a.channels.size(); ++i) compare(a.channels[i], b.channels[i]);
-  return worst;
-}
 
 void StepRecorder::prepare(Execution& execution, std::uint32_t step) {
   const graph::FlatGraph& graph = *execution.plan().graph;
@@ -187,7 +128,9 @@ void StepRecorder::look(Execution& execution, std::uint32_t step) {
     records_.push_back({.pass = graph.passNames[index],
                         .resource = name,
                         .hash = sum.hash,
-                        .signature = sum.texture ? std::optional(sum.signature()) : std::nullopt});
+                        .texture = sum.texels > 0,
+                        .broken = static_cast<double>(sum.broken) /
+                                  static_cast<double>(std::max<std::size_t>(1, sum.texels))});
 }
 
 void fillWithPoison(Execution& execution, std::uint32_t step, PoisonPattern pattern) {

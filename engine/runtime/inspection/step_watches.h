@@ -1,11 +1,8 @@
 // Two watches over the steps of a frame (StepWatch). Records: what each pass left in what it writes, small enough to be kept beside
-// a picture: a hash, and means over parts of it, by which frames of different drivers can be compared. So two frames tell the
-// first pass at which they differ. And poison.
+// a picture: a hash, so that two frames tell the first pass at which they differ, and how much is not finite. And poison.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,22 +11,12 @@
 
 namespace weft::runtime {
 
-// Means over all levels and layers that a pass wrote. Texels that are not finite count in `broken` alone.
-struct Signature {
-  static constexpr std::size_t kSide = 4;    // parts each way, from the lower left
-  std::array<float, kSide * kSide> parts{};  // of the channels, weighted so that exchanged ones differ
-  std::array<float, 4> channels{};
-  float broken = 0;  // share of the texels
-};
-
 struct StepRecord {
   std::string pass, resource;  // full instance name; name in the graph without the number of the version
   std::uint64_t hash = 0;      // of every byte
-  std::optional<Signature> signature;  // of textures
+  bool texture = false;        // not a buffer
+  double broken = 0;           // share of the texels that have a NaN or an infinity
 };
-
-// The largest relative difference of two signatures: 0 for equal ones, 1 for a part that is black in one of them.
-double differenceOf(const Signature& a, const Signature& b);
 
 class StepRecorder {
  public:

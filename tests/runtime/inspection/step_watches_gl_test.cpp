@@ -42,22 +42,16 @@ TEST_CASE("each step has a record of what it wrote, the same in every frame") {
   const auto records = recordFrame(stage, recorder);
   CHECK(records.size() == 14);  // 6 of the chain, 2 of `numbers`, one of each of the 6 others
   CHECK(recordOf(records, "chain[0,0]", "chain").hash != recordOf(records, "chain[1,0]", "chain").hash);
-  CHECK_FALSE(recordOf(records, "numbers", "table").signature.has_value());
+  CHECK_FALSE(recordOf(records, "numbers", "table").texture);
   // `shown` and `shown_ids` share storage, and are two pictures.
   CHECK(recordOf(records, "show", "shown").hash != recordOf(records, "show_ids", "shown_ids").hash);
   const auto again = recordFrame(stage, recorder);
   REQUIRE(again.size() == records.size());
   for (std::size_t i = 0; i < records.size(); ++i) CHECK(again[i].hash == records[i].hash);
 
-  // Means of what is finite, by hand: texel (x, y) of `first` is (x, y, 1, 1), but one that is NaN and one that is infinite.
-  const Signature& first = *recordOf(records, "one", "first").signature;
-  CHECK(first.broken == doctest::Approx(2.0 / 32));
-  CHECK(first.channels[0] == doctest::Approx((4 * 28 - 1 - 2) / 30.0));
-  CHECK(first.channels[1] == doctest::Approx((8 * 6 - 2) / 30.0));
-  CHECK(first.parts[3] == doctest::Approx(6.5 + 3 + 4));
-  // Depth has one channel; integers are read as numbers.
-  CHECK(recordOf(records, "deep", "deep").signature->channels[0] > 0);
-  CHECK(recordOf(records, "numbers", "ids").signature->channels[0] > 1000);
+  // One texel of `first` is NaN and one infinite.
+  CHECK(recordOf(records, "one", "first").broken == doctest::Approx(2.0 / 32));
+  CHECK(recordOf(records, "deep", "deep").broken == 0);
 }
 
 TEST_CASE("a pass that did not run has no record, and one that keeps its results has") {
