@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -17,6 +16,7 @@
 #include "engine/scene/files/reading.h"
 #include "engine/scene/frame/mesh_frame.h"
 #include "engine/scene/models/add_model.h"
+#include "engine/text/chars.h"
 #include "engine/text/files/file.h"
 #include "engine/text/nearest.h"
 
@@ -77,22 +77,20 @@ Material readMaterial(SceneFields& fields) {
 }
 
 // A view in numbers, as SceneChoice::camera has it; nothing when it is none.
-std::optional<CameraPose> poseOf(const std::string& text, CameraPose pose) {
+std::optional<CameraPose> poseOf(const std::string& words, CameraPose pose) {
   double* const numbers[] = {&pose.position.x, &pose.position.y, &pose.position.z, &pose.target.x,
                              &pose.target.y,   &pose.target.z,   &pose.fovDegrees, &pose.nearPlane};
-  const char *at = text.data(), *const end = at + text.size();
-  for (std::size_t i = 0; i < std::size(numbers); ++i) {
-    const auto [behind, error] = std::from_chars(at, end, *numbers[i]);
-    if (error != std::errc{} || !std::isfinite(*numbers[i])) return std::nullopt;
-    if (behind == end)
-      return i >= 5 && pose.position != pose.target && pose.fovDegrees > 0 && pose.fovDegrees < 180 &&
-                     pose.nearPlane > 0
-                 ? std::optional(pose)
-                 : std::nullopt;
-    if (*behind != ',') return std::nullopt;
-    at = behind + 1;
+  std::size_t count = 0;
+  for (std::size_t at = 0; at <= words.size(); ++count) {
+    const std::string word = words.substr(at, words.find(',', at) - at);
+    const auto number = text::numberIn<double>(word);
+    if (!number || count == std::size(numbers)) return std::nullopt;
+    *numbers[count] = *number;
+    at += word.size() + 1;
   }
-  return std::nullopt;
+  const bool good = count >= 6 && pose.position != pose.target && pose.fovDegrees > 0 &&
+                    pose.fovDegrees < 180 && pose.nearPlane > 0;
+  return good ? std::optional(pose) : std::nullopt;
 }
 
 class Reader {
@@ -211,7 +209,7 @@ class Reader {
   // The cameras of a model as they stand at the beginning. `box`: of the model.
   void addCameras(const assets::Model& model, const std::vector<NodeId>& nodes, const Box& box) {
     WorldTransforms transforms;
-    transforms.prepare(scene_, 1, 0, 0);
+    transforms.update(scene_, 1, 0, 0);
     for (const assets::ModelCamera& from : model.cameras) {
       const NodeId node = nodes[from.node];
       const glm::mat4 world = node.valid() ? transforms.now()[node.index] : glm::mat4(1);

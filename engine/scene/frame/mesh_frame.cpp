@@ -9,10 +9,8 @@ namespace weft::scene {
 
 namespace {
 
-constexpr std::size_t kMinRows = 1024;     // that are worth a task
-constexpr std::size_t kMinSkins = 4;       // the same
-constexpr std::size_t kBoxes = 4096;       // that are added up together, on however many threads
-constexpr std::size_t kLittleWork = 4096;  // nodes and rows: below, threads cost more than they bring
+constexpr std::size_t kFewRows = 4096, kFewSkins = 64;
+constexpr std::size_t kBoxes = 4096;  // that are added up together, on however many threads
 
 // Its joints place it then, and not its node.
 bool isSkinned(const Scene& scene, const MeshInstance& instance) {
@@ -72,7 +70,7 @@ void MeshFrame::addList(const Scene& scene, const Selection& list) {
 void MeshFrame::fillJoints(const Scene& scene, bool all) {
   if (!all && std::ranges::find(skinMoves_, 1) == skinMoves_.end()) return;
   jointsGeneration_ = count_;
-  forRanges(many_, skinMoves_.size(), kMinSkins, [&](std::size_t from, std::size_t to) {
+  forRanges(skinMoves_.size(), kFewSkins, [&](std::size_t from, std::size_t to) {
     for (std::size_t s = from; s < to; ++s) {
       const std::vector<glm::mat4>& inverseBind = scene.skins.rows()[s].inverseBind;
       for (std::size_t j = 0; (all || skinMoves_[s] != 0) && j < inverseBind.size(); ++j) {
@@ -107,11 +105,10 @@ void MeshFrame::fillRows(const Scene& scene, bool another) {
   for (ListTable& table : tables_) {
     const bool all = another || table.generation == 0;
     if (!all && table.moving.empty()) continue;
-    forRanges(many_, all ? table.rows.size() : table.moving.size(), kMinRows,
-              [&](std::size_t from, std::size_t to) {
-                for (std::size_t i = from; i < to; ++i)
-                  fillRow(scene, table, all ? static_cast<std::uint32_t>(i) : table.moving[i]);
-              });
+    forRanges(all ? table.rows.size() : table.moving.size(), kFewRows, [&](std::size_t from, std::size_t to) {
+      for (std::size_t i = from; i < to; ++i)
+        fillRow(scene, table, all ? static_cast<std::uint32_t>(i) : table.moving[i]);
+    });
     table.generation = count_;
   }
 }
@@ -133,7 +130,7 @@ void MeshFrame::fillBounds(const Scene& scene, double time, bool all) {
   for (const ListTable& table : tables_) {
     // In the same parts whatever the number of threads: which of two zeros is least depends on the order.
     partBoxes_.assign((table.bounds.size() + kBoxes - 1) / kBoxes, Box{});
-    forRanges(many_, partBoxes_.size(), 1, [&](std::size_t from, std::size_t to) {
+    forRanges(partBoxes_.size(), 1, [&](std::size_t from, std::size_t to) {
       for (std::size_t i = from * kBoxes; i < std::min(to * kBoxes, table.bounds.size()); ++i)
         partBoxes_[i / kBoxes].add(table.bounds[i]);
     });
@@ -166,7 +163,7 @@ void MeshFrame::update(const Scene& scene, std::uint64_t sceneGeneration, double
   const bool another = sceneGeneration != sceneGeneration_;
   const std::size_t lists = kDrawListCount + chosen.size();
   if (!another && time == time_ && previousTime == previousTime_ && lists == tableOf_.size()) return;
-  transforms_.prepare(scene, sceneGeneration, time, previousTime);
+  transforms_.update(scene, sceneGeneration, time, previousTime);
   ++count_;
   if (another) rebuild(scene);
   while (tableOf_.size() < lists) {
@@ -174,10 +171,6 @@ void MeshFrame::update(const Scene& scene, std::uint64_t sceneGeneration, double
     addList(scene,
             list < kDrawListCount ? Selection(static_cast<DrawList>(list)) : chosen[list - kDrawListCount]);
   }
-  std::size_t work = transforms_.movingCount();
-  for (const ListTable& table : tables_) work += another ? table.rows.size() : table.moving.size();
-  many_ = work >= kLittleWork;
-  transforms_.place(scene, many_);
   fillJoints(scene, another);
   fillRows(scene, another);
   fillBounds(scene, time, another);

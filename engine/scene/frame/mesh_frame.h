@@ -74,7 +74,6 @@ class MeshFrame {
   void fillBounds(const Scene& scene, double time, bool all);
   void fillLights(const Scene& scene, bool all);
 
-  bool many_ = false;                  // threads, in the present update()
   std::uint64_t sceneGeneration_ = 0;  // 0: none yet
   double time_ = 0, previousTime_ = 0;
   WorldTransforms transforms_;

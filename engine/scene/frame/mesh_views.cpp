@@ -9,8 +9,8 @@ namespace weft::scene {
 
 namespace {
 
-constexpr std::uint32_t kPart = 2048;          // rows that are culled together
-constexpr std::size_t kMinKeys = 4096;         // that are worth a task
+constexpr std::uint32_t kPart = 2048;  // rows that are culled together
+constexpr std::size_t kFewKeys = 8192;
 constexpr std::size_t kLittleViewWork = 8192;  // rows of all views: below, threads cost more than they bring
 
 }  // namespace
@@ -87,13 +87,13 @@ void MeshViews::join(MeshView& view) {
   view.visible_.resize(count);
 }
 
-void MeshViews::sort(const MeshFrame& frame, MeshView& view, bool many) {
+void MeshViews::sort(const MeshFrame& frame, MeshView& view) {
   const std::span<const Box> boxes = frame.bounds(view.wish_.list);
   const std::span<const MeshRow> rows = frame.rows(view.wish_.list);
   const MeshOrder order = view.wish_.order;
   const float sign = order == MeshOrder::back_to_front ? -1.0f : 1.0f;
   view.keys_.resize(view.visible_.size());
-  forRanges(many, view.keys_.size(), kMinKeys, [&](std::size_t from, std::size_t to) {
+  forRanges(view.keys_.size(), kFewKeys, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
       const std::uint32_t row = view.visible_[i];
       view.keys_[i] = {order == MeshOrder::by_material
@@ -126,15 +126,15 @@ void MeshViews::update(const Scene& scene, const MeshFrame& frame, std::span<Mes
     work += count;
   }
   if (due_.empty()) return;
-  const bool many = work >= kLittleViewWork;
-  forRanges(many, parts_.size(), 1, [&](std::size_t from, std::size_t to) {
+  const bool little = work < kLittleViewWork;
+  forRanges(parts_.size(), little ? parts_.size() : 1, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) cullPart(frame, parts_[i]);
   });
-  forRanges(many, due_.size(), 1, [&](std::size_t from, std::size_t to) {
+  forRanges(due_.size(), little ? due_.size() : 1, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
       MeshView& view = *due_[i];
       join(view);
-      if (view.wish_.order != MeshOrder::by_mesh) sort(frame, view, many);
+      if (view.wish_.order != MeshOrder::by_mesh) sort(frame, view);
       makeCommands(scene, frame.rows(view.wish_.list), view.visible_, view.commands_);
     }
   });

@@ -79,7 +79,7 @@ class MeshViews {
   };
   void cullPart(const MeshFrame& frame, Part part);
   static void join(MeshView& view);
-  static void sort(const MeshFrame& frame, MeshView& view, bool many);
+  static void sort(const MeshFrame& frame, MeshView& view);
 
   std::vector<MeshView*> due_;  // of the present update()
   std::vector<Part> parts_;     // of these views

@@ -1,5 +1,5 @@
-// Work of a frame on several threads, by oneTBB, where it is `many`; else on this thread. What is split must not depend on where it
-// is split: then the bytes are the same on any number of threads. Private to the room.
+// Work of a frame on several threads, by oneTBB. What is split must not depend on where it is split: then the bytes are the same
+// on any number of threads. Private to the room.
 #pragma once
 
 #include <tbb/parallel_for.h>
@@ -8,12 +8,13 @@
 
 namespace weft::scene {
 
-// Calls `run(from, to)` for ranges of at least `least` that make up 0 to `count`.
+// Calls `run(from, to)` for ranges that make up 0 to `count`; for one, on this thread, where `count` is at most `few`: then threads
+// cost more than they bring.
 template <class Run>
-void forRanges(bool many, std::size_t count, std::size_t least, const Run& run) {
+void forRanges(std::size_t count, std::size_t few, const Run& run) {
   if (count == 0) return;
-  if (!many || count <= least) return run(0, count);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, least),
+  if (count <= few) return run(0, count);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, few / 16 + 1),
                     [&](const auto& range) { run(range.begin(), range.end()); });
 }
 

@@ -21,8 +21,8 @@ glm::vec4 slerp(const glm::vec4& a, const glm::vec4& b, float f) {
 }
 
 constexpr std::uint32_t kNoNode = 0xffffffffu;
-constexpr std::size_t kMinPart = 512;      // nodes that are worth a task
-constexpr std::size_t kMinAnimations = 4;  // the same of animations
+constexpr std::size_t kMinPart = 512;  // nodes that are worth a task
+constexpr std::size_t kFewParts = 8, kFewAnimations = 64;
 
 Transform moved(const Node& node, Transform local, double time) {
   local.translation += node.velocity * static_cast<float>(time);
@@ -80,19 +80,22 @@ void applyAnimation(const Animation& animation, double time, std::span<Transform
   }
 }
 
+void animate(const Scene& scene, double time, std::span<Transform> locals) {
+  const std::span<const Animation> animations = scene.animations.rows();
+  forRanges(animations.size(), kFewAnimations, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) applyAnimation(animations[i], time, locals);
+  });
+}
+
 }  // namespace
 
 void WorldTransforms::rebuild(const Scene& scene) {
   const std::span<const Node> nodes = scene.nodes.rows();
   moves_.assign(nodes.size(), 0);
   now_.locals.resize(nodes.size());
-  animationsApart_ = true;
-  std::vector<std::uint32_t> movers(nodes.size(), kNoNode);  // the last animation of each node
-  for (std::uint32_t mine = 0; mine < scene.animations.size(); ++mine)
-    for (const NodeId node : scene.animations.rows()[mine].nodes) {
+  for (const Animation& animation : scene.animations.rows())
+    for (const NodeId node : animation.nodes) {
       assert(node.valid() && "an animation moves nodes of its scene");
-      const std::uint32_t mover = std::exchange(movers[node.index], mine);
-      animationsApart_ = animationsApart_ && (mover == kNoNode || mover == mine);
       moves_[node.index] = 1;
     }
   moving_.clear();
@@ -120,14 +123,6 @@ void WorldTransforms::rebuild(const Scene& scene) {
   std::ranges::reverse(parts_);
 }
 
-void WorldTransforms::animateAt(const Scene& scene, At& at, bool many) const {
-  const std::span<const Animation> animations = scene.animations.rows();
-  forRanges(many, animations.size(), animationsApart_ ? kMinAnimations : animations.size(),
-            [&](std::size_t from, std::size_t to) {
-              for (std::size_t i = from; i < to; ++i) applyAnimation(animations[i], at.time, at.locals);
-            });
-}
-
 void WorldTransforms::placeRow(const Scene& scene, At& at, std::uint32_t row) const {
   const Node& node = scene.nodes.rows()[row];
   glm::mat4 local = matrixOf(moved(node, at.locals[row], at.time));
@@ -135,43 +130,38 @@ void WorldTransforms::placeRow(const Scene& scene, At& at, std::uint32_t row) co
   at.world[row] = node.parent.valid() ? at.world[node.parent.index] * local : local;
 }
 
-void WorldTransforms::prepare(const Scene& scene, std::uint64_t sceneGeneration, double time,
-                              double previousTime) {
-  now_.due = previous_.due = false;
+void WorldTransforms::placeMoving(const Scene& scene, At& at) {
+  animate(scene, at.time, at.locals);
+  forRanges(parts_.size() - 1, kFewParts, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = parts_[from]; i < parts_[to]; ++i) placeRow(scene, at, moving_[i]);
+  });
+  placed_ += moving_.size();
+}
+
+void WorldTransforms::update(const Scene& scene, std::uint64_t sceneGeneration, double time,
+                             double previousTime) {
+  bool now = time != now_.time, previous = previousTime != previous_.time;  // what is to be placed
   if (sceneGeneration != generation_) {
     rebuild(scene);
     now_.time = time;
-    animateAt(scene, now_, false);
+    animate(scene, time, now_.locals);
     for (std::uint32_t row = 0; row < scene.nodes.size(); ++row) placeRow(scene, now_, row);
     placed_ += scene.nodes.size();
     previous_.world = now_.world;
     previous_.locals = now_.locals;
-    previous_.due = previousTime != time;
-  } else if (time != now_.time || previousTime != previous_.time) {
-    // The frame before is most often the one that was placed last.
-    if (previousTime == now_.time && time != now_.time) {
-      now_.world.swap(previous_.world);
-      now_.locals.swap(previous_.locals);
-      now_.due = true;
-    } else {
-      now_.due = time != now_.time;
-      previous_.due = previousTime != previous_.time;
-    }
+    now = false;
+    previous = previousTime != time;
+  } else if (now &&
+             previousTime == now_.time) {  // the frame before is most often the one that was placed last
+    now_.world.swap(previous_.world);
+    now_.locals.swap(previous_.locals);
+    previous = false;
   }
   generation_ = sceneGeneration;
   now_.time = time;
   previous_.time = previousTime;
-}
-
-void WorldTransforms::place(const Scene& scene, bool many) {
-  for (At* at : {&now_, &previous_}) {
-    if (!at->due) continue;
-    animateAt(scene, *at, many);
-    forRanges(many, parts_.size() - 1, 1, [&](std::size_t from, std::size_t to) {
-      for (std::size_t i = parts_[from]; i < parts_[to]; ++i) placeRow(scene, *at, moving_[i]);
-    });
-    placed_ += moving_.size();
-  }
+  if (now) placeMoving(scene, now_);
+  if (previous) placeMoving(scene, previous_);
 }
 
 }  // namespace weft::scene

@@ -21,17 +21,14 @@ float animationTime(const Animation& animation, double time);
 
 class WorldTransforms {
  public:
-  // prepare(), then place(), on `many` threads or one. Nothing happens for a generation and times that are those of the last call.
-  void prepare(const Scene& scene, std::uint64_t sceneGeneration, double time, double previousTime);
-  void place(const Scene& scene, bool many = false);
+  // Nothing happens for a generation and times that are those of the last call.
+  void update(const Scene& scene, std::uint64_t sceneGeneration, double time, double previousTime);
 
   // One matrix per row of Scene::nodes.
   std::span<const glm::mat4> now() const { return now_.world; }
   std::span<const glm::mat4> previous() const { return previous_.world; }
   // Whether a row can ever stand elsewhere.
   bool isMoving(std::size_t row) const { return moves_[row] != 0; }
-  // How many rows can.
-  std::size_t movingCount() const { return moving_.size(); }
   // How many times a node was placed since this was made. For tests and measurements.
   std::uint64_t updates() const { return placed_; }
 
@@ -40,10 +37,9 @@ class WorldTransforms {
     std::vector<glm::mat4> world;
     std::vector<Transform> locals;  // with what animations make of them
     double time = 0;
-    bool due = false;  // to be placed by the steps
   };
   void rebuild(const Scene& scene);
-  void animateAt(const Scene& scene, At& at, bool many) const;
+  void placeMoving(const Scene& scene, At& at);
   void placeRow(const Scene& scene, At& at, std::uint32_t row) const;
 
   std::uint64_t generation_ = 0;  // of the scene; 0: none yet
@@ -52,7 +48,6 @@ class WorldTransforms {
   std::vector<std::uint32_t> moving_;  // rows that move, ascending
   std::vector<std::size_t>
       parts_;  // of moving_, which need nothing of each other: where each begins, and the end
-  bool animationsApart_ = true;  // no two move the same node
   std::uint64_t placed_ = 0;
 };
 

@@ -28,8 +28,7 @@ class Rays {
 
   explicit Rays(const scene::Scene& scene) {
     scene::WorldTransforms transforms;
-    transforms.prepare(scene, 1, 0, 0);
-    transforms.place(scene);
+    transforms.update(scene, 1, 0, 0);
     for (const scene::MeshInstance& instance : scene.meshInstances.rows()) {
       if (!(instance.lists & scene::maskOf(scene::DrawList::opaque))) continue;
       const scene::Mesh& mesh = *scene.meshes.find(instance.mesh);
