@@ -18,22 +18,12 @@ namespace weft::gl {
 
 namespace {
 
-constexpr std::array<std::pair<Backend, const char*>, 4> kBackends{{
-    {Backend::automatic, "auto"},
-    {Backend::osmesa, "osmesa"},
-    {Backend::egl, "egl"},
-    {Backend::glfw, "glfw"},
-}};
+constexpr std::array<const char*, 4> kBackends = {"auto", "osmesa", "egl",
+                                                  "glfw"};  // in the order of the enum
 
 std::string textOf(GLenum name) {
   const auto* text = reinterpret_cast<const char*>(glGetString(name));
   return text ? text : "";
-}
-
-std::int32_t integerOf(GLenum name) {
-  GLint value = 0;
-  glGetIntegerv(name, &value);
-  return value;
 }
 
 bool isSoftware(const std::string& renderer) {
@@ -117,15 +107,13 @@ void Context::drainMessages(text::Diagnostics& diagnostics) {
 }
 
 const char* nameOf(Backend backend) {
-  for (const auto& [value, name] : kBackends)
-    if (value == backend) return name;
-  return "";
+  return kBackends[static_cast<std::size_t>(backend)];
 }
 
 std::optional<Backend> findBackend(std::string_view name) {
-  for (const auto& [value, text] : kBackends)
-    if (name == text) return value;
-  return std::nullopt;
+  const auto found = std::ranges::find(kBackends, name);
+  if (found == kBackends.end()) return std::nullopt;
+  return static_cast<Backend>(found - kBackends.begin());
 }
 
 std::unique_ptr<Context> createContext(const ContextOptions& options, text::Diagnostics& diagnostics) {

@@ -31,10 +31,6 @@ class EglContext final : public Context {
     eglReleaseThread();
   }
 
-  bool makeCurrent() {
-    return eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE;
-  }
-
  private:
   EGLDisplay display_;
   EGLContext context_;
@@ -71,7 +67,7 @@ std::unique_ptr<Context> openOn(EGLDisplay display, const ContextOptions& option
   if (context == EGL_NO_CONTEXT)
     return fail(fmt::format("gives no OpenGL 4.5 core context ({})", errorText()));
   auto opened = std::make_unique<EglContext>(display, context);
-  if (!opened->makeCurrent()) {
+  if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
     why = fmt::format("eglMakeCurrent failed ({})", errorText());
     return nullptr;
   }

@@ -27,10 +27,6 @@ class GlfwContext final : public Context {
     if (--g_windows == 0) glfwTerminate();
   }
 
-  bool makeCurrent() {
-    glfwMakeContextCurrent(window_);
-    return glfwGetCurrentContext() == window_;
-  }
   void* window() const override { return window_; }
   Size framebufferSize() const override {
     int width = 0, height = 0;
@@ -74,7 +70,8 @@ OpenedContext openGlfw(const ContextOptions& options, std::vector<std::string>& 
     return {};
   }
   auto context = std::make_unique<GlfwContext>(window);
-  if (!context->makeCurrent()) {
+  glfwMakeContextCurrent(window);
+  if (glfwGetCurrentContext() != window) {
     failures.push_back(fmt::format("GLFW: the window's context cannot be made current: {}", lastError()));
     return {};
   }

@@ -30,12 +30,6 @@ constexpr std::pair<GLenum, const char*> kNames[] = {WEFT_ENUMS(WEFT_NAME)};
 #undef WEFT_NAME
 #undef WEFT_ENUMS
 
-GLsizei greatestLength(GLenum name) {
-  GLint value = 0;
-  glGetIntegerv(name, &value);
-  return std::max(value, 256) - 1;
-}
-
 void GLAPIENTRY receive(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* text,
                         const void* user) {
   const std::size_t size = length >= 0 ? static_cast<std::size_t>(length) : std::string_view(text).size();
@@ -94,7 +88,7 @@ void DebugLog::clear() {
 
 DebugGroup::DebugGroup(DebugLog& log, std::string_view name) : log_(log) {
   log_.groups_.push_back(name);
-  static const GLsizei limit = greatestLength(GL_MAX_DEBUG_MESSAGE_LENGTH);
+  static const GLsizei limit = std::max(integerOf(GL_MAX_DEBUG_MESSAGE_LENGTH), 256) - 1;
   glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, std::min(static_cast<GLsizei>(name.size()), limit),
                    name.data());
 }
@@ -105,8 +99,14 @@ DebugGroup::~DebugGroup() {
 }
 
 void labelObject(GLenum identifier, GLuint id, std::string_view label) {
-  static const GLsizei limit = greatestLength(GL_MAX_LABEL_LENGTH);
+  static const GLsizei limit = std::max(integerOf(GL_MAX_LABEL_LENGTH), 256) - 1;
   glObjectLabel(identifier, id, std::min(static_cast<GLsizei>(label.size()), limit), label.data());
+}
+
+GLint integerOf(GLenum name) {
+  GLint value = 0;
+  glGetIntegerv(name, &value);
+  return value;
 }
 
 std::string enumName(GLenum value) {

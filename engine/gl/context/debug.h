@@ -61,6 +61,9 @@ class DebugGroup {
 // must exist (bound once, or made by glCreate*).
 void labelObject(GLenum identifier, GLuint id, std::string_view label);
 
+// What glGetIntegerv says of a name with one value.
+GLint integerOf(GLenum name);
+
 // "GL_INVALID_OPERATION", "GL_RGBA16F", …: the enums this room meets; "0x1234" for others.
 std::string enumName(GLenum value);
 

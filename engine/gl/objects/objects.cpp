@@ -39,9 +39,9 @@ LiveObjects liveObjects() {
 }
 
 std::string toText(const LiveObjects& objects) {
-  static constexpr const char* kNames[kKinds] = {"texture",     "texture view", "buffer",
-                                                 "framebuffer", "sampler",      "vertex array",
-                                                 "query",       "fence",        "program"};
+  static constexpr const char* kNames[kKinds] = {"texture", "texture view", "buffer", "framebuffer",
+                                                 "sampler", "vertex array", "query",  "fence",
+                                                 "shader",  "program"};
   std::string text;
   for (std::size_t i = 0; i < kKinds; ++i)
     if (const auto n = objects.counts[i]; n != 0)
@@ -61,6 +61,7 @@ void deleteObject(ObjectKind kind, GLuint id) {
   if (kind == ObjectKind::sampler) glDeleteSamplers(1, &id);
   if (kind == ObjectKind::vertex_array) glDeleteVertexArrays(1, &id);
   if (kind == ObjectKind::query) glDeleteQueries(1, &id);
+  if (kind == ObjectKind::shader) glDeleteShader(id);
   if (kind == ObjectKind::program) glDeleteProgram(id);
 }
 
@@ -186,12 +187,6 @@ bool isMultisample(GLenum target) {
   return target == GL_TEXTURE_2D_MULTISAMPLE;
 }
 
-GLint limitOf(GLenum name) {
-  GLint value = 0;
-  glGetIntegerv(name, &value);
-  return value;
-}
-
 std::string sizeText(const TextureDesc& d) {
   std::string text = fmt::format("{}x{}", d.width, d.height);
   if (d.target == GL_TEXTURE_3D) text += fmt::format("x{}", d.depth);
@@ -204,10 +199,10 @@ std::string sizeText(const TextureDesc& d) {
 // Which number the driver would refuse, or "": it says no more than that it does.
 std::string refusal(const TextureDesc& d) {
   const bool cube = d.target == GL_TEXTURE_CUBE_MAP || d.target == GL_TEXTURE_CUBE_MAP_ARRAY;
-  const GLint largest = limitOf(d.target == GL_TEXTURE_3D ? GL_MAX_3D_TEXTURE_SIZE
-                                : cube                    ? GL_MAX_CUBE_MAP_TEXTURE_SIZE
-                                                          : GL_MAX_TEXTURE_SIZE);
-  const GLint layers = limitOf(GL_MAX_ARRAY_TEXTURE_LAYERS), samples = limitOf(GL_MAX_SAMPLES);
+  const GLint largest = integerOf(d.target == GL_TEXTURE_3D ? GL_MAX_3D_TEXTURE_SIZE
+                                  : cube                    ? GL_MAX_CUBE_MAP_TEXTURE_SIZE
+                                                            : GL_MAX_TEXTURE_SIZE);
+  const GLint layers = integerOf(GL_MAX_ARRAY_TEXTURE_LAYERS), samples = integerOf(GL_MAX_SAMPLES);
   const std::uint32_t side = std::max({d.width, d.height, d.target == GL_TEXTURE_3D ? d.depth : 1});
   for (const auto& [asked, most, what] : {std::tuple{side, largest, "texels on its largest side"},
                                           {d.mips, std::bit_width(side), "mips of this size"},

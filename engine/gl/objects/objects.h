@@ -30,6 +30,7 @@ enum class ObjectKind : std::uint8_t {
   vertex_array,
   query,
   fence,
+  shader,
   program,
   count_
 };

@@ -18,16 +18,8 @@ using text::Code;
 using text::Diagnostics;
 
 // Deleted when it goes out of scope; a linked program does not need it.
-class Shader {
- public:
-  explicit Shader(GLenum stage) : id_(glCreateShader(stage)) {}
-  Shader(Shader&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
-  Shader& operator=(Shader&&) = delete;
-  ~Shader() { glDeleteShader(id_); }
-  GLuint id() const { return id_; }
-
- private:
-  GLuint id_;
+struct Shader : Owner<ObjectKind::shader> {
+  explicit Shader(GLenum stage) : Owner(glCreateShader(stage)) {}
 };
 
 std::string textOf(GLint length, GLuint id, void (*read)(GLuint, GLsizei, GLsizei*, GLchar*)) {
@@ -278,10 +270,8 @@ std::optional<Program> Program::compile(std::span<const StageSource> stages,
 
 std::optional<Program> Program::load(const ProgramBinary& binary, bool compute, std::string_view label) {
   // An unknown format would be GL_INVALID_ENUM: ask first.
-  GLint count = 0;
-  glGetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &count);
-  std::vector<GLint> formats(static_cast<std::size_t>(std::max(0, count)));
-  if (count > 0) glGetIntegerv(GL_PROGRAM_BINARY_FORMATS, formats.data());
+  std::vector<GLint> formats(toUnsigned(integerOf(GL_NUM_PROGRAM_BINARY_FORMATS)));
+  if (!formats.empty()) glGetIntegerv(GL_PROGRAM_BINARY_FORMATS, formats.data());
   if (std::ranges::find(formats, static_cast<GLint>(binary.format)) == formats.end()) return std::nullopt;
   Program program(glCreateProgram());
   labelObject(GL_PROGRAM, program.id_, label);
@@ -294,9 +284,7 @@ std::optional<Program> Program::load(const ProgramBinary& binary, bool compute, 
 }
 
 std::optional<ProgramBinary> Program::binary() const {
-  GLint count = 0, length = 0;
-  glGetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &count);
-  if (count == 0) return std::nullopt;
+  GLint length = 0;
   glGetProgramiv(id_, GL_PROGRAM_BINARY_LENGTH, &length);
   if (length <= 0) return std::nullopt;
   ProgramBinary binary;

@@ -87,7 +87,7 @@ struct StageSource {
 
 struct ProgramBinary {
   GLenum format = 0;
-  std::vector<std::byte> bytes;
+  std::string bytes;
 };
 
 class Program : public Owner<ObjectKind::program> {

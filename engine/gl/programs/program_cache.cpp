@@ -28,12 +28,11 @@ bool hasBinaryName(const std::string& name) {
 
 // What stands before the binary in its file. The checksum keeps damaged bytes, and formats that the driver has not, away from it.
 struct BinaryHeader {
-  char key[kBinaryKeyLength] = {};
   std::uint64_t format = 0, checksum = 0;
 };
 
-std::uint64_t checksumOf(std::uint64_t format, std::string_view bytes) {
-  return text::hashBytes(bytes, text::hashCombine(text::kHashSeed, format));
+std::uint64_t checksumOf(const std::string& key, std::uint64_t format, std::string_view bytes) {
+  return text::hashBytes(bytes, text::hashCombine(text::hashBytes(key), format));
 }
 
 std::string makeKey(const std::vector<StageSource>& stages, const ProgramRequest& request,
@@ -145,15 +144,9 @@ std::optional<Program> ProgramCache::loadBinary(const std::string& key, bool com
   if (!bytes || bytes->size() < sizeof(BinaryHeader)) return reject();
   BinaryHeader header;
   std::memcpy(&header, bytes->data(), sizeof header);
-  const std::string_view body = std::string_view(*bytes).substr(sizeof header);
-  if (std::string_view(header.key, kBinaryKeyLength) != key ||
-      header.checksum != checksumOf(header.format, body))
-    return reject();
-  ProgramBinary binary;
-  binary.format = static_cast<GLenum>(header.format);
-  binary.bytes.resize(body.size());
-  std::memcpy(binary.bytes.data(), body.data(), body.size());
-  std::optional<Program> program = Program::load(binary, compute, label);
+  const std::string body = bytes->substr(sizeof header);
+  if (header.checksum != checksumOf(key, header.format, body)) return reject();
+  std::optional<Program> program = Program::load({static_cast<GLenum>(header.format), body}, compute, label);
   if (!program) return reject();
   ++stats_.binaryLoads;
   ::utimensat(AT_FDCWD, pathOf(key).c_str(), nullptr, 0);  // it was used now
@@ -164,14 +157,8 @@ void ProgramCache::storeBinary(const std::string& key, const Program& program) {
   if (options_.folder.empty()) return;
   const std::optional<ProgramBinary> binary = program.binary();
   if (!binary) return;
-  BinaryHeader header;
-  std::memcpy(header.key, key.data(), kBinaryKeyLength);
-  header.format = binary->format;
-  const std::string_view body(reinterpret_cast<const char*>(binary->bytes.data()), binary->bytes.size());
-  header.checksum = checksumOf(header.format, body);
-  std::string file(sizeof header, '\0');
-  std::memcpy(file.data(), &header, sizeof header);
-  file.append(body);
+  const BinaryHeader header{binary->format, checksumOf(key, binary->format, binary->bytes)};
+  const std::string file = std::string(reinterpret_cast<const char*>(&header), sizeof header) + binary->bytes;
   // What is no file would be written to as it is, and a pipe waits for a reader.
   std::error_code ec;
   if (const auto there = std::filesystem::status(pathOf(key), ec); exists(there) && !is_regular_file(there))

@@ -56,27 +56,6 @@ TrialProgram readTrial(std::string_view text) {
   return program;
 }
 
-struct TrialResult {
-  std::string what;             // "signal 11 (Segmentation fault)"; empty: it survived, or nothing is known
-  std::string during;           // "compiling"
-  double seconds = 0;           // of processor time
-  std::uint64_t mebibytes = 0;  // of memory at most
-};
-
-TrialResult tryProgram(std::vector<std::string> command, Backend backend, const std::string& program,
-                       std::uint64_t seconds) {
-  for (const std::string& word : {std::string(kTrialWord), std::string(nameOf(backend)),
-                                  std::to_string(seconds), std::to_string(kMaxTrialBytes)})
-    command.push_back(word);
-  const text::ApartEnd end = text::runApart(std::move(command), program, seconds);
-  TrialResult result{.what = "", .during = "", .seconds = end.seconds};
-  if (end.said.empty() || end.said.back() == kTrialDrawn) return result;
-  result.during = end.said.back() == kTrialOpened ? "compiling" : "making the machine code of";
-  result.mebibytes = end.mebibytes;
-  result.what = end.how;
-  return result;
-}
-
 // ---- the process of a trial ----
 
 // The machine code is made for a draw or a dispatch, also for one that has nothing to do. The objects go with the process.
@@ -123,10 +102,14 @@ bool survivesTrial(Trials& trials, const DeviceInfo& device, std::span<const Sta
   const Backend backend = device.backend != Backend::glfw ? device.backend
                           : device.software               ? Backend::osmesa
                                                           : Backend::egl;
-  TrialResult result;
+  text::ApartEnd end;
   if (!trials.died) {
-    result = tryProgram(trials.command, backend, writeTrial(stages, defines, outputs), trials.seconds);
-    if (result.what.empty()) return true;
+    std::vector<std::string> command = trials.command;
+    for (const std::string& word : {std::string(kTrialWord), std::string(nameOf(backend)),
+                                    std::to_string(trials.seconds), std::to_string(kMaxTrialBytes)})
+      command.push_back(word);
+    end = text::runApart(std::move(command), writeTrial(stages, defines, outputs), trials.seconds);
+    if (end.said.empty() || end.said.back() == kTrialDrawn) return true;  // if empty, nothing is known
   }
   const StageSource& largest = *std::ranges::max_element(stages, {}, [&](const StageSource& stage) {
     const glsl::Interface& interface = stage.source->interfaceWith(defines);
@@ -135,12 +118,14 @@ bool survivesTrial(Trials& trials, const DeviceInfo& device, std::span<const Sta
   const bool tried = !std::exchange(trials.died, true);
   text::Diagnostic& error =
       diagnostics.error(text::Code::driverDied, {largest.source->file, 0, 0},
-                        tried ? fmt::format("the driver did not survive {} this shader", result.during)
-                              : "this shader was not tried");
+                        !tried ? "this shader was not tried"
+                        : end.said.back() == kTrialOpened
+                            ? "the driver did not survive compiling this shader"
+                            : "the driver did not survive making the machine code of this shader");
   error.expected = fmt::format("at most {} s of processor time for an unusual shader and {} MiB",
                                trials.seconds, kMaxTrialBytes >> 20);
-  error.found = tried ? fmt::format("{}, after {:.1f} s of processor time and with {} MiB", result.what,
-                                    result.seconds, result.mebibytes)
+  error.found = tried ? fmt::format("{}, after {:.1f} s of processor time and with {} MiB", end.how,
+                                    end.seconds, end.mebibytes)
                       : "another one that the driver did not survive";
   error.hint = tried ? "make it smaller, or give it more time with --limit 2 on a slow machine"
                      : "mend the other one first";

@@ -156,7 +156,7 @@ TEST_CASE_FIXTURE(Fixture, "a damaged or foreign binary is a miss, is written an
   flipped[flipped.size() - 100] = static_cast<char>(flipped[flipped.size() - 100] ^ 0x10);
   bad.push_back(flipped);
   std::string foreignFormat = good;
-  foreignFormat[32] = static_cast<char>(foreignFormat[32] ^ 0x55);  // the format in the header
+  foreignFormat[0] = static_cast<char>(foreignFormat[0] ^ 0x55);  // the format in the header
   bad.push_back(foreignFormat);
   for (const std::string& bytes : bad) {
     std::ofstream(files[0], std::ios::binary | std::ios::trunc) << bytes;
