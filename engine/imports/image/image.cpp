@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <vector>
@@ -77,21 +76,6 @@ struct SequencePattern {
 
 constexpr std::size_t kMaxDigits = 9;  // of a number
 
-// The number in `name`, which is `before`, digits, `after`.
-std::optional<std::uint32_t> numberIn(std::string_view name, std::string_view before, std::string_view after,
-                                      std::size_t digits) {
-  if (name.size() <= before.size() + after.size() || !name.starts_with(before) || !name.ends_with(after))
-    return std::nullopt;
-  const std::string_view text = name.substr(before.size(), name.size() - before.size() - after.size());
-  // 00012 is no name of number 12 in four digits, and neither is 12.
-  if (text.size() < digits || text.size() > kMaxDigits || (text.size() > digits && text[0] == '0') ||
-      !std::ranges::all_of(text, text::isDigit))
-    return std::nullopt;
-  std::uint32_t number = 0;
-  std::from_chars(text.data(), text.data() + text.size(), number);
-  return number;
-}
-
 // Nothing when `file` is the name of one file: without two or more # in a row, and without %d, %4d or %04d.
 std::optional<SequencePattern> sequencePatternOf(const std::string& file) {
   const std::size_t slash = file.rfind('/'), name = slash == std::string::npos ? 0 : slash + 1;
@@ -117,19 +101,23 @@ std::optional<SequencePattern> sequencePatternOf(const std::string& file) {
 std::vector<std::uint32_t> numbersOf(const SequencePattern& pattern, text::Diagnostics& diagnostics) {
   namespace fs = std::filesystem;
   const text::Place place{pattern.text};
-  const std::size_t slash = pattern.before.rfind('/');
-  const std::string folder = slash == std::string::npos ? "." : pattern.before.substr(0, slash + 1);
-  const std::string before = slash == std::string::npos ? pattern.before : pattern.before.substr(slash + 1);
+  const std::string path = pattern.before.substr(0, pattern.before.rfind('/') + 1),
+                    folder = path.empty() ? "." : path;
   if (!text::mayRead(folder)) {
     text::reportOutside(folder, diagnostics, place);
     return {};
   }
   std::vector<std::uint32_t> numbers;
   std::error_code ec;
-  for (fs::directory_iterator entry(folder, ec), end; !ec && entry != end; entry.increment(ec))
-    if (const auto number =
-            numberIn(entry->path().filename().string(), before, pattern.after, pattern.digits))
-      numbers.push_back(*number);
+  for (fs::directory_iterator entry(folder, ec), end; !ec && entry != end; entry.increment(ec)) {
+    const std::string name = path + entry->path().filename().string();
+    const std::size_t around = pattern.before.size() + pattern.after.size();
+    if (name.size() <= around) continue;
+    const auto number =
+        text::numberIn<std::uint32_t>(name.substr(pattern.before.size(), name.size() - around));
+    // 00012 is no name of number 12 in four digits, and neither is 12.
+    if (number && pattern.nameOf(*number) == name) numbers.push_back(*number);
+  }
   std::ranges::sort(numbers);
   if (numbers.empty()) {
     diagnostics.error(
