@@ -366,14 +366,6 @@ GLsizei byteCount(const Extent& extent, GLenum format, GLenum type) {
   return static_cast<GLsizei>(bytes);
 }
 
-void getLayer(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format, GLenum type,
-              GLsizei bytes, void* where) {
-  const Extent extent = extentOf(texture.desc, mip);
-  assert(mip < texture.desc.mips && layer < extent.layers && texture.desc.samples == 1);
-  glGetTextureSubImage(texture.id, toInt(mip), 0, 0, toInt(layer), toInt(extent.width), toInt(extent.height),
-                       1, format, type, bytes, where);
-}
-
 }  // namespace
 
 Extent extentOf(const TextureDesc& desc, std::uint32_t mip) {
@@ -455,18 +447,20 @@ void uploadTexture(const TextureRef& texture, std::uint32_t mip, std::uint32_t l
 
 std::vector<std::byte> readTexture(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer,
                                    GLenum format, GLenum type) {
-  const GLsizei bytes = byteCount(extentOf(texture.desc, mip), format, type);
+  const Extent extent = extentOf(texture.desc, mip);
+  assert(mip < texture.desc.mips && layer < extent.layers && texture.desc.samples == 1);
+  const GLsizei bytes = byteCount(extent, format, type);
   std::vector<std::byte> data(static_cast<std::size_t>(bytes));
-  getLayer(texture, mip, layer, format, type, bytes, data.data());
+  glGetTextureSubImage(texture.id, toInt(mip), 0, 0, toInt(layer), toInt(extent.width), toInt(extent.height),
+                       1, format, type, bytes, data.data());
   return data;
 }
 
 std::vector<float> readFloats(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer) {
-  const Extent extent = extentOf(texture.desc, mip);
   const ClientFormat client = clientFormatOf(texture.desc.format);
-  std::vector<float> texels(std::size_t{extent.width} * extent.height * client.channels);
-  getLayer(texture, mip, layer, client.format, client.type,
-           static_cast<GLsizei>(texels.size() * sizeof(float)), texels.data());
+  const std::vector<std::byte> bytes = readTexture(texture, mip, layer, client.format, client.type);
+  std::vector<float> texels(bytes.size() / sizeof(float));
+  std::memcpy(texels.data(), bytes.data(), bytes.size());
   if (client.type == GL_UNSIGNED_INT)
     for (float& texel : texels) texel = static_cast<float>(std::bit_cast<std::uint32_t>(texel));
   if (client.type == GL_INT)

@@ -1,6 +1,5 @@
 #include "engine/gl/objects/timers.h"
 
-#include <algorithm>
 #include <cassert>
 #include <chrono>
 
@@ -25,6 +24,7 @@ void PassTimers::beginFrame(std::uint32_t passes) {
   Frame& frame = frames_[current_];
   if (frame.pending) collect(frame);
   frame.times.assign(passes, PassTime{});
+  frame.last.reset();
   if (!queries_) return;
   while (frame.starts.size() < passes) {
     frame.starts.push_back(Query::create(GL_TIMESTAMP, "pass start"));
@@ -61,15 +61,7 @@ void PassTimers::end(std::uint32_t pass) {
 void PassTimers::endFrame() {
   if (!enabled_) return;
   frames_[current_].pending = true;
-  // Oldest first, so that results() only moves forward.
-  for (std::size_t i = 1; i <= kFramesInFlight; ++i) {
-    Frame& frame = frames_[(current_ + i) % kFramesInFlight];
-    if (!frame.pending) continue;
-    const bool any =
-        std::any_of(frame.times.begin(), frame.times.end(), [](const PassTime& t) { return t.ran; });
-    if (queries_ && any && !frame.ends[frame.last].available()) break;
-    collect(frame);
-  }
+  collectPending(false);
 }
 
 void PassTimers::collect(Frame& frame) {
@@ -81,10 +73,12 @@ void PassTimers::collect(Frame& frame) {
   frame.pending = false;
 }
 
-void PassTimers::finish() {
+void PassTimers::collectPending(bool waits) {
   for (std::size_t i = 1; i <= kFramesInFlight; ++i) {
     Frame& frame = frames_[(current_ + i) % kFramesInFlight];
-    if (frame.pending) collect(frame);
+    if (!frame.pending) continue;
+    if (!waits && queries_ && frame.last && !frame.ends[*frame.last].available()) break;
+    collect(frame);
   }
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,7 +40,7 @@ class PassTimers {
   // The newest frame whose times are complete (with queries some frames old); empty before the first.
   std::span<const PassTime> results() const { return results_; }
   // Waits for all frames in flight; results() is then the last one.
-  void finish();
+  void finish() { collectPending(true); }
 
  private:
   static constexpr std::size_t kFramesInFlight = 4;
@@ -47,9 +48,10 @@ class PassTimers {
     std::vector<Query> starts, ends;
     std::vector<PassTime> times;
     bool pending = false;
-    std::uint32_t last = 0;  // the pass that ended last
+    std::optional<std::uint32_t> last{};  // the pass that ended last
   };
-  void collect(Frame& frame);  // waits when it must
+  void collect(Frame& frame);       // waits when it must
+  void collectPending(bool waits);  // oldest first, so that results() only moves forward
   bool queries_ = false, enabled_ = false;
   Frame frames_[kFramesInFlight];
   std::size_t current_ = 0;

@@ -23,12 +23,9 @@ struct Shader : Owner<ObjectKind::shader> {
 };
 
 std::string textOf(GLint length, GLuint id, void (*read)(GLuint, GLsizei, GLsizei*, GLchar*)) {
-  if (length <= 1) return {};
-  std::string text(static_cast<std::size_t>(length), '\0');
-  GLsizei written = 0;
-  read(id, length, &written, text.data());
-  text.resize(static_cast<std::size_t>(std::max(0, written)));
-  return text;
+  std::string text(static_cast<std::size_t>(std::max(length, 1)), '\0');
+  read(id, static_cast<GLsizei>(text.size()), nullptr, text.data());
+  return text.c_str();
 }
 
 // The log of what failed as diagnostics, at least one error. Of what succeeded a driver says what it likes, and only while its
@@ -86,9 +83,9 @@ std::string nameOf(GLuint program, GLenum interface, GLuint index) {
   GLint length = 0;
   const GLenum property = GL_NAME_LENGTH;
   glGetProgramResourceiv(program, interface, index, 1, &property, 1, nullptr, &length);
-  if (length <= 1) return {};
-  std::string name(static_cast<std::size_t>(length), '\0');
-  glGetProgramResourceName(program, interface, index, length, nullptr, name.data());
+  std::string name(static_cast<std::size_t>(std::max(length, 1)), '\0');
+  glGetProgramResourceName(program, interface, index, static_cast<GLsizei>(name.size()), nullptr,
+                           name.data());
   name.pop_back();  // the terminator
   return name;
 }
