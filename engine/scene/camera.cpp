@@ -12,11 +12,6 @@ namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 
-glm::dvec3 turnAboutY(glm::dvec3 v, double radians) {
-  const double c = std::cos(radians), s = std::sin(radians);
-  return {v.x * c + v.z * s, v.y, v.z * c - v.x * s};
-}
-
 // Radical inverse of `index` in `base` (Halton 1964).
 double radicalInverse(std::uint32_t index, std::uint32_t base) {
   double result = 0, digit = 1.0 / base;
@@ -41,7 +36,8 @@ CameraPose poseAt(const Camera& camera, double time) {
   }
   if (camera.orbitDegreesPerSecond != 0 && time != 0) {
     const double radians = std::fmod(camera.orbitDegreesPerSecond * time, 360.0) * kRadiansPerDegree;
-    pose.position = pose.target + turnAboutY(pose.position - pose.target, radians);
+    const glm::dmat3 turn(glm::rotate(glm::dmat4(1), radians, glm::dvec3(0, 1, 0)));
+    pose.position = pose.target + turn * (pose.position - pose.target);
   }
   return pose;
 }
@@ -80,6 +76,17 @@ glm::dmat4 orthographicMatrix(double height, double aspect, double nearPlane, do
   return projection;
 }
 
+ViewData viewOf(const glm::dmat4& view, const glm::dmat4& projection, glm::dvec3 eye, glm::vec2 viewport) {
+  ViewData data;
+  data.view = glm::mat4(view);
+  data.projection = glm::mat4(projection);
+  data.view_projection = data.previous_view_projection = glm::mat4(projection * view);
+  data.inverse_view_projection = glm::mat4(glm::inverse(view) * glm::inverse(projection));
+  data.eye = data.previous_eye = glm::vec3(eye);
+  data.viewport = viewport;
+  return data;
+}
+
 ViewData makeView(const ViewRequest& request) {
   assert(request.viewport.x > 0 && request.viewport.y > 0);
   const glm::dvec2 size(request.viewport);
@@ -90,20 +97,13 @@ ViewData makeView(const ViewRequest& request) {
                                 kOrthographicReach * pose.height, jitter);
     return projectionMatrix(pose.fovDegrees, size.x / size.y, pose.nearPlane, jitter);
   };
-  const glm::dmat4 view = viewMatrix(request.pose), projection = projectionOf(request.pose);
-
-  ViewData data;
-  data.view = glm::mat4(view);
-  data.projection = glm::mat4(projection);
-  data.view_projection = glm::mat4(projection * view);
-  data.inverse_view_projection = glm::mat4(glm::inverse(view) * glm::inverse(projection));
+  ViewData data = viewOf(viewMatrix(request.pose), projectionOf(request.pose), request.pose.position,
+                         glm::vec2(request.viewport));
   data.previous_view_projection =
       glm::mat4(projectionOf(request.previousPose) * viewMatrix(request.previousPose));
-  data.eye = glm::vec3(request.pose.position);
   data.previous_eye = glm::vec3(request.previousPose.position);
   data.near_plane = static_cast<float>(request.pose.nearPlane);
   data.target_distance = static_cast<float>(glm::distance(request.pose.position, request.pose.target));
-  data.viewport = glm::vec2(request.viewport);
   data.jitter = request.jitter;
   data.frame = request.frame;
   data.time = static_cast<float>(request.time);

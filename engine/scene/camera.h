@@ -69,6 +69,8 @@ struct ViewRequest {
 };
 
 ViewData makeView(const ViewRequest& request);
+// One that stood still, without a jitter, at no moment.
+ViewData viewOf(const glm::dmat4& view, const glm::dmat4& projection, glm::dvec3 eye, glm::vec2 viewport);
 
 // The parts, for tests and for other views.
 glm::dmat4 viewMatrix(

@@ -7,21 +7,6 @@
 
 namespace weft::scene {
 
-namespace {
-
-ViewData viewOf(const glm::dmat4& view, const glm::dmat4& projection, glm::dvec3 eye, std::uint32_t texels) {
-  ViewData data;
-  data.view = glm::mat4(view);
-  data.projection = glm::mat4(projection);
-  data.view_projection = data.previous_view_projection = glm::mat4(projection * view);
-  data.inverse_view_projection = glm::mat4(glm::inverse(view) * glm::inverse(projection));
-  data.eye = data.previous_eye = glm::vec3(eye);
-  data.viewport = glm::vec2(static_cast<float>(texels));
-  return data;
-}
-
-}  // namespace
-
 SunView sunView(const Sun& sun, const Box& bounds, std::uint32_t texels) {
   assert(texels > 0);
   const glm::dvec3 low = bounds.empty() ? glm::dvec3(-0.5) : glm::dvec3(bounds.low);
@@ -47,7 +32,7 @@ SunView sunView(const Sun& sun, const Box& bounds, std::uint32_t texels) {
 
   SunView result;
   const glm::dvec3 eye = glm::transpose(glm::dmat3(turn)) * (center + glm::dvec3(0, 0, radius));
-  result.view = viewOf(view, projection, eye, texels);
+  result.view = viewOf(view, projection, eye, glm::vec2(static_cast<float>(texels)));
   const glm::dmat4 toTexture = glm::translate(glm::dmat4(1), glm::dvec3(0.5, 0.5, 0)) *
                                glm::scale(glm::dmat4(1), glm::dvec3(0.5, 0.5, 1));
   result.shadowMatrix = glm::mat4(toTexture * projection * view);
@@ -70,7 +55,8 @@ ViewData lampView(const Lamp& lamp, std::uint32_t face, std::uint32_t texels) {
                                                                        {{{0, 0, -1}, {0, -1, 0}}}}};
   const glm::dvec3 eye(lamp.position);
   const glm::dmat4 view = glm::lookAt(eye, eye + kFaces[face][0], kFaces[face][1]);
-  ViewData data = viewOf(view, projectionMatrix(90, 1, nearPlaneOf(lamp)), eye, texels);
+  ViewData data =
+      viewOf(view, projectionMatrix(90, 1, nearPlaneOf(lamp)), eye, glm::vec2(static_cast<float>(texels)));
   data.near_plane = nearPlaneOf(lamp);
   return data;
 }

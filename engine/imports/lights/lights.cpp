@@ -75,21 +75,33 @@ class SunProvider : public Provider {
         direction_(directionOf(request)) {}
 
   BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
-    follow(frame);
-    return table_.get(
-        layout, generation_, [this] { return row(); }, diagnostics);
+    const auto rows = [this] { return row(); };
+    return table_.get(layout, generation(frame), rows, diagnostics);
   }
   bool value(const Frame& frame, const ViewPart& part, std::uint32_t column, Numbers& out) override {
-    follow(frame);
+    generation(frame);
     return table_.read(row(), part.element, column, out);
   }
   const scene::ViewData& view(const Frame& frame, const ViewPart&) override {
-    follow(frame);
+    generation(frame);
     return fitted_.view;
   }
+  // Brings the row and the view up to date.
   std::uint64_t generation(const Frame& frame) override {
-    follow(frame);
-    return generation_;
+    if (std::exchange(frame_, frame.number) == frame.number) return generation_;
+    const std::uint64_t changed = frame.world.sceneGeneration();
+    const scene::Box bounds = frame.tables.meshFrame().sceneBounds();
+    scene::Sun sun = frame.tables.meshFrame().sun().value_or(scene::Sun{.irradiance = glm::vec3(0)});
+    sun.direction = direction_.value_or(sun.direction);
+    if (scene_ == changed && sun.direction == sun_.direction && bounds == bounds_) return generation_;
+    const bool another = std::exchange(scene_, changed) != changed;
+    bounds_ = bounds;
+    sun_ = sun;
+    const scene::SunView fitted = scene::sunView(sun_, bounds, texels_);
+    // The generation rises only when a value has changed: the fit follows the bounds in steps.
+    if (!another && fitted.shadowMatrix == fitted_.shadowMatrix) return generation_;
+    fitted_ = fitted;
+    return generation_ = frame.newGeneration();
   }
   bool isStill(const World& world) const override { return !scene::isMoving(world.scene()); }
 
@@ -97,24 +109,6 @@ class SunProvider : public Provider {
   std::array<SunRow, 1> row() const {
     const auto cosAngle = static_cast<float>(std::cos(sun_.angle / 2 * std::numbers::pi / 180));
     return {SunRow{sun_, cosAngle, fitted_.texel, fitted_.shadowMatrix}};
-  }
-
-  void follow(const Frame& frame) {
-    if (frame_ == frame.number) return;
-    frame_ = frame.number;
-    const std::uint64_t changed = frame.world.sceneGeneration();
-    const scene::Box bounds = frame.tables.meshFrame().sceneBounds();
-    scene::Sun sun = frame.tables.meshFrame().sun().value_or(scene::Sun{.irradiance = glm::vec3(0)});
-    sun.direction = direction_.value_or(sun.direction);
-    if (scene_ == changed && sun.direction == sun_.direction && bounds == bounds_) return;
-    const bool another = std::exchange(scene_, changed) != changed;
-    bounds_ = bounds;
-    sun_ = sun;
-    const scene::SunView fitted = scene::sunView(sun_, bounds, texels_);
-    // The generation rises only when a value has changed: the fit follows the bounds in steps.
-    if (!another && fitted.shadowMatrix == fitted_.shadowMatrix) return;
-    fitted_ = fitted;
-    generation_ = frame.newGeneration();
   }
 
   std::uint32_t texels_;
@@ -168,23 +162,30 @@ class LampsProvider : public Provider {
   explicit LampsProvider(const graph::ImportRequest& request) : casting_(request.at("casting").truth()) {}
 
   BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
-    follow(frame);
-    return table_.get(
-        layout, generation_, [this] { return tableRows(); }, diagnostics);
+    const auto rows = [this] { return tableRows(); };
+    return table_.get(layout, generation(frame), rows, diagnostics);
   }
   bool value(const Frame& frame, const ViewPart& part, std::uint32_t column, Numbers& out) override {
-    follow(frame);
+    generation(frame);
     return table_.read(tableRows(), part.element, column, out);
   }
   const scene::ViewData& view(const Frame& frame, const ViewPart& part) override {
-    follow(frame);
+    generation(frame);
     if (part.element < rows_.size())
       view_ = scene::lampView(lamps_[rows_[part.element]], std::min<std::uint32_t>(part.face, 5), part.width);
     return view_;
   }
+  // Brings the rows up to date.
   std::uint64_t generation(const Frame& frame) override {
-    follow(frame);
-    return generation_;
+    if (std::exchange(frame_, frame.number) == frame.number) return generation_;
+    const scene::MeshFrame& placed = frame.tables.meshFrame();
+    lamps_ = placed.lamps();
+    const std::uint64_t now = placed.lightsGeneration();
+    if (std::exchange(placed_, now) == now) return generation_;
+    rows_.clear();
+    for (std::uint32_t row = 0; row < lamps_.size(); ++row)
+      if (lamps_[row].shadow || !casting_) rows_.push_back(row);
+    return generation_ = frame.newGeneration();
   }
   bool isStill(const World& world) const override {
     return !scene::isMoving(world.scene()) ||
@@ -193,19 +194,6 @@ class LampsProvider : public Provider {
   }
 
  private:
-  void follow(const Frame& frame) {
-    if (frame_ == frame.number) return;
-    frame_ = frame.number;
-    const scene::MeshFrame& placed = frame.tables.meshFrame();
-    lamps_ = placed.lamps();
-    if (placed_ == placed.lightsGeneration()) return;
-    placed_ = placed.lightsGeneration();
-    generation_ = frame.newGeneration();
-    rows_.clear();
-    for (std::uint32_t row = 0; row < lamps_.size(); ++row)
-      if (lamps_[row].shadow || !casting_) rows_.push_back(row);
-  }
-
   std::vector<LampRow> tableRows() const {
     std::vector<LampRow> rows;
     std::int32_t casters = 0;
