@@ -102,10 +102,8 @@ class Side {
     const auto channels = static_cast<std::size_t>(image.channels);
     const std::size_t pixels = image.texels.size() / channels;
     std::array<double, 256> linear{};
-    for (std::size_t i = 0; i < 256; ++i) {
-      const double v = static_cast<double>(i) / 255;
-      linear[i] = v > 0.04045 ? std::pow((v + 0.055) / 1.055, 2.4) : v / 12.92;
-    }
+    for (std::size_t i = 0; i < 256; ++i)
+      linear[i] = static_cast<double>(decodeSrgb(static_cast<float>(i) / 255));
     for (Plane& plane : opponent_) plane.resize(pixels);
     for (std::size_t p = 0; p < pixels; ++p) {
       const std::uint8_t* texel = &image.texels[p * channels];

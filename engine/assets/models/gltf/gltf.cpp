@@ -553,7 +553,8 @@ class GltfReader {
       glm::vec4& value = track.values.emplace_back(0.0f);
       std::copy_n(numbers.data() + i * output.components, output.components, &value.x);
       const bool isRotation = rotation && (!cubic || i % 3 == 1);
-      if (!isFinite(value) || (isRotation && !normalizeRotation(value)))
+      if (value - value != glm::vec4(0) ||  // infinite, or no number
+          (isRotation && !normalizeRotation(value)))
         document_.fail(sampler,
                        fmt::format("value {} of an animation is no {}", i, rotation ? "rotation" : "number"),
                        "finite numbers, and quaternions with a length");

@@ -129,10 +129,6 @@ bool normalizeRotation(glm::vec4& q) {
   return true;
 }
 
-bool isFinite(const glm::vec4& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
-}
-
 // The exponent of Blinn–Phong as the width of GGX: alpha² = 2 / (n + 2) (Walter et al. 2007), alpha = roughness². What
 // has no diffuse color but a bright highlight is taken for metal.
 void toMetallicRoughness(Material& material) {

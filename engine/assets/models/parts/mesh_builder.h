@@ -21,8 +21,6 @@ inline glm::quat toRotation(const glm::vec4& q) {
   return {q.w, q.x, q.y, q.z};
 }
 
-bool isFinite(const glm::vec4& v);
-
 struct RawVertex {
   glm::vec3 position{0}, normal{0};
   glm::vec4 tangent{0};  // no unit vector: to be made

@@ -137,7 +137,6 @@ std::optional<std::string> ModelFiles::readCounted(const std::string& path, cons
 }
 
 std::optional<std::string> decodeDataUri(std::string_view uri) {
-  if (!uri.starts_with("data:")) return {};
   const std::size_t comma = uri.find(',');
   if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(";base64")) return {};
   static const std::array<std::int8_t, 256> kDigits = [] {

@@ -69,7 +69,7 @@ class ModelFiles {
   bool gaveUp_ = false;
 };
 
-// Bytes of a "data:" URI with base64; empty when it is none, or damaged.
+// Bytes of a "data:" URI; empty when they are not in base64, or damaged.
 std::optional<std::string> decodeDataUri(std::string_view uri);
 
 }  // namespace weft::assets
