@@ -155,7 +155,8 @@ const SceneTables::List& SceneTables::factsOf(scene::DrawList list) {
   List& mine = of(list);
   if (mine.scene != world_->sceneGeneration()) {
     mine.scene = world_->sceneGeneration();
-    mine.count = static_cast<std::uint32_t>(scene::countInstances(world_->scene(), mine.selection));
+    const scene::Members members(mine.selection, world_->scene());
+    mine.count = static_cast<std::uint32_t>(members.count(world_->scene().spheres));
     mine.moving = scene::isMoving(world_->scene(), mine.selection);
   }
   return mine;

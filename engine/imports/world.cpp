@@ -24,10 +24,6 @@ std::uint64_t World::dropEnvironmentTexels() {
   return bytes;
 }
 
-void World::setEnvironment(const std::shared_ptr<const assets::ImageF>& image) {
-  setEnvironment(std::make_shared<const assets::EnvironmentMap>(assets::toEnvironmentMap(*image)));
-}
-
 WorldFacts World::facts() const {
   WorldFacts facts;
   facts.environment = environment_ || environmentPending();

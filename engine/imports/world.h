@@ -18,10 +18,10 @@ struct WorldFacts {
   bool known =
       false;  // false: `scene` takes the place of one that could not be read, and nothing is said of it
   double spheresOf(const scene::Selection& list) const {
-    return static_cast<double>(scene::countInstances(*scene, list));
+    return static_cast<double>(scene::Members(list, *scene).count(scene->spheres));
   }
   double meshesOf(const scene::Selection& list) const {
-    return static_cast<double>(scene::countMeshInstances(*scene, list));
+    return static_cast<double>(scene::Members(list, *scene).count(scene->meshInstances));
   }
   friend bool operator==(const WorldFacts&, const WorldFacts&) = default;
 };
@@ -37,8 +37,6 @@ class World {
   // Null: none was loaded.
   const std::shared_ptr<const assets::EnvironmentMap>& environment() const { return environment_; }
   void setEnvironment(std::shared_ptr<const assets::EnvironmentMap> map);
-  // The same picture rounded to halves.
-  void setEnvironment(const std::shared_ptr<const assets::ImageF>& image);
   // Frees its texels, of which a GPU has a copy; nothing can upload it from here again. How many bytes it held.
   std::uint64_t dropEnvironmentTexels();
   std::uint64_t environmentGeneration() const { return environmentGeneration_; }

@@ -64,18 +64,6 @@ Members::Members(const Selection& selection, const Scene& scene) : lists_(select
   materials_.push_back(0);
 }
 
-std::size_t countInstances(const Scene& scene, const Selection& list) {
-  const Members members(list, scene);
-  return static_cast<std::size_t>(
-      std::ranges::count_if(scene.spheres.rows(), [&](const Sphere& s) { return members.has(s); }));
-}
-
-std::size_t countMeshInstances(const Scene& scene, const Selection& list) {
-  const Members members(list, scene);
-  return static_cast<std::size_t>(std::ranges::count_if(
-      scene.meshInstances.rows(), [&](const MeshInstance& m) { return members.has(m); }));
-}
-
 bool isMoving(const Scene& scene, const Selection& list) {
   const Members members(list, scene);
   return std::ranges::any_of(scene.spheres.rows(),
@@ -83,9 +71,7 @@ bool isMoving(const Scene& scene, const Selection& list) {
 }
 
 bool isMoving(const Scene& scene) {
-  return scene.animations.size() > 0 ||
-         std::ranges::any_of(scene.spheres.rows(),
-                             [](const Sphere& s) { return s.velocity != glm::vec3(0); }) ||
+  return scene.animations.size() > 0 || isMoving(scene, Selection()) ||
          std::ranges::any_of(scene.nodes.rows(), [](const Node& n) {
            return n.velocity != glm::vec3(0) || n.spin != glm::vec3(0);
          });
@@ -95,7 +81,7 @@ void fillInstances(const Scene& scene, const Selection& list, double time, doubl
                    std::vector<Instance>& out) {
   const Members members(list, scene);
   out.clear();
-  out.reserve(countInstances(scene, list));
+  out.reserve(members.count(scene.spheres));
   const float now = static_cast<float>(time), before = static_cast<float>(previousTime);
   static const Material kNoMaterial{};
   for (const Sphere& sphere : scene.spheres.rows()) {

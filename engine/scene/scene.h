@@ -217,6 +217,10 @@ class Members {
     return (row.lists & lists_) != 0 && admits(labels_, row.label.index) &&
            admits(materials_, row.material.index);
   }
+  std::size_t count(const auto& table) const {  // of such rows
+    return static_cast<std::size_t>(
+        std::ranges::count_if(table.rows(), [&](const auto& row) { return has(row); }));
+  }
 
  private:
   // By row, and one more for none; empty: all.
@@ -229,8 +233,6 @@ class Members {
 // Whether a text is what a word of a Selection says.
 bool matches(std::string_view word, std::string_view text);
 
-std::size_t countInstances(const Scene& scene, const Selection& list);      // spheres
-std::size_t countMeshInstances(const Scene& scene, const Selection& list);  // mesh instances
 // Whether the list's spheres differ from one time to another.
 bool isMoving(const Scene& scene, const Selection& list);
 bool isMoving(const Scene& scene);  // any sphere or node

@@ -34,7 +34,7 @@ TEST_CASE("a draw list holds the spheres that stand in it, with their material's
   CHECK(out[0].albedo == glm::vec3(1, 0.7f, 0.3f));
   CHECK(out[0].metallic == 1);
   CHECK(out[0].roughness == 0.2f);
-  CHECK(countInstances(scene, DrawList::opaque) == 0);
+  CHECK(Members(DrawList::opaque, scene).count(scene.spheres) == 0);
   CHECK_FALSE(isMoving(scene, DrawList::spheres));
 }
 
@@ -71,7 +71,7 @@ TEST_CASE("a selection holds what is in its lists and has its name, its tag and 
   const auto count = [&](auto choose) {
     Selection selection;
     choose(selection);
-    return countInstances(scene, selection);
+    return Members(selection, scene).count(scene.spheres);
   };
   CHECK(count([](Selection&) {}) == 3);
   CHECK(count([](Selection& s) { s.material = "*gold"; }) == 2);

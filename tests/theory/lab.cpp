@@ -43,7 +43,8 @@ scene::Scene sceneOf(const Setup& setup) {
 
 Lab::Lab(const Setup& setup) : setup_(setup), world_(sceneOf(setup)) {
   if (!setup.daylight)
-    world_.setEnvironment(setup.environment ? setup.environment : constantEnvironment(1, 1, 1));
+    world_.setEnvironment(std::make_shared<const assets::EnvironmentMap>(
+        assets::toEnvironmentMap(setup.environment ? *setup.environment : *constantEnvironment(1, 1, 1))));
   renderer_ = std::make_unique<runtime::Renderer>(
       sharedContext(), std::string(WEFT_SOURCE_DIR) + "/" + setup.graph,
       runtime::Renderer::Options{.dataFolder = WEFT_SOURCE_DIR, .cacheFolder = ""});

@@ -120,7 +120,8 @@ struct Taken {
 inline Taken take(const scene::Scene& scene, const Shot& shot) {
   runtime::test::Stage stage(shot.graph, shot.width, shot.height);
   stage.world.setScene(scene);
-  stage.world.setEnvironment(constantEnvironment(shot.environment, shot.environment, shot.environment));
+  stage.world.setEnvironment(std::make_shared<const assets::EnvironmentMap>(
+      assets::toEnvironmentMap(*constantEnvironment(shot.environment, shot.environment, shot.environment))));
   stage.settings.sets = shot.sets;
   stage.settings.disables = shot.disables;
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());

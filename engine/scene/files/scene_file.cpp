@@ -284,8 +284,14 @@ class Reader {
     scene_.ground = ground;
   }
 
-  MaterialId add(Material material) {
+  // The first of a name, after an error, where it is known already.
+  MaterialId add(Material material, const text::Place& place, text::Says says) {
     const std::string name = material.name;
+    if (byName_.contains(name)) {
+      diagnostics_.error(Code::duplicateMaterial, place, fmt::format("a second material '{}'", name),
+                         std::move(says));
+      return byName_[name];
+    }
     const MaterialId id = scene_.materials.add(std::move(material));
     if (!name.empty()) byName_.emplace(name, id);
     return id;
@@ -309,14 +315,8 @@ class Reader {
     if (!library) return {};
     if (library->empty())
       fail(Code::unknownMaterial, value, fmt::format("the material library '{}' is empty", path));
-    for (Material& preset : *library) {
-      if (byName_.contains(preset.name)) {
-        fail(Code::duplicateMaterial, value,
-             fmt::format("a second material '{}', from '{}'", preset.name, path));
-        continue;
-      }
-      ids.push_back(add(std::move(preset)));
-    }
+    for (Material& preset : *library)
+      ids.push_back(add(std::move(preset), value.place, {.found = fmt::format("one of '{}'", path)}));
     return ids;
   }
 
@@ -327,12 +327,7 @@ class Reader {
     Material material = readMaterial(fields);
     material.name = name;
     fields.finish();
-    if (byName_.contains(name)) {
-      diagnostics_.error(Code::duplicateMaterial, place, fmt::format("a second material '{}'", name),
-                         {.hint = "rename it; the library has one of this name"});
-      return byName_[name];
-    }
-    return add(std::move(material));
+    return add(std::move(material), place, {.hint = "rename it; the library has one of this name"});
   }
 
   // A name of a known material.

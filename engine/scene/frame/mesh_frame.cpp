@@ -114,9 +114,7 @@ void MeshFrame::fillRows(const Scene& scene, bool another) {
 }
 
 void MeshFrame::fillBounds(const Scene& scene, double time, bool all) {
-  if (all)
-    spheresMove_ =
-        std::ranges::any_of(scene.spheres.rows(), [](const Sphere& s) { return s.velocity != glm::vec3(0); });
+  if (all) spheresMove_ = scene::isMoving(scene, Selection());
   const bool moving = std::ranges::any_of(tables_, [](const ListTable& t) { return !t.moving.empty(); });
   if (!all && !moving && !spheresMove_) return;
   if (all || spheresMove_) {

@@ -107,7 +107,8 @@ TEST_CASE("disable: every pass of studio alone, with a loaded environment") {
   Stage stage("graphs/studio.json");
   auto image = std::make_shared<assets::ImageF>(assets::ImageF{64, 32, 4, {}});
   image->texels.assign(64 * 32 * 4, 0.5f);
-  stage.world.setEnvironment(image);
+  stage.world.setEnvironment(
+      std::make_shared<const assets::EnvironmentMap>(assets::toEnvironmentMap(*image)));
   tryAll(stage, false);
 }
 

@@ -53,8 +53,8 @@ TEST_CASE("a dispatch and a list say how much runs; a raster without attachments
     return stage.execution().texture(static_cast<std::uint32_t>(found - graph.resourceNames.begin()));
   };
   stage.execution().readBack().finish();
-  const auto spheres =
-      static_cast<double>(scene::countInstances(stage.world.scene(), scene::DrawList::spheres));
+  const auto spheres = static_cast<double>(
+      scene::Members(scene::DrawList::spheres, stage.world.scene()).count(stage.world.scene().spheres));
   CHECK(stage.renderer().output("tally") == std::vector<double>{0x33, 2 * spheres, 4});  // 3 by 2 work groups
   for (std::uint32_t z = 0; z < 4; ++z) {
     const std::vector<float> slice = gl::readFloats(textureOf("voxels"), 0, z);

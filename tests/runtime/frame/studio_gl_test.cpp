@@ -74,7 +74,8 @@ TEST_CASE("studio: every texture is finite, with daylight") {
 TEST_CASE("studio: every texture is finite, with the real environment at 1920x1080") {
   const CleanScope clean;
   Stage stage("graphs/studio.json", 1920, 1080);
-  stage.world.setEnvironment(realEnvironment());
+  stage.world.setEnvironment(
+      std::make_shared<const assets::EnvironmentMap>(assets::toEnvironmentMap(*realEnvironment())));
   checkTextures(stage);
 }
 

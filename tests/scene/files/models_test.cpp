@@ -107,8 +107,8 @@ TEST_CASE("a model is placed, turned, copied, and given lists and a material") {
   CHECK(scene.meshes.size() == 1);  // read once
   CHECK(scene.meshData->vertices.size() == 3);
   REQUIRE(scene.meshInstances.size() == 8);
-  CHECK(countMeshInstances(scene, DrawList::opaque) == 8);
-  CHECK(countMeshInstances(scene, DrawList::shadow_casters) == 2);
+  CHECK(Members(DrawList::opaque, scene).count(scene.meshInstances) == 8);
+  CHECK(Members(DrawList::shadow_casters, scene).count(scene.meshInstances) == 2);
   MeshFrame frame;
   frame.update(scene, 1, 1, 0.5);
   const std::span<const MeshRow> rows = frame.rows(DrawList::opaque);
@@ -189,7 +189,8 @@ TEST_CASE("spheres and models have the names and tags of the scene file, models 
   CHECK(rock.tags == std::vector<std::string>{"stone"});
   Selection lenses;
   lenses.name = "Lenses*";
-  CHECK(countMeshInstances(loadGood(kTop + "scenes/helmet_alone.json"), lenses) == 1);
+  const Scene helmet = loadGood(kTop + "scenes/helmet_alone.json");
+  CHECK(Members(lenses, helmet).count(helmet.meshInstances) == 1);
   for (const auto& [tag, code] :
        {std::pair("1", text::Code::wrongType), {R"("two words")", text::Code::badSceneValue}})
     CHECK(failuresOf(folder,

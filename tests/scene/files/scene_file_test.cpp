@@ -103,8 +103,8 @@ TEST_CASE("a grid of any shape is centered; materials repeat; layers go away fro
   CHECK(spheres[23].center == glm::vec3(12, -1, -3));
   CHECK(scene.materials.find(spheres[0].material)->name == "a");
   CHECK(scene.materials.find(spheres[3].material)->name == "b");
-  CHECK(countInstances(scene, DrawList::shadow_casters) == 24);
-  CHECK(countInstances(scene, DrawList::opaque) == 0);
+  CHECK(Members(DrawList::shadow_casters, scene).count(scene.spheres) == 24);
+  CHECK(Members(DrawList::opaque, scene).count(scene.spheres) == 0);
   CHECK(isMoving(scene, DrawList::spheres));
 }
 

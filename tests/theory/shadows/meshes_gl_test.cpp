@@ -163,7 +163,8 @@ std::vector<float> radianceOf(const scene::Scene& scene, bool shadows,
                               const std::shared_ptr<const assets::ImageF>& environment) {
   runtime::test::Stage stage("graphs/studio.json", kWide, kHigh);
   stage.world.setScene(scene);
-  stage.world.setEnvironment(environment);
+  stage.world.setEnvironment(
+      std::make_shared<const assets::EnvironmentMap>(assets::toEnvironmentMap(*environment)));
   stage.settings.sets = {{"mesh_shadows", shadows ? "true" : "false"}};
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   stage.run();
