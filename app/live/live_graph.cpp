@@ -366,7 +366,7 @@ bool LiveGraph::write(const graph::WriteBack& plan, text::Diagnostics& diagnosti
     if (isWefts(file.path))
       diagnostics.error(text::Code::cannotWriteBack, {file.path},
                         fmt::format("'{}' is Weft's own, and is not written over", file.path),
-                        {.hint = "save the changes as a preset, or work on a copy of the graph"});
+                        {.hint = "save the changes as a preset, or work on a copy"});
   if (wefts || !graph::saveWriteBack(plan, diagnostics)) return false;
   Moment before = now();
   before.files = reversed(plan);
@@ -374,6 +374,32 @@ bool LiveGraph::write(const graph::WriteBack& plan, text::Diagnostics& diagnosti
   const bool good = load(diagnostics);
   if (!plan.files.empty()) remember(std::move(before));
   return good;
+}
+
+std::optional<std::string> LiveGraph::saveCamera(const scene::CameraPose& pose,
+                                                 text::Diagnostics& diagnostics) {
+  const std::string& path = scene_.path();
+  if (path.empty() || assets::isModelName(path)) {
+    diagnostics.error(text::Code::cannotWriteBack, {path}, "the scene is no file that holds cameras",
+                      {.hint = "write a scene file that has the model under \"models\""});
+    return std::nullopt;
+  }
+  const std::optional<std::string> before = text::readTextFile(path, diagnostics);
+  const text::JsonEdit edit(before ? *before : std::string_view());
+  if (!edit) return std::nullopt;
+  std::string name = "view_1";
+  for (int i = 2; scene::findCamera(world_.scene(), name); ++i) name = fmt::format("view_{}", i);
+  const auto& [at, to] = std::tie(pose.position, pose.target);
+  std::string json =
+      fmt::format(R"({{ "position": [{}, {}, {}], "target": [{}, {}, {}], "fov": {}, "near": {} }})", at.x,
+                  at.y, at.z, to.x, to.y, to.z, pose.fovDegrees, pose.nearPlane);
+  const text::JsonValue* cameras = edit.root().find("cameras");
+  if (!cameras) json = fmt::format(R"({{ "{}": {} }})", name, json);
+  const graph::WriteBack plan{
+      .files = {{path, *before,
+                 edit.withMember(cameras ? *cameras : edit.root(), cameras ? name : "cameras", json)}},
+      .rest = settings_};
+  return write(plan, diagnostics) ? std::optional(name) : std::nullopt;
 }
 
 std::optional<std::string> LiveGraph::savePreset(const std::string& name, text::Diagnostics& diagnostics) {

@@ -23,6 +23,7 @@ constexpr KeyBinding kBindings[] = {
     {'R', kAlone, "reset_camera", "R", "the first camera again"},
     {'1', kAlone, "camera_1", "1 ... 9", "cameras of the scene: the one it began with, the others in the order of its file"},
     {'C', kAlone, "copy_command", "C", "copy and print the command that renders what is seen"},
+    {'K', kAlone, "save_camera", "K", "keep the view as a camera of the scene file (Ctrl Z takes it back)"},
     {GLFW_KEY_PAGE_DOWN, kAlone, "next_environment", "PgDn PgUp", "next and previous environment of the folder"},
     {GLFW_KEY_PAGE_UP, kAlone, "previous_environment", "", ""},
     {GLFW_KEY_SPACE, kAlone, "panels", "Space", "show or hide the panels"},

@@ -114,6 +114,12 @@ void Viewer::addActions() {
                  flushPrinted();
                  glfwSetClipboardString(window_, told_.c_str());
                }},
+              {"save_camera",
+               [this] {
+                 const auto name = live_.saveCamera(rig_.pose(), diagnostics_);
+                 told_ = name ? fmt::format("camera '{}' is in {}", *name, live_.scene().path())
+                              : "no camera was saved: see the messages";
+               }},
               {"next_environment", [step] { step(1); }},
               {"previous_environment", [step] { step(-1); }},
               {"undo", [this] { told_ = live_.undo(diagnostics_) ? "taken back" : "nothing to take back"; }},

@@ -4,6 +4,7 @@ as F12 saves it, to the bit. A value and a pass changed on the command line are 
 all; Ctrl Z gives the files back byte for byte; files of the installation stay as they are. Esc closes what is on top, and asks
 before changes are lost. Events that come while a frame is drawn are all seen, in their order. Whose a drag is, is judged where it
 begins, however fast the mouse got there; at rest in idle mode a drag turns the picture."""
+import json
 import os
 import pathlib
 import re
@@ -78,6 +79,28 @@ def write_back(weft, folder, report):
             live.act("F8", "write_back")
             report.check("error[W196]" in live.said() and [path.read_text() for path in files] == before, "F8 writes over Weft's own files")
             live.leave(report)
+    finally:
+        live.stop()
+
+
+def save_camera(weft, folder, report):
+    """K adds the view to the scene file, Ctrl Z gives the file back to the byte; what was saved draws what was seen."""
+    scene = folder / "seen.json"
+    scene.write_text('{ // my scene\n  "cameras": { "front": { "position": [0, 1, 9], "target": [0, 0, 0] } },\n  "spheres": [] }\n')
+    before = scene.read_text()
+    live = Session(weft, folder, "--scene", scene, "--camera", "2,1,6,0,0,0,40", data=False)
+    try:
+        if not report.check(live.open() and live.shot(), f"no picture\n{live.said()}"):
+            return
+        live.act("k", "save_camera")
+        if not report.check(live.until(lambda: "view_1" in scene.read_text()), f"K saves nothing\n{live.said()}"):
+            return
+        cameras = json.loads(scene.read_text().replace("// my scene", ""))["cameras"]
+        view = cameras["view_1"]
+        report.check(list(cameras) == ["front", "view_1"] and view["fov"] == 40 and [round(v, 4) for v in view["position"]] == [2, 1, 6], f"{cameras}")
+        live.act("ctrl+z", "undo")
+        report.check(live.until(lambda: scene.read_text() == before), "Ctrl Z does not give the scene back")
+        live.leave(report)
     finally:
         live.stop()
 
@@ -236,6 +259,7 @@ def main():
         for old in folder.glob("weft_*"):
             old.unlink()
         effects(weft, folder, report)
+        save_camera(weft, folder, report)
         write_back(weft, folder, report)
         hidden(weft, folder, report)
         scan(weft, folder, report)
