@@ -16,7 +16,7 @@ PROVIDED = {
     "chromium": None, "mpv": None, "node": None, "emacs": None,  # judges of imports and of the language server, which CI does without
 }
 # Needed without being looked for: by cmake, by xvfb-run, by snippets of the docs, at run time, or as a header only.
-IMPLIED = {"g++", "fonts-dejavu-core", "cmake", "ninja-build", "python3", "xauth", "libegl1", "libgl1-mesa-dri", "libstb-dev", "graphviz", "pkg-config"}
+IMPLIED = {"g++", "fonts-dejavu-core", "cmake", "ninja-build", "python3", "xauth", "libegl1", "libgl1-mesa-dri", "libstb-dev", "graphviz", "pkg-config", "clang-16", "libclang-rt-16-dev"}
 
 
 def sought(top: pathlib.Path) -> dict:
@@ -38,8 +38,8 @@ def sought(top: pathlib.Path) -> dict:
 def main() -> int:
     top = pathlib.Path(sys.argv[1])
     run = (top / "run").read_text()
-    program, tests = (re.search(rf"^{name}=\(([^)]*)\)", run, re.M).group(1).split() for name in ("packages", "test_packages"))
-    packages = program + tests
+    program, tests, fuzz = (re.search(rf"^{name}=\(([^)]*)\)", run, re.M).group(1).split() for name in ("packages", "test_packages", "fuzz_packages"))
+    packages = program + tests + fuzz
     rows = re.findall(r"^\| `([^`]+)` \|(.*)\|$", (top / "docs/dependencies.md").read_text(), re.M)
     named = [name for name, _ in rows]
     problems = [f"run installs '{p}', docs/dependencies.md does not say why" for p in packages if p not in named]

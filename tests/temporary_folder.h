@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -32,6 +33,10 @@ class TemporaryFolder {
     const std::filesystem::path file = path_ / name;
     std::filesystem::create_directories(file.parent_path());
     std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    // tests/fuzz begins with what tests write: one file of each size and kind.
+    if (const char* kept = std::getenv("WEFT_KEEP_FILES"))
+      std::ofstream(kept + ("/" + std::to_string(bytes.size())) + file.extension().string(), std::ios::binary)
+          << bytes;
     std::filesystem::last_write_time(
         file, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(++writes_));
     return file.string();

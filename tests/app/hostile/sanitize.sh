@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the weft command, the tests that need no GL, and some that do with AddressSanitizer and UBSan (build/asan, or
-# $WEFT_ASAN_BUILD), then runs them: the cpu tests, the GL tests below, broken and hostile inputs, and sessions with the viewer in a
+# $WEFT_ASAN_BUILD), then runs them: the cpu tests, the GL tests below, the fuzz targets, broken and hostile inputs, and sessions with the viewer in a
 # virtual display. Leaks of the software GL drivers are excepted (tests/gl/lsan.supp).
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
@@ -11,15 +11,19 @@ cmake -S "$top" -B "$build" -G Ninja -DCMAKE_UNITY_BUILD=ON -DWEFT_SANITIZE=addr
 # What holds buffers, textures and threads over many frames, saves and environments; the others go through the same code.
 gl_tests="gl_objects_test gl_program_test runtime_reload_test runtime_studio_test"
 start=$SECONDS
-ninja -j2 -C "$build" app/weft tests/app/weft_compare weft_cpu_tests gl_objects_test gl_program_test runtime_gl_test
+ninja -j2 -C "$build" app/weft tests/app/weft_compare weft_cpu_tests gl_objects_test gl_program_test runtime_gl_test weft_fuzz
 echo "built in $((SECONDS - start)) s"
 # Exit code 86 is theirs alone. A run that takes more than 4 GB ends with a report.
 export ASAN_OPTIONS="detect_stack_use_after_return=1:strict_string_checks=1:check_initialization_order=1:exitcode=86:hard_rss_limit_mb=4096"
 export UBSAN_OPTIONS="print_stacktrace=1:halt_on_error=1:exitcode=86:suppressions=$top/tests/app/hostile/ubsan.supp"
 export LSAN_OPTIONS="suppressions=$top/tests/gl/lsan.supp:print_suppressions=0:exitcode=86"
 start=$SECONDS
+export WEFT_KEEP_FILES="$build/kept"  # for the fuzz targets
+mkdir -p "$WEFT_KEEP_FILES"
 "$top/tests/ctest.sh" "$build" -L cpu -E '^app_hostile_'
 "$top/tests/ctest.sh" "$build" -R "^(${gl_tests// /|})(_binaries)?$"
+
+python3 "$top/tests/fuzz/fuzz.py" "$build" "$WEFT_KEEP_FILES"
 
 # The scripts: a report goes to a file and fails the script that caused it (tests/app/program.py), whatever became of the exit code and
 # the output. The viewer's driver stays loaded until leaks are looked for.

@@ -1,0 +1,13 @@
+// Files of cases for `weft test`.
+#include "app/trials/case_file.h"
+#include "tests/fuzz/fuzz.h"
+
+namespace weft::fuzz {
+
+void fuzz(std::string_view input) {
+  const GivenFile file("app/trials/fuzz.cases.json", input);
+  text::Diagnostics said;
+  expectAnswer(!app::readCases(file.path(), {}, said).empty(), said);
+}
+
+}  // namespace weft::fuzz
