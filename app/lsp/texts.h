@@ -13,6 +13,7 @@
 
 #include "engine/glsl/interface.h"
 #include "engine/imports/files.h"
+#include "engine/text/files/file.h"
 #include "engine/text/json/dom.h"
 
 namespace weft::app::lsp {
