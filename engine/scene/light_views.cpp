@@ -44,7 +44,7 @@ float nearPlaneOf(const Lamp& lamp) {
   return lamp.range > 0 ? lamp.range / 1000 : 0.01f;
 }
 
-ViewData lampView(const Lamp& lamp, std::uint32_t face, std::uint32_t texels) {
+ViewData cubeView(glm::vec3 from, float nearPlane, std::uint32_t face, std::uint32_t texels) {
   assert(face < 6);
   // OpenGL 4.5 core, table 8.19: s and t of each face, as directions of a camera's right and up.
   static constexpr std::array<std::array<glm::dvec3, 2>, 6> kFaces = {{{{{1, 0, 0}, {0, -1, 0}}},
@@ -53,11 +53,11 @@ ViewData lampView(const Lamp& lamp, std::uint32_t face, std::uint32_t texels) {
                                                                        {{{0, -1, 0}, {0, 0, -1}}},
                                                                        {{{0, 0, 1}, {0, -1, 0}}},
                                                                        {{{0, 0, -1}, {0, -1, 0}}}}};
-  const glm::dvec3 eye(lamp.position);
+  const glm::dvec3 eye(from);
   const glm::dmat4 view = glm::lookAt(eye, eye + kFaces[face][0], kFaces[face][1]);
   ViewData data =
-      viewOf(view, projectionMatrix(90, 1, nearPlaneOf(lamp)), eye, glm::vec2(static_cast<float>(texels)));
-  data.near_plane = nearPlaneOf(lamp);
+      viewOf(view, projectionMatrix(90, 1, nearPlane), eye, glm::vec2(static_cast<float>(texels)));
+  data.near_plane = nearPlane;
   return data;
 }
 

@@ -1,4 +1,4 @@
-// What lights look from: the orthographic view of the sun, and the six views of a lamp's cube of shadows. Reversed-Z as all
+// What lights look from: the orthographic view of the sun, and the six views of a cube map. Reversed-Z as all
 // views: nearest is 1. Pure functions.
 #pragma once
 
@@ -21,6 +21,6 @@ SunView sunView(const Sun& sun, const Box& bounds, std::uint32_t texels);
 // The nearest thing that casts a shadow of a lamp: a thousandth of its range.
 float nearPlaneOf(const Lamp& lamp);
 // Face 0..5: +X −X +Y −Y +Z −Z, turned as OpenGL's cube maps have them, 90° each.
-ViewData lampView(const Lamp& lamp, std::uint32_t face, std::uint32_t texels);
+ViewData cubeView(glm::vec3 from, float nearPlane, std::uint32_t face, std::uint32_t texels);
 
 }  // namespace weft::scene

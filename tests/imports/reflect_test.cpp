@@ -187,7 +187,7 @@ TEST_CASE("the camera is the one view of every pass; a lens and a jitter are its
   std::vector<std::string> names;
   for (const auto& argument : type.arguments) names.push_back(argument.name);
   CHECK(names == std::vector<std::string>{"jitter", "focal_length", "sensor_height", "name", "position",
-                                          "target", "angle", "height"});
+                                          "target", "angle", "height", "around"});
   for (const graph::ImportType& other : registry().reflect())
     CHECK(other.everyPass == (other.name == type.name));
   CHECK(factsOf(requestOf("camera"), {}).exists);

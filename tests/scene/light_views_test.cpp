@@ -101,7 +101,7 @@ TEST_CASE("the faces of a lamp are those of a cube map: OpenGL 4.5 core, section
       t = -r.y;
       major = size.z;
     }
-    const ViewData view = lampView(lamp, face, 128);
+    const ViewData view = cubeView(lamp.position, nearPlaneOf(lamp), face, 128);
     const glm::vec3 at = projected(view.view_projection, lamp.position + r * 7.0f);
     CHECK(std::abs(at.x - s / major) < 1e-4f);
     CHECK(std::abs(at.y - t / major) < 1e-4f);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "engine/imports/builtin.h"
+#include "engine/scene/light_views.h"
 #include "engine/text/nearest.h"
 
 namespace weft::imports {
@@ -37,7 +38,9 @@ std::vector<graph::ImportArgument> arguments() {
       argument("position", origin, "world; it stands there when `target` differs"),
       argument("target", origin, "world; what it looks at from `position`"),
       argument("angle", number, "of view, vertical, degrees; 0 for the camera's"),
-      argument("height", number, "over 0: orthographic, this many world units from bottom to top")};
+      argument("height", number, "over 0: orthographic, this many world units from bottom to top"),
+      argument("around", Value::number(-1),
+               "0 to 1: six views of 90 degrees, .face[f], from so far on the way to its target")};
 }
 
 }  // namespace
@@ -89,6 +92,7 @@ graph::ImportFacts CameraProvider::facts(const graph::ImportRequest& request, co
 
 CameraProvider::CameraProvider(const graph::ImportRequest& request)
     : jitter_(static_cast<std::uint32_t>(std::clamp(request.at("jitter").v[0], 0.0, 4294967295.0))),
+      around_(request.at("around").v[0]),
       poses_(placed(request)) {}
 
 // Where a graph's own camera stands; empty: where the scene's does.
@@ -132,6 +136,11 @@ std::uint64_t CameraProvider::generation(const Frame& frame) {
 
 const scene::ViewData& CameraProvider::view(const Frame& frame, const ViewPart& part) {
   const glm::uvec2 size(part.width, part.height);
+  if (around_ >= 0) {
+    const scene::CameraPose pose = posesOf(frame).first;
+    const glm::vec3 eye(glm::mix(pose.position, pose.target, std::min(around_, 1.0)));
+    return data_ = scene::cubeView(eye, static_cast<float>(pose.nearPlane), part.face, part.width);
+  }
   if (made_ == frame.number && size == size_) return data_;
   const FrameInput& input = frame.input;
   const auto [pose, previous] = posesOf(frame);

@@ -34,7 +34,8 @@ class CameraProvider : public Provider {
   Poses posesOf(const Frame& frame) const;
   static std::function<Poses(const Frame&)> placed(const graph::ImportRequest& request);
 
-  std::uint32_t jitter_ = 0;                  // length of the sub-pixel sequence
+  std::uint32_t jitter_ = 0;  // length of the sub-pixel sequence
+  double around_ = -1;        // where on its way to the target it has six faces; below 0: none
   std::function<Poses(const Frame&)> poses_;  // empty: those of the scene's camera
   scene::CameraPose seen_;                    // of generation_
   std::uint64_t generation_ = 0;

@@ -171,8 +171,11 @@ class LampsProvider : public Provider {
   }
   const scene::ViewData& view(const Frame& frame, const ViewPart& part) override {
     generation(frame);
-    if (part.element < rows_.size())
-      view_ = scene::lampView(lamps_[rows_[part.element]], std::min<std::uint32_t>(part.face, 5), part.width);
+    if (part.element < rows_.size()) {
+      const scene::Lamp& lamp = lamps_[rows_[part.element]];
+      view_ = scene::cubeView(lamp.position, scene::nearPlaneOf(lamp), std::min<std::uint32_t>(part.face, 5),
+                              part.width);
+    }
     return view_;
   }
   // Brings the rows up to date.
