@@ -46,7 +46,11 @@ vec3 ambientRadiance(Point point, Response response, Ambient ambient) {
 #endif
   float visible = point.sky_visible, width = exp2(-16.0 * response.roughness - 1.0);
   float lobe_visible = clamp(pow(point.nv + visible, width) - 1.0 + visible, 0.0, 1.0);
+#if SEES_SCENE
+  return ambientWithScene(ambient, response.multiple, response.diffuse, lobe_visible, visible);
+#else
   return ambient.reflected * lobe_visible + (response.multiple + response.diffuse) * ambient.mean * visible;
+#endif
 }
 
 // Radiance towards the eye for an irradiance of 1 from the unit direction `l`.

@@ -1,6 +1,7 @@
 // Light of the environment: what a lobe reflects of its maps, its brightest spot in closed form, and irradiance.
 // read    irradiance?, specular?, environment?, brightest?   see shading/environment.glsl; without one its light is missing
 //         probes?, sh?   light that other things reflect, see gi/bounce.glsl
+//         mirrored?, or mirror_light?, probe_light? and theirs   the scene in reflections, see reflections/seen.glsl
 #ifndef SHADING_AMBIENT_GLSL
 #define SHADING_AMBIENT_GLSL
 
@@ -9,6 +10,9 @@
 #include "shading/point.glsl"
 #ifdef HAS_PROBES
 #include "gi/bounce.glsl"
+#endif
+#if SEES_SCENE
+#include "reflections/seen.glsl"
 #endif
 
 // Axis of the reflected lobe, not normalized.
@@ -71,11 +75,23 @@ vec3 bouncedIrradiance(Point point, Lobe lobe) {
 #endif
 
 Ambient ambientOf(Point point, Response response, Lobe lobe, LightsSeen seen) {
-  Ambient ambient = Ambient(vec3(0.0), vec3(0.0));
+  Ambient ambient = noAmbient();
 #ifdef HAS_SPECULAR
+#if SEES_SCENE
+  vec4 scene = seenOfScene(point, response);
+  scene.rgb = max(scene.rgb, vec3(0.0));
+#endif
   ambient.reflected = reflectedEnvironment(point, response, lobe, lobeAxis(point, response)) * response.single;
+#if SEES_SCENE
+  ambient.traced = scene.rgb * response.single;
+  ambient.open = 1.0 - scene.a;
+  // What a smooth lobe meets hides the spot; a rough one sees it from aside.
+  float spot_seen = seen.spot * mix(1.0, 1.0 / max(ambient.open, 1e-3), smoothstep(0.1, 0.4, response.roughness));
+#else
+  float spot_seen = seen.spot;
+#endif
 #ifdef HAS_BRIGHTEST
-  ambient.reflected += reflectedSpot(point, response, lobe, spotStrength(point, lobe) * seen.spot);
+  ambient.reflected += reflectedSpot(point, response, lobe, spotStrength(point, lobe) * spot_seen);
 #endif
 #endif
 #ifdef HAS_IRRADIANCE
@@ -83,6 +99,9 @@ Ambient ambientOf(Point point, Response response, Lobe lobe, LightsSeen seen) {
   ambient.mean = max(mean.rgb - spotIrradiance().rgb * (mean.a * (1.0 - seen.spot)), vec3(0.0));
 #ifdef HAS_PROBES
   ambient.mean += bouncedIrradiance(point, lobe);
+#endif
+#if SEES_SCENE
+  ambient.traced += response.multiple * scene.rgb;
 #endif
 #endif
   return ambient;

@@ -13,7 +13,11 @@ vec3 ambientRadiance(Point point, Response response, Ambient ambient) {
 #ifdef HAS_MATERIAL_LAYERS
   if (layers.on) return layeredAmbient(point, response, ambient);
 #endif
+#if SEES_SCENE
+  return ambientWithScene(ambient, response.multiple, response.diffuse, point.sky_visible, point.sky_visible);
+#else
   return (ambient.reflected + (response.multiple + response.diffuse) * ambient.mean) * point.sky_visible;
+#endif
 }
 
 // Radiance towards the eye for an irradiance of 1 from the unit direction `l`.

@@ -187,7 +187,11 @@ float coverWithCoat(inout Point point, out Response response) {
 }
 
 vec3 layeredAmbient(Point point, Response response, Ambient ambient) {
+#if SEES_SCENE
+  vec3 light = ambientWithScene(ambient, response.multiple, response.diffuse, point.sky_visible, point.sky_visible);
+#else
   vec3 light = (ambient.reflected + (response.multiple + response.diffuse) * ambient.mean) * point.sky_visible;
+#endif
   if (greatest(layers.sheen) <= 0.0) return light;
   float sheen = sheenReflectance(point.nv), mean = sheenReflectance(0.6);  // of light that arrives from everywhere
   return light * (1.0 - greatest(layers.sheen) * max(sheen, mean)) + layers.sheen * sheen * ambient.mean * point.sky_visible;

@@ -2,6 +2,12 @@
 #ifndef SHADING_POINT_GLSL
 #define SHADING_POINT_GLSL
 
+#if defined HAS_SPECULAR && (defined HAS_MIRRORED || defined HAS_MIRROR_LIGHT || defined HAS_PROBE_LIGHT)
+#define SEES_SCENE 1
+#else
+#define SEES_SCENE 0
+#endif
+
 struct Point {
   vec3 position;      // world
   vec3 normal;        // unit, towards the viewer's side
@@ -15,7 +21,24 @@ struct Point {
 struct Ambient {
   vec3 reflected;  // radiance that leaves towards the eye by single scattering
   vec3 mean;       // irradiance over pi
+#if SEES_SCENE
+  vec3 traced;     // radiance towards the eye of what the lobe meets of the scene
+  float open;      // share of the lobe that meets nothing; `reflected` is that of the whole lobe
+#endif
 };
+
+#if SEES_SCENE
+Ambient noAmbient() { return Ambient(vec3(0.0), vec3(0.0), vec3(0.0), 1.0); }
+
+// Radiance towards the eye. What a lobe meets is not occluded once more: of the environment's light arrives what ambient occlusion leaves
+// of it, `visible`, or what rays leave, whichever is less.
+vec3 ambientWithScene(Ambient ambient, vec3 multiple, vec3 diffuse, float lobe_visible, float visible) {
+  return ambient.traced + ambient.reflected * min(lobe_visible, ambient.open) +
+         (multiple * min(visible, ambient.open) + diffuse * visible) * ambient.mean;
+}
+#else
+Ambient noAmbient() { return Ambient(vec3(0.0), vec3(0.0)); }
+#endif
 
 // The visible shares of two lights far away: the sun, and the environment's brightest spot.
 struct LightsSeen {

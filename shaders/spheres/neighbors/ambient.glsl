@@ -19,7 +19,7 @@ uniform sampler2D irradiance_above;
 // `radius`: of the sphere that has the point.
 Ambient ambientAmongSpheres(Occlusion occlusion, Point point, Surface surface, Response response, Lobe lobe,
                             LightsSeen seen, float radius) {
-  Ambient ambient = Ambient(vec3(0.0), vec3(0.0));
+  Ambient ambient = noAmbient();
   GroundPlane plane = occlusion.plane;
   LobeGround ground = occlusion.ground;
   GroundLight ground_light = groundLight(lobe, sky_above.rgb);
@@ -29,7 +29,12 @@ Ambient ambientAmongSpheres(Occlusion occlusion, Point point, Surface surface, R
   vec3 sky = reflectedEnvironment(point, response, lobe, axis);
   vec3 below = groundRadiance(plane, ground_light, sky, ground.surface, ground.hidden, ground.lights);
   vec3 occluders = occluderRadiance(occlusion, point, surface, radius, lobe, ground_light);
-  ambient.reflected = (mix(sky, below, ground.share) * occlusion.lobe.seen + occluders) * response.single;
+  vec3 behind = mix(sky, below, ground.share);
+#if SEES_SCENE
+  vec4 scene = max(seenOfScene(point, response), vec4(0.0));
+  behind = behind * (1.0 - scene.a) + scene.rgb;
+#endif
+  ambient.reflected = (behind * occlusion.lobe.seen + occluders) * response.single;
 #ifdef HAS_BRIGHTEST
   ambient.reflected += reflectedSpot(point, response, lobe, spotStrength(point, lobe) * seen.spot);
 #endif

@@ -1,5 +1,5 @@
-// The nearest of the cells that make this one: four, or two where the level above is one cell wide.
-// read    finer     the level above
+// In each cell the greatest depth of the four below it, or of two where the picture ends.
+// read    finer     the picture's depth, or the level below
 // write   nearest
 uniform sampler2D finer;
 out float nearest;

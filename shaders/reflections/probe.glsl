@@ -1,0 +1,57 @@
+// Rays through what a probe sees: a cube map with depth (Szirmay-Kalos et al., "Approximate ray-tracing on the GPU with distance
+// impostors", Computer Graphics Forum 24(3), 2005), in which things end at their back faces.
+// Slots: probe_light   radiance, premultiplied; alpha 0 where nothing is; `as linear`, its levels are means
+//        probe_depth   reversed-Z; `as linear`, so that planes are exact
+//        probe_backs   of back faces; nearest
+//        probe_place   `as uniform`, see reflections/place.comp.glsl
+#ifndef REFLECTIONS_PROBE_GLSL
+#define REFLECTIONS_PROBE_GLSL
+
+uniform samplerCube probe_light, probe_depth, probe_backs;
+layout(std140) uniform probe_place { vec4 probe_at; };  // w: its near plane
+
+// 0: before what the probe sees at a place, 1: in it, 2: behind it.
+int behindProbed(vec3 place) {
+  vec3 a = abs(place);
+  float whole = max(a.x, max(a.y, a.z)) / probe_at.w, back = textureLod(probe_backs, place, 0.0).r * whole;
+  if (textureLod(probe_depth, place, 0.0).r * whole <= 1.0) return 0;
+  return back > 0.0 && back < 1.0 ? 1 : 2;
+}
+
+// What the ray meets; a is 0 if nothing. `part`: alpha of the ray's cone. `away`: how far it is.
+vec4 probeAlong(vec3 from, vec3 direction, float part, out float away) {
+  const int kSteps = 24;
+  vec3 start = from - probe_at.xyz, met = direction;
+  float r = max(length(start), 1e-4), before = 0.0;
+  int was = behindProbed(start);
+  bool found = false;
+  // Steps of equal length in what is seen of the ray, about.
+  for (int i = 1; i <= kSteps && !found; ++i) {
+    float share = float(i) / (float(kSteps) + 0.4), t = r * share / (1.0 - share);
+    int is = behindProbed(start + t * direction);
+    if (is != was && (is == 1 || was == 0)) {
+      float low = before, high = t;
+      for (int j = 0; j < 6; ++j) {
+        float middle = 0.5 * (low + high);
+        bool still = behindProbed(start + middle * direction) == was;
+        low = still ? middle : low;
+        high = still ? high : middle;
+      }
+      met = start + high * direction;
+      // What is thin is met where it is whole, not where the ray goes behind its outline.
+      vec4 around = textureGather(probe_depth, met);
+      vec2 least = min(around.xy, around.zw), most = max(around.xy, around.zw);
+      found = is == 1 || min(least.x, least.y) > 0.9 * max(most.x, most.y);
+    }
+    was = is;
+    before = t;
+  }
+  away = found ? distance(met, start) : r;
+  float texel = 1.6 * length(met) / float(textureSize(probe_light, 0).x);
+  vec4 light = textureLod(probe_light, found ? met : direction, found ? log2(max(2.0 * part * away / texel, 1.0)) : 4.0);
+  // Where it ends behind something: below the horizon, about the light of what is there.
+  float share = found ? min(light.a * 8.0, 1.0) : light.a * clamp(-4.0 * direction.y, 0.0, 1.0);
+  return vec4(light.rgb / max(light.a, 1e-4), share);
+}
+
+#endif

@@ -1,0 +1,124 @@
+// Reflections of the scene, against a path tracer of one bounce: mirrors and rough metals, as meshes, as ray-traced spheres
+// and as a floor, between things that emit, under a sky that is bright above.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tests/theory/deferred/mirror_tracer.h"
+#include "tests/theory/mesh_scene.h"
+#include "tests/theory/oracle.h"
+#include "tests/theory/reflection/oracle.h"
+
+namespace deferred_mirrors_test {
+
+using namespace weft;
+using namespace weft::theory;
+using runtime::test::CleanScope;
+
+namespace {
+
+glm::dvec3 skyAt(glm::dvec3 d) {
+  return glm::mix(glm::dvec3(0.35, 0.3, 0.25), glm::dvec3(0.7, 1.0, 1.6), 1 / (1 + std::exp(-4 * d.y)));
+}
+
+scene::Material lightOf(glm::vec3 radiance) {
+  return {.name = "",
+          .albedo = glm::vec3(0),
+          .metallic = 1,
+          .emissive = radiance,
+          .blinnPhong = true,
+          .shininess = 8};
+}
+scene::Material metalOf(float roughness) {
+  return {.name = "", .albedo = {0.9f, 0.8f, 0.7f}, .metallic = 1, .roughness = roughness};
+}
+
+struct Shown {
+  std::vector<float> off, on, bare, occluded;  // `bare`: with what they reflect disabled
+};
+
+Shown take(const scene::Scene& made, std::uint32_t width, std::uint32_t height) {
+  runtime::test::Stage stage("graphs/deferred.json", width, height);
+  stage.world.setScene(made);
+  stage.world.setEnvironment(makeEnvironment([](int x, int y) {
+    const Vec3 d = equirectDirection(x, y, 256, 128);
+    const glm::dvec3 sky = skyAt({d.x, d.y, d.z});
+    return std::array{sky.r, sky.g, sky.b};
+  }));
+  const auto draw = [&](const char* reflections, const char* ao) {
+    stage.settings.sets = {{"reflections", reflections}, {"ao", ao}};
+    REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+    stage.run();
+    return stage.read("hdr");
+  };
+  Shown shown{.off = draw("false", "false"), .on = draw("true", "false"), .occluded = draw("true", "true")};
+  stage.settings.disables = {{"scenery"}};
+  shown.bare = draw("true", "false");
+  return shown;
+}
+
+struct Error {
+  double off = 0, on = 0;
+  int count = 0;
+};
+
+// Of meshes and of ray-traced spheres.
+std::array<Error, 2> errorsOf(const MirrorTracer& tracer, const Shown& shown, std::uint32_t width,
+                              std::uint32_t height, int rays) {
+  std::array<Error, 2> errors;
+  for (std::uint32_t y = 2; y + 2 < height; ++y)
+    for (std::uint32_t x = 2; x + 2 < width; ++x) {
+      const MirrorTracer::Pixel pixel = tracer.pixel(x, y, rays);
+      if (!pixel.metal) continue;
+      Error& error = errors[pixel.sphere];
+      for (int c = 0; c < 3; ++c) {
+        const std::size_t at = 4 * (std::size_t{y} * width + x) + static_cast<std::size_t>(c);
+        const double right = shownOf255(pixel.radiance[c]);
+        error.off += std::abs(shownOf255(static_cast<double>(shown.off[at])) - right) / 3;
+        error.on += std::abs(shownOf255(static_cast<double>(shown.on[at])) - right) / 3;
+      }
+      ++error.count;
+    }
+  for (Error& error : errors) error.off /= error.count, error.on /= error.count;
+  return errors;
+}
+
+}  // namespace
+
+TEST_CASE("metals reflect the scene as a path tracer does, within 4 of 255") {
+  const CleanScope clean;
+  constexpr std::uint32_t kWidth = 192, kHeight = 108;
+  for (const double roughness : {0.0, 0.35}) {
+    MeshScene made({0, 2.2, 6}, 40);
+    const scene::Material metal = metalOf(static_cast<float>(roughness));
+    const auto tile = made.addBox({1, 0.1f, 1});
+    for (int i = -3; i < 3; ++i)
+      for (int j = -4; j < 2; ++j)
+        made.put(tile, lightOf((i + j) % 2 ? glm::vec3(0.7f, 0.6f, 0.5f) : glm::vec3(0.2f, 0.25f, 0.2f)),
+                 {2 * static_cast<float>(i) + 1, -1.1f, 2 * static_cast<float>(j) + 1});
+    made.put(made.addBox({0.4f, 0.8f, 0.4f}), lightOf({1.5f, 0.2f, 0.1f}), {-0.1f, -0.2f, -1.6f});
+    made.put(made.addBox({0.3f, 0.3f, 0.3f}), lightOf({0.1f, 0.3f, 1.5f}), {0.1f, -0.7f, 0.9f});
+    made.put(made.addBall(), metal, {-1.5f, 0, 0});
+    made.putSphere({1.5f, 0, 0}, 1, metal);
+    made.put(made.addBox({1.2f, 0.02f, 0.8f}), metal, {-0.1f, -0.98f, -0.4f});
+    const Shown shown = take(made.scene, kWidth, kHeight);
+    CHECK(shown.bare == shown.off);
+    CHECK(std::ranges::min(shown.occluded) >= 0);
+    const MirrorTracer tracer(made.scene, made.scene.cameras.rows()[0].pose, kWidth, kHeight, skyAt);
+    const std::array<Error, 2> errors = errorsOf(tracer, shown, kWidth, kHeight, roughness == 0 ? 1 : 48);
+    for (const bool spheres : {false, true}) {
+      const Error& error = errors[spheres];
+      const std::string kind = spheres ? ", spheres: " : ", meshes: ";
+      MESSAGE("roughness ", roughness, kind, error.on, " of 255, with the map alone ", error.off, ", ",
+              error.count, " pixels");
+      CHECK(error.count > 1000);
+      CHECK(error.on < 4);
+      CHECK(error.off > 4);
+    }
+  }
+}
+
+}  // namespace deferred_mirrors_test
