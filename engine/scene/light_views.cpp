@@ -1,5 +1,6 @@
 #include "engine/scene/light_views.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -45,7 +46,6 @@ float nearPlaneOf(const Lamp& lamp) {
 }
 
 ViewData cubeView(glm::vec3 from, float nearPlane, std::uint32_t face, std::uint32_t texels) {
-  assert(face < 6);
   // OpenGL 4.5 core, table 8.19: s and t of each face, as directions of a camera's right and up.
   static constexpr std::array<std::array<glm::dvec3, 2>, 6> kFaces = {{{{{1, 0, 0}, {0, -1, 0}}},
                                                                        {{{-1, 0, 0}, {0, -1, 0}}},
@@ -54,7 +54,8 @@ ViewData cubeView(glm::vec3 from, float nearPlane, std::uint32_t face, std::uint
                                                                        {{{0, 0, 1}, {0, -1, 0}}},
                                                                        {{{0, 0, -1}, {0, -1, 0}}}}};
   const glm::dvec3 eye(from);
-  const glm::dmat4 view = glm::lookAt(eye, eye + kFaces[face][0], kFaces[face][1]);
+  const auto& [ahead, up] = kFaces[std::min(face, 5u)];
+  const glm::dmat4 view = glm::lookAt(eye, eye + ahead, up);
   ViewData data =
       viewOf(view, projectionMatrix(90, 1, nearPlane), eye, glm::vec2(static_cast<float>(texels)));
   data.near_plane = nearPlane;

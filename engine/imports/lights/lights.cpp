@@ -173,8 +173,7 @@ class LampsProvider : public Provider {
     generation(frame);
     if (part.element < rows_.size()) {
       const scene::Lamp& lamp = lamps_[rows_[part.element]];
-      view_ = scene::cubeView(lamp.position, scene::nearPlaneOf(lamp), std::min<std::uint32_t>(part.face, 5),
-                              part.width);
+      view_ = scene::cubeView(lamp.position, scene::nearPlaneOf(lamp), part.face, part.width);
     }
     return view_;
   }

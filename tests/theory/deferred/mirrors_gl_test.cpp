@@ -43,11 +43,12 @@ struct Shown {
 Shown take(const scene::Scene& made, std::uint32_t width, std::uint32_t height) {
   runtime::test::Stage stage("graphs/deferred.json", width, height);
   stage.world.setScene(made);
-  stage.world.setEnvironment(makeEnvironment([](int x, int y) {
+  const auto map = makeEnvironment([](int x, int y) {
     const Vec3 d = equirectDirection(x, y, 256, 128);
     const glm::dvec3 sky = skyAt({d.x, d.y, d.z});
     return std::array{sky.r, sky.g, sky.b};
-  }));
+  });
+  stage.world.setEnvironment(std::make_shared<const assets::EnvironmentMap>(assets::toEnvironmentMap(*map)));
   const auto draw = [&](const char* reflections, const char* ao) {
     stage.settings.sets = {{"reflections", reflections}, {"ao", ao}};
     REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
