@@ -376,30 +376,27 @@ bool LiveGraph::write(const graph::WriteBack& plan, text::Diagnostics& diagnosti
   return good;
 }
 
-std::optional<std::string> LiveGraph::saveCamera(const scene::CameraPose& pose,
-                                                 text::Diagnostics& diagnostics) {
+bool LiveGraph::saveCamera(const scene::CameraPose& pose, text::Diagnostics& diagnostics) {
   const std::string& path = scene_.path();
-  if (path.empty() || assets::isModelName(path)) {
-    diagnostics.error(text::Code::cannotWriteBack, {path}, "the scene is no file that holds cameras",
-                      {.hint = "write a scene file that has the model under \"models\""});
-    return std::nullopt;
-  }
-  const std::optional<std::string> before = text::readTextFile(path, diagnostics);
+  const auto before =
+      assets::isModelName(path) || pose.height > 0 ? std::nullopt : text::readTextFile(path, diagnostics);
   const text::JsonEdit edit(before ? *before : std::string_view());
-  if (!edit) return std::nullopt;
+  if (!edit || !edit.root().is(text::JsonValue::Type::object)) {
+    diagnostics.error(text::Code::cannotWriteBack, {path}, "the scene file cannot take this camera",
+                      {.expected = "a scene file without mistakes, and a camera with perspective"});
+    return false;
+  }
+  const text::JsonValue* cameras = edit.root().find("cameras");
   std::string name = "view_1";
-  for (int i = 2; scene::findCamera(world_.scene(), name); ++i) name = fmt::format("view_{}", i);
+  for (int i = 2; cameras && cameras->find(name); ++i) name = fmt::format("view_{}", i);
   const auto& [at, to] = std::tie(pose.position, pose.target);
   std::string json =
       fmt::format(R"({{ "position": [{}, {}, {}], "target": [{}, {}, {}], "fov": {}, "near": {} }})", at.x,
                   at.y, at.z, to.x, to.y, to.z, pose.fovDegrees, pose.nearPlane);
-  const text::JsonValue* cameras = edit.root().find("cameras");
   if (!cameras) json = fmt::format(R"({{ "{}": {} }})", name, json);
-  const graph::WriteBack plan{
-      .files = {{path, *before,
-                 edit.withMember(cameras ? *cameras : edit.root(), cameras ? name : "cameras", json)}},
-      .rest = settings_};
-  return write(plan, diagnostics) ? std::optional(name) : std::nullopt;
+  const std::string after =
+      edit.withMember(cameras ? *cameras : edit.root(), cameras ? name : "cameras", json);
+  return write({.files = {{path, *before, after}}, .rest = settings_}, diagnostics);
 }
 
 std::optional<std::string> LiveGraph::savePreset(const std::string& name, text::Diagnostics& diagnostics) {

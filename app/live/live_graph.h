@@ -52,8 +52,8 @@ class LiveGraph {
   static bool isWefts(const std::string& file);
   // Writes what was changed into a new preset of the user's, and lays that over the graph. The file; nothing after errors.
   std::optional<std::string> savePreset(const std::string& name, text::Diagnostics& diagnostics);
-  // Adds a camera to the scene file. Its name; nothing after errors.
-  std::optional<std::string> saveCamera(const scene::CameraPose& pose, text::Diagnostics& diagnostics);
+  // Adds a camera "view_1", or a later number, to the scene file. False after errors.
+  bool saveCamera(const scene::CameraPose& pose, text::Diagnostics& diagnostics);
   // Takes back the last change or write, and does it again; changes of one parameter up to endChange() are one. False when there is none.
   bool undo(text::Diagnostics& diagnostics) { return travel(undo_, redo_, diagnostics); }
   bool redo(text::Diagnostics& diagnostics) { return travel(redo_, undo_, diagnostics); }

@@ -116,9 +116,8 @@ void Viewer::addActions() {
                }},
               {"save_camera",
                [this] {
-                 const auto name = live_.saveCamera(rig_.pose(), diagnostics_);
-                 told_ = name ? fmt::format("camera '{}' is in {}", *name, live_.scene().path())
-                              : "no camera was saved: see the messages";
+                 const bool saved = live_.saveCamera(rig_.pose(), diagnostics_);
+                 told_ = saved ? "the scene file has a new camera" : "no camera was saved: see the messages";
                }},
               {"next_environment", [step] { step(1); }},
               {"previous_environment", [step] { step(-1); }},

@@ -1,6 +1,6 @@
 // A process of its own for work that may crash, take all memory or never end: the compiler of a driver (engine/gl/programs), readers
 // of models whose makers do not fuzz them (engine/assets/models/fbx). It is this executable again, started with a first word that its
-// main() knows, or another. What it is to do is on its standard input, a file in memory, in which it leaves what it
+// main() knows, or another program (weft-fbx). What it is to do is on its standard input, a file in memory, in which it leaves what it
 // made; how far it is, it says on its standard output, a byte a step.
 #pragma once
 

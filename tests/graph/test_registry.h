@@ -84,7 +84,7 @@ inline std::vector<ImportType> testImports() {
        .kind = ImportKind::view,
        .doc = "",
        .arguments = {argument("jitter", Value::number(0)), argument("focal_length", Value::number(0)),
-                     argument("sensor_height", Value::number(24))},
+                     argument("sensor_height", Value::number(24)), argument("around", Value::number(-1))},
        .columns = {{"position", "vec3", ""},
                    {"near_plane", "float", ""},
                    {"target_distance", "float", ""},

@@ -84,7 +84,7 @@ def write_back(weft, folder, report):
 
 
 def save_camera(weft, folder, report):
-    """K adds the view to the scene file, Ctrl Z gives the file back to the byte; what was saved draws what was seen."""
+    """K adds the view to the scene file, Ctrl Z gives the file back to the byte."""
     scene = folder / "seen.json"
     scene.write_text('{ // my scene\n  "cameras": { "front": { "position": [0, 1, 9], "target": [0, 0, 0] } },\n  "spheres": [] }\n')
     before = scene.read_text()

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "engine/text/apart.h"
 #include "engine/text/files/file.h"
 
@@ -9,14 +11,34 @@ namespace weft::assets {
 
 using text::Code;
 
+namespace {
+
+// Of this build, or installed: beside the program that runs, or where it was to be when it was built. "" when it is not there.
+std::string readerProgram() {
+  std::error_code ec;
+  const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe", ec);
+  for (const std::string& path : {(own.parent_path().parent_path() / WEFT_FBX_BESIDE).string(),
+                                  std::string(WEFT_FBX_BUILT), std::string(WEFT_FBX_INSTALLED)})
+    if (text::isThere(path)) return path;
+  return {};
+}
+
+}  // namespace
+
 std::optional<std::string> glbOfFbx(const std::string& bytes, ModelFiles& files) {
   if (!bytes.starts_with("Kaydara FBX Binary") && !files.isTextInLimit(bytes)) return {};
   const std::uint64_t seconds = text::raised(4 + (bytes.size() >> 20)),
                       memory = text::raised((640ull << 20) + 64 * std::uint64_t{bytes.size()});
   const auto goOn = [&](char) { return files.goOn(LoadStage::decoding, 0); };
-  text::ApartEnd end = text::runApart({text::isThere(WEFT_FBX_BUILT) ? WEFT_FBX_BUILT : WEFT_FBX_INSTALLED,
-                                       std::to_string(seconds), std::to_string(memory)},
-                                      bytes, seconds, goOn);
+  const std::string program = readerProgram();
+  if (program.empty()) {
+    files.diagnostics().error(Code::unreadableModel, files.place(),
+                              "weft-fbx, which reads FBX files, is not there",
+                              {.expected = WEFT_FBX_INSTALLED});
+    return {};
+  }
+  text::ApartEnd end =
+      text::runApart({program, std::to_string(seconds), std::to_string(memory)}, bytes, seconds, goOn);
   if (!goOn(0)) return {};
   const char what = end.said.empty() ? '\0' : end.said.back();
   if (what == kMadeWithoutLights)
