@@ -32,8 +32,7 @@ std::optional<std::string> glbOfFbx(const std::string& bytes, ModelFiles& files)
   const auto goOn = [&](char) { return files.goOn(LoadStage::decoding, 0); };
   const std::string program = readerProgram();
   if (program.empty()) {
-    files.diagnostics().error(Code::unreadableModel, files.place(),
-                              "weft-fbx, which reads FBX files, is not there",
+    files.diagnostics().error(Code::unreadableModel, files.place(), "weft-fbx is not there",
                               {.expected = WEFT_FBX_INSTALLED});
     return {};
   }
