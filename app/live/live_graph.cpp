@@ -381,12 +381,13 @@ bool LiveGraph::saveCamera(const scene::CameraPose& pose, text::Diagnostics& dia
   const auto before =
       assets::isModelName(path) || pose.height > 0 ? std::nullopt : text::readTextFile(path, diagnostics);
   const text::JsonEdit edit(before ? *before : std::string_view());
-  if (!edit || !edit.root().is(text::JsonValue::Type::object)) {
+  const text::JsonValue* const cameras = edit.root().find("cameras");
+  const text::JsonValue& into = cameras ? *cameras : edit.root();
+  if (!edit || !into.is(text::JsonValue::Type::object)) {
     diagnostics.error(text::Code::cannotWriteBack, {path}, "the scene file cannot take this camera",
                       {.expected = "a scene file without mistakes, and a camera with perspective"});
     return false;
   }
-  const text::JsonValue* cameras = edit.root().find("cameras");
   std::string name = "view_1";
   for (int i = 2; cameras && cameras->find(name); ++i) name = fmt::format("view_{}", i);
   const auto& [at, to] = std::tie(pose.position, pose.target);
@@ -394,8 +395,7 @@ bool LiveGraph::saveCamera(const scene::CameraPose& pose, text::Diagnostics& dia
       fmt::format(R"({{ "position": [{}, {}, {}], "target": [{}, {}, {}], "fov": {}, "near": {} }})", at.x,
                   at.y, at.z, to.x, to.y, to.z, pose.fovDegrees, pose.nearPlane);
   if (!cameras) json = fmt::format(R"({{ "{}": {} }})", name, json);
-  const std::string after =
-      edit.withMember(cameras ? *cameras : edit.root(), cameras ? name : "cameras", json);
+  const std::string after = edit.withMember(into, cameras ? name : "cameras", json);
   return write({.files = {{path, *before, after}}, .rest = settings_}, diagnostics);
 }
 

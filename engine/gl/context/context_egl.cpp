@@ -110,7 +110,8 @@ std::vector<Device> listDevices(std::vector<std::string>& failures) {
 
 OpenedContext openEgl(const ContextOptions& options, bool hardwareOnly, std::vector<std::string>& failures) {
   const GlLoader loader = [](const char* name) { return eglGetProcAddress(name); };
-  if (!gladLoaderLoadEGL(EGL_NO_DISPLAY) || !GLAD_EGL_EXT_platform_device || !eglQueryDevicesEXT) {
+  if (!gladLoaderLoadEGL(EGL_NO_DISPLAY) || !GLAD_EGL_EXT_platform_device || !eglQueryDevicesEXT ||
+      !eglQueryDeviceStringEXT) {
     failures.emplace_back("EGL: libEGL is missing, or has no EGL_EXT_platform_device");
     return {};
   }

@@ -100,7 +100,10 @@ def save_camera(weft, folder, report):
         report.check(list(cameras) == ["front", "view_1"] and view["fov"] == 40 and [round(v, 4) for v in view["position"]] == [2, 1, 6], f"{cameras}")
         live.act("ctrl+z", "undo")
         report.check(live.until(lambda: scene.read_text() == before), "Ctrl Z does not give the scene back")
-        live.leave(report)
+        scene.write_text('{ "cameras": [], "spheres": [] }')  # a mistake
+        live.act("k", "save_camera")
+        report.check(live.until(lambda: all(f"error[{code}]" in live.said() for code in ("W003", "W196"))) and "view_1" not in scene.read_text(), f"K in a file with mistakes\n{live.said()}")
+        live.leave(report, 1)  # the files are wrong
     finally:
         live.stop()
 

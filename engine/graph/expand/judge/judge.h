@@ -28,10 +28,9 @@ void checkSlices(Model& model);
 // although an enabled pass below writes what it reads; and of a graph that shows nothing.
 void warnUnread(Model& model);
 
-// W089 for what the files declare and nothing uses: parameters, lets of the opened file, resources, inputs, a history that
-// nobody reads, alternatives that cannot be reached; a pass alone in a group whose
-// name is nearly that of another; lists of the scene that no pass draws. What a disabled pass or a condition that is false
-// now would use counts as used. What lies under an overlay or a preset is not judged: they may have removed what used it.
+// W089 for what the files declare and nothing uses: parameters, lets of the opened file, resources, inputs, a history that nobody
+// reads, alternatives that cannot be reached; lists of the scene that no pass draws. What a disabled pass or a condition that is
+// false now would use counts as used. What lies under an overlay or a preset is not judged: its user may have been removed.
 void warnUnused(Model& model);
 
 // W083 for a live `once` pass that reads a history, what a pass writes in every frame, or an import that changes while the
