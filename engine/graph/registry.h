@@ -43,9 +43,11 @@ constexpr const char* barrierName(BarrierBit bit) {
 enum class ShaderShape : std::uint8_t { none, fragment, compute, draw };
 
 struct FixedSlot {  // for pass types without a shader (blit, mipmap)
+  enum class Takes : std::uint8_t { texture, buffer, either };
   std::string name;
   Access access = Access::read;
   std::string doc;
+  Takes takes = Takes::texture;
 };
 
 struct PassType {

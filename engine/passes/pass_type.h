@@ -44,11 +44,10 @@ struct PassContext {
   const graph::PassSpec* spec = nullptr;
   std::uint32_t groupSize[3] = {1, 1, 1};  // compute: the program's local size
   std::uint32_t maxGroups[3] = {65535, 65535, 65535};
-  BoundTexture source, destination;  // blit, mipmap
-  BoundBuffer sourceBuffer,
-      destinationBuffer;  // blit: in their place, without a name where textures are copied
-  bool linear = false;    // blit: filter of the source slot
-  bool exact = false;     // blit: as graph::FlatUse::exact
+  BoundTexture source, destination;             // without a shader: what its slots name, of each access one
+  BoundBuffer sourceBuffer, destinationBuffer;  // in their place, without a name where a slot has a texture
+  bool linear = false;                          // blit: filter of the source slot
+  bool exact = false;                           // blit: as graph::FlatUse::exact
   Geometry geometry;
   std::uint32_t instances = 0;  // draw
   BoundBuffer commands;         // draw, compute: the arguments of the GL command, where it has a name

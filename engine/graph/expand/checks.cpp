@@ -94,8 +94,12 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
     return refuse(Code::badKind, "it has several samples, which are not filtered", "no linear",
                   "leave 'linear' out: the shader declares a sampler2DMS and reads one sample by texelFetch",
                   &words);
-  if (work.array && (kind == Kind::color || kind == Kind::depth))
-    return refuse(Code::badKind, "it is an array, and an attachment is one texture", "one element, 'x[0]'");
+  const FixedSlot* const fixed = type ? findNamed(type->fixedSlots, work.slot->name) : nullptr;
+  if (fixed && fixed->takes == (buffer ? FixedSlot::Takes::texture : FixedSlot::Takes::buffer))
+    return refuse(Code::badSlots, buffer ? "it is a buffer" : "it is a texture",
+                  buffer ? "a texture" : "a buffer");
+  if (work.array && (kind == Kind::color || kind == Kind::depth || kind == Kind::copy))
+    return refuse(Code::badKind, "it is an array, of which one element goes here", "one element, 'x[0]'");
   if (!known) return true;
   constexpr const char* kMisfit = "its format does not fit";
   if (kind == Kind::color && !format.colorRenderable)
@@ -165,7 +169,7 @@ bool checkTogether(const SlotContext& context, const SlotWork& a, const SlotWork
        .resource = context.model.entities[b.entity].name});
 }
 
-// The two slots of a pass type without a shader, blit or mipmap: what GL would refuse, or would do in part.
+// The two slots of a pass type without a shader, as far as both are there: what GL would refuse, or would do in part.
 bool checkCopy(const SlotContext& context, const std::vector<SlotWork>& slots) {
   const SlotWork *from = nullptr, *to = nullptr;
   for (const SlotWork& work : slots) {
@@ -191,12 +195,7 @@ bool checkCopy(const SlotContext& context, const std::vector<SlotWork>& slots) {
                           fmt::format("cannot copy {} to {}: {}", textOf(*from, a), textOf(*to, b), why),
                           {.expected = expected, .resource = (&side == to ? target : source).name});
   };
-  for (const SlotWork* side : {from, to})
-    if (side->array)
-      return refuse(Code::badSlots, *side, "it is an array",
-                    "one element, such as 'x[0]'; a pass may repeat over them");
   if (context.type->fromSource) {  // a mipmap reads one level and writes those that follow it
-    if (isBuffer(a)) return refuse(Code::badSlots, *from, "a buffer has no levels", "a texture");
     if (from->entity != to->entity || from->firstElement != to->firstElement || from->use.mips != 1 ||
         to->use.mip != from->use.mip + 1 || from->use.layer != to->use.layer ||
         from->use.layers != to->use.layers)

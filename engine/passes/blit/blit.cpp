@@ -16,9 +16,10 @@ class Blit final : public PassType {
         .shader = graph::ShaderShape::none,
         .defaultReadTexture = graph::Kind::copy,
         .defaultWriteTexture = graph::Kind::copy,
-        .fixedSlots = {{"source", graph::Access::read, "the level and layer, or the buffer, to copy from"},
-                       {"destination", graph::Access::write,
-                        "the level and layer, or the buffer, to copy to"}},
+        .fixedSlots = {{"source", graph::Access::read, "the level and layer, or the buffer, to copy from",
+                        graph::FixedSlot::Takes::either},
+                       {"destination", graph::Access::write, "the level and layer, or the buffer, to copy to",
+                        graph::FixedSlot::Takes::either}},
         .framebuffers = true,
         .exactCopies = true};
   }
@@ -29,8 +30,7 @@ class Blit final : public PassType {
       glCopyNamedBufferSubData(from.name, to.name, from.offset, to.offset, to.bytes);
       return;
     }
-    const BoundTexture& from = context.source;
-    const BoundTexture& to = context.destination;
+    const BoundTexture &from = context.source, &to = context.destination;
     if (context.exact) {
       glCopyImageSubData(from.texture, from.target, from.level, 0, 0, from.layer, to.texture, to.target,
                          to.level, 0, 0, to.layer, static_cast<GLsizei>(from.width),

@@ -74,7 +74,6 @@ TEST_CASE("what a blit or a mipmap cannot do is refused") {
                                                         {"large", "two"},
                                                         {"one", "b"},
                                                         {"b", "two"},
-                                                        {"many", "b"},
                                                         {"@spheres", "two"},
                                                         {"a", "b"},
                                                         {"b", "a"},
@@ -93,10 +92,40 @@ TEST_CASE("what a blit or a mipmap cannot do is refused") {
   CHECK(said("shared", "b").has(text::Code::badFormat));
   CHECK(said("zs as linear", "z2").has(text::Code::badFormat));
   CHECK(said("one as linear", "two").has(text::Code::badKind));
+  CHECK(said("many", "b").has(text::Code::badKind));
   CHECK(said("b", "a.mip[0] as linear").has(text::Code::badKind));
   CHECK(said("four", "b").graph);
   CHECK(said("zs.stencil", "z2.stencil").graph);
   CHECK(said("one", "two", "mipmap").has(text::Code::badSlots));
   CHECK(said("ids.mip[0]", "ids.mip[1..]", "mipmap").has(text::Code::badFormat));
   CHECK(said("a.mip[0] as linear", "a.mip[1..]", "mipmap").has(text::Code::badKind));
+}
+
+TEST_CASE("a slot of a pass type without a shader takes what its type says: a texture, a buffer, or either") {
+  Registry registry = testRegistry();
+  for (const auto& [name, takes] :
+       {std::pair{"of_textures", FixedSlot::Takes::texture},
+        std::pair{"of_buffers", FixedSlot::Takes::buffer}, std::pair{"of_both", FixedSlot::Takes::either}})
+    registry.passTypes.push_back({.name = name,
+                                  .doc = "",
+                                  .defaultReadTexture = Kind::copy,
+                                  .defaultWriteTexture = Kind::copy,
+                                  .keys = {},
+                                  .fixedSlots = {{"result", Access::write, "", takes}}});
+  const auto said = [&](const std::string& type, const std::string& result) {
+    return expandText(
+        R"J({ "resources": { "list": { "buffer": 64 }, "b": { "texture": "rgba8", "size": 4, "clear": 0 },
+      "many": { "texture": "rgba8", "size": 4, "array": 2 } },
+      "passes": [ { "name": "p", "type": ")J" +
+            type + R"J(", "side_effect": true, "write": { "result": ")J" + result +
+            R"J(" } } ], "present": "b" })J",
+        {}, registry);
+  };
+  CHECK(said("of_textures", "b").graph);
+  CHECK(said("of_buffers", "list").graph);
+  CHECK(said("of_both", "b").graph);
+  CHECK(said("of_both", "list").graph);
+  CHECK(said("of_textures", "list").of(text::Code::badSlots).expected == "a texture");
+  CHECK(said("of_buffers", "b").of(text::Code::badSlots).expected == "a buffer");
+  CHECK(said("of_textures", "many").has(text::Code::badKind));
 }
