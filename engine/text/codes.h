@@ -3,7 +3,7 @@
 //
 // Ranges: W001-W019 JSON and files, W020-W039 expressions and references, W040-W099 graph (expansion, validation),
 // W100-W149 shaders and GL, W150-W179 assets and scenes, W180-W199 command line, runtime and outputs, W200-W219 limits, W220-W239 pipelines of other
-// programs.
+// programs, W240-W259 graph again.
 // Numbers are never reused; W010 (overlays are not supported yet), W027 (like a pass that is not there), W087 (reserved kinds), W088 (reads of what timed passes made) and W093-W099 (workloads) are retired. Does not hold the message texts: those
 // stand where the mistake is found.
 #pragma once
