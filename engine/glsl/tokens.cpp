@@ -1,7 +1,6 @@
 #include "engine/glsl/tokens.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <iterator>
@@ -59,15 +58,15 @@ std::vector<Token> splitTokens(std::string_view text) {
     } else if (const std::size_t skip = continuationAt(text, i); skip > 0) {
       ++line;
       lineStart = i += skip;
-    } else if (std::isspace(static_cast<unsigned char>(text[i])) != 0) {
+    } else if (text::isSpace(text[i]) || text[i] == '\f' || text[i] == '\v') {
       ++i;
-    } else if (text.substr(i, 2) == "//") {
+    } else if (text[i] == '/' && i + 1 < text.size() && text[i + 1] == '/') {
       while (i < text.size() && text[i] != '\n') {
         const std::size_t goOn = continuationAt(text, i);
         line += goOn > 0 ? 1 : 0;
         i += std::max<std::size_t>(goOn, 1);
       }
-    } else if (text.substr(i, 2) == "/*") {
+    } else if (text[i] == '/' && i + 1 < text.size() && text[i + 1] == '*') {
       const std::size_t found = text.find("*/", i + 2);
       goTo(found == std::string_view::npos ? text.size() : found + 2);
     } else {

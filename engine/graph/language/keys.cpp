@@ -78,15 +78,6 @@ const Shape& shapeOfJson(const Json& json) {
   return at->second;
 }
 
-// What a stanza of an overlay may say that no pass and no include says.
-std::span<const KeySpec> keysOfPlaces() {
-  static std::vector<KeySpec> keys = shapeOf("passChange").keys;
-  for (const auto others : {kPassKeys, kIncludeKeys})
-    for (const KeySpec& other : others)
-      std::erase_if(keys, [&](const KeySpec& each) { return each.key == other.key; });
-  return keys;
-}
-
 }  // namespace
 
 const Shape& shapeOfFile(bool changes) {
@@ -132,10 +123,15 @@ std::span<const std::string_view> stateWords(std::string_view path) {
   return key ? key->words : std::span<const std::string_view>();
 }
 
-const std::span<const KeySpec> kGraphKeys = shapeOfFile(false).keys;
-const std::span<const KeySpec> kPassKeys = shapeOf("pass").keys;
-const std::span<const KeySpec> kIncludeKeys = shapeOf("include").keys;
-const std::span<const KeySpec> kStateKeys = shapeOf("state").keys;
-const std::span<const KeySpec> kPlaceKeys = keysOfPlaces();
+std::span<const KeySpec> placeKeys() {
+  static const std::vector<KeySpec> keys = [] {
+    std::vector<KeySpec> own = shapeOf("passChange").keys;
+    for (const char* kind : {"pass", "include"})
+      for (const KeySpec& other : shapeOf(kind).keys)
+        std::erase_if(own, [&](const KeySpec& each) { return each.key == other.key; });
+    return own;
+  }();
+  return keys;
+}
 
 }  // namespace weft::graph

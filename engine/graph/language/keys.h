@@ -47,15 +47,11 @@ const Shape& shapeOf(std::string_view kind);
 // Of a whole file: of a graph, or of one that changes others.
 const Shape& shapeOfFile(bool changes);
 
-extern const std::span<const KeySpec> kGraphKeys;
-extern const std::span<const KeySpec> kPassKeys;
-extern const std::span<const KeySpec> kIncludeKeys;
-extern const std::span<const KeySpec> kStateKeys;
 // Of "cull", "blend.SLOT", "blend.SLOT.source", "stencil.back.pass"; null when there is none.
 const KeySpec* findStateKey(std::string_view path);
 // The words that such a key may be, in the order of the enumeration in flat_graph.h.
 std::span<const std::string_view> stateWords(std::string_view path);
-extern const std::span<const KeySpec>
-    kPlaceKeys;  // of a stanza in an overlay, beside those of passes and includes
+// Of a stanza in an overlay, beside those of passes and includes.
+std::span<const KeySpec> placeKeys();
 
 }  // namespace weft::graph

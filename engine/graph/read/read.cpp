@@ -125,7 +125,8 @@ class GraphReader {
   static bool isOtherFile(const JsonValue& root, ReadContext& context) {
     const auto own = [](const JsonMember& member) {
       return member.key != "name" && member.key != "description" && member.key != "$schema" &&
-             std::ranges::find(kGraphKeys, member.key, &KeySpec::key) != kGraphKeys.end();
+             std::ranges::find(shapeOfFile(false).keys, member.key, &KeySpec::key) !=
+                 shapeOfFile(false).keys.end();
     };
     if (std::ranges::any_of(root.members, own)) return false;
     context.error(

@@ -506,8 +506,8 @@ void readParameters(ReadContext& context, const JsonValue& value, ReadContext::S
 void readState(ReadContext& context, const JsonValue& value, PassDesc& out) {
   const auto add = [&](std::string name, const JsonMember& member) {
     // A word of another API is often no expression: ">=".
-    const std::string hint =
-        isIdent(member.value.text) ? "" : text::hintForForeign("state_word", member.value.text);
+    const bool own = !member.value.is(Type::string) || isIdent(member.value.text);
+    const std::string hint = own ? "" : text::hintForForeign("state_word", member.value.text);
     if (!hint.empty()) {
       context.error(Code::badState, member.value, fmt::format("unknown value for the state '{}'", name),
                     {.hint = hint});

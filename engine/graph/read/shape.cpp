@@ -66,11 +66,12 @@ class ShapeCheck {
       : mends_(mends), overlay_(overlay), said_(diagnostics) {}
 
   void run(JsonValue& root) {
-    checkKeys(root, {kGraphKeys}, "graph", "graph_key");
+    const std::vector<KeySpec>& keys = shapeOfFile(false).keys;
+    checkKeys(root, {keys}, "graph", "graph_key");
     overlay_ = overlay_ || root.find("extends");
     for (JsonMember& section : root.members) {
-      const auto spec = std::ranges::find(kGraphKeys, section.key, &KeySpec::key);
-      if (spec == kGraphKeys.end()) continue;
+      const auto spec = std::ranges::find(keys, section.key, &KeySpec::key);
+      if (spec == keys.end()) continue;
       if (section.key == "passes" && section.value.is(Type::array)) {
         for (JsonValue& stanza : section.value.items) checkPass(stanza);
       } else if (section.key == "resources" && section.value.is(Type::object)) {
@@ -115,7 +116,7 @@ class ShapeCheck {
     const auto says = [&](const char* key) { return stanza.find(key) != nullptr; };
     if (mends_ && says("passes")) return checkGroup(stanza);
     if (mends_ && !says("include") && !says("type") && !says("shader"))
-      checkKeys(stanza, {std::span(kIncludeKeys).first(1)}, "include");
+      checkKeys(stanza, {std::span(shapeOf("include").keys).first(1)}, "include");
     if (const JsonMember* like = mends_ ? nullptr : memberOf(stanza, "like")) {  // of the first edition
       said_.error(Code::unknownKey, like->place, "a pass is no longer \"like\" another",
                   {.hint = "declare what they share under \"sets\", and name it with \"use\"; `weft format` "
@@ -130,7 +131,7 @@ class ShapeCheck {
     std::vector<JsonMember> checked(ofGroup.begin(), ofGroup.end());
     stanza.members.erase(ofGroup.begin(), ofGroup.end());
     if (stanza.is(Type::object))
-      checkObject(stanza, shape, shape.kind, overlay_ ? kPlaceKeys : std::span<const KeySpec>());
+      checkObject(stanza, shape, shape.kind, overlay_ ? placeKeys() : std::span<const KeySpec>());
     else
       checkValue(stanza, shape, shape.kind, shape.doc);
     std::ranges::move(checked, std::back_inserter(stanza.members));
@@ -140,7 +141,7 @@ class ShapeCheck {
   // What a group says is checked once, before each of its passes gets it; what does not fit goes.
   void checkGroup(JsonValue& group) {
     const Shape& shape = shapeOf("group");
-    const std::span<const KeySpec> places = overlay_ ? kPlaceKeys : std::span<const KeySpec>();
+    const std::span<const KeySpec> places = overlay_ ? placeKeys() : std::span<const KeySpec>();
     std::vector<JsonValue> members = std::exchange(memberOf(group, "passes")->value.items, {});
     checkObject(group, shape, "group", places);
     mends_ = false;
@@ -222,11 +223,12 @@ class ShapeCheck {
       known.clear();
       for (const std::span<const KeySpec> keys : lists)
         for (const KeySpec& spec : keys) known.emplace_back(spec.key);
-      const bool ofState = foreign == "pass_key" &&
-                           std::ranges::find(kStateKeys, member.key, &KeySpec::key) != kStateKeys.end();
+      const bool ofState =
+          foreign == "pass_key" &&
+          std::ranges::find(shapeOf("state").keys, member.key, &KeySpec::key) != shapeOf("state").keys.end();
       // A word of another program first.
       const text::ForeignWord theirs =
-          ofState ? text::ForeignWord() : text::findForeignWord(foreign, member.key);
+          ofState || foreign.empty() ? text::ForeignWord() : text::findForeignWord(foreign, member.key);
       const std::string nearest = theirs.hint.empty() ? text::nearestName(member.key, known) : theirs.key;
       const bool sure =
           !ofState && !nearest.empty() && !object.find(nearest) &&

@@ -609,7 +609,8 @@ bool checkProgram(const Plan& plan, std::uint32_t pass, std::span<const gl::Stag
 void warnOfConditions(const graph::PassSpec& pass, std::span<const gl::StageSource> stages,
                       std::span<const glsl::Define> defines, text::Diagnostics& diagnostics) {
   std::vector<std::string> names;
-  std::set<std::string, std::less<>> told, words, asked;  // `asked`: by an #if or #ifdef
+  // Defines that a shader has or that a hint names, and words that an #if or #ifdef asks for.
+  std::set<std::string, std::less<>> known, asked;
   for (const glsl::Define& define : defines) names.push_back(define.name);
   for (const gl::StageSource& stage : stages) {
     const glsl::Conditions conditions = glsl::conditionsOf(stage.source->text);
@@ -644,7 +645,7 @@ void warnOfConditions(const graph::PassSpec& pass, std::span<const gl::StageSour
                                 : valued             ? text::nearestName(word.text, names)
                                                      : "";
       if (meant.empty()) return;
-      told.insert(meant);
+      known.insert(meant);
       warn(word, fmt::format("nothing defines '{}'", word.text), fmt::format("did you mean '{}'?", meant));
     };
     for (const glsl::Token& word : conditions.valued)
@@ -653,12 +654,13 @@ void warnOfConditions(const graph::PassSpec& pass, std::span<const gl::StageSour
     for (const glsl::Token& word : conditions.tested) look(word, false);
     for (const auto* list : {&conditions.valued, &conditions.tested})
       for (const glsl::Token& word : *list) asked.emplace(word.text);
-    for (const glsl::Token& token : glsl::splitTokens(stage.source->text)) words.emplace(token.text);
+    for (const graph::DefineSpec& define : pass.defines)
+      if (conditions.used.contains(define.name) || asked.contains(define.name)) known.insert(define.name);
   }
   // A define that is nearly a word of the preprocessor, which nobody else gives.
   for (const std::string& name : names) asked.erase(name);
   for (const graph::DefineSpec& define : pass.defines) {
-    const std::string near = words.contains(define.name) || told.contains(define.name)
+    const std::string near = known.contains(define.name)
                                  ? ""
                                  : text::nearestName(define.name, std::vector(asked.begin(), asked.end()));
     const std::string message =

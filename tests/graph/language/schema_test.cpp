@@ -32,7 +32,7 @@ Json wrapPass(const Json& object) {
 
 std::vector<Host> hosts() {
   return {
-      {"graph", kGraphKeys, [](const Json& o) { return o; }, {{"passes", Json::array()}}},
+      {"graph", shapeOfFile(false).keys, [](const Json& o) { return o; }, {{"passes", Json::array()}}},
       {"parameter",
        shapeOf("parameter").keys,
        [](const Json& o) {
@@ -48,14 +48,14 @@ std::vector<Host> hosts() {
          return Json{{"passes", Json::array()}, {"inputs", Json::array({Json{{"r", o}}})}};
        },
        {{"history", 1}}},
-      {"pass", kPassKeys, wrapPass, {{"name", "p"}, {"type", "compute"}}},
+      {"pass", shapeOf("pass").keys, wrapPass, {{"name", "p"}, {"type", "compute"}}},
       {"set", shapeOf("set").keys,
        [](const Json& o) {
          return Json{{"passes", Json::array()}, {"sets", {{"s", o}}}};
        },
        Json::object()},
-      {"include", kIncludeKeys, wrapPass, {{"include", "absent.json"}, {"as", "absent"}}},
-      {"state", kStateKeys,
+      {"include", shapeOf("include").keys, wrapPass, {{"include", "absent.json"}, {"as", "absent"}}},
+      {"state", shapeOf("state").keys,
        [](const Json& o) {
          return wrapPass({{"name", "p"}, {"type", "draw"}, {"state", o}});
        },
@@ -87,7 +87,7 @@ TEST_CASE("the words of the schema are those of the program") {
   const Json& state = defs.at("state").at("properties");
   fits(state.at("depth_test").at("examples"), kCompareNames);
   // A pass that changes another may say what a pass may say.
-  for (const KeySpec& spec : kPassKeys)
+  for (const KeySpec& spec : shapeOf("pass").keys)
     CHECK_MESSAGE(defs.at("passChange").at("properties").contains(spec.key), spec.key);
 }
 

@@ -80,10 +80,12 @@ TEST_CASE("graph-format.md names every key of the format") {
   std::ifstream in(WEFT_SOURCE_DIR "/docs/graph-format.md");
   const std::string page{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   for (const auto keys :
-       {kGraphKeys, std::span<const KeySpec>(shapeOf("parameter").keys),
+       {std::span<const KeySpec>(shapeOfFile(false).keys),
+        std::span<const KeySpec>(shapeOf("parameter").keys),
         std::span<const KeySpec>(shapeOf("texture").keys), std::span<const KeySpec>(shapeOf("buffer").keys),
         std::span<const KeySpec>(shapeOf("import").keys), std::span<const KeySpec>(shapeOf("input").keys),
-        kPassKeys, kIncludeKeys, kStateKeys, kPlaceKeys})
+        std::span<const KeySpec>(shapeOf("pass").keys), std::span<const KeySpec>(shapeOf("include").keys),
+        std::span<const KeySpec>(shapeOf("state").keys), placeKeys()})
     for (const KeySpec& spec : keys) {
       const std::string key(spec.key);
       CHECK_MESSAGE((page.find("`" + key + "`") != std::string::npos ||
