@@ -41,8 +41,8 @@ bool isWebp(std::string_view bytes) {
   return bytes.starts_with("RIFF") && bytes.substr(8).starts_with("WEBP");
 }
 
-std::optional<ImageHeader> readHeader(std::string_view bytes, const std::string& name,
-                                      text::Diagnostics& found) {
+std::optional<ImageHeader> readTextureHeader(std::string_view bytes, const std::string& name,
+                                             text::Diagnostics& found) {
   if (!isWebp(bytes)) return readPictureHeader(bytes, name, found);
   WebPBitstreamFeatures features;
   if (WebPGetFeatures(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), &features) == 0)
@@ -75,7 +75,7 @@ bool isBlue(const Image8& image) {
 
 std::uint32_t TexturePool::put(std::string bytes, const std::string& name, const text::Place& place) {
   Entry entry{.bytes = std::move(bytes), .name = name, .place = place};
-  if (const auto size = readHeader(entry.bytes, name, entry.found)) {
+  if (const auto size = readTextureHeader(entry.bytes, name, entry.found)) {
     entry.texels = static_cast<std::uint64_t>(size->width) * static_cast<std::uint64_t>(size->height);
     entry.channels = size->channels;
     if (!countTexels(entry.texels, name, place)) return kNoRow;
