@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Holds README.md, CONTRIBUTING.md, docs/*.md, docs/tutorials/*.md and docs/gallery/*.md against the program: every fenced snippet is executed or compared.
-PAGE may be a folder. Of pages of graphs/cookbook the commands run small, on a copy of their folder that lies elsewhere.
+PAGE may be a folder. Of pages of graphs/cookbook the commands run small and for 10 frames at most, on a copy of their folder that lies elsewhere.
 
 Usage: docs_test.py SOURCE_DIR BINARY_DIR [--part PART...] [--clone] [PAGE...]
 
@@ -45,7 +45,8 @@ CTEST = "ctest"  # comes with cmake
 WEFT = BINARY / "app/weft"
 FENCE = re.compile(r"^```([^\n`]*)\n(.*?)^```[ ]*$", re.M | re.S)
 LANGUAGES = {"sh", "json", "glsl", "cpp", "cmake", "text"}
-DATA = ("graphs", "shaders", "materials", "scenes", "docs", "tests", "app/commands", "app/report")
+DATA = ("graphs", "shaders", "materials", "scenes", "docs", "tests/docs", "tests/golden", "tests/imports", "tests/convert", "tests/app/trials",
+        "app/commands", "app/report")
 
 RUN = """#!/usr/bin/env bash
 case "${{1:-}}" in
@@ -71,6 +72,17 @@ def write_program(path, text):
     path.chmod(0o755)
 
 
+def place(path, copy):
+    """A copy of a file; of a picture or a model, which no command writes over, a link."""
+    if os.path.getsize(path) >= 100_000:
+        try:
+            os.link(path, copy)
+            return copy
+        except OSError:  # on another file system
+            pass
+    return shutil.copy(path, copy)
+
+
 class Sandbox:
     """A copy of the tree whose ./run and ./test use what is already built."""
 
@@ -78,7 +90,7 @@ class Sandbox:
         self.root = folder / "weft"
         self.root.mkdir()
         for name in DATA:
-            shutil.copytree(TOP / name, self.root / name, ignore=shutil.ignore_patterns("__pycache__"))
+            shutil.copytree(TOP / name, self.root / name, ignore=shutil.ignore_patterns("__pycache__"), copy_function=place)
         write_program(self.root / "run", RUN.format(weft=shlex.quote(str(WEFT))))
         write_program(self.root / "test", TEST.format(ctest=shlex.quote(shutil.which(CTEST)), binary=shlex.quote(str(BINARY))))
         tools = folder / "tools"
@@ -102,7 +114,7 @@ class Sandbox:
             (self.root / "graphs/own").mkdir(exist_ok=True)
             (self.root / "graphs/cookbook" / entry).rename(self.root / copy)
         script = re.sub(r" --size \d+x\d+", "", script).replace(f"graphs/cookbook/{entry}/", f"{copy}/")
-        return re.sub(r"^(\./run render .*)$", r"mkdir -p out; \1 --size 64x36", script, flags=re.M)
+        return re.sub(r"^(\./run render .*)$", r"mkdir -p out; \1 --size 64x36", script.replace("--frames 60", "--frames 10"), flags=re.M)
 
     def weft(self, *args):
         result = subprocess.run([WEFT, *args], cwd=self.root, env=self.env, capture_output=True, text=True, timeout=300)

@@ -17,6 +17,7 @@ from pictures import exr, read_exr  # noqa: E402
 TOP = pathlib.Path(__file__).resolve().parents[3]
 WEFT = sys.argv[1]
 PIXELS, SPACING, RADIUS = 128, 2.2, 1.0  # per unit of SPACING / 2
+POINTS = ((0.15, -0.1), (0.13, 0.32), (0.3, 0.2), (-0.5, 0.1), (0.1, 0.5), (0.2, 0.72), (-0.3, -0.6), (0.8, 0.1), (-0.75, 0.4))
 problems = []
 
 BLACK = {"baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0, "roughnessFactor": 0.4}
@@ -244,7 +245,7 @@ def check(picture, graph, everywhere):
     height = len(picture)
     for i, (name, base, layers, one, all_of) in enumerate(SPHERES):
         brdf, seen, right = material(base, layers), [], []
-        for x, y in ((0.15, -0.1), (0.13, 0.32), (0.3, 0.2), (-0.5, 0.1), (0.1, 0.5), (0.2, 0.72), (-0.3, -0.6), (0.8, 0.1), (-0.75, 0.4)):
+        for x, y in POINTS[::2] if everywhere else POINTS:
             column, row = int((SPACING * (i + 0.5) + x) / SPACING * height), int((0.5 - y / SPACING) * height)
             at = ((column + 0.5) / height * SPACING - SPACING * (i + 0.5), (0.5 - (row + 0.5) / height) * SPACING)
             n = (*at, math.sqrt(1 - dot(at, at)))

@@ -27,7 +27,7 @@ def chain(line, count):
 
 
 SUM = main_of("result = vec4(" + "a + " * 100000 + "a);")
-CASES = "\n".join(f"case {i}: result = vec4({i}.0); break;" for i in range(20000))
+CASES = "\n".join(f"case {i}: result = vec4({i}.0); break;" for i in range(5000))
 DOUBLE = "float f0(float x) { return x * uv.y; }\n" + chain("float f$(float x) { return f%(x) + f%(x + 1.0); }", 24)
 CALLS = "float f0(float x) { return x * uv.y; }\n" + chain("float f$(float x) { return f%(x) + 1.0; }", 3000)
 SINES = main_of("\n".join(f"a = sin(a) * uv.y + {i}.5;" for i in range(4000)) + "result = vec4(a);")
@@ -39,8 +39,7 @@ HOSTILE = [
     ("a macro that doubles nothing", main_of("M24()", "#define M0(x) x\n" + chain("#define M$(x) M%(x)M%(x)", 24)), "W204", "", ()),
     ("functions that double", main_of("result = vec4(f24(a));", DOUBLE), "W204", "", ()),
     ("a chain of calls", main_of("result = vec4(f3000(a));", CALLS), "W204", "", ()),
-    ("a switch", main_of("switch (int(uv.x * 1e5)) {\n" + CASES[:CASES.index("case 5000:")] + "}"), "W204", "", ()),
-    ("a larger switch", main_of("switch (int(uv.x * 1e5)) {\n" + CASES + "}"), "W204", "", ()),
+    ("a switch", main_of("switch (int(uv.x * 1e5)) {\n" + CASES + "}"), "W204", "", ()),
     ("an array", main_of("float b[100000];\n  b[int(uv.x * 1e5)] = a;\n  result = vec4(b[int(uv.y * 1e5)]);"), "W204", "", ()),
     ("two megabytes", main_of("result = vec4(a);", "// nothing\n" * 200000), "W203", "", ()),
     ("a circle", main_of("result = vec4(f(a));", "float g(float x);\nfloat f(float x) { return g(x); }\nfloat g(float x) { return f(x); }\n"),

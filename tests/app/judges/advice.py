@@ -16,7 +16,7 @@ import sys
 from program import Report, TOP, run, temporary_folder
 
 STEPS = 5
-SAMPLE = 60
+SAMPLE = 40
 KINDS = {
     "reference": re.compile(r'"[a-z_]\w*": "@?(?P<word>[a-z]\w{2,})(?=[."\[@ ])(?=[^"]*")'),
     "key": re.compile(r'[{,]\s*"(?P<word>name|type|shader|enabled|read|write|modify|parameters|defines|state|repeat|update|threads|texture|size|mips|clear|history|include|default|choices|label)":'),
@@ -33,6 +33,16 @@ KINDS = {
 # Roots that include most of what there is.
 ROOTS = ("studio.json", "deferred.json", "studio_gi.json", "deferred_gi.json", "glow.json", "taa.json")
 ERROR = re.compile(r"^(?:(?P<file>[^\n]*?):(?P<line>\d+):(?P<column>\d+): )?(?:command line: [^\n]*?: )?error\[(?P<code>W\d{3})\]: (?P<text>[^\n]*)(?P<more>(?:\n    [^\n]*)*)", re.M)
+
+
+CHANGED = set()  # files that a fix was written into
+
+
+def restore(folder):
+    """The files of a copy of the source folder, as they are there."""
+    for path in CHANGED:
+        path.write_bytes((TOP / path.relative_to(folder)).read_bytes())
+    CHANGED.clear()
 
 
 class Said:
@@ -88,6 +98,7 @@ def write_at(said, word, whole=False):
         begin, end = min(found)
         lines[said.line - 1] = head + tail[:begin] + word.lstrip("$@") + tail[end:]
         path.write_text("".join(lines))
+        CHANGED.add(path.resolve())
         return True
     return False
 
@@ -171,8 +182,8 @@ class Judge:
                 if len(errors) > 1:
                     self.fault(f"{'three or more' if len(errors) > 2 else 'two'} messages", label, errors)
                 self.follow(label, graphs / root)
-                for other in roots[root]:  # what was changed on the way
-                    other.write_text((TOP / other.relative_to(folder)).read_text())
+                CHANGED.add(path)
+                restore(folder)
 
     def disables(self):
         """What people switch off in the studio, singly and in pairs."""
@@ -183,22 +194,18 @@ class Judge:
             for names in (["composite"], ["composite", "fxaa"], ["post"], ["post", "lit"], ["post.display"], ["ibl"], ["skybox", "billboards"],
                           ["post.fxaa.copy"], ["post.bloom"], ["fog", "ibl"], ["lit", "ibl"]):
                 self.follow(" ".join(names), folder / "graphs/studio.json", names)
-                for path in (folder / "graphs").rglob("*.json"):
-                    path.write_text((TOP / path.relative_to(folder)).read_text())
+                restore(folder)
 
     def bad_graphs(self):
         with temporary_folder() as folder:
             folder = pathlib.Path(folder).resolve()
-            shutil.copytree(TOP / "tests/bad_graphs", folder / "bad")
+            shutil.copytree(TOP / "tests/bad_graphs", folder / "tests/bad_graphs")
             for entry in json.loads((TOP / "tests/bad_graphs/manifest.json").read_text())["files"]:
                 if entry["stage"] not in ("read", "expand"):
                     continue
                 self.tried["bad graphs"] += 1
-                self.follow(entry["file"], folder / "bad" / entry["file"], entry.get("disable", ()))
-                for path in (TOP / "tests/bad_graphs").rglob("*.json"):
-                    copy = folder / "bad" / path.relative_to(TOP / "tests/bad_graphs")
-                    if copy.read_bytes() != path.read_bytes():
-                        copy.write_bytes(path.read_bytes())
+                self.follow(entry["file"], folder / "tests/bad_graphs" / entry["file"], entry.get("disable", ()))
+                restore(folder)
 
 
 def main():

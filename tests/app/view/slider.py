@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A slider of the viewer is moved two hundred times, each time until the picture has followed: no plan is built for it, and
+"""A slider of the viewer is moved eighty times, each time until the picture has followed: no plan is built for it, and
 nothing is allocated. The same of the bundled picture, with fewer moves."""
 import json
 import os
@@ -10,8 +10,8 @@ from program import SANITIZED, TOP, Report, temporary_folder
 from screen import Screen
 from window import Session, inside_display
 
-MOVES = 200
-MOVES_OF_STUDIO = 40
+MOVES = 80
+MOVES_OF_STUDIO = 16
 GRAB = (61, 133, 224)  # Dear ImGui's slider grab, dark style; brighter while it is held
 GRAPH = """{ "name": "slider",
   "parameters": { "level": { "type": "float", "default": 0.5, "min": 0, "max": 1 } },
