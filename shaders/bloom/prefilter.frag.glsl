@@ -6,11 +6,15 @@
 //         knee       width of the soft start as a fraction of the threshold, 0..1; 0 is a hard edge [0.5]
 //         firefly    define, default 1: texels weigh 1 / (1 + luminance), so that a single bright one cannot flash
 //                    (Karis, "Next generation post processing in Call of Duty", SIGGRAPH 2014, slide 166)
+//         EVEN       define, default 0; 1: both sides of the source are even, half the cost
 #include "common/finite.glsl"
 #include "bright.glsl"
 
 #ifndef FIREFLY
 #define FIREFLY 1
+#endif
+#ifndef EVEN
+#define EVEN 0
 #endif
 
 uniform sampler2D source;
@@ -48,14 +52,17 @@ vec3 partsOf(int i, int count) {
 }
 
 void main() {
-  ivec2 size = textureSize(source, 0), corner = ivec2(gl_FragCoord.xy) * 2;
+  ivec2 corner = ivec2(gl_FragCoord.xy) * 2;
   bright = brightOf(threshold, knee);
-  if (((size.x | size.y) & 1) == 0) {
-    for (int i = 0; i < 4; ++i) add(corner + ivec2(i & 1, i >> 1), 1.0);
-  } else {
-    vec3 across = partsOf(corner.x / 2, size.x), along = partsOf(corner.y / 2, size.y);
-    for (int y = 0; y < 3; ++y)
-      for (int x = 0; x < 3; ++x) add(corner + ivec2(x, y), across[x] * along[y]);
+#if EVEN
+  for (int i = 0; i < 4; ++i) add(corner + ivec2(i & 1, i >> 1), 1.0);
+#else
+  ivec2 size = textureSize(source, 0);
+  vec3 across = partsOf(corner.x / 2, size.x), along = partsOf(corner.y / 2, size.y);
+  for (int i = 0; i < 9; ++i) {
+    float taken = across[i % 3] * along[i / 3];
+    if (taken > 0.0) add(corner + ivec2(i % 3, i / 3), taken);
   }
+#endif
   result = vec4(sum / weights, 1.0);
 }
