@@ -24,6 +24,9 @@ float cocDepth(float radius, float infinity, float focus) {
 // Radius in texels of the fields up to which nothing is blurred.
 const float kLeastRadius = 0.5 / float(SCALE);
 
+// The share of the far field that a texel in focus has, twice.
+const float kLeastShare = 2e-3;
+
 // The weight of the blur for a radius in pixels of the full picture: below half a pixel the picture stays sharp.
 float blurOf(float radius) { return smoothstep(0.5, 1.5, abs(radius)); }
 

@@ -1,7 +1,15 @@
-// A triangle over the picture at the depth from which the picture is blurred.
+// The tiles of the far field whose discs differ, at the depth from which the picture is blurred.
+// read    tiles    from far_tiles
+// params  infinity, focus   as in split
+// defines EVEN     default 0; 1: the tiles whose discs are alike
 #include "coc.glsl"
+#include "far_tiles/work.glsl"
 
-uniform sampler2D blurred;
+#ifndef EVEN
+#define EVEN 0
+#endif
+
+uniform sampler2D blurred, tiles;
 layout(std140) uniform Parameters {
   float infinity;
   float focus;
@@ -10,8 +18,10 @@ noperspective out vec2 at, at_half;
 flat out vec2 lens;
 
 void main() {
-  at = vec2(float((gl_VertexID << 1) & 2), float(gl_VertexID & 2));
+  gl_Position = farCorner(tiles, SCALE, EVEN == 1);
+  at = gl_Position.xy * 0.5 + 0.5;
   at_half = at * viewport / float(SCALE) / vec2(textureSize(blurred, 0));
   lens = vec2(infinity, infinity * focus / near_plane);
-  gl_Position = vec4(at * 2.0 - 1.0, cocDepth(0.5, infinity, focus), 1.0);
+  // Discs that are alike are larger than those that are blended with the sharp picture.
+  gl_Position.z = cocDepth(EVEN == 1 ? 1.5 : 0.5, infinity, focus);
 }

@@ -6,6 +6,7 @@
 #define DOF_RINGS_GLSL
 
 #include "disc.glsl"
+#include "texels.glsl"
 
 #ifndef RINGS
 #define RINGS 1
@@ -13,27 +14,6 @@
 #ifndef COARSEST
 #define COARSEST 16.0
 #endif
-
-// A disc that samples each texel. One of hardly more than a texel weighs the eight around it by its variance, four times as much along the
-// axes as along the diagonals: by areas it would be a cross. Computed once for all samples, because each division would cost in every one.
-struct Texels {
-  float radius;
-  float large;   // 0: weights by variance; 1: by areas
-  float beside;  // weight of each texel beside the center, whose weight is 1, where it is not large
-  float sum;     // of all texels
-};
-Texels texelsOf(float radius) {
-  float square = min(radius * radius, 1.21), part = 1.0 / (12.0 - 5.0 * square);
-  Texels texels = Texels(radius, clamp(5.0 * radius - 4.5, 0.0, 1.0), square * part, 0.0);
-  texels.sum = mix(12.0 * part, 3.14159265 * (radius * radius + 1.0 / 12.0), texels.large);
-  return texels;
-}
-
-// The share of a texel at the distance `across` that a disc covers.
-float texelWithin(Texels texels, float across) {
-  float small = across < 0.5 ? 1.0 : texels.beside * (across < 1.2 ? 1.0 : across < 1.6 ? 0.25 : 0.0);
-  return mix(small, clamp(texels.radius - across + 0.5, 0.0, 1.0), texels.large);
-}
 
 // How a disc is searched.
 struct Search {
@@ -60,28 +40,15 @@ vec4 readPlace(sampler2D field, Search search, bool each, vec2 at) {
               : textureLod(field, at / vec2(search.last + 1), search.level);
 }
 
-#if POLYGON
-// Behind the focus a disc has the aperture's outline, in front of it the same upside down, because there the rays have not yet crossed. A
-// pixel in the upper part of a disc finds its light below.
-const float kUpright = NEAR == 1 ? 1.0 : -1.0;
-
-// Radius of the polygon of the blades in this direction, relative to that of its corners.
-float outline(vec2 direction) {
-  float sector = 6.28318530717959 / float(blades), angle = atan(direction.y, direction.x);
-  return cos(sector * 0.5) / cos(mod(angle, sector) - sector * 0.5);
-}
-#endif
-
 // The radius at which a disc ends in the samples, less what filtering adds; where each texel is one, of a round disc of the same area.
 float reachOf(Search search, float radius) {
   if (search.texels < 0) return sqrt(max(radius * radius - search.shared_variance, 0.25));
-  float equal = radius * search.roundness;
-  return sqrt(max(equal * equal - (SCALE == 2 ? clamp(0.85 * equal - 0.275, 0.75, 1.0) : 0.0), 1e-4));
+  return reachInTexels(radius * search.roundness);
 }
 
 // Distance to either side at which texels may lie in a disc.
 int texelsFor(Search search) {
-  return int(ceil(search.span / search.roundness)) - 1;
+  return texelsWithin(search.span / search.roundness);
 }
 
 // The set of this pixel, two numbers of 0 or 1. The first: in the outer half of the rings, and turned by a quarter of the step around the
@@ -94,12 +61,7 @@ vec2 whichSet() {
 Search searchOver(float radius, int rings) {
   Search search;
   search.last = textureSize(source, 0) - 1;
-#if POLYGON
-  float sector = 6.28318530717959 / float(blades);
-  search.roundness = sqrt(sin(sector) / sector);
-#else
-  search.roundness = 1.0;
-#endif
+  search.roundness = roundnessOf(blades);
   bool each = RINGS == 0 || radius <= EACH_TEXEL;
   // Where a pixel's own samples are too far apart, the sets differ. Then no level is finer than two pixels, the distance between pixels of
   // one set: so a texel counts equally in all sets.
@@ -161,14 +123,10 @@ float takePlaces(Search search) {
 #endif
   for (int y = -rows; y <= rows; ++y) {
     float span = search.span / search.roundness;
-    int end = int(ceil(sqrt(span * span - float(y * y)))) - 1;
+    int end = texelsWithin(sqrt(span * span - float(y * y)));
     for (int x = -end; x <= end; ++x) {
       vec2 offset = vec2(x, y);
-      float across = length(offset);
-#if POLYGON
-      // A texel is as wide as a part of the outline, near the middle of all of it.
-      across *= mix(1.0, search.roundness / outline(kUpright * offset), smoothstep(1.0, 3.0, across));
-#endif
+      float across = acrossOf(offset, search.roundness, blades);
       float share = NEAR == 1 || across > 0.0 ? 1.0 : 0.0;
       area += share * texelWithin(search.whole, across);
       takePlace(search, true, gl_FragCoord.xy + offset, across, share);
@@ -186,7 +144,7 @@ float takePlaces(Search search) {
       vec2 at = across * direction;
       float share = 1.0;
 #if POLYGON
-      float shape = outline(direction);
+      float shape = outline(direction, blades);
       at *= kUpright * shape;
       share = shape * shape;
 #endif

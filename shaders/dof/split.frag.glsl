@@ -52,7 +52,7 @@ void main() {
     near_mean += c * w;
     near_weight += w;
     near_count += float(nearer);
-    w = nearer || radius > end ? 0.0 : part * max(radius > 0.0 ? blur : 0.0, 1e-3);
+    w = nearer || radius > end ? 0.0 : part * max(radius > 0.0 ? blur : 0.0, 0.5 * kLeastShare);
     far += vec4(c.rgb, 1.0) * w;
     far_disc += c.a * w;
   }

@@ -37,12 +37,22 @@ float greenAt(ivec2 at) {
   return texelFetch(near, at, 0).g + texelFetch(far, at, 0).g;
 }
 
-// The same of four texels: `at`, the one to its right, and the two above these. `reached` 0: no disc of the near field reaches them, and
-// `near` is not read.
-vec4 greenAround(ivec2 at, float reached) {
+// The same of four texels, in the order of textureGather: of `at`, the one to its right, and the two above these. `reached`: false where no
+// disc of the near field reaches them, and `near` is not read.
+vec4 greenAround(ivec2 at, bool reached) {
   vec2 middle = vec2(at + 1) / vec2(textureSize(far, 0));
   vec4 green = textureGather(far, middle, 1);
-  return reached > 0.0 ? green + textureGather(near, middle, 1) : green;
+  return reached ? green + textureGather(near, middle, 1) : green;
+}
+
+// The sum of four texels at a time, and the brightest of each four; the sizes of fields and tiles are even.
+void survey(ivec2 first, ivec2 end, bool reached, inout vec4 sum, inout vec4 most) {
+  for (int y = first.y; y < end.y; y += 2)
+    for (int x = first.x; x < end.x; x += 2) {
+      vec4 green = greenAround(ivec2(x, y), reached);
+      sum += green;
+      most = max(most, green);
+    }
 }
 
 // Whether the near field may hide a disc of radius `disc` at `at` from a part of the lens; both in texels of the fields. A disc of the near
@@ -112,29 +122,30 @@ void main() {
   float reached = texelFetch(tiles, at, 0).r;  // by discs of the near field
   // No disc of this tile is large enough.
   if (max(float(SCALE) * reached, largest) < kLeastDisc) end.y = first.y;
-  // The loops take four texels at a time; the sizes of fields and tiles are even.
-  for (int y = first.y; y < end.y; y += 2)
-    for (int x = first.x; x < end.x; x += 2) {
-      vec4 green = greenAround(ivec2(x, y), reached);
-      sum += green;
-      most = max(most, green);
-    }
+  // One of the two has no rows: in software, both sides of a condition are computed.
+  survey(first, ivec2(end.x, reached > 0.0 ? first.y : end.y), false, sum, most);
+  survey(first, ivec2(end.x, reached > 0.0 ? end.y : first.y), true, sum, most);
   ivec2 wide = max(end - first, ivec2(1));
   float mean = (sum.x + sum.y + sum.z + sum.w) / float(wide.x * wide.y);
   float brightest = max(max(most.x, most.y), max(most.z, most.w));
   int list = at.y * grid.x + at.x, count = 0;
-  if (brightest <= kContrast * mean) end.y = first.y;
-  for (int y = first.y; y < end.y; y += 2)
-    for (int x = first.x; x < end.x; x += 2) {
-      if (all(lessThanEqual(greenAround(ivec2(x, y), reached), vec4(kContrast * mean)))) continue;
-      for (int i = 0; i < 4; ++i) {
-        ivec2 texel = ivec2(x + (i & 1), y + (i >> 1));
-        if (greenAt(texel) <= kContrast * mean) continue;
-        Highlight found = highlightAt(texel, mean);
-        if (found.share > 0.0 && count < HIGHLIGHTS) lists[list].of[count] = found;
-        count += found.share > 0.0 ? 1 : 0;
-      }
+  // Each round looks for the next texel so bright, and judges it: a judgement costs as much as all that threads do at the same time.
+  int fours = brightest > kContrast * mean ? wide.x * wide.y / 4 : 0;
+  ivec2 place = first;
+  uint bright = 0u;  // bits of the texels at `place`
+  for (int four = 0; four < fours || bright != 0u;) {
+    for (; bright == 0u && four < fours; ++four) {
+      place = first + 2 * ivec2(four % (wide.x / 2), four / (wide.x / 2));
+      uvec4 above = uvec4(greaterThan(greenAround(place, true), vec4(kContrast * mean)));
+      bright = above.w | above.z << 1 | above.x << 2 | above.y << 3;
     }
+    int texel = max(findLSB(bright), 0);
+    Highlight found = highlightAt(place + ivec2(texel & 1, texel >> 1), mean);
+    bool taken = bright != 0u && found.share > 0.0;
+    if (taken && count < HIGHLIGHTS) lists[list].of[count] = found;
+    count += taken ? 1 : 0;
+    bright &= bright - 1u;
+  }
   float nearest = 0.0;
   for (int i = 0; i < (count > 0 ? 25 : 0); ++i) {
     ivec2 tile_at = clamp(at + ivec2(i % 5, i / 5) - 2, ivec2(0), grid - 1);
