@@ -31,15 +31,17 @@ float leftBehind(float inside, vec2 outwards, vec3 v, float vv) {
     bool turned = abs(outwards.x) + abs(others.x) < abs(outwards.y) + abs(others.y);
     vec2 along = turned ? vec2(outwards.y, others.y) : vec2(outwards.x, others.x);
     vec2 beside = turned ? vec2(outwards.x, others.x) : vec2(outwards.y, others.y);
-    vec2 per = 1.0 / max(abs(along), 1e-4), facing = mix(vec2(1.0), vec2(-1.0), lessThan(along, vec2(0.0)));
-    vec3 sums = vec3(0.0);  // inside the one, inside the other, inside both
+    // In a row, what is inside an edge goes from one end of the pixel to the edge, and inside both is the lesser part where both begin at the
+    // same end, else what is more than a whole row.
+    vec2 per = 1.0 / max(abs(along), 1e-4), first = vec2(inside, -outside) * per, slope = beside * per;
+    float same = along.x * along.y < 0.0 ? -1.0 : 1.0, beyond = 0.0;
+    vec2 within = vec2(0.5);
     for (float row = -0.4375; row < 0.5; row += 0.125) {
-      vec2 to = clamp((vec2(inside, -outside) - beside * row) * per, -0.5, 0.5);
-      vec2 ends = facing * to, starts = -0.5 * facing;
-      vec2 low = min(starts, ends), high = max(starts, ends);
-      sums += vec3(high - low, max(min(high.x, high.y) - max(low.x, low.y), 0.0));
+      vec2 to = clamp(first - slope * row, -0.5, 0.5);
+      within += 0.125 * to;
+      beyond += 0.125 * max(to.x - same * to.y, 0.0);
     }
-    sums *= 0.125;
+    vec3 sums = vec3(within, same > 0.0 ? within.x - beyond : beyond);  // inside the one, inside the other, inside both
     left *= (sums.x - sums.z) / max(sums.x * (1.0 - sums.y), 1e-4);
   }
   return left;
