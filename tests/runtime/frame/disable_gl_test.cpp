@@ -98,13 +98,13 @@ void tryAll(Stage& stage, bool pairs, std::string_view of = {}, int share = 0) {
 
 TEST_CASE("disable: every pass of studio alone and in pairs, with the daylight environment") {
   const CleanScope clean;
-  Stage stage("graphs/studio.json");
+  Stage stage("graphs/studio.json", 96, 54);
   tryAll(stage, true);
 }
 
 TEST_CASE("disable: every pass of studio alone, with a loaded environment") {
   const CleanScope clean;
-  Stage stage("graphs/studio.json");
+  Stage stage("graphs/studio.json", 96, 54);
   auto image = std::make_shared<assets::ImageF>(assets::ImageF{64, 32, 4, {}});
   image->texels.assign(64 * 32 * 4, 0.5f);
   stage.world.setEnvironment(

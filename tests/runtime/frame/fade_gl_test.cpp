@@ -2,6 +2,7 @@
 // time. Never a new sky with old lighting.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "tests/runtime/stage.h"
 
@@ -14,8 +15,9 @@ namespace {
 
 constexpr double kStep = 0.05;  // seconds per frame: 6 frames to the new picture
 
-std::shared_ptr<const assets::EnvironmentMap> makeMap(std::uint32_t width, std::uint16_t base,
-                                                      std::uint32_t seed) {
+using Map = std::shared_ptr<const assets::EnvironmentMap>;
+
+Map makeMap(std::uint32_t width, std::uint16_t base, std::uint32_t seed) {
   auto map = std::make_shared<assets::EnvironmentMap>();
   map->width = width;
   map->height = width / 2;
@@ -52,12 +54,29 @@ struct Live {
   int count = 0;
 };
 
+// The same ones serve all cases.
+Map mapA() {
+  static const Map map = makeMap(64, 0x3800, 1);
+  return map;
+}
+Map mapB() {
+  static const Map map = makeMap(64, 0x3c00, 7);
+  return map;
+}
+Map mapC() {
+  static const Map map = makeMap(128, 0x3400, 3);
+  return map;
+}
+
 // Null: the stand-in.
-std::vector<float> finished(std::shared_ptr<const assets::EnvironmentMap> map, const char* elevation = "35") {
+const std::vector<float>& finished(const Map& map, const char* elevation = "35") {
+  static std::map<std::pair<Map, std::string>, std::vector<float>> known;
+  std::vector<float>& picture = known[{map, elevation}];
+  if (!picture.empty()) return picture;
   Live live("false", true);
-  live.use(std::move(map));
+  live.use(map);
   live.set({{"sun_elevation", elevation}});
-  return live.frame();
+  return picture = live.frame();
 }
 
 constexpr float kHalves = 0.004f;  // blending of a few layers, each rounded
@@ -93,7 +112,7 @@ TEST_CASE(
     "a first environment is there at once, or fades in from black when its lighting takes frames; a later "
     "one fades in from "
     "the one before, with its lighting") {
-  const auto a = makeMap(64, 0x3800, 1), b = makeMap(64, 0x3c00, 7), c = makeMap(128, 0x3400, 3);
+  const auto a = mapA(), b = mapB(), c = mapC();
   const std::vector<float> seesA = finished(a), seesB = finished(b), seesC = finished(c);
   const std::vector<float> black(seesA.size(), 0.0f);
   REQUIRE(farFrom(seesA, seesB, seesB, 0) > 0.1f);
@@ -116,7 +135,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a map that takes the place of the computed sky fades in from it, sky and lighting together") {
-  const auto a = makeMap(64, 0x3800, 1);
+  const auto a = mapA();
   const std::vector<float> stoodIn = finished(nullptr), seesA = finished(a);
   const std::vector<float> black(seesA.size(), 0.0f);
   for (const char* sliced : {"false", "true"}) {
@@ -135,7 +154,7 @@ TEST_CASE("a map that takes the place of the computed sky fades in from it, sky 
 TEST_CASE(
     "what comes during a fade is faded to from the picture of then: no frame is further from the one before "
     "than a step") {
-  const auto a = makeMap(64, 0x3800, 1), b = makeMap(64, 0x3c00, 7), c = makeMap(128, 0x3400, 3);
+  const auto a = mapA(), b = mapB(), c = mapC();
   const std::vector<float> seesA = finished(a), seesB = finished(b), seesC = finished(c);
   for (const char* sliced : {"false", "true"}) {
     CAPTURE(sliced);
@@ -192,7 +211,7 @@ TEST_CASE(
     "once a fade is over nothing of it is left: no texture, no other shader, and the next one compiles "
     "nothing") {
   const CleanScope clean;
-  const auto a = makeMap(64, 0x3800, 1), b = makeMap(64, 0x3c00, 7);
+  const auto a = mapA(), b = mapB();
   Live live("false");
   live.use(a);
   for (int k = 0; k < 20; ++k) live.frame();
@@ -209,7 +228,7 @@ TEST_CASE(
 TEST_CASE(
     "headless, nothing fades: frame 0 is the finished picture, and a graph that asks nothing pays nothing") {
   const CleanScope clean;
-  const auto a = makeMap(64, 0x3800, 1);
+  const auto a = mapA();
   Live live("true", true);
   live.use(a);
   const std::vector<float> picture = live.frame();
@@ -221,7 +240,7 @@ TEST_CASE(
 TEST_CASE(
     "nothing waits for lighting that is not made: without its readers or the pass that makes it the sky is "
     "there") {
-  const auto a = makeMap(64, 0x3800, 1);
+  const auto a = mapA();
   for (const char* disabled : {"lit.billboards", "specular_prefilter"}) {
     CAPTURE(disabled);
     const CleanScope clean;
@@ -256,7 +275,7 @@ TEST_CASE(
       return of.pixels();
     };
     for (Stage* each : {&stage, &fresh}) {
-      if (loaded) each->world.setEnvironment(makeMap(64, 0x3800, 1));
+      if (loaded) each->world.setEnvironment(mapA());
       REQUIRE_MESSAGE(each->load(), each->diagnostics.text());
     }
     const std::vector<std::uint8_t> wanted = frames(fresh, 10);
