@@ -45,10 +45,6 @@ struct Frame {
 
 }  // namespace
 
-double dot(Vec3 a, Vec3 b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
 // The albedo is the integral over half vectors of D (N.H) dH times F G2 (V.H) / ((N.V) (N.H)). With tan(theta) =
 // alpha tan(psi), D (N.H) dH becomes sin(2 psi) dpsi dphi / (2 pi): smooth for every roughness.
 Albedo directionalAlbedo(double nv, double roughness, int steps) {

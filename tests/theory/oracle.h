@@ -20,7 +20,9 @@ double projectedSphereArea(double f, double r, double d, double z);
 struct Vec3 {
   double x = 0, y = 0, z = 0;
 };
-double dot(Vec3 a, Vec3 b);
+inline double dot(Vec3 a, Vec3 b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 
 // Direction of the center of texel (x, y) of an equirectangular map, top row first.
 Vec3 equirectDirection(int x, int y, int width, int height);

@@ -104,6 +104,7 @@ Course courseOf(const Glide& glide) {
   for (int y = -3; y <= 3; ++y)
     for (int x = -3; x <= 3; ++x)
       if (x * x + y * y <= 10) points.emplace_back(x * glide.light / 3.5, y * glide.light / 3.5);
+  const std::vector<glm::dvec2> starts = lightsOf(glide);
   Course course;
   std::vector<double> overlaps;
   std::vector<std::vector<double>> differences;
@@ -134,7 +135,7 @@ Course courseOf(const Glide& glide) {
       for (std::uint32_t x = 0; x < kWidth; ++x) {
         const std::size_t i = y * kWidth + x;
         bool near_a_light = false;
-        for (const glm::dvec2& start : lightsOf(glide)) {
+        for (const glm::dvec2& start : starts) {
           const glm::dvec2 light = start * larger + moved,
                            middle(x + 0.5 - kWidth / 2.0, y + 0.5 - kHeight / 2.0);
           if (glm::distance(light, middle) > glide.diameter / 2 + 6) continue;

@@ -35,8 +35,9 @@ double arrives(const ThinLens& lens, glm::dvec2 light, glm::dvec2 pixel,
   const double blur = 1 - lens.focus / lens.distance, unit = lens.unitsPerPixel(lens.focus);
   const glm::dvec2 at = (pixel - light) * unit / blur;
   const double most = lens.diameter / 2 * unit / std::abs(blur);
-  const double away = std::hypot(at.x, at.y);
-  if (away > most || away > most * outlineOf(lens.blades, std::atan2(at.y, at.x))) return 0;
+  const double away = glm::length(at);
+  if (away > most) return 0;
+  if (lens.blades >= 3 && away > most * outlineOf(lens.blades, std::atan2(at.y, at.x))) return 0;
   const glm::dvec3 from(light * lens.unitsPerPixel(lens.distance), lens.distance);
   const glm::dvec3 ray = glm::dvec3(at, 0) - from;
   for (const Blocker& blocker : blockers) {

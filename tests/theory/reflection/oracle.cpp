@@ -1,6 +1,7 @@
 #include "tests/theory/reflection/oracle.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -56,6 +57,23 @@ double vanDerCorput(std::uint32_t i) {
   return value;
 }
 
+struct Turn {
+  double cosine, sine;
+};
+
+// By vanDerCorput(i) of a circle.
+const std::vector<Turn>& evenTurns() {
+  static const std::vector<Turn> turns = [] {
+    std::vector<Turn> made;
+    for (std::uint32_t i = 0; i < 8192; ++i) {
+      const double phi = 2 * kPi * vanDerCorput(i);
+      made.push_back({std::cos(phi), std::sin(phi)});
+    }
+    return made;
+  }();
+  return turns;
+}
+
 double hashed(std::uint32_t x) {
   x = (x ^ (x >> 16)) * 0x7feb352du;
   x = (x ^ (x >> 15)) * 0x846ca68bu;
@@ -73,7 +91,8 @@ ReflectionOracle::ReflectionOracle(const assets::ImageF& map) : width_(map.width
   coarse_.resize(std::size_t{kCells} * rows);
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x) {
-      Vec3& dim = dim_[static_cast<std::size_t>(y * width_ + x)];
+      Texel& texel = dim_[static_cast<std::size_t>(y * width_ + x)];
+      Vec3 dim{texel.r, texel.g, texel.b};
       const double most = std::max({dim.x, dim.y, dim.z}), share = solidAngle(y, height_, width_);
       if (most > kBright) {
         const Vec3 left = dim * (kBright / most), over = dim - left;
@@ -82,6 +101,7 @@ ReflectionOracle::ReflectionOracle(const assets::ImageF& map) : width_(map.width
                                          (y + (i / kSubtexels + 0.5) / kSubtexels) / height_),
                              over * (share / (kSubtexels * kSubtexels))});
         dim = left;
+        texel = {static_cast<float>(dim.x), static_cast<float>(dim.y), static_cast<float>(dim.z)};
       }
       const int column = std::min(x / cell, kCells - 1), row = std::min(y / cell, rows - 1);
       Patch& patch = coarse_[static_cast<std::size_t>(row * kCells + column)];
@@ -91,9 +111,10 @@ ReflectionOracle::ReflectionOracle(const assets::ImageF& map) : width_(map.width
 }
 
 Vec3 ReflectionOracle::texel(int x, int y) const {
-  x = (x % width_ + width_) % width_;
+  x += x < 0 ? width_ : x < width_ ? 0 : -width_;  // at most one column beyond the map
   y = std::clamp(y, 0, height_ - 1);
-  return dim_[static_cast<std::size_t>(y * width_ + x)];
+  const Texel& texel = dim_[static_cast<std::size_t>(y * width_ + x)];
+  return {texel.r, texel.g, texel.b};
 }
 
 Vec3 ReflectionOracle::dimAt(Vec3 d) const {
@@ -110,7 +131,8 @@ Vec3 ReflectionOracle::lookUp(Vec3 d) const {
   const int y = std::clamp(static_cast<int>((0.5 - std::asin(std::clamp(d.y, -1.0, 1.0)) / kPi) * height_), 0,
                            height_ - 1);
   const auto at = static_cast<std::size_t>(y * width_ + x);
-  return dimAt(d) + (whole_[at] - dim_[at]);
+  const Texel &all = whole_[at], &dim = dim_[at];
+  return dimAt(d) + (Vec3{all.r, all.g, all.b} - Vec3{dim.r, dim.g, dim.b});
 }
 
 ReflectionOracle::Metal ReflectionOracle::metalOf(double roughness) {
@@ -141,13 +163,18 @@ Vec3 ReflectionOracle::radiance(Vec3 n, Vec3 v, const Metal& metal, int samples,
              up = cross(n, side);
   // The parts of a set are shifted evenly against each other.
   const double shiftU = std::fmod(hashed(set * 2 + 1) + static_cast<double>(part) / parts, 1.0);
-  const double shiftPhi = hashed(set * 2 + 2) + part * std::numbers::phi;
+  const double shiftPhi = 2 * kPi * (hashed(set * 2 + 2) + part * std::numbers::phi);
+  // The axes turned by the shift.
+  const Vec3 first = side * std::cos(shiftPhi) + up * std::sin(shiftPhi),
+             second = up * std::cos(shiftPhi) - side * std::sin(shiftPhi);
+  const std::vector<Turn>& turns = evenTurns();
+  assert(static_cast<std::size_t>(samples) <= turns.size());
   Vec3 sum;
   for (int i = 0; i < samples; ++i) {
-    const double u = (i + shiftU) / samples,
-                 phi = 2 * kPi * (vanDerCorput(static_cast<std::uint32_t>(i)) + shiftPhi);
+    const double u = (i + shiftU) / samples;
+    const Turn& turn = turns[static_cast<std::size_t>(i)];
     const double nh = std::sqrt((1 - u) / (1 + (a * a - 1) * u)), sh = std::sqrt(std::max(0.0, 1 - nh * nh));
-    const Vec3 h = n * nh + side * (sh * std::cos(phi)) + up * (sh * std::sin(phi));
+    const Vec3 h = n * nh + first * (sh * turn.cosine) + second * (sh * turn.sine);
     const double vh = dot(v, h);
     const Vec3 l = h * (2 * vh) - v;
     const double nl = dot(n, l);

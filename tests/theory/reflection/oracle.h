@@ -46,9 +46,12 @@ class ReflectionOracle {
   Vec3 texel(int x, int y) const;
 
   int width_ = 0, height_ = 0;
-  std::vector<Vec3> dim_, whole_;  // up to kBright; everything
-  std::vector<Patch> bright_;      // above it
-  std::vector<Patch> coarse_;      // dim_, in cells
+  struct Texel {
+    float r, g, b;
+  };
+  std::vector<Texel> dim_, whole_;  // up to kBright; everything
+  std::vector<Patch> bright_;       // above it
+  std::vector<Patch> coarse_;       // dim_, in cells
 };
 
 // Weft's measure of a difference: of 255, after x / (1 + x) and gamma 2.2.
