@@ -2,9 +2,12 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "engine/gl/context/debug.h"
+#include "engine/graph/read/read.h"
+#include "engine/runtime/frame/device.h"
 #include "tests/backend.h"
 #include "tests/skip.h"
 
@@ -41,34 +44,108 @@ scene::Scene sceneOf(const Setup& setup) {
 
 }  // namespace
 
-Lab::Lab(const Setup& setup) : setup_(setup), world_(sceneOf(setup)) {
-  if (!setup.daylight)
-    world_.setEnvironment(std::make_shared<const assets::EnvironmentMap>(
-        assets::toEnvironmentMap(setup.environment ? *setup.environment : *constantEnvironment(1, 1, 1))));
-  renderer_ = std::make_unique<runtime::Renderer>(
-      sharedContext(), std::string(WEFT_SOURCE_DIR) + "/" + setup.graph,
-      runtime::Renderer::Options{.dataFolder = WEFT_SOURCE_DIR, .cacheFolder = ""});
+// What runs one graph on a device of its own.
+struct Lab::Bench {
+  Bench(const std::string& path, scene::Scene scene)
+      : graph(path), world(std::move(scene)), device(sharedContext(), {}, "") {}
+  std::string graph;
+  runtime::World world;
+  std::shared_ptr<const assets::ImageF> environment{};  // from which the world's is made
+  std::shared_ptr<const graph::GraphDesc> desc{};
+  runtime::Device device;
+  std::unique_ptr<runtime::Execution> execution{};
+  bool keeps = true;  // what was made once serves others, too
+};
+
+std::vector<std::unique_ptr<Lab::Bench>>& Lab::idleBenches() {
+  sharedContext();  // is destroyed after them
+  static std::vector<std::unique_ptr<Bench>> idle;
+  return idle;
+}
+
+void Lab::GiveBack::operator()(Bench* bench) const {
+  constexpr std::size_t kMostIdle = 3;
+  std::vector<std::unique_ptr<Bench>>& idle = idleBenches();
+  idle.emplace_back(bench);
+  if (idle.size() > kMostIdle) idle.erase(idle.begin());
+}
+
+std::unique_ptr<Lab::Bench, Lab::GiveBack> Lab::takeBench() {
+  const std::string path = std::string(WEFT_SOURCE_DIR) + "/" + setup_.graph;
+  std::vector<std::unique_ptr<Bench>>& idle = idleBenches();
+  const auto found = std::ranges::find(idle, path, &Bench::graph);
+  if (found == idle.end())
+    return std::unique_ptr<Bench, GiveBack>(std::make_unique<Bench>(path, sceneOf(setup_)).release());
+  std::unique_ptr<Bench, GiveBack> bench(found->release());
+  idle.erase(found);
+  mayKeep_ = bench->keeps && bench->execution && !bench->execution->remembers(bench->world);
+  bench->world.setScene(sceneOf(setup_));
+  return bench;
+}
+
+Lab::Lab(const Setup& setup) : setup_(setup), bench_(takeBench()) {
+  static const std::shared_ptr<const assets::ImageF> kWhite = constantEnvironment(1, 1, 1);
+  auto environment = setup.daylight ? nullptr : setup.environment ? setup.environment : kWhite;
+  if (environment != bench_->environment)
+    bench_->world.setEnvironment(
+        environment ? std::make_shared<const assets::EnvironmentMap>(assets::toEnvironmentMap(*environment))
+                    : nullptr);
+  mayKeep_ = mayKeep_ && environment && environment == bench_->environment;
+  bench_->environment = std::move(environment);
+  make(!mayKeep_);
+}
+
+// As Renderer does it. `fresh`: with nothing of the lab before but programs.
+void Lab::make(bool fresh) {
+  runtime::Device& device = bench_->device;
   graph::Settings settings;
-  settings.screenWidth = setup.width;
-  settings.screenHeight = setup.height;
+  settings.screenWidth = setup_.width;
+  settings.screenHeight = setup_.height;
   settings.software = true;
-  settings.sets = setup.sets;
-  settings.disables = setup.disables;
-  const bool loaded = renderer_->load(settings, world_, diagnostics_);
+  settings.sets = setup_.sets;
+  settings.disables = setup_.disables;
+  if (!bench_->desc) {
+    bench_->desc = graph::readGraph(bench_->graph, {}, diagnostics_);
+    if (bench_->desc) device.sources.setRoots(runtime::shaderRootsOf(bench_->desc->files, WEFT_SOURCE_DIR));
+  }
   INFO(diagnostics_.text());
-  REQUIRE(loaded);
+  REQUIRE(bench_->desc);
+  const graph::Registry registry =
+      runtime::makeRegistry(device.plugIns, bench_->world.facts(), &device.imports.files());
+  const auto flat = graph::expandGraph(*bench_->desc, registry, settings, diagnostics_);
+  INFO(diagnostics_.text());
+  REQUIRE(flat);
+  REQUIRE_FALSE(diagnostics_.hasErrors());
+  device.imports.prepare(*flat);
+  if (fresh) bench_->execution.reset();
+  bench_->execution = runtime::Execution::create(
+      device, std::make_shared<const graph::Plan>(graph::compile(flat)), bench_->execution.get(),
+      fresh ? runtime::ShaderFiles::read : runtime::ShaderFiles::keep, diagnostics_);
+  INFO(diagnostics_.text());
+  REQUIRE(bench_->execution);
 }
 
 void Lab::frame(std::uint32_t number, bool headless) {
-  runtime::FrameInput input = runtime::headlessFrame(world_, number, 60);
+  runtime::FrameInput input = runtime::headlessFrame(bench_->world, number, 60);
   input.headless = headless;
-  renderer_->frame(world_, input, diagnostics_);
+  runtime::FrameReport report = bench_->execution->frame(bench_->world, input, diagnostics_);
+  // Something was made again, and has an age that it lacks in a first frame.
+  if (mayKeep_ && report.slowRun > 0) {
+    bench_->keeps = false;
+    make(true);
+    report = bench_->execution->frame(bench_->world, input, diagnostics_);
+  }
+  mayKeep_ = false;
   INFO(diagnostics_.text());
   REQUIRE_FALSE(diagnostics_.hasErrors());
 }
 
+const runtime::World& Lab::world() const {
+  return bench_->world;
+}
+
 Picture Lab::read(const std::string& resource, std::uint32_t mip, std::uint32_t layer) {
-  const gl::TextureRef texture = renderer_->execution()->texture(resource);
+  const gl::TextureRef texture = bench_->execution->texture(resource);
   INFO(resource);
   REQUIRE(texture.id != 0);
   const gl::Extent extent = gl::extentOf(texture.desc, mip);
@@ -78,7 +155,7 @@ Picture Lab::read(const std::string& resource, std::uint32_t mip, std::uint32_t 
 
 std::vector<std::uint32_t> Lab::readBuffer(const std::string& resource, std::size_t words) {
   std::uint64_t offset = 0;
-  const runtime::BufferRef buffer = renderer_->execution()->buffer(resource, offset);
+  const runtime::BufferRef buffer = bench_->execution->buffer(resource, offset);
   INFO(resource);
   REQUIRE(buffer.id != 0);
   const std::vector<std::byte> bytes = gl::readBuffer(buffer.id, offset, words * 4);
@@ -89,7 +166,7 @@ std::vector<std::uint32_t> Lab::readBuffer(const std::string& resource, std::siz
 
 std::string Lab::passNames() const {
   std::string names;
-  const graph::Plan& plan = renderer_->execution()->plan();
+  const graph::Plan& plan = bench_->execution->plan();
   for (const auto& step : plan.steps) names += plan.graph->passNames[step.pass] + "\n";
   return names;
 }
@@ -109,7 +186,7 @@ scene::ViewData Lab::view() const {
 }
 
 scene::ViewData Lab::viewAt(std::uint32_t number) const {
-  const runtime::FrameInput input = runtime::headlessFrame(world_, number, 60);
+  const runtime::FrameInput input = runtime::headlessFrame(bench_->world, number, 60);
   return scene::makeView(
       {.pose = input.pose, .previousPose = input.previousPose, .viewport = {setup_.width, setup_.height}});
 }

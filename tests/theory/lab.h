@@ -48,6 +48,8 @@ struct Picture {
   }
 };
 
+// One that is done leaves its programs to the next of the same graph; and what was made once of the same environment, where nothing
+// in a picture tells when that was.
 class Lab {
  public:
   explicit Lab(const Setup& setup);
@@ -58,15 +60,23 @@ class Lab {
   std::string passNames() const;  // of what runs, in order, a line each
   // Everything the driver and the engine said; "" when there is nothing above a note.
   std::string reports();
-  const runtime::World& world() const { return world_; }
+  const runtime::World& world() const;
   scene::ViewData view() const;
   // The view of a frame at 60 frames per second, with the one before it.
   scene::ViewData viewAt(std::uint32_t number) const;
 
  private:
+  struct Bench;
+  struct GiveBack {
+    void operator()(Bench* bench) const;
+  };
+  static std::vector<std::unique_ptr<Bench>>& idleBenches();
+  std::unique_ptr<Bench, GiveBack> takeBench();
+  void make(bool fresh);
+
   Setup setup_;
-  runtime::World world_;
-  std::unique_ptr<runtime::Renderer> renderer_;
+  bool mayKeep_ = false;  // what the lab before made once; set with the bench
+  std::unique_ptr<Bench, GiveBack> bench_;
   text::Diagnostics diagnostics_;
 };
 

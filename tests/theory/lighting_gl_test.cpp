@@ -99,7 +99,7 @@ TEST_CASE("no seam: the first and the last column of every map continue each oth
 namespace {
 
 float meanLuminance(std::shared_ptr<const weft::assets::ImageF> environment) {
-  Setup setup{.graph = "tests/theory/furnace.json", .balls = {{}}};
+  Setup setup{.graph = "tests/theory/irradiance.json", .balls = {{}}};
   setup.environment = std::move(environment);
   Lab lab(setup);
   lab.frame();
@@ -146,7 +146,7 @@ Spot readSpot(Lab& lab, const char* buffer) {
   return spot;
 }
 Spot spotOf(std::shared_ptr<const weft::assets::ImageF> environment) {
-  Setup setup{.graph = "tests/theory/draw_modes.json", .balls = {{}}};
+  Setup setup{.graph = "tests/theory/irradiance.json", .balls = {{}}};
   setup.environment = std::move(environment);
   Lab lab(setup);
   lab.frame();
@@ -273,7 +273,7 @@ TEST_CASE("irradiance of a loaded map: a small sun counts as much as it is large
                      (std::cos(y * std::numbers::pi / map->height) -
                       std::cos((y + 1) * std::numbers::pi / map->height));
           }
-        Setup setup{.graph = "tests/theory/furnace.json", .balls = {{}}};
+        Setup setup{.graph = "tests/theory/irradiance.json", .balls = {{}}};
         setup.environment = map;
         Lab lab(setup);
         lab.frame();

@@ -115,6 +115,7 @@ TEST_CASE(
     "occlusion: in a grid its mean, with light that goes to and fro, is within 0.65 % of traced paths") {
   std::mt19937 random(8);
   const auto sky = [](glm::dvec3 d) { return d.y > 0 ? 1.0 : 0.0; };
+  const auto half = halfSky();
   for (const double albedo : {0.2, 0.5, 0.8})
     for (const bool white : {true, false}) {
       const std::vector<Ball> balls = gridOf(10, 10, 1, 2.5f, static_cast<float>(albedo));
@@ -122,7 +123,7 @@ TEST_CASE(
       Means seen, light;
       for (const std::size_t row : {0u, 5u, 23u, 44u, 55u, 71u, 90u, 98u}) {
         Setup setup = labOf(balls, row);
-        if (!white) setup.environment = halfSky();
+        if (!white) setup.environment = half;
         for (const Sample& sample : look(setup, 23)) {
           if (albedo == 0.5 && white)
             seen.add(sample.sky, skySeen(solids, sample.at, sample.normal, int(row), 12, random));

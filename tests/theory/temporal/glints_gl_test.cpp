@@ -26,10 +26,13 @@ constexpr double kRight = 0.61, kUp = 0.23;  // pixels a frame
 using Image = std::shared_ptr<const weft::assets::ImageF>;
 
 Image environment() {
-  weft::text::Diagnostics said;
-  auto image = weft::assets::loadEnvironment(kMap, said);
-  REQUIRE(image);
-  return std::make_shared<const weft::assets::ImageF>(std::move(*image));
+  static const Image once = [] {
+    weft::text::Diagnostics said;
+    auto image = weft::assets::loadEnvironment(kMap, said);
+    REQUIRE(image);
+    return std::make_shared<const weft::assets::ImageF>(std::move(*image));
+  }();
+  return once;
 }
 
 double luminanceOf(const float* texel) {
