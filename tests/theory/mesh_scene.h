@@ -117,16 +117,32 @@ struct Taken {
   std::vector<float> radiance, depth;
 };
 
+// One renderer of one graph, which keeps its programs from shot to shot.
+class Camera {
+ public:
+  explicit Camera(const Shot& shot) : stage_(shot.graph, shot.width, shot.height) {}
+
+  // Of the same graph and size.
+  Taken take(const scene::Scene& scene, const Shot& shot) {
+    stage_.world.setScene(scene);
+    if (environment_ != shot.environment)
+      stage_.world.setEnvironment(std::make_shared<const assets::EnvironmentMap>(assets::toEnvironmentMap(
+          *constantEnvironment(shot.environment, shot.environment, shot.environment))));
+    environment_ = shot.environment;
+    stage_.settings.sets = shot.sets;
+    stage_.settings.disables = shot.disables;
+    REQUIRE_MESSAGE(stage_.apply(), stage_.diagnostics.text());
+    stage_.run();
+    return {stage_.read("hdr"), stage_.read("depth")};
+  }
+
+ private:
+  runtime::test::Stage stage_;
+  double environment_ = -1;  // none yet
+};
+
 inline Taken take(const scene::Scene& scene, const Shot& shot) {
-  runtime::test::Stage stage(shot.graph, shot.width, shot.height);
-  stage.world.setScene(scene);
-  stage.world.setEnvironment(std::make_shared<const assets::EnvironmentMap>(
-      assets::toEnvironmentMap(*constantEnvironment(shot.environment, shot.environment, shot.environment))));
-  stage.settings.sets = shot.sets;
-  stage.settings.disables = shot.disables;
-  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
-  stage.run();
-  return {stage.read("hdr"), stage.read("depth")};
+  return Camera(shot).take(scene, shot);
 }
 
 }  // namespace weft::theory
