@@ -10,7 +10,8 @@ trap 'rm -f "$results"' EXIT
 # As ./run sets it.
 export GLIBC_TUNABLES=${GLIBC_TUNABLES-glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=33554432:glibc.malloc.trim_threshold=268435456}
 # The interpreter itself: where python3 is a script that looks for one, a test that starts many waits for it.
-export PATH="$(python3 -c 'import os, sys; print(os.path.dirname(sys.executable))'):$PATH"
+interpreter=$(python3 -c 'import os, sys; print(os.path.dirname(sys.executable))' || true)
+[ -z "$interpreter" ] || export PATH="$interpreter:$PATH"
 code=0
 ctest --test-dir "$build" --output-on-failure --output-junit "$results" "$@" || code=$?
 python3 "$here/skipped.py" "$results" || true

@@ -9,5 +9,6 @@ out vec4 result;
 
 void main() {
   vec4 layer = textureLod(blurred, at_half, 0.0);
+  if (layer.a <= 0.0) discard;  // nothing was blurred here
   result = vec4(layer.rgb / layer.a, 1.0);
 }

@@ -184,7 +184,7 @@ def main():
     options.add_argument("--all", action="store_true")
     options.add_argument("--only", default="")
     options.add_argument("--seed", type=int, default=1)
-    options.add_argument("--sample", type=int, default=110)
+    options.add_argument("--sample", type=int, default=160)
     options.add_argument("--pictures", type=int, default=0)
     options.add_argument("--jobs", type=int, default=2)
     options.add_argument("--list", type=pathlib.Path, help="write what is lost in silence to this file, as JSON")
