@@ -24,7 +24,7 @@ float cocDepth(float radius, float infinity, float focus) {
 // Radius in texels of the fields up to which nothing is blurred.
 const float kLeastRadius = 0.5 / float(SCALE);
 
-// The share of the far field that a texel in focus has, twice.
+// Twice the share of the far field that a texel in focus has.
 const float kLeastShare = 2e-3;
 
 // The weight of the blur for a radius in pixels of the full picture: below half a pixel the picture stays sharp.

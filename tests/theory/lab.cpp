@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <exception>
 
 #include "engine/gl/context/debug.h"
 #include "engine/graph/read/read.h"
@@ -65,8 +66,10 @@ std::vector<std::unique_ptr<Lab::Bench>>& Lab::idleBenches() {
 
 void Lab::GiveBack::operator()(Bench* bench) const {
   constexpr std::size_t kMostIdle = 3;
+  std::unique_ptr<Bench> done(bench);
+  if (std::uncaught_exceptions() > 0) return;  // a case that failed leaves nothing
   std::vector<std::unique_ptr<Bench>>& idle = idleBenches();
-  idle.emplace_back(bench);
+  idle.push_back(std::move(done));
   if (idle.size() > kMostIdle) idle.erase(idle.begin());
 }
 

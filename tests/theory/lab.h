@@ -48,8 +48,8 @@ struct Picture {
   }
 };
 
-// One that is done leaves its programs to the next of the same graph; and what was made once of the same environment, where nothing
-// in a picture tells when that was.
+// A lab that is done leaves its programs to the next one of the same graph, and also the maps of an environment that both have, where no
+// picture depends on when they were made.
 class Lab {
  public:
   explicit Lab(const Setup& setup);

@@ -11,5 +11,6 @@ uniform sampler2D tiles;
 
 void main() {
   gl_Position = farCorner(tiles, 1, false);
-  gl_Position.xy += (vec2(gl_VertexID & 1, gl_VertexID >> 1) - 0.5) * (4.0 * float(WIDER) / viewport);
+  bool wanted = texelFetch(tiles, tileOf(textureSize(tiles, 0)), 0).r < 0.0;
+  if (wanted) gl_Position.xy += (vec2(gl_VertexID & 1, gl_VertexID >> 1) - 0.5) * (4.0 * float(WIDER) / viewport);
 }

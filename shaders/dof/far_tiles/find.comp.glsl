@@ -21,7 +21,7 @@ void main() {
   if (any(greaterThanEqual(at, imageSize(tiles)))) return;
   ivec2 size = textureSize(discs, 0), first = at * FAR_TILE, end = min(first + FAR_TILE, size);
   ivec2 low = max(first - kAround, ivec2(0)), high = min(end + kAround, size);
-  vec4 least = vec4(1e4), most = vec4(0.0), busy = vec4(0.0), hidden = vec4(0.0);
+  vec4 least = vec4(1e4), most = vec4(0.0), busy = vec4(0.0), hidden = vec4(0.0), nearer = vec4(0.0);
   // Four texels at a time: sizes and tiles are even.
   for (int y = low.y; y < high.y; y += 2)
     for (int x = low.x; x < high.x; x += 2) {
@@ -31,12 +31,14 @@ void main() {
       least = min(least, mix(vec4(1e4), radii, greaterThan(radii, vec4(kLeastRadius))));
       bool inside = clamp(ivec2(x, y), first, end - 1) == ivec2(x, y);
       busy = inside ? max(busy, radii) : busy;
-      hidden = inside ? max(hidden, mix(textureGather(discs, middle, 0), vec4(0.0), greaterThan(shares, vec4(0.0)))) : hidden;
+      vec4 in_front = textureGather(discs, middle, 0);
+      nearer = inside ? max(nearer, in_front) : nearer;
+      hidden = inside ? max(hidden, mix(in_front, vec4(0.0), greaterThan(shares, vec4(0.0)))) : hidden;
     }
   least.xy = min(least.xy, least.zw), most.xy = max(most.xy, most.zw), busy.xy = max(busy.xy, busy.zw);
   float narrow = min(least.x, least.y), wide = max(most.x, most.y);
-  // Behind the near field, far_hidden has work.
+  // Behind the near field, far_hidden has work; beside it the far field is filled, as a near disc may be narrower than a texel.
   bool is_hidden = any(greaterThan(hidden, vec4(kLeastRadius)));
-  bool even = SCALE == 2 && !is_hidden && wide >= narrow && wide <= kAlike * narrow && narrow > kLeast && wide <= float(EACH_TEXEL);
+  bool even = SCALE == 2 && all(equal(nearer, vec4(0.0))) && wide >= narrow && wide <= kAlike * narrow && narrow > kLeast && wide <= float(EACH_TEXEL);
   imageStore(tiles, at, vec4(!is_hidden && max(busy.x, busy.y) <= kLeastRadius ? 0.0 : even ? wide : -1.0));
 }

@@ -49,6 +49,7 @@ def main():
         # The fade stands in each place in turn.
         effects = [e for e in SWITCHES if e != "fxaa"]
         # Williams's design: in the rows and their mirror images each effect is next to each other one.
+        report.check(len(effects) == 5, f"the rows are made for five effects, not {len(effects)}")
         rows = [[effects[(first + step) % 5] for step in (0, 1, 4, 2, 3)] for first in range(5)]
         for i, order in enumerate([*rows, *(row[::-1] for row in rows)]):
             at = i % (len(order) + 1)
