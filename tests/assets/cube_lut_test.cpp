@@ -13,7 +13,7 @@ static std::optional<CubeLut> read(std::string_view text, text::Diagnostics& dia
 }
 
 // The one diagnostic of a text that must fail.
-static text::Diagnostic failureOf(std::string_view text) {
+static text::Diagnostic cubeFailure(std::string_view text) {
   text::Diagnostics diagnostics;
   CHECK_FALSE(read(text, diagnostics));
   REQUIRE(diagnostics.size() == 1);
@@ -73,30 +73,30 @@ TEST_CASE(
   CHECK(lut->shaper->domainMax[0] == doctest::Approx((2 * 1023 - 64.0) / 876));
   CHECK(lut->texels[0] == doctest::Approx(0).epsilon(1e-5));
   CHECK(lut->texels[21] == doctest::Approx(1).epsilon(1e-5));
-  CHECK(failureOf("LUT_1D_SIZE 2\nLUT_3D_SIZE 2\n0 0 0\n1 1 1\n0 0 0\n").message.find("10 rows") !=
+  CHECK(cubeFailure("LUT_1D_SIZE 2\nLUT_3D_SIZE 2\n0 0 0\n1 1 1\n0 0 0\n").message.find("10 rows") !=
         std::string::npos);
 }
 
 TEST_CASE("every mistake names its line") {
-  CHECK(failureOf("").message.find("neither") != std::string::npos);
-  CHECK(failureOf("LUT_3D_SIZE 2\n0 0 0\n").message.find("8 rows") != std::string::npos);
-  CHECK(failureOf("LUT_1D_SIZE 2\n0 0 0\n1 1 1\n2 2 2\n").place.line == 4);
-  CHECK(failureOf("LUT_1D_SIZE 2\n0 0 0\n1 x 1\n").place.line == 3);
-  CHECK(failureOf("LUT_1D_SIZE 2\n0 0 0\n1 nan 1\n").found == "nan");
-  CHECK(failureOf("LUT_1D_SIZE 2\n0 0\n1 1 1\n").place.line == 2);
-  CHECK(failureOf("LUT_1D_SIZE 2\nLUT_1D_SIZE 2\n0 0 0\n1 1 1\n").place.line == 2);
-  CHECK(failureOf("0 0 0\n").message.find("before") != std::string::npos);
-  CHECK(failureOf("LUT_2D_SIZE 4\n").message.find("LUT_2D_SIZE") != std::string::npos);
-  CHECK(failureOf("LUT_3D_SIZE 1000000000\n").message.find("256") != std::string::npos);
-  CHECK(failureOf("LUT_3D_SIZE 2.5\n").found == "2.5");
-  CHECK(failureOf("LUT_1D_SIZE 2\nDOMAIN_MIN 1 1 1\n0 0 0\n1 1 1\n").message.find("DOMAIN_MIN") !=
+  CHECK(cubeFailure("").message.find("neither") != std::string::npos);
+  CHECK(cubeFailure("LUT_3D_SIZE 2\n0 0 0\n").message.find("8 rows") != std::string::npos);
+  CHECK(cubeFailure("LUT_1D_SIZE 2\n0 0 0\n1 1 1\n2 2 2\n").place.line == 4);
+  CHECK(cubeFailure("LUT_1D_SIZE 2\n0 0 0\n1 x 1\n").place.line == 3);
+  CHECK(cubeFailure("LUT_1D_SIZE 2\n0 0 0\n1 nan 1\n").found == "nan");
+  CHECK(cubeFailure("LUT_1D_SIZE 2\n0 0\n1 1 1\n").place.line == 2);
+  CHECK(cubeFailure("LUT_1D_SIZE 2\nLUT_1D_SIZE 2\n0 0 0\n1 1 1\n").place.line == 2);
+  CHECK(cubeFailure("0 0 0\n").message.find("before") != std::string::npos);
+  CHECK(cubeFailure("LUT_2D_SIZE 4\n").message.find("LUT_2D_SIZE") != std::string::npos);
+  CHECK(cubeFailure("LUT_3D_SIZE 1000000000\n").message.find("256") != std::string::npos);
+  CHECK(cubeFailure("LUT_3D_SIZE 2.5\n").found == "2.5");
+  CHECK(cubeFailure("LUT_1D_SIZE 2\nDOMAIN_MIN 1 1 1\n0 0 0\n1 1 1\n").message.find("DOMAIN_MIN") !=
         std::string::npos);
-  CHECK(failureOf("LUT_1D_SIZE 2\n0 0 0\nDOMAIN_MIN 0 0 0\n1 1 1\n").place.line == 3);
+  CHECK(cubeFailure("LUT_1D_SIZE 2\n0 0 0\nDOMAIN_MIN 0 0 0\n1 1 1\n").place.line == 3);
 }
 
 TEST_CASE("a file of another kind, or a table full of rubbish, is reported once") {
   std::string text;
   for (int i = 0; i < 1000; ++i) text += "rubbish\n";
-  CHECK(failureOf(text).place.line == 1);
-  CHECK(failureOf("LUT_3D_SIZE 2\n" + text).place.line == 2);
+  CHECK(cubeFailure(text).place.line == 1);
+  CHECK(cubeFailure("LUT_3D_SIZE 2\n" + text).place.line == 2);
 }

@@ -11,7 +11,7 @@ cmake -S "$top" -B "$build" -G Ninja -DCMAKE_UNITY_BUILD=ON -DWEFT_SANITIZE=addr
 # What holds buffers, textures and threads over many frames, saves and environments; the others go through the same code.
 gl_tests="gl_objects_test gl_program_test runtime_reload_test runtime_studio_test"
 start=$SECONDS
-ninja -j2 -C "$build" app/weft tests/app/weft_compare weft_cpu_tests gl_objects_test gl_program_test runtime_gl_test weft_fuzz
+ninja -j2 -C "$build" app/weft tests/app/weft_compare weft_cpu_tests weft_fuzz
 echo "built in $((SECONDS - start)) s"
 # Exit code 86 is theirs alone. A run that takes more than 4 GB ends with a report.
 export ASAN_OPTIONS="detect_stack_use_after_return=1:strict_string_checks=1:check_initialization_order=1:exitcode=86:hard_rss_limit_mb=4096"

@@ -19,7 +19,7 @@ using namespace weft::assets;
 namespace {
 
 // The one error of a load that must fail.
-text::Diagnostic failureOf(const std::string& path) {
+text::Diagnostic imageFailure(const std::string& path) {
   text::Diagnostics diagnostics;
   CHECK_FALSE(loadImage(path, diagnostics));
   REQUIRE_MESSAGE(diagnostics.errorCount() == 1, path << "\n" << diagnostics.text());
@@ -87,19 +87,19 @@ std::vector<Sample> makeSamples(const TemporaryFolder& folder) {
 
 TEST_CASE("missing, directory, empty, unknown and foreign files") {
   const TemporaryFolder folder;
-  CHECK(failureOf(folder.at("missing.hdr")).code == text::Code::unreadableImage);
+  CHECK(imageFailure(folder.at("missing.hdr")).code == text::Code::unreadableImage);
   std::filesystem::create_directory(folder.at("folder.hdr"));
-  CHECK(failureOf(folder.at("folder.hdr")).message.find("directory") != std::string::npos);
+  CHECK(imageFailure(folder.at("folder.hdr")).message.find("directory") != std::string::npos);
   for (const char* name : {"empty.hdr", "empty.exr", "empty.png", "empty.jpg", "empty.tga"})
-    CHECK(failureOf(folder.write(name, "")).message.find("empty") != std::string::npos);
-  const text::Diagnostic unknown = failureOf(folder.write("a.webp", "RIFF"));
+    CHECK(imageFailure(folder.write(name, "")).message.find("empty") != std::string::npos);
+  const text::Diagnostic unknown = imageFailure(folder.write("a.webp", "RIFF"));
   CHECK(unknown.code == text::Code::unknownImageKind);
   CHECK(unknown.found == ".webp");
-  CHECK(failureOf(folder.write("noextension", "x")).code == text::Code::unknownImageKind);
+  CHECK(imageFailure(folder.write("noextension", "x")).code == text::Code::unknownImageKind);
   for (const char* name : {"text.hdr", "text.exr", "text.png", "text.jpg", "text.tga"})
-    CHECK(failureOf(folder.write(name, "this is a text, and not a picture at all")).code ==
+    CHECK(imageFailure(folder.write(name, "this is a text, and not a picture at all")).code ==
           text::Code::unreadableImage);
-  CHECK(failureOf(folder.write("radiance.png", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\nabcd"))
+  CHECK(imageFailure(folder.write("radiance.png", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\nabcd"))
             .message.find("Radiance") != std::string::npos);
 }
 
@@ -132,14 +132,14 @@ TEST_CASE("absurd sizes in a header are refused before anything is allocated") {
   const auto hdr = [](const char* size) {
     return std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n") + size + "\nabcd";
   };
-  CHECK(failureOf(folder.write("a.hdr", hdr("-Y 1000000000 +X 1000000000"))).code ==
+  CHECK(imageFailure(folder.write("a.hdr", hdr("-Y 1000000000 +X 1000000000"))).code ==
         text::Code::badImageSize);
-  CHECK(failureOf(folder.write("b.hdr", hdr("-Y 30000 +X 30000"))).code == text::Code::badImageSize);
-  CHECK(failureOf(folder.write("c.hdr", hdr("-Y 0 +X 10"))).code == text::Code::badImageSize);
-  CHECK(failureOf(folder.write("d.hdr", hdr("-Y 16384 +X 8192"))).code == text::Code::unreadableImage);
-  CHECK(failureOf(folder.write("e.hdr", hdr("+X 4 -Y 4"))).code == text::Code::unreadableImage);
-  CHECK(failureOf(folder.write("f.hdr", hdr("-Y -4 +X -4"))).code == text::Code::unreadableImage);
-  CHECK(failureOf(folder.write("g.hdr", hdr("+X 4 -X 4"))).code == text::Code::unreadableImage);
+  CHECK(imageFailure(folder.write("b.hdr", hdr("-Y 30000 +X 30000"))).code == text::Code::badImageSize);
+  CHECK(imageFailure(folder.write("c.hdr", hdr("-Y 0 +X 10"))).code == text::Code::badImageSize);
+  CHECK(imageFailure(folder.write("d.hdr", hdr("-Y 16384 +X 8192"))).code == text::Code::unreadableImage);
+  CHECK(imageFailure(folder.write("e.hdr", hdr("+X 4 -Y 4"))).code == text::Code::unreadableImage);
+  CHECK(imageFailure(folder.write("f.hdr", hdr("-Y -4 +X -4"))).code == text::Code::unreadableImage);
+  CHECK(imageFailure(folder.write("g.hdr", hdr("+X 4 -X 4"))).code == text::Code::unreadableImage);
 }
 
 TEST_CASE(

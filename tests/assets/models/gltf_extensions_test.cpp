@@ -151,8 +151,8 @@ TEST_CASE("instances of EXT_mesh_gpu_instancing, and nodes that are invisible") 
   GltfMaker maker = plainSquare();
   const int moves = maker.floats({1, 0, 0, 0, 2, 0, 0, 0, 3}, 3),
             scales = maker.floats({1, 1, 1, 2, 2, 2, 1, 1, 3}, 3);
-  const float half = std::sqrt(0.5f);
-  const int turns = maker.floats({0, 0, 0, 1, 0, 0, half, half, 0, 0, 0, 1}, 4);
+  const float root = std::sqrt(0.5f);
+  const int turns = maker.floats({0, 0, 0, 1, 0, 0, root, root, 0, 0, 0, 1}, 4);
   maker.document["nodes"][0]["translation"] = {10, 0, 0};
   maker.document["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
       {"TRANSLATION", moves}, {"ROTATION", turns}, {"SCALE", scales}};

@@ -30,7 +30,7 @@ using namespace weft;
 
 namespace {
 
-const std::string kTop = std::string(WEFT_SOURCE_DIR) + "/";
+const std::string kSources = std::string(WEFT_SOURCE_DIR) + "/";
 
 struct Most {
   std::uint32_t figure = 0;
@@ -160,12 +160,12 @@ class Survey {
   Survey(const std::string& graph, std::vector<std::string> presets, const std::string& scene,
          bool driver = false)
       : driver_(driver),
-        sources_(runtime::shaderRootsOf(std::vector<std::string>{kTop + graph}, WEFT_SOURCE_DIR)) {
+        sources_(runtime::shaderRootsOf(std::vector<std::string>{kSources + graph}, WEFT_SOURCE_DIR)) {
     text::Diagnostics diagnostics;
-    auto loaded = scene::loadScene(kTop + scene, diagnostics);
+    auto loaded = scene::loadScene(kSources + scene, diagnostics);
     REQUIRE_MESSAGE(loaded.has_value(), diagnostics.text());
     registry_ = runtime::makeRegistry({}, imports::World(std::move(*loaded)).facts());
-    desc_ = graph::readGraph(kTop + graph, presets, diagnostics);
+    desc_ = graph::readGraph(kSources + graph, presets, diagnostics);
     REQUIRE_MESSAGE(desc_, diagnostics.text());
   }
 
@@ -274,7 +274,7 @@ void survey(const std::string& graph, const std::vector<std::string>& presets, R
 
 std::vector<std::string> filesIn(const std::string& folder) {
   std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(kTop + folder))
+  for (const auto& entry : std::filesystem::directory_iterator(kSources + folder))
     if (entry.path().extension() == ".json") files.push_back(folder + "/" + entry.path().filename().string());
   std::ranges::sort(files);
   return files;
@@ -301,7 +301,7 @@ TEST_CASE("needs: no program of a bundled graph asks for more than OpenGL 4.5 pr
   Row presets;
   for (const std::string& preset : filesIn("graphs/presets"))
     survey(preset.ends_with("/point_probes.json") ? "graphs/studio_gi.json" : "graphs/studio.json",
-           {kTop + preset}, presets);
+           {kSources + preset}, presets);
   add("graphs/presets", presets);
   MESSAGE(table);
   CHECK(surveyed >= 8);

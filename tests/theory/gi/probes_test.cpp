@@ -39,7 +39,7 @@ double signedSum(const Probe& probe, glm::dvec3 d) {
   return sum;
 }
 
-constexpr int bandOf(std::size_t i) {
+constexpr int lobeBandOf(std::size_t i) {
   return i == 0 ? 0 : i < 4 ? 1 : 2;
 }
 
@@ -72,7 +72,7 @@ TEST_CASE("gi: the nine functions are orthonormal, and a function of band 2 is i
 
 TEST_CASE("gi: irradiance of a known function by the cosine lobe is the integral over the hemisphere") {
   Probe probe = projected([](glm::dvec3 d) { return known(d) + 3; });  // so that nothing is below zero
-  for (std::size_t i = 0; i < kShCount; ++i) probe.sh[i] *= kCosineLobe[bandOf(i)];
+  for (std::size_t i = 0; i < kShCount; ++i) probe.sh[i] *= kCosineLobe[lobeBandOf(i)];
   double worst = 0;
   for (const glm::dvec3& n : directions(40, 2)) {
     const double truth = integrate(n, 0, 40, [&](glm::dvec3 d) { return (known(d) + 3) * glm::dot(d, n); });
@@ -112,7 +112,7 @@ TEST_CASE("gi: the cap of a sphere is what rays that meet it say, within 1 %, fr
       for (int band = 0; band < 3; ++band) {
         double error = 0, size = 0;
         for (std::size_t n = 0; n < kShCount; ++n) {
-          if (bandOf(n) != band) continue;
+          if (lobeBandOf(n) != band) continue;
           error += std::pow(sums[n] - double(bands[band] * y[n]), 2);
           size += std::pow(sums[n], 2);
         }
@@ -170,7 +170,8 @@ TEST_CASE("gi: a grid has what each sphere gives each probe, added up; none is l
             const glm::vec3 bands = bandsOfSphere(rules, offset, sphere.radius);
             const auto y = shBasis(glm::normalize(offset));
             for (std::size_t n = 0; n < kShCount && bands.x > 0; ++n)
-              expected.sh[n] += glm::vec4(bands[bandOf(n)] * y[n] * sphere.albedo * (1 - sphere.metallic), 0);
+              expected.sh[n] +=
+                  glm::vec4(bands[lobeBandOf(n)] * y[n] * sphere.albedo * (1 - sphere.metallic), 0);
           }
           const Probe& probe = probes[grid.indexOf({i, j, k})];
           lit += probe.sh[0].x > 0;
