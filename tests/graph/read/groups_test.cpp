@@ -14,7 +14,7 @@ using text::Code;
 namespace {
 
 // "across" and "along" hand `a` and `b` to each other, after what `group` says; `members` stand behind them.
-std::string fileWith(const std::string& group, const std::string& members = "") {
+std::string groupFileWith(const std::string& group, const std::string& members = "") {
   return R"J({ "parameters": { "on": { "default": true }, "fine": { "default": true } },
   "resources": { "a": { "texture": "r8", "size": 8, "clear": 0 }, "b": { "texture": "r8", "size": 8, "clear": 0 } },
   "passes": [
@@ -31,7 +31,7 @@ std::string fileWith(const std::string& group, const std::string& members = "") 
 constexpr const char* kLoop = R"J("repeat": { "l": [0, 1] }, "enabled": "$on", "type": "fullscreen")J";
 
 Expanded overlaid(const TestFolder& folder, const std::string& rest) {
-  folder.write("base.json", fileWith(kLoop));
+  folder.write("base.json", groupFileWith(kLoop));
   Expanded e;
   const auto desc =
       readGraph(folder.write("over.json", R"J({ "extends": "base.json", )J" + rest + " }"), e.diagnostics);
@@ -51,27 +51,27 @@ Code errorOf(const std::string& json) {
 }  // namespace
 
 TEST_CASE("groups: passes repeat together, and each reads what the one before it made") {
-  const Expanded e = expandText(fileWith(kLoop));
+  const Expanded e = expandText(groupFileWith(kLoop));
   REQUIRE_MESSAGE(e.text() == "", e.text());
   CHECK(e.names() == "first across[0] along[0] across[1] along[1] last");
   // A repeat of a pass's own runs within that of the group.
-  const Expanded inner = expandText(fileWith(
+  const Expanded inner = expandText(groupFileWith(
       kLoop,
       R"J(, { "name": "more", "shader": "m.frag.glsl", "repeat": { "k": ["l", 1] }, "read": { "source": "a" }, "write": { "result": "a" } })J"));
   REQUIRE_MESSAGE(inner.text() == "", inner.text());
   CHECK(inner.names() == "first across[0] along[0] more[0,0] more[0,1] across[1] along[1] more[1,1] last");
   const Expanded none =
-      expandText(fileWith(R"J("repeat": { "l": [0, "$on ? -1 : 0"] }, "type": "fullscreen")J"));
+      expandText(groupFileWith(R"J("repeat": { "l": [0, "$on ? -1 : 0"] }, "type": "fullscreen")J"));
   CHECK(none.names() == "first last");
 }
 
 TEST_CASE("groups: a pass needs the condition of its group and its own") {
   const auto names = [](std::vector<Setting> sets) {
-    return expandText(fileWith(kLoop), with(std::move(sets))).names();
+    return expandText(groupFileWith(kLoop), with(std::move(sets))).names();
   };
   CHECK(names({{"fine", "false"}}) == "first across[0] across[1] last");
   CHECK(names({{"on", "false"}}) == "first last");
-  const Expanded off = expandText(fileWith(kLoop), with({{"on", "false"}}));
+  const Expanded off = expandText(groupFileWith(kLoop), with({{"on", "false"}}));
   REQUIRE(off.graph->disabled.size() == 4);
   CHECK(off.graph->disabled[1].why == "enabled: $on && $fine is false");
 }
@@ -131,7 +131,7 @@ TEST_CASE("groups: overlays change, move, remove and add passes by their names")
 TEST_CASE("groups: a pass that is disabled is written at its own stanza") {
   const TestFolder folder("groups_test_files");
   text::Diagnostics diagnostics;
-  const auto desc = readGraph(folder.write("graph.json", fileWith(kLoop)), diagnostics);
+  const auto desc = readGraph(folder.write("graph.json", groupFileWith(kLoop)), diagnostics);
   REQUIRE(desc);
   const auto plan = planWriteBack(*desc, {}, testRegistry(), with({}, {"across", "along"}), diagnostics);
   REQUIRE_MESSAGE(plan, diagnostics.text());
@@ -141,14 +141,15 @@ TEST_CASE("groups: a pass that is disabled is written at its own stanza") {
 }
 
 TEST_CASE("groups: mistakes are told once, where they stand") {
-  CHECK(errorOf(fileWith(R"("enabeld": "$on", "type": "fullscreen")")) == Code::unknownKey);
-  CHECK(errorOf(fileWith(R"("lots": 3, "type": "fullscreen")")) == Code::unknownKey);
-  CHECK(errorOf(fileWith(R"("name": "both", "type": "fullscreen")")) == Code::unknownKey);
-  CHECK(errorOf(fileWith(R"("enabled": "$on &&", "type": "fullscreen")")) == Code::badExpression);
-  CHECK(errorOf(fileWith(R"("repeat": { "l": 3 }, "type": "fullscreen")")) == Code::wrongType);
-  CHECK(errorOf(fileWith(R"("repeat": { "l": [0, 1, 2, 3] }, "type": "fullscreen")")) == Code::wrongType);
+  CHECK(errorOf(groupFileWith(R"("enabeld": "$on", "type": "fullscreen")")) == Code::unknownKey);
+  CHECK(errorOf(groupFileWith(R"("lots": 3, "type": "fullscreen")")) == Code::unknownKey);
+  CHECK(errorOf(groupFileWith(R"("name": "both", "type": "fullscreen")")) == Code::unknownKey);
+  CHECK(errorOf(groupFileWith(R"("enabled": "$on &&", "type": "fullscreen")")) == Code::badExpression);
+  CHECK(errorOf(groupFileWith(R"("repeat": { "l": 3 }, "type": "fullscreen")")) == Code::wrongType);
+  CHECK(errorOf(groupFileWith(R"("repeat": { "l": [0, 1, 2, 3] }, "type": "fullscreen")")) ==
+        Code::wrongType);
   CHECK(errorOf(R"({ "passes": [ { "enabled": true, "passes": 3 } ] })") == Code::wrongType);
-  CHECK(errorOf(fileWith(kLoop, R"(, { "enabled": true, "passes": [] })")) == Code::keysExclude);
+  CHECK(errorOf(groupFileWith(kLoop, R"(, { "enabled": true, "passes": [] })")) == Code::keysExclude);
 }
 
 TEST_CASE("groups: their passes stand below their other keys") {
