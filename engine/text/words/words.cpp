@@ -70,13 +70,17 @@ std::string hintOrNearest(std::string_view kind, std::string_view word, std::spa
 
 std::string hintForSpelling(std::string_view value) {
   constexpr std::size_t kLongest = 80;  // a longer text is no slip of this kind
-  const auto patterns = foreignTable().find("value_pattern");
-  if (value.size() > kLongest || patterns == foreignTable().end()) return {};
-  for (const auto& [hint, all] : patterns->items())
-    for (const auto& pattern : all)
-      if (std::cmatch found; std::regex_match(value.data(), value.data() + value.size(), found,
-                                              std::regex(pattern.get<std::string>())))
-        return found.format(hint);
+  static const auto kPatterns = [] {    // to translate one takes longer than to read a graph
+    std::vector<std::pair<std::string, std::regex>> all;
+    if (const auto patterns = foreignTable().find("value_pattern"); patterns != foreignTable().end())
+      for (const auto& [hint, list] : patterns->items())
+        for (const auto& pattern : list) all.emplace_back(hint, pattern.get<std::string>());
+    return all;
+  }();
+  std::match_results<std::string_view::const_iterator> found;
+  for (const auto& [hint, pattern] : kPatterns)
+    if (value.size() <= kLongest && std::regex_match(value.begin(), value.end(), found, pattern))
+      return found.format(hint);
   return {};
 }
 
