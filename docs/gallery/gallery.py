@@ -8,8 +8,8 @@
     docs/gallery/gallery.py --weft WEFT ... as above, by the program WEFT in place of ./run
     docs/gallery/gallery.py --old           render everything in a temporary folder and name the pictures that look different now
     docs/gallery/gallery.py --check WEFT    write nothing: the pages must be those that gallery.json makes, every picture must be there and made by
-                                            its command, and every command but those of presets, with a smaller size and the computed sky, must
-                                            change the picture
+                                            its command, and every command but those of presets, with a smaller size, smaller maps and the computed
+                                            sky, must change the picture
 
 An entry: `name`; `graph`, where it is not the one of `all`; `effect`, its title; `off` and `on`, arguments for `weft render`; `both`, arguments of both;
 `says`, what to see; `crop`, [x, y, width, height], where it is too fine to be seen in the whole picture: this part alone, enlarged to the whole size.
@@ -34,6 +34,9 @@ GALLERY = json.loads((HERE / "gallery.json").read_text())
 FAMILIES = GALLERY["families"]
 ENTRIES = [entry for family in FAMILIES for entry in family["entries"]]
 SIDES = ("off", "on")
+# For --check: the maps of the environment small, which the effects do not depend on, and shadow maps, too.
+COARSE = {"resources": {"ibl.brdf": {"size": 32}, "ibl.specular": {"size": [64, 32]}, "ibl.daylight.sky_map": {"size": [64, 32]}}}
+MOST_TEXELS = 1024
 SEEN = 6  # of 255: a picture looks different where the mean of a block of 8 x 8 pixels differs by more
 
 
@@ -191,28 +194,56 @@ def check_files():
     return problems
 
 
+def case_of(name, line):
+    """The arguments as a case of `weft test`, or None where it has no key for one of them."""
+    graph, *words = shlex.split(line)
+    case = {"name": name, "graph": str(TOP / graph), "set": {}, "disable": []}
+    for option, value in zip(words[::2], words[1::2], strict=True):
+        if option == "--set":
+            key, value = value.split("=", 1)
+            case["set"][key] = json.loads(value) if re.match(r"[\[\d.-]|true$|false$", value) else value
+            if key.endswith("_texels"):
+                case["set"][key] = min(case["set"][key], MOST_TEXELS)
+        elif option == "--disable":
+            case["disable"].append(value)
+        elif option == "--scene":
+            case["scene"] = str(TOP / value)
+        elif option == "--frames" and value.isdigit():
+            case["frame"] = int(value)
+        else:
+            return None
+    return case
+
+
+def draw_small(weft, lines, folder):
+    """Arguments -> picture, with the computed sky. One run draws all but those that are no cases."""
+    files = {line: folder / f"{number}.png" for number, line in enumerate(lines)}
+    cases = [case_of(file.stem, line) for line, file in files.items()]
+    (folder / "coarse.json").write_text(json.dumps(COARSE))
+    (folder / "gallery.cases.json").write_text(json.dumps(
+        {"defaults": {"size": GALLERY["check_size"], "preset": ["coarse.json"]}, "cases": [case for case in cases if case]}))
+    done = subprocess.run([weft, "test", folder, "--accept"], capture_output=True, text=True)
+    if done.returncode or "error[" in done.stderr:
+        sys.exit(done.stderr or done.stdout)
+    for line, case in zip(lines, cases):
+        if not case:
+            run(weft, f"./run render {line} --size {GALLERY['check_size']} -o {files[line]}", {})
+    return {line: read_png(file)[1] for line, file in files.items()}
+
+
 def check_effects(weft):
-    problems, made = [], {}
+    problems = []
+    entries = [entry for entry in ENTRIES if not entry["name"].startswith("preset_")]  # tests/app/commands/presets.py renders every preset
     with tempfile.TemporaryDirectory() as folder:
-        drawn = pathlib.Path(folder) / "drawn.png"
-        for entry in ENTRIES:
-            if entry["name"].startswith("preset_"):  # tests/app/commands/presets.py renders every preset
-                continue
-            pair = []
-            for side in SIDES:
-                line = arguments(entry, side)
-                if line not in made:
-                    command = command_of(entry, side).replace(f" --environment {GALLERY['environment']}", "")
-                    run(weft, command, {"--size": GALLERY["check_size"], "-o": drawn})
-                    made[line] = read_png(drawn)[1]
-                pair.append(made[line])
-            off, on = pair
-            changed = sum(a != b for a, b in zip(off, on)) / len(off)
-            equal = entry.get("equal", False)
-            if (changed > 0) == equal:
-                problems.append(f"{entry['name']}: {changed:.2%} of the values differ, and {'none' if equal else 'some'} should")
-            if max(on) == min(on):
-                problems.append(f"{entry['name']}: the picture is one flat value")
+        made = draw_small(weft, list(dict.fromkeys(arguments(entry, side) for entry in entries for side in SIDES)), pathlib.Path(folder))
+    for entry in entries:
+        off, on = (made[arguments(entry, side)] for side in SIDES)
+        changed = sum(a != b for a, b in zip(off, on)) / len(off)
+        equal = entry.get("equal", False)
+        if (changed > 0) == equal:
+            problems.append(f"{entry['name']}: {changed:.2%} of the values differ, and {'none' if equal else 'some'} should")
+        if max(on) == min(on):
+            problems.append(f"{entry['name']}: the picture is one flat value")
     return problems
 
 
