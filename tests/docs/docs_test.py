@@ -7,7 +7,8 @@ Usage: docs_test.py SOURCE_DIR BINARY_DIR [--part PART...] [--clone] [PAGE...]
 A fence says its language, then, where needed, what it is: ```json fragment or ```glsl shaders/x/y.frag.glsl.
   sh            part run: run with `bash -eu` in a copy of the tree. `./run X` is the built weft there, `view` under xvfb-run with
                 --max-frames 3. Not run, and only these: `./run` alone, `./run --setup-only` and `--install-only`, git, cmake, ctest and ninja,
-                whose presets must be there; `./test ARGS` must select at least one test. `--frames 0:59` is shortened to 0:2.
+                whose presets must be there; `./test ARGS` must select at least one test. Pictures are made smaller, and `--frames 0:59`
+                is shortened to 0:2.
                 Part view instead where a line is `./run view`.
   LANGUAGE PATH the block stands, line by line, in that file (leading spaces apart); a .cpp is the whole file
   json          must parse. Part run: with "passes" it is a graph, for `weft check`; with "cameras", "grid" or "spheres" a scene,
@@ -84,7 +85,7 @@ def place(path, copy):
 
 
 class Sandbox:
-    """A copy of the tree whose ./run and ./test use what is already built."""
+    """A copy of the tree whose ./run and ./test use what is already built. One serves all pages: restore() after each."""
 
     def __init__(self, folder):
         self.root = folder / "weft"
@@ -99,6 +100,29 @@ class Sandbox:
             write_program(tools / name, SHIM)
         self.env = {**os.environ, "WEFT_DATA": str(self.root), "PATH": f"{tools}:{os.environ['PATH']}"}
         self.env.pop("DISPLAY", None)
+        self.made = self.entries()
+
+    def entries(self):
+        """What is below the root, but for the two programs: of a file its time and size, of a folder None."""
+        found = {}
+        for folder, folders, files in os.walk(self.root):
+            found |= {os.path.join(folder, name): None for name in folders}
+            for path in (os.path.join(folder, name) for name in files if folder != str(self.root)):
+                there = os.lstat(path)
+                found[path] = there.st_mtime_ns, there.st_size
+        return found
+
+    def restore(self):
+        """Removes what a page has made, and copies again what it has changed or moved."""
+        there = self.entries()
+        for path in (path for path, state in there.items() if self.made.get(path, ()) != state):
+            shutil.rmtree(path, ignore_errors=True) if there[path] is None else pathlib.Path(path).unlink(missing_ok=True)
+        for path in sorted(path for path, state in self.made.items() if there.get(path, ()) != state):
+            if self.made[path] is None:
+                os.mkdir(path)
+            else:
+                place(TOP / os.path.relpath(path, self.root), path)
+                self.made[path] = os.lstat(path).st_mtime_ns, os.lstat(path).st_size
 
     def shell(self, script):
         # "! COMMAND" in a page says that it ends with 1; any other code, of a crash too, is a mistake.
@@ -179,6 +203,12 @@ def parts_of(language, info, body):
     return {"view" if re.search(r"^\./run view", body, re.M) else "run"}
 
 
+def make_small(script):
+    """The commands with fewer frames, a quarter of the width and height of what is wider than 160 pixels, and smaller maps of the sun's shadow."""
+    script = script.replace("--frames 0:59", "--frames 0:2").replace("sun_texels=8192", "sun_texels=1024")
+    return re.sub(r"(--size )(\d+)x(\d+)", lambda m: f"{m[1]}{int(m[2]) // 4}x{int(m[3]) // 4}" if int(m[2]) > 160 else m[0], script)
+
+
 def check_block(language, info, body, sandbox, folder, number):
     if language not in LANGUAGES:
         return f"a fence must say one of {sorted(LANGUAGES)}, found '{language}'"
@@ -195,7 +225,7 @@ def check_block(language, info, body, sandbox, folder, number):
         known = {p["name"] for p in json.loads((TOP / "CMakePresets.json").read_text())["configurePresets"] if not p.get("hidden")}
         if unknown := set(presets) - known:
             return f"no preset {sorted(unknown)} in CMakePresets.json"
-        return sandbox.shell(body.replace("--frames 0:59", "--frames 0:2"))
+        return sandbox.shell(make_small(body))
     return None
 
 
@@ -291,7 +321,7 @@ def main():
     if OPTIONS.clone:
         return run_in_clone()
     pages = [page for p in OPTIONS.pages for page in (sorted((TOP / p).rglob("*.md")) if (TOP / p).is_dir() else [TOP / p])] or [TOP / "README.md", TOP / "CONTRIBUTING.md", *(page for folder in ("docs", "docs/tutorials", "docs/gallery") for page in sorted((TOP / folder).glob("*.md")))]
-    problems, counts = [], {}
+    problems, counts, sandbox = [], {}, None
     with tempfile.TemporaryDirectory() as temporary:
         folder = pathlib.Path(temporary)
         for page in pages:
@@ -302,7 +332,8 @@ def main():
             here = folder / str(pages.index(page))
             here.mkdir()
             runs = {"run", "view"} & set(WANTED) & {part for match in FENCE.finditer(text) for part in parts_of(*(word.strip() for word in match.group(1).strip().partition(" ")[::2]), match.group(2))}
-            sandbox = Sandbox(here) if runs else None
+            if runs:
+                sandbox.restore() if sandbox else (sandbox := Sandbox(folder))
             for number, match in enumerate(FENCE.finditer(text)):
                 language, _, info = match.group(1).strip().partition(" ")
                 if not parts_of(language, info.strip(), match.group(2)) & set(WANTED):
