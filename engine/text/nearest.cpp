@@ -77,8 +77,8 @@ std::string nearestHint(std::string_view name, std::span<const std::string> cand
                : fmt::format("known: {}", fmt::join(candidates, ", "));
   // Others as near, at most two: "rgba16q" may be "rgba16" or "rgba16f".
   std::vector<std::string> all{candidates[nearest->index]};
-  for (std::size_t i = nearest->index + 1; nearest->distance <= 2 && all.size() < 3 && i < candidates.size();
-       ++i)
+  const std::size_t end = nearest->distance <= 2 ? std::min(candidates.size(), kMaxCandidates) : 0;
+  for (std::size_t i = nearest->index + 1; all.size() < 3 && i < end; ++i)
     if (candidates[i] != all[0] && editDistance(name, candidates[i], nearest->distance) == nearest->distance)
       all.push_back(candidates[i]);
   return fmt::format("did you mean '{}'?", fmt::join(all, "' or '"));

@@ -398,7 +398,7 @@ const std::string* nameMeant(Model& model, Model::Asked::Kind kind, const Scope&
                      : sees(*each.scope, scope));
   };
   std::map<std::string_view, int> asked;
-  for (const Model::Asked& each : model.asked) asked[each.name] += isNear(each) ? 1 : 0;
+  for (const Model::Asked& each : std::views::filter(model.asked, isNear)) ++asked[each.name];
   const auto meant = std::ranges::find_if(asked, [](const auto& each) { return each.second > 1; });
   if (meant == asked.end() || isOver(model)) return nullptr;
   const std::string message =
