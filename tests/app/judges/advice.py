@@ -128,10 +128,11 @@ class Judge:
             print(text)
         self.report.check(False, text)
 
-    def follow(self, label, root, disables=()):
-        """Follows the messages of a graph in a folder that may be changed."""
+    def follow(self, label, root, disables=(), errors=None):
+        """Follows the messages of a graph in a folder that may be changed; `errors`, where they are known."""
         disables = list(disables)
-        errors, _ = errors_of(self.weft, root, disables)
+        if errors is None:
+            errors, _ = errors_of(self.weft, root, disables)
         for _ in range(STEPS):
             if not errors:
                 return
@@ -181,7 +182,7 @@ class Judge:
                 self.report.check(result.code in (0, 1), f"{label}: exit code {result.code}")
                 if len(errors) > 1:
                     self.fault(f"{'three or more' if len(errors) > 2 else 'two'} messages", label, errors)
-                self.follow(label, graphs / root)
+                self.follow(label, graphs / root, errors=errors)
                 CHANGED.add(path)
                 restore(folder)
 
