@@ -19,8 +19,9 @@ for i in 1 2 3 4; do echo "[$i/4] Building thing $i"; if [ "$i" = 2 ] && [ -n "$
 """
 WEFT = '#!/usr/bin/env bash\necho "weft got $*"\n'
 QUERY = """#!/usr/bin/env bash
-for missing in ${PRETEND_MISSING:-}; do [ "${!#}" != "$missing" ] || exit 1; done
-echo installed
+for package in "${@:3}"; do
+  [[ " ${PRETEND_MISSING:-} " = *" $package "* ]] || echo "$package installed"
+done
 """
 INSTALL = """#!/usr/bin/env bash
 [ "$1" = install ] && printf '%s\n' "${@:2}" >>"$PRETEND_INSTALLED"
