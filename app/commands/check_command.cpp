@@ -267,7 +267,7 @@ class ShaderCheck {
         runtime::warnOfConditions(plan.graph->specs[pass], variant->stages, variant->defines, said);
       return;
     }
-    checkDeclared(plan, pass, request, sources_, missing_, unread, said);
+    checkDeclared(plan, pass, request, sources_, loaded_, unread, said);
   }
 
   const CheckOptions& options_;
@@ -276,7 +276,7 @@ class ShaderCheck {
   bool failed_ = false;
   glsl::SourceLoader sources_{std::vector<std::string>()};  // where nothing is compiled
   std::set<std::string> told_;                              // messages
-  std::set<std::string> missing_;                           // files that `unread` is about
+  LoadedSources loaded_;                                    // those of `sources_`
 };
 
 struct Checked {

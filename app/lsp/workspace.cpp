@@ -196,12 +196,12 @@ void Workspace::checkShaders(Graph& graph, const graph::Plan& plan) {
   const graph::FlatGraph& flat = *plan.graph;
   glsl::SourceLoader& loader = sources(graph.shaderFolders);
   loader.forgetTouched();
-  std::set<std::string> missing;
+  LoadedSources loaded;
   for (const graph::Step& step : plan.steps) {
     const auto type =
         std::ranges::find(registry_.passTypes, flat.specs[step.pass].type, &graph::PassType::name);
     if (type == registry_.passTypes.end() || type->shader == graph::ShaderShape::none) continue;
-    checkDeclared(plan, step.pass, runtime::programRequestOf(flat, plan, step.pass, *type), loader, missing,
+    checkDeclared(plan, step.pass, runtime::programRequestOf(flat, plan, step.pass, *type), loader, loaded,
                   graph.said, graph.said);
   }
 }

@@ -113,17 +113,16 @@ bool isWrong(const Options& options, const runtime::WorldFacts& facts, text::Dia
 }
 
 void checkDeclared(const graph::Plan& plan, std::uint32_t pass, const gl::ProgramRequest& request,
-                   glsl::SourceLoader& sources, std::set<std::string>& missing, text::Diagnostics& unread,
+                   glsl::SourceLoader& sources, LoadedSources& loaded, text::Diagnostics& unread,
                    text::Diagnostics& said) {
   std::vector<gl::StageSource> stages;
   for (const gl::ProgramRequest::Stage& stage : request.stages) {
     if (!stage.text.empty()) continue;
-    if (!missing.contains(stage.file))
-      stages.push_back({stage.stage, sources.load(stage.file, unread, request.place)});
-    if (missing.contains(stage.file) || !stages.back().source) missing.insert(stage.file);
+    const auto [source, isNew] = loaded.try_emplace(stage.file);
+    if (isNew) source->second = sources.load(stage.file, unread, request.place);
+    stages.push_back({stage.stage, source->second});
   }
-  const auto isMissing = [&](const auto& stage) { return missing.contains(stage.file); };
-  if (std::ranges::any_of(request.stages, isMissing)) return;
+  if (std::ranges::any_of(stages, [](const gl::StageSource& stage) { return !stage.source; })) return;
   runtime::checkProgram(plan, pass, stages, request.defines, nullptr, said);
   runtime::warnOfConditions(plan.graph->specs[pass], stages, request.defines, said);
 }

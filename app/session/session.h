@@ -2,9 +2,9 @@
 #pragma once
 
 #include <initializer_list>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "app/session/options.h"
 #include "engine/gl/context/context.h"
@@ -49,10 +49,11 @@ std::shared_ptr<const graph::Plan> planOf(const Options& options, text::Diagnost
 // Whether the graph is wrong on every device, which `diagnostics` then says. Asked before OpenGL is opened, which takes longer.
 bool isWrong(const Options& options, const runtime::WorldFacts& facts, text::Diagnostics& diagnostics);
 
-// Checks the shaders of a pass against it by what they declare, without OpenGL. Why a file cannot be read is said once, in `unread`;
-// `missing` has it from then on.
+// Checks the shaders of a pass against it by what they declare, without OpenGL. Why a file cannot be read is said once, in `unread`.
+// Each file is looked for once: `loaded` has it from then on, or null.
+using LoadedSources = std::map<std::string, std::shared_ptr<const glsl::ShaderSource>>;
 void checkDeclared(const graph::Plan& plan, std::uint32_t pass, const gl::ProgramRequest& request,
-                   glsl::SourceLoader& sources, std::set<std::string>& missing, text::Diagnostics& unread,
+                   glsl::SourceLoader& sources, LoadedSources& loaded, text::Diagnostics& unread,
                    text::Diagnostics& said);
 
 // Prints the diagnostics to standard error, with or without notes. Of very many it prints only some
