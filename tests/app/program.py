@@ -45,6 +45,12 @@ class Sanitizers:
         self.seen.update(files)
         return [file.read_text(errors="replace") for file in files]
 
+    def expect(self, pattern):
+        """Removes the new reports that match: the run was to end in a known fault of a library."""
+        for file in set(self.path.parent.glob(self.path.name + ".*")) - self.seen if SANITIZED else ():
+            if re.search(pattern, file.read_text(errors="replace"), re.MULTILINE):
+                file.unlink()
+
 
 sanitizers = Sanitizers()
 

@@ -14,7 +14,7 @@ import subprocess
 import sys
 import threading
 
-from program import MEMORY_BYTES, SLOWER, TOP, Report, count_run, run, temporary_folder
+from program import MEMORY_BYTES, SLOWER, TOP, Report, count_run, run, sanitizers, temporary_folder
 
 LIMIT = 600 * SLOWER  # seconds; far beyond what any of these takes
 SHADER = "out vec4 result;\nvoid main() { result = vec4(1); }\n"
@@ -321,6 +321,8 @@ def models(weft, folder, report):
     for path in sorted((TOP / "tests/app/hostile/models").glob("*.fbx")):
         shutil.copy(path, folder)
         done = limited(weft, "check", str(TOP / "graphs/deferred.json"), "--no-shaders", "--scene", path.name, folder=folder)
+        # Assimp frees a key's value twice: its own fault, in a process of its own, and what the file is here for.
+        sanitizers.expect(r"double-free on [^\n]*\n +#0 [^\n]*weft-fbx\+[^\n]*\n +#1 [^\n]*libassimp\.so")
         report.check(done and done.code == 1 and done.codes() == ["W164"], f"{path.name}: {done and (done.code, done.err[:500])}")
 
 
