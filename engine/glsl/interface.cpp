@@ -432,10 +432,10 @@ bool checkShaderSize(const ShaderSize& size, const ShaderSource& source, text::D
 }
 
 bool isUnusual(const Interface& interface) {
-  constexpr std::uint64_t kUsualTokens = 25'000, kUsualDepth = 60, kUsualElements = 128;
+  constexpr std::uint64_t kTokens = 25'000, kInlined = 50'000, kDepth = 60, kElements = 128;
   const ShaderSize& size = interface.size;
-  return interface.unsure || size.tokens > kUsualTokens || size.inlined > kUsualTokens ||
-         size.depth > kUsualDepth || size.elements > kUsualElements;
+  return interface.unsure || size.tokens > kTokens || size.inlined > kInlined || size.depth > kDepth ||
+         size.elements > kElements;
 }
 
 const char* nameOf(Role role) {
