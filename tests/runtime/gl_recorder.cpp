@@ -27,7 +27,7 @@ void note(const std::string& key, const std::string& value) {
   X(UseProgram, 0) X(BindTextureUnit, 1) X(BindSampler, 1) X(BindImageTexture, 1)                  \
   X(BindBuffer, 1)                                                                                 \
   X(BindBufferBase, 2) X(BindBufferRange, 2) X(BindVertexArray, 0) X(Viewport, 0) X(Scissor, 0)    \
-  X(DepthFunc, 0) X(DepthMask, 0) X(ColorMask, 0) X(StencilMask, 0) X(CullFace, 0)                 \
+  X(DepthFunc, 0) X(DepthMask, 0) X(ColorMask, 0) X(ColorMaski, 1) X(StencilMask, 0) X(CullFace, 0) \
   X(PolygonMode, 0) X(PolygonOffset, 0) X(BlendEquationi, 1) X(BlendFuncSeparatei, 1)              \
   X(BlendFunci, 1) X(BlendColor, 0)
 // clang-format on
@@ -50,6 +50,13 @@ void noteCall<2, GLenum, GLuint, GLuint, GLintptr, GLsizeiptr>(const char*, GLen
                                                                GLuint buffer, GLintptr offset,
                                                                GLsizeiptr size) {
   note(fmt::format("buffer {} {}", target, index), fmt::format("{} {} {}", buffer, offset, size));
+}
+
+// The mask of one color target: the one of all is another from then on.
+template <>
+void noteCall<1, GLuint, GLboolean, GLboolean, GLboolean, GLboolean>(const char*, GLuint target, GLboolean r,
+                                                                     GLboolean g, GLboolean b, GLboolean a) {
+  note("glColorMask", fmt::format("{} alone: {} {} {} {}", target, r, g, b, a));
 }
 
 template <class F>
