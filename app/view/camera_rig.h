@@ -26,8 +26,7 @@ class CameraRig {
  public:
   enum class Mode : std::uint8_t { scene, orbit, fly };
 
-  static constexpr double kLongestFrame =
-      0.5;  // seconds: of a longer frame the rest is lost, its mouse is not
+  static constexpr double kLongestFrame = 0.5;    // seconds; the rest of a longer one is lost, its mouse not
   static constexpr double kTurnPerPixel = 0.005;  // radians
   static constexpr double kMouseSeconds = 0.04;   // the view closes on the mouse with this time constant
   static constexpr double kFriction = 6;          // per second: speed falls to 1/e in 1/6 s without keys

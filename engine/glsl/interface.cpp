@@ -355,8 +355,7 @@ class InterfaceReader {
   Interface& out_;
   CallTree calls_;
   std::map<std::string_view, std::int64_t> constants_;
-  bool shared_ =
-      false;  // the statement declares what a work group shares, which devices bound, or glsl::clampShared()
+  bool shared_ = false;  // the statement declares what a work group shares, which is bounded elsewhere
 };
 
 bool isControl(const Token& token) {
@@ -432,7 +431,7 @@ bool checkShaderSize(const ShaderSize& size, const ShaderSource& source, text::D
 }
 
 bool isUnusual(const Interface& interface) {
-  constexpr std::uint64_t kTokens = 25'000, kInlined = 50'000, kDepth = 60, kElements = 128;
+  constexpr std::uint64_t kTokens = 25'000, kInlined = 32'000, kDepth = 60, kElements = 128;
   const ShaderSize& size = interface.size;
   return interface.unsure || size.tokens > kTokens || size.inlined > kInlined || size.depth > kDepth ||
          size.elements > kElements;

@@ -15,8 +15,7 @@ struct WorldFacts {
   bool environment = false;  // one was loaded, or is on its way
   std::uint32_t environmentWidth = 1024, environmentHeight = 512;
   std::shared_ptr<const scene::Scene> scene = std::make_shared<const scene::Scene>();  // never null
-  bool known =
-      false;  // false: `scene` takes the place of one that could not be read, and nothing is said of it
+  bool known = false;  // false: `scene` is in place of one that could not be read; nothing is said of it
   double spheresOf(const scene::Selection& list) const {
     return static_cast<double>(scene::Members(list, *scene).count(scene->spheres));
   }

@@ -166,9 +166,9 @@ TEST_CASE("a zero byte, an include and a limit") {
   CHECK(diagnostics.items()[0].place.column == 9);
 }
 
-// Variants with everything at once, which no graph has, are tried first: docs/limits.md.
-const std::set<std::string> kUnusual = {"billboard.frag.glsl", "mesh.frag.glsl", "forward.frag.glsl",
-                                        "transparent.frag.glsl"};
+// Spheres and layered materials, lit by everything at once, are tried first: docs/limits.md. tests/app/hostile/shaders.py draws variants that are not.
+const std::set<std::string> kUnusual = {"billboard.frag.glsl",   "mesh.frag.glsl",     "forward.frag.glsl",
+                                        "transparent.frag.glsl", "lighting.frag.glsl", "rays.frag.glsl"};
 
 // The bundled shaders, and those of the tests, stay below every limit.
 TEST_CASE("every shader of the tree is a usual one") {
