@@ -34,9 +34,7 @@ GALLERY = json.loads((HERE / "gallery.json").read_text())
 FAMILIES = GALLERY["families"]
 ENTRIES = [entry for family in FAMILIES for entry in family["entries"]]
 SIDES = ("off", "on")
-# For --check: the maps of the environment small, which the effects do not depend on, and shadow maps, too.
-COARSE = {"resources": {"ibl.brdf": {"size": 32}, "ibl.specular": {"size": [64, 32]}, "ibl.daylight.sky_map": {"size": [64, 32]}}}
-MOST_TEXELS = 1024
+MOST_TEXELS = 1024  # across a shadow map, for --check
 SEEN = 6  # of 255: a picture looks different where the mean of a block of 8 x 8 pixels differs by more
 
 
@@ -219,9 +217,8 @@ def draw_small(weft, lines, folder):
     """Arguments -> picture, with the computed sky. One run draws all but those that are no cases."""
     files = {line: folder / f"{number}.png" for number, line in enumerate(lines)}
     cases = [case_of(file.stem, line) for line, file in files.items()]
-    (folder / "coarse.json").write_text(json.dumps(COARSE))
-    (folder / "gallery.cases.json").write_text(json.dumps(
-        {"defaults": {"size": GALLERY["check_size"], "preset": ["coarse.json"]}, "cases": [case for case in cases if case]}))
+    defaults = {"size": GALLERY["check_size"], "preset": [str(TOP / "tests/small_maps.json")]}
+    (folder / "gallery.cases.json").write_text(json.dumps({"defaults": defaults, "cases": [case for case in cases if case]}))
     done = subprocess.run([weft, "test", folder, "--accept"], capture_output=True, text=True)
     if done.returncode or "error[" in done.stderr:
         sys.exit(done.stderr or done.stdout)

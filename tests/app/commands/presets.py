@@ -6,7 +6,6 @@ Each preset passes `check`; renders from another working directory, so that its 
 picture without preset and from every other one; and is a picture: neither flat, nor mostly black or white. One that is for
 another graph than the studio is held against that graph. Pictures are drawn with small maps of the environment.
 """
-import json
 import pathlib
 import subprocess
 import sys
@@ -14,7 +13,6 @@ import tempfile
 
 TOP = pathlib.Path.cwd()
 sys.path.insert(0, str(TOP / "docs/gallery"))
-from gallery import COARSE  # noqa: E402
 from png import read_png  # noqa: E402
 
 WEFT = pathlib.Path(sys.argv[1]).resolve()
@@ -48,7 +46,6 @@ def main():
     pictures = {}
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
-        (folder / "coarse.json").write_text(json.dumps(COARSE))
         plain = [(None, STUDIO), *((None, other) for other in dict.fromkeys(OTHERS.values()))]
         for preset, on in [*plain, *((preset, OTHERS.get(preset.stem, STUDIO)) for preset in PRESETS)]:
             graph, scene, _ = on
@@ -58,7 +55,7 @@ def main():
             checked = subprocess.run([WEFT, "check", graph, *over], cwd=TOP, capture_output=True, text=True)
             expect(f"{name} passes check\n{checked.stderr}", checked.returncode == 0 and not checked.stderr)
             image = folder / f"{name}.png"
-            done = subprocess.run([WEFT, "render", TOP / graph, "--preset", "coarse.json", *over, "--size", "128x72", "--frames", "1:1",
+            done = subprocess.run([WEFT, "render", TOP / graph, "--preset", TOP / "tests/small_maps.json", *over, "--size", "128x72", "--frames", "1:1",
                                    "--program-cache", folder / "programs", "-o", image], cwd=folder, capture_output=True, text=True)
             expect(f"{name} renders\n{done.stderr}", done.returncode == 0 and image.exists())
             if not image.exists():
