@@ -23,12 +23,12 @@ void note(const std::string& key, const std::string& value) {
 // One entry of glad's table: what it was, and a function that records how many leading arguments name the state.
 // (clang-format never settles on where the backslashes go.)
 // clang-format off
-#define WEFT_RECORDED(X)                                                                           \
-  X(UseProgram, 0) X(BindTextureUnit, 1) X(BindSampler, 1) X(BindImageTexture, 1)                  \
-  X(BindBuffer, 1)                                                                                 \
-  X(BindBufferBase, 2) X(BindBufferRange, 2) X(BindVertexArray, 0) X(Viewport, 0) X(Scissor, 0)    \
+#define WEFT_RECORDED(X)                                                                            \
+  X(UseProgram, 0) X(BindTextureUnit, 1) X(BindSampler, 1) X(BindImageTexture, 1)                   \
+  X(BindBuffer, 1)                                                                                  \
+  X(BindBufferBase, 2) X(BindBufferRange, 2) X(BindVertexArray, 0) X(Viewport, 0) X(Scissor, 0)     \
   X(DepthFunc, 0) X(DepthMask, 0) X(ColorMask, 0) X(ColorMaski, 1) X(StencilMask, 0) X(CullFace, 0) \
-  X(PolygonMode, 0) X(PolygonOffset, 0) X(BlendEquationi, 1) X(BlendFuncSeparatei, 1)              \
+  X(PolygonMode, 0) X(PolygonOffset, 0) X(BlendEquationi, 1) X(BlendFuncSeparatei, 1)               \
   X(BlendFunci, 1) X(BlendColor, 0)
 // clang-format on
 
