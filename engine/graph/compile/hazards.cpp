@@ -145,7 +145,7 @@ class Collector {
     Stamp store = kNever<Stamp>, access = kNever<Stamp>;
   };
   struct Cause {
-    Stamp from{};
+    Stamp from = kNever<Stamp>;
     std::uint32_t to = 0;
   };
 
@@ -318,8 +318,8 @@ class Collector {
   void require(std::uint16_t bits, Stamp from) {
     if (from == kNever<Stamp>) return;
     for (unsigned rest = bits; rest != 0; rest &= rest - 1) {
-      const auto bit = static_cast<std::size_t>(std::countr_zero(rest));
-      if ((due_ >> bit & 1u) == 0 || from > latest_[bit].from) latest_[bit] = {from, who_};
+      Cause& latest = latest_[static_cast<std::size_t>(std::countr_zero(rest))];
+      if (from > latest.from) latest = {from, who_};
     }
     due_ |= bits;
   }
@@ -332,6 +332,7 @@ class Collector {
       const std::int32_t lo = positionOf(latest_[bit].from), hi = lo > 2 * t ? 2 * t + 1 : 2 * t;
       hazards_[bit].push_back({std::max(lo, hi + 1 - circle_), hi});
       if (causes_) (*causes_)[bit].push_back({latest_[bit].from, latest_[bit].to});
+      latest_[bit].from = kNever<Stamp>;
     }
     due_ = 0;
   }
@@ -393,7 +394,7 @@ class Collector {
   std::uint32_t group_ = kNone;                   // of the step that is walked over
   std::uint32_t who_ = 0;                         // of the use that is looked at
   std::uint16_t due_ = 0;                         // bits that the step requires
-  std::array<Cause, kBarrierBitCount> latest_{};  // per bit that is due
+  std::array<Cause, kBarrierBitCount> latest_{};  // per bit, never where none is due
 };
 
 }  // namespace
