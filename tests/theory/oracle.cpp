@@ -16,19 +16,6 @@ double lambda(double cosine, double alpha) {
   return (std::sqrt(1 + alpha * alpha * tan2) - 1) / 2;
 }
 
-Vec3 cross(Vec3 a, Vec3 b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-Vec3 scaled(Vec3 a, double s) {
-  return {a.x * s, a.y * s, a.z * s};
-}
-Vec3 plus(Vec3 a, Vec3 b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-Vec3 normalized(Vec3 a) {
-  return scaled(a, 1 / std::sqrt(dot(a, a)));
-}
-
 // Calls visit(direction, cosine to the normal, angle phi) for local polar coordinates around `normal`.
 struct Frame {
   explicit Frame(Vec3 n) : normal(n) {
@@ -37,8 +24,7 @@ struct Frame {
   }
   Vec3 at(double cosine, double phi) const {
     const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-    return plus(scaled(normal, cosine),
-                plus(scaled(side, sine * std::cos(phi)), scaled(up, sine * std::sin(phi))));
+    return normal * cosine + (side * (sine * std::cos(phi)) + up * (sine * std::sin(phi)));
   }
   Vec3 normal, side, up;
 };

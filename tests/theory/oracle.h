@@ -2,6 +2,8 @@
 // definitions and sharing nothing with the shaders. Does not: know GL, or any scheme the shaders use to be fast.
 #pragma once
 
+#include <cmath>
+
 namespace weft::theory {
 
 // GGX with Smith's height-correlated masking and Schlick's Fresnel: albedo(F0) = F0 * scale + bias.
@@ -22,6 +24,21 @@ struct Vec3 {
 };
 inline double dot(Vec3 a, Vec3 b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline Vec3 operator+(Vec3 a, Vec3 b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline Vec3 operator-(Vec3 a, Vec3 b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline Vec3 operator*(Vec3 a, double s) {
+  return {a.x * s, a.y * s, a.z * s};
+}
+inline Vec3 cross(Vec3 a, Vec3 b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline Vec3 normalized(Vec3 a) {
+  return a * (1 / std::sqrt(dot(a, a)));
 }
 
 // Direction of the center of texel (x, y) of an equirectangular map, top row first.

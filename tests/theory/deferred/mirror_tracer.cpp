@@ -8,7 +8,6 @@ namespace weft::theory {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kNear = 1e-5, kFar = 1e30;
 
 glm::dmat4 worldOf(const scene::Scene& scene, scene::NodeId id) {
@@ -39,7 +38,7 @@ MirrorTracer::MirrorTracer(const scene::Scene& scene, const scene::CameraPose& p
   forward_ = glm::normalize(glm::dvec3(pose.target) - eye_);
   right_ = glm::normalize(glm::cross(forward_, glm::dvec3(0, 1, 0)));
   up_ = glm::cross(right_, forward_);
-  slope_ = std::tan(pose.fovDegrees * kPi / 360);
+  slope_ = std::tan(pose.fovDegrees * std::numbers::pi / 360);
   std::uint32_t surface = 0;
   const auto keep = [&](scene::MaterialId id) {
     materials_.push_back(*scene.materials.find(id));
@@ -155,7 +154,7 @@ MirrorTracer::Bounce MirrorTracer::bounceOf(const scene::Material& metal, glm::d
   };
   // Half vectors by the distribution times the cosine; the weight is the rest of the reflectance.
   const double tangent = alpha * std::sqrt(u / (1 - u)), cosine = 1 / std::sqrt(1 + tangent * tangent);
-  const double turn = 2 * kPi * around;
+  const double turn = 2 * std::numbers::pi * around;
   const glm::dvec3 h = cosine * (n + tangent * (std::cos(turn) * side + std::sin(turn) * across));
   const double vh = glm::dot(v, h), nv = glm::dot(n, v);
   const glm::dvec3 l = 2 * vh * h - v;
@@ -192,7 +191,7 @@ MirrorTracer::Pixel MirrorTracer::pixel(std::uint32_t x, std::uint32_t y, int ra
     if (first.weight != glm::dvec3(0))
       pixel.radiance += first.weight * lightFrom(first.direction, number) / (1.0 * rays);
     if (rays == 1) continue;
-    const double turn = 2 * kPi * radicalInverse(number, 3), z = 1 - 2 * (i + 0.5) / rays,
+    const double turn = 2 * std::numbers::pi * radicalInverse(number, 3), z = 1 - 2 * (i + 0.5) / rays,
                  r = std::sqrt(1 - z * z);
     const glm::dvec3 cosine =
         glm::normalize(met.normal + glm::dvec3(r * std::cos(turn), r * std::sin(turn), z));

@@ -7,8 +7,6 @@ namespace weft::theory {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 double unit(std::mt19937& random) {
   return std::uniform_real_distribution<double>(0, 1)(random);
 }
@@ -22,7 +20,7 @@ glm::dmat3 frameOf(glm::dvec3 axis) {
 
 // With the density cosine / pi.
 glm::dvec3 cosineDirection(const glm::dmat3& frame, double u, double v) {
-  const double r = std::sqrt(u), phi = 2 * kPi * v;
+  const double r = std::sqrt(u), phi = 2 * std::numbers::pi * v;
   return frame * glm::dvec3(r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(1 - u, 0.0)));
 }
 
@@ -102,7 +100,7 @@ double lobeSeen(const std::vector<Solid>& solids, glm::dvec3 at, glm::dvec3 norm
   double all = 0, seen = 0;
   for (int i = 0; i < rays; ++i) {
     // Half vectors with the density D (N.H).
-    const double u = unit(random), phi = 2 * kPi * unit(random);
+    const double u = unit(random), phi = 2 * std::numbers::pi * unit(random);
     const double c = std::sqrt((1 - u) / (1 + (a2 - 1) * u)), s = std::sqrt(std::max(1 - c * c, 0.0));
     const glm::dvec3 h = frame * glm::dvec3(s * std::cos(phi), s * std::sin(phi), c);
     const double vh = glm::dot(view, h);
@@ -123,7 +121,7 @@ double discSeen(const std::vector<Solid>& solids, glm::dvec3 at, glm::dvec3 axis
   int seen = 0;
   for (int i = 0; i < rays; ++i) {
     const double c = 1 - unit(random) * (1 - std::cos(angle)), s = std::sqrt(1 - c * c);
-    const double phi = 2 * kPi * unit(random);
+    const double phi = 2 * std::numbers::pi * unit(random);
     seen += meet(solids, at, frame * glm::dvec3(s * std::cos(phi), s * std::sin(phi), c), self).sphere < 0;
   }
   return double(seen) / rays;

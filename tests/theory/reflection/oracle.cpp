@@ -10,45 +10,29 @@ namespace weft::theory {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kCells = 128;    // of the coarse map, along the equator
 constexpr int kSubtexels = 2;  // a bright texel is so many points a side
 
-Vec3 operator+(Vec3 a, Vec3 b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-Vec3 operator-(Vec3 a, Vec3 b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-Vec3 operator*(Vec3 a, double s) {
-  return {a.x * s, a.y * s, a.z * s};
-}
-Vec3 cross(Vec3 a, Vec3 b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-Vec3 normalized(Vec3 a) {
-  return a * (1 / std::sqrt(dot(a, a)));
-}
-
 Vec3 directionAt(double u, double v) {
-  const double phi = (u - 0.5) * 2 * kPi, theta = v * kPi;
+  const double phi = (u - 0.5) * 2 * std::numbers::pi, theta = v * std::numbers::pi;
   return {std::cos(phi) * std::sin(theta), std::cos(theta), std::sin(phi) * std::sin(theta)};
 }
 
 // Solid angle of a cell of row `y` of `rows`, `columns` to the turn.
 double solidAngle(int y, int rows, int columns) {
-  return 2 * kPi / columns * (std::cos(kPi * y / rows) - std::cos(kPi * (y + 1) / rows));
+  return 2 * std::numbers::pi / columns *
+         (std::cos(std::numbers::pi * y / rows) - std::cos(std::numbers::pi * (y + 1) / rows));
 }
 
 // Smith's Lambda of GGX (Heitz 2014, equation 72).
-double lambda(double cosine, double alpha) {
+double smithLambda(double cosine, double alpha) {
   const double tan2 = std::max(0.0, 1 - cosine * cosine) / (cosine * cosine);
   return (std::sqrt(1 + alpha * alpha * tan2) - 1) / 2;
 }
 
 double distribution(double nh, double alpha) {
   const double d = nh * nh * (alpha * alpha - 1) + 1;
-  return alpha * alpha / (kPi * d * d);
+  return alpha * alpha / (std::numbers::pi * d * d);
 }
 
 double vanDerCorput(std::uint32_t i) {
@@ -66,7 +50,7 @@ const std::vector<Turn>& evenTurns() {
   static const std::vector<Turn> turns = [] {
     std::vector<Turn> made;
     for (std::uint32_t i = 0; i < 8192; ++i) {
-      const double phi = 2 * kPi * vanDerCorput(i);
+      const double phi = 2 * std::numbers::pi * vanDerCorput(i);
       made.push_back({std::cos(phi), std::sin(phi)});
     }
     return made;
@@ -118,8 +102,8 @@ Vec3 ReflectionOracle::texel(int x, int y) const {
 }
 
 Vec3 ReflectionOracle::dimAt(Vec3 d) const {
-  const double x = (std::atan2(d.z, d.x) / (2 * kPi) + 0.5) * width_ - 0.5;
-  const double y = (0.5 - std::asin(std::clamp(d.y, -1.0, 1.0)) / kPi) * height_ - 0.5;
+  const double x = (std::atan2(d.z, d.x) / (2 * std::numbers::pi) + 0.5) * width_ - 0.5;
+  const double y = (0.5 - std::asin(std::clamp(d.y, -1.0, 1.0)) / std::numbers::pi) * height_ - 0.5;
   const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
   const double fx = x - left, fy = y - top;
   return (texel(left, top) * (1 - fx) + texel(left + 1, top) * fx) * (1 - fy) +
@@ -127,9 +111,10 @@ Vec3 ReflectionOracle::dimAt(Vec3 d) const {
 }
 
 Vec3 ReflectionOracle::lookUp(Vec3 d) const {
-  const int x = static_cast<int>((std::atan2(d.z, d.x) / (2 * kPi) + 0.5) * width_) % width_;
-  const int y = std::clamp(static_cast<int>((0.5 - std::asin(std::clamp(d.y, -1.0, 1.0)) / kPi) * height_), 0,
-                           height_ - 1);
+  const int x = static_cast<int>((std::atan2(d.z, d.x) / (2 * std::numbers::pi) + 0.5) * width_) % width_;
+  const int y =
+      std::clamp(static_cast<int>((0.5 - std::asin(std::clamp(d.y, -1.0, 1.0)) / std::numbers::pi) * height_),
+                 0, height_ - 1);
   const auto at = static_cast<std::size_t>(y * width_ + x);
   const Texel &all = whole_[at], &dim = dim_[at];
   return dimAt(d) + (Vec3{all.r, all.g, all.b} - Vec3{dim.r, dim.g, dim.b});
@@ -158,12 +143,12 @@ double ReflectionOracle::Metal::albedoAt(double cosine) const {
 Vec3 ReflectionOracle::radiance(Vec3 n, Vec3 v, const Metal& metal, int samples, unsigned set, int part,
                                 int parts) const {
   if (metal.roughness == 0) return lookUp(n * (2 * dot(n, v)) - v);
-  const double a = metal.alpha, nv = dot(n, v), lambdaV = lambda(nv, a);
+  const double a = metal.alpha, nv = dot(n, v), lambdaV = smithLambda(nv, a);
   const Vec3 side = normalized(cross(std::abs(n.y) < 0.9 ? Vec3{0, 1, 0} : Vec3{1, 0, 0}, n)),
              up = cross(n, side);
   // The parts of a set are shifted evenly against each other.
   const double shiftU = std::fmod(hashed(set * 2 + 1) + static_cast<double>(part) / parts, 1.0);
-  const double shiftPhi = 2 * kPi * (hashed(set * 2 + 2) + part * std::numbers::phi);
+  const double shiftPhi = 2 * std::numbers::pi * (hashed(set * 2 + 2) + part * std::numbers::phi);
   // The axes turned by the shift.
   const Vec3 first = side * std::cos(shiftPhi) + up * std::sin(shiftPhi),
              second = up * std::cos(shiftPhi) - side * std::sin(shiftPhi);
@@ -178,14 +163,14 @@ Vec3 ReflectionOracle::radiance(Vec3 n, Vec3 v, const Metal& metal, int samples,
     const double vh = dot(v, h);
     const Vec3 l = h * (2 * vh) - v;
     const double nl = dot(n, l);
-    if (vh > 0 && nl > 0) sum = sum + dimAt(l) * (vh / ((1 + lambdaV + lambda(nl, a)) * nv * nh));
+    if (vh > 0 && nl > 0) sum = sum + dimAt(l) * (vh / ((1 + lambdaV + smithLambda(nl, a)) * nv * nh));
   }
   sum = sum * (1.0 / samples);
   for (const Patch& patch : bright_) {
     const double nl = dot(n, patch.direction);
     if (nl <= 0) continue;
     const double nh = dot(n, normalized(v + patch.direction));
-    sum = sum + patch.light * (distribution(nh, a) / (4 * nv * (1 + lambdaV + lambda(nl, a))));
+    sum = sum + patch.light * (distribution(nh, a) / (4 * nv * (1 + lambdaV + smithLambda(nl, a))));
   }
   return sum;
 }
@@ -198,7 +183,7 @@ Vec3 ReflectionOracle::severalBounces(Vec3 n, Vec3 v, const Metal& metal) const 
       const double nl = dot(n, patch.direction);
       if (nl > 0) sum = sum + patch.light * (nl * (1 - metal.albedoAt(nl)));
     }
-  return sum * ((1 - metal.albedoAt(dot(n, v))) / (kPi * (1 - metal.averageAlbedo)));
+  return sum * ((1 - metal.albedoAt(dot(n, v))) / (std::numbers::pi * (1 - metal.averageAlbedo)));
 }
 
 double shownOf255(double radiance) {
