@@ -8,7 +8,7 @@ shift
 results=$(mktemp)
 trap 'rm -f "$results"' EXIT
 # As ./run sets it.
-export GLIBC_TUNABLES=${GLIBC_TUNABLES-glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=33554432:glibc.malloc.trim_threshold=268435456}
+export GLIBC_TUNABLES=${GLIBC_TUNABLES-glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=33554432:glibc.malloc.trim_threshold=268435456:glibc.malloc.top_pad=67108864}
 # The interpreter itself: where python3 is a script that looks for one, a test that starts many waits for it.
 interpreter=$(python3 -c 'import os, sys; print(os.path.dirname(sys.executable))' || true)
 [ -z "$interpreter" ] || export PATH="$interpreter:$PATH"
