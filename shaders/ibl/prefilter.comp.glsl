@@ -3,6 +3,8 @@
 // write   result       one level, rgba16f; each work group is 64 texels of one row
 // params  level, levels   which level of how many: roughness as in roughness_level.glsl
 //         samples         per texel, at most 256
+//         spread          levels of the environment beyond a sample's share of the sphere: from 0.25 on neighbors overlap, and a small light
+//                         does not show the pattern of the samples; below it the lobe is sharper
 //
 // Samples of the normal distribution, each read at the level whose texels match the sample's share of the sphere
 // (Krivanek and Colbert, EGSR 2008) and weighted by N.L. All texels of a row have the same samples but for a
@@ -18,10 +20,10 @@ layout(std140) uniform Parameters {
   int level;
   int levels;
   int samples;
+  float spread;
 };
 
 const int kMaxSamples = 256;
-const float kSpread = -0.5;       // levels beyond a sample's share of the sphere, so that neighbors overlap
 shared vec4 table[kMaxSamples];  // u offset, v, level of the environment, weight
 
 const float kGolden = 0.61803399;  // of a turn from sample to sample: any number of them is spread evenly
@@ -44,7 +46,7 @@ void fillTable(float theta, int count) {
     vec3 direction = vec3(sin_n * local.z + cos_n * local.x, cos_n * local.z - sin_n * local.x, local.y);
     vec2 at = equirectUv(direction);
     float share = 1.0 / (float(count) * pdf);
-    float lod = 0.5 * log2(share / (texel * max(length(direction.xz), 0.05))) + kSpread;
+    float lod = 0.5 * log2(share / (texel * max(length(direction.xz), 0.05))) + spread;
     lod = clamp(lod, 0.0, float(textureQueryLevels(environment) - 1));
     float half_texel = 0.5 * exp2(ceil(lod)) / base.y;
     at.y = clamp(at.y, min(half_texel, 0.5), max(1.0 - half_texel, 0.5));
