@@ -1,7 +1,6 @@
 #include "app/ui/log.h"
 
 #include <algorithm>
-#include <functional>
 #include <utility>
 
 namespace weft::app::ui {

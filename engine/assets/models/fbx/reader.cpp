@@ -5,7 +5,6 @@
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
