@@ -122,7 +122,7 @@ Json numberOf(double number, bool real) {
 }
 
 std::string graphText(const Json& graph) {
-  return text::layoutJson(graph.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+  return text::layoutJson(text::dumpJson(graph, -1, false) + "\n");
 }
 
 }  // namespace weft::importing

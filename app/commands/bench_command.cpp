@@ -231,7 +231,7 @@ int runBench(BenchOptions& options) {
   };
   run("edit", options.editGraph, benchEdits);
   run("frame", options.frameGraph, benchFrame);
-  if (code == 0) print(dumpJson(both ? out : *out.begin()) + "\n");
+  if (code == 0) print(text::dumpJson(both ? out : *out.begin()) + "\n");
   return code;
 }
 

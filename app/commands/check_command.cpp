@@ -388,7 +388,7 @@ int tellText(const CheckOptions& options, Checked& checked) {
   const int code = codeOf(options, checked.diagnostics);
   if (checked.matrix) print(matrixText(options, checked));
   if (checked.stanza)
-    print(text::layoutJson(dumpJson(checked.stanza->pass) + "\n"));
+    print(text::layoutJson(text::dumpJson(checked.stanza->pass) + "\n"));
   else if (code == 0)
     print(fmt::format("{}: {}, {} run, {} {} {} of {} declared bytes\n", text::printable(options.graph),
                       text::counted(checked.plan->graph->passes.size(), "pass"), checked.plan->steps.size(),
@@ -407,14 +407,14 @@ Json refusedJson(const std::vector<graph::RefusedVariation>& refused) {
   Json all = Json::array();
   for (const graph::RefusedVariation& each : refused)
     all.push_back({{"with", each.variation.text()},
-                   {"diagnostics", Json::parse(text::diagnosticsJson(each.said, -1))}});
+                   {"diagnostics", text::loadJson(text::diagnosticsJson(each.said, -1))}});
   return all;
 }
 
 Json documentOf(const CheckOptions& options, const Checked& checked) {
   Json out{{"graph", options.graph},
            {"errors", checked.diagnostics.errorCount()},
-           {"diagnostics", Json::parse(text::diagnosticsJson(checked.diagnostics, -1))}};
+           {"diagnostics", text::loadJson(text::diagnosticsJson(checked.diagnostics, -1))}};
   if (checked.plan)
     out["plan"] = {{"passes", checked.plan->graph->passes.size()},
                    {"run", checked.plan->steps.size()},
@@ -440,7 +440,7 @@ int tell(const CheckOptions& options, Checked& checked) {
   if (options.format == "sarif")
     print(text::diagnosticsSarif(checked.diagnostics, kVersion) + "\n");
   else  // to be watched: a line for each time
-    print(dumpJson(documentOf(options, checked), options.watch ? -1 : 2) + "\n");
+    print(text::dumpJson(documentOf(options, checked), options.watch ? -1 : 2) + "\n");
   return codeOf(options, checked.diagnostics);
 }
 

@@ -28,7 +28,7 @@ std::string textOf(const DiffOptions& options, const std::string& plans, const s
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
   Json json = {{"before", options.graph}, {"after", options.other}, {"plan", std::move(lines)}};
   if (!pictures.is_null()) json["pictures"] = pictures;
-  return dumpJson(json) + "\n";
+  return text::dumpJson(json) + "\n";
 }
 
 // Writes before.png, after.png and, of pictures of one size, difference.png; nothing over a file that was read.

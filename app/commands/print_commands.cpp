@@ -139,7 +139,7 @@ int runParams(ListOptions& options) {
   if (plan && options.json) {
     Json all = Json::array();
     for (const graph::ParameterSpec& parameter : plan->graph->parameters) all.push_back(toJson(parameter));
-    print(dumpJson(all) + "\n");
+    print(text::dumpJson(all) + "\n");
   } else if (plan) {
     std::vector<std::vector<std::string>> rows{{"NAME", "TYPE", "VALUE", "FROM", "RANGE", "LABEL"}};
     for (const graph::ParameterSpec& parameter : plan->graph->parameters)
@@ -154,7 +154,7 @@ int runPresets(ListOptions& options) {
   text::Diagnostics diagnostics;
   const std::vector<Json> presets = knownPresets(options.presetFolder, diagnostics);
   if (options.json) {
-    print(dumpJson(presets) + "\n");
+    print(text::dumpJson(presets) + "\n");
   } else {
     std::vector<std::vector<std::string>> rows;
     for (const Json& preset : presets) rows.push_back({preset["name"], preset["description"]});

@@ -165,7 +165,7 @@ int runRender(RenderOptions& options) {
                          {"with_nan_or_infinity", run.writer.counts().broken},
                          {"pixels_nan_or_infinite", run.writer.counts().pixels}};
     stats["gl_objects_left"] = closeDevice(std::move(session));
-    printError(dumpJson(stats) + "\n");
+    printError(text::dumpJson(stats) + "\n");
     return 0;
   });
 }

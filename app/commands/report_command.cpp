@@ -140,7 +140,7 @@ Json parametersOf(const graph::Plan& plan) {
 }
 
 Json messagesOf(const text::Diagnostics& diagnostics) {
-  Json all = Json::parse(text::diagnosticsJson(text::chooseMessages(diagnostics), -1));
+  Json all = text::loadJson(text::diagnosticsJson(text::chooseMessages(diagnostics), -1));
   for (Json& each : all)
     if (each.contains("file"))
       each["place"] = fmt::format("{}:{}:{}", each["file"].get<std::string>(), each.value("line", 0),
@@ -218,7 +218,7 @@ std::optional<Drawn> stateOf(gl::Context& context, const Options& options, std::
   for (const std::string& preset : options.presets) facts.push_back(withoutFolder(preset));
   state.json = {{"title", options.graph},
                 {"facts", facts},
-                {"plan", Json::parse(graph::dumpJson(*state.plan, true))},
+                {"plan", text::loadJson(graph::dumpJson(*state.plan, true))},
                 {"passes", passesOf(*state.plan, renderer.device().sources)},
                 {"parameters", parametersOf(*state.plan)},
                 {"messages", messagesOf(said)},

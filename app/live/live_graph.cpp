@@ -424,7 +424,7 @@ std::optional<std::string> LiveGraph::savePreset(const std::string& name, text::
   wanted.presets.push_back(file);
   wanted.settings.sets.clear();
   wanted.settings.disables.clear();
-  if (!text::writeFile(file, text.dump(2) + "\n", diagnostics)) return std::nullopt;
+  if (!text::writeFile(file, text::dumpJson(text, 2, false) + "\n", diagnostics)) return std::nullopt;
   if (!takeUp(std::move(wanted), diagnostics)) {
     fs::remove(file, ignored);
     return std::nullopt;

@@ -87,7 +87,7 @@ class MessageReader {
 };
 
 void send(const Json& message) {
-  const std::string text = message.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string text = text::dumpJson(message, -1, false);
   print(fmt::format("Content-Length: {}\r\n\r\n{}", text.size(), text));
   flushPrinted();
 }
@@ -130,7 +130,7 @@ class Server {
 
   // Handles one message, given as its JSON text.
   void take(std::string_view text) {
-    const Json message = Json::parse(text, nullptr, false);
+    const Json message = text::loadJson(text);
     if (message.is_discarded()) return fail(nullptr, kParseError, "the message is no JSON");
     const auto id = message.find("id"), method = message.find("method"), given = message.find("params");
     const bool asks = id != message.end();

@@ -14,7 +14,7 @@
 #include "engine/glsl/interface.h"
 #include "engine/imports/files.h"
 #include "engine/text/files/file.h"
-#include "engine/text/json/dom.h"
+#include "engine/text/json/edit.h"
 
 namespace weft::app::lsp {
 

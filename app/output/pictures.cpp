@@ -8,6 +8,7 @@
 #include "app/output/output_files.h"
 #include "app/output/standard_streams.h"
 #include "engine/text/files/file.h"
+#include "engine/text/json/edit.h"
 #include "engine/text/printable.h"
 
 namespace weft::app {
@@ -138,8 +139,7 @@ std::optional<std::string> pageOf(const nlohmann::ordered_json& report, std::str
   const auto style = text::readTextFile(folder + "css", diagnostics),
              script = text::readTextFile(folder + "js", diagnostics);
   if (!page || !style || !script) return std::nullopt;
-  using Json = nlohmann::ordered_json;
-  const std::string data = report.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string data = text::dumpJson(report, -1, false);
   for (const auto& [mark, value] :
        std::initializer_list<std::pair<std::string, std::string>>{{"{title}", escaped(title, "&lt;")},
                                                                   {"{style}", *style},

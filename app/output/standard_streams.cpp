@@ -68,10 +68,6 @@ void printError(std::string_view text) {
   put(text, stderr, errorFailure);
 }
 
-std::string dumpJson(const nlohmann::ordered_json& json, int indent) {
-  return json.dump(indent, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
-}
-
 int finishStreams(int exitCode) {
   flushPrinted();
   if (outputFailure == 0 && std::ferror(stdout)) outputFailure = EIO;

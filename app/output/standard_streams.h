@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,9 +19,6 @@ void print(std::string_view text);  // on standard output
 void printTable(const std::vector<std::vector<std::string>>& rows);
 void flushPrinted();                     // writes what print() has kept back so far
 void printError(std::string_view text);  // on standard error
-
-// Indented text, or with -1 a line. Bytes that are no UTF-8 are replaced.
-std::string dumpJson(const nlohmann::ordered_json& json, int indent = 2);
 
 // To be called at the end: writes what is left. After a failed write it reports W180 and returns at least 1; 141 when the reader of
 // standard output has gone, as a shell would.

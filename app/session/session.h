@@ -13,8 +13,8 @@
 #include "engine/runtime/frame/renderer.h"
 #include "engine/runtime/imports/imports.h"
 #include "engine/scene/files/scene_file.h"
-#include "engine/text/diagnostic.h"
 #include "engine/text/files/file.h"
+#include "engine/text/json/edit.h"
 
 namespace weft::app {
 

@@ -82,7 +82,7 @@ int runView(ViewOptions& options) {
   }
   const std::string left = closeDevice(std::move(session));
   stats["gl_objects_left"] = left;
-  if (options.stats) printError(dumpJson(stats) + "\n");
+  if (options.stats) printError(text::dumpJson(stats) + "\n");
   return code;
 }
 

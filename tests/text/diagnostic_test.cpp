@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/text/json/edit.h"
 #include "engine/text/json/report.h"
 
 using namespace weft::text;
@@ -49,12 +50,12 @@ TEST_CASE("the place of an option is no file: in text, in JSON and in SARIF") {
         "command line: error[W047]: of the command line\n"
         "command line: --set bloom=yes: error[W047]: of an option\n"
         "a.json:1:1: error[W047]: in a file\n");
-  const auto json = nlohmann::json::parse(diagnosticsJson(all, 0));
+  const auto json = loadJson(diagnosticsJson(all, 0));
   CHECK_FALSE(json[2].contains("file"));
   CHECK(json[2]["option"] == "--set bloom=yes");
   CHECK(json[3]["file"] == "a.json");
   CHECK_FALSE(json[3].contains("option"));
-  const auto sarif = nlohmann::json::parse(diagnosticsSarif(all, "1"));
+  const auto sarif = loadJson(diagnosticsSarif(all, "1"));
   const auto& results = sarif["runs"][0]["results"];
   CHECK_FALSE(results[2].contains("locations"));
   CHECK(results[3]["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] == "a.json");

@@ -8,18 +8,19 @@
 #include <utility>
 
 #include "engine/text/files/file.h"
+#include "engine/text/json/edit.h"
 #include "engine/text/words/words.h"
 
 using namespace weft::text;
 
 TEST_CASE("the table of foreign words: what is to be written, then the words that mean it, each once") {
   std::ifstream file(dataFolder() + "/engine/text/words/foreign.json");
-  const auto table = nlohmann::json::parse(file);
+  const auto table = loadJson(std::string(std::istreambuf_iterator(file), {}));
   for (const auto& [kind, rows] : table.items()) {
     std::set<std::string> seen;
     for (const auto& [ours, words] : rows.items()) {
       CHECK_MESSAGE(!ours.empty(), kind);
-      const auto see = [&](const nlohmann::json& list) {
+      const auto see = [&](const nlohmann::ordered_json& list) {
         for (const std::string theirs : list) CHECK_MESSAGE(seen.insert(theirs).second, kind, ": ", theirs);
       };
       if (words.is_array())

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "engine/text/json/edit.h"
+
 namespace weft::graph {
 
 namespace {
@@ -13,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const Json& schema() {
-  static const Json parsed = Json::parse(kGraphSchema);
+  static const Json parsed = text::loadJson(kGraphSchema);
   return parsed;
 }
 

@@ -11,6 +11,7 @@
 #include "engine/graph/language/keys.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/subresource.h"
+#include "engine/text/json/edit.h"
 
 namespace weft::graph {
 
@@ -69,7 +70,7 @@ class FileWriter {
     for (std::size_t i = 0; i < graph_.outputs.size(); ++i)
       if (plan_.outputLive[i] != 0)
         file["outputs"][plainName(graph_.outputNames[i])] = textOf(graph_.outputs[i], false);
-    return file.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return text::dumpJson(file, 2, false) + "\n";
   }
 
  private:
@@ -240,8 +241,7 @@ class FileWriter {
 
   void addUniforms(const PassSpec& spec, Json& json) {
     Json parameters, defines;
-    for (const DefineSpec& define : spec.defines)
-      defines[define.name] = Json::parse(define.text, nullptr, false);
+    for (const DefineSpec& define : spec.defines) defines[define.name] = text::loadJson(define.text);
     for (const UniformSpec& uniform : spec.uniforms) {
       const WatchedValue* const followed = graph_.followedBy(uniform);
       const bool timed = followed || uniform.dynamic.dynamic();

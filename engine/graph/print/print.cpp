@@ -11,6 +11,7 @@
 #include <set>
 
 #include "engine/graph/subresource.h"
+#include "engine/text/json/edit.h"
 #include "engine/text/printable.h"
 
 namespace weft::graph {
@@ -171,7 +172,7 @@ Json dataOf(const Plan& plan, bool explain) {
 
 // A word, or a number as it is written.
 std::string wordOf(const Json& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump();
+  return value.is_string() ? value.get<std::string>() : text::dumpJson(value, -1);
 }
 
 std::string joined(const Json& words, const char* between = " ") {
@@ -260,7 +261,7 @@ void addBuffer(std::string& text, const Json& data, const Json& buffer) {
 }  // namespace
 
 std::string dumpJson(const Plan& plan, bool explain) {
-  return dataOf(plan, explain).dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
+  return text::dumpJson(dataOf(plan, explain)) + "\n";
 }
 
 std::string dumpText(const Plan& plan, bool explain) {

@@ -344,8 +344,8 @@ class Parser {
 
   void resolve(std::string& out, std::size_t begin) {
     try {
-      out = nlohmann::json::parse(text_.substr(begin, at_ - begin)).get<std::string>();
-    } catch (const nlohmann::json::parse_error& error) {
+      out = nlohmann::ordered_json::parse(text_.substr(begin, at_ - begin)).get<std::string>();
+    } catch (const nlohmann::ordered_json::parse_error& error) {
       fail(text_.rfind('\\', begin + error.byte - 1), "an escape that JSON does not have",
            "escapes are \\\" \\\\ \\/ \\n \\r \\t \\b \\f \\uXXXX; write '/' in paths");
     }

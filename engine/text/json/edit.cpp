@@ -90,7 +90,15 @@ std::string JsonEdit::withItem(const JsonValue& array, std::string_view json) co
 }
 
 std::string quoteJson(std::string_view text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return dumpJson(text, -1, false);
+}
+
+std::string dumpJson(const nlohmann::ordered_json& json, int indent, bool ascii) {
+  return json.dump(indent, ' ', ascii, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+nlohmann::ordered_json loadJson(std::string_view text) {
+  return nlohmann::ordered_json::parse(text, nullptr, false);
 }
 
 }  // namespace weft::text

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,6 +46,11 @@ class JsonEdit {
 
 // A string as JSON, with quotes and the escapes that are needed.
 std::string quoteJson(std::string_view text);
+
+// JSON is printed and parsed here for every room, since either takes long to compile. `indent` -1: one line; bytes that are no UTF-8
+// are replaced; what is no JSON becomes a discarded value.
+std::string dumpJson(const nlohmann::ordered_json& json, int indent = 2, bool ascii = true);
+nlohmann::ordered_json loadJson(std::string_view text);
 
 // One layout for the JSON files that people write: lines of at most 120 characters, short objects on one
 // line, comments and blank lines between entries kept. The same values and comments always give the same

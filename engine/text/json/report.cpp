@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/text/files/file.h"
-#include "engine/text/json/dom.h"
+#include "engine/text/json/edit.h"
 #include "engine/text/limits.h"
 #include "engine/text/printable.h"
 
@@ -19,10 +19,6 @@ namespace weft::text {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string dumped(const Json& json, int indent) {
-  return json.dump(indent, ' ', true, Json::error_handler_t::replace);
-}
 
 Json locationOf(const Place& place) {
   Json physical;
@@ -140,7 +136,7 @@ std::string diagnosticsJson(const Diagnostics& diagnostics, int indent) {
       if (!value.empty()) each[key] = value;
     all.push_back(std::move(each));
   }
-  return dumped(all, indent);
+  return dumpJson(all, indent);
 }
 
 std::string diagnosticsSarif(const Diagnostics& diagnostics, std::string_view version) {
@@ -169,7 +165,7 @@ std::string diagnosticsSarif(const Diagnostics& diagnostics, std::string_view ve
   const Json document{{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
                       {"version", "2.1.0"},
                       {"runs", Json::array({std::move(run)})}};
-  return dumped(document, 2);
+  return dumpJson(document, 2);
 }
 
 }  // namespace weft::text

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "engine/text/json/edit.h"
 #include "tests/graph/expand/support.h"
 
 using namespace weft;
@@ -17,16 +18,16 @@ namespace {
 
 const std::filesystem::path kFolder = std::filesystem::path(WEFT_SOURCE_DIR) / "tests/bad_graphs";
 
-nlohmann::json manifest() {
+nlohmann::ordered_json manifest() {
   std::ifstream in(kFolder / "manifest.json");
-  return nlohmann::json::parse(in).at("files");
+  return text::loadJson(std::string(std::istreambuf_iterator(in), {})).at("files");
 }
 
 int numberOf(const std::string& code) {
   return std::stoi(code.substr(1));
 }
 
-text::Diagnostics diagnose(const nlohmann::json& entry) {
+text::Diagnostics diagnose(const nlohmann::ordered_json& entry) {
   Settings settings;
   for (const std::string& set : entry.value("set", std::vector<std::string>{}))
     settings.sets.emplace_back(set.substr(0, set.find('=')), set.substr(set.find('=') + 1));

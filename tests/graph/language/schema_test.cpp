@@ -6,12 +6,13 @@
 #include "engine/graph/language/format.h"
 #include "engine/graph/language/keys.h"
 #include "engine/graph/read/read.h"
+#include "engine/text/json/edit.h"
 #include "tests/json_pointer.h"
 
 using namespace weft::graph;
 using weft::text::Code;
 using weft::text::Diagnostics;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -65,7 +66,7 @@ std::vector<Host> hosts() {
 
 Diagnostics diagnose(const Json& graph) {
   Diagnostics diagnostics;
-  readGraphText(graph.dump(), "nowhere/schema_test.json", diagnostics);
+  readGraphText(weft::text::dumpJson(graph, -1), "nowhere/schema_test.json", diagnostics);
   return diagnostics;
 }
 
@@ -77,7 +78,7 @@ bool isMissingFile(const weft::text::Diagnostic& d) {
 }  // namespace
 
 TEST_CASE("the words of the schema are those of the program") {
-  const Json defs = Json::parse(kGraphSchema).at("$defs");
+  const Json defs = weft::text::loadJson(kGraphSchema).at("$defs");
   const auto fits = [&](const Json& words, const auto& own) {
     CHECK(words == Json(std::vector<std::string>(std::begin(own), std::end(own))));
   };
@@ -104,10 +105,9 @@ TEST_CASE("the reader knows every key of the schema, and looks at its value") {
       const Diagnostics said = diagnose(host.wrap(object));
       for (const auto& d : said.items()) {
         CHECK_MESSAGE(d.code != Code::unknownKey, format(d));
-        reported =
-            reported ||
-            (d.code == Code::wrongType &&
-             weft::test::pointerTo(host.wrap(object).dump(), d).ends_with("/" + std::string(spec.key)));
+        reported = reported || (d.code == Code::wrongType &&
+                                weft::test::pointerTo(weft::text::dumpJson(host.wrap(object), -1), d)
+                                    .ends_with("/" + std::string(spec.key)));
       }
       CHECK(reported);
     }
@@ -127,7 +127,7 @@ TEST_CASE("keys outside the schema are unknown") {
 }
 
 TEST_CASE("every reference inside the schema leads somewhere") {
-  const Json schema = Json::parse(kGraphSchema);
+  const Json schema = weft::text::loadJson(kGraphSchema);
   int found = 0;
   const auto walk = [&](const auto& self, const Json& node) -> void {
     if (node.is_object() && node.contains("$ref")) {

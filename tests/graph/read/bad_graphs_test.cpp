@@ -10,6 +10,7 @@
 #include <set>
 
 #include "engine/graph/read/read.h"
+#include "engine/text/json/edit.h"
 #include "tests/graph/expand/map_scope.h"
 
 using namespace weft::graph;
@@ -20,9 +21,9 @@ namespace {
 
 const std::filesystem::path kFolder = std::filesystem::path(WEFT_SOURCE_DIR) / "tests/bad_graphs";
 
-nlohmann::json manifest() {
+nlohmann::ordered_json manifest() {
   std::ifstream in(kFolder / "manifest.json");
-  return nlohmann::json::parse(in).at("files");
+  return weft::text::loadJson(std::string(std::istreambuf_iterator(in), {})).at("files");
 }
 
 int numberOf(const std::string& code) {
