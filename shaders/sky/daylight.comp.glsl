@@ -5,7 +5,7 @@
 // far as the air is hazy.
 // Each thread makes the 2 x 2 texels of level 0 that are one of level 1, and that one.
 // write   radiance, radiance_1   levels 0 and 1, rgba16f; scene-referred, 17 kcd/m2 is 1: a white diffuse surface under a high sun is near
-//                                1 at exposure 0
+//                                1 at exposure 0; alpha 0 in level 0, for a sky that is smooth between its texels
 //         rest, rest_1           the same without the sun
 //         sun                    two vec4, `brightest` of ibl/brightest.glsl
 //         disc                   two vec4: direction and radius of the sun that is seen, radians; its irradiance on a surface that faces it
@@ -107,10 +107,10 @@ void main() {
     vec3 sky = kUnit * colorOf(scale * perez(max(direction.y, 0.01), gamma, cos_gamma));
     vec3 lobe = peak * exp(-gamma * gamma / kWidth2) * step(gamma, 0.15) * smoothstep(-0.011, 0.007, direction.y);
     vec3 without = mix(ground, sky, exp(min(direction.y, 0.0) / haze)), color = without + lobe;
-    imageStore(radiance, texel, vec4(color, 1.0));
+    imageStore(radiance, texel, vec4(color, 0.0));
     sum += color;
 #ifdef HAS_REST
-    imageStore(rest, texel, vec4(without, 1.0));
+    imageStore(rest, texel, vec4(without, 0.0));
     sum_rest += without;
 #endif
   }

@@ -1,5 +1,6 @@
 // The environment as background: in a "fullscreen" pass, or a draw of one "triangle".
-// read    sky        equirectangular with mips, `as linear wrap`
+// read    sky        equirectangular with mips, `as linear wrap`; texels wider than a pixel are smoothed, see common/equirect.glsl,
+//                    unless alpha is 0 in level 0
 //         blurred?   the same, prefiltered for roughness in its levels (ibl/prefilter), from roughness 0.1 on instead of it
 //         brightest? the spot that `blurred` lacks, see ibl/brightest.glsl
 //         disc?      the sun that `sky` and `blurred` lack, see sky/daylight.comp.glsl; instead of `brightest`
@@ -17,8 +18,10 @@ noperspective in vec2 uv;
 noperspective in vec3 before;
 #endif
 flat in vec2 sky_lookup;
+flat in vec3 sky_smooth;
 #ifdef HAS_BLURRED
 flat in vec2 blurred_lookup;
+flat in vec3 blurred_smooth;
 flat in float blurred_share;
 #ifdef HAS_BRIGHTEST
 flat in vec4 spot_shape;
@@ -40,9 +43,9 @@ out vec2 velocity;
 void main() {
 #ifdef HAS_RADIANCE
   vec2 at = equirectUv(direction) - vec2(sky_turn, 0.0);
-  vec3 color = sampleEquirect(sky, at, sky_lookup).rgb;
+  vec3 color = sampleEquirectSmooth(sky, at, sky_lookup, sky_smooth.xy, sky_smooth.z).rgb;
 #ifdef HAS_BLURRED
-  color = mix(color, sampleEquirect(blurred, at, blurred_lookup).rgb, blurred_share);
+  color = mix(color, sampleEquirectSmooth(blurred, at, blurred_lookup, blurred_smooth.xy, blurred_smooth.z).rgb, blurred_share);
 #ifdef HAS_BRIGHTEST
   float cosine = dot(normalize(direction), spot);
   SpotShape shape = SpotShape(spot_shape.x, spot_shape.y, spot_shape.z, spot_shape.w);

@@ -10,8 +10,10 @@ noperspective out vec3 before;     // the direction in last frame's clip space: 
 #endif
 // Lookups, see common/equirect.glsl; the level is 0 as long as the map is magnified.
 flat out vec2 sky_lookup;
+flat out vec3 sky_smooth;    // the texels of the level in x and y, and the share of the spline
 #ifdef HAS_BLURRED
 flat out vec2 blurred_lookup;
+flat out vec3 blurred_smooth;
 flat out float blurred_share;
 #ifdef HAS_BRIGHTEST
 flat out vec4 spot_shape;  // the members of a SpotShape, which would take four vectors
@@ -29,6 +31,11 @@ vec2 lookupOf(sampler2D map, float least) {
   return equirectLookup(max(equirectLevel(size.x, lookupAngle()), least), 0.5 / size.y);
 }
 
+vec3 smoothOf(sampler2D map, float level) {
+  vec2 size = vec2(textureSize(map, int(ceil(level))));
+  return vec3(size, texelFetch(map, ivec2(0), 0).a * splineShare(size.y, pixelAngle()));
+}
+
 void main() {
   uv = vec2(gl_VertexID == 1 ? 2.0 : 0.0, gl_VertexID == 2 ? 2.0 : 0.0);
   gl_Position = vec4(uv * 2.0 - 1.0, 0.0, 1.0);
@@ -37,10 +44,12 @@ void main() {
   before = (previous_view_projection * vec4(direction, 0.0)).xyw;
 #endif
   sky_lookup = lookupOf(sky, 0.0);
+  sky_smooth = smoothOf(sky, sky_lookup.x);
   float roughness = 0.25 * blur;
 #ifdef HAS_BLURRED
   float in_map = alphaOfRoughness(max(roughness, kSharpest));
   blurred_lookup = lookupOf(blurred, levelOfAlpha(in_map, textureQueryLevels(blurred)));
+  blurred_smooth = smoothOf(blurred, blurred_lookup.x);
   blurred_share = min(roughness / kSharpest, 1.0);
 #endif
 #ifdef HAS_DISC

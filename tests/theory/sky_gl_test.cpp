@@ -268,6 +268,60 @@ Setup towardsSun(double elevation, double blur, std::uint32_t side, std::span<co
 
 }  // namespace
 
+namespace {
+
+// The B-spline of a degree, at `x` from its middle: the one below it over the unit interval around x (Cox and de Boor).
+double spline(int degree, double x) {
+  const double half = 0.5 * (degree + 1);
+  if (degree == 0) return x >= -0.5 && x < 0.5 ? 1 : 0;
+  return ((half + x) * spline(degree - 1, x + 0.5) + (half - x) * spline(degree - 1, x - 0.5)) / degree;
+}
+
+// A map towards a direction, as the sum of all texels near, each a spline of that degree.
+double splineOf(const weft::assets::ImageF& map, int degree, const glm::dvec3& towards, int channel) {
+  const glm::dvec3 d = glm::normalize(towards);
+  const double x = (std::atan2(d.z, d.x) / (2 * std::numbers::pi) + 0.5) * map.width - 0.5;
+  const double y = (0.5 - std::asin(d.y) / std::numbers::pi) * map.height - 0.5;
+  double sum = 0;
+  for (int j = static_cast<int>(y) - 3; j <= static_cast<int>(y) + 4; ++j)
+    for (int i = static_cast<int>(x) - 3; i <= static_cast<int>(x) + 4; ++i) {
+      const int column = (i + map.width) % map.width, row = std::clamp(j, 0, map.height - 1);
+      sum += spline(degree, x - i) * spline(degree, y - j) *
+             map.texels[static_cast<std::size_t>((row * map.width + column) * 4 + channel)];
+    }
+  return sum;
+}
+
+}  // namespace
+
+// Towards a corner of the window, and others.
+TEST_CASE("texels wider than two pixels are cubic B-splines, and those as wide as one linear") {
+  const double alike =
+      2 / kDegree * std::atan(0.995 * std::numbers::pi / kHeight * 120 / 2);  // degrees for 120 rows
+  for (const auto& [fov, degree] : {std::pair{5.0, 3}, {60.0, 3}, {alike, 1}})
+    for (const glm::dvec3 to :
+         {glm::dvec3{-0.546, 0.668, -0.838}, {0.7, 0.2, -0.4}, {0.1, 1.5, 0.3}, {0.1, -0.4, 1}}) {
+      Setup setup = studio(0, 0, 0);
+      setup.balls = {{.center = {1000, 0, 0}, .radius = 0.001f}};
+      setup.camera = {.position = {0, 0, 0}, .target = to, .fovDegrees = fov, .nearPlane = 0.1};
+      const Picture picture = draw(setup);
+      const glm::dvec3 ahead = glm::normalize(to), right = glm::normalize(glm::cross(ahead, {0, 1, 0})),
+                       up = glm::cross(right, ahead);
+      const double pixel = 2 * std::tan(fov * kDegree / 2) / picture.height;
+      double worst = 0;
+      for (std::uint32_t y = 0; y < picture.height; y += 3)
+        for (std::uint32_t x = 0; x < picture.width; x += 3) {
+          const double u = pixel * (x + 0.5 - picture.width / 2.0),
+                       v = pixel * (y + 0.5 - picture.height / 2.0);
+          const double expected = splineOf(*environment(0), degree, ahead + u * right + v * up, 1);
+          worst = std::max(worst, std::abs(picture.at(x, y)[1] - expected));
+        }
+      CAPTURE(fov);
+      CAPTURE(to.x);
+      CHECK(worst < 0.03);
+    }
+}
+
 TEST_CASE(
     "the computed sun has all of its light in every picture: a disc, or a pixel or two wherever they are") {
   double least = 1, most = 1;
