@@ -36,8 +36,8 @@ vec4 sampleEquirect(sampler2D map, vec2 map_uv, vec2 lookup) {
   return textureLod(map, vec2(map_uv.x, clamp(map_uv.y, lookup.y, 1.0 - lookup.y)), lookup.x);
 }
 
-// How much of a lookup is to be cubic, from where a texel is as wide as a pixel of `angle` radians, 0, to twice as wide, 1: a linear lookup
-// shows the texels as squares there. `rows`: of the level.
+// The share of a lookup that is cubic: 0 up to where a texel is as wide as a pixel of `angle` radians, 1 from where it is twice as wide. A linear
+// lookup shows such texels as squares. `rows`: of the level.
 float splineShare(float rows, float angle) { return clamp(kPi / (rows * angle) - 1.0, 0.0, 1.0); }
 
 // sampleEquirect() on the texels of a level of `size`, with `share` of a cubic B-spline in the weights and the rest linear. Four linear lookups

@@ -266,10 +266,6 @@ Setup towardsSun(double elevation, double blur, std::uint32_t side, std::span<co
   return setup;
 }
 
-}  // namespace
-
-namespace {
-
 // The B-spline of a degree, at `x` from its middle: the one below it over the unit interval around x (Cox and de Boor).
 double spline(int degree, double x) {
   const double half = 0.5 * (degree + 1);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """How fast `weft lsp` answers a change of a graph of 1,000 passes: a letter typed into a slot and taken back, from the message to the diagnostics. Prints
-the time by the clock and in processor time of the server; held is that each letter is answered by its own diagnostics.
+the time by the clock and in processor time of the server, and checks that each letter is answered with its own diagnostics.
 
     speed.py WEFT
 """

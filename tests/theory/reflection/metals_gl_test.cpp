@@ -155,7 +155,8 @@ TEST_CASE("reflection: rooms with many lights, of which one is taken out at most
   for (int i = 0; i < 12; ++i) windows.push_back({-165.0 + 30 * i, i % 3 * 15.0, 3, 5, 60.0 + 20 * (i % 2)});
   compare({.map = roomOf(0.3, ceiling), .step = 10, .from = 0.5});
   compare({.map = roomOf(0.5, {{-60, 35, 1.5, 1.2, 3000}, {80, 50, 1.5, 1.2, 2000}}), .step = 10});
-  // Smoother metals are up to 5 off in the mean among the windows, and 2 under the ceiling: a lobe seen at an angle is longer than wide, a prefiltered one is round.
+  // Smoother metals are up to 5 off in the mean: seen at an angle a lobe is longer than wide, and a prefiltered one is
+  // round.
   compare({.map = roomOf(0.2, windows), .from = 0.7});
 }
 
