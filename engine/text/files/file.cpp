@@ -8,9 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -21,6 +19,8 @@
 #include <vector>
 
 #include "data_places.h"
+#include "engine/text/files/pending_file.h"
+#include "engine/text/hash.h"
 #include "engine/text/limits.h"
 #include "engine/text/nearest.h"
 
@@ -41,6 +41,7 @@ struct Access {
   std::vector<std::string> folders;    // real paths
   std::map<std::string, bool> chosen;  // by absolute path: whether it may be a pipe, as it was not opened yet
   std::set<std::string> read;          // absolute paths
+  std::optional<std::map<std::string, std::uint64_t>> hashes;  // of bytes, by absolute path
   std::map<std::string, Overlay> overlays;
   std::uint64_t overlaid = 0;  // in the life of the process
 };
@@ -115,15 +116,6 @@ std::string hintForMissing(const fs::path& path) {
                       : fmt::format("did you mean '{}'?", (path.parent_path() / near).string());
 }
 
-// Where the bytes of a file are until they are whole and it is renamed, also where its name is as long as a name may be.
-std::string temporaryBeside(const std::string& path) {
-  constexpr std::size_t kLongest = 255;  // bytes, of most file systems
-  static std::atomic<unsigned> made = 0;
-  const fs::path beside = fmt::format("{}.{}.tmp", path, ::getpid());
-  if (beside.filename().string().size() <= kLongest) return beside.string();
-  return (beside.parent_path() / fmt::format(".weft.{}.{}.tmp", ::getpid(), ++made)).string();
-}
-
 // Whether a pipe has bytes or its end; false after a moment without, so that whoever waits can be asked.
 bool hasMore(int descriptor) {
   constexpr int kMilliseconds = 50;
@@ -146,6 +138,13 @@ class Descriptor {
  private:
   const int descriptor_;
 };
+
+void keepHash(const std::string& path, std::string_view bytes) {
+  if (!Rules()->hashes) return;
+  const std::uint64_t hash = hashBytes(bytes);
+  Rules all;
+  (*all->hashes)[absolutePath(path)] = hash;
+}
 
 // What is opened for reading, or why not.
 struct Opened {
@@ -267,7 +266,10 @@ std::optional<std::string> readFile(const std::string& path, Diagnostics& diagno
     if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
     if (got < 0) return fail(std::strerror(errno), "");
     if (got == 0 && opened.endless) overlayFile(path, bytes);  // nobody can read it again
-    if (got == 0) return bytes;
+    if (got == 0) {
+      keepHash(path, bytes);
+      return bytes;
+    }
     bytes.append(chunk, static_cast<std::size_t>(got));
     if (goOn && !goOn(bytes.size(), opened.bytes)) return std::nullopt;
     size = std::max<std::uint64_t>(size, bytes.size());
@@ -298,41 +300,29 @@ std::optional<std::string> readTextFile(const std::string& path, Diagnostics& di
 }
 
 bool writeFile(const std::string& path, std::span<const char> bytes, Diagnostics& diagnostics) {
-  const auto fail = [&](const std::string& reason) {
-    diagnostics.error(Code::outputNotWritten, {path, 0, 0},
-                      fmt::format("cannot write '{}': {}", path, reason),
-                      {.hint = reason == std::strerror(ENOSPC)
-                                   ? "free some space, or name a file on another disk"
-                                   : "name a file in an existing folder that can be written to"});
-    return false;
-  };
-  std::error_code ec;
-  if (fs::is_directory(path, ec)) return fail("it is a directory");
-  // Behind a link stands the file that is meant.
-  const auto canonical = fs::canonical(path, ec);
-  const std::string target = ec ? path : canonical.string();
-  const auto before = fs::status(target, ec);
-  // A device or a pipe is written to, not replaced.
-  const bool special = fs::exists(before) && !fs::is_regular_file(before);
-  const std::string temporary = special ? target : temporaryBeside(target);
-  std::FILE* file = std::fopen(temporary.c_str(), "wb");
-  if (!file) return fail(std::strerror(errno));
-  bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() && std::fflush(file) == 0;
-  int error = errno;
-  if (std::fclose(file) != 0 && written) {
-    written = false;
-    error = errno;
+  PendingFile file(path);
+  if (file.write(bytes) && file.putInPlace()) {
+    keepHash(path, {bytes.data(), bytes.size()});
+    return true;
   }
-  ec.clear();
-  if (written && fs::is_regular_file(before)) fs::permissions(temporary, before.permissions(), ec);
-  ec.clear();
-  if (written && !special) fs::rename(temporary, target, ec);
-  if (!written || ec) {
-    std::error_code ignored;
-    if (!special) fs::remove(temporary, ignored);
-    return fail(written ? ec.message() : std::strerror(error));
-  }
-  return true;
+  diagnostics.error(
+      Code::outputNotWritten, {path, 0, 0},
+      fmt::format("cannot write '{}': {}", path,
+                  file.error() == EISDIR ? "it is a directory" : std::strerror(file.error())),
+      {.hint = file.error() == ENOSPC ? "free some space, or name a file on another disk"
+                                      : "name a file in an existing folder that can be written to"});
+  return false;
+}
+
+void keepHashes() {
+  Rules()->hashes.emplace();
+}
+
+std::optional<std::uint64_t> keptHash(const std::string& path) {
+  Rules all;
+  if (!all->hashes) return std::nullopt;
+  const auto found = all->hashes->find(absolutePath(path));
+  return found == all->hashes->end() ? std::nullopt : std::optional(found->second);
 }
 
 void chooseFile(const std::string& path) {

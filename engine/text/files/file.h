@@ -45,9 +45,8 @@ std::optional<std::string> readTextFile(const std::string& path, Diagnostics& di
 // The same report for a text that is in memory already.
 void reportTooLarge(const Place& place, std::uint64_t bytes, Diagnostics& diagnostics);
 
-// Writes a temporary file beside `path` and renames it, so that a failure never leaves half a file. A file that
-// exists keeps its permissions, a link still leads to it, and a device is written to directly. On failure reports
-// Code::outputNotWritten and returns false.
+// Writes it as a PendingFile, so that a failure never leaves half a file. A file that exists keeps its permissions, a link still
+// leads to it, and a device is written to directly. On failure reports Code::outputNotWritten and returns false.
 bool writeFile(const std::string& path, std::span<const char> bytes, Diagnostics& diagnostics);
 
 // A path that is written in a file, as seen from that file's folder. Absolute paths and "" stay as they are.
@@ -84,6 +83,10 @@ void reportOutside(const std::string& path, Diagnostics& diagnostics, const Plac
 
 // What has been opened so far, as absolute paths.
 std::set<std::string> filesRead();
+
+// From now on the bytes of each file that is read or written whole are hashed; and their hash, the last time.
+void keepHashes();
+std::optional<std::uint64_t> keptHash(const std::string& path);
 
 // Takes back all calls of the functions above. For tests.
 void resetFileAccess();

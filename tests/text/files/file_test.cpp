@@ -2,11 +2,16 @@
 
 #include <doctest/doctest.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <iterator>
 #include <string>
+#include <thread>
 #include <utility>
+#include <vector>
 
+#include "engine/text/files/pending_file.h"
+#include "engine/text/hash.h"
 #include "tests/temporary_folder.h"
 
 using namespace weft::text;
@@ -76,6 +81,57 @@ TEST_CASE("writing keeps permissions, and a link leads to what was written") {
   CHECK(readFile(folder / "real", all) == "new");
   CHECK(fs::status(folder / "real").permissions() ==
         (fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_write));
+}
+
+TEST_CASE("what a killed process left beside a file is replaced, a link there is not followed") {
+  const TemporaryFolder folder;
+  const std::string other = folder.write("other", "other"), beside = folder.at(".a.part");
+  Diagnostics all;
+  std::filesystem::create_symlink(other, beside);
+  REQUIRE_MESSAGE(writeFile(folder.at("a"), std::string_view("one"), all), all.text());
+  folder.write(".a.part", "left");
+  REQUIRE_MESSAGE(writeFile(folder.at("a"), std::string_view("two"), all), all.text());
+  CHECK(readFile(folder.at("a"), all) == "two");
+  CHECK(readFile(other, all) == "other");
+  CHECK_FALSE(std::filesystem::exists(beside));
+}
+
+TEST_CASE("a file that is under way is beside its place, and only one process writes it") {
+  const TemporaryFolder folder;
+  Diagnostics all;
+  REQUIRE(writeFile(folder.at("a"), std::string_view("old"), all));
+  {
+    PendingFile file(folder.at("a"));
+    CHECK(file.write(std::string_view("half")));
+    CHECK(file.name() == folder.at(".a.part"));
+    CHECK(PendingFile(folder.at("a"), false).error() == EWOULDBLOCK);
+    CHECK(readFile(file.name(), all) == "half");
+    CHECK(readFile(folder.at("a"), all) == "old");
+  }
+  CHECK_FALSE(std::filesystem::exists(folder.at(".a.part")));
+  // Many at once: each waits for the others, and one of them is the last.
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 8; ++i)
+    threads.emplace_back([&, text = std::string(100'000, static_cast<char>('a' + i))] {
+      Diagnostics said;
+      for (int k = 0; k < 20; ++k) CHECK_MESSAGE(writeFile(folder.at("a"), text, said), said.text());
+    });
+  for (std::thread& thread : threads) thread.join();
+  const auto text = readFile(folder.at("a"), all);
+  REQUIRE(text);
+  CHECK(*text == std::string(100'000, text->front()));
+  CHECK_FALSE(std::filesystem::exists(folder.at(".a.part")));
+}
+
+TEST_CASE("hashes are kept of what is read and written, from when they are asked for") {
+  const TemporaryFolder folder;
+  Diagnostics all;
+  CHECK_FALSE(keptHash(folder.write("a", "one")));
+  keepHashes();
+  CHECK(readFile(folder.at("a"), all) == "one");
+  CHECK(keptHash(folder.at("./a")) == hashBytes("one"));
+  REQUIRE(writeFile(folder.at("a"), std::string_view("two"), all));
+  CHECK(keptHash(folder.at("a")) == hashBytes("two"));
 }
 
 TEST_CASE("what is written is read back") {
