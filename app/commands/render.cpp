@@ -1,8 +1,17 @@
 // weft render: frames of a graph to image files, reproducible to the byte. weft dump: what each pass wrote in one of them.
+#include <unistd.h>
+
+#include <csignal>
+
 #include "app/commands/commands.h"
+#include "app/output/frame_set.h"
+#include "app/output/interruption.h"
+#include "app/output/manifest.h"
 #include "app/output/pictures.h"
+#include "app/output/video.h"
 #include "engine/graph/language/names.h"
 #include "engine/runtime/inspection/inspector.h"
+#include "engine/text/hash.h"
 
 namespace weft::app {
 
@@ -18,12 +27,28 @@ struct Part {
 
 // What a run of frames writes, and what is known of it afterwards.
 struct FrameRun {
-  std::string output;  // the presented picture; empty: only the parts
+  std::vector<std::uint32_t> frames{};  // to write, ascending
+  std::string output;                   // the presented picture; empty: only the parts
   std::vector<Part> parts;
+  std::map<std::string, std::unique_ptr<Video>> videos{};  // those of the files that are
+  std::optional<Manifest> manifest{};
   PictureWriter writer{};
   runtime::FrameReport last{};
-  std::uint64_t frames = 0;
-  double firstMs = 0;  // of the first frame
+  std::uint64_t ran = 0, written = 0;  // frames
+  double firstMs = 0;                  // of the first frame
+  int signal = 0;                      // that ended it
+
+  Video* videoOf(const std::string& file) const {
+    const auto found = videos.find(file);
+    return found == videos.end() ? nullptr : found->second.get();
+  }
+  std::vector<std::string> filesOf(std::uint32_t frame) const {
+    std::vector<std::string> files;
+    if (!output.empty()) files.push_back(*outputNameOf(output, frame));
+    for (const Part& part : parts)
+      for (const std::string& file : part.files) files.push_back(*outputNameOf(file, frame));
+    return files;
+  }
 };
 
 const graph::FlatResource& resourceOf(const graph::FlatGraph& graph, const runtime::CaptureItem& item) {
@@ -31,52 +56,96 @@ const graph::FlatResource& resourceOf(const graph::FlatGraph& graph, const runti
   return graph.resources[static_cast<std::size_t>(at)];
 }
 
-// Runs the frames up to options.lastFrame and writes those from options.firstFrame on. Frames before them run too when one of
-// them may look back, so frame N does not depend on where the range starts. `onWritten` is called after each that was written.
+// Starts those of the outputs that are videos. False after an error.
+bool startVideos(const Options& options, runtime::Execution& execution, FrameRun& run,
+                 text::Diagnostics& diagnostics) {
+  const auto start = [&](const std::string& file, std::uint32_t width, std::uint32_t height) {
+    return !isVideo(file) || (run.videos[file] = Video::start(file, width, height, options.fps, diagnostics));
+  };
+  bool good = true;
+  if (!run.output.empty()) {
+    const gl::TextureDesc desc = execution.presented().desc;
+    good = start(run.output, desc.width, desc.height);
+  }
+  for (const Part& part : run.parts) {
+    const graph::FlatResource& resource = resourceOf(*execution.plan().graph, part.item);
+    const auto sideOf = [&](std::uint32_t side) { return std::max(1u, side >> part.item.target.mip); };
+    good = good && start(part.files[0], sideOf(resource.width), sideOf(resource.height));
+  }
+  return good;
+}
+
+// Runs the frames of a set and writes them. Those before them run too when one may look back, so what frame N shows does not depend
+// on the set. `onWritten` is called after each that was drawn.
 void runFrames(DeviceSession& session, runtime::World& world, const Options& options, FrameRun& run,
                const std::function<void()>& onWritten, text::Diagnostics& diagnostics) {
+  if (run.frames.empty()) return;
   runtime::Renderer& renderer = session.renderer;
   runtime::Execution& execution = *renderer.execution();
-  const std::uint32_t begin = execution.remembers(world) ? 0 : options.firstFrame;
-  run.frames = std::uint64_t{options.lastFrame} - begin + 1;
-  ProgressLines lines({.total = run.frames, .lead = options.firstFrame - begin});
+  const bool all = execution.remembers(world);
+  const std::uint64_t total = all ? std::uint64_t{run.frames.back()} + 1 : run.frames.size();
+  ProgressLines lines({.total = total, .lead = all ? run.frames.front() : 0});
   std::vector<runtime::CaptureItem> items;
   for (const Part& part : run.parts) items.push_back(part.item);
   runtime::Capture capture(renderer.device());
-  std::uint32_t frame = begin;
+  std::uint32_t frame = 0;
   text::Diagnostics said;
   const auto save = [&](std::size_t i, runtime::Inspector& inspector) {
     Part& part = run.parts[i];
     part.saved = std::ranges::all_of(part.files, [&](const std::string& file) {
-      return saveInspected(inspector, *outputNameOf(file, frame), said);
+      return saveInspected(inspector, *outputNameOf(file, frame), said, run.videoOf(file));
     });
   };
-  for (std::uint64_t done = 1; done <= run.frames && !diagnostics.hasErrors(); ++done) {
-    frame = static_cast<std::uint32_t>(begin + (done - 1));
-    if (frame == options.firstFrame && !items.empty()) capture.start(execution, items, save);
+  const Interruption interruption;
+  if (!startVideos(options, execution, run, diagnostics)) return;
+  while (run.ran < total && !diagnostics.hasErrors() && (run.signal = interruption.signal()) == 0) {
+    frame = all ? static_cast<std::uint32_t>(run.ran) : run.frames[run.written];
+    const bool wanted = frame == run.frames[run.written];
+    if (!items.empty() && wanted) capture.start(execution, items, save);
     for (Part& part : run.parts) part.saved = false;
     const double before = gl::steadyMs();
     run.last = drawFrame(renderer, world, options, frame, diagnostics);
     renderer.dropUploaded(world);
-    if (done == 1) {
+    if (run.ran++ == 0) {
       glFinish();
       run.firstMs = gl::steadyMs() - before;
     }
-    if (run.frames > 1 && !options.quiet) lines.countOne();
-    if (frame < options.firstFrame) continue;
-    diagnostics.append(std::exchange(said, {}));
-    onWritten();
-    if (!run.output.empty() && !diagnostics.hasErrors())
-      run.writer.save(renderer, *outputNameOf(run.output, frame), diagnostics);
+    if (!items.empty()) capture.stop(execution);
+    if (wanted) {
+      diagnostics.append(std::exchange(said, {}));
+      onWritten();
+      if (!run.output.empty() && !diagnostics.hasErrors())
+        run.writer.save(renderer, *outputNameOf(run.output, frame), diagnostics, run.videoOf(run.output));
+      if (run.manifest && !diagnostics.hasErrors())
+        run.manifest->add(frame, run.filesOf(frame), (gl::steadyMs() - before) / 1000, diagnostics);
+      run.written += !diagnostics.hasErrors();
+    }
+    if (total > 1 && !options.quiet) lines.countOne();
   }
-  if (!items.empty()) capture.stop(execution);
+  for (const auto& [file, video] : run.videos)
+    if (run.signal == 0 && !diagnostics.hasErrors()) video->finish(diagnostics);
   session.context->drainMessages(diagnostics);
   run.writer.tell(diagnostics);
+}
+
+// Says what a signal has left, and how to go on. The exit code.
+int tellInterrupted(const FrameRun& run) {
+  const auto left = std::span(run.frames).subspan(run.written);
+  std::string next = "go on with --frames " + text::shortened(framesText(left));
+  if (run.manifest) next = "the same command with --skip-done goes on";
+  if (!run.videos.empty()) next = fmt::format("'{}' is not written", run.videos.begin()->first);
+  printError(text::printable(fmt::format("{}: {} of {} written; {}", strsignal(run.signal), run.written,
+                                         text::counted(run.frames.size(), "frame"), next)) +
+             "\n");
+  return 128 + run.signal;
 }
 
 struct RenderOptions : Options {
   std::vector<std::string> outputs;  // -o, as they were written
   std::string present;
+  std::vector<std::uint32_t> frames = {0};
+  std::string manifest;
+  bool skipDone = false;
 };
 
 // `-o FILE`, `-o NAME=FILE` and `--present NAME`: the parts are those of options.kept. What is wrong with them, or nothing.
@@ -123,20 +192,72 @@ void findParts(const RenderOptions& options, const graph::Plan& plan, FrameRun& 
   }
 }
 
+// The manifest of the options, if any, once the graph is loaded; frames that it knows as done are taken out of the run. False
+// after an error.
+bool openManifest(const RenderOptions& options, const std::string& path, DeviceSession& session,
+                  std::span<const OutputFile> outputs, FrameRun& run, text::Diagnostics& diagnostics) {
+  const gl::DeviceInfo& device = session.context->device();
+  std::uint64_t settings = hashOfSettings(options, session);
+  for (const OutputFile& output : outputs)
+    settings =
+        text::hashBytes(output.option + std::filesystem::path(output.pattern).filename().string(), settings);
+  char host[256] = {};
+  ::gethostname(host, sizeof host - 1);
+  run.manifest.emplace(
+      path, fmt::format("{:016x}", settings),
+      nlohmann::ordered_json{{"host", host},
+                             {"command", options.typed},
+                             {"weft", fmt::format("{} ({:016x})", kVersion, hashOfProgram())},
+                             {"driver", device.renderer + ", " + device.version}});
+  if (!makeFolderOf(path, diagnostics) || !run.manifest->read(diagnostics)) return false;
+  if (!options.skipDone) return true;
+  std::erase_if(run.frames,
+                [&](std::uint32_t frame) { return run.manifest->isDone(frame, run.filesOf(frame)); });
+  const auto others =
+      std::ranges::count_if(run.frames, [&](std::uint32_t frame) { return run.manifest->hasOther(frame); });
+  if (others > 0 && !options.quiet)
+    printError(
+        fmt::format("{} of '{}' drawn before with other settings, files, program or driver: drawn again\n",
+                    text::counted(static_cast<std::uint64_t>(others), "frame"), text::printable(path)));
+  return true;
+}
+
+// What is wrong with the options, or nothing.
+std::string checkTogether(const RenderOptions& options, std::span<const OutputFile> outputs) {
+  for (const OutputFile& output : outputs) {
+    if (!isVideo(output.pattern)) continue;
+    if (options.skipDone || !options.manifest.empty())
+      return fmt::format("{} is for pictures, which are files of their own: '{}' is one film of all frames",
+                         options.skipDone ? "--skip-done" : "--manifest", output.pattern);
+    if (output.pattern.find('%') != std::string::npos)
+      return fmt::format("'{}' is one film of all frames, and its name has no place for a number",
+                         output.pattern);
+  }
+  return {};
+}
+
 int runRender(RenderOptions& options) {
   const double start = gl::steadyMs();
-  FrameRun run;
-  if (const std::string wrong = takeOutputs(options, run); !wrong.empty()) {
-    printError("weft render: " + text::shortened(text::printable(wrong)) + "\n");
-    return 2;
-  }
-  text::Diagnostics wrong;
+  FrameRun run{.frames = options.frames, .output = {}, .parts = {}};
+  std::string unfit = takeOutputs(options, run);
   std::vector<OutputFile> outputs;
   if (!run.output.empty()) outputs.push_back({"-o", run.output});
   for (const Part& part : run.parts) outputs.push_back({"-o " + part.name, part.files[0]});
+  if (unfit.empty()) unfit = checkTogether(options, outputs);
+  if (!unfit.empty()) {
+    printError("weft render: " + text::shortened(text::printable(unfit)) + "\n");
+    return 2;
+  }
+  text::Diagnostics wrong;
   for (const OutputFile& each : outputs)
-    checkOutput(each.pattern, options.firstFrame, options.lastFrame > options.firstFrame, wrong);
+    if (!isVideo(each.pattern)) checkOutput(each.pattern, run.frames[0], run.frames.size() > 1, wrong);
   if (wrong.hasErrors()) return report(wrong);
+  const std::string manifest =
+      options.manifest.empty() && options.skipDone ? manifestNameOf(outputs[0].pattern) : options.manifest;
+  if (!manifest.empty()) {
+    text::keepHashes();
+    text::chooseFile(manifest);
+  }
   return runOnDevice({&options}, 1, [&](auto& session, auto& world, text::Diagnostics& diagnostics) {
     runtime::Renderer& renderer = session->renderer;
     if (!renderer.load(settingsOf(options, session->context->device().software), world, diagnostics) ||
@@ -144,7 +265,11 @@ int runRender(RenderOptions& options) {
       return 1;
     const double prepared = gl::steadyMs();
     findParts(options, renderer.execution()->plan(), run, diagnostics);
-    if (!checkDistinct(outputs, diagnostics) || diagnostics.hasErrors()) return 1;
+    std::vector<OutputFile> all = outputs;
+    all.push_back({"--manifest", manifest});
+    if (!checkDistinct(all, diagnostics) || diagnostics.hasErrors() ||
+        (!manifest.empty() && !openManifest(options, manifest, *session, outputs, run, diagnostics)))
+      return 1;
     renderer.device().timers.setEnabled(options.profile);
     const auto checkSaved = [&] {
       for (const Part& part : run.parts)
@@ -153,11 +278,16 @@ int runRender(RenderOptions& options) {
                        "its import may be missing, or its pass did not run", diagnostics);
     };
     runFrames(*session, world, options, run, checkSaved, diagnostics);
-    if (diagnostics.hasErrors() || !options.stats) return 0;
+    if (run.signal != 0) return tellInterrupted(run);
+    if (diagnostics.hasErrors()) return 0;
+    if (options.skipDone && !options.quiet)
+      printError(fmt::format("{}: {} done already, {} drawn\n", text::counted(options.frames.size(), "frame"),
+                             options.frames.size() - run.frames.size(), run.written));
+    if (!options.stats) return 0;
     auto stats = statsOf(*session, {{"setup_ms", prepared - start},
                                     {"first_frame_ms", run.firstMs},
                                     {"total_ms", gl::steadyMs() - start},
-                                    {"frames_run", run.frames},
+                                    {"frames_run", run.ran},
                                     {"passes_run_last_frame", run.last.passesRun},
                                     {"passes_skipped_last_frame", run.last.passesSkipped},
                                     {"barriers_last_frame", run.last.barriers}});
@@ -222,18 +352,20 @@ std::vector<Part> matchingParts(const DumpOptions& options, const graph::Plan& p
 }
 
 int runDump(DumpOptions& options) {
-  options.firstFrame = options.lastFrame;
   return runOnDevice({&options}, 1, [&](auto& session, auto& world, text::Diagnostics& diagnostics) {
     runtime::Renderer& renderer = session->renderer;
     if (!renderer.load(settingsOf(options, session->context->device().software), world, diagnostics))
       return 1;
-    FrameRun run{.output = {}, .parts = matchingParts(options, renderer.execution()->plan(), diagnostics)};
+    FrameRun run{.frames = {options.lastFrame},
+                 .output = {},
+                 .parts = matchingParts(options, renderer.execution()->plan(), diagnostics)};
     std::vector<OutputFile> outputs;
     for (const Part& part : run.parts)
       for (const std::string& file : part.files) outputs.push_back({"-o", file, OutputFile::Over::file});
     if (diagnostics.hasErrors() || !checkDistinct(outputs, diagnostics)) return 1;
     runFrames(
         *session, world, options, run, [] {}, diagnostics);
+    if (run.signal != 0) return tellInterrupted(run);
     for (const Part& part : run.parts)
       if (!options.quiet && !diagnostics.hasErrors())
         print(text::printable(
@@ -253,14 +385,20 @@ void addRender(CommandLine& line) {
   options.addGraph(command);
   options.addMeasurements(command);
   addPath(command, "-o,--output", options.outputs,
-          "image to write, .png or .exr, of frames f_%04d.png, of a texture depth=FILE; repeatable")
+          "image to write, .png or .exr, of frames f_%04d.png, of a texture depth=FILE; or a film of the "
+          "frames, .mp4 or .mkv (lossless), by ffmpeg; repeatable")
       ->required();
   command.add_option("--present", options.present,
                      "texture to show instead of the picture: depth, 'hdr after skybox', 'glow.mip[2]'");
-  const auto takeFrames = [&options = options](const std::string& text) {
-    return takeRange(text, options.firstFrame, options.lastFrame);
+  const auto take = [&options = options](const std::string& text) {
+    return takeFrames(text, options.frames);
   };
-  addTaken(command, "--frames", takeFrames, "A:B", "a frame number, or FIRST:LAST");
+  addTaken(command, "--frames", take, "FRAMES", "frames to write: 7, 1:100, 1-100x3,200 (x: every third)");
+  addPath(command, "--manifest", options.manifest,
+          "file to add a line of JSON to for each frame that is written");
+  command.add_flag("--skip-done", options.skipDone,
+                   "draw no frame that the manifest has, with its files and the same settings (default "
+                   "manifest: f_.frames.jsonl beside f_%04d.png)");
   options.addDrawing(command);
   command.add_flag("--wait-for-assets")->description("as always without a window");
   command.add_flag("--quiet", options.quiet, "no progress bar and no notes");

@@ -29,7 +29,8 @@ bool savePng(const std::string& path, const assets::Image8& image, text::Diagnos
          assets::savePng8(path, image.width, image.height, image.channels, image.texels, diagnostics);
 }
 
-bool saveInspected(runtime::Inspector& inspector, const std::string& path, text::Diagnostics& diagnostics) {
+bool saveInspected(runtime::Inspector& inspector, const std::string& path, text::Diagnostics& diagnostics,
+                   Video* video) {
   if (inspector.picture().id == 0) {
     const std::vector<std::byte> bytes = inspector.bytes(0, inspector.bufferBytes());
     return makeFolderOf(path, diagnostics) &&
@@ -37,7 +38,7 @@ bool saveInspected(runtime::Inspector& inspector, const std::string& path, text:
   }
   if (pictureKindOf(path) != ".exr") {
     const auto image = inspector.drawWhole(inspector.fittedView(), diagnostics);
-    return image && savePng(path, *image, diagnostics);
+    return image && (video ? video->add(*image, diagnostics) : savePng(path, *image, diagnostics));
   }
   auto image = inspector.values();
   if (!image || !makeFolderOf(path, diagnostics)) return false;
@@ -78,14 +79,15 @@ void PictureWriter::look(const assets::ImageF& picture, runtime::Renderer& rende
   first_ = std::move(found);
 }
 
-bool PictureWriter::save(runtime::Renderer& renderer, const std::string& path,
-                         text::Diagnostics& diagnostics) {
+bool PictureWriter::save(runtime::Renderer& renderer, const std::string& path, text::Diagnostics& diagnostics,
+                         Video* video) {
   const bool values = pictureKindOf(path) == ".exr";
   bool good = false;
   if (const auto image = renderer.readPresentedFloat()) {
     look(*image, renderer, path);
-    good = values ? makeFolderOf(path, diagnostics) && assets::saveExr(path, *image, diagnostics)
-                  : savePng(path, runtime::toBytes(*image), diagnostics);
+    good = video    ? video->add(runtime::toBytes(*image), diagnostics)
+           : values ? makeFolderOf(path, diagnostics) && assets::saveExr(path, *image, diagnostics)
+                    : savePng(path, runtime::toBytes(*image), diagnostics);
   }
   counts_.pictures += good;
   return good;

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/output/video.h"
 #include "engine/runtime/frame/execution.h"
 #include "engine/runtime/frame/renderer.h"
 #include "engine/runtime/inspection/inspector.h"
@@ -17,8 +18,9 @@ namespace weft::app {
 
 // Makes the folder of the file. False after W180, as all of these.
 bool savePng(const std::string& path, const assets::Image8& image, text::Diagnostics& diagnostics);
-// Saves a copy of the inspector's: a picture by the kind of the name, a buffer as its bytes.
-bool saveInspected(runtime::Inspector& inspector, const std::string& path, text::Diagnostics& diagnostics);
+// Saves a copy of the inspector's: a picture by the kind of the name, or as the next one of the video; a buffer as its bytes.
+bool saveInspected(runtime::Inspector& inspector, const std::string& path, text::Diagnostics& diagnostics,
+                   Video* video = nullptr);
 
 class PictureWriter {
  public:
@@ -28,7 +30,8 @@ class PictureWriter {
     std::uint64_t pixels = 0;    // that have such values, of all
   };
 
-  bool save(runtime::Renderer& renderer, const std::string& path, text::Diagnostics& diagnostics);
+  bool save(runtime::Renderer& renderer, const std::string& path, text::Diagnostics& diagnostics,
+            Video* video = nullptr);
   // Notes what values in the presented picture are no colors. `file`: which is said to have them.
   void look(const assets::ImageF& picture, runtime::Renderer& renderer, const std::string& file);
   // One warning (W207) for all pictures since the last call, or none.

@@ -98,17 +98,20 @@ std::string progressText(const Progress& p) {
   std::string text = fmt::format("{}/{} {}", p.done, p.total, p.unit);
   if (p.done >= p.total) return text + " in " + durationText(p.seconds);
   if (p.lead > 0) text += fmt::format(", {} of them lead up to the first picture", p.lead);
-  const double each = p.seconds / static_cast<double>(std::max<std::uint64_t>(1, p.done));
+  const bool apart = p.done > 1;  // the first says little of the rest
+  const double each = (p.seconds - (apart ? p.first : 0)) /
+                      static_cast<double>(std::max<std::uint64_t>(1, p.done - (apart ? 1 : 0)));
   return text + fmt::format(", {} left", durationText(each * static_cast<double>(p.total - p.done)));
 }
 
 void ProgressLines::countOne() {
-  constexpr double kPause = 10;  // seconds
   ++progress_.done;
   progress_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  if (progress_.done == 1) progress_.first = progress_.seconds;
+  const double pause = std::clamp(progress_.seconds / 10, 10.0, 300.0);
   const bool last = progress_.done == progress_.total, terminal = ::isatty(STDERR_FILENO) == 1;
   if (terminal) printError("\r" + progressText(progress_) + "\033[K" + (last ? "\n" : ""));
-  if (terminal || (progress_.seconds - printed_ < kPause && !(last && printed_ > 0))) return;
+  if (terminal || (progress_.seconds - printed_ < pause && !(last && printed_ > 0))) return;
   printError(progressText(progress_) + "\n");
   printed_ = progress_.seconds;
 }

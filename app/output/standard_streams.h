@@ -27,17 +27,18 @@ int finishStreams(int exitCode);
 // "4.2 s", "52 s", "12 min", "2.2 h": as exact as an estimate is worth.
 std::string durationText(double seconds);
 
-// Of `total`, `lead` frames run only because a later frame looks back at them, and `done` are finished after `seconds`.
+// Of `total`, `lead` frames run only because a later frame looks back at them, and `done` are finished after `seconds`. The first
+// took `first`: it compiles and loads.
 struct Progress {
   std::uint64_t done = 0, total = 1, lead = 0;
-  double seconds = 0;
+  double seconds = 0, first = 0;
   const char* unit = "frames";  // what is counted
 };
 
 // "12/501 frames, 500 of them lead up to the first picture, 2.2 h left".
 std::string progressText(const Progress& progress);
 
-// How far a long run is, on standard error: one line on a terminal, elsewhere a line every ten seconds.
+// How far a long run is, on standard error: one line on a terminal, elsewhere a line every ten seconds, later every few minutes.
 class ProgressLines {
  public:
   explicit ProgressLines(Progress progress) : progress_(progress) {}

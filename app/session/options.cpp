@@ -186,12 +186,6 @@ std::string takeCount(const std::string& text, std::uint32_t& count) {
                                  : fmt::format("expected a number of frames up to {}, found '{}'", ~0u, text);
 }
 
-std::string takeRange(const std::string& text, std::uint32_t& first, std::uint32_t& last) {
-  if (readPair(text, ':', first, last) && first <= last) return {};
-  if (readNumber(text, first)) return last = first, "";
-  return fmt::format("expected NUMBER or FIRST:LAST, whole numbers from 0 to {}, found '{}'", ~0u, text);
-}
-
 std::string takePointer(const std::string& text, imports::Pointer& pointer) {
   constexpr std::string_view kHeld = ",down";
   float x = 0, y = 0;

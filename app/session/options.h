@@ -26,7 +26,7 @@ struct Options {
   std::string scene, environment;  // empty: the bundled spheres, no environment
   std::string camera, materials;   // empty: the scene's first camera, the materials it names
   std::uint32_t width = 1280, height = 720;
-  std::uint32_t firstFrame = 0, lastFrame = 0;
+  std::uint32_t lastFrame = 0;  // to look at
   double fps = 60;
   imports::Pointer pointer;  // of every frame: what it says
   std::vector<graph::Disable> disables;
@@ -95,7 +95,6 @@ CLI::Option* addTaken(CLI::App& command, const char* name,
 // These read a text. They return "", or what is wrong with it.
 std::string takeSize(const std::string& text, std::uint32_t& width, std::uint32_t& height);  // "640x360"
 std::string takeCount(const std::string& text, std::uint32_t& count);                        // "7"
-std::string takeRange(const std::string& text, std::uint32_t& first, std::uint32_t& last);   // "7" or "0:59"
 // "80,45" or "80,45,down": pixels of the picture from its lower left corner, and that the button is held there.
 std::string takePointer(const std::string& text, imports::Pointer& pointer);
 std::string checkSet(const std::string& text);  // "NAME=VALUE"

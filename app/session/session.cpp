@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <future>
+#include <set>
 
 #include "app/output/standard_streams.h"
 #include "engine/assets/images/image.h"
@@ -10,6 +13,7 @@
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/read/read.h"
 #include "engine/runtime/prepare/program_request.h"
+#include "engine/text/hash.h"
 #include "engine/text/json/report.h"
 
 namespace weft::app {
@@ -196,6 +200,51 @@ bool checkPresents(const Options& options, runtime::Renderer& renderer, text::Di
   diagnostics.error(text::Code::presentsNothing, {options.graph, 1, 1}, "the graph presents nothing to write",
                     {.hint = "add \"present\": \"<texture>\", and enable a pass that writes it"});
   return false;
+}
+
+std::uint64_t hashOfProgram() {
+  std::ifstream program("/proc/self/exe", std::ios::binary);
+  return text::hashBytes(std::string(std::istreambuf_iterator(program), {}));
+}
+
+std::uint64_t hashOfSettings(const Options& options, DeviceSession& session) {
+  namespace fs = std::filesystem;
+  const auto isBelow = [](const std::string& path, const std::string& folder) {
+    return !folder.empty() && path.starts_with(text::absolutePath(folder) + "/");
+  };
+  const auto nameOf = [&](const std::string& path) {
+    const std::string absolute = text::absolutePath(path);
+    if (isBelow(absolute, dataFolder())) return absolute.substr(text::absolutePath(dataFolder()).size());
+    const fs::path folder = fs::path(text::absolutePath(options.graph)).parent_path();
+    return path.empty() ? "" : fs::path(absolute).lexically_relative(folder).string();
+  };
+  std::string all = fmt::format("{:x} {} {} {}x{} {} {} {} {} {} {},{},{}", hashOfProgram(),
+                                session.context->device().driverKey, nameOf(options.graph), options.width,
+                                options.height, options.fps, nameOf(options.scene),
+                                nameOf(options.environment), nameOf(options.materials), options.camera,
+                                options.pointer.position.x, options.pointer.position.y, options.pointer.down);
+  for (const graph::Setting& set : options.sets) all += fmt::format("\n{}={}", set.name, set.text);
+  for (const graph::Disable& pass : options.disables) all += "\n-" + pass.name;
+  for (const std::string& preset : options.presets) all += "\n+" + nameOf(preset);
+  const std::set<std::string> read = text::filesRead();
+  std::set<std::string> files = read, lines;
+  for (const std::string& file : session.renderer.files()) files.insert(text::absolutePath(file));
+  for (const std::string& file : files) {
+    std::error_code ec;
+    if (isBelow(file, cacheFolderOf(options)) || (!read.contains(file) && !fs::is_regular_file(file, ec)))
+      continue;
+    std::optional<std::uint64_t> hash = text::keptHash(file);
+    text::Diagnostics unread;
+    if (const auto bytes = hash || !read.contains(file) ? std::nullopt : text::readFile(file, unread))
+      hash = text::hashBytes(*bytes);
+    if (!hash)
+      hash = text::hashCombine(
+          fs::file_size(file, ec),
+          static_cast<std::uint64_t>(fs::last_write_time(file, ec).time_since_epoch().count()));
+    lines.insert(fmt::format("\n{} {:x}", nameOf(file), *hash));
+  }
+  for (const std::string& line : lines) all += line;
+  return text::hashBytes(all);
 }
 
 nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json times) {

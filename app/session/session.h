@@ -86,6 +86,11 @@ runtime::FrameReport drawFrame(runtime::Renderer& renderer, const runtime::World
 // False after W188: the graph presents nothing.
 bool checkPresents(const Options& options, runtime::Renderer& renderer, text::Diagnostics& diagnostics);
 
+// A hash of all that decides pixels, once the graph is loaded: the bytes of the files that were read (of pictures of a sequence their
+// size and time), options, this program and the driver. Paths count as they are seen from the graph.
+std::uint64_t hashOfSettings(const Options& options, DeviceSession& session);
+std::uint64_t hashOfProgram();  // of its bytes
+
 // --stats: one JSON object. Waits for the outputs of the last frame.
 nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json times);
 

@@ -18,5 +18,6 @@ TEST_CASE("progress says what the frames before the first picture are for") {
   CHECK(progressText({.done = 1, .total = 4, .seconds = 2}) == "1/4 frames, 6.0 s left");
   CHECK(progressText({.done = 251, .total = 501, .lead = 500, .seconds = 2510}) ==
         "251/501 frames, 500 of them lead up to the first picture, 42 min left");
+  CHECK(progressText({.done = 3, .total = 13, .seconds = 9, .first = 5}) == "3/13 frames, 20 s left");
   CHECK(progressText({.done = 4, .total = 4, .seconds = 8}) == "4/4 frames in 8.0 s");
 }

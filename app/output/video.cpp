@@ -1,0 +1,186 @@
+#include "app/output/video.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "app/output/output_files.h"
+#include "engine/text/chars.h"
+
+extern char** environ;
+
+namespace weft::app {
+
+namespace {
+
+// The last lines of what ffmpeg said.
+std::string lastLines(int file) {
+  constexpr off_t kMost = 1000;
+  const off_t size = ::lseek(file, 0, SEEK_END), begin = std::max<off_t>(0, size - kMost);
+  std::string bytes(static_cast<std::size_t>(size - begin), '\0');
+  bytes.resize(
+      static_cast<std::size_t>(std::max<ssize_t>(0, ::pread(file, bytes.data(), bytes.size(), begin))));
+  std::vector<std::string> lines;
+  for (std::string_view rest = bytes; !rest.empty();)
+    if (const std::string_view line = text::trimmed(text::takeLine(rest)); !line.empty())
+      lines.emplace_back(line);
+  const std::size_t count = std::min<std::size_t>(3, lines.size());
+  return fmt::format("{}", fmt::join(lines.end() - static_cast<std::ptrdiff_t>(count), lines.end(), "; "));
+}
+
+}  // namespace
+
+bool isVideo(const std::string& path) {
+  const std::string kind = pictureKindOf(path);
+  return kind == ".mp4" || kind == ".mkv";
+}
+
+std::unique_ptr<Video> Video::start(const std::string& path, std::uint32_t width, std::uint32_t height,
+                                    double fps, text::Diagnostics& diagnostics) {
+  const bool lossless = pictureKindOf(path) == ".mkv";
+  if (!lossless && (width % 2 != 0 || height % 2 != 0)) {
+    refuseOutput(
+        path,
+        fmt::format("cannot write '{}': an .mp4 has an even width and height, not {}x{}", path, width,
+                    height),
+        fmt::format("--size {}x{}, or an .mkv, which takes any size", width + width % 2, height + height % 2),
+        diagnostics);
+    return nullptr;
+  }
+  std::vector<std::string> command{"ffmpeg",
+                                   "-hide_banner",
+                                   "-loglevel",
+                                   "error",
+                                   "-nostats",
+                                   "-y",
+                                   "-f",
+                                   "rawvideo",
+                                   "-pix_fmt",
+                                   "rgba",
+                                   "-video_size",
+                                   fmt::format("{}x{}", width, height),
+                                   "-framerate",
+                                   fmt::format("{}", fps),
+                                   "-i",
+                                   "pipe:0",
+                                   "-map_metadata",
+                                   "-1",
+                                   "-fflags",
+                                   "+bitexact",
+                                   "-flags:v",
+                                   "+bitexact"};
+  const std::vector<std::string> coded =
+      lossless ? std::vector<std::string>{"-c:v", "ffv1", "-level", "3", "-pix_fmt", "bgr0", "-f", "matroska"}
+               : std::vector<std::string>{"-vf",
+                                          "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p",
+                                          "-c:v",
+                                          "libx264",
+                                          "-crf",
+                                          "16",
+                                          "-colorspace",
+                                          "bt709",
+                                          "-color_primaries",
+                                          "bt709",
+                                          "-color_trc",
+                                          "iec61966-2-1",
+                                          "-movflags",
+                                          "+faststart",
+                                          "-f",
+                                          "mp4"};
+  command.insert(command.end(), coded.begin(), coded.end());
+  if (!makeFolderOf(path, diagnostics)) return nullptr;
+  auto video = std::unique_ptr<Video>(new Video(path));
+  command.push_back("file:" + video->file_.name());
+  return video->run(std::move(command), diagnostics) ? std::move(video) : nullptr;
+}
+
+bool Video::run(std::vector<std::string> command, text::Diagnostics& diagnostics) {
+  if (file_.error() != 0)
+    return refuseOutput(path_,
+                        fmt::format("cannot write '{}': {}", path_,
+                                    file_.error() == EWOULDBLOCK ? "another run is writing it"
+                                                                 : std::strerror(file_.error())),
+                        "name a file in an existing folder that can be written to", diagnostics);
+  std::vector<char*> words;
+  for (std::string& word : command) words.push_back(word.data());
+  words.push_back(nullptr);
+  int ends[2] = {-1, -1};
+  errors_ = ::memfd_create("ffmpeg", MFD_CLOEXEC);
+  int error = errors_ >= 0 && ::pipe2(ends, O_CLOEXEC) == 0 ? 0 : errno;
+  pipe_ = ends[1];
+  if (error == 0) {
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, errors_, STDERR_FILENO);
+    posix_spawnattr_t attributes;  // a group of its own: Ctrl-C is for this process, which ends that one
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    error = posix_spawnp(&process_, words[0], &actions, &attributes, words.data(), environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    if (error != 0) process_ = -1;
+  }
+  ::close(ends[0]);
+  return error == 0 ||
+         refuseOutput(path_,
+                      fmt::format("cannot write '{}': the program ffmpeg cannot be started: {}", path_,
+                                  std::strerror(error)),
+                      "install it (apt-get install ffmpeg), or write pictures: f_%04d.png", diagnostics);
+}
+
+// Waits for ffmpeg. False after W180, when it failed, or when it ended before the film did.
+bool Video::end(bool early, text::Diagnostics& diagnostics) {
+  ::close(std::exchange(pipe_, -1));
+  int status = 0;
+  while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+  }
+  process_ = -1;
+  if (!early && WIFEXITED(status) && WEXITSTATUS(status) == 0) return true;
+  const std::string how = WIFSIGNALED(status) ? fmt::format("signal {}", WTERMSIG(status))
+                                              : fmt::format("exit code {}", WEXITSTATUS(status));
+  diagnostics.error(text::Code::outputNotWritten, {path_},
+                    fmt::format("cannot write '{}': ffmpeg ended with {}", path_, how),
+                    {.found = lastLines(errors_), .hint = "the lines above are ffmpeg's own"});
+  return false;
+}
+
+bool Video::add(const assets::Image8& picture, text::Diagnostics& diagnostics) {
+  for (std::span<const std::uint8_t> bytes = picture.texels; !bytes.empty();) {
+    const ssize_t got = ::write(pipe_, bytes.data(), bytes.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return end(true, diagnostics);
+    bytes = bytes.subspan(static_cast<std::size_t>(got));
+  }
+  return true;
+}
+
+bool Video::finish(text::Diagnostics& diagnostics) {
+  return end(false, diagnostics) &&
+         (file_.putInPlace() ||
+          refuseOutput(path_, fmt::format("cannot write '{}': {}", path_, std::strerror(file_.error())),
+                       "name another file", diagnostics));
+}
+
+Video::~Video() {
+  if (pipe_ >= 0) ::close(pipe_);
+  if (errors_ >= 0) ::close(errors_);
+  if (process_ < 0) return;
+  ::kill(process_, SIGKILL);
+  while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+}  // namespace weft::app
