@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,13 +15,17 @@
 #include <vector>
 
 #include "app/output/output_files.h"
+#include "engine/text/apart.h"
 #include "engine/text/chars.h"
-
-extern char** environ;
 
 namespace weft::app {
 
 namespace {
+
+constexpr const char* kLossless = "-c:v ffv1 -level 3 -pix_fmt bgr0 -f matroska";
+constexpr const char* kSmall =
+    "-vf scale=out_color_matrix=bt709:out_range=tv,format=yuv420p -c:v libx264 -crf 16 -colorspace bt709 "
+    "-color_primaries bt709 -color_trc iec61966-2-1 -movflags +faststart -f mp4";
 
 // The last lines of what ffmpeg said.
 std::string lastLines(int file) {
@@ -48,8 +51,7 @@ bool isVideo(const std::string& path) {
 
 std::unique_ptr<Video> Video::start(const std::string& path, std::uint32_t width, std::uint32_t height,
                                     double fps, text::Diagnostics& diagnostics) {
-  const bool lossless = pictureKindOf(path) == ".mkv";
-  if (!lossless && (width % 2 != 0 || height % 2 != 0)) {
+  if (pictureKindOf(path) == ".mp4" && (width % 2 != 0 || height % 2 != 0)) {
     refuseOutput(
         path,
         fmt::format("cannot write '{}': an .mp4 has an even width and height, not {}x{}", path, width,
@@ -58,47 +60,13 @@ std::unique_ptr<Video> Video::start(const std::string& path, std::uint32_t width
         diagnostics);
     return nullptr;
   }
-  std::vector<std::string> command{"ffmpeg",
-                                   "-hide_banner",
-                                   "-loglevel",
-                                   "error",
-                                   "-nostats",
-                                   "-y",
-                                   "-f",
-                                   "rawvideo",
-                                   "-pix_fmt",
-                                   "rgba",
-                                   "-video_size",
-                                   fmt::format("{}x{}", width, height),
-                                   "-framerate",
-                                   fmt::format("{}", fps),
-                                   "-i",
-                                   "pipe:0",
-                                   "-map_metadata",
-                                   "-1",
-                                   "-fflags",
-                                   "+bitexact",
-                                   "-flags:v",
-                                   "+bitexact"};
-  const std::vector<std::string> coded =
-      lossless ? std::vector<std::string>{"-c:v", "ffv1", "-level", "3", "-pix_fmt", "bgr0", "-f", "matroska"}
-               : std::vector<std::string>{"-vf",
-                                          "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p",
-                                          "-c:v",
-                                          "libx264",
-                                          "-crf",
-                                          "16",
-                                          "-colorspace",
-                                          "bt709",
-                                          "-color_primaries",
-                                          "bt709",
-                                          "-color_trc",
-                                          "iec61966-2-1",
-                                          "-movflags",
-                                          "+faststart",
-                                          "-f",
-                                          "mp4"};
-  command.insert(command.end(), coded.begin(), coded.end());
+  std::string line = fmt::format(
+      "ffmpeg -hide_banner -loglevel error -nostats -y -f rawvideo -pix_fmt rgba -video_size {}x{} "
+      "-framerate {} "
+      "-i pipe:0 -map_metadata -1 -fflags +bitexact -flags:v +bitexact {}",
+      width, height, fps, pictureKindOf(path) == ".mkv" ? kLossless : kSmall);
+  std::vector<std::string> command;
+  for (std::string_view rest = line; !rest.empty();) command.emplace_back(text::takeWord(rest));
   if (!makeFolderOf(path, diagnostics)) return nullptr;
   auto video = std::unique_ptr<Video>(new Video(path));
   command.push_back("file:" + video->file_.name());
@@ -106,39 +74,25 @@ std::unique_ptr<Video> Video::start(const std::string& path, std::uint32_t width
 }
 
 bool Video::run(std::vector<std::string> command, text::Diagnostics& diagnostics) {
+  if (file_.error() == EWOULDBLOCK)
+    return refuse("another run is writing it", "name another file", diagnostics);
   if (file_.error() != 0)
-    return refuseOutput(path_,
-                        fmt::format("cannot write '{}': {}", path_,
-                                    file_.error() == EWOULDBLOCK ? "another run is writing it"
-                                                                 : std::strerror(file_.error())),
-                        "name a file in an existing folder that can be written to", diagnostics);
-  std::vector<char*> words;
-  for (std::string& word : command) words.push_back(word.data());
-  words.push_back(nullptr);
+    return refuse(std::strerror(file_.error()), "name a file in a folder that can be written to",
+                  diagnostics);
   int ends[2] = {-1, -1};
   errors_ = ::memfd_create("ffmpeg", MFD_CLOEXEC);
-  int error = errors_ >= 0 && ::pipe2(ends, O_CLOEXEC) == 0 ? 0 : errno;
+  if (errors_ >= 0 && ::pipe2(ends, O_CLOEXEC) == 0)
+    process_ = text::startProcess(std::move(command), ends[0], -1, errors_);
+  const int error = errno;
   pipe_ = ends[1];
-  if (error == 0) {
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, errors_, STDERR_FILENO);
-    posix_spawnattr_t attributes;  // a group of its own: Ctrl-C is for this process, which ends that one
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-    error = posix_spawnp(&process_, words[0], &actions, &attributes, words.data(), environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-    if (error != 0) process_ = -1;
-  }
   ::close(ends[0]);
-  return error == 0 ||
-         refuseOutput(path_,
-                      fmt::format("cannot write '{}': the program ffmpeg cannot be started: {}", path_,
-                                  std::strerror(error)),
-                      "install it (apt-get install ffmpeg), or write pictures: f_%04d.png", diagnostics);
+  return process_ >= 0 ||
+         refuse(fmt::format("the program ffmpeg cannot be started: {}", std::strerror(error)),
+                "install it (apt-get install ffmpeg), or write pictures: f_%04d.png", diagnostics);
+}
+
+bool Video::refuse(const std::string& why, const std::string& hint, text::Diagnostics& diagnostics) const {
+  return refuseOutput(path_, fmt::format("cannot write '{}': {}", path_, why), hint, diagnostics);
 }
 
 // Waits for ffmpeg. False after W180, when it failed, or when it ended before the film did.
@@ -169,9 +123,7 @@ bool Video::add(const assets::Image8& picture, text::Diagnostics& diagnostics) {
 
 bool Video::finish(text::Diagnostics& diagnostics) {
   return end(false, diagnostics) &&
-         (file_.putInPlace() ||
-          refuseOutput(path_, fmt::format("cannot write '{}': {}", path_, std::strerror(file_.error())),
-                       "name another file", diagnostics));
+         (file_.putInPlace() || refuse(std::strerror(file_.error()), "name another file", diagnostics));
 }
 
 Video::~Video() {

@@ -30,6 +30,7 @@ class Video {
  private:
   explicit Video(const std::string& path) : path_(path), file_(path, false) {}
   bool run(std::vector<std::string> command, text::Diagnostics& diagnostics);
+  bool refuse(const std::string& why, const std::string& hint, text::Diagnostics& diagnostics) const;
   bool end(bool early, text::Diagnostics& diagnostics);
 
   std::string path_;

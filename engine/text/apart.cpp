@@ -18,6 +18,7 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 extern char** environ;
 
@@ -27,22 +28,6 @@ namespace {
 
 // A busy machine may take this many times longer by the clock than by the processor.
 constexpr std::uint64_t kClockPerProcessor = 6;
-
-// The process; -1 when it cannot be started.
-pid_t start(std::vector<std::string> command, int input, int output) {
-  std::vector<char*> words;
-  for (std::string& word : command) words.push_back(word.data());
-  words.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  pid_t pid = -1;
-  const int error = posix_spawn(&pid, words[0], &actions, nullptr, words.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  return error == 0 ? pid : -1;
-}
 
 std::string pathOf(int file) {
   return fmt::format("/proc/self/fd/{}", file);
@@ -105,6 +90,29 @@ void setLimit(__rlimit_resource_t resource, std::uint64_t most) {
 
 }  // namespace
 
+pid_t startProcess(std::vector<std::string> command, int input, int output, int errors) {
+  std::vector<char*> words;
+  for (std::string& word : command) words.push_back(word.data());
+  words.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  for (const auto& [own, given] :
+       {std::pair{STDIN_FILENO, input}, {STDOUT_FILENO, output}, {STDERR_FILENO, errors}})
+    if (given >= 0)
+      posix_spawn_file_actions_adddup2(&actions, given, own);
+    else
+      posix_spawn_file_actions_addopen(&actions, own, "/dev/null", O_RDWR, 0);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  pid_t pid = -1;
+  const int error = posix_spawnp(&pid, words[0], &actions, &attributes, words.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  errno = error;
+  return error == 0 ? pid : -1;
+}
+
 ApartEnd runApart(std::vector<std::string> command, std::string_view input, std::uint64_t seconds,
                   const std::function<bool(char)>& goOn) {
   ApartEnd result;
@@ -112,7 +120,7 @@ ApartEnd runApart(std::vector<std::string> command, std::string_view input, std:
   int ends[2] = {-1, -1};
   const bool ready =
       file >= 0 && writeAll(file, input) && ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0;
-  const pid_t pid = ready ? start(std::move(command), file, ends[1]) : -1;
+  const pid_t pid = ready ? startProcess(std::move(command), file, ends[1], -1) : -1;
   ::close(ends[1]);
   if (pid >= 0) {
     const bool ended = listen(ends[0], seconds, goOn, result.said);

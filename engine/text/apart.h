@@ -4,6 +4,8 @@
 // made; how far it is, it says on its standard output, a byte a step.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -24,6 +26,10 @@ struct ApartEnd {
 // `seconds` by the clock, or when `goOn` is false. That is asked with each step, and with 0 twenty times a second.
 ApartEnd runApart(std::vector<std::string> command, std::string_view input, std::uint64_t seconds,
                   const std::function<bool(char step)>& goOn = {});
+
+// Starts a program, which is looked for in the PATH when its name has no slash, with these as its standard streams (-1: /dev/null), and
+// returns at once. Ctrl-C does not reach it. -1, and errno says why, when it cannot be started.
+pid_t startProcess(std::vector<std::string> command, int input, int output, int errors);
 
 // ---- in that process ----
 
