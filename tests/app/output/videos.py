@@ -74,12 +74,12 @@ def main():
         told = refused(1, "found: first line; the disk is on strike", "-o", "film.mkv", "--frames", "0-999", env=env)
         report.check(told.codes() == ["W180"] and "ffmpeg ended with exit code 7" in told.err, told.err)
         count_run()
-        process = subprocess.Popen([str(weft), *render, "-o", "long.mp4", "--size", "64x36", "--frames", "0-1000000"], cwd=folder, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen([str(weft), *render, "-o", "long.mp4", "--size", "64x36", "--frames", "0-1000000"], cwd=folder, stderr=subprocess.PIPE, text=True, start_new_session=True)
         deadline = time.monotonic() + 120 * SLOWER
         part = folder / ".long.mp4.part"
         while not (part.exists() and part.stat().st_size) and process.poll() is None and time.monotonic() < deadline:
             time.sleep(0.01)
-        process.send_signal(signal.SIGINT)
+        os.killpg(process.pid, signal.SIGINT)  # as Ctrl-C does
         error = process.communicate(timeout=120 * SLOWER)[1]
         report.check(process.returncode == 130 and "'long.mp4' is not written" in error, f"SIGINT: {process.returncode}\n{error}")
         shutil.rmtree(folder / "bin")
