@@ -104,11 +104,7 @@ std::string mainOf(const std::string& shader, glsl::SourceLoader& sources) {
   text::Diagnostics ignored;
   const auto source = sources.load(shader, ignored);
   if (!source) return shader;
-  const std::size_t at = source->text.find("void main");
-  const auto line =
-      std::count(source->text.begin(), source->text.begin() + std::min(at, source->text.size()), '\n');
-  return withoutFolder(
-      placeText(source->placeOf(at == std::string::npos ? 1 : static_cast<std::uint32_t>(line) + 1)));
+  return withoutFolder(placeText(source->placeOfMain()));
 }
 
 Json passesOf(const graph::Plan& plan, glsl::SourceLoader& sources) {

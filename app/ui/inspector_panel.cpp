@@ -59,11 +59,12 @@ void flow(float width) {
 
 }  // namespace
 
-void InspectorPanel::beforeFrame(bool wanted) {
+void InspectorPanel::beforeFrame(bool wanted, runtime::StepWatch::Look also) {
   runtime::Execution* execution = renderer_.execution();
   if (!execution) return;
   if (!wanted) {
     if (execution->watched()) release();
+    if (also) execution->watch({.after = std::move(also)});
     return;
   }
   const graph::Plan& plan = execution->plan();
@@ -74,10 +75,10 @@ void InspectorPanel::beforeFrame(bool wanted) {
     if (plan.graph->present.resource != graph::kNone)
       target_.resource = plan.graph->resourceNames[plan.graph->present.resource];
   }
-  found_ = inspector_.watch(*execution, target_);
+  found_ = inspector_.watch(*execution, target_, also);
   if (!found_ && !target_.pass.empty()) {
     target_.pass.clear();
-    found_ = inspector_.watch(*execution, target_);
+    found_ = inspector_.watch(*execution, target_, also);
   }
   if (watched_ == target_) return;
   watched_ = target_;
@@ -110,10 +111,7 @@ void InspectorPanel::draw(text::Diagnostics& diagnostics) {
   if (resource.kind == ResourceKind::buffer) {
     drawNumbers();
   } else {
-    const auto [at, first] = looks_.try_emplace(target_.resource);
-    Look& look = at->second;
-    if (first) look.view = runtime::Inspector::viewOf(resource);
-    if (!look.ranged && arrived) look = {.view = inspector_.fittedView(), .ranged = true};
+    Look& look = looks_.of(plan, index, inspector_, arrived);
     chooseView(resource, look);
     drawPicture(look, diagnostics);
   }

@@ -8,8 +8,8 @@ namespace weft::app::ui {
 
 namespace {
 
-constexpr std::array<const char*, 7> kTitles = {"Parameters", "Passes",    "Selected", "Times",
-                                                "Storage",    "Histogram", "Messages"};
+constexpr std::array<const char*, 8> kTitles = {"Parameters", "Passes",  "Selected",  "Pictures",
+                                                "Times",      "Storage", "Histogram", "Messages"};
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoSavedSettings;
 constexpr double kTipSeconds = 0.4;
@@ -55,13 +55,16 @@ void cell(const std::string& text) {
   ImGui::TextUnformatted(text.c_str());
 }
 
-Panels::Panels(LiveGraph& live, runtime::Renderer& renderer, Log& log, std::function<void(const char*)> act)
+Panels::Panels(LiveGraph& live, runtime::Renderer& renderer, Log& log, std::function<void(const char*)> act,
+               EditFile edit)
     : live_(live),
       renderer_(renderer),
       log_(log),
       act_(std::move(act)),
+      edit_(std::move(edit)),
       profiler_(renderer.device().timers),
-      inspector_(renderer) {}
+      inspector_(renderer, looks_),
+      pictures_(renderer.device(), looks_) {}
 
 Panels::~Panels() {
   inspector_.release();
@@ -95,8 +98,15 @@ Panels::Area Panels::picture() const {
           pixels(height_ - line_ - strip_)};
 }
 
-void Panels::beforeFrame() {
-  inspector_.beforeFrame(shows(kSelected));
+void Panels::beforeFrame(const scene::CameraPose& pose) {
+  runtime::StepWatch::Look also;
+  // Of a plan that is not listed yet nothing is drawn.
+  if (shows(kPictures) && explainer_ && explained_ == live_.switches()) {
+    const bool moved = std::exchange(pose_, pose) != pose;
+    pictures_.beforeFrame(std::exchange(livesSet_, live_.livesSet()) != live_.livesSet() || moved);
+    also = [this](std::uint32_t step) { pictures_.afterStep(*renderer_.execution(), step); };
+  }
+  inspector_.beforeFrame(shows(kSelected), std::move(also));
   profiler_.begin();
 }
 
@@ -107,7 +117,8 @@ void Panels::afterFrame() {
 bool Panels::wantsFrame() const {
   const bool unmeasured = renderer_.device().timers.enabled() &&
                           (profiler_.history().empty() || profiler_.history().back().passes.empty());
-  return unmeasured || (shows(kSelected) && inspector_.wantsFrame());
+  return unmeasured || (shows(kSelected) && inspector_.wantsFrame()) ||
+         (shows(kPictures) && pictures_.wantsFrame());
 }
 
 bool Panels::wantsLayout() const {
@@ -123,17 +134,18 @@ void Panels::draw(const runtime::FrameReport& report, const LoopState& state,
   if (live_.running() && (explained_ != live_.switches() || !explainer_)) {
     explainer_ = std::make_unique<graph::Explainer>(renderer_.execution()->plan());
     rows_ = passRowsOf(*renderer_.desc(), renderer_.execution()->plan());
+    pictures_.list(rows_, renderer_.execution()->plan());
     explained_ = live_.switches();
   }
   const std::size_t errors = log_.errors();
   if (std::exchange(errors_, errors) < errors && wide() && visible()) wanted_ = kMessages;
   if (visible() && live_.running()) {
     beginFixed("column", width_ - column_, 0, column_, height_ - line_);
-    drawTabs(0, 0, wide() ? kTimes : kTabCount, report, diagnostics);
+    drawTabs(0, 0, wide() ? kPictures : kTabCount, report, diagnostics);
     ImGui::End();
     if (strip_ > 0) {
       beginFixed("strip", 0, height_ - line_ - strip_, width_ - column_, strip_);
-      drawTabs(1, kTimes, kTabCount, report, diagnostics);
+      drawTabs(1, kPictures, kTabCount, report, diagnostics);
       ImGui::End();
     }
     wanted_.reset();
@@ -154,6 +166,7 @@ void Panels::drawTabs(std::size_t place, std::size_t first, std::size_t end,
   const std::array<std::function<void()>, kTabCount> draws = {[&] { drawParameters(report, diagnostics); },
                                                               [&] { drawPasses(diagnostics); },
                                                               [&] { inspector_.draw(diagnostics); },
+                                                              [&] { drawPictures(diagnostics); },
                                                               [&] { drawProfiler(); },
                                                               [&] { drawStorage(); },
                                                               [&] { drawHistogram(); },
@@ -233,6 +246,10 @@ void Panels::drawMessages(bool all) {
     ImGui::PushID(id++);
     if (ImGui::SmallButton("copy")) ImGui::SetClipboardText(text.c_str());
     ImGui::SameLine();
+    if (each->place.file && each->place.line > 0) {
+      if (ImGui::SmallButton("edit")) edit_(each->place.file, each->place.line);
+      ImGui::SameLine();
+    }
     ImGui::TextColored(colorOf(each->severity), "%s", text.c_str());
     ImGui::PopID();
   }

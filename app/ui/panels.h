@@ -11,6 +11,8 @@
 
 #include "app/live/live_graph.h"
 #include "app/ui/log.h"
+#include "app/ui/looks.h"
+#include "app/ui/pass_pictures.h"
 #include "app/ui/pass_rows.h"
 #include "engine/graph/print/print.h"
 #include "engine/runtime/inspection/frame_profiler.h"
@@ -39,10 +41,11 @@ std::string shapeText(const Texture& texture) {
 // What is selected: which resource, where in the frame, which part, how shown; zoom, pan and the value under the cursor.
 class InspectorPanel {
  public:
-  explicit InspectorPanel(runtime::Renderer& renderer) : renderer_(renderer), inspector_(renderer.device()) {}
+  InspectorPanel(runtime::Renderer& renderer, Looks& looks)
+      : renderer_(renderer), inspector_(renderer.device()), looks_(looks) {}
 
-  // To be called before each frame. `wanted`: it is on the screen.
-  void beforeFrame(bool wanted);
+  // To be called before each frame. `wanted`: it is on the screen. `also`: what else is to be called after each step, or nothing.
+  void beforeFrame(bool wanted, runtime::StepWatch::Look also);
   void draw(text::Diagnostics& diagnostics);
   void release() {
     if (renderer_.execution()) inspector_.release(*renderer_.execution());
@@ -52,12 +55,6 @@ class InspectorPanel {
   void select(const graph::Plan& plan, std::uint32_t pass);
 
  private:
-  // How a resource is shown.
-  struct Look {
-    runtime::InspectView view;
-    bool ranged = false;  // the range was fitted, or chosen
-    bool moved = false;   // the zoom was chosen; else the whole is shown
-  };
   void chooseTarget(const graph::Plan& plan);
   void choosePart(const graph::FlatResource& resource);
   void chooseView(const graph::FlatResource& resource, Look& look);
@@ -67,7 +64,7 @@ class InspectorPanel {
   runtime::Renderer& renderer_;
   runtime::Inspector inspector_;
   runtime::InspectTarget target_, watched_;
-  std::map<std::string, Look> looks_;  // by resource
+  Looks& looks_;
   ImGuiTextFilter filter_;
   std::uint64_t copiesBefore_ = 0;  // when what is watched changed
   bool found_ = false, wantsFrame_ = false;
@@ -86,8 +83,10 @@ struct LoopState {
 
 class Panels {
  public:
-  // `act` runs an action of the viewer (app/view/key_bindings.h).
-  Panels(LiveGraph& live, runtime::Renderer& renderer, Log& log, std::function<void(const char*)> act);
+  using EditFile = std::function<void(text::FileName file, std::uint32_t line)>;
+  // `act` runs an action of the viewer (app/view/key_bindings.h), `edit` opens a file at a line.
+  Panels(LiveGraph& live, runtime::Renderer& renderer, Log& log, std::function<void(const char*)> act,
+         EditFile edit);
   ~Panels();
   Panels(const Panels&) = delete;
   Panels& operator=(const Panels&) = delete;
@@ -99,6 +98,8 @@ class Panels {
   static std::vector<std::string> names();
   // Brings a pass and what it writes to the front, by its full instance name.
   void select(std::string_view pass);
+  // Where the selected pass is written, or, with `shader`, its shader; nowhere when none is selected.
+  text::Place selectedPlace(bool shader) const;
   // The height of text in pixels, and the size of the window; to be called before the functions below.
   void measure(float textSize, float width, float height);
   // Pixels of the window, from its lower left corner, that are the picture's.
@@ -107,8 +108,8 @@ class Panels {
   };
   Area picture() const;
 
-  // Around a frame, with its time on the screen.
-  void beforeFrame();
+  // Around a frame, with its time on the screen. `pose`: the frame's camera.
+  void beforeFrame(const scene::CameraPose& pose);
   void afterFrame();
   // Between Overlay::begin() and end(). `diagnostics` gets what a change that was made here led to.
   void draw(const runtime::FrameReport& report, const LoopState& state, text::Diagnostics& diagnostics);
@@ -129,6 +130,7 @@ class Panels {
     kParameters,
     kPasses,
     kSelected,
+    kPictures,
     kTimes,
     kStorage,
     kHistogram,
@@ -145,6 +147,7 @@ class Panels {
   void drawPasses(text::Diagnostics& diagnostics);
   void drawPassRow(std::size_t row, text::Diagnostics& diagnostics);
   void drawParameters(const runtime::FrameReport& report, text::Diagnostics& diagnostics);
+  void drawPictures(text::Diagnostics& diagnostics);
   void drawProfiler();
   void drawStorage();
   void drawHistogram();
@@ -160,8 +163,13 @@ class Panels {
   runtime::Renderer& renderer_;
   Log& log_;
   std::function<void(const char*)> act_;
+  EditFile edit_;
   runtime::FrameProfiler profiler_;
+  Looks looks_;
   InspectorPanel inspector_;
+  PassPictures pictures_;
+  scene::CameraPose pose_;                        // of the last frame
+  std::uint64_t livesSet_ = 0;                    // by then
   std::array<std::array<float, 256>, 4> bins_{};  // of the picture: red, green, blue, luminance
   double counted_ = -1;                           // seconds: when the histogram was made
   std::unique_ptr<graph::Explainer> explainer_;   // of the plan of `explained_`
@@ -169,7 +177,7 @@ class Panels {
   std::uint64_t explained_ = 0;
 
   std::optional<bool> visible_;  // as a person chose it
-  std::array<Tab, 2> shown_{kParameters, kTimes};
+  std::array<Tab, 2> shown_{kParameters, kPictures};
   std::optional<Tab> wanted_;  // to be brought to the front
   float em_ = 14, width_ = 0, height_ = 0;
   float column_ = 0, strip_ = 0, line_ = 0;  // pixels; 0: not there

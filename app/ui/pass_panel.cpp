@@ -53,6 +53,26 @@ void Panels::select(std::string_view pass) {
   open("selected");
 }
 
+text::Place Panels::selectedPlace(bool shader) const {
+  if (selected_ >= rows_.size()) return {};
+  const PassRow& row = rows_[selected_];
+  if (!shader) return row.desc->place;
+  if (row.passes.empty()) return {};
+  const graph::PassSpec& spec = renderer_.execution()->plan().graph->specs[row.passes.front()];
+  glsl::SourceLoader& sources = renderer_.device().sources;
+  text::Diagnostics ignored;
+  const auto source = spec.shader.empty() ? nullptr : sources.load(spec.shader, ignored);
+  return source ? source->placeOfMain() : text::Place{};
+}
+
+void Panels::drawPictures(text::Diagnostics& diagnostics) {
+  std::uint32_t selected = graph::kNone;
+  if (selected_ < rows_.size() && !rows_[selected_].passes.empty()) selected = rows_[selected_].passes.back();
+  const graph::Plan& plan = renderer_.execution()->plan();
+  if (const std::uint32_t pass = pictures_.draw(plan, selected, diagnostics); pass != graph::kNone)
+    select(plan.graph->passNames[pass]);
+}
+
 void Panels::drawPassRow(std::size_t index, text::Diagnostics& diagnostics) {
   const PassRow& row = rows_[index];
   runtime::Execution& execution = *renderer_.execution();
@@ -119,7 +139,9 @@ void Panels::drawPassRow(std::size_t index, text::Diagnostics& diagnostics) {
     else if (!row.why.empty())
       tip += "\noff: " + row.why;
     if (row.desc->place.file)
-      tip += fmt::format("\n{}:{}", std::string(*row.desc->place.file), row.desc->place.line);
+      tip += fmt::format("\n{}:{} (double click: in the editor)", std::string(*row.desc->place.file),
+                         row.desc->place.line);
+    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) edit_(row.desc->place.file, row.desc->place.line);
     tooltip(tip, true);
   }
   cell(state);

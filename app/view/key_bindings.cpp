@@ -36,6 +36,8 @@ constexpr KeyBinding kBindings[] = {
     {GLFW_KEY_HOME, kAlone, "reset_time", "Home", "time begins anew"},
     {'P', kAlone, "profile", "P", "measure each pass (slower on software)"},
     {'N', kAlone, "find_nan", "N", "name the first pass that writes NaN or an infinity, and select it"},
+    {'O', kAlone, "edit_pass", "O", "open the selected pass in the editor, where its stanza is"},
+    {'O', WithKey::shift, "edit_shader", "Shift O", "open its shader there"},
     {'V', kAlone, "vsync", "V", "wait for the screen's refresh, or not"},
     {'I', kAlone, "idle", "I", "idle mode: draw only when something changed"},
     {'-', kAlone, "render_scale_down", "- =", "render with fewer or more pixels than the picture has"},

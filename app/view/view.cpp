@@ -103,6 +103,8 @@ void addView(CommandLine& line) {
   command.add_option("--panels", options.panels, "panels to bring to the front at the start")
       ->delimiter(',')
       ->check(CLI::IsMember(ui::Panels::names()));
+  command.add_option("--editor", options.editor,
+                     "text editor, as 'code -g {file}:{line}' (default: VISUAL or EDITOR, with +LINE FILE)");
   command.add_flag("--events", options.events, "say what happens, a line each, for scripts");
   command.add_flag("!--no-ui", options.ui, "the picture alone, without panels");
   addPath(command, "--screenshot", options.screenshot, "picture of the last frame, .png or .exr");

@@ -66,6 +66,24 @@ void drawHelp() {
   ImGui::End();
 }
 
+// Threads over and under each other.
+void setIcon(GLFWwindow* window) {
+  constexpr int kSize = 48, kThread = 12;
+  std::vector<unsigned char> texels;
+  const auto covers = [](int at) { return at % kThread > 1 && at % kThread < kThread - 2; };
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) {
+      const bool warp = covers(x) && (!covers(y) || (x / kThread + y / kThread) % 2 == 0);
+      const unsigned char alpha = warp || covers(y) ? 255 : 0;
+      if (warp)
+        texels.insert(texels.end(), {70, 130, 220, alpha});
+      else
+        texels.insert(texels.end(), {240, 150, 50, alpha});
+    }
+  const GLFWimage icon{kSize, kSize, texels.data()};
+  glfwSetWindowIcon(window, 1, &icon);
+}
+
 }  // namespace
 
 Viewer::Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& live)
@@ -75,7 +93,10 @@ Viewer::Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& li
       renderer_(session.renderer),
       live_(live),
       input_(window_),
-      panels_(live, session.renderer, log_, [this](const char* action) { act(action); }),
+      editor_(options.editor),
+      panels_(
+          live, session.renderer, log_, [this](const char* action) { act(action); },
+          [this](text::FileName file, std::uint32_t line) { edit(file, line); }),
       renderScale_(options.renderScale),
       vsync_(options.vsync),
       idle_(options.idle) {
@@ -83,6 +104,7 @@ Viewer::Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& li
   if (options.ui) overlay_ = ui::Overlay::create(window_, uiScale_);
   input_.setOverlay(overlay_.get());
   addActions();
+  setIcon(window_);
   renderer_.device().timers.setEnabled(options.profile);
   for (const std::string& panel : options.panels) panels_.open(panel);
   if (!overlay_) return;
@@ -123,6 +145,8 @@ void Viewer::addActions() {
               {"previous_environment", [step] { step(-1); }},
               {"undo", [this] { told_ = live_.undo(diagnostics_) ? "taken back" : "nothing to take back"; }},
               {"redo", [this] { told_ = live_.redo(diagnostics_) ? "made again" : "nothing to make again"; }},
+              {"edit_pass", [this] { editSelected(false); }},
+              {"edit_shader", [this] { editSelected(true); }},
               {"pause", [this] { clock_.pause(!clock_.paused()); }},
               {"step",
                [this] {
@@ -163,6 +187,16 @@ void Viewer::act(const std::string& action) {
   actions_.find(action)->second();
   say(fmt::format("action {}", action));
   if (live_.changes() != changes) tell(diagnostics_, log_, ui::Log::kChange);
+}
+
+void Viewer::editSelected(bool shader) {
+  const text::Place place = panels_.selectedPlace(shader);
+  edit(place.file, place.line);
+}
+
+void Viewer::edit(text::FileName file, std::uint32_t line) {
+  told_ = editor_.open(file, line);
+  say("edit " + text::printable(told_));
 }
 
 void Viewer::close() {
@@ -327,6 +361,11 @@ void Viewer::update(gl::Size size) {
     if (live_.resize(scaled(area_.width), scaled(area_.height), diagnostics_))
       tell(diagnostics_, log_, ui::Log::kChange);
   }
+  if (const std::string failure = editor_.takeFailure(); !failure.empty()) {
+    told_ = failure;
+    say("edit " + text::printable(told_));
+    restless_ = kRestlessAfterEvent;
+  }
   bool looked = live_.poll(glfwGetTime(), diagnostics_);
   // Waits here while more may be written, instead of drawing another frame that is out of date.
   for (int i = 0; i < kWaitsForWrites && !looked && live_.pending(); ++i) {
@@ -409,7 +448,7 @@ void Viewer::frame() {
   if (readsMouse()) in.pointer = pointer_ = pointer();
   // A recording has the frames that `weft render` makes. The first frame of a window that waited does not fade in.
   in.headless = !options_.record.empty() || (options_.waitForAssets && frame_ == 0);
-  panels_.beforeFrame();
+  panels_.beforeFrame(in.pose);
   runtime::StepRecorder steps;
   if (scan_)
     renderer_.execution()->watch(

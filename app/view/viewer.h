@@ -5,6 +5,7 @@
 #include "app/session/command_line.h"
 #include "app/session/session.h"
 #include "app/ui/panels.h"
+#include "app/view/editor.h"
 #include "app/view/frame_clock.h"
 #include "app/view/window_input.h"
 #include "engine/runtime/inspection/step_watches.h"
@@ -22,6 +23,7 @@ struct ViewOptions : Options {
   bool idle = false;
   double renderScale = 1;  // pixels of the scene per pixel of the window
   double uiScale = 0;      // 0: as the screen says
+  std::string editor;      // its command; empty: the one of the environment
 };
 
 class Viewer {
@@ -41,6 +43,8 @@ class Viewer {
  private:
   void addActions();
   void act(const std::string& action);
+  void edit(text::FileName file, std::uint32_t line);
+  void editSelected(bool shader);
   void close();
   // The command that renders what is seen.
   std::string command() const;
@@ -90,6 +94,7 @@ class Viewer {
   WindowInput input_;
   std::unique_ptr<ui::Overlay> overlay_;  // null with --no-ui
   ui::Log log_;
+  Editor editor_;
   ui::Panels panels_;
   CameraRig rig_{scene::CameraPose{}};
   std::string cameraName_;  // of the scene's camera that is followed; empty: the first

@@ -368,6 +368,12 @@ std::shared_ptr<const ShaderSource> SourceLoader::loadText(std::string_view text
   return expand(key, {name}, text, diagnostics);
 }
 
+text::Place ShaderSource::placeOfMain() const {
+  const std::size_t at = text.find("void main");
+  const auto end = text.begin() + static_cast<std::ptrdiff_t>(at == std::string::npos ? 0 : at);
+  return placeOf(static_cast<std::uint32_t>(std::count(text.begin(), end, '\n')) + 1);
+}
+
 text::Place ShaderSource::placeOf(std::uint32_t textLine, std::uint32_t column) const {
   const auto after = std::ranges::upper_bound(runs, textLine, {}, &Run::textLine);
   if (after == runs.begin()) return {file, 0, 0};

@@ -43,6 +43,7 @@ struct ShaderSource {
   const Interface& ofAllBranches() const;
   // Where a line of the text (from 1) was written.
   text::Place placeOf(std::uint32_t textLine, std::uint32_t column = 0) const;
+  text::Place placeOfMain() const;  // of the first line where there is none
 
  private:
   mutable std::map<std::string, std::shared_ptr<const Interface>> known_;  // by defines

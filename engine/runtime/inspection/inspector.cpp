@@ -68,13 +68,15 @@ std::vector<std::string> Inspector::writersOf(const graph::Plan& plan, std::uint
   return names;
 }
 
-bool Inspector::watch(Execution& execution, const InspectTarget& target) {
+bool Inspector::watch(Execution& execution, const InspectTarget& target, StepWatch::Look also) {
+  also_ = std::move(also);
   if (execution_ == &execution && execution.watched() && target == target_) return true;
   release(execution);
   const std::uint32_t step = aim(execution, target);
   if (step == kNone) return false;
   execution.watch({.after = [this, step](std::uint32_t each) {
     if (each == step) copy();
+    if (also_) also_(each);
   }});
   return true;
 }

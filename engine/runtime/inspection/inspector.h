@@ -60,8 +60,9 @@ class Inspector {
  public:
   explicit Inspector(Device& device) : device_(device) {}
 
-  // Before each frame of `execution`: watches it for `target`. False when the target is not there; nothing is watched then.
-  bool watch(Execution& execution, const InspectTarget& target);
+  // Before each frame of `execution`: watches it for `target`. False when the target is not there; nothing is watched then. `also` is
+  // called after each step, as there is one watch at a time.
+  bool watch(Execution& execution, const InspectTarget& target, StepWatch::Look also = {});
   // Within another watch of `execution`: copies `target`, as it is now, at once. False when it is not there.
   bool look(Execution& execution, const InspectTarget& target);
   void release(Execution& execution);
@@ -102,6 +103,7 @@ class Inspector {
   Device& device_;
   Execution* execution_ = nullptr;  // that is watched; used while its watch runs, it may be gone else
   InspectTarget target_;
+  StepWatch::Look also_;
   std::uint32_t resource_ = 0, mip_ = 0, layer_ = 0, history_ = 0;
   std::uint32_t channels_ = 4;  // of the resource's format
   bool stencil_ = false, hasPicture_ = false, hasBuffer_ = false;

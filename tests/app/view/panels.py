@@ -16,7 +16,7 @@ from program import Report, temporary_folder
 from screen import Screen
 from window import Session, copy_of_tree, edit, inside_display, save
 
-TABS = ["parameters", "passes", "selected", "times", "storage", "histogram", "messages"]
+TABS = ["parameters", "passes", "selected", "times", "storage", "histogram", "messages", "pictures"]
 
 
 def panels(weft, folder, display, report, scale, size):
@@ -143,6 +143,35 @@ def effects(weft, folder, report):
         live.stop()
 
 
+def pictures(weft, folder, display, report):
+    """The strip has a picture of what each pass writes. A click on one selects the pass, which O opens in the editor, and Shift O its shader."""
+    edited, screen = folder / "edited.txt", Screen(display)
+    editor = f"printf '%s %s\\n' {{file}} {{line}} >> {edited}; exit 3"
+    live = Session(weft, folder, "--idle", "--panels", "pictures", "--editor", editor, graph="graphs/pair.json", size="1100x400")
+
+    def place(red, green):
+        """Of the first pixel of the strip that has these, of the gradient that `base` writes."""
+        return next(((x, y) for y, row in enumerate(screen.read()[2]) if 252 < y < 372 for x in range(690)
+                     if max(abs(row[3 * x] - red), abs(row[3 * x + 1] - green), abs(row[3 * x + 2] - 64)) < 14), None)
+
+    try:
+        if not report.check(live.open(40, 40) and live.rest(0), f"no picture at rest\n{live.said()}"):
+            return
+        corners = [live.until(lambda c=c: place(*c)) for c in ((0, 0), (255, 0), (0, 255), (255, 255))]
+        if not report.check(all(corners), f"the strip does not show what base writes: {corners}"):
+            return
+        report.check(corners[0][0] < corners[1][0] and corners[2][1] < corners[0][1], f"the picture of base is turned: {corners}")
+        live.click(*corners[3])
+        for key, line in (("o", "graphs/pair.json 3"), ("shift+o", "shaders/base.frag.glsl 3")):
+            since = live.mark()
+            live.key(key)
+            report.check(live.event(r"edit .* ended with exit code 3", since) and edited.read_text().split("\n")[-2].endswith(line),
+                         f"{key} does not edit {line}\n{live.lines()}")
+        live.leave(report)
+    finally:
+        live.stop()
+
+
 PAIR = """{ "resources": { "ldr": { "texture": "rgba8", "size": "screen" }, "seen": { "texture": "rgba8", "size": "screen" } },
   "passes": [
     { "name": "base", "type": "fullscreen", "shader": "base.frag.glsl", "write": { "result": "ldr" } },
@@ -262,6 +291,7 @@ def main():
         for old in folder.glob("weft_*"):
             old.unlink()
         effects(weft, folder, report)
+        pictures(weft, folder, display, report)
         save_camera(weft, folder, report)
         write_back(weft, folder, report)
         hidden(weft, folder, report)
