@@ -140,14 +140,15 @@ void Panels::draw(const runtime::FrameReport& report, const LoopState& state,
   const std::size_t errors = log_.errors();
   if (std::exchange(errors_, errors) < errors && wide() && visible()) wanted_ = kMessages;
   if (visible() && live_.running()) {
-    beginFixed("column", width_ - column_, 0, column_, height_ - line_);
-    drawTabs(0, 0, wide() ? kPictures : kTabCount, report, diagnostics);
-    ImGui::End();
     if (strip_ > 0) {
       beginFixed("strip", 0, height_ - line_ - strip_, width_ - column_, strip_);
       drawTabs(1, kPictures, kTabCount, report, diagnostics);
       ImGui::End();
     }
+    // After the strip, in which a click brings a tab of the column to the front.
+    beginFixed("column", width_ - column_, 0, column_, height_ - line_);
+    drawTabs(0, 0, wide() ? kPictures : kTabCount, report, diagnostics);
+    ImGui::End();
     wanted_.reset();
   }
   if (visible()) drawLine(state);

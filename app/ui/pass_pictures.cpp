@@ -27,7 +27,9 @@ void PassPictures::list(const std::vector<PassRow>& rows, const graph::Plan& pla
       for (const std::uint32_t u : graph.usesOf(pass)) {
         const graph::FlatUse& use = graph.uses[u];
         const graph::FlatResource& to = graph.resources[use.resource];
-        if (use.access == graph::Access::read || to.kind != graph::ResourceKind::texture) continue;
+        if (use.access == graph::Access::read || to.kind != graph::ResourceKind::texture ||
+            plan.firstStep[use.resource] == graph::kNone)
+          continue;
         const std::uint32_t texels =
             std::max(1u, to.width >> use.mip) * std::max<std::uint32_t>(1u, to.height >> use.mip);
         if (std::exchange(most, std::max(most, texels)) >= texels) break;
@@ -142,9 +144,10 @@ void PassPictures::drawTile(Tile& tile, const graph::Plan& plan) {
   else
     ImGui::GetWindowDrawList()->AddRect(corner, end, ImGui::GetColorU32(ImGuiCol_Border));
   const ImVec2 under = ImGui::GetCursorScreenPos();
-  ImGui::PushClipRect(under, {under.x + wide, under.y + ImGui::GetTextLineHeight()}, true);
-  ImGui::TextUnformatted(tile.label.c_str());
-  ImGui::PopClipRect();
+  const ImVec4 room(under.x, under.y, under.x + wide, under.y + ImGui::GetTextLineHeight());
+  ImGui::GetWindowDrawList()->AddText(nullptr, 0, under, ImGui::GetColorU32(ImGuiCol_Text),
+                                      tile.label.c_str(), nullptr, 0, &room);
+  ImGui::Dummy({wide, ImGui::GetTextLineHeight()});
 }
 
 }  // namespace weft::app::ui
