@@ -60,7 +60,7 @@ SUB_ROOMS = {
     },
     "runtime": {
         "storage": set(),
-        "cadence": set(),
+        "cadence": {"storage"},
         "imports": {"storage"},
         "prepare": {"storage", "imports"},
         "uniforms": {"storage", "cadence", "imports", "prepare"},

@@ -9,6 +9,7 @@
 #include "app/output/manifest.h"
 #include "app/output/pictures.h"
 #include "app/output/video.h"
+#include "app/session/checkpoints.h"
 #include "engine/graph/language/names.h"
 #include "engine/runtime/inspection/inspector.h"
 #include "engine/text/hash.h"
@@ -32,6 +33,7 @@ struct FrameRun {
   std::vector<Part> parts;
   std::map<std::string, std::unique_ptr<Video>> videos{};  // those of the files that are
   std::optional<Manifest> manifest{};
+  CheckpointOptions checkpoints{};
   PictureWriter writer{};
   runtime::FrameReport last{};
   std::uint64_t ran = 0, written = 0;  // frames
@@ -75,16 +77,19 @@ bool startVideos(const Options& options, runtime::Execution& execution, FrameRun
   return good;
 }
 
-// Runs the frames of a set and writes them. Those before them run too when one may look back, so what frame N shows does not depend
-// on the set. `onWritten` is called after each that was drawn.
+// Runs the frames of a set and writes them. Where one may look back, those before them run too, from the nearest checkpoint on, so
+// what frame N shows does not depend on the set. `onWritten` is called after each that was drawn.
 void runFrames(DeviceSession& session, runtime::World& world, const Options& options, FrameRun& run,
                const std::function<void()>& onWritten, text::Diagnostics& diagnostics) {
   if (run.frames.empty()) return;
   runtime::Renderer& renderer = session.renderer;
   runtime::Execution& execution = *renderer.execution();
   const bool all = execution.remembers(world);
-  const std::uint64_t total = all ? std::uint64_t{run.frames.back()} + 1 : run.frames.size();
-  ProgressLines lines({.total = total, .lead = all ? run.frames.front() : 0});
+  Checkpoints checkpoints(run.checkpoints, session, world, options);
+  const std::uint32_t begin = all ? checkpoints.begin(run.frames.front(), diagnostics) : 0;
+  const std::uint64_t total = all ? std::uint64_t{run.frames.back()} + 1 - begin : run.frames.size();
+  if (diagnostics.hasErrors()) return;
+  ProgressLines lines({.total = total, .lead = all ? run.frames.front() - begin : 0});
   std::vector<runtime::CaptureItem> items;
   for (const Part& part : run.parts) items.push_back(part.item);
   runtime::Capture capture(renderer.device());
@@ -99,7 +104,7 @@ void runFrames(DeviceSession& session, runtime::World& world, const Options& opt
   const Interruption interruption;
   if (!startVideos(options, execution, run, diagnostics)) return;
   while (run.ran < total && !diagnostics.hasErrors() && (run.signal = interruption.signal()) == 0) {
-    frame = all ? static_cast<std::uint32_t>(run.ran) : run.frames[run.written];
+    frame = all ? begin + static_cast<std::uint32_t>(run.ran) : run.frames[run.written];
     const bool wanted = frame == run.frames[run.written];
     if (!items.empty() && wanted) capture.start(execution, items, save);
     for (Part& part : run.parts) part.saved = false;
@@ -120,6 +125,7 @@ void runFrames(DeviceSession& session, runtime::World& world, const Options& opt
         run.manifest->add(frame, run.filesOf(frame), (gl::steadyMs() - before) / 1000, diagnostics);
       run.written += !diagnostics.hasErrors();
     }
+    if (!diagnostics.hasErrors()) checkpoints.save(frame, diagnostics);
     if (total > 1 && !options.quiet) lines.countOne();
   }
   for (const auto& [file, video] : run.videos)
@@ -146,6 +152,7 @@ struct RenderOptions : Options {
   std::vector<std::uint32_t> frames = {0};
   std::string manifest;
   bool skipDone = false;
+  CheckpointOptions checkpoints;
 };
 
 // `-o FILE`, `-o NAME=FILE` and `--present NAME`: the parts are those of options.kept. What is wrong with them, or nothing.
@@ -258,6 +265,8 @@ int runRender(RenderOptions& options) {
     text::keepHashes();
     text::chooseFile(manifest);
   }
+  run.checkpoints = options.checkpoints.beside(outputs[0].pattern);
+  run.checkpoints = options.checkpoints.beside(outputs[0].pattern);
   return runOnDevice({&options}, 1, [&](auto& session, auto& world, text::Diagnostics& diagnostics) {
     runtime::Renderer& renderer = session->renderer;
     if (!renderer.load(settingsOf(options, session->context->device().software), world, diagnostics) ||
@@ -305,6 +314,7 @@ int runRender(RenderOptions& options) {
 struct DumpOptions : Options {
   std::vector<std::string> patterns;
   std::string folder;
+  CheckpointOptions checkpoints;
 };
 
 // Without what a shell or a file system takes in another way: "hdr#2" is "hdr-2", "down[3]" is "down-3".
@@ -358,7 +368,8 @@ int runDump(DumpOptions& options) {
       return 1;
     FrameRun run{.frames = {options.lastFrame},
                  .output = {},
-                 .parts = matchingParts(options, renderer.execution()->plan(), diagnostics)};
+                 .parts = matchingParts(options, renderer.execution()->plan(), diagnostics),
+                 .checkpoints = options.checkpoints.beside(options.folder + "/")};
     std::vector<OutputFile> outputs;
     for (const Part& part : run.parts)
       for (const std::string& file : part.files) outputs.push_back({"-o", file, OutputFile::Over::file});
@@ -399,6 +410,7 @@ void addRender(CommandLine& line) {
   command.add_flag("--skip-done", options.skipDone,
                    "draw no frame that the manifest has, with its files and the same settings (default "
                    "manifest: f_.frames.jsonl beside f_%04d.png)");
+  options.checkpoints.add(command);
   options.addDrawing(command);
   command.add_flag("--wait-for-assets")->description("as always without a window");
   command.add_flag("--quiet", options.quiet, "no progress bar and no notes");
@@ -414,6 +426,7 @@ void addDump(CommandLine& line) {
       ->required();
   addPath(command, "-o,--output", options.folder, "folder to write to", "FOLDER")->required();
   options.addFrame(command, "--frame,--frames");
+  options.checkpoints.add(command);
   options.addDrawing(command);
   command.add_flag("--quiet", options.quiet, "no list of files and no notes");
 }

@@ -143,7 +143,7 @@ def words_of(command, crop):
 
 def page(family):
     out = [f"# Gallery: {family['title']}", "", family["about"], "",
-           f"All families are in the [gallery](../gallery.md), parameters in [effects.md](../effects.md). Commands go on with `--environment {GALLERY['environment']} --size {GALLERY['size']} -o FILE`.", ""]
+           f"[Gallery](../gallery.md), [parameters](../effects.md). Commands go on with `--environment {GALLERY['environment']} --size {GALLERY['size']} -o FILE`.", ""]
     chapter = None
     for entry in family["entries"]:
         if entry.get("chapter") != chapter:

@@ -192,6 +192,39 @@ void FrameCadence::endFrame(const std::vector<std::uint64_t>& own, const std::ve
   }
 }
 
+void FrameCadence::carry(StateStream& state, std::span<const std::uint64_t> own,
+                         const std::function<std::optional<std::uint64_t>(std::uint32_t)>& importOf) {
+  for (std::size_t s = 0; s < run_.size(); ++s)
+    for (PassMemory* memory : {&memories_[s], &latches_[s]}) {
+      const auto reads =
+          static_cast<std::size_t>(std::ranges::count(plan_.usesOf(s), Access::read, &FlatUse::access));
+      bool whole = memory->inputs.size() >= reads;
+      state.carry(memory->ran);
+      if (!memory->ran) continue;  // the rest says nothing
+      state.carryFrom(own[s], memory->own);
+      state.carry(whole);
+      memory->inputs.resize(whole ? reads : 0);
+      std::size_t input = 0;
+      for (const FlatUse& use : plan_.usesOf(s)) {
+        if (!whole || use.access != Access::read) continue;
+        std::uint64_t& seen = memory->inputs[input++];
+        const auto now = importOf(use.resource);
+        bool same = seen == now;
+        now ? state.carry(same) : state.carry(seen);
+        if (now && state.loading()) seen = same ? *now : *now - 1;
+      }
+    }
+  for (Group& group : groups_) {
+    for (bool* each : {&group.active, &group.finished, &group.published}) state.carry(*each);
+    state.carry(group.at);
+    state.carry(group.slice);
+    const bool turn = group.at < group.steps.size() &&
+                      group.slice < std::max(1u, plan_.passOf(group.steps[group.at]).slices);
+    state.require(turn || !group.active);
+    state.require(group.sliced || (!group.active && !group.finished));
+  }
+}
+
 void FrameCadence::markPublished(std::uint32_t index) {
   Group& group = groups_[index];
   group.finished = false;

@@ -9,9 +9,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/graph/plan.h"
+#include "engine/runtime/storage/state_stream.h"
 
 namespace weft::runtime {
 
@@ -69,6 +73,11 @@ class FrameCadence {
   void markPublished(std::uint32_t group);
   // Marks the group as published, for a plan that takes over storage which already holds a publication of it.
   void restorePublished(std::uint32_t group) { groups_[group].published = true; }
+
+  // Saves or restores what ran, between two frames. What is of this process only: `own` per step, a term of its hash, and
+  // `importOf(resource)`, the generation of an import.
+  void carry(StateStream& state, std::span<const std::uint64_t> own,
+             const std::function<std::optional<std::uint64_t>(std::uint32_t)>& importOf);
 
  private:
   struct Group {

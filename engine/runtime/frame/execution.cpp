@@ -47,10 +47,10 @@ bool readsPointer(const graph::Plan& plan, Imports& imports) {
 
 std::uint64_t hashOf(const PreparedPass& pass, graph::Cadence cadence, ResourcePool& pool, Imports& imports,
                      const FrameUniforms& uniforms) {
+  const std::uint64_t own = ownHashOf(pass, cadence, pool, imports);
   std::uint64_t hash = pass.programHash;
-  for (const std::uint32_t resource : pass.written)
-    hash = text::hashCombine(hash, pool[resource].serial + (pool[resource].resets << 40));
-  if (cadence == graph::Cadence::every) return hash;  // whatever it reads
+  for (const std::uint32_t resource : pass.written) hash = text::hashCombine(hash, pool[resource].resets);
+  if (cadence == graph::Cadence::every) return hash + own;  // whatever it reads
   hash = uniforms.hash(pass.parametersOffset, pass.parametersBlock, hash);
   hash = uniforms.hash(pass.viewOffset, pass.viewBlock, hash);
   // Adds the imports that this pass sees later than they change.
@@ -59,11 +59,17 @@ std::uint64_t hashOf(const PreparedPass& pass, graph::Cadence cadence, ResourceP
         publisher != kNone && publisher != pass.group)
       hash = text::hashCombine(hash, pool[resource].shows);
   for (const std::uint32_t axis : pass.context.spec->threads) hash = text::hashCombine(hash, axis);
-  if (pass.list >= 0) {
+  if (pass.list >= 0) hash = text::hashCombine(hash, static_cast<std::uint64_t>(pass.list));
+  return hash + own;
+}
+
+std::uint64_t ownHashOf(const PreparedPass& pass, graph::Cadence cadence, const ResourcePool& pool,
+                        Imports& imports) {
+  std::uint64_t hash = text::kHashSeed;
+  for (const std::uint32_t resource : pass.written) hash = text::hashCombine(hash, pool[resource].serial);
+  if (cadence != graph::Cadence::every && pass.list >= 0)
     hash = text::hashCombine(
         hash, imports.generation(static_cast<scene::DrawList>(pass.list), pass.meshes != nullptr));
-    hash = text::hashCombine(hash, static_cast<std::uint64_t>(pass.list));
-  }
   return hash;
 }
 

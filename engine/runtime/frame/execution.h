@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -52,9 +53,13 @@ struct StepWatch {
   Look before{}, after{};
 };
 
-// The hash of what a pass that is not `always` is made of, besides the generations of what it reads: program, uniforms, storage.
+// The hash of what a pass that is not `always` is made of, besides the generations of what it reads: program, uniforms, and
+// ownHashOf().
 std::uint64_t hashOf(const PreparedPass& pass, graph::Cadence cadence, ResourcePool& pool, Imports& imports,
                      const FrameUniforms& uniforms);
+// What is a term of it and says something in this process only: where the storage is, and the generation of the draw list.
+std::uint64_t ownHashOf(const PreparedPass& pass, graph::Cadence cadence, const ResourcePool& pool,
+                        Imports& imports);
 
 class Execution {
  public:
@@ -98,6 +103,16 @@ class Execution {
   BufferRef buffer(std::string_view resource, std::uint64_t& offset);
   BufferRef buffer(std::uint32_t resource, std::uint64_t& offset, std::uint32_t history = 0);
 
+  // Reports the imports that remember, and the textures that must be kept and cannot be read, because they have samples. False:
+  // there are some, and save() must not be called.
+  bool canSave(const World& world, text::Diagnostics& diagnostics) const;
+  // After a frame: all of it that the frames to come depend on. Equal states are equal bytes, in any process of one build, on one
+  // driver. Nothing while an import shows an older texture than its newest.
+  std::optional<std::string> save(text::Diagnostics& diagnostics);
+  // In place of all frames up to `last`, when none has run. False: the bytes are no state of this plan, and this must not run.
+  bool restore(std::string_view state, const World& world, const FrameInput& last,
+               text::Diagnostics& diagnostics);
+
   // Sets a watch over the steps of every frame. Work that time-sliced groups do ahead of a headless frame is not watched.
   // There is one watch at a time, and none in a new execution. An empty watch removes it.
   void watch(StepWatch watch) { watch_ = std::move(watch); }
@@ -115,6 +130,7 @@ class Execution {
   void endFrame(FrameReport& report, text::Diagnostics& diagnostics);
 
   void refreshUniforms(bool alwaysOnly);
+  void carry(StateStream& state, text::Diagnostics& diagnostics);
   void lookAtMeshes();
 
   Device& device_;

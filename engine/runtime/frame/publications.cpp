@@ -139,17 +139,24 @@ void Publications::refreshImports(text::Diagnostics& diagnostics) {
   }
 }
 
+// Of those that reset it.
+std::uint64_t Publications::hashOfImports(const graph::HistorySpec& history) {
+  std::uint64_t hash = text::kHashSeed;
+  for (const std::uint32_t import : history.resetImports)
+    hash = text::hashCombine(hash, imports_.generation(plan_.graph->imports[import]));
+  return hash;
+}
+
 void Publications::resetHistories(text::Diagnostics& diagnostics) {
   const graph::FlatGraph& graph = *plan_.graph;
   for (std::size_t h = 0; h < graph.histories.size(); ++h) {
     const graph::HistorySpec& history = graph.histories[h];
     std::uint64_t state = text::kHashSeed;
-    for (const std::uint32_t import : history.resetImports)
-      state = text::hashCombine(state, imports_.generation(graph.imports[import]));
     for (const std::uint32_t resource : history.resetResources)
       state = text::hashCombine(state, generations_[resource]);
     for (const graph::Value& value : history.resetValues)
       for (const double x : value.v) state = text::hashCombine(state, std::bit_cast<std::uint64_t>(x));
+    state += hashOfImports(history);
     const bool changed = framesRun_ > 0 && state != resetState_[h];
     resetState_[h] = state;
     if (!changed) continue;
@@ -204,6 +211,25 @@ double Publications::ageOf(std::uint32_t r) const {
   const GpuResource& resource = pool_[r];
   if (resource.publications == 0 || publishing_[r]) return firstHeadlessFrame() ? kForever : 0.0;
   return std::max(0.0, input_.time - resource.publishedAt);
+}
+
+void Publications::carry(StateStream& state, text::Diagnostics& diagnostics) {
+  state.carry(framesRun_);
+  state.carry(nextGeneration_);
+  for (std::size_t r = 0; r < generations_.size(); ++r) {
+    if (plan_.graph->resources[r].import == kNone) {
+      state.carry(generations_[r]);
+      continue;
+    }
+    const GpuResource& resource = pool_[r];
+    bool shown = resource.shown.id == resource.imported.id;
+    state.require(shown || resource.shown.id == 0);  // no older one
+    state.carry(shown);
+    if (state.loading() && shown) show(r);
+  }
+  for (std::size_t h = 0; h < resetState_.size(); ++h)
+    state.carryFrom(hashOfImports(plan_.graph->histories[h]), resetState_[h]);
+  pool_.carry(plan_, state, diagnostics);
 }
 
 // Generations go with storage: a resource that lies where it lay before holds what it held.

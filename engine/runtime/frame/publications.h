@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -48,6 +49,14 @@ class Publications {
   const std::vector<std::uint64_t>& generationsBefore() const { return generationsBefore_; }
   const std::vector<std::uint64_t>& generations() const { return generations_; }
 
+  // Saves or restores, between two frames, what was published, with its contents. Imports are not in it: to be restored when those
+  // of the last frame were refreshed.
+  void carry(StateStream& state, text::Diagnostics& diagnostics);
+  std::optional<std::uint64_t> importGeneration(std::uint32_t resource) const {
+    if (plan_.graph->resources[resource].import == graph::kNone) return std::nullopt;
+    return generations_[resource];
+  }
+
   // Seconds since a resource was published; infinite when no pass ever writes it.
   double ageOf(std::uint32_t resource) const;
   const std::function<double(std::uint32_t)>& ages() const { return ages_; }
@@ -58,6 +67,7 @@ class Publications {
   void publish(std::uint32_t resource);
   void publishImports(std::uint32_t group);
   void show(std::size_t resource);
+  std::uint64_t hashOfImports(const graph::HistorySpec& history);
   void continueGenerations(const Publications& before);
   void continueGroups();
   void continueHistories(const Publications& before);

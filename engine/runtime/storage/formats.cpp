@@ -65,6 +65,35 @@ GLenum glCompareOf(graph::Compare compare) {
   return kFunctions[static_cast<std::size_t>(compare)];
 }
 
+ExactTexel exactTexelOf(Format format) {
+  const GLenum own = glFormatOf(format);
+  switch (format) {  // depth has no views of another format
+    case Format::depth16:
+      return {own, GL_DEPTH_COMPONENT, GL_UNSIGNED_SHORT};
+    case Format::depth24:  // depth-is-rounded-down, gl/context/workarounds.md
+    case Format::depth32f:
+      return {own, GL_DEPTH_COMPONENT, GL_FLOAT};
+    case Format::depth24_stencil8:
+      return {own, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8};
+    case Format::depth32f_stencil8:
+      return {own, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV};
+    default:
+      break;
+  }
+  switch (graph::infoOf(format).bytes) {
+    case 1:
+      return {GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE};
+    case 2:
+      return {GL_R16UI, GL_RED_INTEGER, GL_UNSIGNED_SHORT};
+    case 4:
+      return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT};
+    case 8:
+      return {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT};
+    default:
+      return {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT};
+  }
+}
+
 std::array<float, 4> clearChannelsOf(const graph::Value& value) {
   const auto v = channels(value);
   return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]),

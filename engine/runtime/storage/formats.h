@@ -16,6 +16,12 @@ GLenum glTargetOf(graph::Target target);
 GLbitfield glBarriersOf(std::uint16_t barriers);
 GLenum glCompareOf(graph::Compare compare);
 
+// As what the bits of a texel come and go unchanged: the format of a view of the texture, and the client's format and type.
+struct ExactTexel {
+  GLenum view = GL_NONE, format = GL_NONE, type = GL_NONE;
+};
+ExactTexel exactTexelOf(graph::Format format);
+
 // One texel for glClearTexImage: a number fills every channel, a list gives them in order with 0 for the missing ones;
 // a depth-stencil list is [depth, stencil].
 struct ClearTexel {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <string_view>
 #include <unordered_map>
@@ -264,6 +265,56 @@ bool ResourcePool::createBuffers(const Plan& plan, const ResourcePool* before,
     for (const gl::Buffer& copy : mine.buffer->copies) mine.buffers.push_back(copy.id());
   }
   return true;
+}
+
+void ResourcePool::carry(const Plan& plan, StateStream& state, text::Diagnostics& diagnostics) {
+  for (GpuResource& mine : resources_) {
+    state.carry(mine.current);
+    state.require(mine.current < mine.copies);
+    for (std::uint64_t* each : {&mine.publications, &mine.resets, &mine.shows}) state.carry(*each);
+    state.carry(mine.publishedAt);
+  }
+  if (!state.good()) return;
+  // Steps of a plan do not know these reads and writes.
+  glMemoryBarrier(GL_ALL_BARRIER_BITS);
+  for (std::uint32_t r = 0; r < resources_.size() && state.good(); ++r)
+    if (plan.persistent[r]) carryContents(plan, r, state, diagnostics);
+  glMemoryBarrier(GL_ALL_BARRIER_BITS);
+}
+
+// Texels go as whole numbers through a view, because a driver may convert those of other formats: it need not keep which NaN one is.
+void ResourcePool::carryContents(const Plan& plan, std::uint32_t resource, StateStream& state,
+                                 text::Diagnostics& diagnostics) {
+  const GpuResource& mine = resources_[resource];
+  const FlatResource& desc = plan.graph->resources[resource];
+  for (const GLuint buffer : mine.buffers) {
+    if (!state.loading())
+      state.put(gl::readBuffer(buffer, mine.offset, mine.bytes));
+    else if (const auto bytes = state.take(mine.bytes); state.good())
+      gl::uploadBuffer(buffer, mine.offset, bytes);
+  }
+  if (!mine.texture) return;
+  const ExactTexel texel = exactTexelOf(desc.format);
+  for (std::uint32_t copy = 0; copy < mine.copies; ++copy) {
+    const gl::ViewDesc all{
+        .target = glTargetOf(desc.target), .format = texel.view, .mips = desc.mips, .layers = desc.layers};
+    const gl::TextureRef from = mine.texture->view(copy, all, diagnostics);
+    for (std::uint32_t mip = 0; mip < desc.mips && from.id; ++mip) {
+      const gl::Extent extent = gl::extentOf(from.desc, mip);
+      for (std::uint32_t layer = 0; layer < extent.layers && state.good(); ++layer) {
+        if (!state.loading()) {
+          std::vector<std::byte> bytes = gl::readTexture(from, mip, layer, texel.format, texel.type);
+          if (texel.type == GL_FLOAT_32_UNSIGNED_INT_24_8_REV)  // nothing is in the bits above the stencil's
+            for (std::size_t i = 0; i < bytes.size(); i += 8) std::fill_n(&bytes[i + 5], 3, std::byte{0});
+          state.put(bytes);
+          continue;
+        }
+        const auto bytes =
+            state.take(std::size_t{extent.width} * extent.height * gl::texelBytes(texel.format, texel.type));
+        if (state.good()) gl::uploadTexture(from, mip, layer, texel.format, texel.type, bytes);
+      }
+    }
+  }
 }
 
 gl::TextureRef ResourcePool::view(const Plan& plan, const FlatUse& use, std::uint32_t copy, GLenum target,

@@ -13,6 +13,7 @@
 
 #include "engine/gl/objects/objects.h"
 #include "engine/graph/plan.h"
+#include "engine/runtime/storage/state_stream.h"
 #include "engine/text/diagnostic.h"
 
 namespace weft::runtime {
@@ -103,7 +104,12 @@ class ResourcePool {
   void fill(const graph::Plan& plan, std::uint32_t resource, const graph::Value& value,
             text::Diagnostics& diagnostics);
 
+  // Saves or restores what the resources hold from frame to frame, to the bit, and what is known of it.
+  void carry(const graph::Plan& plan, StateStream& state, text::Diagnostics& diagnostics);
+
  private:
+  void carryContents(const graph::Plan& plan, std::uint32_t resource, StateStream& state,
+                     text::Diagnostics& diagnostics);
   using Textures = std::vector<std::shared_ptr<PhysicalTexture>>;  // per storage of the plan
   bool createTextures(const graph::Plan& plan, const ResourcePool* before, text::Diagnostics& diagnostics);
   void shareTextures(const graph::Plan& plan, const std::vector<std::string>& owners,
