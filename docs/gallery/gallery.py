@@ -8,8 +8,7 @@
     docs/gallery/gallery.py --weft WEFT ... as above, by the program WEFT in place of ./run
     docs/gallery/gallery.py --old           render everything in a temporary folder and name the pictures that look different now
     docs/gallery/gallery.py --check WEFT    write nothing: the pages must be those that gallery.json makes, every picture must be there and made by
-                                            its command, and every command but those of presets, with a smaller size, smaller maps and the computed
-                                            sky, must change the picture
+                                            its command, those of a pair must differ, and `weft check` must take every command
 
 An entry: `name`; `graph`, where it is not the one of `all`; `effect`, its title; `off` and `on`, arguments for `weft render`; `both`, arguments of both;
 `says`, what to see; `crop`, [x, y, width, height], where it is too fine to be seen in the whole picture: this part alone, enlarged to the whole size.
@@ -25,7 +24,7 @@ import sys
 import tempfile
 
 from png import read_png, read_size as size_of_png, write_png
-from webp import read_size, read_webp, read_words, write_webp
+from webp import chunks, read_size, read_webp, read_words, write_webp
 
 HERE = pathlib.Path(__file__).resolve().parent
 TOP = HERE.parents[1]
@@ -34,7 +33,6 @@ GALLERY = json.loads((HERE / "gallery.json").read_text())
 FAMILIES = GALLERY["families"]
 ENTRIES = [entry for family in FAMILIES for entry in family["entries"]]
 SIDES = ("off", "on")
-MOST_TEXELS = 1024  # across a shadow map, for --check
 SEEN = 6  # of 255: a picture looks different where the mean of a block of 8 x 8 pixels differs by more
 
 
@@ -192,60 +190,26 @@ def check_files():
     return problems
 
 
-def case_of(name, line):
-    """The arguments as a case of `weft test`, or None where it has no key for one of them."""
-    graph, *words = shlex.split(line)
-    case = {"name": name, "graph": str(TOP / graph), "set": {}, "disable": []}
-    for option, value in zip(words[::2], words[1::2], strict=True):
-        if option == "--set":
-            key, value = value.split("=", 1)
-            case["set"][key] = json.loads(value) if re.match(r"[\[\d.-]|true$|false$", value) else value
-            if key.endswith("_texels"):
-                case["set"][key] = min(case["set"][key], MOST_TEXELS)
-        elif option == "--disable":
-            case["disable"].append(value)
-        elif option == "--scene":
-            case["scene"] = str(TOP / value)
-        elif option == "--frames" and value.isdigit():
-            case["frame"] = int(value)
-        else:
-            return None
-    return case
-
-
-def draw_small(weft, lines, folder):
-    """Arguments -> picture, with the computed sky. One run draws all but those that are no cases."""
-    files = {line: folder / f"{number}.png" for number, line in enumerate(lines)}
-    cases = [case_of(file.stem, line) for line, file in files.items()]
-    defaults = {"size": GALLERY["check_size"], "preset": [str(TOP / "tests/small_maps.json")]}
-    (folder / "gallery.cases.json").write_text(json.dumps({"defaults": defaults, "cases": [case for case in cases if case]}))
-    done = subprocess.run([weft, "test", folder, "--accept"], capture_output=True, text=True)
-    if done.returncode or "error[" in done.stderr:
-        sys.exit(done.stderr or done.stdout)
-    for line, case in zip(lines, cases):
-        if not case:
-            run(weft, f"./run render {line} --size {GALLERY['check_size']} -o {files[line]}", {})
-    return {line: read_png(file)[1] for line, file in files.items()}
+def picture_in(name):
+    return next(body for kind, body in chunks((PICTURES / name).read_bytes()) if kind == b"VP8 ")
 
 
 def check_effects(weft):
+    """Each pair shows a difference, or none where it says so, and Weft takes each command as it is now."""
     problems = []
-    entries = [entry for entry in ENTRIES if not entry["name"].startswith("preset_")]  # tests/app/commands/presets.py renders every preset
-    with tempfile.TemporaryDirectory() as folder:
-        made = draw_small(weft, list(dict.fromkeys(arguments(entry, side) for entry in entries for side in SIDES)), pathlib.Path(folder))
-    for entry in entries:
-        off, on = (made[arguments(entry, side)] for side in SIDES)
-        changed = sum(a != b for a, b in zip(off, on)) / len(off)
-        equal = entry.get("equal", False)
-        if (changed > 0) == equal:
-            problems.append(f"{entry['name']}: {changed:.2%} of the values differ, and {'none' if equal else 'some'} should")
-        if max(on) == min(on):
-            problems.append(f"{entry['name']}: the picture is one flat value")
+    for entry in ENTRIES:
+        off, on = (picture_in(picture_of(entry, side)) for side in SIDES)
+        if (off == on) != entry.get("equal", False):
+            problems.append(f"{entry['name']}: the pictures are {'equal' if off == on else 'not equal'}")
+    for line in dict.fromkeys(re.sub(r" --(frames|present) ('[^']*'|\S+)", "", arguments(entry, side)) for entry in ENTRIES for side in SIDES):
+        done = subprocess.run([weft, "check", "--no-shaders", *shlex.split(line)], cwd=TOP, capture_output=True, text=True)
+        if done.returncode:
+            problems.append(f"weft check {line}\n{done.stderr}")
     return problems
 
 
 def check(weft):
-    problems = check_files() + check_effects(weft)
+    problems = check_files() or check_effects(weft)
     for problem in problems:
         print(problem)
     print(f"{len(ENTRIES)} entries, {len(problems)} problems")
