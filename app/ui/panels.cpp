@@ -8,7 +8,7 @@ namespace weft::app::ui {
 
 namespace {
 
-constexpr std::array<const char*, 8> kTitles = {"Parameters", "Passes",  "Selected",  "Pictures",
+constexpr std::array<const char*, 9> kTitles = {"Parameters", "Passes",  "Selected",  "Pictures", "Pixel",
                                                 "Times",      "Storage", "Histogram", "Messages"};
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoSavedSettings;
@@ -98,6 +98,16 @@ Panels::Area Panels::picture() const {
           pixels(height_ - line_ - strip_)};
 }
 
+void Panels::markPixel(glm::dvec2 place) {
+  pixel_.mark(place);
+  open("pixel");
+}
+
+void Panels::drawPixel() {
+  const graph::Plan& plan = renderer_.execution()->plan();
+  if (const std::uint32_t pass = pixel_.draw(plan); pass != graph::kNone) select(plan.graph->passNames[pass]);
+}
+
 void Panels::beforeFrame(const scene::CameraPose& pose) {
   runtime::StepWatch::Look also;
   // Of a plan that is not listed yet nothing is drawn.
@@ -105,6 +115,9 @@ void Panels::beforeFrame(const scene::CameraPose& pose) {
     const bool moved = std::exchange(pose_, pose) != pose;
     pictures_.beforeFrame(std::exchange(livesSet_, live_.livesSet()) != live_.livesSet() || moved);
     also = [this](std::uint32_t step) { pictures_.afterStep(*renderer_.execution(), step); };
+  } else if (shows(kPixel)) {
+    pixel_.beforeFrame();
+    also = [this](std::uint32_t step) { pixel_.afterStep(*renderer_.execution(), step); };
   }
   inspector_.beforeFrame(shows(kSelected), std::move(also));
   profiler_.begin();
@@ -168,6 +181,7 @@ void Panels::drawTabs(std::size_t place, std::size_t first, std::size_t end,
                                                               [&] { drawPasses(diagnostics); },
                                                               [&] { inspector_.draw(diagnostics); },
                                                               [&] { drawPictures(diagnostics); },
+                                                              [&] { drawPixel(); },
                                                               [&] { drawProfiler(); },
                                                               [&] { drawStorage(); },
                                                               [&] { drawHistogram(); },

@@ -14,6 +14,7 @@
 #include "app/ui/looks.h"
 #include "app/ui/pass_pictures.h"
 #include "app/ui/pass_rows.h"
+#include "app/ui/pixel_panel.h"
 #include "engine/graph/print/print.h"
 #include "engine/runtime/inspection/frame_profiler.h"
 #include "engine/runtime/inspection/inspector.h"
@@ -98,6 +99,8 @@ class Panels {
   static std::vector<std::string> names();
   // Brings a pass and what it writes to the front, by its full instance name.
   void select(std::string_view pass);
+  // Brings what passes leave at a place of the picture to the front: from its lower left corner, 0 to 1 each way.
+  void markPixel(glm::dvec2 place);
   // Where the selected pass is written, or, with `shader`, its shader; nowhere when none is selected.
   text::Place selectedPlace(bool shader) const;
   // The height of text in pixels, and the size of the window; to be called before the functions below.
@@ -131,6 +134,7 @@ class Panels {
     kPasses,
     kSelected,
     kPictures,
+    kPixel,
     kTimes,
     kStorage,
     kHistogram,
@@ -148,6 +152,7 @@ class Panels {
   void drawPassRow(std::size_t row, text::Diagnostics& diagnostics);
   void drawParameters(const runtime::FrameReport& report, text::Diagnostics& diagnostics);
   void drawPictures(text::Diagnostics& diagnostics);
+  void drawPixel();
   void drawProfiler();
   void drawStorage();
   void drawHistogram();
@@ -168,6 +173,7 @@ class Panels {
   Looks looks_;
   InspectorPanel inspector_;
   PassPictures pictures_;
+  PixelPanel pixel_;
   scene::CameraPose pose_;                        // of the last frame
   std::uint64_t livesSet_ = 0;                    // by then
   std::array<std::array<float, 256>, 4> bins_{};  // of the picture: red, green, blue, luminance

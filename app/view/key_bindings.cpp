@@ -36,6 +36,7 @@ constexpr KeyBinding kBindings[] = {
     {GLFW_KEY_HOME, kAlone, "reset_time", "Home", "time begins anew"},
     {'P', kAlone, "profile", "P", "measure each pass (slower on software)"},
     {'N', kAlone, "find_nan", "N", "name the first pass that writes NaN or an infinity, and select it"},
+    {'X', kAlone, "trace_pixel", "X", "show what each pass leaves at the pixel under the mouse"},
     {'O', kAlone, "edit_pass", "O", "open the selected pass in the editor, where its stanza is"},
     {'O', WithKey::shift, "edit_shader", "Shift O", "open its shader there"},
     {'V', kAlone, "vsync", "V", "wait for the screen's refresh, or not"},

@@ -145,6 +145,11 @@ void Viewer::addActions() {
               {"previous_environment", [step] { step(-1); }},
               {"undo", [this] { told_ = live_.undo(diagnostics_) ? "taken back" : "nothing to take back"; }},
               {"redo", [this] { told_ = live_.redo(diagnostics_) ? "made again" : "nothing to make again"; }},
+              {"trace_pixel",
+               [this] {
+                 panels_.markPixel(input_.place());
+                 rest_.disturb();
+               }},
               {"edit_pass", [this] { editSelected(false); }},
               {"edit_shader", [this] { editSelected(true); }},
               {"pause", [this] { clock_.pause(!clock_.paused()); }},

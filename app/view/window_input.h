@@ -44,6 +44,7 @@ class WindowInput {
   // whether that went down since pointerShown(). What it does over a panel does not count.
   imports::Pointer pointer(std::uint32_t width, std::uint32_t height) const;
   void pointerShown() { clicked_ = false; }
+  glm::dvec2 place() const;  // where the mouse is: 0 to 1 of the picture from its lower left corner
   // The left button is the graph's, and turns the camera with Ctrl only.
   void giveButton(bool toGraph) { graphHasButton_ = toGraph; }
   // To be called after each hand(), when the overlay has seen the events. `panels`: the mouse is theirs, and so is what it did,
@@ -59,7 +60,6 @@ class WindowInput {
   void onKey(const ui::WindowEvent& event);
   void onButton(const ui::WindowEvent& event);
   void onMove(const ui::WindowEvent& event);
-  glm::dvec2 place() const;  // where the mouse is: 0 to 1 of the picture from its lower left corner
   void point();
 
   GLFWwindow* window_;

@@ -59,6 +59,42 @@ bool isThere(const Execution& execution, const CaptureItem& item) {
   return !written;
 }
 
+struct Rectangle {
+  std::uint32_t x = 0, y = 0, width = 1, height = 1;
+};
+
+// Numbers as they are stored, row 0 at the bottom.
+struct Numbers {
+  std::vector<double> values;
+  std::uint32_t channels = 1;
+};
+
+Numbers readNumbers(const gl::TextureRef& from, std::uint32_t mip, std::uint32_t layer, const Rectangle& part,
+                    bool stencil) {
+  gl::ClientFormat client = gl::clientFormatOf(from.desc.format);
+  if (stencil && from.desc.format == GL_DEPTH32F_STENCIL8)
+    client = {GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, 2};
+  else if (stencil)
+    client = {GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, 1};
+  std::vector<std::uint32_t> words(std::size_t{part.width} * part.height * client.channels);
+  glGetTextureSubImage(from.id, static_cast<GLint>(mip), static_cast<GLint>(part.x),
+                       static_cast<GLint>(part.y), static_cast<GLint>(layer),
+                       static_cast<GLsizei>(part.width), static_cast<GLsizei>(part.height), 1, client.format,
+                       client.type, static_cast<GLsizei>(words.size() * 4), words.data());
+  const auto numberOf = [&](std::uint32_t word) -> double {
+    if (stencil) return word & 0xff;
+    if (client.type == GL_FLOAT) return static_cast<double>(std::bit_cast<float>(word));
+    return client.type == GL_INT ? std::bit_cast<std::int32_t>(word) : static_cast<double>(word);
+  };
+  Numbers out{.channels = stencil ? 1 : client.channels};
+  out.values.reserve(words.size());
+  // Stencil comes last.
+  for (std::size_t i = client.channels - out.channels; i < words.size();
+       i += stencil ? client.channels : std::size_t{1})
+    out.values.push_back(numberOf(words[i]));
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::string> Inspector::writersOf(const graph::Plan& plan, std::uint32_t resource) {
@@ -258,34 +294,27 @@ std::string InspectTexel::text() const {
   return out;
 }
 
+InspectTexel readTexel(const gl::TextureRef& texture, std::uint32_t mip, std::uint32_t layer, std::uint32_t x,
+                       std::uint32_t y, std::uint32_t channels) {
+  glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
+  const Numbers read = readNumbers(texture, mip, layer, {x, y, 1, 1}, false);
+  InspectTexel out{.channels = std::min(std::max(channels, 1u), read.channels)};
+  std::copy_n(read.values.begin(), out.channels, out.value.begin());
+  return out;
+}
+
 std::uint32_t Inspector::numbers() const {
   return stencil_ ? 1 : std::min(channels_, gl::clientFormatOf(picture_.desc().format).channels);
 }
 
 std::vector<double> Inspector::read(std::uint32_t x, std::uint32_t y, std::uint32_t width,
                                     std::uint32_t height) const {
-  const GLenum format = picture_.desc().format;
-  gl::ClientFormat client = gl::clientFormatOf(format);
-  if (stencil_ && format == GL_DEPTH32F_STENCIL8)
-    client = {GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, 2};
-  else if (stencil_)
-    client = {GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, 1};
-  const std::size_t texels = std::size_t{width} * height;
-  std::vector<std::uint32_t> words(texels * client.channels);
-  glGetTextureSubImage(picture_.id(), 0, static_cast<GLint>(x), static_cast<GLint>(y), 0,
-                       static_cast<GLsizei>(width), static_cast<GLsizei>(height), 1, client.format,
-                       client.type, static_cast<GLsizei>(words.size() * 4), words.data());
-  const auto numberOf = [&](std::uint32_t word) -> double {
-    if (stencil_) return word & 0xff;
-    if (client.type == GL_FLOAT) return static_cast<double>(std::bit_cast<float>(word));
-    return client.type == GL_INT ? std::bit_cast<std::int32_t>(word) : static_cast<double>(word);
-  };
+  const Numbers all = readNumbers(picture_.ref(), 0, 0, {x, y, width, height}, stencil_);
   std::vector<double> out;
-  out.reserve(texels * numbers());
-  const std::size_t first = stencil_ ? client.channels - 1 : 0;  // stencil comes last
-  for (std::size_t i = 0; i < texels; ++i)
-    for (std::size_t c = first; c < first + numbers(); ++c)
-      out.push_back(numberOf(words[i * client.channels + c]));
+  out.reserve(std::size_t{width} * height * numbers());
+  for (std::size_t at = 0; at < all.values.size(); at += all.channels)
+    out.insert(out.end(), all.values.begin() + static_cast<std::ptrdiff_t>(at),
+               all.values.begin() + static_cast<std::ptrdiff_t>(at + numbers()));
   return out;
 }
 

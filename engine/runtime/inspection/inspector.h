@@ -56,6 +56,11 @@ struct InspectStatistics {
   std::uint64_t nan = 0, infinite = 0, texels = 0;
 };
 
+// Of one texel of a level and a layer of a texture without samples, which has so many channels; depth of one with stencil. What
+// shaders stored before is seen. Waits for the GPU.
+InspectTexel readTexel(const gl::TextureRef& texture, std::uint32_t mip, std::uint32_t layer, std::uint32_t x,
+                       std::uint32_t y, std::uint32_t channels);
+
 class Inspector {
  public:
   explicit Inspector(Device& device) : device_(device) {}

@@ -167,6 +167,15 @@ def pictures(weft, folder, display, report):
             live.key(key)
             report.check(live.event(r"edit .* ended with exit code 3", since) and edited.read_text().split("\n")[-2].endswith(line),
                          f"{key} does not edit {line}\n{live.lines()}")
+        # X lists what each pass leaves at a pixel; a click on a row selects its pass.
+        live.tool("mousemove", "--window", live.window, 100, 100)
+        live.act("x", "trace_pixel")
+        live.shot()
+        for y in range(290, 372, 10):
+            live.click(200, y)
+            live.act("o", "edit_pass")
+        rows = [pathlib.Path(line).name for line in dict.fromkeys(edited.read_text().split("\n")[2:-1])]
+        report.check(rows[:3] == ["pair.json 3", "tints.json 3", "tints.json 4"], f"the passes at a pixel are {rows}")
         live.leave(report)
     finally:
         live.stop()

@@ -58,6 +58,17 @@ TEST_CASE("a resource is read where it was written, although its storage is used
   CHECK(std::isinf(valueAt(inspector, 2, 1)[1]));
   CHECK(inspector.texel(1, 1)->text() == "nan, 1, 1, 1");
   CHECK(inspector.texel(2, 1)->text() == "2, inf, 1, 1");
+  // One texel, read right there.
+  const std::uint32_t writer = plan.firstStep[index("first")];
+  std::string read;
+  stage.execution().watch({.after = [&](std::uint32_t step) {
+    if (step != writer) return;
+    const gl::TextureRef first = stage.execution().texture(static_cast<std::uint32_t>(index("first")));
+    read = readTexel(first, 0, 0, 3, 2, 4).text() + "; " + readTexel(first, 0, 0, 1, 1, 2).text();
+  }});
+  stage.run();
+  stage.execution().watch({});
+  CHECK(read == "3, 2, 1, 1; nan, 1");
   CHECK_FALSE(inspector.texel(8, 0).has_value());
 
   look(stage, inspector, {.resource = "second"});
