@@ -137,7 +137,7 @@ def judge(weft, report, folder, graph, frames, shards, size):
             first = min(set(range(frames)) - done)
             process = subprocess.Popen([*base, "--frames", f"{first}:{frames - 1}", "--checkpoint", str(each), "-o", folder / "killed/f_%04d.exr"], cwd=TOP)
             try:
-                process.wait(timeout=random.uniform(0.5, 0.08 * times["whole"] + 2))
+                process.wait(timeout=random.uniform(0.3, 0.15 * times["whole"] + 0.7))
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.wait()
