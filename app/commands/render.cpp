@@ -34,6 +34,7 @@ struct FrameRun {
   std::map<std::string, std::unique_ptr<Video>> videos{};  // those of the files that are
   std::optional<Manifest> manifest{};
   CheckpointOptions checkpoints{};
+  std::optional<std::uint64_t> settings{};  // their hash, before a manifest or an output was read
   PictureWriter writer{};
   runtime::FrameReport last{};
   std::uint64_t ran = 0, written = 0;  // frames
@@ -85,7 +86,7 @@ void runFrames(DeviceSession& session, runtime::World& world, const Options& opt
   runtime::Renderer& renderer = session.renderer;
   runtime::Execution& execution = *renderer.execution();
   const bool all = execution.remembers(world);
-  Checkpoints checkpoints(run.checkpoints, session, world, options);
+  Checkpoints checkpoints(run.checkpoints, session, world, options, run.settings);
   const std::uint32_t begin = all ? checkpoints.begin(run.frames.front(), diagnostics) : 0;
   const std::uint64_t total = all ? std::uint64_t{run.frames.back()} + 1 - begin : run.frames.size();
   if (diagnostics.hasErrors()) return;
@@ -205,6 +206,7 @@ bool openManifest(const RenderOptions& options, const std::string& path, DeviceS
                   std::span<const OutputFile> outputs, FrameRun& run, text::Diagnostics& diagnostics) {
   const gl::DeviceInfo& device = session.context->device();
   std::uint64_t settings = hashOfSettings(options, session);
+  run.settings = settings;
   for (const OutputFile& output : outputs)
     settings =
         text::hashBytes(output.option + std::filesystem::path(output.pattern).filename().string(), settings);
@@ -265,7 +267,6 @@ int runRender(RenderOptions& options) {
     text::keepHashes();
     text::chooseFile(manifest);
   }
-  run.checkpoints = options.checkpoints.beside(outputs[0].pattern);
   run.checkpoints = options.checkpoints.beside(outputs[0].pattern);
   return runOnDevice({&options}, 1, [&](auto& session, auto& world, text::Diagnostics& diagnostics) {
     runtime::Renderer& renderer = session->renderer;

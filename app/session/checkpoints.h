@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -21,9 +22,9 @@ struct CheckpointOptions {
 
 class Checkpoints {
  public:
-  // All must outlive this.
+  // All must outlive this. `settings`: hashOfSettings(), where other files may have been read since the graph was loaded.
   Checkpoints(const CheckpointOptions& wish, DeviceSession& session, const runtime::World& world,
-              const Options& options);
+              const Options& options, std::optional<std::uint64_t> settings = {});
 
   // Brings the execution, which has run no frame, to the frame to run first, and returns that: `first`, where no frame depends on
   // earlier ones; else that of the nearest checkpoint at or before it, or 0. One that was named and does not fit is an error
@@ -44,6 +45,7 @@ class Checkpoints {
   DeviceSession& session_;
   const runtime::World& world_;
   const Options& options_;
+  const std::optional<std::uint64_t> settings_;
   const bool named_;  // `where` is a checkpoint
   const std::string folder_;
   bool saves_ = false;

@@ -52,6 +52,13 @@ def check_options(weft, report, folder):
         report.check(all(files_of(whole, kind)[n] == b for n, b in files_of(parts, kind).items()), f"{kind}: frames differ")
     rest("saves again", "5:9", 4, "--checkpoint", "4")
     report.check({f.name: f.read_bytes() for f in saved.iterdir()} == before, "a checkpoint of a rest is another one")
+    # With a manifest: what was read for it is no file that decides pixels.
+    done = folder / "done"
+    for begin in (0, 8):
+        result = run(weft, "render", GRAPH, *COMMON, "--frames", "1-9x4", "--stats", "--skip-done", "--checkpoints", saved, "-o", done / "f_%d.exr")
+        report.check(result.code == 0 and "W001" not in result.err and begins_at(result) == begin, f"--skip-done: not from {begin}\n{result.err}")
+        report.check(all(files_of(whole, "exr")[n] == b for n, b in files_of(done, "exr").items()) and len(files_of(done, "exr")) == 3, "--skip-done: frames differ")
+        (done / "f_9.exr").unlink()
     rest("another option", "9", 0, "--set", "beat=2", words=["2 checkpoints cannot be used", "of other files or options"])
     rest("another clock", "9", 0, "--fps", "30", words=["of other files or options"])
     rest("another texture is kept", "9", 0, "-o", f"third={parts / 'third.exr'}", words=["of other files or options"])
