@@ -42,12 +42,11 @@ vec3 neutral(vec3 color) {
   const float start = 0.8 - 0.04, desaturation = 0.15;
   float low = min(color.r, min(color.g, color.b));
   color -= low < 0.08 ? low - 6.25 * low * low : 0.04;
-  float peak = max(color.r, max(color.g, color.b));
-  if (peak < start) return color;
+  float peak = max(start, max(color.r, max(color.g, color.b)));  // at `start` what follows changes nothing
   const float room = 1.0 - start;
   float new_peak = 1.0 - room * room / (peak + room - start);
-  color *= new_peak / peak;
-  return mix(color, vec3(new_peak), 1.0 - 1.0 / (desaturation * (peak - new_peak) + 1.0));
+  float share = 1.0 / (peak * (desaturation * (peak - new_peak) + 1.0));  // of the color that stays, by its peak
+  return new_peak * (share * color + (1.0 - share * peak));
 }
 #endif
 

@@ -33,6 +33,7 @@ struct Levels {
 // The presented picture of an empty scene under a constant sky, in 8-bit steps.
 Levels levelsOf(float radiance, std::vector<weft::graph::Setting> sets, const char* picture = "post.ldr") {
   Setup setup{.graph = "graphs/studio.json", .width = 64, .height = 48, .sets = std::move(sets)};
+  setup.sets.emplace_back("curve", "filmic");
   setup.environment = constantEnvironment(radiance, radiance, radiance);
   Lab lab(setup);
   lab.frame();

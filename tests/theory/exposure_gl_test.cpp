@@ -21,7 +21,7 @@ constexpr double kKey = 0.18;
 
 Setup setupOf(double left, double right, double first, Sets more = {}) {
   Setup setup{.graph = "tests/theory/look.json", .width = 64, .height = 32};
-  setup.sets = {{"bloom", "false"}, {"fxaa", "false"}, {"auto_exposure", "true"}};
+  setup.sets = {{"bloom", "false"}, {"fxaa", "false"}, {"auto_exposure", "true"}, {"curve", "filmic"}};
   setup.sets.emplace_back("ramp.left", fmt::format("[{0}, {0}, {0}]", left));
   setup.sets.emplace_back("ramp.right", fmt::format("[{0}, {0}, {0}]", right));
   setup.sets.emplace_back("ramp.first", fmt::format("{}", first));

@@ -61,7 +61,7 @@ def write_back(weft, folder, report):
         live.key("F8")
         report.check(live.until(lambda: all(path.read_text() != text for path, text in zip(files, before))), f"F8 writes nothing\n{live.said()}")
         expected = re.sub(r'("exposure": *\{[^}\n]*"default": )[-\d.]+', r"\g<1>1.25", before[0])
-        expected = re.sub(r'("curve": *\{ "default": )"filmic"', r'\g<1>"aces"', expected)
+        expected = re.sub(r'("curve": *\{ "default": )"neutral"', r'\g<1>"aces"', expected)
         report.check(composite.read_text() == expected, f"{composite.name} has\n{composite.read_text()}")
         changed = [a for a, b in zip(post.read_text().splitlines(), before[1].splitlines()) if a != b]
         report.check(len(changed) == 1 and "fxaa" in changed[0] and "false" in changed[0], f"other lines changed: {changed}")
