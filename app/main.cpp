@@ -36,9 +36,9 @@ int main(int argc, char** argv) {
   std::set_terminate(endAtOnce);
   prepareStreams();
   CommandLine line;
-  for (const auto add :
-       {addRender, addView, addCheck, addPlan, addExplain, addDiff, addReport, addParams, addPresets, addTest,
-        addFuzz, addDump, addFormat, addNew, addImport, addLsp, addBench, addSchema, addTypes})
+  for (const auto add : {addRender, addFarm,   addView,    addCheck, addPlan,   addExplain, addDiff,
+                         addReport, addParams, addPresets, addTest,  addFuzz,   addDump,    addFormat,
+                         addNew,    addImport, addLsp,     addBench, addSchema, addTypes})
     add(line);
   return finishStreams(line.run(argc, argv));
 }

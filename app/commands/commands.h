@@ -23,6 +23,7 @@ void addDiff(CommandLine& line);
 void addReport(CommandLine& line);
 void addTest(CommandLine& line);
 void addFuzz(CommandLine& line);
+void addFarm(CommandLine& line);
 void addNew(CommandLine& line);
 void addParams(CommandLine& line);
 void addPresets(CommandLine& line);

@@ -1,4 +1,6 @@
 // weft render: frames of a graph to image files, reproducible to the byte. weft dump: what each pass wrote in one of them.
+#include "app/commands/render.h"
+
 #include <unistd.h>
 
 #include <csignal>
@@ -147,15 +149,6 @@ int tellInterrupted(const FrameRun& run) {
   return 128 + run.signal;
 }
 
-struct RenderOptions : Options {
-  std::vector<std::string> outputs;  // -o, as they were written
-  std::string present;
-  std::vector<std::uint32_t> frames = {0};
-  std::string manifest;
-  bool skipDone = false;
-  CheckpointOptions checkpoints;
-};
-
 // `-o FILE`, `-o NAME=FILE` and `--present NAME`: the parts are those of options.kept. What is wrong with them, or nothing.
 std::string takeOutputs(RenderOptions& options, FrameRun& run) {
   const auto add = [&](graph::Pick pick, const char* option, std::string file) {
@@ -245,6 +238,8 @@ std::string checkTogether(const RenderOptions& options, std::span<const OutputFi
   return {};
 }
 
+}  // namespace
+
 int runRender(RenderOptions& options) {
   const double start = gl::steadyMs();
   FrameRun run{.frames = options.frames, .output = {}, .parts = {}};
@@ -277,8 +272,9 @@ int runRender(RenderOptions& options) {
     findParts(options, renderer.execution()->plan(), run, diagnostics);
     std::vector<OutputFile> all = outputs;
     all.push_back({"--manifest", manifest});
-    if (!checkDistinct(all, diagnostics) || diagnostics.hasErrors() ||
-        (!manifest.empty() && !openManifest(options, manifest, *session, outputs, run, diagnostics)))
+    if (!checkDistinct(all, diagnostics) || diagnostics.hasErrors()) return 1;
+    if (options.instead) return options.instead(renderer.execution()->remembers(world), all, diagnostics);
+    if ((!manifest.empty() && !openManifest(options, manifest, *session, outputs, run, diagnostics)))
       return 1;
     renderer.device().timers.setEnabled(options.profile);
     const auto checkSaved = [&] {
@@ -309,6 +305,8 @@ int runRender(RenderOptions& options) {
     return 0;
   });
 }
+
+namespace {
 
 // ---- dump ----
 
@@ -394,6 +392,10 @@ int runDump(DumpOptions& options) {
 void addRender(CommandLine& line) {
   const auto [command, options] =
       line.add("render", "render frames of a graph to image files, without a display", runRender);
+  addRenderOptions(command, options);
+}
+
+void addRenderOptions(CLI::App& command, RenderOptions& options) {
   options.addGraph(command);
   options.addMeasurements(command);
   addPath(command, "-o,--output", options.outputs,

@@ -1,0 +1,202 @@
+// weft farm: hands `weft render` of a set of frames to the scheduler of a cluster, as a script for Slurm or a template of Open Job
+// Description. All work is done by `weft render --skip-done`; here are chunks, tries and dependencies.
+#include <sys/wait.h>
+
+#include <cerrno>
+
+#include "app/commands/render.h"
+#include "app/output/frame_set.h"
+#include "app/output/manifest.h"
+#include "engine/text/apart.h"
+
+namespace weft::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMostTasks = 1000;  // MaxArraySize of Slurm, unless a site says more
+constexpr const char* kOwn[] = {"kind", "--frames", "--per-task", "--script", "--submit", "--skip-done"};
+
+struct FarmOptions : RenderOptions {
+  const CLI::App* command = nullptr;
+  std::string kind, script;
+  std::uint32_t perTask = 20;
+  bool submit = false;
+};
+
+// A set of frames for a scheduler.
+struct Farm {
+  std::string render;  // the command line, but for its frames
+  std::vector<std::string> chunks{};
+  std::string all;       // the whole set
+  std::string folder{};  // of the pictures
+  bool inOrder;          // frames depend on earlier ones
+};
+
+// As bash takes a word. Control characters and what is no UTF-8 as \xNN: the script is one of lines, and can be part of JSON. No two braces
+// meet, which in a template would begin or end an expression.
+std::string wordOf(const std::string& word) {
+  if (text::printable(word) != word) {
+    std::string out = "$'";
+    for (const unsigned char c : word)
+      out += std::isalnum(c) ? std::string(1, c) : fmt::format("\\x{:02x}", c);
+    return out + "'";
+  }
+  std::string out;
+  for (const char c : quoted(word)) {
+    if ((c == '{' || c == '}') && out.ends_with(c)) out += "''";
+    out += c;
+  }
+  return out;
+}
+
+// `weft render` with the words that were given to this command and are none of its own.
+std::string renderOf(const FarmOptions& options, bool inOrder) {
+  std::error_code ec;
+  std::string line = fmt::format("cd -- {} && {} render", wordOf(fs::current_path(ec).string()),
+                                 wordOf(fs::read_symlink("/proc/self/exe", ec).string()));
+  for (const CLI::Option* option : options.command->get_options()) {
+    if (std::ranges::count(kOwn, option->get_name()) > 0) continue;
+    for (const std::string& value : option->results())
+      line += " " + wordOf(option->get_positional() ? fs::absolute(value).string()
+                                                    : option->get_name() + "=" + value);
+  }
+  // A task that is begun again, or begins, goes on where the one before ended.
+  const CLI::Option* checkpoint = options.command->get_option_no_throw("--checkpoint");
+  if (inOrder && checkpoint && checkpoint->empty()) line += fmt::format(" --checkpoint={}", options.perTask);
+  return line + " --skip-done";
+}
+
+// What both do: `bash SCRIPT task 3` draws a chunk, `bash SCRIPT gather` the whole set.
+std::string scriptOf(const Farm& farm) {
+  return fmt::format(R"(frames=({})
+case ${{1-}} in
+  task) number=${{2:-$SLURM_ARRAY_TASK_ID}} set=${{frames[number]}} ;;
+  gather) set={} ;;
+  *) set= ;;
+esac
+if [ -n "$set" ]; then
+  for try in 1 2 3; do
+    ({} "--frames=$set") && exit
+    code=$?
+    echo "try $try of 3 of frames $set: exit code $code" >&2
+  done
+  exit "$code"
+fi
+)",
+                     fmt::join(farm.chunks, " "), farm.all, farm.render);
+}
+
+std::string slurmOf(const Farm& farm) {
+  const std::string atOnce = fmt::format(R"(
+jobs=$(submit --job-name=weft_render --array=0-{} "$@" "$self" task) || exit
+)",
+                                         farm.chunks.size() - 1);
+  const std::string chain = R"(
+jobs=
+for i in "${!frames[@]}"; do
+  jobs=$(submit --job-name=weft_render ${jobs:+"--dependency=afterany:${jobs%%;*}"} "$@" "$self" task "$i") || exit
+done
+)";
+  return fmt::format(R"(#!/bin/bash
+# Made by weft farm. Submits {} of `weft render`{}, and a job that checks all frames and draws what is missing: options are
+# for sbatch, as in `bash SCRIPT --partition=gpu`.
+{}
+self=$(realpath -- "${{BASH_SOURCE[0]}}")
+submit() {{ sbatch --parsable --requeue --chdir={} --output=%x_%j.log "$@"; }}{}gather=$(submit --job-name=weft_gather --dependency="afterany:${{jobs%%;*}}" "$@" "$self" gather) || exit
+echo "the last job is ${{gather%%;*}}; its log says how many frames were done already"
+)",
+                     text::counted(farm.chunks.size(), "task"),
+                     farm.inOrder ? ", each after the one before" : "", scriptOf(farm), wordOf(farm.folder),
+                     farm.inOrder ? chain : atOnce);
+}
+
+// Of https://github.com/OpenJobDescription/openjd-specifications, without extensions.
+std::string openJdOf(const Farm& farm) {
+  const auto step = [&](const char* name, Json words) {
+    words.insert(words.begin(), "{{Task.File.Run}}");
+    return Json{
+        {"name", name},
+        {"script",
+         {{"actions", {{"onRun", {{"command", "bash"}, {"args", std::move(words)}}}}},
+          {"embeddedFiles",
+           Json::array({{{"name", "Run"}, {"type", "TEXT"}, {"data", "#!/bin/bash\n" + scriptOf(farm)}}})}}}};
+  };
+  Json render = step("render", {"task", "{{Task.Param.Chunk}}"}), gather = step("gather", {"gather"});
+  render["parameterSpace"]["taskParameterDefinitions"] = Json::array(
+      {{{"name", "Chunk"}, {"type", "INT"}, {"range", fmt::format("0-{}", farm.chunks.size() - 1)}}});
+  gather["dependencies"] = Json::array({{{"dependsOn", "render"}}});
+  return text::dumpJson({{"specificationVersion", "jobtemplate-2023-09"},
+                         {"name", "weft render"},
+                         {"steps", Json::array({std::move(render), std::move(gather)})}}) +
+         "\n";
+}
+
+int runFarm(FarmOptions& options) {
+  const bool slurm = options.kind == "slurm";
+  if (options.submit && (!slurm || options.script == "-")) {
+    printError(fmt::format("weft farm: --submit is for slurm, and needs a file as --script, found {}\n",
+                           slurm ? "-" : options.kind));
+    return 2;
+  }
+  options.skipDone = true;  // what render would refuse is refused now
+  options.instead = [&](bool inOrder, std::vector<OutputFile>& outputs, text::Diagnostics& diagnostics) {
+    Farm farm{.render = renderOf(options, inOrder), .all = framesText(options.frames), .inOrder = inOrder};
+    farm.folder = fs::absolute(manifestNameOf(outputs[0].pattern)).parent_path().string();
+    // A template has no order of tasks.
+    const std::size_t most = inOrder && !slurm ? options.frames.size() : options.perTask;
+    for (std::span<const std::uint32_t> left = options.frames; !left.empty();
+         left = left.subspan(std::min(most, left.size())))
+      farm.chunks.push_back(framesText(left.first(std::min(most, left.size()))));
+    if (options.script.empty())
+      options.script = (fs::path(farm.folder) / (slurm ? "farm.sbatch.sh" : "farm.openjd.json")).string();
+    if (farm.chunks.size() > kMostTasks)
+      return refuseOutput(options.script,
+                          fmt::format("expected at most {} tasks, found {}", kMostTasks, farm.chunks.size()),
+                          fmt::format("--per-task {}", (options.frames.size() - 1) / kMostTasks + 1),
+                          diagnostics),
+             1;
+    const std::string script = slurm ? slurmOf(farm) : openJdOf(farm);
+    if (options.script == "-") return print(script), 0;
+    outputs.push_back({"--script", options.script});
+    return checkDistinct(outputs, diagnostics) && makeFolderOf(options.script, diagnostics) &&
+                   text::writeFile(options.script, script, diagnostics)
+               ? 0
+               : 1;
+  };
+  if (const int code = runRender(options); code != 0 || options.script == "-") return code;
+  if (!options.submit) {
+    print(slurm ? fmt::format("read it, and submit it with: bash {}\n", wordOf(options.script))
+                : text::printable(options.script) + "\n");
+    return 0;
+  }
+  const pid_t bash = text::startProcess({"bash", options.script}, -1, 1, 2);
+  int status = -1;
+  while (bash > 0 && ::waitpid(bash, &status, 0) < 0 && errno == EINTR) continue;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 3;
+}
+
+}  // namespace
+
+void addFarm(CommandLine& line) {
+  const auto [command, options] =
+      line.add("farm", "write a script or a template that has a cluster render frames", runFarm);
+  options.command = &command;
+  addChoice(command, "kind", options.kind,
+            "slurm: a script that submits jobs; openjd: a template of Open Job Description",
+            {"slurm", "openjd"})
+      ->required();
+  addRenderOptions(command, options);
+  command.get_option("--frames")->required();
+  command.add_option("--per-task", options.perTask, "frames of a task at most (default: 20)")
+      ->check(CLI::Range(1u, ~0u));
+  addPath(
+      command, "--script", options.script,
+      "what to write (-: standard output; default: farm.sbatch.sh or farm.openjd.json, beside the frames)",
+      "FILE or -");
+  command.add_flag("--submit", options.submit, "slurm: submit it, too");
+}
+
+}  // namespace weft::app
