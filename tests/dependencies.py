@@ -13,7 +13,7 @@ PROVIDED = {
     "OSMesa": "libosmesa6-dev", "xvfb-run": "xvfb", "Xvfb": "xvfb", "xdotool": "xdotool", "dot": "graphviz",
     "glslangValidator": "glslang-tools", "clang-format": "clang-format", "jsonschema": "python3-jsonschema", "nvim": "neovim",
     "bash": None, "ccache": None, "git": None, "weft": None,
-    "ffmpeg": None, "chromium": None, "mpv": None, "node": None, "emacs": None,  # judges of imports and of the language server, and films, which CI does without
+    "ffmpeg": None, "slurmctld": None, "slurmd": None, "sbatch": None, "chromium": None, "mpv": None, "node": None, "emacs": None,  # judges of imports and of the language server, films, and a cluster, which CI does without
 }
 # Needed without being looked for: by cmake, by xvfb-run, by snippets of the docs, at run time, or as a header only.
 IMPLIED = {"g++", "fonts-dejavu-core", "cmake", "ninja-build", "python3", "xauth", "libegl1", "libgl1-mesa-dri", "libstb-dev", "graphviz", "pkg-config", "clang-16", "libclang-rt-16-dev"}
