@@ -36,7 +36,6 @@ struct FrameRun {
   std::map<std::string, std::unique_ptr<Video>> videos{};  // those of the files that are
   std::optional<Manifest> manifest{};
   CheckpointOptions checkpoints{};
-  std::optional<std::uint64_t> settings{};  // their hash, before a manifest or an output was read
   PictureWriter writer{};
   runtime::FrameReport last{};
   std::uint64_t ran = 0, written = 0;  // frames
@@ -88,7 +87,7 @@ void runFrames(DeviceSession& session, runtime::World& world, const Options& opt
   runtime::Renderer& renderer = session.renderer;
   runtime::Execution& execution = *renderer.execution();
   const bool all = execution.remembers(world);
-  Checkpoints checkpoints(run.checkpoints, session, world, options, run.settings);
+  Checkpoints checkpoints(run.checkpoints, session, world, options);
   const std::uint32_t begin = all ? checkpoints.begin(run.frames.front(), diagnostics) : 0;
   const std::uint64_t total = all ? std::uint64_t{run.frames.back()} + 1 - begin : run.frames.size();
   if (diagnostics.hasErrors()) return;
@@ -199,7 +198,6 @@ bool openManifest(const RenderOptions& options, const std::string& path, DeviceS
                   std::span<const OutputFile> outputs, FrameRun& run, text::Diagnostics& diagnostics) {
   const gl::DeviceInfo& device = session.context->device();
   std::uint64_t settings = hashOfSettings(options, session);
-  run.settings = settings;
   for (const OutputFile& output : outputs)
     settings =
         text::hashBytes(output.option + std::filesystem::path(output.pattern).filename().string(), settings);

@@ -76,12 +76,11 @@ CheckpointOptions CheckpointOptions::beside(const std::string& output) const {
 }
 
 Checkpoints::Checkpoints(const CheckpointOptions& wish, DeviceSession& session, const runtime::World& world,
-                         const Options& options, std::optional<std::uint64_t> settings)
+                         const Options& options)
     : wish_(wish),
       session_(session),
       world_(world),
       options_(options),
-      settings_(settings),
       named_(wish.where.ends_with(kEnding)),
       folder_(named_ ? fs::path(wish.where).parent_path().string() : wish.where) {}
 
@@ -129,7 +128,7 @@ std::uint32_t Checkpoints::begin(std::uint32_t first, text::Diagnostics& diagnos
   if (!saves_ && found.empty()) return 0;
   std::string kept;  // they change the plan
   for (const graph::Pick& pick : options_.kept) kept += pick.text + "\n";
-  key_ = {.settings = text::hashBytes(kept, settings_ ? *settings_ : hashOfSettings(options_, session_)),
+  key_ = {.settings = text::hashBytes(kept, hashOfSettings(options_, session_)),
           .build = hashOfProgram(),
           .driver = text::hashBytes(session_.context->device().driverKey)};
   std::uint32_t begin = 0;

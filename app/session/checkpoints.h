@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -22,9 +21,9 @@ struct CheckpointOptions {
 
 class Checkpoints {
  public:
-  // All must outlive this. `settings`: hashOfSettings(), where other files may have been read since the graph was loaded.
+  // All must outlive this.
   Checkpoints(const CheckpointOptions& wish, DeviceSession& session, const runtime::World& world,
-              const Options& options, std::optional<std::uint64_t> settings = {});
+              const Options& options);
 
   // Brings the execution, which has run no frame, to the frame to run first, and returns that: `first`, where no frame depends on
   // earlier ones; else that of the nearest checkpoint at or before it, or 0. One that was named and does not fit is an error
@@ -45,7 +44,6 @@ class Checkpoints {
   DeviceSession& session_;
   const runtime::World& world_;
   const Options& options_;
-  const std::optional<std::uint64_t> settings_;
   const bool named_;  // `where` is a checkpoint
   const std::string folder_;
   bool saves_ = false;

@@ -208,6 +208,7 @@ std::uint64_t hashOfProgram() {
 }
 
 std::uint64_t hashOfSettings(const Options& options, DeviceSession& session) {
+  if (session.settings) return *session.settings;  // since then, a manifest was read
   namespace fs = std::filesystem;
   const auto isBelow = [](const std::string& path, const std::string& folder) {
     return !folder.empty() && path.starts_with(text::absolutePath(folder) + "/");
@@ -244,7 +245,7 @@ std::uint64_t hashOfSettings(const Options& options, DeviceSession& session) {
     lines.insert(fmt::format("\n{} {:x}", nameOf(file), *hash));
   }
   for (const std::string& line : lines) all += line;
-  return text::hashBytes(all);
+  return session.settings.emplace(text::hashBytes(all));
 }
 
 nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json times) {

@@ -65,6 +65,7 @@ int report(text::Diagnostics& diagnostics, bool notes = true);
 struct DeviceSession {
   std::unique_ptr<gl::Context> context;  // destroyed last
   runtime::Renderer renderer;
+  std::optional<std::uint64_t> settings{};  // hashOfSettings, once it was asked for
 };
 
 // A context alone, and what a renderer on it takes from the options.
