@@ -68,6 +68,10 @@ std::string manifestNameOf(const std::string& pattern) {
 
 bool Manifest::read(text::Diagnostics& diagnostics) {
   if (!text::isThere(path_)) return true;
+  std::error_code ec;
+  if (!fs::is_regular_file(path_, ec) && !fs::is_directory(path_, ec))
+    return refuseOutput(path_, fmt::format("the manifest '{}' is no plain file", path_),
+                        "name another file with --manifest", diagnostics);
   const auto bytes = text::readFile(path_, diagnostics, text::Code::outputNotWritten);
   if (!bytes) return false;
   std::string_view rest = *bytes;
@@ -98,9 +102,9 @@ bool Manifest::read(text::Diagnostics& diagnostics) {
 }
 
 std::string Manifest::nameOf(const std::string& file) const {
-  return fs::path(text::absolutePath(file))
-      .lexically_relative(fs::path(text::absolutePath(path_)).parent_path())
-      .string();
+  const fs::path folder = fs::path(text::absolutePath(path_)).parent_path();
+  const std::string name = fs::path(text::absolutePath(file)).lexically_relative(folder).string();
+  return text::loadJson(text::dumpJson(name, -1, false)).get<std::string>();  // as it is read again: UTF-8
 }
 
 bool Manifest::isDone(std::uint32_t frame, std::span<const std::string> files) const {

@@ -61,7 +61,7 @@ std::unique_ptr<Video> Video::start(const std::string& path, std::uint32_t width
     return nullptr;
   }
   std::string line = fmt::format(
-      "ffmpeg -hide_banner -loglevel error -nostats -y -f rawvideo -pix_fmt rgba -video_size {}x{} "
+      "ffmpeg -hide_banner -loglevel error -xerror -nostats -y -f rawvideo -pix_fmt rgba -video_size {}x{} "
       "-framerate {} "
       "-i pipe:0 -map_metadata -1 -fflags +bitexact -flags:v +bitexact {}",
       width, height, fps, pictureKindOf(path) == ".mkv" ? kLossless : kSmall);

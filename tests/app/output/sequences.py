@@ -5,6 +5,7 @@ then draws is what is missing, and all files are those of one run, to the byte. 
     sequences.py WEFT
 """
 import json
+import os
 import pathlib
 import re
 import signal
@@ -135,6 +136,13 @@ def pictures(bench):
         told = bench.works("-o", "p/%d.png", "--frames", "0-2", "--skip-done")
         report.check(f"3 frames: {done} done already, {3 - done} drawn\n" in told.err, f"pictures: not {done} but {told.err}")
     report.check((folder / "p/frames.jsonl").exists(), "a manifest of files without a stem")
+    # A name that is no UTF-8, as an old camera or archive leaves it.
+    for done in (0, 3):
+        told = bench.works("-o", b"p/caf\xe9_%d.png".decode(errors="surrogateescape"), "--frames", "0-2", "--skip-done")
+        report.check(f"3 frames: {done} done already" in told.err, f"not UTF-8: {told.err}")
+    os.mkfifo(folder / "pipe")
+    wrong = run(bench.weft, *bench.render, "-o", "x.png", "--manifest", "pipe", folder=folder)
+    report.check(wrong.code == 1 and "the manifest 'pipe' is no plain file" in wrong.err, f"a pipe as manifest: {wrong.err}")
 
 
 def signals(bench):

@@ -7,6 +7,7 @@ no file.
 import json
 import os
 import pathlib
+import resource
 import shutil
 import signal
 import subprocess
@@ -23,6 +24,11 @@ echo "first line" >&2
 echo "the disk is on strike" >&2
 exit 7
 """
+
+
+def small_files():
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
 
 
 def stream_of(path):
@@ -73,6 +79,9 @@ def main():
         env["PATH"] += ":" + os.environ["PATH"]
         told = refused(1, "found: first line; the disk is on strike", "-o", "film.mkv", "--frames", "0-999", env=env)
         report.check(told.codes() == ["W180"] and "ffmpeg ended with exit code 7" in told.err, told.err)
+        # A full disk, which ffmpeg may notice in the end only: as a limit to sizes of files.
+        full = refused(1, "ffmpeg ended with exit code 1", "-o", "a.mp4", "--size", "64x36", "--frames", "0-2", preexec_fn=small_files)
+        report.check("File too large" in full.err, full.err)
         count_run()
         process = subprocess.Popen([str(weft), *render, "-o", "long.mp4", "--size", "64x36", "--frames", "0-1000000"], cwd=folder, stderr=subprocess.PIPE, text=True, start_new_session=True)
         deadline = time.monotonic() + 120 * SLOWER
