@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 
 #include <cerrno>
+#include <cstring>
 
 #include "app/commands/render.h"
 #include "app/output/frame_set.h"
@@ -101,8 +102,8 @@ for i in "${!frames[@]}"; do
 done
 )";
   return fmt::format(R"(#!/bin/bash
-# Made by weft farm. Submits {} of `weft render`{}, and a job that checks all frames and draws what is missing: options are
-# for sbatch, as in `bash SCRIPT --partition=gpu`.
+# Made by weft farm: submits {} of `weft render`{}, and a job that checks all frames and draws
+# what is missing. Options are for sbatch: `bash SCRIPT --partition=gpu`.
 {}
 self=$(realpath -- "${{BASH_SOURCE[0]}}")
 submit() {{ sbatch --parsable --requeue --chdir={} --output=%x_%j.log "$@"; }}{}gather=$(submit --job-name=weft_gather --dependency="afterany:${{jobs%%;*}}" "$@" "$self" gather) || exit
@@ -173,6 +174,7 @@ int runFarm(FarmOptions& options) {
     return 0;
   }
   const pid_t bash = text::startProcess({"bash", options.script}, -1, 1, 2);
+  if (bash < 0) printError(fmt::format("weft farm: cannot start bash: {}\n", std::strerror(errno)));
   int status = -1;
   while (bash > 0 && ::waitpid(bash, &status, 0) < 0 && errno == EINTR) continue;
   return WIFEXITED(status) ? WEXITSTATUS(status) : 3;
