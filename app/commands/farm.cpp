@@ -65,8 +65,8 @@ std::string renderOf(const FarmOptions& options, bool inOrder) {
                                                     : option->get_name() + "=" + value);
   }
   // A task that is begun again, or begins, goes on where the one before ended.
-  const CLI::Option* checkpoint = options.command->get_option_no_throw("--checkpoint");
-  if (inOrder && checkpoint && checkpoint->empty()) line += fmt::format(" --checkpoint={}", options.perTask);
+  if (inOrder && options.command->get_option("--checkpoint")->empty())
+    line += fmt::format(" --checkpoint={}", options.perTask);
   return line + " --skip-done";
 }
 

@@ -98,6 +98,7 @@ def slurm(bench):
         chunks = chunks_of(text)
         report.check(sum(chunks, []) == FRAMES and [len(each) for each in chunks] == [3, 3, 2], f"{graph}: {chunks}")
         report.check(all(line.isprintable() for line in text.splitlines()), f"{graph}: control characters\n{text}")
+        report.check((" --checkpoint=3 " in text) == in_order, f"{graph}: checkpoints\n{text}")
         submitted = bench.bash(script, "--partition=a b")
         report.check(submitted.returncode == 0 and submitted.stderr == "", f"{graph}: {submitted.stdout}{submitted.stderr}")
         common = ["--parsable", "--requeue", f"--chdir={bench.home / out}", "--output=%x_%j.log"]
