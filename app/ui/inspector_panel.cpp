@@ -101,7 +101,7 @@ void InspectorPanel::draw(text::Diagnostics& diagnostics) {
   chooseTarget(plan);
   const std::uint32_t index = indexOf(plan, target_.resource);
   if (index == graph::kNone || !found_) {
-    wantsFrame_ = target_.resource.empty();
+    wantsFrame_ = target_.resource.empty() || !(target_ == watched_);  // not looked for yet
     ImGui::TextDisabled("nothing to look at");
     return;
   }

@@ -153,6 +153,7 @@ void Panels::draw(const runtime::FrameReport& report, const LoopState& state,
   const std::size_t errors = log_.errors();
   if (std::exchange(errors_, errors) < errors && wide() && visible()) wanted_ = kMessages;
   if (visible() && live_.running()) {
+    const std::optional<Tab> wanted = wanted_;
     if (strip_ > 0) {
       beginFixed("strip", 0, height_ - line_ - strip_, width_ - column_, strip_);
       drawTabs(1, kPictures, kTabCount, report, diagnostics);
@@ -162,7 +163,7 @@ void Panels::draw(const runtime::FrameReport& report, const LoopState& state,
     beginFixed("column", width_ - column_, 0, column_, height_ - line_);
     drawTabs(0, 0, wide() ? kPictures : kTabCount, report, diagnostics);
     ImGui::End();
-    wanted_.reset();
+    if (wanted_ == wanted) wanted_.reset();  // else a click wants one, which may have been drawn before
   }
   if (visible()) drawLine(state);
   if (!shows(kMessages) || !live_.running()) drawAlarm();

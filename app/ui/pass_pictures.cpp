@@ -101,8 +101,9 @@ std::uint32_t PassPictures::draw(const graph::Plan& plan, std::uint32_t selected
   diagnostics.append(std::exchange(said_, {}));
   std::uint32_t clicked = graph::kNone;
   ImGui::BeginChild("strip", {}, false, ImGuiWindowFlags_HorizontalScrollbar);
-  height_ = std::floor(ImGui::GetContentRegionAvail().y - ImGui::GetTextLineHeightWithSpacing() -
-                       ImGui::GetStyle().ScrollbarSize);
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  height_ = std::floor(std::min(
+      room.y - ImGui::GetTextLineHeightWithSpacing() - ImGui::GetStyle().ScrollbarSize, room.x / kWidest));
   if (ImGui::IsWindowHovered())
     ImGui::SetScrollX(ImGui::GetScrollX() - ImGui::GetIO().MouseWheel * 8 * ImGui::GetFontSize());
   for (Tile& tile : tiles_) {

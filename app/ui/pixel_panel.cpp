@@ -15,9 +15,9 @@ void PixelPanel::afterStep(runtime::Execution& execution, std::uint32_t step) {
     if (plan.graph->resources[use.resource].kind != graph::ResourceKind::texture) return;
     const gl::TextureRef texture = execution.texture(use.resource);
     const gl::Extent size = gl::extentOf(texture.desc, use.mip);
-    // Of the same shape, but for what rounding takes from a smaller one.
-    const auto across = static_cast<double>(size.width) * picture.height,
-               along = static_cast<double>(size.height) * picture.width;
+    // Of the same shape, but for what rounding takes from a smaller one. Small levels of anything are alike.
+    const auto across = static_cast<double>(texture.desc.width) * picture.height,
+               along = static_cast<double>(texture.desc.height) * picture.width;
     if (texture.desc.samples > 1 || std::abs(across - along) > picture.width + picture.height) return;
     const auto at = [](double share, std::uint32_t count) {
       return std::min(static_cast<std::uint32_t>(share * count), count - 1);

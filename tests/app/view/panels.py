@@ -147,11 +147,17 @@ def pictures(weft, folder, display, report):
     """The strip has a picture of what each pass writes. A click on one selects the pass, which O opens in the editor, and Shift O its shader."""
     edited, screen = folder / "edited.txt", Screen(display)
     editor = f"printf '%s %s\\n' {{file}} {{line}} >> {edited}; exit 3"
-    live = Session(weft, folder, "--idle", "--panels", "pictures", "--editor", editor, graph="graphs/pair.json", size="1100x400")
+    small = """    { "name": "small", "type": "fullscreen", "shader": "tint.frag.glsl", "read": { "source": "ldr" }, "write": { "result": "map.mip[5]" } },
+    { "name": "show", "type": "fullscreen", "shader": "tint2.frag.glsl", "read": { "source": "ldr", "map": "map.mip[5]" }"""
+    traced = PAIR.replace('{ "ldr":', '{ "map": { "texture": "rgba8", "size": [32, 64], "mips": 7 }, "ldr":', 1)
+    traced = traced.replace('    { "name": "show", "type": "fullscreen", "shader": "tint.frag.glsl", "read": { "source": "ldr" }', small)
+    (folder / "graphs/traced.json").write_text(traced)
+    (folder / "shaders/tint2.frag.glsl").write_text(TINT.replace("source;", "source, map;").replace(".brga", ".brga + texelFetch(map, ivec2(0), 0)"))
+    live = Session(weft, folder, "--idle", "--panels", "pictures", "--editor", editor, graph="graphs/traced.json", size="1100x400")
 
-    def place(red, green):
-        """Of the first pixel of the strip that has these, of the gradient that `base` writes."""
-        return next(((x, y) for y, row in enumerate(screen.read()[2]) if 252 < y < 372 for x in range(690)
+    def place(red, green, columns=range(130), top=252):
+        """Of the first pixel of the first picture in the strip that has these, of the gradient that `base` writes."""
+        return next(((x, y) for y, row in enumerate(screen.read()[2]) if top < y < 372 for x in columns
                      if max(abs(row[3 * x] - red), abs(row[3 * x + 1] - green), abs(row[3 * x + 2] - 64)) < 14), None)
 
     try:
@@ -162,12 +168,13 @@ def pictures(weft, folder, display, report):
             return
         report.check(corners[0][0] < corners[1][0] and corners[2][1] < corners[0][1], f"the picture of base is turned: {corners}")
         live.click(*corners[3])
-        for key, line in (("o", "graphs/pair.json 3"), ("shift+o", "shaders/base.frag.glsl 3")):
+        for key, line in (("o", "graphs/traced.json 3"), ("shift+o", "shaders/base.frag.glsl 3")):
             since = live.mark()
             live.key(key)
             report.check(live.event(r"edit .* ended with exit code 3", since) and edited.read_text().split("\n")[-2].endswith(line),
                          f"{key} does not edit {line}\n{live.lines()}")
-        # X lists what each pass leaves at a pixel; a click on a row selects its pass.
+        # X lists what each pass leaves at a pixel, but not those that write a small level of something else, as `small`; a click on a
+        # row selects its pass.
         live.tool("mousemove", "--window", live.window, 100, 100)
         live.act("x", "trace_pixel")
         live.shot()
@@ -175,7 +182,18 @@ def pictures(weft, folder, display, report):
             live.click(200, y)
             live.act("o", "edit_pass")
         rows = [pathlib.Path(line).name for line in dict.fromkeys(edited.read_text().split("\n")[2:-1])]
-        report.check(rows[:3] == ["pair.json 3", "tints.json 3", "tints.json 4"], f"the passes at a pixel are {rows}")
+        report.check(rows == ["traced.json 3", "tints.json 3", "tints.json 4", "traced.json 6"], f"the passes at a pixel are {rows}")
+        # In a narrow window all tabs are in one column. There, too, a click on a picture brings Selected to the front.
+        live.stop()
+        live = Session(weft, folder, "--idle", "--panels", "pictures", "--editor", "true", graph="graphs/traced.json", size="640x400")
+        if not report.check(live.open(40, 40) and live.rest(0), f"no picture at rest\n{live.said()}"):
+            return
+        tab = screen.pixel(532, 12)
+        live.click(400, 80)
+        report.check(live.until(lambda: screen.pixel(532, 12) != tab), "a click on a picture leaves Pictures in front")
+        report.check(live.until(lambda: place(128, 128, range(330, 630), 100)), "Selected does not show what was clicked")
+        live.act("o", "edit_pass")
+        report.check(any("traced.json:3 is in the editor" in line for line in live.lines()), f"no pass is selected\n{live.lines()}")
         live.leave(report)
     finally:
         live.stop()
