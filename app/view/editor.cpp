@@ -55,8 +55,10 @@ std::string Editor::takeFailure() {
   std::erase_if(running_, [&](pid_t process) {
     int status = 0;
     if (::waitpid(process, &status, WNOHANG) == 0) return false;
-    if (WIFEXITED(status) && WEXITSTATUS(status) > 0)
-      failure = fmt::format("the editor ({}) ended with exit code {}", command_, WEXITSTATUS(status));
+    if (status != 0)
+      failure = fmt::format("the editor ({}) ended with {} {}", command_,
+                            WIFEXITED(status) ? "exit code" : "signal",
+                            WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status));
     return true;
   });
   return failure;

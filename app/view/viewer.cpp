@@ -147,6 +147,8 @@ void Viewer::addActions() {
               {"redo", [this] { told_ = live_.redo(diagnostics_) ? "made again" : "nothing to make again"; }},
               {"trace_pixel",
                [this] {
+                 if (overlay_ && overlay_->wantsMouse())
+                   return void(told_ = "the mouse is not over the picture");
                  panels_.markPixel(input_.place());
                  rest_.disturb();
                }},
