@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A mirror dome on a plate, as geometry and as a normal map, some pixels wide, against the means of 8 x 8 pixels of a large picture.
+"""A mirror dome on a plate, as geometry and as a normal map, some pixels wide, against the means of 8 x 8 pixels of a large picture,
+by Hable's curve, of whose steps there may be 6.
 normal_pixels.py WEFT"""
 import base64
 import json
@@ -70,7 +71,7 @@ def write_scene(folder):
 
 def render(folder, times):
     out = folder / "out.png"
-    subprocess.run([WEFT, "render", "graphs/deferred.json", "--scene", folder / "scene.json", "--set", "fxaa=false", "--set", "bloom=false",
+    subprocess.run([WEFT, "render", "graphs/deferred.json", "--scene", folder / "scene.json", "--set", "curve=filmic", "--set", "fxaa=false", "--set", "bloom=false",
                     "--environment", "scenes/environments/spiaggia_di_mondello_1k.hdr", "--size", f"{WIDE * times}x{HIGH * times}", "-o", out],
                    cwd=TOP, check=True)
     _, channels, texels = decode(out.read_bytes())
