@@ -113,7 +113,8 @@ void Panels::beforeFrame(const scene::CameraPose& pose) {
   // Of a plan that is not listed yet nothing is drawn.
   if (shows(kPictures) && explainer_ && explained_ == live_.switches()) {
     const bool moved = std::exchange(pose_, pose) != pose;
-    pictures_.beforeFrame(std::exchange(livesSet_, live_.livesSet()) != live_.livesSet() || moved);
+    const bool changed = std::exchange(livesSet_, live_.livesSet()) != live_.livesSet();
+    pictures_.beforeFrame(moved || changed || std::exchange(renewed_, false));
     also = [this](std::uint32_t step) { pictures_.afterStep(*renderer_.execution(), step); };
   } else if (shows(kPixel)) {
     pixel_.beforeFrame();
@@ -144,6 +145,7 @@ void Panels::draw(const runtime::FrameReport& report, const LoopState& state,
   const bool still = io.MouseDelta.x == 0 && io.MouseDelta.y == 0 && !ImGui::IsAnyMouseDown();
   g_still = still ? g_still + static_cast<double>(io.DeltaTime) : 0;
   if (!ImGui::IsAnyItemActive()) live_.endChange();
+  renewed_ |= report.slowRun > 0;
   if (live_.running() && (explained_ != live_.switches() || !explainer_)) {
     explainer_ = std::make_unique<graph::Explainer>(renderer_.execution()->plan());
     rows_ = passRowsOf(*renderer_.desc(), renderer_.execution()->plan());

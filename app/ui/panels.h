@@ -176,6 +176,7 @@ class Panels {
   PixelPanel pixel_;
   scene::CameraPose pose_;                        // of the last frame
   std::uint64_t livesSet_ = 0;                    // by then
+  bool renewed_ = false;                          // what runs only when something changed ran since then
   std::array<std::array<float, 256>, 4> bins_{};  // of the picture: red, green, blue, luminance
   double counted_ = -1;                           // seconds: when the histogram was made
   std::unique_ptr<graph::Explainer> explainer_;   // of the plan of `explained_`
