@@ -153,14 +153,17 @@ int runFarm(FarmOptions& options) {
       farm.chunks.push_back(framesText(left.first(std::min(most, left.size()))));
     if (options.script.empty())
       options.script = (fs::path(farm.folder) / (slurm ? "farm.sbatch.sh" : "farm.openjd.json")).string();
-    if (farm.chunks.size() > kMostTasks)
-      return refuseOutput(options.script,
-                          fmt::format("expected at most {} tasks, found {}", kMostTasks, farm.chunks.size()),
-                          fmt::format("--per-task {}", (options.frames.size() - 1) / kMostTasks + 1),
-                          diagnostics),
-             1;
+    if (farm.chunks.size() > kMostTasks) {
+      refuseOutput(options.script,
+                   fmt::format("expected at most {} tasks, found {}", kMostTasks, farm.chunks.size()),
+                   fmt::format("--per-task {}", (options.frames.size() - 1) / kMostTasks + 1), diagnostics);
+      return 1;
+    }
     const std::string script = slurm ? slurmOf(farm) : openJdOf(farm);
-    if (options.script == "-") return print(script), 0;
+    if (options.script == "-") {
+      print(script);
+      return 0;
+    }
     outputs.push_back({"--script", options.script});
     return checkDistinct(outputs, diagnostics) && makeFolderOf(options.script, diagnostics) &&
                    text::writeFile(options.script, script, diagnostics)

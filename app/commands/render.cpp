@@ -272,8 +272,7 @@ int runRender(RenderOptions& options) {
     all.push_back({"--manifest", manifest});
     if (!checkDistinct(all, diagnostics) || diagnostics.hasErrors()) return 1;
     if (options.instead) return options.instead(renderer.execution()->remembers(world), all, diagnostics);
-    if ((!manifest.empty() && !openManifest(options, manifest, *session, outputs, run, diagnostics)))
-      return 1;
+    if (!manifest.empty() && !openManifest(options, manifest, *session, outputs, run, diagnostics)) return 1;
     renderer.device().timers.setEnabled(options.profile);
     const auto checkSaved = [&] {
       for (const Part& part : run.parts)

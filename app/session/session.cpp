@@ -203,8 +203,11 @@ bool checkPresents(const Options& options, runtime::Renderer& renderer, text::Di
 }
 
 std::uint64_t hashOfProgram() {
-  std::ifstream program("/proc/self/exe", std::ios::binary);
-  return text::hashBytes(std::string(std::istreambuf_iterator(program), {}));
+  static const std::uint64_t kHash = [] {
+    std::ifstream program("/proc/self/exe", std::ios::binary);
+    return text::hashBytes(std::string(std::istreambuf_iterator(program), {}));
+  }();
+  return kHash;
 }
 
 std::uint64_t hashOfSettings(const Options& options, DeviceSession& session) {

@@ -43,6 +43,7 @@ std::string Editor::open(text::FileName name, std::uint32_t at) {
   std::string file(*name), line = std::to_string(at), shell = "sh", option = "-c";
   char* const arguments[] = {shell.data(), option.data(), script.data(), shell.data(),
                              file.data(),  line.data(),   nullptr};
+  // Not by text::startProcess(): an editor that runs in the terminal of this program must not lose it.
   pid_t process = 0;
   if (const int error = ::posix_spawn(&process, "/bin/sh", nullptr, nullptr, arguments, environ))
     return fmt::format("the editor was not started: {}", std::strerror(error));

@@ -45,7 +45,8 @@ vec3 neutral(vec3 color) {
   float peak = max(start, max(color.r, max(color.g, color.b)));  // at `start` what follows changes nothing
   const float room = 1.0 - start;
   float new_peak = 1.0 - room * room / (peak + room - start);
-  float share = 1.0 / (peak * (desaturation * (peak - new_peak) + 1.0));  // of the color that stays, by its peak
+  // The color scaled to new_peak, mixed with white of that peak.
+  float share = 1.0 / (peak * (desaturation * (peak - new_peak) + 1.0));
   return new_peak * (share * color + (1.0 - share * peak));
 }
 #endif

@@ -275,11 +275,10 @@ void ResourcePool::carry(const Plan& plan, StateStream& state, text::Diagnostics
     state.carry(mine.publishedAt);
   }
   if (!state.good()) return;
-  // Steps of a plan do not know these reads and writes.
-  glMemoryBarrier(GL_ALL_BARRIER_BITS);
+  // After what shaders stored; no step of the plan knows of these reads and writes.
+  glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
   for (std::uint32_t r = 0; r < resources_.size() && state.good(); ++r)
     if (plan.persistent[r]) carryContents(plan, r, state, diagnostics);
-  glMemoryBarrier(GL_ALL_BARRIER_BITS);
 }
 
 // Texels go as whole numbers through a view, because a driver may convert those of other formats: it need not keep which NaN one is.
