@@ -14,17 +14,22 @@
 
 namespace {
 
-// What nobody caught, on whichever thread: as a rule memory that there is none of.
+// What nobody caught, on whichever thread: as a rule memory that there is none of, or threads.
 [[noreturn]] void endAtOnce() {
-  const char* why = "an exception that nobody caught";
   try {
     if (std::current_exception()) throw;
+    std::fputs("weft: an exception that nobody caught\n", stderr);
   } catch (const std::bad_alloc&) {
-    why = "out of memory";
-  } catch (...) {
+    std::fputs("weft: out of memory\n", stderr);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "weft: %s\n", error.what());
   }
-  std::fprintf(stderr, "weft: %s\n", why);
   std::_Exit(2);
+}
+
+// Before anything is constructed that may fail.
+[[gnu::constructor(101)]] void catchAll() {
+  std::set_terminate(endAtOnce);
 }
 
 }  // namespace
@@ -33,7 +38,6 @@ int main(int argc, char** argv) {
   using namespace weft::app;
   const std::string_view first = argc > 1 ? argv[1] : "";
   if (first == weft::gl::kTrialWord) weft::gl::runTrial(argc - 1, argv + 1);
-  std::set_terminate(endAtOnce);
   prepareStreams();
   CommandLine line;
   for (const auto add : {addRender, addFarm,   addView,    addCheck, addPlan,   addExplain, addDiff,
