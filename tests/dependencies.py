@@ -13,10 +13,10 @@ PROVIDED = {
     "OSMesa": "libosmesa6-dev", "xvfb-run": "xvfb", "Xvfb": "xvfb", "xdotool": "xdotool", "dot": "graphviz",
     "glslangValidator": "glslang-tools", "clang-format": "clang-format", "jsonschema": "python3-jsonschema", "nvim": "neovim",
     "bash": None, "ccache": None, "git": None, "weft": None,
-    "ffmpeg": None, "slurmctld": None, "slurmd": None, "sbatch": None, "chromium": None, "mpv": None, "node": None, "emacs": None,  # judges of imports and of the language server, films, and a cluster, which CI does without
+    "ffmpeg": "ffmpeg", "strace": "strace", "c++": "g++", "slurmctld": None, "slurmd": None, "sbatch": None, "chromium": None, "mpv": None, "node": None, "emacs": None,  # judges of imports and of the language server, and a cluster, which CI does without
 }
 # Needed without being looked for: by cmake, by xvfb-run, by snippets of the docs, at run time, or as a header only.
-IMPLIED = {"g++", "fonts-dejavu-core", "cmake", "ninja-build", "python3", "xauth", "libegl1", "libgl1-mesa-dri", "libstb-dev", "graphviz", "pkg-config", "clang-16", "libclang-rt-16-dev"}
+IMPLIED = {"g++", "fonts-dejavu-core", "cmake", "ninja-build", "python3", "xauth", "libegl1", "libgl1-mesa-dri", "libstb-dev", "graphviz", "pkg-config", "clang-16", "libclang-rt-16-dev", "mesa-vulkan-drivers"}
 
 
 def sought(top: pathlib.Path) -> dict:
@@ -38,8 +38,8 @@ def sought(top: pathlib.Path) -> dict:
 def main() -> int:
     top = pathlib.Path(sys.argv[1])
     run = (top / "run").read_text()
-    program, tests, fuzz = (re.search(rf"^{name}=\(([^)]*)\)", run, re.M).group(1).split() for name in ("packages", "test_packages", "fuzz_packages"))
-    packages = program + tests + fuzz
+    program, tests, fuzz, soak = (re.search(rf"^{name}=\(([^)]*)\)", run, re.M).group(1).split() for name in ("packages", "test_packages", "fuzz_packages", "soak_packages"))
+    packages = program + tests + fuzz + soak
     rows = re.findall(r"^\| `([^`]+)` \|(.*)\|$", (top / "docs/dependencies.md").read_text(), re.M)
     named = [name for name, _ in rows]
     problems = [f"run installs '{p}', docs/dependencies.md does not say why" for p in packages if p not in named]

@@ -6,6 +6,7 @@
 #include <ranges>
 
 #include "app/commands/commands.h"
+#include "app/commands/device_needs.h"
 #include "engine/glsl/interface.h"
 #include "engine/glsl/tokens.h"
 #include "engine/graph/edit/edit.h"
@@ -173,6 +174,7 @@ struct CheckOptions : Options {
   bool allVariants = false;  // compile what the variations reach
   bool watch = false;        // again after every save
   bool strict = false;       // warnings fail, too
+  std::string device;        // "minimum": tell what it needs of any
 };
 
 // What tells the variants of a plan's passes apart.
@@ -244,6 +246,7 @@ class ShaderCheck {
   std::set<std::string> files;     // that were read or looked for
   std::set<std::string> variants;  // by what they are made of
   std::set<std::string> passes;    // of live passes, without the index of a repeat
+  DeviceNeeds needs;
   text::Diagnostics
       unread;  // why shaders were not looked at (--no-shaders): they, or an include, are missing
 
@@ -262,6 +265,7 @@ class ShaderCheck {
     if (session_) {
       const auto variant = session_->renderer.device().programs.get(request, said);
       if (!variant) return;
+      needs.add(request.pass, variant->stages, variant->defines, &variant->program.reflection());
       const runtime::LinkedProgram linked{variant->program.reflection(), session_->context->device().limits};
       if (runtime::checkProgram(plan, pass, variant->stages, variant->defines, &linked, said))
         runtime::warnOfConditions(plan.graph->specs[pass], variant->stages, variant->defines, said);
@@ -387,6 +391,7 @@ int tellText(const CheckOptions& options, Checked& checked) {
   report(checked.diagnostics);
   const int code = codeOf(options, checked.diagnostics);
   if (checked.matrix) print(matrixText(options, checked));
+  if (!options.device.empty()) print(checked.shaders.needs.text());
   if (checked.stanza)
     print(text::layoutJson(text::dumpJson(checked.stanza->pass) + "\n"));
   else if (code == 0)
@@ -425,6 +430,12 @@ Json documentOf(const CheckOptions& options, const Checked& checked) {
   for (const text::Diagnostic& each : checked.shaders.unread.items())
     out["not_looked_at"].push_back(each.message);
   if (options.shaders) out["shader_variants"] = checked.shaders.variants.size();
+  if (!options.device.empty())
+    for (const DeviceNeed& need : checked.shaders.needs.all())
+      out["device"].push_back({{"what", need.what},
+                               {"guaranteed", need.guaranteed},
+                               {"needed", need.needed},
+                               {"pass", need.pass}});
   if (checked.matrix && options.matrix)
     out["matrix"] = {{"passes", checked.matrix->passes},
                      {"pairs", checked.matrix->pairs},
@@ -499,6 +510,9 @@ void addCheck(CommandLine& line) {
   command.add_flag("--all", options.allVariants,
                    "compile every shader variant that a disable or a value reaches");
   command.add_flag("--strict", options.strict, "exit 1 after a warning, too");
+  addChoice(command, "--device", options.device, "tell what the shaders need, beside what each device has",
+            {"minimum"})
+      ->excludes("--no-shaders");
   command.add_flag("--watch", options.watch, "check again after each change, until ended");
 }
 

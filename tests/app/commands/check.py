@@ -149,6 +149,32 @@ def check_conditions(weft, report):
         report.check("did you mean 'HAS_GLOW'?" in done.err, done.err)
 
 
+MANY = """{ "resources": { "maps": { "texture": "rgba8", "size": 4, "array": 17, "clear": 0 }, "a": { "texture": "rgba8" }, "b": { "texture": "rgba8" } },
+  "passes": [ { "name": "many", "shader": "many.frag.glsl", "read": ["maps"], "write": { "one": "a", "other": "b" }, "side_effect": true } ], "present": "a" }
+"""
+SUM = """out vec4 one, other;
+uniform sampler2D maps[17];
+void main() {
+  one = other = vec4(0.0);
+  for (int i = 0; i < 17; ++i) one += texelFetch(maps[i], ivec2(0), 0);
+}
+"""
+
+
+def check_device(weft, report):
+    """What a pass needs beside what each device has: 17 samplers, of which OpenGL 4.5 guarantees 16 to a fragment shader."""
+    with temporary_folder() as name:
+        folder = pathlib.Path(name)
+        (folder / "g.json").write_text(MANY)
+        (folder / "shaders").mkdir()
+        (folder / "shaders/many.frag.glsl").write_text(SUM)
+        done = run(weft, "check", folder / "g.json", "--device", "minimum")
+        lines = [line.split() for line in done.out.splitlines() if " in 'many'" in line]
+        report.check(["16", "fragment", "samplers", "17", "in", "'many',", "beyond"] in lines and ["8", "outputs", "2", "in", "'many'"] in lines, f"{done.code}\n{done.out}{done.err}")
+        data = json.loads(run(weft, "check", folder / "g.json", "--device", "minimum", "--format", "json").out)["device"]
+        report.check({"what": "fragment samplers", "guaranteed": 16, "needed": 17, "pass": "many"} in data, f"{data}")
+
+
 SILENT = """{ "parameters": { "shiny": { "default": false }, "tone": { "default": "soft", "choices": ["soft", "hard"] } },
   "resources": { "a": { "texture": "rgba8", "size": 8 }, "b": { "texture": "rgba8", "size": 8 } },
   "passes": [ { "name": "p", "type": "fullscreen", "shader": "p.frag.glsl", "side_effect": true, "write": { "result": "a", "other": "b" },
@@ -418,6 +444,7 @@ def main():
         check_all(weft, report)
         check_off(weft, report)
         check_present(weft, report)
+        check_device(weft, report)
         check_time(weft, report)
         check_shader(weft, report)
     else:

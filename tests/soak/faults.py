@@ -68,11 +68,11 @@ SMALL = ["--size", "16x9", "--program-cache", "none"]
 COMMANDS = {
     "check": (["check", "graph.json"], True, []),
     "plan": (["plan", "graph.json"], False, []),
-    "render": (["render", "graph.json", *SMALL, "--quiet", "-o", "out/a.png", "-o", "out/a.exr"], True, ["out/a.png", "out/a.exr"]),
+    "render": (["render", "graph.json", *SMALL, "--quiet", "-o", "out/a.exr"], True, ["out/a.exr"]),
     "sequence": (["render", "graph.json", *SMALL, "--frames", "0-3", "--quiet", "--manifest", "out/m.jsonl", "--checkpoint", "2", "--checkpoints", "out", "-o", "out/f_%04d.png"], True,
                  [f"out/f_000{i}.png" for i in range(4)]),
     "dump": (["dump", "graph.json", "*", *SMALL, "-o", "out"], True, []),
-    "report": (["report", "graph.json", *SMALL, "-o", "out/page.html"], True, ["out/page.html"]),
+    "report": (["report", "graph.json", *SMALL, "-o", "out/page.html"], True, []),
     "test": (["test", "small.cases.json", "--program-cache", "none"], True, []),
     "accept": (["test", "small.cases.json", "--accept", "--program-cache", "none"], True, ["one.png"]),
     "format": (["format", "loose.json"], False, ["loose.json"]),
@@ -138,7 +138,7 @@ class Faults:
             return None  # the program never began
         if code not in (0, 1, 2, 3) or CRASH.search(error):
             return f"{at}exit code {code}\n{error[-800:]}"
-        if code != 0 and not error.strip() and kind != "write":
+        if code != 0 and not error.strip() and kind != "write" and name != "lsp":  # which answers in its own way
             return f"{at}exit code {code} without a word"
         for path in COMMANDS[name][2]:
             old, new = run["before"].get(path), run["after"].get(path)
@@ -184,6 +184,8 @@ class Faults:
             calls[found[2]] += 1
         row = {}
         for kind in kinds:
+            if (name, kind) == ("report", "close"):
+                continue  # a call that strace fails is not made, and the pipe from Graphviz would never end
             if kind in MADE:
                 if kind == "gl" and not COMMANDS[name][1]:
                     continue
@@ -221,13 +223,16 @@ def reload_faults(faults, most):
                     session.open()
                     ready = session.shot()
                     trigger.touch()
-                    save(folder / "shaders/part.glsl", PART.replace("0.5", "0.25"))
-                    told = session.until(lambda: "reload" in "\n".join(session.lines()) or "error" in session.said())
+                    told = taken = None
+                    for amount in ("0.25", "0.75"):  # the second one is taken, whatever failed in the first
+                        before = session.mark()
+                        save(folder / "shaders/part.glsl", PART.replace("0.5", amount))
+                        told, taken = taken, session.event("files (?:good|wrong)", before)
                     ended = session.process.poll()
-                    good = ready and (ended in (None, 2)) and not CRASH.search(session.said())
-                    if not good or (not told and ended is None):
+                    good = ended == 2 if ended is not None else told and taken and taken[0].endswith("good")
+                    if not ready or not good or CRASH.search(session.said()):
                         wrong += 1
-                        faults.problems.append(f"reload: {kind} {n}: {ended}\n{session.said()[-600:]}")
+                        faults.problems.append(f"reload: {kind} {n}: {ended}, {told}, {taken}\n{session.said()[-600:]}")
                     if ended is None:
                         session.key("Escape")
                         session.until(lambda: not session.alive())

@@ -1,0 +1,35 @@
+// What the shaders of a graph need of a device, beside what OpenGL 4.5 guarantees on each.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/gl/programs/program.h"
+
+namespace weft::app {
+
+struct DeviceNeed {
+  const char* what;          // "fragment storage blocks"
+  std::uint32_t guaranteed;  // OpenGL 4.5 core, tables 23.51 to 23.72
+  std::uint32_t needed = 0;  // the most that one pass needs
+  std::string pass{};        // that pass
+};
+
+class DeviceNeeds {
+ public:
+  DeviceNeeds();
+  // A variant of a pass. `linked`: its program, which alone knows the work group; null without OpenGL.
+  void add(const std::string& pass, std::span<const gl::StageSource> stages,
+           std::span<const glsl::Define> defines, const gl::Reflection* linked);
+  const std::vector<DeviceNeed>& all() const { return all_; }
+  // A line for each that something needs.
+  std::string text() const;
+
+ private:
+  void note(const std::string& what, std::uint32_t needed, const std::string& pass);
+
+  std::vector<DeviceNeed> all_;
+};
+
+}  // namespace weft::app
