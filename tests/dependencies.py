@@ -9,7 +9,7 @@ import sys
 # None: does without.
 PROVIDED = {
     "fmt": "libfmt-dev", "nlohmann_json": "nlohmann-json3-dev", "doctest": "doctest-dev", "CLI11": "libcli11-dev",
-    "glfw3": "libglfw3-dev", "imgui": "libimgui-dev", "Freetype": "libfreetype-dev", "libstb": "libstb-dev", "glm": "libglm-dev", "OpenEXR": "libopenexr-dev", "ZLIB": "zlib1g-dev", "assimp": "libassimp-dev", "draco": "libdraco-dev", "meshoptimizer": "libmeshoptimizer-dev", "webp": "libwebp-dev", "TBB": "libtbb-dev", "glad": "python3-glad",
+    "glfw3": "libglfw3-dev", "imgui": "libimgui-dev", "Freetype": "libfreetype-dev", "libstb": "libstb-dev", "glm": "libglm-dev", "OpenEXR": "libopenexr-dev", "ZLIB": "zlib1g-dev", "assimp": "libassimp-dev", "draco": "libdraco-dev", "meshoptimizer": "libmeshoptimizer-dev", "webp": "libwebp-dev", "cpp-httplib": "libcpp-httplib-dev", "TBB": "libtbb-dev", "glad": "python3-glad",
     "OSMesa": "libosmesa6-dev", "xvfb-run": "xvfb", "Xvfb": "xvfb", "xdotool": "xdotool", "dot": "graphviz",
     "glslangValidator": "glslang-tools", "clang-format": "clang-format", "jsonschema": "python3-jsonschema", "nvim": "neovim",
     "bash": None, "ccache": None, "git": None, "weft": None,

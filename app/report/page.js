@@ -557,6 +557,20 @@ function drawFrame() {
   draw();
 }
 
+// Of a viewer that runs (`weft view --serve`): drawn anew when something changed there; the pass that is selected stays.
+async function follow() {
+  try {
+    const now = Number(await (await fetch("/changes" + location.search)).text());
+    if (now !== report.live) {
+      const page = new DOMParser().parseFromString(await (await fetch("/" + location.search)).text(), "text/html");
+      const data = page.getElementById("report");
+      if (data) { Object.assign(report, JSON.parse(data.textContent)); drawFrame(); }
+    }
+    document.body.classList.remove("ended");
+  } catch { document.body.classList.add("ended"); }
+  setTimeout(follow, 1000);
+}
+
 // ---- the page of weft test ----
 
 function drawCases() {
@@ -579,3 +593,4 @@ function drawCases() {
 }
 
 if (report.cases) drawCases(); else drawFrame();
+if (report.live !== undefined) follow();

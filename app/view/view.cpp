@@ -67,7 +67,11 @@ int runView(ViewOptions& options) {
   {
     LiveGraph live(files, session->renderer, std::move(*world), std::move(settings));
     if (later) live.expectScene();
-    Viewer viewer(options, *session, live);
+    const auto server = options.serve ? PageServer::open(*options.serve, diagnostics) : nullptr;
+    if (options.serve && !server) return report(diagnostics);
+    if (server) print(fmt::format("serving {}\n", server->address()));
+    flushPrinted();
+    Viewer viewer(options, *session, live, server.get());
     // With a number of frames to draw there is nobody who could save a file.
     if (!live.load(diagnostics) && (options.maxFrames || !canBeFixed(options, diagnostics)))
       return report(diagnostics);
@@ -105,6 +109,11 @@ void addView(CommandLine& line) {
       ->check(CLI::IsMember(ui::Panels::names()));
   command.add_option("--editor", options.editor,
                      "text editor, as 'code -g {file}:{line}' (default: VISUAL or EDITOR, with +LINE FILE)");
+  command
+      .add_option("--serve", options.serve,
+                  "show the page of `weft report`, live, at a port of this machine (0: any free one)")
+      ->type_name("PORT")
+      ->check(CLI::Range(0, 65535));
   command.add_flag("--events", options.events, "say what happens, a line each, for scripts");
   command.add_flag("!--no-ui", options.ui, "the picture alone, without panels");
   addPath(command, "--screenshot", options.screenshot, "picture of the last frame, .png or .exr");

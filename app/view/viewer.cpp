@@ -86,13 +86,14 @@ void setIcon(GLFWwindow* window) {
 
 }  // namespace
 
-Viewer::Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& live)
+Viewer::Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& live, PageServer* server)
     : options_(options),
       session_(session),
       window_(static_cast<GLFWwindow*>(session.context->window())),
       renderer_(session.renderer),
       live_(live),
       input_(window_),
+      server_(server),
       editor_(options.editor),
       panels_(
           live, session.renderer, log_, [this](const char* action) { act(action); },
@@ -388,6 +389,7 @@ void Viewer::update(gl::Size size) {
   }
   if (live_.pollEnvironment(diagnostics_)) {
     tell(diagnostics_, log_, ui::Log::kEnvironment);
+    ++arrivals_;
     rest_.disturb();
     restless_ = kRestlessAfterEvent;
     say("environment " + live_.environment().shown());
@@ -395,6 +397,8 @@ void Viewer::update(gl::Size size) {
   if (rig_.mode() == CameraRig::Mode::fly && !input_.captured()) toggleFlight();  // the focus went elsewhere
   const std::uint64_t changed = live_.switches() + live_.livesSet();
   if (std::exchange(changed_, changed) != changed) rest_.disturb();
+  if (server_) server_->setChanges(changed + arrivals_);
+  if (server_ && server_->wanted() && !live_.running()) server_->give("the files have errors: nothing runs");
   showState();
 }
 
@@ -423,7 +427,8 @@ imports::Pointer Viewer::pointer() {
 
 bool Viewer::busy() {
   if (!recording_.empty() || rig_.moving() || rig_.cuts() != cuts_ || input_.captured() ||
-      input_.movesCamera() || input_.waiting() || live_.environment().status() || live_.scene().loading())
+      input_.movesCamera() || input_.waiting() || (server_ && server_->wanted()) ||
+      live_.environment().status() || live_.scene().loading())
     return true;
   if (readsMouse() && pointer() != pointer_) return true;
   // What moves counts also while it pauses or is out of view, because it will go on.
@@ -460,6 +465,8 @@ void Viewer::frame() {
   if (scan_)
     renderer_.execution()->watch(
         {.after = [&](std::uint32_t step) { steps.look(*renderer_.execution(), step); }});
+  std::optional<FrameLook> look;
+  if (server_ && server_->wanted() && !scan_) look.emplace(renderer_).begin(diagnostics_);
   report_ = renderer_.frame(live_.world(), in, diagnostics_);
   // While an import is on its way no pass runs, and a click is kept for the frame in which one does.
   if (!readsMouse() || report_.passesRun + report_.passesSkipped > 0) input_.pointerShown();
@@ -467,9 +474,24 @@ void Viewer::frame() {
   if (report_.slowRun > 0) clock_.worked();
   previousPose_ = in.pose;
   ++frame_;
+  if (look) servePage(*look);
   show();
   panels_.afterFrame();
   if (std::exchange(scan_, false)) tellBroken(steps.take());
+}
+
+void Viewer::servePage(FrameLook& look) {
+  const graph::Settings& settings = live_.settings();
+  const std::vector<std::string> facts{
+      fmt::format("{}x{}", settings.screenWidth, settings.screenHeight), fmt::format("frame {}", frame_ - 1),
+      withoutFolder(live_.scene().path()), session_.context->device().renderer};
+  text::Diagnostics said;
+  for (const text::Diagnostic* each : log_.shown(true)) said.add(*each);
+  const auto page = pageOf({{"command", command()},
+                            {"live", changed_ + arrivals_},
+                            {"states", {look.end(renderer_.graphPath(), facts, said)}}},
+                           renderer_.graphPath(), diagnostics_);
+  server_->give(page.value_or("no page: see the messages of the viewer"));
 }
 
 void Viewer::tellBroken(const std::vector<runtime::StepRecord>& records) {

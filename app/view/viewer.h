@@ -1,12 +1,14 @@
 // The viewer: a LiveGraph in a window, a camera, panels around the picture, and the loop over them.
 #pragma once
 
+#include "app/output/frame_look.h"
 #include "app/output/pictures.h"
 #include "app/session/command_line.h"
 #include "app/session/session.h"
 #include "app/ui/panels.h"
 #include "app/view/editor.h"
 #include "app/view/frame_clock.h"
+#include "app/view/page_server.h"
 #include "app/view/window_input.h"
 #include "engine/runtime/inspection/step_watches.h"
 
@@ -21,15 +23,17 @@ struct ViewOptions : Options {
   bool waitForAssets = false;       // before the first frame
   bool events = false;              // says what happens, for scripts
   bool idle = false;
-  double renderScale = 1;  // pixels of the scene per pixel of the window
-  double uiScale = 0;      // 0: as the screen says
-  std::string editor;      // its command; empty: the one of the environment
+  double renderScale = 1;    // pixels of the scene per pixel of the window
+  double uiScale = 0;        // 0: as the screen says
+  std::string editor;        // its command; empty: the one of the environment
+  std::optional<int> serve;  // the port of a page of the frame, 0 for any
 };
 
 class Viewer {
  public:
-  // `session` has a window, and outlives this. Shows that `live` is being loaded, which is to be done before run().
-  Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& live);
+  // `session` has a window, and outlives this. Shows that `live` is being loaded, which is to be done before run(). `server`: null, or
+  // who gets the page of a frame.
+  Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& live, PageServer* server);
   Viewer(const Viewer&) = delete;
   Viewer& operator=(const Viewer&) = delete;
 
@@ -69,6 +73,7 @@ class Viewer {
   imports::Pointer pointer();
   // May end without a picture, when files change meanwhile.
   void frame();
+  void servePage(FrameLook& look);
   // What the scan for NaN found: the passes' records of this frame, in order.
   void tellBroken(const std::vector<runtime::StepRecord>& records);
   void show();
@@ -92,6 +97,7 @@ class Viewer {
   LiveGraph& live_;
   std::map<std::string, std::function<void()>, std::less<>> actions_;  // by name
   WindowInput input_;
+  PageServer* server_;
   std::unique_ptr<ui::Overlay> overlay_;  // null with --no-ui
   ui::Log log_;
   Editor editor_;
@@ -113,6 +119,7 @@ class Viewer {
   ui::Panels::Area area_;          // of the picture, in pixels of the window
   std::uint32_t frame_ = 0, redraws_ = 0;
   std::uint64_t inputs_ = 0, changed_ = 0, sceneReads_ = 0;  // when they were last looked at
+  std::uint64_t arrivals_ = 0;                               // of environments
   int restless_ = 0;                                         // redraws that the panels still want
   float uiScale_ = 1;
   gl::Size size_;  // of the window, as it was said last
