@@ -39,6 +39,7 @@ constexpr KeyBinding kBindings[] = {
     {'X', kAlone, "trace_pixel", "X", "show what each pass leaves at the pixel under the mouse"},
     {'O', kAlone, "edit_pass", "O", "open the selected pass in the editor, where its stanza is"},
     {'O', WithKey::shift, "edit_shader", "Shift O", "open its shader there"},
+    {'M', kAlone, "compare", "M", "keep the picture, and compare what follows with it along a line; again: let it go"},
     {'V', kAlone, "vsync", "V", "wait for the screen's refresh, or not"},
     {'I', kAlone, "idle", "I", "idle mode: draw only when something changed"},
     {'-', kAlone, "render_scale_down", "- =", "render with fewer or more pixels than the picture has"},

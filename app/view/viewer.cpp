@@ -153,6 +153,12 @@ void Viewer::addActions() {
                  panels_.markPixel(input_.place());
                  rest_.disturb();
                }},
+              {"compare",
+               [this] {
+                 if (!live_.running() || !overlay_) return;
+                 wipe_.toggle(renderer_.execution()->presented(), diagnostics_);
+                 told_ = wipe_.on() ? "the picture is kept, left of the line" : "";
+               }},
               {"edit_pass", [this] { editSelected(false); }},
               {"edit_shader", [this] { editSelected(true); }},
               {"pause", [this] { clock_.pause(!clock_.paused()); }},
@@ -581,6 +587,7 @@ void Viewer::drawUi(bool seen) {
       report_,
       {.frame = frame_, .time = clock_.last().time, .paused = clock_.paused(), .modes = modes, .said = told_},
       diagnostics_);
+  wipe_.draw(area_);
   if (help_) drawHelp();
   const auto click = overlay_->releasedMouse();
   seen ? overlay_->end() : overlay_->skip();

@@ -6,6 +6,7 @@
 #include "app/session/command_line.h"
 #include "app/session/session.h"
 #include "app/ui/panels.h"
+#include "app/ui/wipe.h"
 #include "app/view/editor.h"
 #include "app/view/frame_clock.h"
 #include "app/view/page_server.h"
@@ -102,6 +103,7 @@ class Viewer {
   ui::Log log_;
   Editor editor_;
   ui::Panels panels_;
+  ui::Wipe wipe_;
   CameraRig rig_{scene::CameraPose{}};
   std::string cameraName_;  // of the scene's camera that is followed; empty: the first
   scene::CameraPose previousPose_;

@@ -303,6 +303,39 @@ def scan(weft, folder, report):
         live.stop()
 
 
+def compare(weft, folder, display, report):
+    """M keeps the picture: left of a line it is what it was, right of that what it is now, to the bit; the line can be dragged."""
+    screen, base = Screen(display), folder / "shaders/base.frag.glsl"
+    live = Session(weft, folder, "--idle", graph="graphs/pair.json", size="1280x400")
+    try:
+        if not report.check(live.open(40, 40) and live.rest(0), f"no picture at rest\n{live.said()}"):
+            return
+        shots = [[bytes(value for texel in row for value in texel[:3]) for row in read_png(live.shot().read_bytes())]]
+        live.act("m", "compare")
+        live.tool("mousemove", 1200, 300)  # away from the picture
+        before = live.mark()
+        save(base, BASE.replace("0.25", "0.75"))
+        report.check(live.event("files good", before) and live.rest(before), f"the save is not seen\n{live.said()}")
+        shots.append([bytes(value for texel in row for value in texel[:3]) for row in read_png(live.shot().read_bytes())])
+        width = len(shots[0][0]) // 3
+        report.check(shots[0] != shots[1], "the save changes nothing")
+
+        def divided(at):
+            rows, line = screen.read()[2], width * at // 8
+            return all(rows[y][:3 * (line - 4)] == shots[0][y][:3 * (line - 4)] and rows[y][3 * (line + 4):3 * width] == shots[1][y][3 * (line + 4):] for y in range(len(shots[0])))
+
+        report.check(live.until(lambda: divided(4)), "not divided in the middle")
+        middle, y = width // 2, len(shots[0]) // 2
+        for step in (("mousemove", middle, y), ("mousedown", 1), ("mousemove", width // 4, y), ("mouseup", 1), ("mousemove", 1200, 300)):
+            live.tool(*step)
+        report.check(live.until(lambda: divided(2)), "the line does not follow the mouse")
+        live.act("m", "compare")
+        report.check(live.until(lambda: all(screen.read()[2][y][:3 * width] == row for y, row in enumerate(shots[1]))), "the kept picture stays")
+        live.leave(report)
+    finally:
+        live.stop()
+
+
 def main():
     weft, report = os.path.abspath(sys.argv[1]), Report()
     display = inside_display(report, weft, "none", __file__)
@@ -323,6 +356,7 @@ def main():
         write_back(weft, folder, report)
         hidden(weft, folder, report)
         scan(weft, folder, report)
+        compare(weft, folder, display, report)
     report.end()
 
 
