@@ -23,7 +23,7 @@ std::string takeFrames(const std::string& text, std::vector<std::uint32_t>& fram
     if (!first || !last || !step || *step == 0 || *first > *last)
       return fmt::format(
           "expected FRAME, FIRST-LAST or FIRST-LASTxSTEP, with commas between, such as 1-100x3,200: whole "
-          "numbers to {}, found '{}'",
+          "numbers to {}, no FIRST above its LAST, found '{}'",
           ~0u, part);
     const std::uint64_t count = std::uint64_t{(*last - *first) / *step} + 1;
     if (frames.size() + count > kMost)

@@ -75,6 +75,7 @@ bool Manifest::read(text::Diagnostics& diagnostics) {
   const auto bytes = text::readFile(path_, diagnostics, text::Code::outputNotWritten);
   if (!bytes) return false;
   std::string_view rest = *bytes;
+  std::uint32_t wrong = 0;  // the first line that is none of a manifest
   for (std::uint32_t number = 1; !rest.empty(); ++number) {
     const std::string_view line = text::takeLine(rest);
     const Json json = text::loadJson(line);
@@ -84,13 +85,9 @@ bool Manifest::read(text::Diagnostics& diagnostics) {
       return json.is_object() && json.contains(key) && json[key].is_string();
     };
     if (!string("settings") || !json.contains("frame") || !json["frame"].is_number_unsigned() ||
-        !json.contains("files") || !json["files"].is_object()) {
-      diagnostics.error(
-          text::Code::outputNotWritten, {path_, number, 1},
-          fmt::format("'{}' is no manifest of frames", path_),
-          {.expected = "lines such as {\"frame\":7,\"files\":{\"f_0007.png\":\"…\"},\"settings\":\"…\"}",
-           .hint = "name another file with --manifest; nothing was added to this one"});
-      return false;
+        json["frame"].get<std::uint64_t>() > ~0u || !json.contains("files") || !json["files"].is_object()) {
+      if (wrong == 0) wrong = number;
+      continue;
     }
     const auto frame = json["frame"].get<std::uint32_t>();
     if (json["settings"] == settings_)
@@ -98,7 +95,19 @@ bool Manifest::read(text::Diagnostics& diagnostics) {
     else
       others_.insert(frame);
   }
-  return true;
+  if (wrong == 0) return true;
+  const text::Place place{path_, wrong, 1};
+  const char* const expected =
+      "lines such as {\"frame\":7,\"files\":{\"f_0007.png\":\"…\"},\"settings\":\"…\"}";
+  const bool damaged = !done_.empty() || !others_.empty();
+  if (damaged)
+    diagnostics.warning(text::Code::unreadableFile, place, "this line of the manifest is damaged",
+                        {.expected = expected, .hint = "it is left out; --skip-done draws its frame again"});
+  else
+    diagnostics.error(
+        text::Code::outputNotWritten, place, fmt::format("'{}' is no manifest of frames", path_),
+        {.expected = expected, .hint = "name another file with --manifest; nothing was added to this one"});
+  return damaged;
 }
 
 std::string Manifest::nameOf(const std::string& file) const {

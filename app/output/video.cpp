@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -122,8 +123,12 @@ bool Video::add(const assets::Image8& picture, text::Diagnostics& diagnostics) {
 }
 
 bool Video::finish(text::Diagnostics& diagnostics) {
-  return end(false, diagnostics) &&
-         (file_.putInPlace() || refuse(std::strerror(file_.error()), "name another file", diagnostics));
+  if (!end(false, diagnostics)) return false;
+  std::error_code ec;
+  if (std::filesystem::file_size(file_.name(), ec) == 0)
+    return refuse("the program ffmpeg wrote nothing", "see which program has that name: command -v ffmpeg",
+                  diagnostics);
+  return (file_.putInPlace() || refuse(std::strerror(file_.error()), "name another file", diagnostics));
 }
 
 Video::~Video() {

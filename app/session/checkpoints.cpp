@@ -72,7 +72,8 @@ void CheckpointOptions::add(CLI::App& command) {
 }
 
 CheckpointOptions CheckpointOptions::beside(const std::string& output) const {
-  return {every, where.empty() ? (fs::path(output).parent_path() / "checkpoints").string() : where};
+  return {every, where.empty() ? (fs::path(output).parent_path() / "checkpoints").string() : where,
+          !where.empty()};
 }
 
 Checkpoints::Checkpoints(const CheckpointOptions& wish, DeviceSession& session, const runtime::World& world,
@@ -125,6 +126,10 @@ std::uint32_t Checkpoints::begin(std::uint32_t first, text::Diagnostics& diagnos
   if (saves_ && !execution.canSave(world_, diagnostics)) return first;
   auto found = checkpointsIn(folder_, options_.graph);
   if (named_) found = {{first, wish_.where}};
+  if (std::error_code ec; wish_.chosen && !saves_ && !named_ && !fs::is_directory(folder_, ec))
+    diagnostics.warning(text::Code::unreadableFile, {folder_},
+                        fmt::format("there is no folder '{}' with checkpoints", folder_),
+                        {.hint = "the run begins with frame 0"});
   if (!saves_ && found.empty()) return 0;
   std::string kept;  // they change the plan
   for (const graph::Pick& pick : options_.kept) kept += pick.text + "\n";

@@ -13,6 +13,7 @@ namespace weft::app {
 struct CheckpointOptions {
   std::uint32_t every = 0;  // frames; 0: none is saved
   std::string where;        // a folder, or the one checkpoint to begin with
+  bool chosen = true;       // by the person
 
   void add(CLI::App& command);
   // With a place of their own where none was named: beside an output.

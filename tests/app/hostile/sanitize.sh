@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the weft command, the tests that need no GL, and some that do with AddressSanitizer and UBSan (build/asan, or
-# $WEFT_ASAN_BUILD), then runs them: the cpu tests, the GL tests below, the fuzz targets, broken and hostile inputs, and sessions with the viewer in a
-# virtual display. Leaks of the software GL drivers are excepted (tests/gl/lsan.supp).
+# $WEFT_ASAN_BUILD), then runs them: the cpu tests, the GL tests below, the fuzz targets, broken and hostile inputs, sequences and checkpoints, and sessions with
+# the viewer in a virtual display. Leaks of the software GL drivers are excepted (tests/gl/lsan.supp).
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
 build=$(realpath -m "${WEFT_ASAN_BUILD:-$top/build/asan}")
@@ -69,7 +69,8 @@ wait "$graphs" || code=1
 echo "broken and hostile inputs: $(runs broken_inputs hostile_graphs hostile_files hostile_files_cache hostile_outputs hostile_shaders view_files) runs of the program, 0 reports"
 { run_script view view/basics "$kept" "$compare" && run_script view_window view/basics "$kept" "$compare" --window; } &
 views=$!
-{ run_script view_session view/session "$kept" "$compare" && run_script environments view/environments "$kept" "$compare" && run_script environments_window view/environments "$kept" "$compare" --window &&
+{ run_script sequences output/sequences "$weft" && run_script videos output/videos "$weft" && run_script checkpoints session/checkpoints "$weft" &&
+  run_script view_session view/session "$kept" "$compare" && run_script environments view/environments "$kept" "$compare" && run_script environments_window view/environments "$kept" "$compare" --window &&
   run_script view_panels view/panels "$kept"; } || code=1
 wait "$views" || code=1
 [ "$code" = 0 ] || exit 1

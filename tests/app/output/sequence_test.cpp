@@ -36,7 +36,7 @@ TEST_CASE("a set of frames is read sorted, each frame once, and printed as it is
     CHECK(takeFrames(bad, frames).starts_with("expected FRAME, FIRST-LAST"));
   }
   Frames frames;
-  CHECK(takeFrames("1-3,9-7", frames).ends_with("found '9-7'"));
+  CHECK(takeFrames("1-3,9-7", frames).ends_with("no FIRST above its LAST, found '9-7'"));
   CHECK(takeFrames("0-4294967295", frames).starts_with("expected at most 16777216 frames"));
 }
 
@@ -101,17 +101,23 @@ TEST_CASE("a line that was torn is passed over, and the next one stands in a lin
   CHECK(folder.said.empty());
 }
 
-TEST_CASE("a file that is no manifest is refused at its line, and stays as it is") {
+TEST_CASE("a file that is no manifest is refused at its line; a line that is damaged is told and left out") {
   for (const char* bad :
        {"no JSON\n", "{}\n", "[1]\n", "7\n", "{\"frame\":-1,\"files\":{},\"settings\":\"\"}\n",
+        "{\"frame\":4294967297,\"files\":{},\"settings\":\"\"}\n",
         "{\"frame\":1,\"files\":[],\"settings\":\"\"}\n", "{ \"name\": \"a graph\" }\n"}) {
-    Folder folder;
-    folder.add("a", 1);
-    std::ofstream(folder.at("m.jsonl"), std::ios::app) << bad;
-    CHECK_FALSE(folder.manifest("a").read(folder.said));
-    CAPTURE(folder.said.text());
-    REQUIRE(folder.said.size() == 1);
-    CHECK(folder.said.items()[0].place.line == 2);
+    for (const bool manifest : {false, true}) {
+      Folder folder;
+      if (manifest) folder.add("a", 1);
+      std::ofstream(folder.at("m.jsonl"), std::ios::app) << bad << bad;
+      if (manifest) folder.add("a", 2);
+      CAPTURE(folder.said.text());
+      CHECK(folder.manifest("a").read(folder.said) == manifest);
+      CHECK(folder.said.hasErrors() != manifest);
+      REQUIRE(folder.said.size() == 1);
+      CHECK(folder.said.items()[0].place.line == 1 + manifest);
+      if (manifest) CHECK((folder.isDone("a", 1) && folder.isDone("a", 2)));
+    }
   }
 }
 

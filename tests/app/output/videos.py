@@ -79,6 +79,8 @@ def main():
         env["PATH"] += ":" + os.environ["PATH"]
         told = refused(1, "found: first line; the disk is on strike", "-o", "film.mkv", "--frames", "0-999", env=env)
         report.check(told.codes() == ["W180"] and "ffmpeg ended with exit code 7" in told.err, told.err)
+        (folder / "bin/ffmpeg").write_text("#!/bin/sh\ncat >/dev/null\n")
+        refused(1, "the program ffmpeg wrote nothing", "-o", "film.mkv", env=env)
         # A full disk, which ffmpeg may notice in the end only: as a limit to sizes of files.
         full = refused(1, "ffmpeg ended with exit code 1", "-o", "a.mp4", "--size", "64x36", "--frames", "0-2", preexec_fn=small_files)
         report.check("File too large" in full.err, full.err)
@@ -91,6 +93,19 @@ def main():
         os.killpg(process.pid, signal.SIGINT)  # as Ctrl-C does
         error = process.communicate(timeout=120 * SLOWER)[1]
         report.check(process.returncode == 130 and "'long.mp4' is not written" in error, f"SIGINT: {process.returncode}\n{error}")
+        # A second signal ends a run at once, whichever it is.
+        (folder / "bin/ffmpeg").write_text(f"#!/bin/sh\nhead -c 1 >/dev/null\n: >{folder}/bin/began\nwhile kill -0 $PPID; do sleep 0.1; done\n")
+        count_run()
+        process = subprocess.Popen([str(weft), *render, "-o", "long.mkv", "--size", "200x200"], cwd=folder, stderr=subprocess.PIPE, text=True, env=env)
+        while not (folder / "bin/began").exists() and process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        while "a second signal" not in (process.stderr.readline() or "a second signal"):
+            pass
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=120 * SLOWER)
+        report.check(process.returncode == -signal.SIGTERM, f"SIGTERM after SIGINT: {process.returncode}")
+        (folder / ".long.mkv.part").unlink()
         shutil.rmtree(folder / "bin")
         report.check(sorted(path.name for path in folder.iterdir()) == before, f"what failed leaves files: {sorted(folder.iterdir())}")
     report.end()

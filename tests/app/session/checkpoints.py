@@ -68,6 +68,8 @@ def check_options(weft, report, folder):
     rest("named, too late", "2", 4, **named, code=1, words=["error[W001]", "is of frame 4"])
     rest("named, not there", "9", 4, where=saved / "no.checkpoint", code=1, words=["error[W001]", "cannot be read"])
 
+    rest("no folder", "9", 0, where=folder / "absent", words=["warning[W001]", "there is no folder"])
+
     eight, good = saved / "checkpoint_000008.checkpoint", before["checkpoint_000008.checkpoint"]
     flipped = lambda at: good[:at] + bytes([good[at] ^ 16]) + good[at + 1:]
     for label, damaged, words in [
