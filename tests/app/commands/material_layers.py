@@ -3,6 +3,7 @@
 extensions: KHR_materials_ior, specular, clearcoat, sheen, anisotropy and iridescence. Lobes are integrated here by sampling, thin films wavelength by
 wavelength. material_layers.py WEFT [PICTURE]"""
 import base64
+import functools
 import json
 import math
 import pathlib
@@ -38,11 +39,16 @@ SPHERES = [
 
 
 def dot(a, b):
-    return sum(x * y for x, y in zip(a, b))
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def unit(a):
-    return tuple(x / math.sqrt(dot(a, a)) for x in a)
+    length = math.sqrt(dot(a, a))
+    return a[0] / length, a[1] / length, a[2] / length
+
+
+def add(a, b):
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
 
 
 def cross(a, b):
@@ -101,6 +107,7 @@ def schlick(f0, f90, cosine):
     return tuple(f + (f90 - f) * (1 - cosine) ** 5 for f in f0)
 
 
+@functools.cache
 def frame_of(n, turn):
     t = unit((n[2], 0.0, -n[0]))
     b = cross(n, t)
@@ -110,8 +117,8 @@ def frame_of(n, turn):
 
 def ggx(alphas, frame, v, l):
     """Distribution times visibility."""
-    h = unit(tuple(x + y for x, y in zip(v, l)))
-    (tv, bv, nv), (tl, bl, nl), (th, bh, nh) = (tuple(dot(axis, w) for axis in frame) for w in (v, l, h))
+    h = unit(add(v, l))
+    (tv, bv, nv), (tl, bl, nl), (th, bh, nh) = ((dot(frame[0], w), dot(frame[1], w), dot(frame[2], w)) for w in (v, l, h))
     at, ab = alphas
     distribution = 1 / (math.pi * at * ab * ((th / at) ** 2 + (bh / ab) ** 2 + nh * nh) ** 2)
     masked = nl * math.sqrt((at * tv) ** 2 + (ab * bv) ** 2 + nv * nv) + nv * math.sqrt((at * tl) ** 2 + (ab * bl) ** 2 + nl * nl)
@@ -159,6 +166,7 @@ def film(f0, ior, thickness, cosine):
     return tuple(colors)
 
 
+@functools.cache
 def sheen_lambda(x, alpha):
     k = (1 - alpha) ** 2
     a, b, c, d, e = (q + (p - q) * k for p, q in ((25.3245, 21.5473), (3.32435, 3.82987), (0.16801, 0.19823), (-1.27393, -1.97760), (-4.85967, -4.32054)))
@@ -169,7 +177,7 @@ def sheen_lambda(x, alpha):
 
 def sheen(roughness, n, v, l):
     alpha = roughness * roughness
-    h, nv, nl = unit(tuple(x + y for x, y in zip(v, l))), dot(n, v), dot(n, l)
+    h, nv, nl = unit(add(v, l)), dot(n, v), dot(n, l)
     sine = math.sqrt(max(0.0, 1 - dot(n, h) ** 2))
     distribution = (2 + 1 / alpha) * sine ** (1 / alpha) / (2 * math.pi)
     return distribution / ((1 + sheen_lambda(nv, alpha) + sheen_lambda(nl, alpha)) * 4 * nv * nl)
@@ -186,15 +194,18 @@ def sheen_reflectance(roughness, cosine):
     return known[key]
 
 
+@functools.cache
 def directions(count, n):
     """Evenly over the hemisphere around n, each with its solid angle."""
+    found = []
     a = unit(cross((0.3, 0.9, 0.1), n))
     b = cross(n, a)
     for i in range(count):
         z = (i + 0.5) / count
         for j in range(2 * count):
             phi, s = math.pi * (j + 0.5) / count, math.sqrt(1 - z * z)
-            yield tuple(s * math.cos(phi) * a[c] + s * math.sin(phi) * b[c] + z * n[c] for c in range(3)), math.pi / count ** 2
+            found.append((tuple(s * math.cos(phi) * a[c] + s * math.sin(phi) * b[c] + z * n[c] for c in range(3)), math.pi / count ** 2))
+    return found
 
 
 def material(base, layers):
@@ -219,7 +230,7 @@ def material(base, layers):
         return tuple(a + thin["iridescenceFactor"] * (b - a) for a, b in zip(out, known[key]))
 
     def brdf(n, v, l):
-        h = unit(tuple(x + y for x, y in zip(v, l)))
+        h = unit(add(v, l))
         frame, reflected = frame_of(n, brushed.get("anisotropyRotation", 0)), fresnel(dot(v, h))
         lobe, diffuse = ggx(alphas, frame, v, l), (1 - metallic) * (1 - max(reflected)) / math.pi
         out = [r * lobe + diffuse * c for r, c in zip(reflected, color)]
@@ -248,7 +259,7 @@ def check(picture, graph, everywhere):
         for x, y in POINTS[::2] if everywhere else POINTS:
             column, row = int((SPACING * (i + 0.5) + x) / SPACING * height), int((0.5 - y / SPACING) * height)
             at = ((column + 0.5) / height * SPACING - SPACING * (i + 0.5), (0.5 - (row + 0.5) / height) * SPACING)
-            n = (*at, math.sqrt(1 - dot(at, at)))
+            n = (*at, math.sqrt(1 - math.hypot(*at) ** 2))
             if not everywhere and dot(n, TO_LIGHT) < 0.15:
                 continue
             # The studio looks from a point in every projection.
