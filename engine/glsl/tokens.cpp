@@ -4,7 +4,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <iterator>
-#include <memory>
+#include <ranges>
 #include <unordered_map>
 #include <utility>
 
@@ -219,12 +219,10 @@ struct Macro {
   int open = 0;  // being expanded: its name stands for itself
 };
 
-// Where the next token comes from: the text, or what a macro stands for.
-struct Source {
-  std::shared_ptr<const Tokens> own;  // null: `tokens` live elsewhere
-  std::span<const Token> tokens;
-  std::size_t at = 0;
-  Macro* macro = nullptr;
+// What is left to expand, the next last: a token, or the end of what a macro stands for.
+struct Rest {
+  Token token;
+  Macro* ended = nullptr;
 };
 
 class Expander {
@@ -362,89 +360,67 @@ class Expander {
 
   // Appends what `text` stands for to `to`. `depth`: of arguments of macros in arguments of macros.
   void expand(std::span<const Token> text, Tokens& to, std::uint32_t depth) {
-    std::vector<Source> stack;
-    stack.push_back({.own = nullptr, .tokens = text});
-    Token place;
-    while (!stack.empty() && spend(0)) {
-      Source& source = stack.back();
-      if (source.at == source.tokens.size()) {
-        if (source.macro) --source.macro->open;
-        stack.pop_back();
-        continue;
-      }
-      Token token = source.tokens[source.at++];
-      const bool outside = stack.size() == 1;
-      if (outside) place = token;
-      token.line = place.line;
-      token.column = place.column;
+    std::vector<Rest> rest;
+    for (const Token& token : text | std::views::reverse) rest.push_back({token});
+    while (std::optional<Token> token = next(rest)) {
+      if (!spend(1)) continue;  // but macros end
       const auto found =
-          token.kind == TokenKind::word && !token.inert ? macros_.find(token.text) : macros_.end();
-      if (!spend(1)) break;
-      if (found == macros_.end()) {
-        to.push_back(token);
-      } else if (found->second.open > 0) {
-        token.inert = true;
-        to.push_back(token);
-      } else if (!found->second.function) {
-        push(stack, found->second, found->second.body);
-      } else if (!call(stack, found->second, depth)) {
-        to.push_back(token);
-      }
+          token->kind == TokenKind::word && !token->inert ? macros_.find(token->text) : macros_.end();
+      Macro* const macro = found == macros_.end() ? nullptr : &found->second;
+      token->inert |= macro && macro->open > 0;
+      if (!macro || token->inert || (macro->function && !isCalled(rest, depth)))
+        to.push_back(*token);
+      else if (macro->function)
+        call(rest, *macro, *token, depth);
+      else
+        push(rest, *macro, macro->body, *token);
     }
-    for (Source& left : stack)
-      if (left.macro) --left.macro->open;
   }
 
-  void push(std::vector<Source>& stack, Macro& macro, Tokens body) {
-    ++macro.open;
+  static void leaveEnded(std::vector<Rest>& rest) {
+    for (; !rest.empty() && rest.back().ended; rest.pop_back()) --rest.back().ended->open;
+  }
+  static std::optional<Token> next(std::vector<Rest>& rest) {
+    leaveEnded(rest);
+    if (rest.empty()) return std::nullopt;
+    const Token token = rest.back().token;
+    rest.pop_back();
+    return token;
+  }
+  // Whether a bracket follows; else the name of the macro stands for itself.
+  bool isCalled(std::vector<Rest>& rest, std::uint32_t depth) {
+    leaveEnded(rest);
+    out_.uncertain |= rest.empty() && depth == 0;
+    return !rest.empty() && rest.back().token.is("(");
+  }
+
+  void push(std::vector<Rest>& rest, Macro& macro, Tokens body, const Token& use) {
     paste(body);
-    if (!spend(body.size())) body.clear();
-    auto own = std::make_shared<const Tokens>(std::move(body));
-    const std::span<const Token> tokens(*own);
-    stack.push_back({.own = std::move(own), .tokens = tokens, .macro = &macro});
+    if (!spend(body.size())) return;
+    ++macro.open;
+    rest.push_back({.token = {}, .ended = &macro});
+    for (Token& token : body | std::views::reverse) {
+      token.line = use.line;
+      token.column = use.column;
+      rest.push_back({token});
+    }
   }
 
-  // The next token without taking it; sources that have ended are left.
-  static const Token* peek(std::vector<Source>& stack) {
-    while (!stack.empty()) {
-      Source& source = stack.back();
-      if (source.at < source.tokens.size()) return &source.tokens[source.at];
-      if (stack.size() == 1) return nullptr;
-      if (source.macro) --source.macro->open;
-      stack.pop_back();
-    }
-    return nullptr;
-  }
-
-  // A use of a function-like macro: false when no bracket follows, and the name stands for itself.
-  bool call(std::vector<Source>& stack, Macro& macro, std::uint32_t depth) {
-    const Token* next = peek(stack);
-    if (!next || !next->is("(")) {
-      out_.uncertain |= !next && depth == 0;
-      return false;
-    }
+  void call(std::vector<Rest>& rest, Macro& macro, const Token& use, std::uint32_t depth) {
     std::vector<Tokens> arguments(1);
-    int brackets = 0;
-    do {
-      next = peek(stack);
-      if (!next || !spend(1)) {
-        out_.uncertain = true;  // a directive stands between its brackets
-        return true;
-      }
-      ++stack.back().at;
-      if (next->is("(") && brackets++ == 0) continue;
-      if (next->is(")") && --brackets == 0) break;
-      if (next->is(",") && brackets == 1)
+    for (int brackets = 0;;) {
+      const std::optional<Token> token = next(rest);
+      out_.uncertain |= !token;  // a directive stands between its brackets
+      if (!token || !spend(1)) return;
+      if (token->is("(") && brackets++ == 0) continue;
+      if (token->is(")") && --brackets == 0) break;
+      if (token->is(",") && brackets == 1)
         arguments.emplace_back();
       else
-        arguments.back().push_back(*next);
-    } while (true);
-    if (depth + 1 >= deepest_) {
-      out_.uncertain = true;
-      return true;
+        arguments.back().push_back(*token);
     }
-    push(stack, macro, substitute(macro, arguments, depth));
-    return true;
+    out_.uncertain |= depth + 1 >= deepest_;
+    if (depth + 1 < deepest_) push(rest, macro, substitute(macro, arguments, depth), use);
   }
 
   Tokens substitute(const Macro& macro, const std::vector<Tokens>& arguments, std::uint32_t depth) {
