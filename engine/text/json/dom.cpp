@@ -284,35 +284,25 @@ class Parser {
   }
 
   void number(JsonValue& out) {
-    const std::size_t begin = at_;
-    const auto digits = [&] {
-      const std::size_t from = at_;
-      while (isDigit(now())) ++at_;
-      return at_ > from;
+    const std::string_view word = text_.substr(at_, endOfWord(at_) - at_),
+                           digits = word.substr(now() == '-' ? 1 : 0);
+    const std::size_t point = word.find('.');
+    const auto isDigitAt = [](std::string_view of, std::size_t at) {
+      return at < of.size() && isDigit(of[at]);
     };
-    if (now() == '-') ++at_;
-    bool good = true;
-    if (now() == '0')
-      ++at_;
-    else
-      good = digits();
-    out.whole = true;
-    if (good && now() == '.') {
-      ++at_;
-      out.whole = false;
-      good = digits();
-    }
-    if (good && isOneOf(now(), "eE")) {
-      ++at_;
-      out.whole = false;
-      if (isOneOf(now(), "+-")) ++at_;
-      good = digits();
-    }
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), out.number);
+    // What JSON does not have: "-inf", "007", "1." and "1.e3".
+    const bool good = end == word.data() + word.size() && isDigitAt(digits, 0) &&
+                      !(digits[0] == '0' && isDigitAt(digits, 1)) &&
+                      (point == word.npos || isDigitAt(word, point + 1));
+    out.whole = word.find_first_of(".eE") == word.npos;
     out.type = good ? Type::number : Type::broken;
-    if (good && std::from_chars(text_.data() + begin, text_.data() + at_, out.number).ec != std::errc())
-      fail(begin, fmt::format("{} is beyond what a number can be", text_.substr(begin, at_ - begin)),
-           "numbers have 64 bits: the largest is about 1.8e308");
     out.number += 0.0;  // no -0
+    const std::size_t begin = at_;
+    at_ += word.size();
+    if (good && error != std::errc())
+      fail(begin, fmt::format("{} is beyond what a number can be", word),
+           "numbers have 64 bits: the largest is about 1.8e308");
   }
 
   void string(std::string& out, bool& closed) {
