@@ -361,12 +361,12 @@ bool mayRead(const std::string& path) {
 void reportOutside(const std::string& path, Diagnostics& diagnostics, const Place& place) {
   std::vector<std::string> folders;
   for (Rules all; const std::string& each : all->named) folders.push_back(fmt::format("'{}'", each));
-  Diagnostic& d =
-      diagnostics.error(Code::outsideConfinement, placeOr(place, path),
-                        fmt::format("'{}' leads out of the folders that this run is confined to", path));
-  d.expected = fmt::format("a path that stays, with links followed, in {} or in Weft's own data",
-                           fmt::join(folders, ", "));
-  d.hint = "move the file into one of them, or allow its folder with --confine FOLDER";
+  diagnostics.error(
+      Code::outsideConfinement, placeOr(place, path),
+      fmt::format("'{}' leads out of the folders that this run is confined to", path),
+      {.expected = fmt::format("a path that stays, with links followed, in {} or in Weft's own data",
+                               fmt::join(folders, ", ")),
+       .hint = "move the file into one of them, or allow its folder with --confine FOLDER"});
 }
 
 std::set<std::string> filesRead() {

@@ -82,13 +82,13 @@ void FileWatcher::armFile(const std::string& absolute, const std::string& given)
 
 void FileWatcher::tell(int error, const std::string& file) {
   if (std::exchange(told_, true)) return;
-  Diagnostic& d = notices_.add({.severity = Severity::note,
-                                .code = Code::filesNotWatched,
-                                .message = fmt::format("changes of '{}' are not seen", file),
-                                .place = {file}});
-  d.found = fmt::format("inotify: {}", std::strerror(error));
-  d.hint =
-      "make its folder readable, or raise fs.inotify.max_user_watches and max_user_instances with sysctl";
+  notices_.add({.severity = Severity::note,
+                .code = Code::filesNotWatched,
+                .message = fmt::format("changes of '{}' are not seen", file),
+                .place = {file},
+                .found = fmt::format("inotify: {}", std::strerror(error)),
+                .hint = "make its folder readable, or raise fs.inotify.max_user_watches and "
+                        "max_user_instances with sysctl"});
 }
 
 std::vector<std::string> FileWatcher::poll() {

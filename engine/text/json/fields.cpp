@@ -18,13 +18,10 @@ std::string describeRange(const NumberRange& range) {
   return text;
 }
 
-Diagnostic& reportType(const JsonValue& value, std::string_view name, Diagnostics& diagnostics,
-                       std::string expected) {
-  Diagnostic& d =
-      diagnostics.error(Code::wrongType, value.place, fmt::format("{} has the wrong type of value", name));
-  d.expected = std::move(expected);
-  d.found = describe(value);
-  return d;
+void reportType(const JsonValue& value, std::string_view name, Diagnostics& diagnostics,
+                std::string expected) {
+  diagnostics.error(Code::wrongType, value.place, fmt::format("{} has the wrong type of value", name),
+                    {.expected = std::move(expected), .found = describe(value)});
 }
 
 }  // namespace
@@ -101,10 +98,9 @@ const JsonValue* JsonFields::find(std::string_view key, JsonValue::Type type) {
 void JsonFields::require(std::initializer_list<std::string_view> keys) {
   if (!object_.is(JsonValue::Type::object)) return;
   for (const std::string_view key : keys) {
-    if (object_.find(key)) continue;
-    Diagnostic& d =
-        diagnostics_.error(Code::missingKey, object_.place, fmt::format("{} has no '{}'", what_, key));
-    d.hint = fmt::format("add \"{}\"", key);
+    if (!object_.find(key))
+      diagnostics_.error(Code::missingKey, object_.place, fmt::format("{} has no '{}'", what_, key),
+                         {.hint = fmt::format("add \"{}\"", key)});
   }
 }
 

@@ -69,15 +69,15 @@ Diagnostics chooseMessages(const Diagnostics& all, bool notes) {
   const auto& [noteCount, warningCount, errorCount] = there;
   const bool stopped = enoughErrors(all);
   if (stopped || noteCount + warningCount + errorCount > 0) {
-    Diagnostic& d = chosen.add(
+    const std::string raise = hintToRaise(kMaxMessages);
+    chosen.add(
         {.severity = Severity::note,
          .code = Code::messagesLeftOut,
          .message = fmt::format("further messages are left out: {}, {}, {}{}", counted(errorCount, "error"),
                                 counted(warningCount, "warning"), counted(noteCount, "note"),
                                 stopped ? "; no more were looked for" : ""),
-         .place = {}});
-    const std::string raise = hintToRaise(kMaxMessages);
-    d.hint = raise.empty() ? "correct these first" : "correct these first, or " + raise;
+         .place = {},
+         .hint = raise.empty() ? "correct these first" : "correct these first, or " + raise});
   }
   return chosen;
 }
