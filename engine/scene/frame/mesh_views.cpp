@@ -9,8 +9,7 @@ namespace weft::scene {
 
 namespace {
 
-constexpr std::uint32_t kPart = 2048;  // rows that are culled together
-constexpr std::size_t kFewKeys = 8192;
+constexpr std::size_t kFewBoxes = 2048, kFewKeys = 8192;
 constexpr std::size_t kLittleViewWork = 8192;  // rows of all views: below, threads cost more than they bring
 
 }  // namespace
@@ -28,25 +27,18 @@ Frustum frustumOf(const glm::mat4& m) {
   return frustum;
 }
 
-std::size_t cull(const Frustum& frustum, std::span<const Box> boxes, std::size_t from, std::size_t to,
-                 std::uint32_t* visible) {
-  std::size_t count = 0;
-  for (std::size_t i = from; i < to; ++i) {
-    const Box& box = boxes[i];
-    if (box.empty()) continue;
-    bool outside = false;
-    for (int p = 0; p < frustum.count && !outside; ++p) {
-      const glm::vec4& plane = frustum.planes[p];
-      const glm::vec3 farthest(plane.x >= 0 ? box.high.x : box.low.x, plane.y >= 0 ? box.high.y : box.low.y,
-                               plane.z >= 0 ? box.high.z : box.low.z);
-      const glm::vec3 terms = glm::vec3(plane) * farthest;
-      const float rounding =
-          4e-6f * (std::abs(terms.x) + std::abs(terms.y) + std::abs(terms.z) + std::abs(plane.w));
-      outside = terms.x + terms.y + terms.z + plane.w < -rounding;
-    }
-    if (!outside) visible[count++] = static_cast<std::uint32_t>(i);
+bool reaches(const Frustum& frustum, const Box& box) {
+  bool inside = !box.empty();
+  for (int p = 0; p < frustum.count && inside; ++p) {
+    const glm::vec4& plane = frustum.planes[p];
+    const glm::vec3 farthest(plane.x >= 0 ? box.high.x : box.low.x, plane.y >= 0 ? box.high.y : box.low.y,
+                             plane.z >= 0 ? box.high.z : box.low.z);
+    const glm::vec3 terms = glm::vec3(plane) * farthest;
+    const float rounding =
+        4e-6f * (std::abs(terms.x) + std::abs(terms.y) + std::abs(terms.z) + std::abs(plane.w));
+    inside = !(terms.x + terms.y + terms.z + plane.w < -rounding);
   }
-  return count;
+  return inside;
 }
 
 void makeCommands(const Scene& scene, std::span<const MeshRow> rows, std::span<const std::uint32_t> visible,
@@ -67,24 +59,19 @@ void MeshView::look(DrawList list, const glm::mat4& view, const glm::mat4& viewP
   wish_ = {list, view, viewProjection, order};
 }
 
-void MeshViews::cullPart(const MeshFrame& frame, Part part) {
-  MeshView& view = *due_[part.view];
+void MeshViews::see(const Scene& scene, const MeshFrame& frame, MeshView& view, bool little) {
   const std::span<const Box> boxes = frame.bounds(view.wish_.list);
-  const std::size_t from = std::size_t{part.part} * kPart, to = std::min(from + kPart, boxes.size());
-  view.partCounts_[part.part] =
-      static_cast<std::uint32_t>(cull(view.frustum_, boxes, from, to, view.visible_.data() + from));
-}
-
-// Moves together what the parts found, each at its own place.
-void MeshViews::join(MeshView& view) {
-  std::size_t count = 0;
-  for (std::size_t part = 0; part < view.partCounts_.size(); ++part) {
-    const auto from = view.visible_.begin() + static_cast<std::ptrdiff_t>(part * kPart);
-    std::copy(from, from + view.partCounts_[part],
-              view.visible_.begin() + static_cast<std::ptrdiff_t>(count));
-    count += view.partCounts_[part];
-  }
-  view.visible_.resize(count);
+  const Frustum frustum = frustumOf(view.wish_.viewProjection);
+  view.seen_.resize(boxes.size());
+  forRanges(boxes.size(), little ? boxes.size() : kFewBoxes, [&](std::size_t from, std::size_t to) {
+    for (std::size_t row = from; row < to; ++row) view.seen_[row] = reaches(frustum, boxes[row]) ? 1 : 0;
+  });
+  view.visible_.clear();
+  view.visible_.reserve(boxes.size());
+  for (std::uint32_t row = 0; row < boxes.size(); ++row)
+    if (view.seen_[row] != 0) view.visible_.push_back(row);
+  if (view.wish_.order != MeshOrder::by_mesh) sort(frame, view);
+  makeCommands(scene, frame.rows(view.wish_.list), view.visible_, view.commands_);
 }
 
 void MeshViews::sort(const MeshFrame& frame, MeshView& view) {
@@ -108,35 +95,19 @@ void MeshViews::sort(const MeshFrame& frame, MeshView& view) {
 
 void MeshViews::update(const Scene& scene, const MeshFrame& frame, std::span<MeshView* const> views) {
   due_.clear();
-  parts_.clear();
   std::size_t work = 0;
   for (MeshView* view : views) {
     const std::uint64_t rows = frame.generation(view->wish_.list);
     if (view->generation_ != 0 && view->rows_ == rows && view->wish_ == view->made_) continue;
-    const std::size_t count = frame.bounds(view->wish_.list).size();
     view->rows_ = rows;
     view->made_ = view->wish_;
-    view->frustum_ = frustumOf(view->wish_.viewProjection);
-    view->visible_.resize(count);
-    view->partCounts_.assign((count + kPart - 1) / kPart, 0);
     view->generation_ = ++count_;
-    for (std::uint32_t part = 0; part < view->partCounts_.size(); ++part)
-      parts_.push_back({static_cast<std::uint32_t>(due_.size()), part});
     due_.push_back(view);
-    work += count;
+    work += frame.bounds(view->wish_.list).size();
   }
-  if (due_.empty()) return;
   const bool little = work < kLittleViewWork;
-  forRanges(parts_.size(), little ? parts_.size() : 1, [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from; i < to; ++i) cullPart(frame, parts_[i]);
-  });
   forRanges(due_.size(), little ? due_.size() : 1, [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from; i < to; ++i) {
-      MeshView& view = *due_[i];
-      join(view);
-      if (view.wish_.order != MeshOrder::by_mesh) sort(frame, view);
-      makeCommands(scene, frame.rows(view.wish_.list), view.visible_, view.commands_);
-    }
+    for (std::size_t i = from; i < to; ++i) see(scene, frame, *due_[i], little);
   });
 }
 

@@ -21,10 +21,8 @@ struct Frustum {
 // without a normal (the far plane at infinity) is left out.
 Frustum frustumOf(const glm::mat4& viewProjection);
 
-// Writes those rows of `from` to `to`, ascending, whose box may reach into the frustum to `visible`, which has room for all, and
-// returns how many. Never leaves out a box that does: boxes on a plane within rounding stay. Empty boxes are left out.
-std::size_t cull(const Frustum& frustum, std::span<const Box> boxes, std::size_t from, std::size_t to,
-                 std::uint32_t* visible);
+// Whether a box may reach into the frustum. True for all that do: also for boxes on a plane within rounding. Empty ones do not.
+bool reaches(const Frustum& frustum, const Box& box);
 
 // A command as glMultiDrawElementsIndirect reads it.
 struct DrawCommand {
@@ -61,8 +59,8 @@ class MeshView {
   Wish wish_, made_;
   std::uint64_t rows_ = 0;  // generation of the list that it was made of
   std::uint64_t generation_ = 0;
-  Frustum frustum_;
-  std::vector<std::uint32_t> visible_, partCounts_;
+  std::vector<std::uint8_t> seen_;  // by row of the list
+  std::vector<std::uint32_t> visible_;
   std::vector<SortElement> keys_, scratch_;
   std::vector<DrawCommand> commands_;
 };
@@ -73,16 +71,10 @@ class MeshViews {
   void update(const Scene& scene, const MeshFrame& frame, std::span<MeshView* const> views);
 
  private:
-  // Rows of a view that are culled together.
-  struct Part {
-    std::uint32_t view = 0, part = 0;
-  };
-  void cullPart(const MeshFrame& frame, Part part);
-  static void join(MeshView& view);
+  static void see(const Scene& scene, const MeshFrame& frame, MeshView& view, bool little);
   static void sort(const MeshFrame& frame, MeshView& view);
 
   std::vector<MeshView*> due_;  // of the present update()
-  std::vector<Part> parts_;     // of these views
   std::uint64_t count_ = 0;
 };
 
