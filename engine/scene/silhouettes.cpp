@@ -4,16 +4,9 @@
 #include <bit>
 #include <cmath>
 
-#include "engine/scene/sort.h"
-
 namespace weft::scene {
 
 namespace {
-
-// Whether one is drawn before the other: it is farther, or as far and earlier in the table, as in SortElement.
-bool isBehind(float power, std::uint32_t index, float otherPower, std::uint32_t otherIndex) {
-  return power != otherPower ? power > otherPower : index < otherIndex;
-}
 
 // The axis along which the directions are spread most: the fewest spans overlap there.
 template <typename Items>
@@ -41,24 +34,21 @@ void Silhouettes::find(std::span<const Instance> instances, glm::vec3 eye, float
       if (!(instance.radius > 0 && power > 0 && std::isfinite(power))) continue;
       seen_.push_back({.towards = to / distance,
                        .angle = std::asin(std::min(instance.radius / distance, 1.0f)),
-                       .power = power,
-                       .index = static_cast<std::uint32_t>(i)});
+                       .drawn = {depthKey(power), static_cast<std::uint32_t>(i)}});
     }
     findPairs(near);
   }
   // The spheres of each in the order in which they are drawn.
   std::sort(pairs_.begin(), pairs_.end(), [&](const auto& a, const auto& b) {
-    if (a.first != b.first) return a.first < b.first;
-    const Seen &left = seen_[a.second], &right = seen_[b.second];
-    return isBehind(left.power, left.index, right.power, right.index);
+    return a.first != b.first ? a.first < b.first : seen_[a.second].drawn < seen_[b.second].drawn;
   });
   rows_.assign(std::max<std::size_t>(instances.size(), 1), glm::uvec4(0));
   for (std::size_t begin = 0, end = 0; begin < pairs_.size(); begin = end) {
     while (end < pairs_.size() && pairs_[end].first == pairs_[begin].first) ++end;
     const std::size_t count = std::min(end - begin, kMaxEach);
-    rows_[seen_[pairs_[begin].first].index] = {rows_.size(), count, 0, 0};
+    rows_[seen_[pairs_[begin].first].drawn.index] = {rows_.size(), count, 0, 0};
     for (std::size_t pair = end - count; pair < end; ++pair) {
-      const Instance& before = instances[seen_[pairs_[pair].second].index];
+      const Instance& before = instances[seen_[pairs_[pair].second].drawn.index];
       const glm::vec3 to = before.center - eye;
       rows_.emplace_back(std::bit_cast<std::uint32_t>(to.x), std::bit_cast<std::uint32_t>(to.y),
                          std::bit_cast<std::uint32_t>(to.z), std::bit_cast<std::uint32_t>(before.radius));
@@ -74,8 +64,9 @@ void Silhouettes::findPairs(float near) {
     sphere.low = sphere.towards[axis] - sphere.angle - near;
     sphere.high = sphere.towards[axis] + sphere.angle;
   }
-  std::sort(seen_.begin(), seen_.end(),
-            [](const Seen& a, const Seen& b) { return a.low != b.low ? a.low < b.low : a.index < b.index; });
+  std::sort(seen_.begin(), seen_.end(), [](const Seen& a, const Seen& b) {
+    return a.low != b.low ? a.low < b.low : a.drawn.index < b.drawn.index;
+  });
   for (std::uint32_t i = 0; i < seen_.size(); ++i)
     for (std::uint32_t k = i + 1; k < seen_.size() && seen_[k].low <= seen_[i].high; ++k) {
       const Seen &a = seen_[i], &b = seen_[k];
@@ -84,7 +75,7 @@ void Silhouettes::findPairs(float near) {
       if (square > reach * reach) continue;  // a chord is shorter than its arc
       const float apart = 2 * std::asin(std::min(0.5f * std::sqrt(square), 1.0f));
       if (apart > reach || apart < std::abs(a.angle - b.angle) - near) continue;
-      const bool first = isBehind(a.power, a.index, b.power, b.index);
+      const bool first = a.drawn < b.drawn;
       pairs_.emplace_back(first ? i : k, first ? k : i);
       if (pairs_.size() > kMaxPairs) return pairs_.clear();
     }

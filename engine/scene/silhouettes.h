@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "engine/scene/sort.h"
 
 namespace weft::scene {
 
@@ -30,8 +31,8 @@ class Silhouettes {
   struct Seen {
     glm::vec3 towards{0};  // unit
     float angle = 0;       // between it and the silhouette
-    float power = 0, low = 0, high = 0;
-    std::uint32_t index = 0;
+    SortElement drawn;     // lesser: drawn before
+    float low = 0, high = 0;
   };
   void findPairs(float near);
 
