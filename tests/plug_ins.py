@@ -56,16 +56,16 @@ def strip_comments(text: str) -> str:
 
 
 def names_of_plug_ins(top: pathlib.Path) -> dict[str, str]:
-    """Type names by the folder that may say them: the first name of each reflect()."""
+    """Type names by the folder that may say them: the first name of what each reflects."""
     names = {}
     for room in ("imports", "passes"):
         for folder in sorted(p for p in (top / "engine" / room).iterdir() if p.is_dir()):
             text = "".join(strip_comments(p.read_text()) for p in sorted(folder.glob("*.cpp")))
-            reflected = re.findall(r"\breflect\(\) (?:const )?(?:override )?\{\s*return \{\s*\.name = \"(\w+)\"", text)
+            reflected = re.findall(r"(?:\breflect\(\) \{\s*return|PassType reflected =) \{\s*\.name = \"(\w+)\"", text)
             for name in reflected:
                 names[name] = f"engine/{room}/{folder.name}"
             if reflected != [folder.name] and folder.name not in {"tables", "lights"}:
-                sys.exit(f"engine/{room}/{folder.name}: its reflect() should name '{folder.name}', found {reflected}")
+                sys.exit(f"engine/{room}/{folder.name}: it should reflect '{folder.name}', found {reflected}")
     draw = strip_comments((top / "engine/passes/draw/geometry.cpp").read_text())
     body = draw[draw.index("kTopologies[] = {"):]
     for name in GEOMETRY.findall(body[:body.index("return types;")]):

@@ -3,28 +3,22 @@
 
 namespace weft::passes {
 
-namespace {
-
-class Blit final : public PassType {
- public:
-  graph::PassType reflect() const override {
-    return {
-        .name = "blit",
-        .doc =
-            "Copies `source` to `destination`: one level and layer of a texture, scaling when the sizes "
-            "differ (`\"source\": \"x as linear\"` filters), or a buffer to one of the same size.",
-        .shader = graph::ShaderShape::none,
-        .defaultReadTexture = graph::Kind::copy,
-        .defaultWriteTexture = graph::Kind::copy,
-        .fixedSlots = {{"source", graph::Access::read, "the level and layer, or the buffer, to copy from",
-                        graph::FixedSlot::Takes::either},
-                       {"destination", graph::Access::write, "the level and layer, or the buffer, to copy to",
-                        graph::FixedSlot::Takes::either}},
-        .framebuffers = true,
-        .exactCopies = true};
-  }
-
-  void execute(const PassContext& context) const override {
+std::unique_ptr<PassType> makeBlit() {
+  graph::PassType reflected = {
+      .name = "blit",
+      .doc =
+          "Copies `source` to `destination`: one level and layer of a texture, scaling when the sizes "
+          "differ (`\"source\": \"x as linear\"` filters), or a buffer to one of the same size.",
+      .shader = graph::ShaderShape::none,
+      .defaultReadTexture = graph::Kind::copy,
+      .defaultWriteTexture = graph::Kind::copy,
+      .fixedSlots = {{"source", graph::Access::read, "the level and layer, or the buffer, to copy from",
+                      graph::FixedSlot::Takes::either},
+                     {"destination", graph::Access::write, "the level and layer, or the buffer, to copy to",
+                      graph::FixedSlot::Takes::either}},
+      .framebuffers = true,
+      .exactCopies = true};
+  return std::make_unique<BuiltinPass>(std::move(reflected), [](const PassContext& context) {
     if (const BoundBuffer& from = context.sourceBuffer, &to = context.destinationBuffer;
         from.name && to.name) {
       glCopyNamedBufferSubData(from.name, to.name, from.offset, to.offset, to.bytes);
@@ -42,13 +36,7 @@ class Blit final : public PassType {
                            static_cast<GLint>(from.height), 0, 0, static_cast<GLint>(to.width),
                            static_cast<GLint>(to.height), from.planes & to.planes,
                            linear ? GL_LINEAR : GL_NEAREST);
-  }
-};
-
-}  // namespace
-
-std::unique_ptr<PassType> makeBlit() {
-  return std::make_unique<Blit>();
+  });
 }
 
 }  // namespace weft::passes

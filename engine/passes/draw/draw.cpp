@@ -3,24 +3,18 @@
 
 namespace weft::passes {
 
-namespace {
-
-class Draw final : public PassType {
- public:
-  graph::PassType reflect() const override {
-    return {
-        .name = "draw",
-        .doc =
-            "Draws the instances of `list` (or `instances` copies, or what a buffer `as indirect` says) as "
-            "`geometry`, seen from `view`, with "
-            "NAME.vert.glsl and NAME.frag.glsl, or the two that `shader` names. Written slots are "
-            "attachments; a depth format is the depth attachment.",
-        .shader = graph::ShaderShape::draw,
-        .keys = {"list", "geometry", "instances", "draws", "raster", "samples", "view", "state", "feedback"},
-        .indirect = true};
-  }
-
-  void execute(const PassContext& context) const override {
+std::unique_ptr<PassType> makeDraw() {
+  graph::PassType reflected = {
+      .name = "draw",
+      .doc =
+          "Draws the instances of `list` (or `instances` copies, or what a buffer `as indirect` says) as "
+          "`geometry`, seen from `view`, with "
+          "NAME.vert.glsl and NAME.frag.glsl, or the two that `shader` names. Written slots are "
+          "attachments; a depth format is the depth attachment.",
+      .shader = graph::ShaderShape::draw,
+      .keys = {"list", "geometry", "instances", "draws", "raster", "samples", "view", "state", "feedback"},
+      .indirect = true};
+  return std::make_unique<BuiltinPass>(std::move(reflected), [](const PassContext& context) {
     const Geometry& geometry = context.geometry;
     if (context.instances == 0) return;
     if (const BoundBuffer& commands = context.commands; commands.name) {
@@ -44,13 +38,7 @@ class Draw final : public PassType {
       glDrawElementsInstanced(geometry.mode, geometry.count, geometry.indexType, nullptr, instances);
     else
       glDrawArraysInstanced(geometry.mode, 0, geometry.count, instances);
-  }
-};
-
-}  // namespace
-
-std::unique_ptr<PassType> makeDraw() {
-  return std::make_unique<Draw>();
+  });
 }
 
 }  // namespace weft::passes
