@@ -122,9 +122,8 @@ gl::TextureRef MaterialTextures::array(const scene::Scene& scene, std::uint64_t 
   }
   if (element < arrays_.size()) return arrays_[element].ref();
   if (!white_) {
-    auto texture = gl::Texture::create({.target = GL_TEXTURE_2D_ARRAY}, "no material map", diagnostics);
-    if (!texture) return {};
-    white_ = std::move(*texture);
+    const gl::TextureDesc one{.target = GL_TEXTURE_2D_ARRAY};
+    if (!gl::remake(white_, one, "no material map", diagnostics)) return {};
     constexpr std::array<std::uint8_t, 4> kWhite = {255, 255, 255, 255};
     gl::uploadTexture(white_.ref(), 0, 0, GL_RGBA, GL_UNSIGNED_BYTE, std::as_bytes(std::span(kWhite)));
   }

@@ -43,11 +43,8 @@ template <class T>
 bool create(gl::Buffer& buffer, const std::vector<T>& rows, const char* label,
             text::Diagnostics& diagnostics) {
   buffer = {};
-  if (rows.empty()) return true;
-  auto made = gl::Buffer::create(rows.size() * sizeof(T), 0, label, diagnostics, rows.data());
-  if (!made) return false;
-  buffer = std::move(*made);
-  return true;
+  return rows.empty() ||
+         gl::remake(buffer, rows.size() * sizeof(T), GLbitfield{0}, label, diagnostics, rows.data());
 }
 
 }  // namespace

@@ -176,6 +176,14 @@ struct SamplerObject : Owner<ObjectKind::sampler> {
   static SamplerObject create(const SamplerDesc& desc, std::string_view label);
 };
 
+// Replaces an object by one of these arguments of its create(). False after an error; then the old one stays.
+template <class Object, class... Arguments>
+bool remake(Object& object, Arguments&&... arguments) {
+  auto made = Object::create(std::forward<Arguments>(arguments)...);
+  if (made) object = std::move(*made);
+  return made.has_value();
+}
+
 struct VertexAttribute {
   GLuint location = 0;
   GLint components = 3;

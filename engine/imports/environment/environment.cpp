@@ -33,10 +33,8 @@ std::optional<float> EnvironmentProvider::send(const Map& map, text::Diagnostics
                                .width = map->width,
                                .height = map->height,
                                .mips = fullMips(map->width, map->height)};
-    auto texture = gl::Texture::create(desc, "@environment", diagnostics);
-    if (!texture) return std::nullopt;
+    if (!gl::remake(incoming_.texture, desc, "@environment", diagnostics)) return std::nullopt;
     incoming_.map = map;
-    incoming_.texture = std::move(*texture);
   }
   // Row 0 of the map is its top row, and row 0 of the texture is +Y: the same order.
   if (incoming_.rows < map->height) {

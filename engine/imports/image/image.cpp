@@ -260,11 +260,8 @@ class ImageProvider : public Provider {
     diagnostics.append(said);
     if (!image) return;
     const gl::TextureDesc desc = textureDescOf(image->header, request_);
-    if (!texture_ || !(texture_.desc() == desc)) {
-      auto texture = gl::Texture::create(desc, request_.file, diagnostics);
-      if (!texture) return;
-      texture_ = std::move(*texture);
-    }
+    const bool same = texture_ && texture_.desc() == desc;
+    if (!same && !gl::remake(texture_, desc, request_.file, diagnostics)) return;
     const GLenum type = layoutOf(image->header.type, request_.srgb).sent;
     gl::uploadTexture(texture_.ref(), 0, 0, GL_RGBA, type, image->texels);
     if (desc.mips > 1) glGenerateTextureMipmap(texture_.id());

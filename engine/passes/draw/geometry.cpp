@@ -129,12 +129,10 @@ Geometry Geometries::get(const std::string& name, const std::vector<double>& arg
     ShapeMesh shape = box ? makeBox() : makeIcosphere(subdivisions);
     mesh.normals = shape.normals.empty() ? 0 : static_cast<std::uint32_t>(shape.positions.size() * 4);
     shape.positions.insert(shape.positions.end(), shape.normals.begin(), shape.normals.end());
-    auto vertices =
-        gl::Buffer::create(shape.positions.size() * 4, 0, name, diagnostics, shape.positions.data());
-    auto indices = gl::Buffer::create(shape.indices.size() * 4, 0, name, diagnostics, shape.indices.data());
-    if (!vertices || !indices) return {};
-    mesh.vertices = std::move(*vertices);
-    mesh.indices = std::move(*indices);
+    const auto send = [&](gl::Buffer& buffer, const auto& numbers) {
+      return gl::remake(buffer, numbers.size() * 4, GLbitfield{0}, name, diagnostics, numbers.data());
+    };
+    if (!send(mesh.vertices, shape.positions) || !send(mesh.indices, shape.indices)) return {};
     mesh.count = static_cast<GLsizei>(shape.indices.size());
   }
   GLint position = -1, normal = -1;

@@ -129,9 +129,8 @@ bool ReadBack::createRing(std::uint64_t bytes, text::Diagnostics& diagnostics) {
   constexpr GLbitfield kAccess = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
   ring_ = std::make_shared<Ring>();
   for (Slot& slot : ring_->slots) {
-    auto buffer = gl::Buffer::create(bytes, kAccess | GL_CLIENT_STORAGE_BIT, "read-back", diagnostics);
-    if (!buffer) return false;
-    slot.buffer = std::move(*buffer);
+    if (!gl::remake(slot.buffer, bytes, kAccess | GL_CLIENT_STORAGE_BIT, "read-back", diagnostics))
+      return false;
     slot.mapped = static_cast<const std::byte*>(
         glMapNamedBufferRange(slot.buffer.id(), 0, static_cast<GLsizeiptr>(bytes), kAccess));
     if (slot.mapped) continue;

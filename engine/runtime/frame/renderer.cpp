@@ -1,6 +1,7 @@
 #include "engine/runtime/frame/renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -266,9 +267,8 @@ void Renderer::present(std::uint32_t width, std::uint32_t height, std::uint32_t 
   }
   if (presentTexture_ != texture.id) {
     text::Diagnostics ignored;
-    const gl::Attachment attachment{.texture = texture.id};
-    if (auto made = gl::Framebuffer::create({&attachment, 1}, "present", ignored))
-      presentSource_ = std::move(*made);
+    const std::array source{gl::Attachment{.texture = texture.id}};
+    gl::remake(presentSource_, source, "present", ignored);
     presentTexture_ = texture.id;
   }
   const gl::Extent from = gl::extentOf(texture.desc, 0);

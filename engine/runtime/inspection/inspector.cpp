@@ -63,14 +63,9 @@ struct Rectangle {
   std::uint32_t x = 0, y = 0, width = 1, height = 1;
 };
 
-// Numbers as they are stored, row 0 at the bottom.
-struct Numbers {
-  std::vector<double> values;
-  std::uint32_t channels = 1;
-};
-
-Numbers readNumbers(const gl::TextureRef& from, std::uint32_t mip, std::uint32_t layer, const Rectangle& part,
-                    bool stencil) {
+// The first `channels` numbers of each texel as they are stored, row 0 at the bottom.
+std::vector<double> readNumbers(const gl::TextureRef& from, std::uint32_t mip, std::uint32_t layer,
+                                const Rectangle& part, bool stencil, std::uint32_t channels) {
   gl::ClientFormat client = gl::clientFormatOf(from.desc.format);
   if (stencil && from.desc.format == GL_DEPTH32F_STENCIL8)
     client = {GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, 2};
@@ -86,12 +81,11 @@ Numbers readNumbers(const gl::TextureRef& from, std::uint32_t mip, std::uint32_t
     if (client.type == GL_FLOAT) return static_cast<double>(std::bit_cast<float>(word));
     return client.type == GL_INT ? std::bit_cast<std::int32_t>(word) : static_cast<double>(word);
   };
-  Numbers out{.channels = stencil ? 1 : client.channels};
-  out.values.reserve(words.size());
+  std::vector<double> out;
+  out.reserve(std::size_t{part.width} * part.height * channels);
   // Stencil comes last.
-  for (std::size_t i = client.channels - out.channels; i < words.size();
-       i += stencil ? client.channels : std::size_t{1})
-    out.values.push_back(numberOf(words[i]));
+  for (std::size_t at = stencil ? client.channels - 1 : 0; at < words.size(); at += client.channels)
+    for (std::uint32_t c = 0; c < channels; ++c) out.push_back(numberOf(words[at + c]));
   return out;
 }
 
@@ -157,12 +151,9 @@ void Inspector::release(Execution& execution) {
 bool Inspector::prepareTexture(const gl::TextureRef& from) {
   const gl::Extent extent = gl::extentOf(from.desc, mip_);
   const gl::TextureDesc wanted{.format = from.desc.format, .width = extent.width, .height = extent.height};
-  if (!picture_ || !(picture_.desc() == wanted)) {
-    text::Diagnostics ignored;
-    auto made = gl::Texture::create(wanted, "inspector", ignored);
-    if (!made) return false;
-    picture_ = std::move(*made);
-  }
+  text::Diagnostics ignored;
+  const bool fits = picture_ && picture_.desc() == wanted;
+  if (!fits && !gl::remake(picture_, wanted, "inspector", ignored)) return false;
   if (gl::classOf(wanted.format) == gl::FormatClass::depth_stencil)
     glTextureParameteri(picture_.id(), GL_DEPTH_STENCIL_TEXTURE_MODE,
                         stencil_ ? GL_STENCIL_INDEX : GL_DEPTH_COMPONENT);
@@ -170,11 +161,9 @@ bool Inspector::prepareTexture(const gl::TextureRef& from) {
 }
 
 bool Inspector::prepareBuffer(std::uint64_t bytes) {
-  if (buffer_ && buffer_.bytes() == bytes) return true;
   text::Diagnostics ignored;
-  auto made = gl::Buffer::create(bytes, GL_DYNAMIC_STORAGE_BIT | GL_MAP_READ_BIT, "inspector", ignored);
-  if (made) buffer_ = std::move(*made);
-  return made.has_value();
+  return (buffer_ && buffer_.bytes() == bytes) ||
+         gl::remake(buffer_, bytes, GL_DYNAMIC_STORAGE_BIT | GL_MAP_READ_BIT, "inspector", ignored);
 }
 
 // Runs within the frame. What shaders stored must be visible to the copy, and the copy must be done before shaders store
@@ -225,13 +214,9 @@ GLuint Inspector::draw(const InspectView& view, std::uint32_t width, std::uint32
 
   const gl::TextureDesc wanted{.format = GL_RGBA8, .width = width, .height = height};
   if (!canvas_ || !(canvas_.desc() == wanted)) {
-    auto made = gl::Texture::create(wanted, "inspector canvas", diagnostics);
-    if (!made) return 0;
-    canvas_ = std::move(*made);
-    const gl::Attachment to{.texture = canvas_.id()};
-    auto target = gl::Framebuffer::create({&to, 1}, "inspector canvas", diagnostics);
-    if (!target) return 0;
-    canvasTarget_ = std::move(*target);
+    if (!gl::remake(canvas_, wanted, "inspector canvas", diagnostics)) return 0;
+    const std::array to{gl::Attachment{.texture = canvas_.id()}};
+    if (!gl::remake(canvasTarget_, to, "inspector canvas", diagnostics)) return 0;
   }
   std::vector<std::byte> bytes(block->bytes + 16);
   const auto set = [&](const char* name, const graph::Value& value) {
@@ -253,11 +238,9 @@ GLuint Inspector::draw(const InspectView& view, std::uint32_t width, std::uint32
   set("encode", number(view.encode));
   set("highlight", number(view.highlight));
   set("near", number(view.depth && depth && !stencil_ ? view.nearPlane : 0));
-  if (!uniforms_ || uniforms_.bytes() < bytes.size()) {
-    auto made = gl::Buffer::create(bytes.size(), GL_DYNAMIC_STORAGE_BIT, "inspector", diagnostics);
-    if (!made) return 0;
-    uniforms_ = std::move(*made);
-  }
+  const bool fits = uniforms_ && uniforms_.bytes() >= bytes.size();
+  if (!fits && !gl::remake(uniforms_, bytes.size(), GL_DYNAMIC_STORAGE_BIT, "inspector", diagnostics))
+    return 0;
   gl::uploadBuffer(uniforms_.id(), 0, bytes);
   if (!vertices_) vertices_ = gl::VertexArray::create("inspector");
 
@@ -297,9 +280,8 @@ std::string InspectTexel::text() const {
 InspectTexel readTexel(const gl::TextureRef& texture, std::uint32_t mip, std::uint32_t layer, std::uint32_t x,
                        std::uint32_t y, std::uint32_t channels) {
   glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
-  const Numbers read = readNumbers(texture, mip, layer, {x, y, 1, 1}, false);
-  InspectTexel out{.channels = std::min(std::max(channels, 1u), read.channels)};
-  std::copy_n(read.values.begin(), out.channels, out.value.begin());
+  InspectTexel out{.channels = std::clamp(channels, 1u, gl::clientFormatOf(texture.desc.format).channels)};
+  std::ranges::copy(readNumbers(texture, mip, layer, {x, y, 1, 1}, false, out.channels), out.value.begin());
   return out;
 }
 
@@ -309,13 +291,7 @@ std::uint32_t Inspector::numbers() const {
 
 std::vector<double> Inspector::read(std::uint32_t x, std::uint32_t y, std::uint32_t width,
                                     std::uint32_t height) const {
-  const Numbers all = readNumbers(picture_.ref(), 0, 0, {x, y, width, height}, stencil_);
-  std::vector<double> out;
-  out.reserve(std::size_t{width} * height * numbers());
-  for (std::size_t at = 0; at < all.values.size(); at += all.channels)
-    out.insert(out.end(), all.values.begin() + static_cast<std::ptrdiff_t>(at),
-               all.values.begin() + static_cast<std::ptrdiff_t>(at + numbers()));
-  return out;
+  return readNumbers(picture_.ref(), 0, 0, {x, y, width, height}, stencil_, numbers());
 }
 
 std::optional<InspectTexel> Inspector::texel(std::uint32_t x, std::uint32_t y) const {

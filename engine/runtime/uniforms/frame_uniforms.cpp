@@ -41,11 +41,7 @@ bool FrameUniforms::layOut(std::span<PreparedPass> passes, text::Diagnostics& di
     place(pass.sliceBlock, pass.sliceOffset);
   }
   bytes_.assign(end, std::byte{0});
-  if (end > 0) {
-    auto buffer = gl::Buffer::create(end, GL_DYNAMIC_STORAGE_BIT, "uniforms", diagnostics);
-    if (!buffer) return false;
-    buffer_ = std::move(*buffer);
-  }
+  if (end > 0 && !gl::remake(buffer_, end, GL_DYNAMIC_STORAGE_BIT, "uniforms", diagnostics)) return false;
   readersOf_.resize(parameters_.size());
   for (PreparedPass& pass : passes) fill(pass);
   std::size_t most = 0;
