@@ -86,7 +86,7 @@ TEST_CASE("each texel of a lamp's cube has the depth of what the ray through it 
   const CleanScope scope;
   Drawn drawn(sceneOf());
   drawn.stage.run(0);
-  const gl::TextureRef maps = drawn.stage.execution().texture("maps");
+  const gl::TextureRef maps = drawn.stage.texture("maps");
   REQUIRE(maps.desc.layers == 12);
   int compared = 0, hits = 0;
   for (int lamp = 0; lamp < 2; ++lamp)
@@ -172,12 +172,12 @@ TEST_CASE(
   turning.lamps.edit(turning.lamps.idOf(2)).node = arm;
   Drawn lamp(std::move(turning));
   lamp.stage.run(0);
-  const std::vector<float> before = gl::readFloats(lamp.stage.execution().texture("maps"), 0, 6);
+  const std::vector<float> before = gl::readFloats(lamp.stage.texture("maps"), 0, 6);
   lamp.stage.run(1);
   CHECK(lamp.stage.ran("lamp_maps[1,3]"));
   CHECK_FALSE(lamp.stage.ran("sun_map"));
   lamp.stage.run(30);
-  CHECK(gl::readFloats(lamp.stage.execution().texture("maps"), 0, 6) != before);
+  CHECK(gl::readFloats(lamp.stage.texture("maps"), 0, 6) != before);
   scene::Scene dark = sceneOf();
   dark.sun.reset();
   dark.lamps = {};

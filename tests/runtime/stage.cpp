@@ -86,10 +86,20 @@ bool Stage::ran(std::string_view pass) {
   return false;
 }
 
+gl::TextureRef Stage::texture(std::string_view name) {
+  const std::uint32_t resource = lastVersionOf(execution().plan(), name);
+  return resource == graph::kNone ? gl::TextureRef() : execution().texture(resource);
+}
+
+BufferRef Stage::buffer(std::string_view name, std::uint64_t& offset) {
+  const std::uint32_t resource = lastVersionOf(execution().plan(), name);
+  return resource == graph::kNone ? BufferRef() : execution().buffer(resource, offset);
+}
+
 std::vector<float> Stage::read(const std::string& resource, std::uint32_t mip) {
-  const gl::TextureRef texture = execution().texture(resource);
-  REQUIRE_MESSAGE(texture.id != 0, resource);
-  return gl::readFloats(texture, mip);
+  const gl::TextureRef found = texture(resource);
+  REQUIRE_MESSAGE(found.id != 0, resource);
+  return gl::readFloats(found, mip);
 }
 
 std::vector<std::uint8_t> Stage::pixels() {

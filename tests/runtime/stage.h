@@ -57,6 +57,9 @@ class Stage {
   Renderer& renderer() { return *renderer_; }
   // Floats of a whole level of a resource, four per texel (depth: one).
   std::vector<float> read(const std::string& resource, std::uint32_t mip = 0);
+  // The last version of that name that is alive; id 0: there is none.
+  gl::TextureRef texture(std::string_view name);
+  BufferRef buffer(std::string_view name, std::uint64_t& offset);
   std::vector<std::uint8_t> pixels();  // presented, RGBA, top row first
   float value() { return renderer_->readPresentedFloat()->texels.at(0); }
 

@@ -148,9 +148,10 @@ const runtime::World& Lab::world() const {
 }
 
 Picture Lab::read(const std::string& resource, std::uint32_t mip, std::uint32_t layer) {
-  const gl::TextureRef texture = bench_->execution->texture(resource);
+  const std::uint32_t found = runtime::lastVersionOf(bench_->execution->plan(), resource);
   INFO(resource);
-  REQUIRE(texture.id != 0);
+  REQUIRE(found != graph::kNone);
+  const gl::TextureRef texture = bench_->execution->texture(found);
   const gl::Extent extent = gl::extentOf(texture.desc, mip);
   return {extent.width, extent.height, gl::clientFormatOf(texture.desc.format).channels,
           gl::readFloats(texture, mip, layer)};
@@ -158,9 +159,10 @@ Picture Lab::read(const std::string& resource, std::uint32_t mip, std::uint32_t 
 
 std::vector<std::uint32_t> Lab::readBuffer(const std::string& resource, std::size_t words) {
   std::uint64_t offset = 0;
-  const runtime::BufferRef buffer = bench_->execution->buffer(resource, offset);
+  const std::uint32_t found = runtime::lastVersionOf(bench_->execution->plan(), resource);
   INFO(resource);
-  REQUIRE(buffer.id != 0);
+  REQUIRE(found != graph::kNone);
+  const runtime::BufferRef buffer = bench_->execution->buffer(found, offset);
   const std::vector<std::byte> bytes = gl::readBuffer(buffer.id, offset, words * 4);
   std::vector<std::uint32_t> out(words);
   std::memcpy(out.data(), bytes.data(), bytes.size());

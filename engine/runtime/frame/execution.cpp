@@ -236,19 +236,9 @@ bool Execution::drawsMotion() const {
   });
 }
 
-gl::TextureRef Execution::texture(std::string_view name) {
-  const std::uint32_t r = lastVersionOf(plan(), name);
-  return r == kNone ? gl::TextureRef{} : texture(r);
-}
-
 gl::TextureRef Execution::texture(std::uint32_t r, std::uint32_t history) {
   text::Diagnostics ignored;
   return prepared_.pool->whole(plan(), r, (*prepared_.pool)[r].copyOf(history), ignored);
-}
-
-BufferRef Execution::buffer(std::string_view name, std::uint64_t& offset) {
-  const std::uint32_t r = lastVersionOf(plan(), name);
-  return r == kNone ? BufferRef{} : buffer(r, offset);
 }
 
 BufferRef Execution::buffer(std::uint32_t r, std::uint64_t& offset, std::uint32_t history) {

@@ -96,12 +96,8 @@ class Execution {
 
   // The presented level and layer of a texture; id 0 when the graph presents nothing.
   gl::TextureRef presented();
-  // The current texture or buffer of a resource by its name in the graph ("hdr", "ibl.brdf"), for tests and inspectors:
-  // the last version of that name, or nothing when it is not live.
-  gl::TextureRef texture(std::string_view resource);
-  gl::TextureRef texture(std::uint32_t resource,
-                         std::uint32_t history = 0);  // by its index in the graph; alive
-  BufferRef buffer(std::string_view resource, std::uint64_t& offset);
+  // The current texture or buffer of a resource that is alive.
+  gl::TextureRef texture(std::uint32_t resource, std::uint32_t history = 0);
   BufferRef buffer(std::uint32_t resource, std::uint64_t& offset, std::uint32_t history = 0);
 
   // Reports the imports that remember, and the textures that must be kept and cannot be read, because they have samples. False:

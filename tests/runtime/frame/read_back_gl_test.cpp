@@ -61,7 +61,7 @@ TEST_CASE("outputs: values, their kinds, and what is not there") {
     CHECK(output.frame == 2);
   }
   std::uint64_t offset = 0;
-  const runtime::BufferRef sum = stage.execution().buffer("sum", offset);
+  const runtime::BufferRef sum = stage.buffer("sum", offset);
   const std::vector<std::byte> now = gl::readBuffer(sum.id, offset, sum.bytes);
   CHECK(std::ranges::equal(now, stage.execution().readBack().find("sum")->bytes));
 }
@@ -157,7 +157,7 @@ TEST_CASE("outputs of post.json: the histogram without auto-exposure, and both w
   stage.run(0);
   stage.execution().readBack().finish();
   std::uint64_t offset = 0;
-  const runtime::BufferRef adapted = stage.execution().buffer("post.adapted", offset);
+  const runtime::BufferRef adapted = stage.buffer("post.adapted", offset);
   CHECK(std::ranges::equal(gl::readBuffer(adapted.id, offset, 16),
                            stage.execution().readBack().find("post.exposure")->bytes));
   CHECK(stage.execution().readBack().find("post.exposure")->number(0) > 0);

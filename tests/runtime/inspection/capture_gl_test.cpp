@@ -101,11 +101,11 @@ TEST_CASE(
   CHECK(first.texels[7 * 4] == 7);
   const assets::ImageF chain = valuesOf("chain.mip[1].layer[1]");
   CHECK(chain.width == 4);
-  const auto whole = gl::readFloats(stage.execution().texture("chain"), 1, 1);
+  const auto whole = gl::readFloats(stage.texture("chain"), 1, 1);
   for (std::size_t x = 0; x < 4; ++x) CHECK(chain.texels[x * 4] == whole[(3 * 4 + x) * 4]);
   const assets::ImageF ids = valuesOf("ids");
   CHECK(ids.channels == 1);
-  const auto numbers = gl::readFloats(stage.execution().texture("ids"));
+  const auto numbers = gl::readFloats(stage.texture("ids"));
   CHECK(ids.texels[0] == numbers[std::size_t{3} * 8 * 4]);
   CHECK(valuesOf("deep.stencil").texels == std::vector<float>(32, 77));
   const assets::ImageF deep = valuesOf("deep");

@@ -75,7 +75,7 @@ TEST_CASE("a resource is read where it was written, although its storage is used
   CHECK(valueAt(inspector, 7, 3) == std::array<double, 4>{28, 12, 4, 4});
   CHECK(inspector.copies() == 2);
 
-  const auto whole = gl::readFloats(stage.execution().texture("second"));
+  const auto whole = gl::readFloats(stage.texture("second"));
   for (std::uint32_t y = 0; y < 4; ++y)
     for (std::uint32_t x = 0; x < 8; ++x)
       for (std::size_t c = 0; c < 4; ++c) {
@@ -86,8 +86,8 @@ TEST_CASE("a resource is read where it was written, although its storage is used
 
   // `shown_ids` takes the storage of `shown`: at the end of the frame the one name gives the other's texels.
   REQUIRE(plan.storageOf[index("shown")] == plan.storageOf[index("shown_ids")]);
-  const auto end = gl::readTexture(stage.execution().texture("shown"), 0, 0, GL_RGBA, GL_UNSIGNED_BYTE);
-  const auto ids = gl::readTexture(stage.execution().texture("shown_ids"), 0, 0, GL_RGBA, GL_UNSIGNED_BYTE);
+  const auto end = gl::readTexture(stage.texture("shown"), 0, 0, GL_RGBA, GL_UNSIGNED_BYTE);
+  const auto ids = gl::readTexture(stage.texture("shown_ids"), 0, 0, GL_RGBA, GL_UNSIGNED_BYTE);
   CHECK(end == ids);
   look(stage, inspector, {.resource = "shown"});
   const auto shown = gl::readTexture(inspector.picture(), 0, 0, GL_RGBA, GL_UNSIGNED_BYTE);
@@ -110,7 +110,7 @@ TEST_CASE("levels, layers, integers, depth, stencil, buffers") {
       CHECK(inspector.picture().desc.width == 8u >> mip);
       CHECK(valueAt(inspector, 0, 1) == std::array<double, 4>{0, 1, 10.0 * mip + 100.0 * layer, 1});
       CHECK(valueAt(inspector, 0, 1)[2] ==
-            gl::readFloats(stage.execution().texture("chain"), mip, layer)[(8u >> mip) * 4 + 2]);
+            gl::readFloats(stage.texture("chain"), mip, layer)[(8u >> mip) * 4 + 2]);
     }
   // After the pass that writes level 0 of layer 0 the rest is not there yet, but that one is.
   look(stage, inspector, {.resource = "chain", .pass = "chain[0,0]"});
@@ -185,7 +185,7 @@ TEST_CASE("what is shown: range, marks, zoom; the same as a pass with the shader
   look(stage, inspector, {.resource = "ids"});
   canvas = inspector.draw({.high = 40, .falseColor = true, .encode = false, .texelsPerPixel = 0.5}, 16, 8,
                           diagnostics);
-  const auto ids = gl::readTexture(stage.execution().texture("shown_ids"), 0, 0, GL_RGBA, GL_UNSIGNED_BYTE);
+  const auto ids = gl::readTexture(stage.texture("shown_ids"), 0, 0, GL_RGBA, GL_UNSIGNED_BYTE);
   glGetTextureImage(canvas, 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(drawn.size()), drawn.data());
   CHECK(drawn == ids);
   // Reversed depth 0.25 with the near plane at 0.1 is 0.4 away.
