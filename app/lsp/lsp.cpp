@@ -1,13 +1,11 @@
 #include "app/lsp/lsp.h"
 
 #include <fmt/format.h>
-#include <poll.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <exception>
+#include <iostream>
 #include <map>
 #include <optional>
 #include <set>
@@ -34,57 +32,36 @@ struct Failure {
   std::string what;
 };
 
-// Reads messages: header lines, an empty line, and as many bytes of JSON as Content-Length says.
-class MessageReader {
- public:
-  // Throws a Failure where the input ends, or has no such header.
-  std::string next() {
-    constexpr std::size_t kMaxHeader = 4096, kMaxMessage = std::size_t{64} << 20;  // bytes
-    std::size_t end = 0;
-    while ((end = buffer_.find("\r\n\r\n")) == std::string::npos)
-      if (buffer_.size() > kMaxHeader || !fill()) fail(buffer_.empty() ? "" : "within a header");
-    const std::string header = text::lowered(std::string_view(buffer_).substr(0, end));
-    constexpr std::string_view kLength = "content-length: ";
-    const std::size_t at = header.find(kLength);
-    std::size_t bytes = kMaxMessage + 1;
-    if (at != header.npos)
-      std::from_chars(&header[at] + kLength.size(), header.data() + header.size(), bytes);
-    if (bytes > kMaxMessage)
-      fail(fmt::format("at a header without 'Content-Length: ' and a number up to {}", kMaxMessage));
-    buffer_.erase(0, end + 4);
-    while (buffer_.size() < bytes)
-      if (!fill()) fail(fmt::format("after {} of {} bytes of a message", buffer_.size(), bytes));
-    std::string message = buffer_.substr(0, bytes);
-    buffer_.erase(0, bytes);
-    return message;
-  }
+[[noreturn]] void failToRead(const std::string& where, std::string_view read) {
+  throw Failure{kRequestFailed,
+                fmt::format("the input ended {}: '{}'", where, text::printable(text::shortened(read)))};
+}
 
-  // Whether more bytes have arrived. Then work that nobody waits for can wait.
-  bool hasMore() const {
-    pollfd one{STDIN_FILENO, POLLIN, 0};
-    return !buffer_.empty() || (::poll(&one, 1, 0) > 0 && (one.revents & POLLIN) != 0);
-  }
-
- private:
-  [[noreturn]] void fail(const std::string& where) const {
-    if (where.empty()) throw Failure{kRequestFailed, "the input ended without 'exit'"};
-    throw Failure{kRequestFailed,
-                  fmt::format("the input ended {}: '{}'", where, text::printable(text::shortened(buffer_)))};
-  }
-
-  bool fill() {
-    char chunk[65536];
-    for (;;) {
-      const ssize_t got = ::read(STDIN_FILENO, chunk, sizeof chunk);
-      if (got > 0) buffer_.append(chunk, static_cast<std::size_t>(got));
-      if (got >= 0 || (errno != EINTR && errno != EAGAIN)) return got > 0;
-      pollfd one{STDIN_FILENO, POLLIN, 0};
-      ::poll(&one, 1, -1);
+// The next message: header lines, an empty line, and as many bytes of JSON as Content-Length says. Throws a Failure where the input
+// ends, or has no such header.
+std::string readMessage() {
+  constexpr std::size_t kMaxHeader = 4096, kMaxMessage = std::size_t{64} << 20;  // bytes
+  std::string header;
+  for (char c = 0; !header.ends_with("\r\n\r\n"); header += c)
+    if (header.size() > kMaxHeader || !std::cin.get(c)) {
+      if (header.empty()) throw Failure{kRequestFailed, "the input ended without 'exit'"};
+      failToRead("within a header", header);
     }
-  }
-
-  std::string buffer_;
-};
+  constexpr std::string_view kLength = "content-length: ";
+  const std::string words = text::lowered(header);
+  const std::size_t at = words.find(kLength);
+  std::size_t bytes = kMaxMessage + 1;
+  if (at != words.npos) std::from_chars(&words[at] + kLength.size(), words.data() + words.size(), bytes);
+  if (bytes > kMaxMessage)
+    failToRead(fmt::format("at a header without 'Content-Length: ' and a number up to {}", kMaxMessage),
+               header);
+  std::string message(bytes, '\0');
+  std::cin.read(message.data(), static_cast<std::streamsize>(bytes));
+  message.resize(static_cast<std::size_t>(std::cin.gcount()));
+  if (message.size() < bytes)
+    failToRead(fmt::format("after {} of {} bytes of a message", message.size(), bytes), message);
+  return message;
+}
 
 void send(const Json& message) {
   const std::string text = text::dumpJson(message, -1, false);
@@ -293,12 +270,13 @@ class Server {
 namespace {
 
 int runLsp(Options& options) {
-  lsp::MessageReader reader;
+  std::ios::sync_with_stdio(false);  // what has arrived is known only of streams with a buffer of their own
   lsp::Server server(options);
   try {
     while (!server.ended()) {
-      if (!reader.hasMore()) server.settle();
-      server.take(reader.next());
+      if (std::cin.rdbuf()->in_avail() <= 0)
+        server.settle();  // nobody waits for it before all changes are taken
+      server.take(lsp::readMessage());
     }
   } catch (const lsp::Failure& end) {
     printError(fmt::format("weft lsp: {}; editors end the server by 'shutdown' and 'exit'\n", end.what));
