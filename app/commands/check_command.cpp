@@ -3,7 +3,6 @@
 #include <poll.h>
 
 #include <cctype>
-#include <ranges>
 
 #include "app/commands/commands.h"
 #include "app/commands/device_needs.h"
@@ -53,71 +52,62 @@ struct ShaderStanza {
   gl::ProgramRequest request;   // the variant in which every slot and parameter is there
 };
 
-class StanzaMaker {
- public:
-  StanzaMaker(ShaderStanza& made, bool compute) : made_(made), compute_(compute) {}
-
-  // `last`: what the shader puts out is written to textures.
-  void add(const glsl::ShaderSource& source, bool last) {
-    const glsl::Interface& shader = source.ofAllBranches();
-    for (const Declaration& declared : shader.declarations)
-      if (declared.role == Role::output || shader.isLive(declared))
-        add(declared, last, !source.interfaceWith({}).find(declared.name));
-    const glsl::Conditions conditions = glsl::conditionsOf(source.text);
-    // `compiled`: nothing compiles without.
-    const auto define = [&](std::string_view word, int value, bool compiled) {
-      const bool own = conditions.made.contains(word) || word.starts_with("HAS_") ||
-                       word.starts_with("GL_") || word.starts_with("__");
-      if (!own && made_.pass["defines"].emplace(word, value).second && compiled)
-        made_.request.defines.push_back({std::string(word), std::to_string(value)});
-    };
-    const std::set used(conditions.used.begin(), conditions.used.end());
-    for (const std::string_view word : used)  // that are written as macros are: LAMP_TILE
-      if (word.size() > 1 && std::isupper(static_cast<unsigned char>(word[0])) && !shader.find(word) &&
-          std::ranges::none_of(word, [](unsigned char c) { return std::islower(c); }))
-        define(word, 4, true);  // often a count
-    for (const auto* words : {&conditions.valued, &conditions.tested})
-      for (const glsl::Token& word : *words) define(word.text, 1, shader.live.contains(word.text));
+// `last`: what the shader puts out is written to textures. `optional`: it is there in some variants alone.
+void addDeclared(const Declaration& declared, bool compute, bool last, bool optional, ShaderStanza& made) {
+  const std::string name(declared.name);
+  const char* const access = !declared.writes ? "read" : declared.reads ? "modify" : "write";
+  // Both stages may declare it.
+  const auto slot = [&](const char* key, const char* kind = "") {
+    Json& slots = made.pass[key];
+    const Json text = name + kind + (optional ? " ?" : "");
+    if (std::find(slots.begin(), slots.end(), text) != slots.end()) return;
+    slots.push_back(text);
+    made.request.defines.push_back({glsl::presenceDefineOf(name), "1"});
+  };
+  switch (declared.role) {
+    case Role::sampler:
+      return slot("read");
+    case Role::image:
+      return slot(access, compute && declared.writes ? "" : " as image");
+    case Role::storage_block:
+      return slot(access);
+    case Role::uniform_block:
+      if (name != "Parameters" && name != "View" && name != "Slice") slot("read", " as uniform");
+      return;
+    case Role::output:
+      if (!last || compute) return;
+      made.request.outputs.push_back(name);
+      return slot("write");
+    case Role::member:
+      if (declared.owner == "Parameters" && made.pass["parameters"].emplace(name, zeroOf(declared)).second)
+        made.request.defines.push_back({glsl::presenceDefineOf(name), "1"});
+      return;
+    default:
+      return;
   }
+}
 
- private:
-  void add(const Declaration& declared, bool last, bool optional) {
-    const std::string name(declared.name);
-    const char* const access = !declared.writes ? "read" : declared.reads ? "modify" : "write";
-    // Both stages may declare it.
-    const auto slot = [&](const char* key, const char* kind = "") {
-      Json& slots = made_.pass[key];
-      const Json text = name + kind + (optional ? " ?" : "");
-      if (std::find(slots.begin(), slots.end(), text) != slots.end()) return;
-      slots.push_back(text);
-      made_.request.defines.push_back({glsl::presenceDefineOf(name), "1"});
-    };
-    switch (declared.role) {
-      case Role::sampler:
-        return slot("read");
-      case Role::image:
-        return slot(access, compute_ && declared.writes ? "" : " as image");
-      case Role::storage_block:
-        return slot(access);
-      case Role::uniform_block:
-        if (name != "Parameters" && name != "View" && name != "Slice") slot("read", " as uniform");
-        return;
-      case Role::output:
-        if (!last || compute_) return;
-        made_.request.outputs.push_back(name);
-        return slot("write");
-      case Role::member:
-        if (declared.owner == "Parameters" && made_.pass["parameters"].emplace(name, zeroOf(declared)).second)
-          made_.request.defines.push_back({glsl::presenceDefineOf(name), "1"});
-        return;
-      default:
-        return;
-    }
-  }
-
-  ShaderStanza& made_;
-  bool compute_;
-};
+void addStage(const glsl::ShaderSource& source, bool compute, bool last, ShaderStanza& made) {
+  const glsl::Interface& shader = source.ofAllBranches();
+  for (const Declaration& declared : shader.declarations)
+    if (declared.role == Role::output || shader.isLive(declared))
+      addDeclared(declared, compute, last, !source.interfaceWith({}).find(declared.name), made);
+  const glsl::Conditions conditions = glsl::conditionsOf(source.text);
+  // `compiled`: nothing compiles without.
+  const auto define = [&](std::string_view word, int value, bool compiled) {
+    const bool own = conditions.made.contains(word) || word.starts_with("HAS_") || word.starts_with("GL_") ||
+                     word.starts_with("__");
+    if (!own && made.pass["defines"].emplace(word, value).second && compiled)
+      made.request.defines.push_back({std::string(word), std::to_string(value)});
+  };
+  const std::set used(conditions.used.begin(), conditions.used.end());
+  for (const std::string_view word : used)  // that are written as macros are: LAMP_TILE
+    if (word.size() > 1 && std::isupper(static_cast<unsigned char>(word[0])) && !shader.find(word) &&
+        std::ranges::none_of(word, [](unsigned char c) { return std::islower(c); }))
+      define(word, 4, true);  // often a count
+  for (const auto* words : {&conditions.valued, &conditions.tested})
+    for (const glsl::Token& word : *words) define(word.text, 1, shader.live.contains(word.text));
+}
 
 // Of the file `path`, and of the other stage of a draw beside it. Nothing after errors.
 std::optional<ShaderStanza> stanzaFor(const std::string& path, glsl::SourceLoader& sources,
@@ -152,7 +142,7 @@ std::optional<ShaderStanza> stanzaFor(const std::string& path, glsl::SourceLoade
   for (const auto& stage : stages) {
     const auto source = sources.load(stage.file, diagnostics, {path, 1, 1});
     if (!source) return std::nullopt;
-    StanzaMaker(made, compute).add(*source, &stage == &stages.back());
+    addStage(*source, compute, &stage == &stages.back(), made);
     for (const Declaration& each : source->ofAllBranches().declarations)
       uvAlone = uvAlone && (each.role != Role::input || each.name == "uv");
   }
@@ -253,9 +243,7 @@ class ShaderCheck {
  private:
   bool open(text::Diagnostics& diagnostics) {
     if (failed_ || session_) return !failed_;
-    Options headless = options_;
-    headless.backend = "auto";
-    session_ = openDevice(headless, diagnostics);
+    session_ = openDevice(options_, diagnostics);
     failed_ = !session_;
     return !failed_;
   }
@@ -319,27 +307,24 @@ Checked checkOnce(const CheckOptions& options) {
     checked.matrix =
         graph::tryMatrix(*desc, runtime::makeRegistry({}, facts), settingsOf(options, true), wanted);
   }
+  // Passes whose shaders no plan has: what switches them on is the size of a picture, or several parameters at once.
   std::set<std::string> off;
+  const auto lookFor = [&](const std::string& name) {
+    if (!checked.shaders.passes.contains(name)) off.insert(name);
+  };
   if (checked.plan && !options.allVariants)
     for (const graph::DisabledPass& each : checked.plan->graph->disabled)
-      if (std::string name = each.name.substr(0, each.name.find('[')); !checked.shaders.passes.contains(name))
-        off.insert(std::move(name));
-  constexpr std::size_t kNamed = 6;
+      lookFor(each.name.substr(0, each.name.find('[')));
+  if (vary && options.allVariants && !diagnostics.hasErrors())
+    graph::eachPass(*desc, [&](const std::string& name, const graph::PassDesc& pass) {
+      if (!pass.include && !pass.shader.empty() && pass.repeat.empty()) lookFor(name);
+    });
   if (!off.empty())
     checked.shaders.unread.warning(
         text::Code::unreadableShader, {options.graph},
-        fmt::format("{} that {} off: {}{} (--all switches on what it can)", text::counted(off.size(), "pass"),
-                    off.size() == 1 ? "is" : "are", fmt::join(off | std::views::take(kNamed), ", "),
-                    off.size() > kNamed ? ", …" : ""));
-  // Passes whose shaders no plan has: what switches them on is the size of a picture, or several parameters at once.
-  if (vary && options.allVariants && !diagnostics.hasErrors())
-    graph::eachPass(*desc, [&](const std::string& name, const graph::PassDesc& pass) {
-      if (!pass.include && !pass.shader.empty() && pass.repeat.empty() &&
-          !checked.shaders.passes.contains(name))
-        checked.shaders.unread.warning(
-            text::Code::unreadableShader, pass.shaderPlace,
-            fmt::format("the shader of '{}', which stays off with this scene", name));
-    });
+        fmt::format("{} that {} off{}: {}", text::counted(off.size(), "pass"), off.size() == 1 ? "is" : "are",
+                    options.allVariants ? " with this scene" : ", some of which --all switches on",
+                    text::shortened(fmt::format("{}", fmt::join(off, ", ")))));
   if (vary && options.matrix)
     for (const auto* told : {&checked.matrix->broken, &checked.matrix->lost})
       for (const graph::RefusedVariation& variation : *told)

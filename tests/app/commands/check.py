@@ -238,7 +238,7 @@ def check_off(weft, report):
         pathlib.Path(name, "shaders").mkdir()
         pathlib.Path(name, "shaders/a.frag.glsl").write_text("out vec4 result; void main() { result = vec4(1.0); }")
         pathlib.Path(name, "shaders/wrong.frag.glsl").write_text("out vec4 result; void main() { result = undeclared; }")
-        for options, said in (([], "not looked at: 2 passes that are off: again, grow"), (["--all"], "not looked at: the shader of 'grow'")):
+        for options, said in (([], "not looked at: 2 passes that are off, some of which --all switches on: again, grow"), (["--all"], "not looked at: 1 pass that is off with this scene: grow")):
             done = run(weft, "check", graph, *options)
             report.check(done.code == 0 and done.out.count(said) == 1 and done.out.count("not looked at") == 1, f"{options}: {done.code}\n{done.out}{done.err}")
 
