@@ -1,14 +1,13 @@
 // weft farm: hands `weft render` of a set of frames to the scheduler of a cluster, as a script for Slurm or a template of Open Job
 // Description. All work is done by `weft render --skip-done`; here are chunks, tries and dependencies.
+#include <fmt/ranges.h>
 #include <sys/wait.h>
 
-#include <cerrno>
-#include <cstring>
+#include <cstdlib>
 
 #include "app/commands/render.h"
 #include "app/output/frame_set.h"
 #include "app/output/manifest.h"
-#include "engine/text/apart.h"
 
 namespace weft::app {
 
@@ -25,15 +24,6 @@ struct FarmOptions : RenderOptions {
   std::string kind, script;
   std::uint32_t perTask = 20;
   bool submit = false;
-};
-
-// A set of frames for a scheduler.
-struct Farm {
-  std::string render;  // the command line, but for its frames
-  std::vector<std::string> chunks{};
-  std::string all;       // the whole set
-  std::string folder{};  // of the pictures
-  bool inOrder;          // frames depend on earlier ones
 };
 
 // As bash takes a word. Control characters and what is no UTF-8 as \xNN: the script is one of lines, and can be part of JSON. No two braces
@@ -70,64 +60,20 @@ std::string renderOf(const FarmOptions& options, bool inOrder) {
   return line + " --skip-done";
 }
 
-// What both do: `bash SCRIPT task 3` draws a chunk, `bash SCRIPT gather` the whole set.
-std::string scriptOf(const Farm& farm) {
-  return fmt::format(R"(frames=({})
-case ${{1-}} in
-  task) number=${{2:-$SLURM_ARRAY_TASK_ID}} set=${{frames[number]}} ;;
-  gather) set={} ;;
-  *) set= ;;
-esac
-if [ -n "$set" ]; then
-  for try in 1 2 3; do
-    ({} "--frames=$set") && exit
-    code=$?
-    echo "try $try of 3 of frames $set: exit code $code" >&2
-  done
-  exit "$code"
-fi
-)",
-                     fmt::join(farm.chunks, " "), farm.all, farm.render);
-}
-
-std::string slurmOf(const Farm& farm) {
-  const std::string atOnce = fmt::format(R"(
-jobs=$(submit --job-name=weft_render --array=0-{} "$@" "$self" task) || exit
-)",
-                                         farm.chunks.size() - 1);
-  const std::string chain = R"(
-jobs=
-for i in "${!frames[@]}"; do
-  jobs=$(submit --job-name=weft_render ${jobs:+"--dependency=afterany:${jobs%%;*}"} "$@" "$self" task "$i") || exit
-done
-)";
-  return fmt::format(R"(#!/bin/bash
-# Made by weft farm: submits {} of `weft render`{}, and a job that checks all frames and draws
-# what is missing. Options are for sbatch: `bash SCRIPT --partition=gpu`.
-{}
-self=$(realpath -- "${{BASH_SOURCE[0]}}")
-submit() {{ sbatch --parsable --requeue --chdir={} --output=%x_%j.log "$@"; }}{}gather=$(submit --job-name=weft_gather --dependency="afterany:${{jobs%%;*}}" "$@" "$self" gather) || exit
-echo "the last job is ${{gather%%;*}}; its log says how many frames were done already"
-)",
-                     text::counted(farm.chunks.size(), "task"),
-                     farm.inOrder ? ", each after the one before" : "", scriptOf(farm), wordOf(farm.folder),
-                     farm.inOrder ? chain : atOnce);
-}
-
 // Of https://github.com/OpenJobDescription/openjd-specifications, without extensions.
-std::string openJdOf(const Farm& farm) {
+// `script`: app/commands/farm_tasks.sh.
+std::string openJdOf(const std::string& script, std::size_t tasks) {
   const auto step = [&](const char* name, Json words) {
     words.insert(words.begin(), "{{Task.File.Run}}");
-    return Json{
-        {"name", name},
-        {"script",
-         {{"actions", {{"onRun", {{"command", "bash"}, {"args", std::move(words)}}}}},
-          {"embeddedFiles",
-           Json::array({{{"name", "Run"}, {"type", "TEXT"}, {"data", "#!/bin/bash\n" + scriptOf(farm)}}})}}}};
+    return Json{{"name", name},
+                {"script",
+                 {{"actions", {{"onRun", {{"command", "bash"}, {"args", std::move(words)}}}}},
+                  {"embeddedFiles",
+                   Json::array({{{"name", "Run"}, {"type", "TEXT"}, {"data", "#!/bin/bash\n" + script}}})}}}};
   };
   Json render = step("render", {"task", "{{Task.Param.Chunk}}"}), gather = step("gather", {"gather"});
-  render["parameterSpace"]["taskParameterDefinitions"] = Json::array(
-      {{{"name", "Chunk"}, {"type", "INT"}, {"range", fmt::format("0-{}", farm.chunks.size() - 1)}}});
+  render["parameterSpace"]["taskParameterDefinitions"] =
+      Json::array({{{"name", "Chunk"}, {"type", "INT"}, {"range", fmt::format("0-{}", tasks - 1)}}});
   gather["dependencies"] = Json::array({{{"dependsOn", "render"}}});
   return text::dumpJson({{"specificationVersion", "jobtemplate-2023-09"},
                          {"name", "weft render"},
@@ -144,29 +90,42 @@ int runFarm(FarmOptions& options) {
   }
   options.skipDone = true;  // what render would refuse is refused now
   options.instead = [&](bool inOrder, std::vector<OutputFile>& outputs, text::Diagnostics& diagnostics) {
-    Farm farm{.render = renderOf(options, inOrder), .all = framesText(options.frames), .inOrder = inOrder};
-    farm.folder = fs::absolute(manifestNameOf(outputs[0].pattern)).parent_path().string();
+    const std::string folder = fs::absolute(manifestNameOf(outputs[0].pattern)).parent_path().string();
     // A template has no order of tasks.
     const std::size_t most = inOrder && !slurm ? options.frames.size() : options.perTask;
+    std::vector<std::string> chunks;
     for (std::span<const std::uint32_t> left = options.frames; !left.empty();
          left = left.subspan(std::min(most, left.size())))
-      farm.chunks.push_back(framesText(left.first(std::min(most, left.size()))));
+      chunks.push_back(framesText(left.first(std::min(most, left.size()))));
     if (options.script.empty())
-      options.script = (fs::path(farm.folder) / (slurm ? "farm.sbatch.sh" : "farm.openjd.json")).string();
-    if (farm.chunks.size() > kMostTasks) {
+      options.script = (fs::path(folder) / (slurm ? "farm.sbatch.sh" : "farm.openjd.json")).string();
+    if (chunks.size() > kMostTasks) {
       refuseOutput(options.script,
-                   fmt::format("expected at most {} tasks, found {}", kMostTasks, farm.chunks.size()),
+                   fmt::format("expected at most {} tasks, found {}", kMostTasks, chunks.size()),
                    fmt::format("--per-task {}", (options.frames.size() - 1) / kMostTasks + 1), diagnostics);
       return 1;
     }
-    const std::string script = slurm ? slurmOf(farm) : openJdOf(farm);
+    const auto tasks = filledIn("commands/farm_tasks.sh",
+                                {{"%FRAMES%", fmt::format("{}", fmt::join(chunks, " "))},
+                                 {"%ALL%", framesText(options.frames)},
+                                 {"%RENDER%", renderOf(options, inOrder)}},
+                                diagnostics);
+    if (!tasks) return 1;
+    const auto script = slurm ? filledIn("commands/farm_slurm.sh",
+                                         {{"%COUNT%", text::counted(chunks.size(), "task")},
+                                          {"%TASKS%", *tasks},
+                                          {"%FOLDER%", wordOf(folder)},
+                                          {"%IN_ORDER%", inOrder ? "true" : "false"}},
+                                         diagnostics)
+                              : openJdOf(*tasks, chunks.size());
+    if (!script) return 1;
     if (options.script == "-") {
-      print(script);
+      print(*script);
       return 0;
     }
     outputs.push_back({"--script", options.script});
     return checkDistinct(outputs, diagnostics) && makeFolderOf(options.script, diagnostics) &&
-                   text::writeFile(options.script, script, diagnostics)
+                   text::writeFile(options.script, *script, diagnostics)
                ? 0
                : 1;
   };
@@ -176,10 +135,7 @@ int runFarm(FarmOptions& options) {
                 : text::printable(options.script) + "\n");
     return 0;
   }
-  const pid_t bash = text::startProcess({"bash", options.script}, -1, 1, 2);
-  if (bash < 0) printError(fmt::format("weft farm: cannot start bash: {}\n", std::strerror(errno)));
-  int status = -1;
-  while (bash > 0 && ::waitpid(bash, &status, 0) < 0 && errno == EINTR) continue;
+  const int status = std::system(("exec bash " + app::quoted(options.script)).c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : 3;
 }
 

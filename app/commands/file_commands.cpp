@@ -80,18 +80,6 @@ std::optional<Anchor> findAnchor(const std::string& graphFile, const std::string
   return std::nullopt;
 }
 
-// Writes the bundled template `file` to `path`, with words in it replaced.
-bool writeFrom(const std::string& file, const std::string& path,
-               std::initializer_list<std::pair<std::string_view, std::string>> words,
-               text::Diagnostics& diagnostics) {
-  auto text = text::readTextFile(dataFolder() + "/app/commands/" + file, diagnostics);
-  if (!text) return false;
-  for (const auto& [word, replacement] : words)
-    for (std::size_t at = 0; (at = text->find(word, at)) != std::string::npos; at += replacement.size())
-      text->replace(at, word.size(), replacement);
-  return makeFolderOf(path, diagnostics) && text::writeFile(path, *text, diagnostics);
-}
-
 struct NewOptions {
   std::string what, name, graph, folder;
 };
@@ -118,13 +106,16 @@ int runNew(NewOptions& options) {
   const OutputFile outputs[] = {{"-o", graphFile, OutputFile::Over::nothing},
                                 {"-o", shaderFile, OutputFile::Over::nothing}};
   if (!checkDistinct(outputs, diagnostics)) return report(diagnostics);
-  if (writeFrom(pass ? "new_pass.json" : "new_graph.json", graphFile,
-                {{"%NAME%", name},
-                 {"%AFTER%", anchor->first},
-                 {"%TEXTURE%", anchor->second},
-                 {"\"%BASE%\"", text::quoteJson(seenFrom(folder.string(), options.graph))}},
-                diagnostics) &&
-      writeFrom("new_pass.frag.glsl", shaderFile, {{"%NAME%", name}}, diagnostics)) {
+  const auto write = [&](const std::string& path, const std::optional<std::string>& text) {
+    return text && makeFolderOf(path, diagnostics) && text::writeFile(path, *text, diagnostics);
+  };
+  if (write(graphFile, filledIn(pass ? "commands/new_pass.json" : "commands/new_graph.json",
+                                {{"%NAME%", name},
+                                 {"%AFTER%", anchor->first},
+                                 {"%TEXTURE%", anchor->second},
+                                 {"\"%BASE%\"", text::quoteJson(seenFrom(folder.string(), options.graph))}},
+                                diagnostics)) &&
+      write(shaderFile, filledIn("commands/new_pass.frag.glsl", {{"%NAME%", name}}, diagnostics))) {
     const std::string graph = text::printable(graphFile);
     print(fmt::format("{}\n{}\nweft render {} -o {}.png\n", graph, text::printable(shaderFile), graph, name));
   } else {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <vector>
 
 #include "engine/text/chars.h"
 #include "engine/text/files/file.h"
@@ -82,6 +81,21 @@ bool refuseOutput(const std::string& path, const std::string& message, const std
                   text::Diagnostics& diagnostics) {
   diagnostics.error(text::Code::outputNotWritten, {path}, message).hint = hint;
   return false;
+}
+
+std::optional<std::string> filledIn(const std::string& file,
+                                    const std::vector<std::pair<std::string_view, std::string>>& words,
+                                    text::Diagnostics& diagnostics) {
+  const auto text = text::readTextFile(text::dataFolder() + "/app/" + file, diagnostics);
+  if (!text) return std::nullopt;
+  std::string out;
+  for (std::string_view rest = *text; !rest.empty();) {
+    const auto word =
+        std::ranges::find_if(words, [&](const auto& each) { return rest.starts_with(each.first); });
+    out += word == words.end() ? std::string(1, rest[0]) : word->second;
+    rest.remove_prefix(word == words.end() ? 1 : word->first.size());
+  }
+  return out;
 }
 
 bool makeFolderOf(const std::string& path, text::Diagnostics& diagnostics) {

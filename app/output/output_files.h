@@ -5,6 +5,9 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "engine/text/diagnostic.h"
 
@@ -23,6 +26,10 @@ bool checkOutput(const std::string& pattern, std::uint32_t first, bool several,
 // W180 at `path`. Returns false.
 bool refuseOutput(const std::string& path, const std::string& message, const std::string& hint,
                   text::Diagnostics& diagnostics);
+// The text of app/FILE of the data folder with words in it replaced. Nothing after W001: it is not there.
+std::optional<std::string> filledIn(const std::string& file,
+                                    const std::vector<std::pair<std::string_view, std::string>>& words,
+                                    text::Diagnostics& diagnostics);
 // Makes the folder of a file. False after W180.
 bool makeFolderOf(const std::string& path, text::Diagnostics& diagnostics);
 

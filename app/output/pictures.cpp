@@ -137,18 +137,15 @@ std::string pictureAddress(const assets::Image8& image) {
 std::optional<std::string> pageOf(const nlohmann::ordered_json& report, std::string_view title,
                                   text::Diagnostics& diagnostics) {
   const std::string folder = text::dataFolder() + "/app/report/page.";
-  auto page = text::readTextFile(folder + "html", diagnostics);
   const auto style = text::readTextFile(folder + "css", diagnostics),
              script = text::readTextFile(folder + "js", diagnostics);
-  if (!page || !style || !script) return std::nullopt;
-  const std::string data = text::dumpJson(report, -1, false);
-  for (const auto& [mark, value] :
-       std::initializer_list<std::pair<std::string, std::string>>{{"{title}", escaped(title, "&lt;")},
-                                                                  {"{style}", *style},
-                                                                  {"{script}", *script},
-                                                                  {"{report}", escaped(data, "\\u003c")}})
-    page->replace(page->find(mark), mark.size(), value);
-  return page;
+  if (!style || !script) return std::nullopt;
+  return filledIn("report/page.html",
+                  {{"{title}", escaped(title, "&lt;")},
+                   {"{style}", *style},
+                   {"{script}", *script},
+                   {"{report}", escaped(text::dumpJson(report, -1, false), "\\u003c")}},
+                  diagnostics);
 }
 
 }  // namespace weft::app
