@@ -7,7 +7,6 @@
 
 #include "app/commands/commands.h"
 #include "app/output/frame_set.h"
-#include "app/output/interruption.h"
 #include "app/output/manifest.h"
 #include "app/output/pictures.h"
 #include "app/output/video.h"
@@ -54,6 +53,32 @@ struct FrameRun {
     return files;
   }
 };
+
+// SIGINT or SIGTERM, which ends a run between two frames; 0: none came.
+volatile std::sig_atomic_t cameSignal = 0;
+
+void noteSignal(int signal) {
+  constexpr std::string_view kText = "\nweft ends after this frame; a second signal ends it at once\n";
+  cameSignal = signal;
+  for (const int each : {SIGINT, SIGTERM}) {
+    struct sigaction now {};
+    ::sigaction(each, nullptr, &now);
+    if (now.sa_handler == noteSignal) std::signal(each, SIG_DFL);
+  }
+  [[maybe_unused]] const ssize_t said = ::write(STDERR_FILENO, kText.data(), kText.size());
+}
+
+// From now on. A second one, of either, ends the program at once.
+void noteSignals() {
+  struct sigaction action {};
+  action.sa_handler = noteSignal;
+  action.sa_flags = SA_RESTART;
+  for (const int signal : {SIGINT, SIGTERM}) {
+    struct sigaction before {};
+    ::sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);  // as nohup leaves it
+  }
+}
 
 const graph::FlatResource& resourceOf(const graph::FlatGraph& graph, const runtime::CaptureItem& item) {
   const auto at = std::ranges::find(graph.resourceNames, item.target.resource) - graph.resourceNames.begin();
@@ -103,9 +128,9 @@ void runFrames(DeviceSession& session, runtime::World& world, const Options& opt
       return saveInspected(inspector, *outputNameOf(file, frame), said, run.videoOf(file));
     });
   };
-  const Interruption interruption;
+  noteSignals();
   if (!startVideos(options, execution, run, diagnostics)) return;
-  while (run.ran < total && !diagnostics.hasErrors() && (run.signal = interruption.signal()) == 0) {
+  while (run.ran < total && !diagnostics.hasErrors() && (run.signal = cameSignal) == 0) {
     frame = all ? begin + static_cast<std::uint32_t>(run.ran) : run.frames[run.written];
     const bool wanted = frame == run.frames[run.written];
     if (!items.empty() && wanted) capture.start(execution, items, save);
