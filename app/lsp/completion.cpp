@@ -53,6 +53,11 @@ Shapes shapesAt(const Spot& spot) {
   return shapes;
 }
 
+// The import that an object declares; null of other objects.
+const graph::ImportType* importOf(const graph::Registry& registry, const JsonValue& object) {
+  return graph::findNamed(registry.imports, textOf(object, "import"));
+}
+
 // Whether an object may become of this shape.
 bool fits(const graph::Shape& shape, const JsonValue& object, const JsonMember* typed) {
   const auto needed = std::ranges::find_if(shape.keys, &graph::KeySpec::required);
@@ -173,8 +178,7 @@ class Completer {
   }
 
   void slots(const JsonValue& stanza, std::initializer_list<glsl::Role> roles) {
-    const auto type = std::ranges::find(registry_.passTypes, textOf(stanza, "type"), &graph::PassType::name);
-    if (type != registry_.passTypes.end())
+    if (const graph::PassType* type = graph::findNamed(registry_.passTypes, textOf(stanza, "type")))
       for (const graph::FixedSlot& slot : type->fixedSlots) add(slot.name, ItemKind::field, slot.doc);
     shaderNames(stanza, roles);
     for (const char* group : {"read", "write", "modify"})
@@ -265,10 +269,8 @@ class Completer {
       names(Kind::resource);
     }
     if (key == "import") addTypes(registry_.imports);
-    for (const graph::ImportType& type : registry_.imports)
-      if (type.name == textOf(*spot_.values[spot_.values.size() - 2], "import"))
-        for (const graph::ImportArgument& argument : type.arguments)
-          if (argument.name == key) addWords(argument.choices);
+    if (const auto* type = importOf(registry_, *spot_.values[spot_.values.size() - 2]))
+      if (const auto* argument = graph::findNamed(type->arguments, key)) addWords(argument->choices);
     const bool refers = areShapes(shapes, "reference") || areShapes(shapes, "resets") || key == "first";
     if (pass && way[2] == "bind")
       for (const JsonValue& stanza : spot_.values[1]->items)
@@ -316,13 +318,12 @@ class Completer {
     const JsonValue* declared = text_.json().root.find("resources");
     declared = declared ? declared->find(name) : nullptr;
     const std::string_view type = declared ? textOf(*declared, "import") : std::string_view(name);
-    for (const graph::ImportType& each : registry_.imports)
-      for (const graph::TableColumn& column : each.columns)
-        if (each.name == type)
-          add(fragment_.begin < offset_ - typed.size()
-                  ? fmt::format("@{}.{}", typed.substr(0, dot), column.name)
-                  : "." + column.name,
-              ItemKind::field, fmt::format("{} {}", column.type, column.doc));
+    if (const graph::ImportType* import = graph::findNamed(registry_.imports, type))
+      for (const graph::TableColumn& column : import->columns)
+        add(fragment_.begin < offset_ - typed.size()
+                ? fmt::format("@{}.{}", typed.substr(0, dot), column.name)
+                : "." + column.name,
+            ItemKind::field, fmt::format("{} {}", column.type, column.doc));
   }
 
   void files() {
@@ -333,9 +334,8 @@ class Completer {
 
   // Those with the ending that the type of the pass asks for; of a draw the stems of two.
   void shaders(std::string_view key) {
-    const auto type =
-        std::ranges::find(registry_.passTypes, textOf(*spot_.stanza(), "type"), &graph::PassType::name);
-    if (type == registry_.passTypes.end()) return;
+    const graph::PassType* type = graph::findNamed(registry_.passTypes, textOf(*spot_.stanza(), "type"));
+    if (!type) return;
     const bool compute = type->shader == graph::ShaderShape::compute;
     const bool stem = type->shader == graph::ShaderShape::draw && key == "shader";
     const std::string ending = key == "vertex" ? ".vert.glsl" : compute ? ".comp.glsl" : ".frag.glsl";
@@ -365,13 +365,12 @@ std::vector<KeyDoc> keysAt(const graph::Registry& registry, const Spot& spot) {
     if (spot.keys.empty() || fits(*shape, object, spot.key))
       for (const graph::KeySpec& key : shape->keys)
         keys.push_back({std::string(key.key), std::string(key.doc)});
-  for (const graph::ImportType& type : registry.imports)
-    if (type.name == textOf(object, "import"))
-      for (const graph::ImportArgument& argument : type.arguments)
-        keys.push_back({argument.name, argument.doc});
+  if (const graph::ImportType* import = importOf(registry, object))
+    for (const graph::ImportArgument& argument : import->arguments)
+      keys.push_back({argument.name, argument.doc});
   // What only other types of passes take.
-  const auto type = std::ranges::find(registry.passTypes, textOf(object, "type"), &graph::PassType::name);
-  if (spot.stanza() == &object && type != registry.passTypes.end())
+  const graph::PassType* const type = graph::findNamed(registry.passTypes, textOf(object, "type"));
+  if (spot.stanza() == &object && type)
     std::erase_if(keys, [&](const KeyDoc& key) {
       const auto takes = [&](const graph::PassType& each) {
         return std::ranges::find(each.keys, key.key) != each.keys.end();

@@ -22,8 +22,8 @@ std::string ofPlan(const Graph& graph, const std::string& text) {
 
 // "" when the type is no import.
 std::string docOfImport(const graph::Registry& registry, std::string_view name) {
-  const auto type = std::ranges::find(registry.imports, name, &graph::ImportType::name);
-  return type == registry.imports.end() ? "" : fenced("text", graph::textOf(*type));
+  const graph::ImportType* const type = graph::findNamed(registry.imports, name);
+  return type ? fenced("text", graph::textOf(*type)) : "";
 }
 
 // What the plan does with a name that a pass shares with its shader.
@@ -75,8 +75,8 @@ Json inJson(const Workspace& workspace, const Text& text, std::size_t offset) {
   std::string shown;
   if (!spot.keys.empty() && spot.keys.back() == "import") shown = docOfImport(registry, spot.value().text);
   if (!spot.keys.empty() && spot.keys.back() == "type")
-    for (const graph::PassType& type : registry.passTypes)
-      if (type.name == spot.value().text) shown = fmt::format("**{}**: {}\n", type.name, type.doc);
+    if (const graph::PassType* type = graph::findNamed(registry.passTypes, spot.value().text))
+      shown = fmt::format("**{}**: {}\n", type->name, type->doc);
   return hover(text, shown, rangeOf(spot.value()));
 }
 
@@ -85,13 +85,13 @@ Json inGlsl(const Workspace& workspace, const Text& text, std::size_t offset) {
   const GlslWord* const word = text.wordAt(offset);
   if (!word || word->member) return nullptr;
   std::string shown;
-  int count = 0;
+  int left = kMaxShown;
   for (const Program& program : workspace.programs())
-    if (count < kMaxShown && program.has(text.path()))
-      if (const std::string about = ofKey(program, std::string(word->text)); !about.empty()) {
-        shown += about;
-        ++count;
-      }
+    if (left > 0 && program.has(text.path())) {
+      const std::string about = ofKey(program, std::string(word->text));
+      shown += about;
+      left -= !about.empty();
+    }
   return hover(text, shown, word->range);
 }
 

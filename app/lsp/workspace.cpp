@@ -112,7 +112,9 @@ void Workspace::read(const std::string& path, Graph& graph) {
   if (graph.read)
     for (const std::string& file : graph.read->files) graph.texts[text::absolutePath(file)];
   for (auto& [file, text] : graph.texts) text = texts_.of(file);
-  if (graph.read && (!graph.desc || !graph.readSaid.contains(text::Code::notJson))) graph.desc = graph.read;
+  if (!graph.read || (graph.desc && graph.readSaid.contains(text::Code::notJson))) return;
+  graph.desc = graph.read;
+  graph.uses = graph::findNameUses(*graph.desc, registry_);
 }
 
 void Workspace::readAll() {
@@ -126,8 +128,6 @@ void Workspace::readAll() {
     Graph& graph = graphs_[path];
     read(path, graph);
     if (!graph.desc) continue;
-    if (graph.named != graph.desc) graph.uses = graph::findNameUses(*graph.desc, registry_);
-    graph.named = graph.desc;
     graph.shaderFolders = runtime::shaderRootsOf(graph.desc->files, dataFolder());
     graph::eachPass(*graph.desc, [&](const std::string&, const graph::PassDesc& pass) {
       if (pass.include && pass.include->graph) included.insert(text::absolutePath(pass.include->graph->path));
@@ -198,9 +198,8 @@ void Workspace::checkShaders(Graph& graph, const graph::Plan& plan) {
   loader.forgetTouched();
   LoadedSources loaded;
   for (const graph::Step& step : plan.steps) {
-    const auto type =
-        std::ranges::find(registry_.passTypes, flat.specs[step.pass].type, &graph::PassType::name);
-    if (type == registry_.passTypes.end() || type->shader == graph::ShaderShape::none) continue;
+    const graph::PassType* type = graph::findNamed(registry_.passTypes, flat.specs[step.pass].type);
+    if (type->shader == graph::ShaderShape::none) continue;
     checkDeclared(plan, step.pass, runtime::programRequestOf(flat, plan, step.pass, *type), loader, loaded,
                   graph.said, graph.said);
   }

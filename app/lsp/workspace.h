@@ -33,8 +33,7 @@ struct Graph {
   text::Diagnostics readSaid;
   // As all of them could be read last; places may be those of older texts.
   std::shared_ptr<const graph::GraphDesc> desc;
-  std::shared_ptr<const graph::GraphDesc> named;  // of which `uses` are
-  std::vector<graph::NameUse> uses;
+  std::vector<graph::NameUse> uses;  // of `desc`
   std::vector<std::string> shaderFolders;
   // Of a graph that is open and belongs to no other:
   bool checked = false;
