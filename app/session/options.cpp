@@ -4,9 +4,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
+#include <optional>
+#include <tuple>
 
 #include "app/session/session.h"
+#include "engine/text/chars.h"
 #include "engine/text/files/file.h"
 
 namespace weft::app {
@@ -15,17 +17,13 @@ namespace {
 
 constexpr int kMaxPixels = 16384;  // of a side of a picture
 
+// "640x360" and its kind.
 template <class Number>
-bool readNumber(std::string_view text, Number& out) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
-  return error == std::errc{} && end == text.data() + text.size();
-}
-
-template <class Number>
-bool readPair(std::string_view text, char separator, Number& a, Number& b) {
-  const std::size_t at = text.find(separator);
-  return at != std::string_view::npos && readNumber(text.substr(0, at), a) &&
-         readNumber(text.substr(at + 1), b);
+std::optional<std::pair<Number, Number>> pairIn(std::string_view text, char separator) {
+  const std::size_t at = std::min(text.find(separator), text.size());
+  const auto first = text::numberIn<Number>(text.substr(0, at));
+  const auto second = text::numberIn<Number>(text.substr(std::min(at + 1, text.size())));
+  return first && second ? std::optional(std::pair(*first, *second)) : std::nullopt;
 }
 
 }  // namespace
@@ -161,8 +159,8 @@ CLI::Option* addDisables(CLI::App& command, const char* name, std::vector<graph:
 
 CLI::Validator numberFrom(double low, double high) {
   const auto check = [low, high](const std::string& text) -> std::string {
-    double x = 0;
-    if (readNumber(text, x) && x >= low && x <= high) return {};
+    const auto x = text::numberIn<double>(text);
+    if (x && *x >= low && *x <= high) return {};
     return fmt::format("expected a number from {} to {}, found '{}'", low, high, text);
   };
   return {check, fmt::format("{} to {}", low, high)};
@@ -177,26 +175,29 @@ CLI::Option* addTaken(CLI::App& command, const char* name,
 
 std::string takeSize(const std::string& text, std::uint32_t& width, std::uint32_t& height) {
   const auto isSide = [](std::uint32_t pixels) { return pixels >= 1 && pixels <= kMaxPixels; };
-  if (readPair(text, 'x', width, height) && isSide(width) && isSide(height)) return {};
-  return fmt::format("expected WIDTHxHEIGHT, each from 1 to {}, found '{}'", kMaxPixels, text);
+  const auto size = pairIn<std::uint32_t>(text, 'x');
+  if (!size || !isSide(size->first) || !isSide(size->second))
+    return fmt::format("expected WIDTHxHEIGHT, each from 1 to {}, found '{}'", kMaxPixels, text);
+  std::tie(width, height) = *size;
+  return {};
 }
 
 std::string takeCount(const std::string& text, std::uint32_t& count) {
-  return readNumber(text, count) ? ""
-                                 : fmt::format("expected a number of frames up to {}, found '{}'", ~0u, text);
+  const auto number = text::numberIn<std::uint32_t>(text);
+  count = number.value_or(0);
+  return number ? "" : fmt::format("expected a number of frames up to {}, found '{}'", ~0u, text);
 }
 
 std::string takePointer(const std::string& text, imports::Pointer& pointer) {
   constexpr std::string_view kHeld = ",down";
-  float x = 0, y = 0;
   const bool held = text.ends_with(kHeld);
-  const bool good =
-      readPair(std::string_view(text).substr(0, text.size() - (held ? kHeld.size() : 0)), ',', x, y);
-  pointer = {.position = {x, y}, .down = held};
-  if (held) pointer.pressed = pointer.dragged = pointer.position;
   const auto isIn = [](float pixels) { return pixels >= 0 && pixels <= kMaxPixels; };
-  if (good && isIn(x) && isIn(y)) return {};
-  return fmt::format("expected X,Y or X,Y,down, pixels from 0 to {}, found '{}'", kMaxPixels, text);
+  const auto at = pairIn<float>(text.substr(0, text.size() - (held ? kHeld.size() : 0)), ',');
+  if (!at || !isIn(at->first) || !isIn(at->second))
+    return fmt::format("expected X,Y or X,Y,down, pixels from 0 to {}, found '{}'", kMaxPixels, text);
+  pointer = {.position = {at->first, at->second}, .down = held};
+  if (held) pointer.pressed = pointer.dragged = pointer.position;
+  return {};
 }
 
 std::string checkSet(const std::string& text) {
