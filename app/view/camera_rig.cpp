@@ -16,14 +16,6 @@ constexpr double kFarthest = 1e5;
 constexpr double kBobPerUnit = 4.5, kBobRise = 0.012, kBobSway = 0.008;
 constexpr double kBobSeconds = 0.15;  // the time constant with which it begins and ends
 
-double finite(double x, double low, double high) {
-  return std::isfinite(x) ? std::clamp(x, low, high) : 0.0;
-}
-
-glm::dvec2 finite(glm::dvec2 v) {
-  return {finite(v.x, -1e5, 1e5), finite(v.y, -1e5, 1e5)};
-}
-
 // Where a value is that closes on a goal with the time constant kMouseSeconds, after `dt` in which the goal went evenly by `by` to
 // where it is: the solution of y' = (g(t) - y) / tau.
 template <class T>
@@ -72,12 +64,7 @@ void CameraRig::setMode(Mode mode) {
   mode_ = mode;
 }
 
-void CameraRig::advance(double seconds, const CameraInput& raw) {
-  CameraInput in = raw;
-  in.turn = finite(raw.turn);
-  in.pan = finite(raw.pan);
-  in.wheel = finite(raw.wheel, -100, 100);
-  in.move = {finite(raw.move.x, -1, 1), finite(raw.move.y, -1, 1), finite(raw.move.z, -1, 1)};
+void CameraRig::advance(double seconds, CameraInput in) {
   if (mode_ == Mode::scene) {
     in.move = {0, 0, 0};
     if (!in.any()) return;
@@ -85,7 +72,7 @@ void CameraRig::advance(double seconds, const CameraInput& raw) {
   }
   if (in.any()) exact_.reset();
   keys_ = in.move;
-  const double dt = finite(seconds, 0, kLongestFrame), yaw = now_.yaw, pitch = now_.pitch;
+  const double dt = std::clamp(seconds, 0.0, kLongestFrame), yaw = now_.yaw, pitch = now_.pitch;
   const double turned = -in.turn.x * kTurnPerPixel, tilt = goal_.pitch;
   goal_.yaw += turned;
   if (in.turn.y != 0) goal_.pitch = std::clamp(goal_.pitch + in.turn.y * kTurnPerPixel, -kPole, kPole);

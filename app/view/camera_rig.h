@@ -1,5 +1,5 @@
 // The person's camera: follows one of the scene, orbits, or flies. The same input over the same time gives the same path at any frame
-// rate. Never rolls, never passes the poles. No call makes a pose that is not finite.
+// rate. Never rolls, never passes the poles. What a mouse can do makes no pose that is not finite.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +42,7 @@ class CameraRig {
   Mode mode() const { return mode_; }
 
   // `seconds` have passed with this input. The first turn, pan or wheel in Mode::scene takes the camera to orbit.
-  void advance(double seconds, const CameraInput& input);
+  void advance(double seconds, CameraInput input);
 
   scene::CameraPose pose() const;
   std::uint64_t cuts() const { return cuts_; }
