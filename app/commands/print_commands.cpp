@@ -103,7 +103,7 @@ Json toJson(const graph::ParameterSpec& parameter) {
   return out;
 }
 
-// The presets of all folders, as JSON objects of name, title and description, the last two "name" (or the file's, in words) and
+// The presets of all folders, as JSON objects of name, title and description, the last two "name" (or the file's) and
 // "description" of the file; of two with one name, the one that --preset finds.
 std::vector<Json> knownPresets(const std::string& own, text::Diagnostics& diagnostics) {
   std::vector<Json> presets;
@@ -117,12 +117,9 @@ std::vector<Json> knownPresets(const std::string& own, text::Diagnostics& diagno
       const auto root = text ? text::parseJson(*text, path, diagnostics) : std::nullopt;
       const auto textOf = [&](const char* key) { return root->find(key) ? root->find(key)->text : ""; };
       if (!root) continue;
-      std::string title = textOf("name");
-      if (title.empty()) {  // the file's own name in words
-        title = name;
-        std::ranges::replace(title, '_', ' ');
-      }
-      presets.push_back({{"name", name}, {"title", title}, {"description", textOf("description")}});
+      const std::string title = textOf("name");
+      presets.push_back(
+          {{"name", name}, {"title", title.empty() ? name : title}, {"description", textOf("description")}});
     }
   }
   std::ranges::sort(presets, {}, [](const Json& preset) { return preset["name"].get<std::string>(); });
