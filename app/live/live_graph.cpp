@@ -118,7 +118,6 @@ bool LiveGraph::tryGraph(Attempt attempt, const runtime::World& world, text::Dia
 
 bool LiveGraph::tryScene(runtime::World& world, text::Diagnostics& diagnostics) {
   if (!scene_.outdated() || scene_.loading()) return true;  // when it is there
-  if (!scene_.ready()) scene_.readNow();
   const scene::Scene* scene = scene_.scene(diagnostics);
   if (!scene) return false;
   world.setScene(*scene);
@@ -159,8 +158,8 @@ bool LiveGraph::wantsLoad(double now) {
       graphStale_ = true;
   }
   if (!graphStale_ || (!untried_ && now - changedAt_ < quiet_)) return false;
-  // A scene with models is read beside the frames: there is nothing to load until it is there.
-  return !running() || !scene_.outdated() || !scene_.slow() || scene_.arrived();
+  // A scene is read beside the frames: there is nothing to load until it is there.
+  return !running() || !scene_.outdated() || scene_.arrived();
 }
 
 bool LiveGraph::poll(double now, text::Diagnostics& diagnostics) {

@@ -21,7 +21,7 @@ class LiveGraph {
   // Reads everything but the environment again and switches to it. False after errors, and what ran goes on. A set or disable that the
   // graph does not take any more is left out with a warning; the first time it is an error.
   bool load(text::Diagnostics& diagnostics);
-  // Loads when watched files changed: at once when they are good, else when they were quiet for a moment. A scene with models is read
+  // Loads when watched files changed: at once when they are good, else when they were quiet for a moment. A scene is read
   // beside the frames. `now` in seconds. True when something came of it that is to be reported.
   bool poll(double now, text::Diagnostics& diagnostics);
   // Whether files changed that poll() has not loaded yet; false while a scene is on its way.

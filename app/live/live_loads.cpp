@@ -44,22 +44,14 @@ std::shared_ptr<const LiveScene::Loaded> LiveScene::read(const std::string& path
 
 void LiveScene::outdate() {
   outdated_ = true;
-  slow_.reset();
   arrived_ = nullptr;
   if (std::exchange(loading_, false)) loader_.cancel();
-}
-
-void LiveScene::readNow() {
-  if (std::exchange(loading_, false)) loader_.cancel();
-  arrived_ = read(path_, choice_);
-  files_ = arrived_->files;
 }
 
 void LiveScene::request() {
   if (arrived_ || loading_) return;
   loading_ = true;
   loader_.request(path_);
-  ++reads_;
 }
 
 bool LiveScene::arrived() {
@@ -73,8 +65,11 @@ bool LiveScene::arrived() {
   return true;
 }
 
-const scene::Scene* LiveScene::scene(text::Diagnostics& diagnostics) const {
-  if (!arrived_) return nullptr;
+const scene::Scene* LiveScene::scene(text::Diagnostics& diagnostics) {
+  if (!arrived_) {
+    arrived_ = read(path_, choice_);
+    files_ = arrived_->files;
+  }
   diagnostics.append(arrived_->said);
   return arrived_->scene ? &*arrived_->scene : nullptr;
 }

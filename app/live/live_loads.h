@@ -49,20 +49,13 @@ class LiveScene {
     arrived_ = nullptr;
   }
 
-  // Whether what is in the files may take long to read: a scene with models. Others are there sooner than a frame.
-  bool slow() { return slow_ ? *slow_ : *(slow_ = scene::namesModels(path_)); }
-  // Reads the scene at once: for when there is nothing to keep showing, or reading is not slow.
-  void readNow();
   // Begins to read the scene beside the frames. Even when it is read at once, only arrived() takes it.
   void request();
   // Whether what is in the files has arrived; else it is on its way from now on. Never waits.
   bool arrived();
-  bool ready() const { return arrived_ != nullptr; }
   bool loading() const { return loading_; }
-  // How many times that was begun beside the frames.
-  std::uint64_t reads() const { return reads_; }
-  // What arrived, with what is to be said of it; null after errors.
-  const scene::Scene* scene(text::Diagnostics& diagnostics) const;
+  // What arrived, with what is to be said of it; null after errors. Read at once where nothing has.
+  const scene::Scene* scene(text::Diagnostics& diagnostics);
 
   std::optional<LoadStatus> status() const;
 
@@ -79,9 +72,7 @@ class LiveScene {
   scene::SceneChoice choice_;  // of the first file
   std::vector<std::string> files_;
   bool outdated_ = false;
-  std::optional<bool> slow_;  // as the files are; empty: nobody asked
   bool loading_ = false;
-  std::uint64_t reads_ = 0;
   std::shared_ptr<const Loaded> arrived_;  // null: not yet
   assets::Loader loader_;
 };

@@ -93,10 +93,10 @@ bool PictureWriter::save(runtime::Renderer& renderer, const std::string& path, t
   return good;
 }
 
-void PictureWriter::tell(text::Diagnostics& diagnostics) {
+void PictureWriter::tell(text::Diagnostics& diagnostics) const {
   if (first_.pixels == 0) return;
   std::string found = fmt::format("NaN in {} and infinity in {}", first_.nan, first_.infinite);
-  if (const std::uint64_t more = counts_.broken - brokenBefore_ - 1; more > 0)
+  if (const std::uint64_t more = counts_.broken - 1; more > 0)
     found += fmt::format("; {} more of the pictures after it have such pixels", more);
   diagnostics.warning(
       text::Code::pictureNotFinite, {first_.file, 0, 0},
@@ -108,8 +108,6 @@ void PictureWriter::tell(text::Diagnostics& diagnostics) {
        .hint = "look for a division by 0, a root of what may be negative, or too large a value; `weft view` "
                "marks them",
        .resource = first_.resource});
-  first_ = {};
-  brokenBefore_ = counts_.broken;
 }
 
 std::string encodeBase64(std::string_view bytes) {

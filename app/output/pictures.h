@@ -34,8 +34,8 @@ class PictureWriter {
             Video* video = nullptr);
   // Notes what values in the presented picture are no colors. `file`: which is said to have them.
   void look(const assets::ImageF& picture, runtime::Renderer& renderer, const std::string& file);
-  // One warning (W207) for all pictures since the last call, or none.
-  void tell(text::Diagnostics& diagnostics);
+  // One warning (W207) for all pictures, or none.
+  void tell(text::Diagnostics& diagnostics) const;
   const Counts& counts() const { return counts_; }
 
  private:
@@ -45,8 +45,7 @@ class PictureWriter {
     int x = 0, y = 0;                                 // the first, from the upper left
   };
   Counts counts_;
-  Found first_;  // picture with such pixels since the last tell()
-  std::uint64_t brokenBefore_ = 0;
+  Found first_;  // picture with such pixels
 };
 
 // ---- pages: One HTML page with everything in it (app/report/page.html): of a frame, of test cases that failed, or of what each pass does. ----

@@ -64,6 +64,11 @@ void flushPrinted() {
   if (std::fflush(stdout) != 0 && outputFailure == 0) outputFailure = errno != 0 ? errno : EIO;
 }
 
+void printNow(std::string_view text) {
+  print(text);
+  flushPrinted();
+}
+
 void printError(std::string_view text) {
   put(text, stderr, errorFailure);
 }

@@ -18,6 +18,7 @@ void print(std::string_view text);  // on standard output
 // Columns as wide as their widest cell, the last as it is.
 void printTable(const std::vector<std::vector<std::string>>& rows);
 void flushPrinted();                     // writes what print() has kept back so far
+void printNow(std::string_view text);    // both
 void printError(std::string_view text);  // on standard error
 
 // To be called at the end: writes what is left. After a failed write it reports W180 and returns at least 1; 141 when the reader of

@@ -265,7 +265,7 @@ void Panels::drawMessages(bool all) {
     if (ImGui::SmallButton("copy")) ImGui::SetClipboardText(text.c_str());
     ImGui::SameLine();
     if (each->place.file && each->place.line > 0) {
-      if (ImGui::SmallButton("edit")) edit_(each->place.file, each->place.line);
+      if (ImGui::SmallButton("edit")) edit_(each->place.inFile());
       ImGui::SameLine();
     }
     ImGui::TextColored(colorOf(each->severity), "%s", text.c_str());

@@ -28,17 +28,6 @@ bool beginTable(const char* id, std::initializer_list<const char*> titles, int s
                 ImGuiTableFlags flags);
 void cell(const std::string& text);  // the next one of a table
 
-// "rgba16f 1280x720, 8 mips" of a resource or a storage.
-template <class Texture>
-std::string shapeText(const Texture& texture) {
-  std::string text =
-      fmt::format("{} {}x{}", graph::infoOf(texture.format).name, texture.width, texture.height);
-  if (texture.depth > 1) text += fmt::format("x{}", texture.depth);
-  if (texture.mips > 1) text += fmt::format(", {} mips", texture.mips);
-  if (texture.layers > 1) text += fmt::format(", {} layers", texture.layers);
-  return text;
-}
-
 // What is selected: which resource, where in the frame, which part, how shown; zoom, pan and the value under the cursor.
 class InspectorPanel {
  public:
@@ -84,8 +73,8 @@ struct LoopState {
 
 class Panels {
  public:
-  using EditFile = std::function<void(text::FileName file, std::uint32_t line)>;
-  // `act` runs an action of the viewer (app/view/key_bindings.h), `edit` opens a file at a line.
+  using EditFile = std::function<void(const text::Place& place)>;
+  // `act` runs an action of the viewer (app/view/key_bindings.h), `edit` opens a file at a place.
   Panels(LiveGraph& live, runtime::Renderer& renderer, Log& log, std::function<void(const char*)> act,
          EditFile edit);
   ~Panels();

@@ -141,7 +141,7 @@ void Panels::drawPassRow(std::size_t index, text::Diagnostics& diagnostics) {
     if (row.desc->place.file)
       tip += fmt::format("\n{}:{} (double click: in the editor)", std::string(*row.desc->place.file),
                          row.desc->place.line);
-    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) edit_(row.desc->place.file, row.desc->place.line);
+    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) edit_(row.desc->place);
     tooltip(tip, true);
   }
   cell(state);

@@ -136,7 +136,7 @@ void PassPictures::drawTile(Tile& tile, const graph::Plan& plan) {
   std::string tip = plan.graph->passNames[tile.pass] + "\nwrites no texture";
   if (tile.resource != graph::kNone)
     tip = fmt::format("{}\n{}: {}", tile.target.pass, tile.target.resource,
-                      shapeText(plan.graph->resources[tile.resource]));
+                      graph::shapeText(plan.graph->resources[tile.resource]));
   tooltip(tip);
   if (tile.texture)
     ImGui::GetWindowDrawList()->AddImage(

@@ -60,8 +60,7 @@ std::string Panels::writeBack(text::Diagnostics& diagnostics) {
   if (!writes_ || !live_.write(*writes_, diagnostics)) return "nothing was written: see the messages";
   std::string said = "wrote";
   for (const graph::WriteBack::File& file : writes_->files) said += " " + file.path;
-  print(text::printable(said) + "\n");
-  flushPrinted();
+  printNow(text::printable(said) + "\n");
   return said + "; Ctrl Z takes it back";
 }
 
@@ -82,10 +81,8 @@ void Panels::drawWrites(text::Diagnostics& diagnostics) {
   ImGui::SameLine();
   ImGui::BeginDisabled(preset_[0] == 0);
   if (ImGui::Button("Save as preset")) {
-    if (const auto file = live_.savePreset(preset_, diagnostics)) {
-      print(text::printable("wrote " + *file) + "\n");
-      flushPrinted();
-    }
+    if (const auto file = live_.savePreset(preset_, diagnostics))
+      printNow(text::printable("wrote " + *file) + "\n");
     question_ = Question::none;
   }
   ImGui::EndDisabled();

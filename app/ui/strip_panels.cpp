@@ -67,13 +67,14 @@ std::vector<Row> rowsOf(const graph::Plan& plan) {
   std::vector<Row> rows;
   for (const graph::Storage& storage : plan.storages)
     rows.push_back(
-        {shapeText(storage) + (storage.copies > 1 ? fmt::format(", {} copies", storage.copies) : ""),
-         bytesText(storage.bytes),
-         {}});
+        {storage.copies > 1 ? fmt::format(", {} copies", storage.copies) : "", bytesText(storage.bytes), {}});
   for (std::uint32_t r = 0; r < plan.graph->resources.size(); ++r) {
     if (plan.firstStep[r] == graph::kNone) continue;
     if (plan.storageOf[r] != graph::kNone) {
-      rows[plan.storageOf[r]].resources.push_back(r);
+      Row& row = rows[plan.storageOf[r]];
+      const std::string shape = graph::shapeText(plan.graph->resources[r]);  // ends with ", 4096 bytes"
+      if (row.resources.empty()) row.name.insert(0, shape, 0, shape.rfind(','));
+      row.resources.push_back(r);
     } else if (plan.graph->resources[r].kind == graph::ResourceKind::buffer) {
       const bool transient = plan.bufferOffsetOf[r] != graph::Plan::kNoOffset;
       rows.push_back({transient ? fmt::format("arena + {}", plan.bufferOffsetOf[r]) : "buffer of its own",

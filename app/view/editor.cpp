@@ -11,22 +11,13 @@
 
 namespace weft::app {
 
-namespace {
-
-std::string programOf(const char* variable) {
-  const char* const program = std::getenv(variable);
-  return program ? program : "";
-}
-
-}  // namespace
-
 Editor::Editor(std::string command) : command_(std::move(command)) {
   for (const char* variable : {"VISUAL", "EDITOR"})
-    if (command_.empty()) command_ = programOf(variable);
+    if (const char* program = std::getenv(variable); program && command_.empty()) command_ = program;
 }
 
-std::string Editor::open(text::FileName name, std::uint32_t at) {
-  if (!name) return "nothing is selected that is written in a file";
+std::string Editor::open(const text::Place& place) {
+  if (!place.file) return "nothing is selected that is written in a file";
   if (command_.empty())
     return "no editor is known: set VISUAL or EDITOR, or start with --editor 'code -g {file}:{line}'";
   // The shell gets file and line as parameters, so that no name is taken for a command.
@@ -40,7 +31,7 @@ std::string Editor::open(text::FileName name, std::uint32_t at) {
   const bool named = replace("{file}", "\"$1\"");
   if (!replace("{line}", "\"$2\"") && !named) script += " +\"$2\"";
   if (!named) script += " \"$1\"";
-  std::string file(*name), line = std::to_string(at), shell = "sh", option = "-c";
+  std::string file(*place.file), line = std::to_string(place.line), shell = "sh", option = "-c";
   char* const arguments[] = {shell.data(), option.data(), script.data(), shell.data(),
                              file.data(),  line.data(),   nullptr};
   // Not by text::startProcess(): an editor that runs in the terminal of this program must not lose it.

@@ -3,7 +3,6 @@
 
 #include <sys/types.h>
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -17,7 +16,7 @@ class Editor {
   explicit Editor(std::string command);
 
   // Starts it at a line of a file. What was done, for a person.
-  std::string open(text::FileName file, std::uint32_t line);
+  std::string open(const text::Place& place);
   // What there is to say of editors that ended since the last call, because they failed; else empty.
   std::string takeFailure();
 

@@ -8,7 +8,6 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <set>
 #include <thread>
 
 #include "app/output/output_files.h"
@@ -97,7 +96,7 @@ Viewer::Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& li
       editor_(options.editor),
       panels_(
           live, session.renderer, log_, [this](const char* action) { act(action); },
-          [this](text::FileName file, std::uint32_t line) { edit(file, line); }),
+          [this](const text::Place& place) { edit(place); }),
       renderScale_(options.renderScale),
       vsync_(options.vsync),
       idle_(options.idle) {
@@ -133,8 +132,7 @@ void Viewer::addActions() {
               {"copy_command",
                [this] {
                  told_ = command();
-                 print(text::printable(told_) + "\n");
-                 flushPrinted();
+                 printNow(text::printable(told_) + "\n");
                  glfwSetClipboardString(window_, told_.c_str());
                }},
               {"save_camera",
@@ -159,8 +157,8 @@ void Viewer::addActions() {
                  wipe_.toggle(renderer_.execution()->presented(), diagnostics_);
                  told_ = wipe_.on() ? "the picture is kept, left of the line" : "";
                }},
-              {"edit_pass", [this] { editSelected(false); }},
-              {"edit_shader", [this] { editSelected(true); }},
+              {"edit_pass", [this] { edit(panels_.selectedPlace(false)); }},
+              {"edit_shader", [this] { edit(panels_.selectedPlace(true)); }},
               {"pause", [this] { clock_.pause(!clock_.paused()); }},
               {"step",
                [this] {
@@ -203,13 +201,8 @@ void Viewer::act(const std::string& action) {
   if (live_.changes() != changes) tell(diagnostics_, log_, ui::Log::kChange);
 }
 
-void Viewer::editSelected(bool shader) {
-  const text::Place place = panels_.selectedPlace(shader);
-  edit(place.file, place.line);
-}
-
-void Viewer::edit(text::FileName file, std::uint32_t line) {
-  told_ = editor_.open(file, line);
+void Viewer::edit(const text::Place& place) {
+  told_ = editor_.open(place);
   say("edit " + text::printable(told_));
 }
 
@@ -278,16 +271,13 @@ void Viewer::toggleRecording() {
 void Viewer::stopRecording() {
   if (recording_.empty()) return;
   clock_.fix(0);
-  print(fmt::format("wrote {} to {}\n", text::counted(recorded_, "frame"),
-                    text::printable(std::exchange(recording_, {}))));
-  flushPrinted();
-  recorder_.tell(diagnostics_);
+  printNow(fmt::format("wrote {} to {}\n", text::counted(recorded_, "frame"),
+                       text::printable(std::exchange(recording_, {}))));
+  std::exchange(recorder_, {}).tell(diagnostics_);
 }
 
 void Viewer::say(std::string_view event) const {
-  if (!options_.events) return;
-  print(fmt::format("event {} {}\n", frame_, event));
-  flushPrinted();
+  if (options_.events) printNow(fmt::format("event {} {}\n", frame_, event));
 }
 
 int Viewer::run(text::Diagnostics said) {
@@ -322,7 +312,7 @@ int Viewer::run(text::Diagnostics said) {
     }
     if (options_.maxFrames && frame_ >= options_.maxFrames) break;
   }
-  saveLast();
+  if (!options_.screenshot.empty() && frame_ > 0) savePicture(*outputNameOf(options_.screenshot, frame_ - 1));
   stopRecording();
   input_.capture(false);
   say("closed");
@@ -386,7 +376,7 @@ void Viewer::update(gl::Size size) {
     std::this_thread::sleep_for(kWaitForWrites);
     looked = live_.poll(glfwGetTime(), diagnostics_);
   }
-  if (std::exchange(sceneReads_, live_.scene().reads()) != live_.scene().reads())
+  if (!std::exchange(sceneLoads_, live_.scene().loading()) && sceneLoads_)
     say("loading " + std::filesystem::path(live_.scene().path()).filename().string());
   if (looked) {
     tell(diagnostics_, log_, ui::Log::kFiles);
@@ -503,12 +493,8 @@ void Viewer::servePage(FrameLook& look) {
 void Viewer::tellBroken(const std::vector<runtime::StepRecord>& records) {
   renderer_.execution()->watch({});
   const auto first = std::ranges::find_if(records, [](const auto& each) { return each.broken > 0; });
-  std::set<std::string_view> passes;  // that write textures
-  for (const runtime::StepRecord& each : records)
-    if (each.texture) passes.insert(each.pass);
   told_ = first == records.end()
-              ? fmt::format("no NaN and no infinity in the textures that {} write",
-                            text::counted(passes.size(), "pass"))
+              ? "no NaN and no infinity in what the passes write"
               : fmt::format("pass '{}' is the first with NaN or infinities: {:.3g} % of the texels of '{}'",
                             first->pass, 100 * first->broken, first->resource);
   say("scan " + told_);
@@ -524,7 +510,6 @@ void Viewer::show() {
       stopRecording();
   }
   renderer_.present(area_.width, area_.height, area_.x, area_.y);
-  if (frame_ == options_.maxFrames) saveLast();
   finishFrame();
   if (!std::exchange(shown_, true)) say("shown");
   if (!idle_) return;
@@ -605,19 +590,16 @@ void Viewer::saveScreenshot() {
   const std::string kind = std::exchange(screenshot_, {});
   std::string name = fmt::format("weft_{:05}{}", frame_, kind);
   for (int i = 2; text::isThere(name); ++i) name = fmt::format("weft_{:05}_{}{}", frame_, i, kind);
-  if (live_.running() && writer_.save(renderer_, name, diagnostics_)) {
-    told_ = "wrote " + name;
-    print(fmt::format("wrote {}\n", text::printable(name)));
-    flushPrinted();
-  }
-  writer_.tell(diagnostics_);
+  if (!savePicture(name)) return;
+  told_ = "wrote " + name;
+  printNow(fmt::format("wrote {}\n", text::printable(name)));
 }
 
-void Viewer::saveLast() {
-  if (options_.screenshot.empty() || frame_ == 0 || !live_.running() || std::exchange(lastSaved_, true))
-    return;
-  writer_.save(renderer_, *outputNameOf(options_.screenshot, frame_ - 1), diagnostics_);
-  writer_.tell(diagnostics_);
+bool Viewer::savePicture(const std::string& name) {
+  PictureWriter writer;
+  const bool saved = live_.running() && writer.save(renderer_, name, diagnostics_);
+  writer.tell(diagnostics_);
+  return saved;
 }
 
 void Viewer::tellFrame() {

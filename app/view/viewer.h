@@ -48,8 +48,7 @@ class Viewer {
  private:
   void addActions();
   void act(const std::string& action);
-  void edit(text::FileName file, std::uint32_t line);
-  void editSelected(bool shader);
+  void edit(const text::Place& place);
   void close();
   // The command that renders what is seen.
   std::string command() const;
@@ -86,7 +85,7 @@ class Viewer {
   void drawUi(bool seen = true);
   void finishFrame();
   void saveScreenshot();
-  void saveLast();  // --screenshot, once
+  bool savePicture(const std::string& name);
   // With --events, "event 12 click 376 40" with the number of the next frame, when the thing is done: so scripts wait for no time.
   void say(std::string_view event) const;
   void tellFrame();
@@ -110,9 +109,9 @@ class Viewer {
   imports::Pointer pointer_;  // of the last frame
   std::uint64_t cuts_ = 0, sceneGeneration_ = 0;
   FrameClock clock_;
-  PictureWriter writer_, recorder_;  // of screenshots, of recordings
-  std::string recording_;            // pattern of the recording that is on, or empty
-  std::uint32_t recorded_ = 0;       // its frames
+  PictureWriter recorder_;
+  std::string recording_;       // pattern of the recording that is on, or empty
+  std::uint32_t recorded_ = 0;  // its frames
   PictureRest rest_;
   runtime::FrameReport report_;    // of the last frame
   text::Diagnostics diagnostics_;  // of what the loop is doing
@@ -120,17 +119,18 @@ class Viewer {
   std::string title_, told_;       // the last: what was done, for the line at the bottom
   ui::Panels::Area area_;          // of the picture, in pixels of the window
   std::uint32_t frame_ = 0, redraws_ = 0;
-  std::uint64_t inputs_ = 0, changed_ = 0, sceneReads_ = 0;  // when they were last looked at
-  std::uint64_t arrivals_ = 0;                               // of environments
-  int restless_ = 0;                                         // redraws that the panels still want
+  std::uint64_t inputs_ = 0, changed_ = 0;  // when they were last looked at
+  std::uint64_t arrivals_ = 0;              // of environments
+  int restless_ = 0;                        // redraws that the panels still want
   float uiScale_ = 1;
   gl::Size size_;  // of the window, as it was said last
   double renderScale_ = 1;
   bool vsync_ = true, idle_ = false, help_ = false, minimized_ = false;
-  bool scan_ = false;                       // for NaN, in the next frame
-  bool resting_ = false, shown_ = false;    // as it was said last; a picture was
-  bool lastSaved_ = false, leave_ = false;  // --screenshot is done; the window closes whatever is unsaved
-  bool broken_ = false;                     // the driver or an output reported an error
+  bool scan_ = false;                     // for NaN, in the next frame
+  bool resting_ = false, shown_ = false;  // as it was said last; a picture was
+  bool sceneLoads_ = false;               // as it was said last
+  bool leave_ = false;                    // the window closes whatever is unsaved
+  bool broken_ = false;                   // the driver or an output reported an error
 };
 
 // The command `weft view`.

@@ -297,7 +297,7 @@ def scan(weft, folder, report):
         edit(folder / "graphs/broken.json", '"default": -1.0', '"default": 1.0')
         live.event("files good", since)
         live.key("n")
-        report.check(live.event("scan no NaN and no infinity in the textures that 3 passes write", since), f"NaN where none is\n{live.lines()}")
+        report.check(live.event("scan no NaN and no infinity in what the passes write", since), f"NaN where none is\n{live.lines()}")
         live.leave(report)
     finally:
         live.stop()
