@@ -20,21 +20,33 @@ using runtime::FrameProfiler;
 using Json = nlohmann::ordered_json;
 
 constexpr int kRounds = 9;
-constexpr clockid_t kWall = CLOCK_MONOTONIC, kCpu = CLOCK_THREAD_CPUTIME_ID;
 
-// Milliseconds that `work` takes: by the wall's clock with what it asks the GPU for, by this thread's without.
+// Milliseconds: the wall's, of all threads of the process, of this thread without what it waits for on the GPU.
+struct Cost {
+  double wall = std::numeric_limits<double>::infinity(), process = wall, thread = wall;
+};
+
+double clockNow(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
+// What `work` takes, with what it asks the GPU for.
 template <class Work>
-double timeOf(clockid_t clock, const Work& work) {
-  const auto now = [&] {
-    timespec time{};
-    clock_gettime(clock, &time);
-    return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
-  };
+Cost measure(const Work& work) {
   glFinish();
-  const double start = now();
+  const double wall = gl::steadyMs(), process = clockNow(CLOCK_PROCESS_CPUTIME_ID),
+               thread = clockNow(CLOCK_THREAD_CPUTIME_ID);
   work();
-  if (clock == kWall) glFinish();
-  return now() - start;
+  const double worked = clockNow(CLOCK_THREAD_CPUTIME_ID) - thread;
+  glFinish();
+  return {gl::steadyMs() - wall, clockNow(CLOCK_PROCESS_CPUTIME_ID) - process, worked};
+}
+
+void keepLeast(Cost& least, const Cost& cost) {
+  least.wall = std::min(least.wall, cost.wall);
+  least.process = std::min(least.process, cost.process);
 }
 
 double rounded(double x, double steps) {
@@ -61,19 +73,24 @@ std::optional<Value> neighborOf(const ParameterDesc& desc, Value value) {
   return value;
 }
 
-// The median in microseconds of what an edit takes; all of them together change nothing.
-double costOf(const std::vector<std::function<void()>>& edits) {
-  const auto all = [&] {
-    for (const auto& edit : edits) edit();
-  };
-  all();  // compiles what is not compiled yet
-  const auto count = static_cast<double>(edits.size());
-  const int repeats = timeOf(kCpu, all) < 0.2 * count ? 32 : 1;
+// The median in microseconds of what the edits take, one after another; all of them together change nothing.
+double timeOf(const std::vector<std::function<void()>>& edits) {
   std::vector<double> times;
-  for (int round = 0; round < kRounds; ++round)
-    times.push_back(1e3 / (repeats * count) * timeOf(kCpu, [&] {
-                      for (int i = 0; i < repeats; ++i) all();
-                    }));
+  double once = 0;
+  for (const auto& edit : edits) edit();  // compiles what is not compiled yet
+  for (const auto& edit : edits) once += measure(edit).thread;
+  const int repeats = once < 0.2 * static_cast<double>(edits.size()) ? 32 : 1;
+  for (int round = 0; round < kRounds; ++round) {
+    if (repeats == 1) {
+      for (const auto& edit : edits) times.push_back(measure(edit).thread * 1e3);
+      continue;
+    }
+    const Cost all = measure([&] {
+      for (int i = 0; i < repeats; ++i)
+        for (const auto& edit : edits) edit();
+    });
+    times.push_back(all.thread * 1e3 / (repeats * static_cast<double>(edits.size())));
+  }
   return FrameProfiler::medianOf(times);
 }
 
@@ -89,8 +106,7 @@ std::optional<Json> benchEdits(const Options& options, DeviceSession& session, r
   for (std::uint32_t frame = 0; frame < 2; ++frame)
     drawFrame(renderer, live.world(), options, frame, diagnostics);
   const std::vector<graph::ParameterSpec> parameters = renderer.execution()->plan().graph->parameters;
-  std::vector<double> lives, toggles;
-  double slowest = 0;
+  std::vector<double> lives{0}, toggles{0};
   std::uint64_t livePlans = 0;
   std::string worst;
   for (const graph::ParameterSpec& parameter : parameters) {
@@ -98,26 +114,24 @@ std::optional<Json> benchEdits(const Options& options, DeviceSession& session, r
     if (!other || (parameter.structural && parameter.desc.type != ParameterDesc::Type::boolean)) continue;
     const auto set = [&](const Value& value) { live.setParameter(parameter.path, value, diagnostics); };
     const std::uint64_t before = renderer.plansBuilt();
-    const double us = costOf({[&] { set(*other); }, [&] { set(parameter.value); }});
+    const double us = timeOf({[&] { set(*other); }, [&] { set(parameter.value); }});
     if (diagnostics.hasErrors()) return std::nullopt;
     if (!parameter.structural) livePlans += renderer.plansBuilt() - before;
-    if (parameter.structural && us > slowest) {
-      slowest = us;
-      worst = parameter.path;
-    }
+    if (parameter.structural && us > std::ranges::max(toggles)) worst = parameter.path;
     (parameter.structural ? toggles : lives).push_back(us);
   }
-  const double save = costOf({[&] { live.load(diagnostics); }});
+  const double save = timeOf({[&] { live.load(diagnostics); }});
   if (diagnostics.hasErrors()) return std::nullopt;
-  const auto add = [](Json& out, const std::string& name, const std::vector<double>& all) {
+  const auto add = [&](Json& out, const std::string& name, std::vector<double>& all) {
+    all.erase(all.begin());
     out[name + "_us"] = rounded(FrameProfiler::medianOf(all), 100);
     out[name + "_worst_us"] = rounded(all.empty() ? 0 : std::ranges::max(all), 100);
   };
   Json out = headOf(options, *session.context);
-  out["live_parameters"] = lives.size();
+  out["live_parameters"] = lives.size() - 1;
   add(out, "live", lives);
   out["live_plans_built"] = livePlans;
-  out["toggles"] = toggles.size();
+  out["toggles"] = toggles.size() - 1;
   add(out, "toggle", toggles);
   out["toggle_worst"] = worst;
   out["save_us"] = rounded(save, 100);
@@ -140,7 +154,7 @@ graph::Settings settingsWith(const Options& options, const graph::FlatGraph& gra
 }
 
 // Costs of a graph's frame in full-screen copies (graphs/bench_copy.json), both measured in turns, so that the ratio means something on a
-// busy machine: the least of all rounds. Variants: "plain" (effects off but fxaa), "default", and "all".
+// busy machine: the least of all rounds; on software also in CPU time. Variants: "plain" (effects off but fxaa), "default", and "all".
 std::optional<Json> benchFrame(const Options& options, DeviceSession& session, const runtime::World& world,
                                text::Diagnostics& diagnostics) {
   gl::Context& context = *session.context;
@@ -157,28 +171,27 @@ std::optional<Json> benchFrame(const Options& options, DeviceSession& session, c
     return std::nullopt;
   for (std::uint32_t frame = 0; frame < 2; ++frame) frameOf(copy, frame);
   Json out = headOf(options, context), variants = Json::array();
-  constexpr double kLong = std::numeric_limits<double>::infinity();
-  double unit = kLong;
-  std::vector<double> costs;
+  Cost unit;
+  std::vector<Cost> costs;
   for (const char* variant : {"plain", "default", "all"}) {
     runtime::Renderer renderer(context, options.graph, uncached);
     if (!renderer.load(settingsWith(options, *whole->graph, software, variant), world, diagnostics))
       return std::nullopt;
     std::uint32_t frame = 0;
     const auto next = [&] { frameOf(renderer, frame++); };
-    const double first = timeOf(kWall, next);
+    const Cost first = measure(next);
     next();
-    double& least = costs.emplace_back(kLong);
+    Cost& least = costs.emplace_back();
     for (int round = 0; round < kRounds; ++round) {
-      unit = std::min(unit, timeOf(kWall, [&] { frameOf(copy, 2); }));
-      least = std::min(least, timeOf(kWall, next));
+      keepLeast(unit, measure([&] { frameOf(copy, 2); }));
+      keepLeast(least, measure(next));
     }
     const std::vector<double> times = measureSteps(renderer, world, options, frame, 3, diagnostics);
     const graph::Plan& plan = renderer.execution()->plan();
     if (diagnostics.hasErrors()) return std::nullopt;
     Json row = {{"name", variant},
-                {"first_frame_ms", rounded(first, 1000)},
-                {"frame_ms", rounded(least, 1000)},
+                {"first_frame_ms", rounded(first.wall, 1000)},
+                {"frame_ms", rounded(least.wall, 1000)},
                 {"passes", Json::array()}};
     for (std::size_t step = 0; step < times.size(); ++step)
       if (times[step] > 0)
@@ -186,10 +199,13 @@ std::optional<Json> benchFrame(const Options& options, DeviceSession& session, c
             {{"pass", plan.graph->passNames[plan.steps[step].pass]}, {"ms", rounded(times[step], 1000)}});
     variants.push_back(std::move(row));
   }
-  out["copy_ms"] = rounded(unit, 1000);
+  out["copy_ms"] = rounded(unit.wall, 1000);
+  if (software) out["copy_cpu_ms"] = rounded(unit.process, 1000);
   for (std::size_t i = 0; i < costs.size(); ++i) {
-    variants[i]["copies"] = rounded(costs[i] / unit, 1000);
-    for (Json& pass : variants[i]["passes"]) pass["copies"] = rounded(pass["ms"].get<double>() / unit, 1000);
+    variants[i]["copies"] = rounded(costs[i].wall / unit.wall, 1000);
+    if (software) variants[i]["cpu_copies"] = rounded(costs[i].process / unit.process, 1000);
+    for (Json& pass : variants[i]["passes"])
+      pass["copies"] = rounded(pass["ms"].get<double>() / unit.wall, 1000);
   }
   out["variants"] = std::move(variants);
   return out;

@@ -83,6 +83,8 @@ def measure(weft, size, lamps, everywhere, spheres, folder):
            "frame_copies": plain["copies"], "passes": {each["pass"]: each["copies"] for each in plain["passes"]}}
     if over > 0.01:
         row["touched_over_64"] = round(over, 2)
+    if "cpu_copies" in plain:
+        row["frame_cpu_copies"] = plain["cpu_copies"]
     return bench["device"], bench["copy_ms"], row
 
 
