@@ -143,7 +143,8 @@ std::string svgOf(const std::string& dot) {
   std::fflush(file);
   std::rewind(file);
   std::string svg;
-  if (std::FILE* const pipe = popen(fmt::format("dot -Tsvg /proc/self/fd/{} 2>/dev/null", fileno(file)).c_str(), "r")) {
+  if (std::FILE* const pipe =
+          popen(fmt::format("dot -Tsvg /proc/self/fd/{} 2>/dev/null", fileno(file)).c_str(), "r")) {
     char part[4096];
     for (std::size_t n; (n = std::fread(part, 1, sizeof part, pipe)) > 0;) svg.append(part, n);
     if (pclose(pipe) != 0) svg.clear();

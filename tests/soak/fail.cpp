@@ -89,7 +89,8 @@ struct Entry {
   void** real;
   void* wrapped;
 };
-#define WRAP(n, result, name, ...) {name, &real<n>, reinterpret_cast<void*>(&Wrapped<n, result, __VA_ARGS__>::call)}
+#define WRAP(n, result, name, ...) \
+  { name, &real<n>, reinterpret_cast<void*>(&Wrapped<n, result, __VA_ARGS__>::call) }
 const Entry kEntries[] = {{"glGetError", &real<0>, reinterpret_cast<void*>(&failedError)},
                           WRAP(1, void, "glTextureStorage2D", U, I, U, I, I),
                           WRAP(2, void, "glTextureStorage3D", U, I, U, I, I, I),
@@ -108,8 +109,12 @@ void* wrap(const char* name, void* found) {
     if (found && std::strcmp(name, entry.name) == 0) return *entry.real = found, entry.wrapped;
   return found;
 }
-void* osmesaAddress(const char* name) { return wrap(name, osmesa(name)); }
-void* eglAddress(const char* name) { return wrap(name, egl(name)); }
+void* osmesaAddress(const char* name) {
+  return wrap(name, osmesa(name));
+}
+void* eglAddress(const char* name) {
+  return wrap(name, egl(name));
+}
 
 }  // namespace
 
@@ -123,24 +128,38 @@ void* operator new[](std::size_t size) {
   if (void* memory = std::malloc(size ? size : 1)) return memory;
   throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
 
-extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* with, void* (*run)(void*), void* argument) {
-  static const auto next = reinterpret_cast<decltype(&pthread_create)>(dlvsym(RTLD_NEXT, "pthread_create", "GLIBC_2.34"));
+extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* with, void* (*run)(void*),
+                              void* argument) {
+  static const auto next =
+      reinterpret_cast<decltype(&pthread_create)>(dlvsym(RTLD_NEXT, "pthread_create", "GLIBC_2.34"));
   Dl_info caller{};
   // std::thread of the program, and of libraries that begin threads as it does; drivers are C.
-  const bool own = dladdr(__builtin_return_address(0), &caller) && caller.dli_fname && std::strstr(caller.dli_fname, "libstdc++");
+  const bool own = dladdr(__builtin_return_address(0), &caller) && caller.dli_fname &&
+                   std::strstr(caller.dli_fname, "libstdc++");
   return own && fails("thread") ? EAGAIN : next(thread, with, run, argument);
 }
 
 extern "C" void* dlsym(void* library, const char* name) {
-  static const auto next = reinterpret_cast<void* (*)(void*, const char*)>(dlvsym(RTLD_NEXT, "dlsym", "GLIBC_2.34"));
+  static const auto next =
+      reinterpret_cast<void* (*)(void*, const char*)>(dlvsym(RTLD_NEXT, "dlsym", "GLIBC_2.34"));
   void* found = next(library, name);
   if (!found || !what || std::strcmp(what, "gl") != 0) return found;
-  if (std::strcmp(name, "OSMesaGetProcAddress") == 0) return osmesa = reinterpret_cast<Address>(found), reinterpret_cast<void*>(&osmesaAddress);
-  if (std::strcmp(name, "eglGetProcAddress") == 0) return egl = reinterpret_cast<Address>(found), reinterpret_cast<void*>(&eglAddress);
+  if (std::strcmp(name, "OSMesaGetProcAddress") == 0)
+    return osmesa = reinterpret_cast<Address>(found), reinterpret_cast<void*>(&osmesaAddress);
+  if (std::strcmp(name, "eglGetProcAddress") == 0)
+    return egl = reinterpret_cast<Address>(found), reinterpret_cast<void*>(&eglAddress);
   return wrap(name, found);
 }
