@@ -175,6 +175,19 @@ void Viewer::addActions() {
                  scan_ = true;
                  rest_.disturb();
                }},
+              {"full_screen",
+               [this] {
+                 const bool full = glfwGetWindowMonitor(window_) != nullptr;
+                 GLFWmonitor* const screen = full ? nullptr : glfwGetPrimaryMonitor();
+                 if (!full) {
+                   glfwGetWindowPos(window_, &before_[0], &before_[1]);
+                   glfwGetWindowSize(window_, &before_[2], &before_[3]);
+                 }
+                 const GLFWvidmode* const mode = screen ? glfwGetVideoMode(screen) : nullptr;
+                 glfwSetWindowMonitor(window_, screen, before_[0], before_[1],
+                                      mode ? mode->width : before_[2], mode ? mode->height : before_[3],
+                                      GLFW_DONT_CARE);
+               }},
               {"vsync", [this] { glfwSwapInterval((vsync_ = !vsync_) ? 1 : 0); }},
               {"idle", [this] { idle_ = !idle_; }},
               {"render_scale_down", [this] { renderScale_ = std::max(renderScale_ - 0.25, 0.25); }},

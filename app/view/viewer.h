@@ -123,7 +123,8 @@ class Viewer {
   std::uint64_t arrivals_ = 0;              // of environments
   int restless_ = 0;                        // redraws that the panels still want
   float uiScale_ = 1;
-  gl::Size size_;  // of the window, as it was said last
+  gl::Size size_;       // of the window, as it was said last
+  int before_[4] = {};  // place and size of the window, before it had the whole screen
   double renderScale_ = 1;
   bool vsync_ = true, idle_ = false, help_ = false, minimized_ = false;
   bool scan_ = false;                     // for NaN, in the next frame

@@ -329,6 +329,10 @@ def compare(weft, folder, display, report):
         for step in (("mousemove", middle, y), ("mousedown", 1), ("mousemove", width // 4, y), ("mouseup", 1), ("mousemove", 1200, 300)):
             live.tool(*step)
         report.check(live.until(lambda: divided(2)), "the line does not follow the mouse")
+        before = live.act("F11", "full_screen") and live.mark()
+        report.check(live.line("event \\d+ size 1280 1024"), f"F11 does not take the screen\n{live.lines()[-5:]}")
+        live.act("F11", "full_screen")
+        report.check(live.line("event \\d+ size 1280 400", before) and live.rest(before), f"F11 does not give the window back\n{live.lines()[-5:]}")
         live.act("m", "compare")
         report.check(live.until(lambda: all(screen.read()[2][y][:3 * width] == row for y, row in enumerate(shots[1]))), "the kept picture stays")
         live.leave(report)
