@@ -182,10 +182,10 @@ void StepRunner::clearAttachment(GLuint framebuffer, GLenum point, const ClearCo
 GLuint StepRunner::framebufferOf(const PreparedPass& pass, text::Diagnostics& diagnostics) {
   scratch_.clear();
   for (const AttachmentBinding& attachment : pass.attachments) {
-    const GpuResource& resource = pool_[attachment.use.resource];
+    const GpuResource& resource = pool_[attachment.resource];
     scratch_.push_back({.point = attachment.point,
                         .texture = attachment.textures[resource.copyOf(attachment.use.history, pass.group)],
-                        .mip = attachment.use.mip,
+                        .mip = attachment.mip,
                         .layer = attachment.layer});
   }
   const graph::PassSpec& spec = *pass.context.spec;

@@ -241,7 +241,8 @@ class Preparer {
   bool attach(std::uint32_t index, GLenum point) {
     const FlatUse& use = graph_.uses[index];
     const FlatResource& resource = graph_.resources[use.resource];
-    AttachmentBinding binding{.point = point, .textures = {}, .use = use, .index = index};
+    AttachmentBinding binding{
+        .point = point, .resource = use.resource, .mip = use.mip, .textures = {}, .use = use, .index = index};
     const bool plain = resource.target == graph::Target::texture_2d ||
                        resource.target == graph::Target::texture_2d_multisample;
     binding.layer = plain || use.layers > 1 || resource.target == graph::Target::texture_3d ? -1 : use.layer;

@@ -93,6 +93,8 @@ struct BufferBinding {
 
 struct AttachmentBinding {
   GLenum point = GL_COLOR_ATTACHMENT0;
+  std::uint32_t resource = 0;
+  std::uint32_t mip = 0;
   std::int32_t layer = -1;
   std::vector<GLuint> textures;  // per copy
   graph::FlatUse use;
