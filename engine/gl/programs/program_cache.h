@@ -53,7 +53,6 @@ struct ProgramRequest {
     GLenum stage = GL_FRAGMENT_SHADER;
     std::string file;  // found by SourceLoader; a name for messages when `text` is given
     std::string text;  // not empty: GLSL that the engine itself supplies
-    friend bool operator==(const Stage&, const Stage&) = default;
   };
   std::vector<Stage> stages;
   std::vector<glsl::Define> defines;

@@ -34,14 +34,12 @@ enum class ShaderFiles : std::uint8_t { read, keep };
 struct PreparedPlan {
   std::shared_ptr<const graph::Plan> plan;
   std::unique_ptr<ResourcePool> pool;
-  std::vector<PreparedPass> passes;          // per step
-  std::vector<gl::ProgramRequest> requests;  // per step; without stages for pass types without a shader
-  std::uint32_t programsChanged =
-      0;  // of how many steps the program is not that of the pass in the plan before
+  std::vector<PreparedPass> passes;  // per step, of the variant in use; at first the one for large ages
+  std::uint32_t passesPrepared = 0;  // how many were prepared for this plan; the others were kept
 };
 
-// Prepares a plan beside the one that runs (`before`, which may be null), and shares with it storage that fits and programs that are the
-// same. Empty after errors.
+// Prepares a plan beside the one that runs, and shares with it storage that fits and passes that are the same. A pass that
+// differs from those of `before` (which may be null), or has other storage, is prepared. Empty after errors.
 std::optional<PreparedPlan> preparePlan(Device& device, std::shared_ptr<const graph::Plan> plan,
                                         const PreparedPlan* before, ShaderFiles files,
                                         text::Diagnostics& diagnostics);
@@ -74,7 +72,8 @@ class Execution {
   FrameReport frame(const World& world, const FrameInput& input, text::Diagnostics& diagnostics);
 
   const graph::Plan& plan() const { return *prepared_.plan; }
-  std::uint32_t programsChanged() const { return prepared_.programsChanged; }
+  // How many passes were prepared for this plan; the others were kept.
+  std::uint32_t passesPrepared() const { return prepared_.passesPrepared; }
   // The parameters. Live ones can be set between two frames.
   FrameUniforms& uniforms() { return uniforms_; }
   const FrameUniforms& uniforms() const { return uniforms_; }

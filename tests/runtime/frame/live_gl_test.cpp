@@ -197,7 +197,7 @@ TEST_CASE("toggle: only passes that differ are prepared, and the picture is that
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   stage.run(0);
   const auto all = static_cast<std::uint32_t>(stage.execution().plan().steps.size());
-  CHECK(stage.execution().programsChanged() == all);
+  CHECK(stage.execution().passesPrepared() == all);
   const auto first = stage.pixels();
   const struct {
     const char *name, *value;
@@ -211,7 +211,7 @@ TEST_CASE("toggle: only passes that differ are prepared, and the picture is that
     INFO(std::string(toggle.name));
     stage.settings.sets = {{toggle.name, toggle.value}};
     REQUIRE_MESSAGE(stage.apply(), stage.diagnostics.text());
-    CHECK(stage.execution().programsChanged() <= toggle.most);
+    CHECK(stage.execution().passesPrepared() <= toggle.most);
     stage.run(0);
     CHECK_FALSE(stage.ran("ibl.brdf_table"));
     Stage fresh("graphs/studio.json");
@@ -224,13 +224,13 @@ TEST_CASE("toggle: only passes that differ are prepared, and the picture is that
     stage.run(0);
     CHECK(stage.pixels() == first);
     REQUIRE_MESSAGE(stage.apply(), stage.diagnostics.text());  // nothing changed
-    CHECK(stage.execution().programsChanged() == 0);
+    CHECK(stage.execution().passesPrepared() == 0);
     stage.run(0);
   }
   CHECK(stage.pixels() == first);
   // A saved file is read and every shader looked at, but what is the same is not prepared again.
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
-  CHECK(stage.execution().programsChanged() == 0);
+  CHECK(stage.execution().passesPrepared() == 0);
   stage.run(0);
   CHECK(stage.pixels() == first);
 }

@@ -15,7 +15,7 @@ using runtime::ShaderFiles;
 TEST_CASE("a plan of equal passes keeps all of them, with their storage") {
   const CleanScope clean;
   PlanOnDevice running("tests/runtime/graphs/live.json");
-  CHECK(running.prepared.programsChanged == 4);
+  CHECK(running.prepared.passesPrepared == 4);
   const std::uint64_t serial = (*running.pool)[running["kept"].written.at(0)].serial;
   const auto variant = running["kept"].variant;
   text::Diagnostics diagnostics;
@@ -23,7 +23,7 @@ TEST_CASE("a plan of equal passes keeps all of them, with their storage") {
                                 &running.prepared, ShaderFiles::keep, diagnostics);
   REQUIRE_MESSAGE(next, diagnostics.text());
   CHECK(diagnostics.empty());
-  CHECK(next->programsChanged == 0);
+  CHECK(next->passesPrepared == 0);
   const runtime::PreparedPass& kept = next->passes.at(running.step("kept"));
   CHECK(kept.variant == variant);
   CHECK((*next->pool)[kept.written.at(0)].serial == serial);
@@ -36,7 +36,7 @@ TEST_CASE("a plan of other passes prepares its own") {
   const auto next = preparePlan(running.device, compiledPlan("tests/runtime/graphs/obsolete.json"),
                                 &running.prepared, ShaderFiles::keep, diagnostics);
   REQUIRE_MESSAGE(next, diagnostics.text());
-  CHECK(next->programsChanged == next->passes.size());
+  CHECK(next->passesPrepared == next->passes.size());
 }
 
 TEST_CASE("a shader that does not compile leaves the running plan as it was") {
@@ -95,7 +95,7 @@ TEST_CASE("storage that cannot be made leaves the running plan as it was") {
   const auto next =
       preparePlan(running.device, running.plan, &running.prepared, ShaderFiles::keep, diagnostics);
   REQUIRE_MESSAGE(next, diagnostics.text());
-  CHECK(next->programsChanged == 0);
+  CHECK(next->passesPrepared == 0);
   for (std::size_t r = 0; r < before.size(); ++r)
     CHECK((*next->pool)[r].texture == (*running.pool)[r].texture);
 }

@@ -164,12 +164,12 @@ TEST_CASE("reload: after a toggle the passes that do not differ have the uniform
   CHECK(stage.value() == 66);
   stage.settings.disables = {"extra"};
   REQUIRE_MESSAGE(stage.apply(), stage.diagnostics.text());
-  CHECK(stage.execution().programsChanged() == 1);
+  CHECK(stage.execution().passesPrepared() == 1);
   stage.run(1);
   CHECK(stage.value() == 55);
   stage.settings.disables.clear();
   REQUIRE_MESSAGE(stage.apply(), stage.diagnostics.text());
-  CHECK(stage.execution().programsChanged() == 2);
+  CHECK(stage.execution().passesPrepared() == 2);
   stage.run(2);
   CHECK(stage.value() == 66);
 }
@@ -260,7 +260,7 @@ TEST_CASE("reload: buffers that cannot be made leave the running execution as it
     file.write(own);
     REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
     running = &stage.execution();
-    CHECK(running->programsChanged() == 0);
+    CHECK(running->passesPrepared() == 0);
     stage.run(frame++);
     CHECK(stage.pixels() == before);
   }
