@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "engine/glsl/interface.h"
 #include "engine/text/chars.h"
@@ -128,8 +129,7 @@ class IncludeExpander {
   // `depth`: how many #if surround the whole file.
   void expandFile(std::size_t number, const std::string& folder, std::string_view text, int depth) {
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-    if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos)
-      reportZero(number, text, zero);
+    bool hasZero = false;  // drivers take the text up to it and say nothing
     stack_.push_back(number);
     const std::vector<Token> tokens = splitTokens(text);
     int level = 0;  // of #if around the line
@@ -139,6 +139,11 @@ class IncludeExpander {
     std::size_t at = 0;
     for (std::uint32_t line = 1; !text.empty(); ++line) {
       const std::string_view code = text::takeLine(text);
+      if (const std::size_t zero = code.find('\0'); zero != code.npos && !std::exchange(hasZero, true))
+        diagnostics_.error(Code::shaderDoesNotCompile,
+                           {source_->files[number], line, static_cast<std::uint32_t>(zero + 1)},
+                           "there is a zero byte in the shader",
+                           {.hint = "remove it, or save the file as plain text (UTF-8, not UTF-16)"});
       while (at < tokens.size() && tokens[at].line < line) ++at;
       const auto wordAt = [&](std::size_t i) {
         return i < tokens.size() && tokens[i].line == line ? tokens[i].text : std::string_view();
@@ -248,17 +253,6 @@ class IncludeExpander {
                                                 fmt::join(loader_.roots_, ", ")),
                         .hint = hintForFile(name, loader_.roots_)});
     return std::nullopt;
-  }
-
-  // Drivers take the text up to it and say nothing.
-  void reportZero(std::size_t number, std::string_view text, std::size_t at) {
-    const auto line = static_cast<std::uint32_t>(1 + std::ranges::count(text.substr(0, at), '\n'));
-    const std::size_t before = text.rfind('\n', at);
-    const std::size_t column = before == std::string_view::npos ? at + 1 : at - before;
-    diagnostics_.error(Code::shaderDoesNotCompile,
-                       {source_->files[number], line, static_cast<std::uint32_t>(column)},
-                       "there is a zero byte in the shader",
-                       {.hint = "remove it, or save the file as plain text (UTF-8, not UTF-16)"});
   }
 
   void reportCycle(std::vector<std::size_t>::const_iterator first, const Place& place) {
