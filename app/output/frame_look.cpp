@@ -126,15 +126,6 @@ Json parametersOf(const graph::Plan& plan) {
   return all;
 }
 
-Json messagesOf(const text::Diagnostics& diagnostics) {
-  Json all = text::loadJson(text::diagnosticsJson(text::chooseMessages(diagnostics), -1));
-  for (Json& each : all)
-    if (each.contains("file"))
-      each["place"] = fmt::format("{}:{}:{}", each["file"].get<std::string>(), each.value("line", 0),
-                                  each.value("column", 0));
-  return all;
-}
-
 // What Graphviz makes of `dot`, as SVG; "" without Graphviz. The file between has no name that anybody could take.
 std::string svgOf(const std::string& dot) {
   std::FILE* const file = std::tmpfile();
@@ -196,7 +187,7 @@ Json FrameLook::end(const std::string& title, const std::vector<std::string>& fa
           {"plan", text::loadJson(graph::dumpJson(plan_, true))},
           {"passes", passesOf(plan_, renderer_.device().sources)},
           {"parameters", parametersOf(plan_)},
-          {"messages", messagesOf(said)},
+          {"messages", text::loadJson(text::diagnosticsJson(text::chooseMessages(said), -1))},
           {"outputs", std::move(outputs_)},
           {"picture", pictureOf(picture_)},
           {"flow", flowOf(plan_)}};

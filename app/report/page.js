@@ -398,7 +398,7 @@ function drawDifference(panel) {
 
 function drawMessages(panel) {
   for (const message of state.messages) {
-    add(panel, "p", { class: message.severity === "error" ? "bad" : "" }, `${message.place ? message.place + ": " : ""}${message.severity}[${message.code}]: ${message.message}`);
+    add(panel, "p", { class: message.severity === "error" ? "bad" : "" }, `${message.file ? `${message.file}:${message.line ?? 0}:${message.column ?? 0}: ` : ""}${message.severity}[${message.code}]: ${message.message}`);
     for (const key of ["expected", "found", "fix"]) if (message[key]) add(panel, "p", { class: "quiet" }, `    ${key}: ${message[key]}`);
   }
   if (!state.messages.length) add(panel, "p", { class: "good" }, "no errors and no warnings");

@@ -13,8 +13,8 @@ using graph::ResourceKind;
 namespace {
 
 std::string describe(const FlatResource& resource) {
-  if (resource.kind == ResourceKind::buffer) return fmt::format("buffer, {} bytes", resource.bytes);
-  return shapeText(resource) + (resource.history > 0 ? fmt::format(", history {}", resource.history) : "");
+  return graph::shapeText(resource) +
+         (resource.history > 0 ? fmt::format(", history {}", resource.history) : "");
 }
 
 bool canShow(const graph::Plan& plan, std::uint32_t resource) {
@@ -22,8 +22,7 @@ bool canShow(const graph::Plan& plan, std::uint32_t resource) {
          plan.graph->resources[resource].kind != ResourceKind::imported_buffer;
 }
 
-std::uint32_t indexOf(const graph::Plan& plan, const std::string& name) {
-  const auto& names = plan.graph->resourceNames;
+std::uint32_t indexIn(const std::vector<std::string>& names, const std::string& name) {
   const auto at = std::ranges::find(names, name);
   return at == names.end() ? graph::kNone : static_cast<std::uint32_t>(at - names.begin());
 }
@@ -36,19 +35,21 @@ void slide(const char* label, std::uint32_t& value, std::uint32_t count) {
     value = static_cast<std::uint32_t>(x);
 }
 
-// After a pass that writes the resource: with a level and a layer that it writes.
-runtime::InspectTarget targetAfter(const graph::Plan& plan, std::uint32_t resource, const std::string& pass) {
-  runtime::InspectTarget target{.resource = plan.graph->resourceNames[resource], .pass = pass};
-  for (const graph::FlatUse& use : plan.graph->uses) {
-    const auto at = static_cast<std::size_t>(&use - plan.graph->uses.data());
-    if (use.resource != resource || use.access == graph::Access::read ||
-        plan.graph->passNames[plan.graph->links.passOf[at]] != pass)
+// After a pass: what it writes first, or the first that it writes of `resource`.
+std::optional<runtime::InspectTarget> targetAfter(const graph::Plan& plan, std::uint32_t pass,
+                                                  std::uint32_t resource = graph::kNone) {
+  const graph::FlatGraph& graph = *plan.graph;
+  for (const std::uint32_t u : graph.usesOf(pass)) {
+    const graph::FlatUse& use = graph.uses[u];
+    if (use.access == graph::Access::read || !canShow(plan, use.resource) ||
+        (resource != graph::kNone && use.resource != resource))
       continue;
-    target.mip = use.mip;
-    target.layer = use.layer;
-    break;
+    return runtime::InspectTarget{.resource = graph.resourceNames[use.resource],
+                                  .pass = graph.passNames[pass],
+                                  .mip = use.mip,
+                                  .layer = use.layer};
   }
-  return target;
+  return std::nullopt;
 }
 
 // The next item on this line when it fits, else on the next.
@@ -68,7 +69,7 @@ void InspectorPanel::beforeFrame(bool wanted, runtime::StepWatch::Look also) {
     return;
   }
   const graph::Plan& plan = execution->plan();
-  const std::uint32_t resource = indexOf(plan, target_.resource);
+  const std::uint32_t resource = indexIn(plan.graph->resourceNames, target_.resource);
   if (resource == graph::kNone || !canShow(plan, resource)) {
     // What is presented, to begin with.
     target_ = {};
@@ -87,19 +88,14 @@ void InspectorPanel::beforeFrame(bool wanted, runtime::StepWatch::Look also) {
 }
 
 void InspectorPanel::select(const graph::Plan& plan, std::uint32_t pass) {
-  for (const std::uint32_t u : plan.graph->usesOf(pass)) {
-    const graph::FlatUse& use = plan.graph->uses[u];
-    if (use.access == graph::Access::read || !canShow(plan, use.resource)) continue;
-    target_ = targetAfter(plan, use.resource, plan.graph->passNames[pass]);
-    return;
-  }
+  target_ = targetAfter(plan, pass).value_or(target_);
 }
 
 void InspectorPanel::draw(text::Diagnostics& diagnostics) {
   const graph::Plan& plan = renderer_.execution()->plan();
   const runtime::InspectTarget before = target_;
   chooseTarget(plan);
-  const std::uint32_t index = indexOf(plan, target_.resource);
+  const std::uint32_t index = indexIn(plan.graph->resourceNames, target_.resource);
   if (index == graph::kNone || !found_) {
     wantsFrame_ = target_.resource.empty() || !(target_ == watched_);  // not looked for yet
     ImGui::TextDisabled("nothing to look at");
@@ -136,7 +132,7 @@ void InspectorPanel::chooseTarget(const graph::Plan& plan) {
     }
     ImGui::EndCombo();
   }
-  const std::uint32_t index = indexOf(plan, target_.resource);
+  const std::uint32_t index = indexIn(plan.graph->resourceNames, target_.resource);
   if (index == graph::kNone) return;
   const std::vector<std::string> writers = runtime::Inspector::writersOf(plan, index);
   if (writers.empty()) return;
@@ -146,7 +142,7 @@ void InspectorPanel::chooseTarget(const graph::Plan& plan) {
   if (ImGui::BeginCombo("##pass", shown.c_str(), ImGuiComboFlags_HeightLarge)) {
     for (const std::string& writer : writers)
       if (ImGui::Selectable(writer.c_str(), writer == target_.pass))
-        target_ = targetAfter(plan, index, writer);
+        target_ = targetAfter(plan, indexIn(graph.passNames, writer), index).value_or(target_);
     ImGui::EndCombo();
   }
 }
