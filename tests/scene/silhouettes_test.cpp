@@ -45,7 +45,7 @@ std::multiset<std::size_t> foundOf(const Silhouettes& found, const std::vector<I
   return result;
 }
 
-// The least angle between the silhouettes of two spheres, by 20,000 points of the one: directions that touch it.
+// The least angle between the silhouettes of two spheres, by 2,000 points of the one: directions that touch it.
 double apart(const Instance& a, const Instance& b, glm::dvec3 eye) {
   const glm::dvec3 toA = glm::dvec3(a.center) - eye, toB = glm::dvec3(b.center) - eye;
   const double angleA = std::asin(double(a.radius) / glm::length(toA)),
@@ -55,8 +55,8 @@ double apart(const Instance& a, const Instance& b, glm::dvec3 eye) {
       glm::normalize(glm::cross(axis, std::abs(axis.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0)));
   const glm::dvec3 y = glm::cross(axis, x);
   double least = 10;
-  for (int i = 0; i < 20000; ++i) {
-    const double turn = i * 2 * 3.14159265358979 / 20000;
+  for (int i = 0; i < 2000; ++i) {
+    const double turn = i * 2 * 3.14159265358979 / 2000;
     const glm::dvec3 point =
         std::cos(angleA) * axis + std::sin(angleA) * (std::cos(turn) * x + std::sin(turn) * y);
     least = std::min(least, std::abs(std::acos(std::clamp(glm::dot(point, b_axis), -1.0, 1.0)) - angleB));

@@ -116,6 +116,10 @@ TEST_CASE("no sphere that hides another comes before it") {
     const glm::dvec3 a(both[0].center), b(both[1].center);
     const double ra = double(both[0].radius), rb = double(both[1].radius);
     if (glm::length(a - b) < ra + rb || glm::length(a) < ra || glm::length(b) < rb) continue;
+    const double between = std::acos(std::clamp(glm::dot(glm::normalize(a), glm::normalize(b)), -1.0, 1.0));
+    const bool apart = between > std::asin(ra / glm::length(a)) + std::asin(rb / glm::length(b));
+    if (apart) continue;  // no ray meets both
+
     int first = -1;  // that hides the other
     for (int i = 0; i < 4000 && first < 0; ++i) {
       const glm::dvec3 towards =
