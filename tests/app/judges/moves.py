@@ -27,7 +27,7 @@ MODELS = TOP / "scenes/models"
 # A scene with meshes that blend and do not, spheres, a ground, a sun and more lamps than are looped over.
 EVERYTHING = {"cameras": {"a": {"position": [0, 2, 8], "target": [0, 0.5, 0]}}, "ground": {"height": -1}, "sun": {"direction": [0.3, 1, 0.2], "lux": 70000},
               "spheres": [{"center": [x, 0, z], "material": {"albedo": [0.5, 0.5, 0.5]}, "lists": ["spheres", "shadow_casters"]} for x in (-2, 0, 2) for z in (-2, 0)],
-              "models": {"a": {"file": "HELMET"}, "b": {"file": "FOX"}, "glass": {"file": "FLOOR", "lists": ["transparent"]}},
+              "models": {"a": {"file": "ROCK"}, "b": {"file": "FOX"}, "glass": {"file": "FLOOR", "lists": ["transparent"]}},
               "lamps": {f"l{x}": {"position": [x, 2, 1], "candela": 400, "shadow": x == 0} for x in range(12)}}
 
 
@@ -222,7 +222,7 @@ def main():
     with temporary_folder() as name:
         base = pathlib.Path(name).resolve()
         scene = base / "everything.json"
-        scene.write_text(json.dumps(EVERYTHING).replace("HELMET", f"{MODELS}/FlightHelmet/FlightHelmet.gltf").replace("FOX", f"{MODELS}/Fox.glb").replace("FLOOR", f"{MODELS}/floor.obj"))
+        scene.write_text(json.dumps(EVERYTHING).replace("ROCK", f"{MODELS}/rock.obj").replace("FOX", f"{MODELS}/Fox.glb").replace("FLOOR", f"{MODELS}/floor.obj"))
         settings, before = {}, {}
         for root in {job[0] for job in jobs}:
             settings[root, "defaults"] = []
