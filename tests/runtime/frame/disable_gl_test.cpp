@@ -43,6 +43,10 @@ std::vector<std::string> declaredPasses(const graph::FlatGraph& graph) {
   return names;
 }
 
+Stage smallStage(const std::string& graph, const std::string& scene = "scenes/spheres.json") {
+  return Stage(graph, 96, 54, scene, "", {sourcePath("tests/small_maps.json")});
+}
+
 struct Outcome {
   std::size_t pictures = 0, refusals = 0;
   std::map<std::string, std::size_t> codes;
@@ -98,13 +102,13 @@ void tryAll(Stage& stage, bool pairs, std::string_view of = {}, int share = 0) {
 
 TEST_CASE("disable: every pass of studio alone and in pairs, with the daylight environment") {
   const CleanScope clean;
-  Stage stage("graphs/studio.json", 96, 54);
+  Stage stage = smallStage("graphs/studio.json");
   tryAll(stage, true);
 }
 
 TEST_CASE("disable: every pass of studio alone, with a loaded environment") {
   const CleanScope clean;
-  Stage stage("graphs/studio.json", 96, 54);
+  Stage stage = smallStage("graphs/studio.json");
   auto image = std::make_shared<assets::ImageF>(assets::ImageF{64, 32, 4, {}});
   image->texels.assign(64 * 32 * 4, 0.5f);
   stage.world.setEnvironment(
@@ -114,7 +118,7 @@ TEST_CASE("disable: every pass of studio alone, with a loaded environment") {
 
 TEST_CASE("disable: every pass of studio_gi alone, and the probes' with every other") {
   const CleanScope clean;
-  Stage stage("graphs/studio_gi.json", 96, 54);
+  Stage stage = smallStage("graphs/studio_gi.json");
   stage.settings.sets = {{"probes_debug", "true"}};
   tryAll(stage, true, "gi.", 4);  // two of four stanzas make the probes, which nothing else does: refused
 }
@@ -122,14 +126,14 @@ TEST_CASE("disable: every pass of studio_gi alone, and the probes' with every ot
 TEST_CASE(
     "disable: every pass of studio alone, where spheres hide light from each other and stand on a ground") {
   const CleanScope clean;
-  Stage stage("graphs/studio.json", 96, 54, "tests/runtime/scenes/everything.json");
+  Stage stage = smallStage("graphs/studio.json", "tests/runtime/scenes/everything.json");
   stage.settings.sets = {{"occlusion", "true"}};
   tryAll(stage, false);
 }
 
 TEST_CASE("disable: every pass of deferred alone, with meshes, glass, spheres, a sun and lamps") {
   const CleanScope clean;
-  Stage stage("graphs/deferred.json", 96, 54, "tests/runtime/scenes/everything.json");
+  Stage stage = smallStage("graphs/deferred.json", "tests/runtime/scenes/everything.json");
   stage.settings.sets = {
       {"sun_texels", "256"}, {"lamp_texels", "64"}, {"bayer", "true"}, {"motion_blur", "true"}};
   tryAll(stage, false);
@@ -137,7 +141,7 @@ TEST_CASE("disable: every pass of deferred alone, with meshes, glass, spheres, a
 
 TEST_CASE("disable: every pass of the probes of deferred_gi alone") {
   const CleanScope clean;
-  Stage stage("graphs/deferred_gi.json", 96, 54, "tests/runtime/scenes/everything.json");
+  Stage stage = smallStage("graphs/deferred_gi.json", "tests/runtime/scenes/everything.json");
   stage.settings.sets = {{"sun_texels", "256"}, {"lamp_texels", "64"}, {"probes_debug", "true"}};
   tryAll(stage, false, "gi", 4);  // as above
 }
