@@ -3,6 +3,7 @@ binary was built with AddressSanitizer and UBSan, and every report of theirs is 
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -58,6 +59,11 @@ sanitizers = Sanitizers()
 def count_run():
     """To be called by whoever starts the program in another way than run()."""
     sanitizers.runs += 1
+
+
+def heed_signals():
+    """For preexec_fn: SIGINT ends the program, also where this test runs in the background of a script, in which it is ignored."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def run(weft, *arguments, before=(), folder=TOP, timeout=900 * SLOWER, **options):

@@ -16,7 +16,7 @@ import time
 import zlib
 
 from pictures import png
-from program import SLOWER, TOP, Report, count_run, run, temporary_folder
+from program import SLOWER, TOP, Report, count_run, heed_signals, run, temporary_folder
 
 ADD = """uniform sampler2D still, map;
 out vec4 result;
@@ -46,7 +46,7 @@ class Bench:
 
     def start(self, *arguments):
         count_run()
-        return subprocess.Popen([str(self.weft), *map(str, self.render), *map(str, arguments)], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        return subprocess.Popen([str(self.weft), *map(str, self.render), *map(str, arguments)], cwd=self.folder, stderr=subprocess.PIPE, text=True, preexec_fn=heed_signals)
 
     def ended(self, process, code):
         error = process.communicate(timeout=300 * SLOWER)[1]

@@ -15,7 +15,7 @@ import sys
 import time
 
 from pictures import decode
-from program import SLOWER, TOP, Report, count_run, run, temporary_folder
+from program import SLOWER, TOP, Report, count_run, heed_signals, run, temporary_folder
 
 GRAPH = str(TOP / "docs/tutorials/trail.json")
 FAILING = """#!/bin/sh
@@ -85,7 +85,7 @@ def main():
         full = refused(1, "ffmpeg ended with exit code 1", "-o", "a.mp4", "--size", "64x36", "--frames", "0-2", preexec_fn=small_files)
         report.check("File too large" in full.err, full.err)
         count_run()
-        process = subprocess.Popen([str(weft), *render, "-o", "long.mp4", "--size", "64x36", "--frames", "0-1000000"], cwd=folder, stderr=subprocess.PIPE, text=True, start_new_session=True)
+        process = subprocess.Popen([str(weft), *render, "-o", "long.mp4", "--size", "64x36", "--frames", "0-1000000"], cwd=folder, stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=heed_signals)
         deadline = time.monotonic() + 120 * SLOWER
         part = folder / ".long.mp4.part"
         while not (part.exists() and part.stat().st_size) and process.poll() is None and time.monotonic() < deadline:
@@ -96,7 +96,7 @@ def main():
         # A second signal ends a run at once, whichever it is.
         (folder / "bin/ffmpeg").write_text(f"#!/bin/sh\nhead -c 1 >/dev/null\n: >{folder}/bin/began\nwhile kill -0 $PPID; do sleep 0.1; done\n")
         count_run()
-        process = subprocess.Popen([str(weft), *render, "-o", "long.mkv", "--size", "200x200"], cwd=folder, stderr=subprocess.PIPE, text=True, env=env)
+        process = subprocess.Popen([str(weft), *render, "-o", "long.mkv", "--size", "200x200"], cwd=folder, stderr=subprocess.PIPE, text=True, env=env, preexec_fn=heed_signals)
         while not (folder / "bin/began").exists() and process.poll() is None and time.monotonic() < deadline:
             time.sleep(0.01)
         process.send_signal(signal.SIGINT)
