@@ -136,8 +136,8 @@ void print(const ExprNode& node, int outer, const Expr::KeyText& called, std::st
   if (parens) out += '(';
   switch (node.op) {
     case ExprOp::constant: {
-      // A negative constant binds like a unary minus.
-      const bool wrap = node.value.type == Value::Type::number && node.value.v[0] < 0 && outer > 7;
+      // "-1" binds like a unary minus, and "1.x" is no number.
+      const bool wrap = node.value.type == Value::Type::number && outer > 7;
       out += wrap ? "(" + toText(node.value) + ")" : toText(node.value);
       break;
     }
@@ -175,7 +175,7 @@ void print(const ExprNode& node, int outer, const Expr::KeyText& called, std::st
     case ExprOp::negate:
     case ExprOp::logical_not:
       out += info.spelling;
-      print(*node.children[0], info.precedence + 1, called, out);
+      print(*node.children[0], info.precedence, called, out);
       break;
     case ExprOp::conditional:
       print(*node.children[0], 2, called, out);

@@ -130,6 +130,19 @@ TEST_CASE("log2ceil and pow2ceil are exact") {
   CHECK(eval("8 * pow2ceil($n)") == "1024");
 }
 
+TEST_CASE("signs print without parentheses, which would nest deeper; a member of a number has them") {
+  const auto print = [](const std::string& text) {
+    Diagnostics diagnostics;
+    const auto expr = Expr::parse(text, placeAt(10), diagnostics);
+    return expr ? expr->text() : diagnostics.text();
+  };
+  for (const std::string& text : {std::string(60, '-') + "$x", std::string(60, '!') + "$x"})
+    CHECK(print(text) == text);
+  CHECK(print("-(-$x)") == "--$x");
+  CHECK(print("7 .z") == "(7).z");
+  CHECK(print("(7).z") == "(7).z");
+}
+
 TEST_CASE("round, pow2 and log2 take any number, lists item by item") {
   CHECK(eval("round([2.5, -2.5, 2.4])") == "[3, -3, 2]");
   CHECK(eval("pow2([0, 10, -1])") == "[1, 1024, 0.5]");
