@@ -47,4 +47,7 @@ fi
 if [ -x "$folder/prefix/bin/weft" ]; then
   grep -q -e '-F _weft weft' "$folder/prefix/share/bash-completion/completions/weft"
   WEFT_DATA="$folder/prefix/share/weft" "$folder/prefix/bin/weft" check "$folder/prefix/share/weft/graphs/studio.json"
+  for text in "$source"/app/commands/*.{json,glsl,sh}; do
+    cmp "$text" "$folder/prefix/share/weft/app/commands/$(basename "$text")"
+  done
 fi
