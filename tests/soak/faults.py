@@ -71,6 +71,7 @@ COMMANDS = {
     "render": (["render", "graph.json", *SMALL, "--quiet", "-o", "out/a.exr"], True, ["out/a.exr"]),
     "sequence": (["render", "graph.json", *SMALL, "--frames", "0-3", "--quiet", "--manifest", "out/m.jsonl", "--checkpoint", "2", "--checkpoints", "out", "-o", "out/f_%04d.png"], True,
                  [f"out/f_000{i}.png" for i in range(4)]),
+    "film": (["render", "graph.json", *SMALL, "--frames", "0-3", "--quiet", "-o", "out/film.mkv"], True, ["out/film.mkv"]),
     "dump": (["dump", "graph.json", "*", *SMALL, "-o", "out"], True, []),
     "report": (["report", "graph.json", *SMALL, "-o", "out/page.html"], True, []),
     "test": (["test", "small.cases.json", "--program-cache", "none"], True, []),
@@ -95,6 +96,13 @@ def make_folder(folder):
 
 def files_of(folder):
     return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file() and p.name not in ("strace", "count")}
+
+
+def is_json(text):
+    try:
+        return bool(json.loads(text))
+    except ValueError:
+        return False
 
 
 class Faults:
@@ -146,6 +154,8 @@ class Faults:
                 return f"{at}exit code 0, and {path} is not what it should be"
             if new not in (old, whole.get(path)):
                 return f"{at}{path} is half made"
+        if not all(is_json(line) for line in run["after"].get("out/m.jsonl", b"").splitlines(keepends=True) if line.endswith(b"\n")):
+            return f"{at}a line of the manifest is half made"
         left = [path for path in run["after"] if path.endswith((".part", "~")) or "/." in "/" + path]
         # Where the removal itself fails, the file stays.
         if left and kind != "unlink":
