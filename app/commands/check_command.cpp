@@ -324,7 +324,7 @@ Checked checkOnce(const CheckOptions& options) {
         text::Code::unreadableShader, {options.graph},
         fmt::format("{} that {} off{}: {}", text::counted(off.size(), "pass"), off.size() == 1 ? "is" : "are",
                     options.allVariants ? " with this scene" : ", some of which --all switches on",
-                    text::shortened(fmt::format("{}", fmt::join(off, ", ")))));
+                    fmt::join(off, ", ")));
   if (vary && options.matrix)
     for (const auto* told : {&checked.matrix->broken, &checked.matrix->lost})
       for (const graph::RefusedVariation& variation : *told)
@@ -376,7 +376,7 @@ int tellText(const CheckOptions& options, Checked& checked) {
   report(checked.diagnostics);
   const int code = codeOf(options, checked.diagnostics);
   if (checked.matrix) print(matrixText(options, checked));
-  if (!options.device.empty()) print(checked.shaders.needs.text());
+  if (!options.device.empty() && checked.plan) print(checked.shaders.needs.text());
   if (checked.stanza)
     print(text::layoutJson(text::dumpJson(checked.stanza->pass) + "\n"));
   else if (code == 0)
@@ -454,6 +454,10 @@ std::vector<std::string> waitForChange(text::FileWatcher& watcher) {
 }
 
 int runCheck(CheckOptions& options) {
+  if (!options.device.empty() && options.format == "sarif") {
+    printError("check: --device gives a table, which SARIF has no place for: use --format text or json\n");
+    return 2;
+  }
   text::FileWatcher watcher;
   if (options.watch) watcher.watch({options.graph});  // what it includes is known after the first check
   while (true) {

@@ -3,7 +3,9 @@
 #include <fmt/ranges.h>
 #include <sys/wait.h>
 
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 
 #include "app/commands/render.h"
 #include "app/output/frame_set.h"
@@ -136,6 +138,7 @@ int runFarm(FarmOptions& options) {
     return 0;
   }
   const int status = std::system(("exec bash " + app::quoted(options.script)).c_str());
+  if (status == -1) printError(fmt::format("farm: bash cannot be started: {}\n", std::strerror(errno)));
   return WIFEXITED(status) ? WEXITSTATUS(status) : 3;
 }
 

@@ -60,12 +60,14 @@ volatile std::sig_atomic_t cameSignal = 0;
 void noteSignal(int signal) {
   constexpr std::string_view kText = "\nweft ends after this frame; a second signal ends it at once\n";
   cameSignal = signal;
+  const int error = errno;
   for (const int each : {SIGINT, SIGTERM}) {
     struct sigaction now {};
     ::sigaction(each, nullptr, &now);
     if (now.sa_handler == noteSignal) std::signal(each, SIG_DFL);
   }
   [[maybe_unused]] const ssize_t said = ::write(STDERR_FILENO, kText.data(), kText.size());
+  errno = error;
 }
 
 // From now on. A second one, of either, ends the program at once.

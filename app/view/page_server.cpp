@@ -35,7 +35,10 @@ PageServer::PageServer() : server_(std::make_unique<httplib::Server>()), token_(
     });
   };
   answer("/", [this](httplib::Response& response) {
-    response.set_content(takePage(), "text/html; charset=utf-8");
+    const std::string page = takePage();
+    if (page.empty()) response.status = 503;
+    response.set_content(page.empty() ? "no frame was drawn: is the window minimized?\n" : page,
+                         "text/html; charset=utf-8");
   });
   answer("/changes", [this](httplib::Response& response) {
     response.set_content(fmt::to_string(changes_.load()), "text/plain");
@@ -59,8 +62,12 @@ std::unique_ptr<PageServer> PageServer::open(int port, text::Diagnostics& diagno
 }
 
 PageServer::~PageServer() {
+  {
+    const std::lock_guard lock(mutex_);
+    closing_ = true;
+  }
+  given_.notify_all();
   server_->stop();
-  give({});
 }
 
 std::string PageServer::takePage() {
@@ -68,8 +75,8 @@ std::string PageServer::takePage() {
   const std::uint64_t before = pages_;
   wanted_ = true;
   glfwPostEmptyEvent();
-  given_.wait_for(lock, kPatience, [&] { return pages_ != before; });
-  return page_;
+  given_.wait_for(lock, kPatience, [&] { return closing_ || pages_ != before; });
+  return pages_ != before ? page_ : "";
 }
 
 void PageServer::give(std::string page) {

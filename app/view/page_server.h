@@ -32,7 +32,7 @@ class PageServer {
 
  private:
   PageServer();
-  std::string takePage();
+  std::string takePage();  // "" when none came in time
 
   std::unique_ptr<httplib::Server> server_;
   std::string token_, address_;
@@ -41,6 +41,7 @@ class PageServer {
   std::mutex mutex_;
   std::condition_variable given_;
   std::uint64_t pages_ = 0;  // given so far
+  bool closing_ = false;
   std::string page_;
   std::jthread thread_;
 };

@@ -392,6 +392,7 @@ void Viewer::update(gl::Size size) {
   if (!std::exchange(sceneLoads_, live_.scene().loading()) && sceneLoads_)
     say("loading " + std::filesystem::path(live_.scene().path()).filename().string());
   if (looked) {
+    ++arrivals_;
     tell(diagnostics_, log_, ui::Log::kFiles);
     restless_ = kRestlessAfterEvent;
     say(live_.good() ? "files good" : "files wrong");
@@ -496,10 +497,11 @@ void Viewer::servePage(FrameLook& look) {
       withoutFolder(live_.scene().path()), session_.context->device().renderer};
   text::Diagnostics said;
   for (const text::Diagnostic* each : log_.shown(true)) said.add(*each);
-  const auto page = pageOf({{"command", command()},
-                            {"live", changed_ + arrivals_},
-                            {"states", {look.end(renderer_.graphPath(), facts, said)}}},
-                           renderer_.graphPath(), diagnostics_);
+  auto state = look.end(renderer_.graphPath(), facts, said);
+  if (report_.passesRun + report_.passesSkipped == 0) return;  // an import is on its way: the next frame
+  const auto page =
+      pageOf({{"command", command()}, {"live", changed_ + arrivals_}, {"states", {std::move(state)}}},
+             renderer_.graphPath(), diagnostics_);
   server_->give(page.value_or("no page: see the messages of the viewer"));
 }
 

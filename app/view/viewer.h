@@ -120,7 +120,7 @@ class Viewer {
   ui::Panels::Area area_;          // of the picture, in pixels of the window
   std::uint32_t frame_ = 0, redraws_ = 0;
   std::uint64_t inputs_ = 0, changed_ = 0;  // when they were last looked at
-  std::uint64_t arrivals_ = 0;              // of environments
+  std::uint64_t arrivals_ = 0;              // of files and environments
   int restless_ = 0;                        // redraws that the panels still want
   float uiScale_ = 1;
   gl::Size size_;       // of the window, as it was said last

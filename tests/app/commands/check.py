@@ -172,6 +172,8 @@ def check_device(weft, report):
         lines = [line.split() for line in done.out.splitlines() if " in 'many'" in line]
         report.check(["16", "fragment", "samplers", "17", "in", "'many',", "beyond"] in lines and ["8", "outputs", "2", "in", "'many'"] in lines, f"{done.code}\n{done.out}{done.err}")
         data = json.loads(run(weft, "check", folder / "g.json", "--device", "minimum", "--format", "json").out)["device"]
+        done = run(weft, "check", folder / "g.json", "--device", "minimum", "--format", "sarif")
+        report.check(done.code == 2 and "--format text or json" in done.err and not done.out, f"{done.code}\n{done.out}{done.err}")
         report.check({"what": "fragment samplers", "guaranteed": 16, "needed": 17, "pass": "many"} in data, f"{data}")
 
 

@@ -51,7 +51,13 @@ def serve(weft, folder, report):
         report.check(live.until(lambda: int(get(f"{base}changes?token={token}")) != page["live"]), "a save is no change")
         parameters = {each["name"]: each["value"] for each in page_of(address)["states"][0]["parameters"]}
         report.check(parameters.get("threshold") == "3.5", f"{parameters}")
-        live.leave(report)
+        before, count = live.mark(), int(get(f"{base}changes?token={token}"))
+        (folder / "graphs/glow.json").write_text("{ broken")
+        report.check(live.event("files wrong", before) and live.until(lambda: int(get(f"{base}changes?token={token}")) != count), "a file that is broken is no change")
+        report.check(any(each["severity"] == "error" for each in page_of(address)["states"][0]["messages"]), "the page does not tell the error")
+        with socket.create_connection(("127.0.0.1", port)) as slow:  # half a request, while the window closes
+            slow.sendall(f"GET /?token={token} HTTP/1.1\r\n".encode())
+            live.leave(report, code=1)
     finally:
         live.stop()
     with socket.socket() as other:
