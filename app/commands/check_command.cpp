@@ -253,7 +253,7 @@ class ShaderCheck {
     if (session_) {
       const auto variant = session_->renderer.device().programs.get(request, said);
       if (!variant) return;
-      needs.add(request.pass, variant->stages, variant->defines, &variant->program.reflection());
+      needs.add(request.pass, variant->stages, variant->defines, variant->program.reflection());
       const runtime::LinkedProgram linked{variant->program.reflection(), session_->context->device().limits};
       if (runtime::checkProgram(plan, pass, variant->stages, variant->defines, &linked, said))
         runtime::warnOfConditions(plan.graph->specs[pass], variant->stages, variant->defines, said);

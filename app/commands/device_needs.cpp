@@ -37,7 +37,7 @@ void DeviceNeeds::note(const std::string& what, std::uint32_t needed, const std:
 }
 
 void DeviceNeeds::add(const std::string& pass, std::span<const gl::StageSource> stages,
-                      std::span<const glsl::Define> defines, const gl::Reflection* linked) {
+                      std::span<const glsl::Define> defines, const gl::Reflection& linked) {
   std::uint32_t stores = 0;
   for (const gl::StageSource& stage : stages) {
     const glsl::Interface& shader = stage.source->interfaceWith(defines);
@@ -61,11 +61,10 @@ void DeviceNeeds::add(const std::string& pass, std::span<const gl::StageSource> 
     stores += images + blocks + outputs;
   }
   note("images, storage blocks and outputs", stores, pass);
-  if (!linked) return;
-  const auto& group = linked->workGroup;
+  const auto& group = linked.workGroup;
   note("threads of a work group", group[0] * group[1] * group[2], pass);
   note("threads of a work group along z", group[2], pass);
-  for (const gl::Block& block : linked->uniformBlocks) note("bytes of a uniform block", block.bytes, pass);
+  for (const gl::Block& block : linked.uniformBlocks) note("bytes of a uniform block", block.bytes, pass);
 }
 
 std::string DeviceNeeds::text() const {

@@ -11,7 +11,7 @@ namespace weft::app {
 
 struct DeviceNeed {
   const char* what;          // "fragment storage blocks"
-  std::uint32_t guaranteed;  // OpenGL 4.5 core, tables 23.51 to 23.72
+  std::uint32_t guaranteed;  // OpenGL 4.5 core, chapter 23: the least of what depends on the device
   std::uint32_t needed = 0;  // the most that one pass needs
   std::string pass{};        // that pass
 };
@@ -19,9 +19,9 @@ struct DeviceNeed {
 class DeviceNeeds {
  public:
   DeviceNeeds();
-  // A variant of a pass. `linked`: its program, which alone knows the work group; null without OpenGL.
+  // A variant of a pass, and its program.
   void add(const std::string& pass, std::span<const gl::StageSource> stages,
-           std::span<const glsl::Define> defines, const gl::Reflection* linked);
+           std::span<const glsl::Define> defines, const gl::Reflection& linked);
   const std::vector<DeviceNeed>& all() const { return all_; }
   // A line for each that something needs.
   std::string text() const;

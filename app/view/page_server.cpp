@@ -52,7 +52,7 @@ std::unique_ptr<PageServer> PageServer::open(int port, text::Diagnostics& diagno
   if (bound < 0) {
     diagnostics.error(text::Code::outputNotWritten, text::placeOfOption("--serve"),
                       fmt::format("port {} cannot be listened on", port),
-                      {.hint = "leave the number out, and any free port is taken"});
+                      {.hint = "--serve 0 takes any free port"});
     return nullptr;
   }
   made->address_ = fmt::format("http://127.0.0.1:{}/?token={}", bound, made->token_);

@@ -69,8 +69,7 @@ int runView(ViewOptions& options) {
     if (later) live.expectScene();
     const auto server = options.serve ? PageServer::open(*options.serve, diagnostics) : nullptr;
     if (options.serve && !server) return report(diagnostics);
-    if (server) print(fmt::format("serving {}\n", server->address()));
-    flushPrinted();
+    if (server) printNow(fmt::format("serving {}\n", server->address()));
     Viewer viewer(options, *session, live, server.get());
     // With a number of frames to draw there is nobody who could save a file.
     if (!live.load(diagnostics) && (options.maxFrames || !canBeFixed(options, diagnostics)))

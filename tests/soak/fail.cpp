@@ -71,7 +71,7 @@ unsigned failedError() {
   return reinterpret_cast<unsigned (*)()>(real<0>)();
 }
 
-// What fails has no effect, gives 0, and leaves GL_OUT_OF_MEMORY. `names`: an argument that gets so many names.
+// What fails has no effect, gives 0, and leaves GL_OUT_OF_MEMORY.
 template <int N, class Result, class... Args>
 struct Wrapped {
   static Result call(Args... args) {

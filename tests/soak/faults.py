@@ -132,6 +132,7 @@ class Faults:
             try:
                 done = subprocess.run(command, cwd=folder, env=environment, input=lsp_text(folder) if name == "lsp" else b"", capture_output=True, timeout=300)
                 code, error = done.returncode, done.stderr.decode(errors="replace")
+                error += done.stdout.decode(errors="replace") if name == "test" else ""  # where it says what failed
             except subprocess.TimeoutExpired:
                 code, error = None, "no end after 300 s"
             said = trace.read_text(errors="replace") if trace.exists() else ""
