@@ -318,10 +318,7 @@ int Viewer::run(text::Diagnostics said) {
       frame();
     } else {
       clock_.skip(glfwGetTime());
-      if (restless_ > 0)
-        redraw();
-      else if (overlay_)
-        overlay_->skip();
+      if (restless_ > 0) redraw();
     }
     if (options_.maxFrames && frame_ >= options_.maxFrames) break;
   }
@@ -352,8 +349,10 @@ void Viewer::takeInput(gl::Size size) {
   input_.setPicture(glm::dvec2(area_.x, area_.y) / glm::dvec2(size.width, size.height),
                     glm::dvec2(area_.width, area_.height) / glm::dvec2(size.width, size.height));
   for (bool more = true; more;) {
+    const bool came = input_.waiting();
     more = input_.hand(readsMouse() && report_.passesRun + report_.passesSkipped > 0);
-    if (overlay_) overlay_->begin();
+    // A layout follows: without one the panels would be nowhere for the next.
+    if (overlay_ && came) overlay_->begin();
     input_.decide(overlay_ && overlay_->wantsMouse());
     for (const std::string& action : input_.takeActions()) act(action);
     if (more && overlay_) drawUi(false);

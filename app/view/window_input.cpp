@@ -57,12 +57,15 @@ WindowInput::WindowInput(GLFWwindow* window) : window_(window) {
 bool WindowInput::hand(bool oneClick) {
   using Kind = ui::WindowEvent::Kind;
   std::optional<Kind> last;  // that is no movement
+  bool moved = false;
   while (!queue_.empty()) {
     const ui::WindowEvent event = queue_.front();
     const bool moves = event.kind == Kind::move || event.kind == Kind::leave;
     // Letters go together, and so do steps of the wheel.
     const bool joins = last == event.kind && (event.kind == Kind::character || event.kind == Kind::wheel);
-    if (last && !joins) return true;
+    // What is dragged is seen at its last place before it is let go.
+    const bool lets = moved && event.kind == Kind::button && event.action == GLFW_RELEASE;
+    if ((last && !joins) || lets) return true;
     if (oneClick && clicked_ && graphHasButton_ && event.kind == Kind::button && event.action == GLFW_PRESS)
       return false;
     queue_.pop_front();
@@ -71,6 +74,7 @@ bool WindowInput::hand(bool oneClick) {
     if (event.kind == Kind::wheel) fresh_.wheel += event.y;
     if (event.kind == Kind::key) onKey(event);
     if (overlay_) overlay_->take(event);
+    moved |= moves;
     if (!moves) last = event.kind;
   }
   return false;
