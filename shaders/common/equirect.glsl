@@ -43,11 +43,11 @@ float splineShare(float rows, float angle) { return clamp(kPi / (rows * angle) -
 // sampleEquirect() on the texels of a level of `size`, with `share` of a cubic B-spline in the weights and the rest linear. Four linear lookups
 // have the weights of 16 texels: each takes two texels along both axes, at the place between them that has the weights' ratio.
 vec4 sampleEquirectSmooth(sampler2D map, vec2 map_uv, vec2 lookup, vec2 size, float share) {
-  if (share == 0.0) return sampleEquirect(map, map_uv, lookup);
   vec2 at = map_uv * size - 0.5, f = fract(at), g = 1.0 - f;
   vec2 first = share / 6.0 * g * g * g, last = share / 6.0 * f * f * f;
   vec2 after = mix(f, (((-3.0 * f + 3.0) * f + 3.0) * f + 1.0) / 6.0, share), high = after + last;
   vec2 low = 1.0 - high, from = (floor(at) + 0.5 - first / low) / size, to = (floor(at) + 1.5 + last / high) / size;
+  if (share == 0.0) from = to = map_uv;  // no return: software drivers run both sides of a branch
   return low.y * (low.x * sampleEquirect(map, from, lookup) + high.x * sampleEquirect(map, vec2(to.x, from.y), lookup)) +
          high.y * (low.x * sampleEquirect(map, vec2(from.x, to.y), lookup) + high.x * sampleEquirect(map, to, lookup));
 }
