@@ -25,6 +25,6 @@ layout(std140) uniform Parameters {
 
 void main() {
   float at_eye = fog_density > 0.0 ? log(fog_density) - fog_falloff * (eye.y - fog_base) : -1e30;
-  light = vec4(fog_color, exp(min(at_eye, 60.0)));
+  light = vec4(fog_color, 0.0);
   shape = vec4(fog_falloff, fog_layer, fog_sky, at_eye);
 }

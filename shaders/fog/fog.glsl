@@ -7,18 +7,21 @@
 
 #ifdef HAS_AIR
 layout(std140) uniform air {
-  vec4 fog_light;  // radiance of endless fog, extinction per world unit at the height of the eye
-  vec4 fog_shape;  // falloff, layer, sky: see air.comp.glsl; w: logarithm of the extinction at the eye
+  vec4 fog_light;  // radiance of endless fog
+  vec4 fog_shape;  // falloff, layer, sky: see air.comp.glsl; w: logarithm of the extinction per world unit at the height of the eye
 };
 
-// Transmittance along the world vector `ray` from the eye.
-float throughFog(vec3 ray) {
-  float climb = fog_shape.x * ray.y;
-  // The mean of e^(w - x) for x from 0 to `climb`; for small ones by its series, because the difference would cancel. Exponents are added
-  // first: high above the fog the extinction at the eye underflows, although there is fog below.
-  float mean = abs(climb) < 2e-3 ? fog_light.w * (0.5 * climb - 1.0) : (exp(min(fog_shape.w - climb, 60.0)) - fog_light.w) / climb;
-  return exp(length(ray) * mean);
+// Transmittance along `far` world units that climb by `up`, from a place `above` the eye.
+float throughFog(float above, float up, float far) {
+  float begin = fog_shape.w - fog_shape.x * above, density = exp(min(begin, 60.0)), climb = fog_shape.x * up;
+  // The mean of e^(begin - x) for x from 0 to `climb`; for small ones by its series, because the difference would cancel. Exponents are added
+  // first: high above the fog the extinction underflows, although there is fog below.
+  float mean = abs(climb) < 2e-3 ? density * (0.5 * climb - 1.0) : (exp(min(begin - climb, 60.0)) - density) / climb;
+  return exp(far * mean);
 }
+
+// Along the world vector `ray` from the eye.
+float throughFog(vec3 ray) { return throughFog(0.0, ray.y, length(ray)); }
 #endif
 
 #endif

@@ -1,10 +1,12 @@
 // Light of the environment: what a lobe reflects of its maps, its brightest spot in closed form, and irradiance.
 // read    irradiance?, specular?, environment?, brightest?   see shading/environment.glsl; without one its light is missing
 //         probes?, sh?   light that other things reflect, see gi/bounce.glsl
+//         air?   fog in front of what is reflected, see fog/sky.glsl
 //         mirrored?, or mirror_light?, probe_light? and theirs   the scene in reflections, see reflections/seen.glsl
 #ifndef SHADING_AMBIENT_GLSL
 #define SHADING_AMBIENT_GLSL
 
+#include "fog/sky.glsl"
 #include "shading/environment.glsl"
 #include "shading/material.glsl"
 #include "shading/point.glsl"
@@ -31,6 +33,9 @@ vec3 reflectedEnvironment(Point point, Response response, Lobe lobe, vec3 axis) 
   sharp -= cut * max(sharp - lobe.spot_limit, 0.0);
   radiance = mix(sharp, radiance, lobe.specular_weight);
 #endif
+#ifdef HAS_AIR
+  radiance = mix(fog_light.rgb, radiance, throughFogOfSky(axis, point.position.y - eye.y, alphaOfRoughness(response.roughness)));
+#endif
   return radiance;
 }
 
@@ -51,6 +56,9 @@ float spotStrength(Point point, Lobe lobe) {
 vec3 reflectedSpot(Point point, Response response, Lobe lobe, float strength) {
   float m = 1.0 - 0.5 * sqrt(spotHalf2(point, lobe)), m2 = m * m;
   vec3 fresnel = response.f0 + (response.f90 - response.f0) * (m2 * m2 * m);
+#ifdef HAS_AIR
+  strength *= throughFogOfSky(lobe.spot, point.position.y - eye.y, 0.0);
+#endif
   return fresnel * lobe.spot_light * strength;
 }
 #endif

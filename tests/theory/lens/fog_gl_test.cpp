@@ -1,6 +1,7 @@
 // Fog at silhouettes: a pixel that a sphere covers in part is the mean of the same frame at eight times the size, in radiance. So what is
 // behind has the fog before it, not that of the sphere, and no line shows. Pixels in which the silhouettes of two spheres pass are counted apart,
 // and beside them how far the picture would be off if these edges had nothing to do with each other.
+// And in reflections: a white metal under a white sky shows the fog that the rays of its lobe go through.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -134,6 +135,69 @@ TEST_CASE(
     CHECK(crossings == 0);
     CHECK(independent > 10);  // the picture has crossings that tell
   }
+}
+
+// What passes the fog of the lobe of a rough white metal: microfacets of GGX, each a mirror, with Smith's masking; a grid of them.
+static double lobePasses(const glm::dvec3& normal, const glm::dvec3& to_eye, double alpha, double depth) {
+  constexpr int kGrid = 96;
+  const glm::dvec3 aside = glm::normalize(glm::cross(normal, glm::dvec3{0.31, 0.2, 0.93})),
+                   third = glm::cross(normal, aside);
+  const auto masking = [&](double cosine) {
+    return 2 * cosine / (cosine + std::sqrt(alpha * alpha + (1 - alpha * alpha) * cosine * cosine));
+  };
+  double passes = 0, all = 0;
+  for (int i = 0; i < kGrid * kGrid; ++i) {
+    const double u = (i % kGrid + 0.5) / kGrid, turn = 2 * 3.14159265358979 * (i / kGrid + 0.5) / kGrid;
+    const double cosine = std::sqrt((1 - u) / (1 + (alpha * alpha - 1) * u)),
+                 sine = std::sqrt(1 - cosine * cosine);
+    const glm::dvec3 half = cosine * normal + sine * (std::cos(turn) * aside + std::sin(turn) * third);
+    const double vh = glm::dot(to_eye, half);
+    const glm::dvec3 light = 2 * vh * half - to_eye;
+    const double nl = glm::dot(normal, light), nv = glm::dot(normal, to_eye);
+    if (vh <= 0 || nl <= 0) continue;
+    const double weight = masking(nl) * masking(nv) * vh / (nv * cosine);
+    all += weight;
+    passes += weight * std::exp(-depth / std::max(std::abs(light.y), 1e-9));
+  }
+  return passes / all;
+}
+
+TEST_CASE(
+    "fog: a metal shows as much of the sky as the fog on the way there lets through, in the studio and "
+    "deferred") {
+  constexpr double kDensity = 0.03, kLayer = 4, kHalf = 0.5773502691896258;  // tan 30 degrees
+  for (const std::string graph : {"graphs/studio.json", "graphs/deferred.json"})
+    for (const float roughness : {0.0f, 0.3f}) {
+      Setup setup{.graph = graph, .width = 96, .height = 96};
+      setup.sets = {{"dither", "false"},        {"bloom", "false"},      {"fxaa", "false"}, {"fog", "true"},
+                    {"fog_color", "[0, 0, 0]"}, {"fog_density", "0.03"}, {"fog_layer", "4"}};
+      setup.balls = {{.center = {0, 0, 0}, .radius = 8, .roughness = roughness}};
+      Lab lab(setup);
+      lab.frame(0);
+      const Picture picture = lab.read("hdr");
+      CHECK(lab.reports() == "");
+      double mean = 0, worst = 0;
+      int count = 0;
+      for (std::uint32_t y = 0; y < 96; y += 5)
+        for (std::uint32_t x = 0; x < 96; x += 5) {
+          const glm::dvec3 ray =
+              glm::normalize(glm::dvec3{(x + 0.5) / 48 - 1, (y + 0.5) / 48 - 1, -1 / kHalf});
+          const double along = -20 * ray.z, from = 400 - along * along;  // squared, to the middle of the ball
+          if (from > 55) continue;                                       // its rim: other tests
+          const double far = along - std::sqrt(64 - from);
+          const glm::dvec3 normal = (glm::dvec3{0, 0, 20} + far * ray) / 8.0;
+          const double alpha = std::max(double(roughness) * double(roughness), 1e-4);
+          const double expected =
+              std::exp(-kDensity * far) * lobePasses(normal, -ray, alpha, kDensity * kLayer);
+          const double off = std::abs(double(picture.at(x, y)[0]) - expected);
+          mean += off;
+          worst = std::max(worst, off);
+          ++count;
+        }
+      MESSAGE(graph, ", roughness ", roughness, ": mean ", mean / count, ", worst ", worst, " of ", count);
+      CHECK(count > 80);
+      CHECK(mean / count < (roughness > 0 ? 0.03 : 0.002));
+    }
 }
 
 }  // namespace lens_fog_test
