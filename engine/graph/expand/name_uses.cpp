@@ -158,8 +158,7 @@ class NameFinder {
     for (Scope* from = &scope; leaf > 0 && from; from = from->parent) {
       std::string_view rest = name;
       Place at = place;
-      if (!from->includes.contains(name.substr(0, name.find('.'))) && !from->variables.contains(name))
-        continue;
+      if (!from->variables.contains(name)) continue;
       const Scope& in = addPrefixes(*from, rest, at);
       if (const std::size_t dot = rest.find('.'); dot != std::string_view::npos)
         if (const auto pass = in.passes.find(rest.substr(0, dot)); pass != in.passes.end())

@@ -13,8 +13,7 @@ namespace {
 
 class MentionWalk {
  public:
-  MentionWalk(Model& model, bool asks)
-      : model_(model), asks_(asks), behind_(model.entities.size(), kUnknown) {}
+  explicit MentionWalk(Model& model) : model_(model), behind_(model.entities.size(), kUnknown) {}
 
   void add(Scope& scope) {
     const GraphDesc& desc = *scope.desc;
@@ -26,7 +25,7 @@ class MentionWalk {
       for (const NamedExpr& argument : resource.import.arguments)
         if (argument.expr.present() && argument.expr.root()->op == ExprOp::identifier)
           mark(find(scope, argument.expr.root()->name, true), false);
-    if (asks_) askForOthers(scope);
+    askForOthers(scope);
     for (const PassDesc& pass : desc.passes) {
       if (!pass.list.empty()) mark(find(scope, pass.list, true), false);
       if (pass.include)
@@ -70,7 +69,7 @@ class MentionWalk {
         parameter.named = true;
         parameter.structural = parameter.structural || structural;
       }
-      if (asks_ && found.kind == Variable::Kind::none)
+      if (found.kind == Variable::Kind::none)
         visitNodes(*expr.root(), [&](const ExprNode& node) {
           if (node.op == ExprOp::variable && node.name == name)
             ask(name.find('.') == std::string::npos ? Asked::variable : Asked::pass, scope, name);
@@ -99,7 +98,7 @@ class MentionWalk {
     Scope& in = kind == Asked::resource ? scopeOf(scope, name) : scope;
     const bool unread =
         kind == Asked::resource ? isUnread(in, firstPart(name)) : model_.toInclude || isUnread(in, name);
-    if (asks_ && !unread) model_.asked.push_back({kind, &in, firstPart(name)});
+    if (!unread) model_.asked.push_back({kind, &in, firstPart(name)});
   }
 
   // What a name means as it is written: an input is itself. kNone for what no file declares.
@@ -136,14 +135,13 @@ class MentionWalk {
   }
 
   Model& model_;
-  const bool asks_;                    // notes what nothing has
   std::vector<std::uint32_t> behind_;  // per entity: of an input
 };
 
 }  // namespace
 
-void noteMentions(Model& model, bool unknown) {
-  MentionWalk walk(model, unknown);
+void noteMentions(Model& model) {
+  MentionWalk walk(model);
   for (Scope& scope : model.scopes) walk.add(scope);
 }
 

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <deque>
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -114,8 +113,8 @@ struct Scope {
   const PassDesc* stanza = nullptr;     // the include in the parent
   std::string prefix;                   // "" or "post."
   KnownNames<std::uint32_t> resources;  // entities
-  KnownNames<Variable> variables;       // parameters, lets, and parameters of passes: "composite.fog"
-  std::map<std::string, Variable, std::less<>> below;  // found in the files that are included below, so far
+  // Parameters, lets, and parameters of passes, "composite.fog"; those of the files that are included below, "post.exposure".
+  KnownNames<Variable> variables;
   KnownNames<Scope*> includes;
   KnownNames<const PassDesc*> passes;
   KnownNames<std::uint32_t> imports;  // of types whose defaults see from the file's camera: entities

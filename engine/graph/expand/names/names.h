@@ -79,15 +79,14 @@ std::vector<std::string> resourceNames(const Model& model, const Scope& scope);
 // True when the name may be of something that the reader reported and left out: a use of it is no second mistake.
 bool isUnread(const Scope& from, std::string_view name);
 
-Variable findVariable(Model& model, Scope& scope, std::string_view name);
+Variable findVariable(const Model& model, const Scope& scope, std::string_view name);
 // The parameters, of those whose path begins with `prefix`, that `name` may mean: the one that is called so, else all whose
 // dotted name ends in it.
 std::vector<std::uint32_t> parametersMeant(const Model& model, std::string_view prefix,
                                            std::string_view name);
-// Notes what the expressions and references of all files name, whatever the conditions say now; parameters that decide more
-// than the values of uniforms become structural. buildScopes() calls it; mendDeclarations() again for what nothing has, Model::asked
-// (mentions.cpp).
-void noteMentions(Model& model, bool unknown = false);
+// Notes what the expressions and references of all files name, whatever the conditions say now, and what of it nothing has,
+// Model::asked; parameters that decide more than the values of uniforms become structural (mentions.cpp).
+void noteMentions(Model& model);
 // Marks every parameter that `expr` depends on, directly or through lets, as structural.
 void markStructural(Model& model, Scope& scope, const Expr& expr);
 // True when the expression contains age(), perhaps through a let.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -17,7 +18,12 @@ namespace weft::graph::expansion {
 
 namespace {
 
-// `path` begins with the prefix of the scope; the rest is its name there.
+// Makes a variable known in its file, and in those that include it by the names that it has there: `path` begins with the prefix of each.
+void declare(Scope& scope, std::string_view path, const Variable& variable) {
+  for (Scope* in = &scope; in; in = in->parent)
+    in->variables.try_emplace(path.substr(in->prefix.size()), variable);
+}
+
 void addParameter(Model& model, Scope& scope, const ParameterDesc& desc, std::string path) {
   const auto index = static_cast<std::uint32_t>(model.parameters.size());
   model.parametersByLeaf[desc.name].push_back(index);
@@ -28,8 +34,7 @@ void addParameter(Model& model, Scope& scope, const ParameterDesc& desc, std::st
                               .scope = &scope,
                               .structural = desc.define,
                               .valuePlace = desc.initialPlace});
-  const std::string_view name = std::string_view(model.parameters.back().path).substr(scope.prefix.size());
-  scope.variables.try_emplace(name, Variable{Variable::Kind::parameter, index});
+  declare(scope, model.parameters.back().path, {Variable::Kind::parameter, index});
 }
 
 void buildScope(Model& model, Scope& scope);
@@ -49,30 +54,6 @@ const ImportType* importTypeOf(const Model& model, const GraphDesc& file, std::s
   const ResourceDesc* const own = findNamed(file.resources, name);
   if (own && own->kind != ResourceDesc::Kind::import) return nullptr;
   return findNamed(model.registry.imports, own ? std::string_view(own->import.type) : name);
-}
-
-// An input takes the whole of a resource.
-void checkBind(Model& model, Scope& scope, const IncludeDesc& include, const std::string& name,
-               const RefDesc& ref) {
-  if (includeBound(scope, name, ref)) return;
-  const auto& resources = include.graph->resources;
-  const ResourceDesc* const found = findNamed(resources, name);
-  // A file that cannot be read was reported: it may be what is bound.
-  if (!scope.broken && (!found || !isInput(*found)) && !importTypeOf(model, *include.graph, name)) {
-    std::vector<std::string> inputs;
-    for (const ResourceDesc& resource : resources)
-      if (isInput(resource)) inputs.push_back(resource.name);
-    report(model, Code::badBind, ref.place,
-           fmt::format("include '{}' binds '{}', which is no input of '{}'", include.as, name, include.file),
-           {.hint = text::nearestHint(name, inputs)});
-  }
-  if (!isWhole(ref))
-    report(model, Code::badBind, ref.place,
-           fmt::format("include '{}' binds '{}' to more than a name", include.as, name),
-           {.expected = "the name of a whole resource",
-            .found = ref.text,
-            .hint = fmt::format("bind '{}', and say the rest in the slots that read it, or bind a list",
-                                ref.name)});
 }
 
 void addInclude(Model& model, Scope& scope, const PassDesc& stanza) {
@@ -104,8 +85,8 @@ void buildScope(Model& model, Scope& scope) {
     addParameter(model, scope, parameter, scope.prefix + parameter.name);
   for (const NamedExpr& let : desc.lets) {
     const auto index = static_cast<std::uint32_t>(model.lets.size());
-    scope.variables.try_emplace(let.name, Variable{Variable::Kind::let, index});
     model.lets.push_back({.desc = &let, .scope = &scope, .path = scope.prefix + let.name});
+    declare(scope, model.lets.back().path, {Variable::Kind::let, index});
   }
   for (const ResourceDesc& resource : desc.resources)
     if (scope.resources.try_emplace(resource.name, static_cast<std::uint32_t>(model.entities.size())).second)
@@ -124,9 +105,6 @@ void buildScope(Model& model, Scope& scope) {
         model.parameters.back().named = true;
       }
   }
-  for (const PassDesc& pass : desc.passes)  // when all includes are known
-    if (pass.include && pass.include->graph)
-      for (const auto& [name, ref] : pass.include->binds) checkBind(model, scope, *pass.include, name, ref);
   model.sets += desc.sets.size();
   const std::tuple<std::size_t, std::uint64_t, const char*> bounds[] = {
       {model.parameters.size(), kMaxNames, "parameters"},
@@ -138,12 +116,31 @@ void buildScope(Model& model, Scope& scope) {
       return stopAt(model, model.desc.place, fmt::format("the graph has too many {}", what), bound, what);
 }
 
-// What is bound to an import is one of its kind; of its type where the file declares it and so has arguments for it.
-void checkBoundImports(Model& model, Scope& scope) {
-  for (const auto& [name, ref] : scope.stanza->include->binds) {
-    const ImportType* type =
-        includeBound(*scope.parent, name, ref) ? nullptr : importTypeOf(model, *scope.desc, name);
-    const bool declared = scope.resources.contains(name);
+// Of an include: an input takes the whole of a resource, an import one of its kind, and of its type where the file declares it and so
+// has arguments for it.
+void checkBinds(Model& model, Scope& scope) {
+  const IncludeDesc& include = *scope.stanza->include;
+  for (const auto& [name, ref] : include.binds) {
+    if (includeBound(*scope.parent, name, ref)) continue;
+    const ResourceDesc* const own = findNamed(scope.desc->resources, name);
+    const ImportType* const type = importTypeOf(model, *scope.desc, name);
+    // A file that cannot be read was reported: it may be what is bound.
+    if (!scope.parent->broken && (!own || !isInput(*own)) && !type) {
+      std::vector<std::string> inputs;
+      for (const ResourceDesc& resource : scope.desc->resources)
+        if (isInput(resource)) inputs.push_back(resource.name);
+      report(
+          model, Code::badBind, ref.place,
+          fmt::format("include '{}' binds '{}', which is no input of '{}'", include.as, name, include.file),
+          {.hint = text::nearestHint(name, inputs)});
+    }
+    if (!isWhole(ref))
+      report(model, Code::badBind, ref.place,
+             fmt::format("include '{}' binds '{}' to more than a name", include.as, name),
+             {.expected = "the name of a whole resource",
+              .found = ref.text,
+              .hint = fmt::format("bind '{}', and say the rest in the slots that read it, or bind a list",
+                                  ref.name)});
     const std::uint32_t bound =
         type ? findEntityOrReport(model, *scope.parent, ref, "\"bind\"", "names") : kNone;
     if (bound == kNone) continue;
@@ -152,10 +149,10 @@ void checkBoundImports(Model& model, Scope& scope) {
                                   ? nullptr
                                   : findNamed(model.registry.imports,
                                               entity.desc ? entity.desc->import.type : entity.name.substr(1));
-    if (!given || given->kind != type->kind || (declared && given != type))
+    if (!given || given->kind != type->kind || (own && given != type))
       report(model, Code::badBind, ref.place,
              fmt::format("include '{}' binds the import '{}' to '{}', which is another kind of thing",
-                         scope.stanza->include->as, name, ref.text),
+                         include.as, name, ref.text),
              {.expected = fmt::format("\"import\": \"{}\"", type->name)});
   }
 }
@@ -246,7 +243,7 @@ void buildScopes(Model& model) {
     model.imports.emplace(type.name, static_cast<std::uint32_t>(model.entities.size()));
     model.entities.push_back({.kind = ResourceDesc::Kind::import, .scope = &root, .name = "@" + type.name});
   }
-  for (std::size_t i = 1; i < model.scopes.size(); ++i) checkBoundImports(model, model.scopes[i]);
+  for (std::size_t i = 1; i < model.scopes.size(); ++i) checkBinds(model, model.scopes[i]);
   reportToInclude(model);
   spread(model, &Let::dynamic, [](const Let& let) { return let.desc->expr.dynamic(); });
   spread(model, &Let::watched, [](const Let& let) { return let.desc->expr.watched(); });
@@ -420,12 +417,12 @@ const std::string* nameMeant(Model& model, Model::Asked::Kind kind, const Scope&
 bool mendDeclarations(Model& model) {
   using enum Model::Asked::Kind;
   if (std::exchange(model.mended, true)) return false;
-  noteMentions(model, true);
   for (Scope& scope : model.scopes) {
-    // In the file of the declaration, and where it is found from below.
+    // In the file of the declaration, and where it is found from above.
     const auto alsoCall = [&](std::string_view name, const Variable& found) {
-      scope.variables.try_emplace(name, found);
-      for (Scope* outer = scope.parent; outer; outer = outer->parent) outer->below[std::string(name)] = found;
+      declare(scope, model.misspelt.emplace_back(scope.prefix).append(name), found);
+      for (Scope* outer = scope.parent; outer; outer = outer->parent)
+        outer->variables.try_emplace(name, found);
     };
     for (const ResourceDesc& each : scope.desc->resources)
       if (const std::uint32_t index = scope.resources.at(each.name);
@@ -439,7 +436,8 @@ bool mendDeclarations(Model& model) {
           if (const auto* name = nameMeant(model, variable, scope, own, declared.desc->place))
             alsoCall(*name, found);
       };
-      found.kind == Variable::Kind::let ? mend(model.lets) : mend(model.parameters);
+      if (own.find('.') == std::string_view::npos)  // of this file
+        found.kind == Variable::Kind::let ? mend(model.lets) : mend(model.parameters);
     }
     for (const auto& [own, stanza] : scope.passes)
       if (const auto* name = nameMeant(model, pass, scope, own, stanza->namePlace))
@@ -552,22 +550,6 @@ bool isUnread(const Scope& from, std::string_view name) {
 
 // ---- variables ----
 
-// A name of this file or of one that includes it.
-static Variable findVariableFrom(Scope& from, std::string_view name) {
-  for (Scope* scope = &from; scope; scope = scope->parent) {
-    if (const auto own = scope->variables.find(name); own != scope->variables.end()) return own->second;
-    Scope* at = scope;
-    for (std::string_view rest = name; rest.find('.') != std::string_view::npos;) {
-      const auto child = at->includes.find(firstPart(rest));
-      if (child == at->includes.end()) break;
-      at = child->second;
-      rest.remove_prefix(rest.find('.') + 1);
-      if (const auto found = at->variables.find(rest); found != at->variables.end()) return found->second;
-    }
-  }
-  return {};
-}
-
 std::vector<std::uint32_t> parametersMeant(const Model& model, std::string_view prefix,
                                            std::string_view name) {
   std::vector<std::uint32_t> meant;
@@ -582,15 +564,12 @@ std::vector<std::uint32_t> parametersMeant(const Model& model, std::string_view 
   return meant;
 }
 
-Variable findVariable(Model& model, Scope& from, std::string_view name) {
-  if (const Variable found = findVariableFrom(from, name); found.kind != Variable::Kind::none) return found;
-  if (const auto known = from.below.find(name); known != from.below.end()) return known->second;
+Variable findVariable(const Model& model, const Scope& from, std::string_view name) {
+  for (const Scope* scope = &from; scope; scope = scope->parent)
+    if (const auto own = scope->variables.find(name); own != scope->variables.end()) return own->second;
   const std::vector<std::uint32_t> meant = parametersMeant(model, from.prefix, name);
-  Variable found;
-  if (!meant.empty())
-    found = {meant.size() == 1 ? Variable::Kind::parameter : Variable::Kind::ambiguous, meant[0]};
-  from.below.emplace(name, found);
-  return found;
+  if (meant.empty()) return {};
+  return {meant.size() == 1 ? Variable::Kind::parameter : Variable::Kind::ambiguous, meant[0]};
 }
 
 // ---- what expressions depend on ----
