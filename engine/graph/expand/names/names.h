@@ -216,9 +216,9 @@ void addUse(Model& model, std::uint32_t entity, std::uint32_t element, const Fla
 // less than all of it begins with its "clear".
 std::uint32_t resourceToWrite(Model& model, std::uint32_t entity, std::uint32_t element, bool whole,
                               bool covers);
-// Notes in Model::would what would be used at this position. Imports do not matter.
-void wouldUse(Model& model, WouldUse use);
-// The same for all of `entity`, or of what it lists.
-void wouldUse(Model& model, std::uint32_t entity, Access access, int history);
+// Notes what a read that is not in the graph would see at this position. Imports do not matter.
+void noteOffRead(Model& model, const Part& read);
+// The same for all of `entity`, or of what it lists; and what a pass that is not there would write of it.
+void noteOff(Model& model, std::uint32_t entity, Access access, int history);
 
 }  // namespace weft::graph::expansion
