@@ -24,8 +24,9 @@ class AnyScope : public graph::EvalScope {
     return variable(name);
   }
   std::optional<std::uint32_t> ageKey(std::string_view) override { return 0; }
-  std::optional<std::uint32_t> parameterKey(std::string_view name) override {
-    return name.starts_with("l") ? std::optional(0u) : std::nullopt;
+  std::optional<std::shared_ptr<const graph::ExprNode>> folded(std::string_view name,
+                                                               const text::Place& place) override {
+    return name.starts_with("l") ? std::optional(graph::Expr::parameter(0, place).tree()) : std::nullopt;
   }
 };
 

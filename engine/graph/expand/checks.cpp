@@ -1,7 +1,6 @@
 // Whether uses fit what they use, and each other. Declared in passes.h.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 
 #include "engine/graph/expand/passes.h"

@@ -9,7 +9,6 @@
 #include "engine/graph/expand/passes.h"
 #include "engine/graph/pick/pick.h"
 #include "engine/graph/subresource.h"
-#include "engine/text/json/dom.h"
 #include "engine/text/json/report.h"
 
 namespace weft::graph {

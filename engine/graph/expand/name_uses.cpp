@@ -6,7 +6,6 @@
 #include "engine/graph/desc_walk.h"
 #include "engine/graph/expand/expand.h"
 #include "engine/graph/expand/names/names.h"
-#include "engine/graph/language/expr_node.h"
 
 namespace weft::graph {
 

@@ -9,7 +9,6 @@
 
 #include "engine/graph/desc_walk.h"
 #include "engine/graph/expand/passes.h"
-#include "engine/graph/language/expr_node.h"
 #include "engine/text/nearest.h"
 #include "engine/text/words/words.h"
 

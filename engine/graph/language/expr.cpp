@@ -651,7 +651,7 @@ bool changesLater(const ExprNode& root, EvalScope& scope) {
   bool changes = root.dynamic || root.live;
   visitNodes(root, [&](const ExprNode& node) {
     changes = changes || (node.op == ExprOp::fact && node.fact == Fact::value && scope.keepsImports()) ||
-              (node.op == ExprOp::variable && (scope.folded(node.name) || scope.parameterKey(node.name)));
+              (node.op == ExprOp::variable && scope.folded(node.name, node.place));
   });
   return changes;
 }
@@ -659,13 +659,8 @@ bool changesLater(const ExprNode& root, EvalScope& scope) {
 // Null after an error.
 ExprPtr foldNode(const ExprPtr& node, EvalScope& scope, text::Diagnostics& diagnostics) {
   if (node->folded) return node;
-  if (node->op == ExprOp::variable) {
-    if (const Expr* folded = scope.folded(node->name))
-      return folded->present() ? folded->root()->shared_from_this()
-                               : nullptr;  // reported where it was folded
-    if (const std::optional<std::uint32_t> key = scope.parameterKey(node->name))
-      return Expr::parameter(*key, node->place).root()->shared_from_this();
-  }
+  if (node->op == ExprOp::variable)
+    if (auto folded = scope.folded(node->name, node->place)) return *std::move(folded);
   if (!changesLater(*node, scope)) {
     Value value = Evaluator(scope, &diagnostics).run(*node);
     return value.type == Value::Type::none ? nullptr : makeConstant(std::move(value), node->place);
@@ -676,7 +671,7 @@ ExprPtr foldNode(const ExprPtr& node, EvalScope& scope, text::Diagnostics& diagn
     if ((which && changesLater(*which, scope)) || index.type == Value::Type::none) return nullptr;
     const std::optional<std::uint32_t> key =
         scope.importKey({node->name, node->value.symbol, static_cast<std::uint32_t>(index.v[0]), node->part});
-    return key ? Expr::parameter(*key, node->place).root()->shared_from_this() : nullptr;
+    return key ? Expr::parameter(*key, node->place).tree() : nullptr;
   }
   if (node->op == ExprOp::fact) {
     const std::optional<std::uint32_t> key = scope.ageKey(node->name);

@@ -48,7 +48,6 @@ std::optional<double> parseNumber(std::string_view text);
 struct ExprNode;  // engine/graph/language/expr_node.h
 // Seconds since the publication behind a key.
 using AgeFunction = std::function<double(std::uint32_t key)>;
-class Expr;
 
 // The last is no function: @import.value.
 enum class Fact : std::uint8_t { size, mips, count, has, age, format, value };
@@ -83,16 +82,16 @@ class EvalScope {
   virtual std::vector<std::string> candidates(NameKind) { return {}; }
   // A key by which a folded age() finds its resource at run time; nullopt for an unknown resource.
   virtual std::optional<std::uint32_t> ageKey(std::string_view /*resource*/) { return std::nullopt; }
-  // A `let` that changes without another plan (it contains age() or a live parameter, perhaps through another
-  // `let`), already folded in the scope it stands in; null for every other name. fold() asks this before
-  // variable() and puts the tree in its place.
-  virtual const Expr* folded(std::string_view /*variable*/) { return nullptr; }
-  // A key by which a folded expression finds the value of a live parameter; nullopt for every other name,
-  // which is folded to its value.
-  virtual std::optional<std::uint32_t> parameterKey(std::string_view /*variable*/) { return std::nullopt; }
+  // What fold() puts in the place of a variable that changes without another plan: a live parameter, or a `let` that
+  // contains one or age(), perhaps through another `let`, already folded in the scope it stands in (null after a report).
+  // nullopt for every other name, which is folded to its value.
+  virtual std::optional<std::shared_ptr<const ExprNode>> folded(std::string_view /*variable*/,
+                                                                const text::Place&) {
+    return std::nullopt;
+  }
   // What it is, or a value of its type as long as nothing runs; none after a report.
   virtual Value importValue(const ImportValue&, const text::Place&) { return {}; }
-  // A key by which a folded expression finds it, as parameterKey(); nullopt while it is folded to importValue().
+  // A key by which a folded expression finds it, as a live parameter; nullopt while it is folded to importValue().
   virtual std::optional<std::uint32_t> importKey(const ImportValue&) { return std::nullopt; }
   virtual bool keepsImports() const { return false; }
   // What folded expressions ask by these keys: seconds since a publication, the value of a live parameter.
@@ -159,6 +158,7 @@ class Expr {
                        text::Diagnostics* diagnostics = nullptr) const;
 
   const ExprNode* root() const { return root_.get(); }
+  const std::shared_ptr<const ExprNode>& tree() const { return root_; }
 
  private:
   Expr(std::shared_ptr<const ExprNode> root, text::Place start);

@@ -54,7 +54,7 @@ enum class ExprOp : std::uint8_t {
 };
 constexpr ExprOp kLastOp = ExprOp::log2;
 
-struct ExprNode : std::enable_shared_from_this<ExprNode> {
+struct ExprNode {
   ExprOp op = ExprOp::constant;
   Fact fact = Fact::size;
   std::uint8_t height = 1;          // 1 for leaves; never above kMaxExprHeight

@@ -48,9 +48,9 @@ struct MapScope : EvalScope {
       for (const auto& [key, value] : facts) out.push_back(key.second);
     return out;
   }
-  const Expr* folded(std::string_view name) override {
+  std::optional<std::shared_ptr<const ExprNode>> folded(std::string_view name, const text::Place&) override {
     const auto found = foldedLets.find(name);
-    return found == foldedLets.end() ? nullptr : &found->second;
+    return found == foldedLets.end() ? std::nullopt : std::optional(found->second.tree());
   }
   std::optional<std::uint32_t> ageKey(std::string_view resource) override {
     const auto found = ageKeys.find(resource);

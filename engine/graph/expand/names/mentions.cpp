@@ -1,11 +1,9 @@
 // What the expressions and references of all files name. Declared in names.h.
-#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "engine/graph/desc_walk.h"
 #include "engine/graph/expand/names/names.h"
-#include "engine/graph/language/expr_node.h"
 
 namespace weft::graph::expansion {
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/graph/language/expr_node.h"
 #include "engine/graph/language/keys.h"
 #include "engine/graph/subresource.h"
 #include "engine/text/json/report.h"
@@ -246,11 +245,13 @@ std::optional<std::uint32_t> Names::ageKey(std::string_view resource) {
   return currentResource(model_, index, 0);
 }
 
-const Expr* Names::folded(std::string_view variable) {
+std::optional<ExprPtr> Names::folded(std::string_view variable, const Place& place) {
   const Variable found = findVariable(model_, scope_, variable);
-  if (found.kind != Variable::Kind::let) return nullptr;
+  if (live && found.kind == Variable::Kind::parameter && !model_.parameters[found.index].structural)
+    return Expr::parameter(found.index, place).tree();
+  if (found.kind != Variable::Kind::let) return std::nullopt;
   Let& let = model_.lets[found.index];
-  if (!let.dynamic && !(live && let.live)) return nullptr;
+  if (!let.dynamic && !(live && let.live)) return std::nullopt;
   std::optional<Expr>& kept = live ? let.liveFolded : let.folded;
   if (!kept || let.watched) {
     Progress own = Progress::fresh;
@@ -269,14 +270,7 @@ const Expr* Names::folded(std::string_view variable) {
     }
   }
   failed = failed || (live && !kept->present());
-  return &*kept;
-}
-
-std::optional<std::uint32_t> Names::parameterKey(std::string_view name) {
-  if (!live) return std::nullopt;
-  const Variable found = findVariable(model_, scope_, name);
-  const bool leaf = found.kind == Variable::Kind::parameter && !model_.parameters[found.index].structural;
-  return leaf ? std::optional(found.index) : std::nullopt;
+  return kept->tree();
 }
 
 namespace {

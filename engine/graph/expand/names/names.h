@@ -10,6 +10,7 @@
 #include <span>
 
 #include "engine/graph/expand/names/model.h"
+#include "engine/graph/language/expr_node.h"
 
 namespace weft::graph::expansion {
 
@@ -142,8 +143,7 @@ class Names final : public EvalScope {
   std::vector<std::string> choicesOf(std::string_view variable) override;
   std::vector<std::string> candidates(NameKind kind) override;
   std::optional<std::uint32_t> ageKey(std::string_view resource) override;
-  const Expr* folded(std::string_view variable) override;
-  std::optional<std::uint32_t> parameterKey(std::string_view variable) override;
+  std::optional<ExprPtr> folded(std::string_view variable, const Place& place) override;
   Value importValue(const ImportValue& asked, const Place& place) override;
   std::optional<std::uint32_t> importKey(const ImportValue& asked) override;
   bool keepsImports() const override { return live; }

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "engine/graph/desc.h"
-#include "engine/text/diagnostic.h"
 
 namespace weft::graph {
 
