@@ -26,6 +26,13 @@ Line lineOf(const Model& model, std::uint32_t use, std::uint32_t who) {
   return {{entity, element, 1, rect}, model.positionOf[model.graph.links.passOf[use]], who};
 }
 
+// The pass at a position of declared order; kNone: it is off.
+std::uint32_t passAt(const Model& model, std::uint32_t position) {
+  const auto at = std::ranges::lower_bound(model.positionOf, position);
+  const bool runs = at != model.positionOf.end() && *at == position;
+  return runs ? static_cast<std::uint32_t>(at - model.positionOf.begin()) : kNone;
+}
+
 bool isOwn(const Model& model, std::uint32_t entity) {
   return entity != kNone && model.entities[entity].isOwn();
 }
@@ -51,14 +58,12 @@ Reach findReach(Model& model) {
   // For a while, the graph has what is off: reads of passes that run, and of one that stands for all others and is never culled. What
   // those write is drawn over what is there.
   const VersionLinks links = graph.links;
-  const std::size_t uses = graph.uses.size(), passes = graph.passes.size();
+  const std::size_t uses = graph.uses.size();
+  const auto passes = static_cast<std::uint32_t>(graph.passes.size());
   graph.passes.push_back({.sideEffect = true});
   const auto see = [&](const OffRead& read, std::uint32_t writer) {
-    const auto at = std::ranges::lower_bound(model.positionOf, read.position);
-    const bool runs = at != model.positionOf.end() && *at == read.position;
     graph.uses.push_back(read.use);
-    graph.links.passOf.push_back(
-        static_cast<std::uint32_t>(runs ? at - model.positionOf.begin() : std::ptrdiff_t(passes)));
+    graph.links.passOf.push_back(std::min(passAt(model, read.position), passes));
     graph.links.seen.push_back(writer);
   };
   for (OffRead read : model.offReads) {
@@ -155,12 +160,9 @@ void addMissedParts(const Model& model, std::uint32_t use, std::uint32_t slot, s
 std::vector<Missed> findMissedReads(const Model& model) {
   const FlatGraph& graph = model.graph;
   std::vector<Missed> missed;
-  for (const EmptyRead& read : model.emptyReads) {
-    const auto at = std::ranges::lower_bound(model.positionOf, read.position);
-    if (read.slot == kNone || at == model.positionOf.end() || *at != read.position) continue;
-    const auto pass = static_cast<std::uint32_t>(at - model.positionOf.begin());
-    missed.push_back({{read, read.position, pass}, read.slot, read.zero, pass});
-  }
+  for (const EmptyRead& read : model.emptyReads)
+    if (const std::uint32_t pass = passAt(model, read.position); pass != kNone && read.slot != kNone)
+      missed.push_back({{read, read.position, pass}, read.slot, read.zero, pass});
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
     for (std::uint32_t s = 0; s < graph.specs[p].slotCount; ++s) {
       const SlotSpec& slot = graph.slots[graph.specs[p].firstSlot + s];
@@ -194,24 +196,6 @@ void addNames(std::string& message, const char* word, const std::vector<std::str
 }
 
 // ---- what is lost ----
-
-// A pass, and those whose results go into what it makes, directly or through others, by the uses for which follows(use, its source).
-template <class Follows>
-std::vector<bool> findSources(const FlatGraph& graph, std::uint32_t pass, const Follows& follows) {
-  std::vector<bool> found(graph.passes.size(), false);
-  std::vector<std::uint32_t> open{pass};
-  found[pass] = true;
-  while (!open.empty()) {
-    const std::uint32_t next = open.back();
-    open.pop_back();
-    graph.forEachSource(next, [&](std::uint32_t use, std::uint32_t source) {
-      if (found[source] || !follows(use, source)) return;
-      found[source] = true;
-      open.push_back(source);
-    });
-  }
-  return found;
-}
 
 // In order of what a message says before the others.
 enum class Reason : std::uint8_t { overwritten, readerAbove, unread, writesNothing };
@@ -331,11 +315,13 @@ void warnOfLosses(Model& model, const Reach& reach, const std::vector<Missed>& m
   // What only feeds a lost pass is lost with it.
   const auto spread = [&](const Loss& loss) {
     const std::uint32_t at = add(loss);
-    const std::vector<bool> with = findSources(graph, loss.pass, [&](std::uint32_t, std::uint32_t feeder) {
-      return !runs(loss.pass) && !runs(feeder) && told[feeder] == kNone;
+    const auto with = findWays(graph, loss.pass, [&](std::uint32_t pass, auto&& follow) {
+      graph.forEachSource(pass, [&](std::uint32_t, std::uint32_t feeder) {
+        if (!runs(loss.pass) && !runs(feeder) && told[feeder] == kNone) follow(feeder);
+      });
     });
     for (std::size_t p = 0; p < with.size(); ++p)
-      if (with[p]) told[p] = at;
+      if (with[p] != kNone) told[p] = at;
   };
   std::vector<bool> feeds(graph.passes.size(), false);
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
@@ -410,11 +396,13 @@ void warnMisplaced(Model& model, const Reach& reach, const std::vector<Missed>& 
     const std::string &name = graph.specs[reader].declared, &other = graph.specs[writer].declared;
     const bool begins = graph.slots[graph.specs[reader].firstSlot + miss.slot].useCount > 0;
     // What is drawn over needs nothing of what is there.
-    const auto needs = [&](std::uint32_t use, std::uint32_t) {
-      return graph.uses[use].access != Access::modify || isStore(graph.uses[use]);
+    const auto sources = [&](std::uint32_t pass, auto&& follow) {
+      graph.forEachSource(pass, [&](std::uint32_t use, std::uint32_t source) {
+        if (graph.uses[use].access != Access::modify || isStore(graph.uses[use])) follow(source);
+      });
     };
     if (name == other ||
-        (begins && reach.live.pass[writer] != 0 && findSources(graph, writer, needs)[reader]))
+        (begins && reach.live.pass[writer] != 0 && findWays(graph, writer, sources)[reader] != kNone))
       continue;
     auto entries = entriesOf(name, other);
     auto at = std::ranges::find(mistakes, entries, &Mistake::entries);

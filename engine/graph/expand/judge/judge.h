@@ -7,6 +7,21 @@
 
 namespace weft::graph::expansion {
 
+// The passes whose results go into what `last` makes, directly or through others: per pass the one that it feeds on a shortest way
+// there; of `last` itself; kNone for all others. each(pass, follow) calls follow(source) for its sources.
+template <class Each>
+std::vector<std::uint32_t> findWays(const FlatGraph& graph, std::uint32_t last, const Each& each) {
+  std::vector<std::uint32_t> next(graph.passes.size(), kNone), queue{last};
+  next[last] = last;
+  for (std::size_t at = 0; at < queue.size(); ++at)
+    each(queue[at], [&, pass = queue[at]](std::uint32_t source) {
+      if (source >= next.size() || next[source] != kNone) return;
+      next[source] = pass;
+      queue.push_back(source);
+    });
+  return next;
+}
+
 // Reports every MissingRead: an error in a live pass, a warning in a culled one, with the reason (a pass that is disabled,
 // removed or never repeated, a later writer, a cycle, no writer) and the fixes.
 void reportMissingReads(Model& model);

@@ -84,21 +84,13 @@ Writers findWriters(const Model& model, const Records& all, const MissingRead& m
 // passes below them would give them.
 std::string cycleOf(const FlatGraph& graph, const PassLists& wouldRead, std::uint32_t first,
                     std::uint32_t last) {
-  std::vector<std::uint32_t> next(graph.passes.size(), kNone), queue{last};
-  next[last] = last;
-  for (std::size_t at = 0; at < queue.size() && next[first] == kNone; ++at) {
-    const std::uint32_t pass = queue[at];
-    const auto reach = [&](std::uint32_t before) {
-      if (before >= next.size() || next[before] != kNone) return;
-      next[before] = pass;
-      queue.push_back(before);
-    };
+  const std::vector<std::uint32_t> next = findWays(graph, last, [&](std::uint32_t pass, auto&& follow) {
     graph.forEachSource(pass, [&](std::uint32_t use, std::uint32_t before) {
-      if (graph.uses[use].history == 0) reach(before);
+      if (graph.uses[use].history == 0) follow(before);
     });
     if (const auto would = wouldRead.find(pass); would != wouldRead.end())
-      std::ranges::for_each(would->second, reach);
-  }
+      std::ranges::for_each(would->second, follow);
+  });
   if (next[first] == kNone) return {};
   std::string path;
   for (std::uint32_t pass = first; pass != last; pass = next[pass]) path += graph.passNames[pass] + " -> ";
