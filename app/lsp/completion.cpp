@@ -33,18 +33,13 @@ bool areShapes(const Shapes& shapes, std::string_view kind) {
   return std::ranges::find(shapes, kind, &graph::Shape::kind) != shapes.end();
 }
 
-const graph::KeySpec* keyOf(const graph::Shape& shape, std::string_view key) {
-  const auto found = std::ranges::find(shape.keys, key, &graph::KeySpec::key);
-  return found == shape.keys.end() ? nullptr : &*found;
-}
-
 // Of the innermost value around a spot.
 Shapes shapesAt(const Spot& spot) {
   Shapes shapes{&graph::shapeOfFile(spot.values[0]->find("extends") || spot.values[0]->find("set"))};
   for (const std::string_view step : spot.keys) {
     Shapes inner;
     for (const graph::Shape* shape : shapes)
-      if (const graph::KeySpec* key = inner.empty() ? keyOf(*shape, step) : nullptr)
+      if (const graph::KeySpec* key = inner.empty() ? shape->find(step) : nullptr)
         addShape(*key->shape, inner);
     for (const graph::Shape* shape : inner.empty() ? shapes : Shapes())
       if (const graph::Shape* each = step == "[]" ? shape->items : shape->others) addShape(*each, inner);
@@ -63,7 +58,7 @@ bool fits(const graph::Shape& shape, const JsonValue& object, const JsonMember* 
   const auto needed = std::ranges::find_if(shape.keys, &graph::KeySpec::required);
   const bool others = shape.others && needed != shape.keys.end() && object.find(needed->key);
   return std::ranges::all_of(object.members, [&](const JsonMember& member) {
-    return &member == typed || keyOf(shape, member.key) || others;
+    return &member == typed || shape.find(member.key) || others;
   });
 }
 

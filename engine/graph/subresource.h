@@ -95,12 +95,6 @@ inline bool overlap(const FlatUse& a, const FlatUse& b) {
   return (a.planes & b.planes) != 0 && a.mip < b.mip + b.mips && b.mip < a.mip + a.mips &&
          a.layer < b.layer + b.layers && b.layer < a.layer + a.layers;
 }
-// True when `outer` has every sub-resource of `inner`.
-inline bool covers(const FlatUse& outer, const FlatUse& inner) {
-  return (inner.planes & ~outer.planes) == 0 && outer.mip <= inner.mip &&
-         inner.mip + inner.mips <= outer.mip + outer.mips && outer.layer <= inner.layer &&
-         inner.layer + inner.layers <= outer.layer + outer.layers;
-}
 
 // How many sub-resources `use` covers.
 inline std::uint32_t subresourceCount(const FlatUse& use, const FlatResource& r) {

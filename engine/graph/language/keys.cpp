@@ -82,6 +82,11 @@ const Shape& shapeOfJson(const Json& json) {
 
 }  // namespace
 
+const KeySpec* Shape::find(std::string_view key) const {
+  const auto found = std::ranges::find(keys, key, &KeySpec::key);
+  return found == keys.end() ? nullptr : &*found;
+}
+
 const Shape& shapeOfFile(bool changes) {
   static const Shape whole = [] {
     Shape shape = shapeOfJson(schema());
@@ -109,15 +114,13 @@ const Shape& shapeOf(std::string_view kind) {
 }
 
 const KeySpec* findStateKey(std::string_view path) {
-  const std::string_view last = path.substr(path.rfind('.') + 1);
   const bool factors = path.starts_with("blend.") && path.find('.') != path.rfind('.');
-  const auto& keys = path.starts_with("stencil.back.") ? shapeOf("stencilFace").keys
-                     : path.starts_with("stencil.")    ? shapeOf("stencil").keys
-                     : factors                         ? shapeOf("blending").keys
-                                                       : shapeOf("state").keys;
-  const auto found = std::ranges::find(
-      keys, &keys == &shapeOf("state").keys ? path.substr(0, path.find('.')) : last, &KeySpec::key);
-  return found == keys.end() ? nullptr : &*found;
+  const char* const kind = path.starts_with("stencil.back.") ? "stencilFace"
+                           : path.starts_with("stencil.")    ? "stencil"
+                           : factors                         ? "blending"
+                                                             : nullptr;
+  return kind ? shapeOf(kind).find(path.substr(path.rfind('.') + 1))
+              : shapeOf("state").find(path.substr(0, path.find('.')));
 }
 
 std::span<const std::string_view> stateWords(std::string_view path) {

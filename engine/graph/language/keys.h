@@ -41,6 +41,8 @@ struct Shape {
   std::vector<const Shape*> anyOf;
   std::span<const std::string_view> words = {};  // that it may be, or, with `open`, that are examples
   bool open = true;
+  // Null for a key of which it says nothing.
+  const KeySpec* find(std::string_view key) const;
 };
 // Of a definition of the schema: "resource".
 const Shape& shapeOf(std::string_view kind);

@@ -125,8 +125,7 @@ class GraphReader {
   static bool isOtherFile(const JsonValue& root, ReadContext& context) {
     const auto own = [](const JsonMember& member) {
       return member.key != "name" && member.key != "description" && member.key != "$schema" &&
-             std::ranges::find(shapeOfFile(false).keys, member.key, &KeySpec::key) !=
-                 shapeOfFile(false).keys.end();
+             shapeOfFile(false).find(member.key);
     };
     if (std::ranges::any_of(root.members, own)) return false;
     context.error(

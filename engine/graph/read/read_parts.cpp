@@ -651,9 +651,8 @@ bool isGroup(std::string_view key) {
 }
 
 void addSet(JsonValue& stanza, const JsonValue& set, const std::function<void(const JsonMember&)>& both) {
-  const std::vector<KeySpec>& known = shapeOf("set").keys;
   for (const JsonMember& member : set.members) {
-    if (std::ranges::find(known, member.key, &KeySpec::key) == known.end()) continue;
+    if (!shapeOf("set").find(member.key)) continue;
     JsonMember* there = memberOf(stanza, member.key);
     if (!there)
       stanza.members.push_back(member);

@@ -312,13 +312,10 @@ std::optional<RefDesc> parseRef(string_view text, const Place& place, text::Diag
 bool looksLikeRef(string_view text) {
   text = trimmed(text);
   if (text.starts_with('@')) return true;
-  std::size_t at = 0;
-  while (at < text.size() && (isIdentChar(text[at]) || text[at] == '.')) ++at;
-  const string_view word = text.substr(0, at);
-  if (word.empty() || !isIdentStart(word[0]) || word == "true" || word == "false" || word == "screen" ||
-      word.starts_with("device."))
+  const string_view word = dottedNameIn(text);
+  if (word.empty() || word == "true" || word == "false" || word == "screen" || word.starts_with("device."))
     return false;
-  return !trimmed(text.substr(at)).starts_with('(');
+  return !trimmed(text.substr(word.size())).starts_with('(');
 }
 
 std::optional<CallText> parseCallText(string_view text, const Place& place, text::Diagnostics& diagnostics) {

@@ -66,12 +66,11 @@ class ShapeCheck {
       : mends_(mends), overlay_(overlay), said_(diagnostics) {}
 
   void run(JsonValue& root) {
-    const std::vector<KeySpec>& keys = shapeOfFile(false).keys;
-    checkKeys(root, {keys}, "graph", "graph_key");
+    checkKeys(root, {shapeOfFile(false).keys}, "graph", "graph_key");
     overlay_ = overlay_ || root.find("extends");
     for (JsonMember& section : root.members) {
-      const auto spec = std::ranges::find(keys, section.key, &KeySpec::key);
-      if (spec == keys.end()) continue;
+      const KeySpec* const spec = shapeOfFile(false).find(section.key);
+      if (!spec) continue;
       if (section.key == "passes" && section.value.is(Type::array)) {
         for (JsonValue& stanza : section.value.items) checkPass(stanza);
       } else if (section.key == "resources" && section.value.is(Type::object)) {
@@ -202,8 +201,7 @@ class ShapeCheck {
     if (!shape.keys.empty() && !shape.others) checkKeys(object, {shape.keys, more}, what, foreignOf(shape));
     for (JsonMember& member : object.members) {
       if (!said_.goesOn()) return;
-      const auto spec = std::ranges::find(shape.keys, member.key, &KeySpec::key);
-      if (spec != shape.keys.end())
+      if (const KeySpec* const spec = shape.find(member.key))
         checkValue(member.value, *spec->shape, member.key, spec->doc);
       else if (shape.others)
         checkValue(member.value, *shape.others, member.key, shape.others->doc);
@@ -223,9 +221,7 @@ class ShapeCheck {
       known.clear();
       for (const std::span<const KeySpec> keys : lists)
         for (const KeySpec& spec : keys) known.emplace_back(spec.key);
-      const bool ofState =
-          foreign == "pass_key" &&
-          std::ranges::find(shapeOf("state").keys, member.key, &KeySpec::key) != shapeOf("state").keys.end();
+      const bool ofState = foreign == "pass_key" && shapeOf("state").find(member.key);
       // A word of another program first.
       const text::ForeignWord theirs =
           ofState || foreign.empty() ? text::ForeignWord() : text::findForeignWord(foreign, member.key);
