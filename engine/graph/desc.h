@@ -59,10 +59,9 @@ struct SpanDesc {
 struct RefDesc {
   std::string text;  // as written
   Place place;
-  std::string name;     // dotted, without the leading @
-  bool import = false;  // written with @
-  std::optional<SpanDesc> mip, layer, face;
-  std::optional<Expr> element;  // [k]
+  std::string name;                                   // dotted, without the leading @
+  bool import = false;                                // written with @
+  std::optional<SpanDesc> mip, layer, face, element;  // the last, [k], is no range
   bool stencil = false;
   int history = 0;                           // n of @-n
   std::optional<Kind> kind;                  // `as depth`

@@ -11,8 +11,7 @@ namespace weft::graph {
 template <class OnExpr, class OnRef>
 void visitRef(const RefDesc& ref, OnExpr&& onExpr, OnRef&& onRef) {
   onExpr(ref.condition);
-  if (ref.element) onExpr(*ref.element);
-  for (const std::optional<SpanDesc>* span : {&ref.mip, &ref.layer, &ref.face})
+  for (const std::optional<SpanDesc>* span : {&ref.element, &ref.mip, &ref.layer, &ref.face})
     if (*span) {
       onExpr((*span)->first);
       onExpr((*span)->last);

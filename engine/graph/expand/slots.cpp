@@ -20,14 +20,10 @@ constexpr const char* kPartWords[] = {"level", "layer", "face", "element"};  // 
 // Adds the selectors of `ref` to what is selected already (from outside: a slot that selects in an alternative).
 bool addSelection(const SlotContext& context, Names& names, const RefDesc& ref, Selection& into) {
   into.stencil = into.stencil || ref.stencil;
-  if (!ref.mip && !ref.layer && !ref.face && !ref.element) return true;
-  SpanDesc element;
-  if (ref.element) element.first = *ref.element;
-  const SpanDesc* const parts[] = {ref.mip ? &*ref.mip : nullptr, ref.layer ? &*ref.layer : nullptr,
-                                   ref.face ? &*ref.face : nullptr, ref.element ? &element : nullptr};
+  const std::optional<SpanDesc>* const parts[] = {&ref.mip, &ref.layer, &ref.face, &ref.element};
   for (std::size_t i = 0; i < std::size(parts); ++i) {
-    if (!parts[i]) continue;
-    const SpanDesc& said = *parts[i];
+    if (!*parts[i]) continue;
+    const SpanDesc& said = **parts[i];
     const auto first = evaluateWhole(names, said.first, 0, -kFar, kFar, kPartWords[i]);
     const auto last = evaluateWhole(names, said.last, 0, -kFar, kFar, kPartWords[i]);
     if (!first || !last) return false;

@@ -293,8 +293,8 @@ void resolveView(const SlotContext& context, const PassDesc& desc, PassSpec& spe
   const std::int64_t last =
       entity.count > 0 && context.ranges ? static_cast<std::int64_t>(entity.count) - 1 : 65535;
   const Expr none;
-  const auto element =
-      evaluateWhole(context.names, ref.element ? *ref.element : none, 0, 0, last, "the element of the view");
+  const auto element = evaluateWhole(context.names, ref.element ? ref.element->first : none, 0, 0, last,
+                                     "the element of the view");
   const auto face =
       evaluateWhole(context.names, ref.face ? ref.face->first : none, 0, 0, 5, "the face of the view");
   if (!element || !face) return;

@@ -163,8 +163,9 @@ class RefParser {
       if (here() == '[') {
         if (ref_.element) return fail(at_, "a second '[…]'", "an array has one dimension");
         const std::size_t end = closeBracket();
-        if (end > 0) ref_.element = parseInner(start + 1, end);
-        if (!ref_.element) return false;
+        const std::optional<Expr> index = end > 0 ? parseInner(start + 1, end) : std::nullopt;
+        if (!index) return false;
+        ref_.element = SpanDesc{.first = *index};
         continue;
       }
       const string_view word = peekWord(at_ + 1);

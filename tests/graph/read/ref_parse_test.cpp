@@ -71,7 +71,7 @@ TEST_CASE("selectors and spans") {
   CHECK(cube.layer->first.text() == "l");
   CHECK(cube.face->first.text() == "f");
   const RefDesc light = parse("@shadowed_lights[l].face[[1, 2].x]");
-  CHECK(light.element->text() == "l");
+  CHECK(light.element->first.text() == "l");
   CHECK(light.face->first.text() == "[1, 2].x");
   CHECK(parse("gi.sh[2].mip[0]").name == "gi.sh");
   CHECK(parse("depth.stencil").stencil);

@@ -117,7 +117,8 @@ struct Scope {
   KnownNames<Variable> variables;
   KnownNames<Scope*> includes;
   KnownNames<const PassDesc*> passes;
-  KnownNames<std::uint32_t> imports;  // of types whose defaults see from the file's camera: entities
+  // Imports with their defaults, by type: of the root all, else of those whose defaults see from the file's camera. Entities.
+  KnownNames<std::uint32_t> imports;
   Progress screenState = Progress::fresh;
   std::array<std::uint32_t, 2> screen{1, 1};  // of an include that says it, when done
   std::string disabledBy;                     // "--disable post"; empty: not disabled
@@ -204,9 +205,8 @@ struct Model {
   std::deque<Parameter> parameters{};
   std::deque<Let> lets{};
   std::deque<Entity> entities{};
-  std::size_t sets = 0;                         // values in "set", of all files
-  KnownNames<std::uint32_t> imports{};          // by type: with its defaults, named only by @type
-  std::vector<std::uint32_t> importResource{};  // per import: its FlatResource or kNone
+  std::size_t sets = 0;                                       // values in "set", of all files
+  std::vector<std::uint32_t> importResource{};                // per import: its FlatResource or kNone
   KnownNames<std::vector<std::uint32_t>> parametersByLeaf{};  // all of one name, in any file, in their order
   std::unordered_map<std::string, std::vector<DisableRule>> disables{};  // by declared name
   std::vector<WriteRecord> writes{};

@@ -240,7 +240,7 @@ void buildScopes(Model& model) {
   buildScope(model, root);
   if (model.stopped) return;
   for (const ImportType& type : model.registry.imports) {
-    model.imports.emplace(type.name, static_cast<std::uint32_t>(model.entities.size()));
+    root.imports.emplace(type.name, static_cast<std::uint32_t>(model.entities.size()));
     model.entities.push_back({.kind = ResourceDesc::Kind::import, .scope = &root, .name = "@" + type.name});
   }
   for (std::size_t i = 1; i < model.scopes.size(); ++i) checkBinds(model, model.scopes[i]);
@@ -311,8 +311,7 @@ std::uint32_t findImport(Model& model, const Scope& from, std::string_view name)
   }
   for (const Scope* scope = &from; scope; scope = scope->parent)
     if (const auto own = scope->imports.find(name); own != scope->imports.end()) return own->second;
-  const auto type = model.imports.find(name);
-  return type == model.imports.end() ? kNone : type->second;
+  return kNone;
 }
 
 }  // namespace
