@@ -130,12 +130,16 @@ struct ResourceDesc {
   std::vector<RefDesc> alternatives;
 };
 
-struct SlotDesc {
+// What a stanza says of a slot as it is.
+struct SlotHead {
   std::string name;
   Place place;  // of its key
   Access access = Access::read;
+  bool ofSet = false;  // other passes may have it, too
+};
+
+struct SlotDesc : SlotHead {
   RefDesc ref;
-  bool ofSet = false;
 };
 
 struct RangeDesc {
@@ -178,17 +182,23 @@ struct BesideDesc {
   bool after = false;  // else before it
 };
 
-struct PassDesc {
-  std::string name;  // for an include: its prefix
-  Place place;       // of the stanza's opening brace
-  Place namePlace;
-  std::vector<UsedSet> uses;
-  std::optional<IncludeDesc> include;
+// What a stanza says of a pass as it is: each instance of it has the same.
+struct PassHead {
+  Place place;  // of the stanza's opening brace
   std::string type;
-  Place typePlace;
   std::string shader;  // a path; of a draw the stem of two, or the fragment shader beside `vertexShader`
   std::string vertexShader;  // of a draw that names both
   Place shaderPlace;
+  std::string list;      // draw list or ""
+  std::string geometry;  // "quad", "mesh", "icosphere"
+};
+
+struct PassDesc : PassHead {
+  std::string name;  // for an include: its prefix
+  Place namePlace;
+  std::vector<UsedSet> uses;
+  std::optional<IncludeDesc> include;
+  Place typePlace;
   Expr enabled;  // absent: true
   std::vector<RangeDesc> repeat;
   // Of the group that it stands in: its brace, and how many ranges are the group's, which come first. Neighbors of one group go
@@ -203,9 +213,7 @@ struct PassDesc {
   Cadence cadence = Cadence::always;
   Expr period;  // of Cadence::every: frames
   Expr slices, threads, instances, draws, raster, samples, screen;
-  std::string list;
   Place listPlace;
-  std::string geometry;  // "quad", "mesh", "icosphere"
   std::vector<Expr> geometryArguments;
   Place geometryPlace;
   std::optional<RefDesc> view;
@@ -253,8 +261,17 @@ struct NamedDesc {
 // Files by path, as they were read.
 using FileTexts = std::map<std::string, std::shared_ptr<const std::string>>;
 
-struct GraphDesc {
-  std::string path;  // as opened; "" for text without a file
+// A file with what is laid over it.
+struct FileDesc {
+  std::string path;                  // as opened; "" for text without a file
+  std::vector<std::string> files;    // itself, what it extends, its presets
+  std::vector<RemovedPass> removed;  // by overlays
+  std::vector<NamedDesc> named;      // by overlays
+  std::string top;  // the overlay or preset that lies over all others; "" when nothing lies over this file
+};
+
+// Its `files` have all that is below, too: to watch.
+struct GraphDesc : FileDesc {
   std::string name;
   Place place;
   std::vector<ParameterDesc> parameters;
@@ -265,13 +282,9 @@ struct GraphDesc {
   std::optional<RefDesc> present;
   std::vector<OutputDesc> outputs;
   std::vector<SetDesc> sets;  // in order: the last wins
-  std::vector<RemovedPass> removed;
-  std::vector<NamedDesc> named;  // by overlays
   std::vector<std::string>
-      unread;                      // declared names that were reported and left out: a use is no second error
-  std::vector<std::string> files;  // this file, what it extends, its presets and all that is below, to watch
-  FileTexts texts;                 // of the graph that was asked for: all these files; included ones: some
-  std::string top;  // the overlay or preset that lies over all others; "" when nothing lies over this file
+      unread;       // declared names that were reported and left out: a use is no second error
+  FileTexts texts;  // of the graph that was asked for: all its files; included ones: some
 };
 
 // What a person names to look at in a graph that runs: engine/graph/pick/pick.h.

@@ -34,15 +34,19 @@ enum class Target : std::uint8_t {
 };
 enum class ResourceKind : std::uint8_t { texture, buffer, imported_texture, imported_buffer };
 
-// One storage of a resource. A pass that reads a resource and writes all of it makes another FlatResource ("hdr#2").
-struct FlatResource {
-  ResourceKind kind = ResourceKind::texture;
+struct TextureShape {
   Format format = Format::none;
   Target target = Target::texture_2d;
   std::uint8_t samples = 1;
   std::uint16_t layers = 1;  // faces included (6 per cube); 1 for 3D
   std::uint16_t mips = 1;
   std::uint32_t width = 1, height = 1, depth = 1;
+  friend bool operator==(const TextureShape&, const TextureShape&) = default;
+};
+
+// One storage of a resource. A pass that reads a resource and writes all of it makes another FlatResource ("hdr#2").
+struct FlatResource : TextureShape {
+  ResourceKind kind = ResourceKind::texture;
   std::uint64_t bytes = 0;   // of one copy, all levels and layers; history multiplies by n + 1
   std::uint8_t history = 0;  // depth n: n + 1 copies, persistent
   // Has a version zero: the first use of a sub-resource in a frame finds it cleared; a `write` then need not cover everything.
@@ -122,21 +126,17 @@ struct VersionLinks {
 // ---- carried for the executor -------------------------------------------------------------------------------------
 
 // A declared slot of a pass instance. Slots that are not connected have useCount 0 (compiled without HAS_<NAME>).
-struct SlotSpec {
-  std::string name;
-  Place place;
+struct SlotSpec : SlotHead {
   std::uint32_t firstUse = 0;  // into FlatGraph::uses
   std::uint32_t useCount = 0;  // more than one: an array of samplers, elements in order
   // Of a read of @-n: the use of what `first` names, which is bound while the n-th publication before is not there. kNone:
   // `first` is a value.
   std::uint32_t firstValue = kNone;
   std::uint32_t border = kNone;  // into FlatGraph::borders; kNone: zeros
-  Access access = Access::read;
   Kind kind = Kind::sampled;
   Sampler sampler;
   bool array = false;  // true when the resource was declared with "array", even of one element
   bool optional = false;
-  bool ofSet = false;  // other passes may have it, too
 };
 
 // A parameter of a pass, or an element of one: of an array, or a column of a matrix.
@@ -233,13 +233,9 @@ struct StateSpec {
   friend bool operator==(const StateSpec&, const StateSpec&) = default;
 };
 
-struct PassSpec {
+struct PassSpec : PassHead {
   std::string name;      // full instance name: "bloom.glow_down[3]"
   std::string declared;  // without the index: "bloom.glow_down"
-  std::string type;
-  std::string shader;  // a path; of a draw the stem of two, or the fragment shader beside `vertexShader`
-  std::string vertexShader;  // of a draw that names both
-  Place place, shaderPlace;
   std::uint32_t firstSlot = 0, slotCount = 0;
   std::vector<DefineSpec> defines;
   std::vector<UniformSpec> uniforms;
@@ -252,9 +248,7 @@ struct PassSpec {
   std::uint8_t rasterSamples = 1;
   bool indirect = false;             // the command takes its arguments from a buffer
   std::uint32_t draws = 1;           // records of it, of a draw
-  std::string list;                  // draw list or ""
   std::uint32_t listImport = kNone;  // of the graph's own: import index
-  std::string geometry;
   std::vector<double> geometryArguments;
   bool meshes = false;                        // as GeometryType::meshes
   std::array<std::uint32_t, 2> screen{1, 1};  // pixels: what `screen` means in its file, which cameras see
@@ -283,14 +277,17 @@ struct AliasSpec {
   std::vector<std::string> targets;  // the names they stand for: resources, imports or other aliases
 };
 
-struct ParameterSpec {
-  ParameterDesc desc;
+// What a parameter is now.
+struct ParameterState {
   std::string path;                     // full name: "post.exposure", "post.dof.aperture"
   Value value;                          // after --set
   Origin origin = Origin::declaration;  // of the value
   Where valuePlace;                     // where it was written; nowhere when a panel set it
   // A size, condition, define, repeat, state or import depends on it: a change makes another plan, not other uniforms.
   bool structural = false;
+};
+struct ParameterSpec : ParameterState {
+  ParameterDesc desc;
 };
 
 struct HistorySpec {  // per FlatResource with history > 0

@@ -31,13 +31,8 @@ struct ClearOp {
   std::uint32_t attachment = kNone;
 };
 
-// A physical texture. All copies that a history needs are one Storage.
-struct Storage {
-  Target target = Target::texture_2d;
-  std::uint8_t samples = 1;
-  std::uint16_t layers = 1, mips = 1;
-  std::uint32_t width = 1, height = 1, depth = 1;
-  Format format = Format::none;  // of one of its resources; others are views
+// A physical texture, in the format of one of its resources; others are views. All copies that a history needs are one Storage.
+struct Storage : TextureShape {
   std::uint8_t copies = 1;
   bool shared = false;      // used by more than one resource
   bool persistent = false;  // history, or written by a pass that is not always

@@ -178,19 +178,10 @@ class Placer {
 
   Storage& addStorage(std::uint32_t index, const FlatResource& r, std::uint64_t bytes) {
     plan_.storageOf[index] = static_cast<std::uint32_t>(plan_.storages.size());
-    Storage storage;
-    storage.target = r.target;
-    storage.samples = r.samples;
-    storage.layers = r.layers;
-    storage.mips = r.mips;
-    storage.width = r.width;
-    storage.height = r.height;
-    storage.depth = r.depth;
-    storage.format = r.format;
+    Storage& storage = plan_.storages.emplace_back(Storage{r});
     storage.copies = static_cast<std::uint8_t>(plan_.copiesOf(index));
     storage.bytes = bytes;
-    plan_.storages.push_back(storage);
-    return plan_.storages.back();
+    return storage;
   }
 
   void endLifetimes(std::uint32_t step) {

@@ -21,7 +21,7 @@ namespace {
 std::optional<FlatUse> resolveFinal(Model& model, Scope& scope, const RefDesc& ref, const std::string& user,
                                     const std::string& name) {
   Names names(model, scope);
-  const SlotDesc slot{.name = name, .place = ref.place, .access = Access::read, .ref = ref};
+  const SlotDesc slot{{name, ref.place, Access::read}, ref};
   const SlotContext context{model, names, nullptr, user, {}};
   const SlotWork work = ref.wordsSize > 0 ? SlotWork() : resolveSlot(context, slot, kNone);
   if (work.array || ref.wordsSize > 0)
@@ -286,8 +286,7 @@ void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred) {
   inferComparisons(model);
   nameAliases(model);
   for (const Parameter& parameter : model.parameters)
-    model.graph.parameters.push_back({*parameter.desc, parameter.path, parameter.value, parameter.origin,
-                                      parameter.valuePlace, parameter.structural});
+    model.graph.parameters.push_back({parameter, *parameter.desc});
   model.graph.files = model.desc.files;
   model.graph.name = model.desc.name;
   model.graph.screenWidth = model.settings.screenWidth;

@@ -312,9 +312,7 @@ class PassWalk {
   // The slot as the executor needs it, with its uses in element order. Reads and modifies take the current resource. False
   // when the graph has too many.
   bool emitSlot(const StanzaWalk& stanza, const SlotWork& work, std::uint32_t pass) {
-    SlotSpec& slot = graph_.slots.emplace_back();
-    slot.name = work.slot->name;
-    slot.access = work.slot->access;
+    SlotSpec& slot = graph_.slots.emplace_back(SlotSpec{*work.slot});
     slot.kind = work.use.kind;
     slot.sampler = work.sampler;
     if (work.sampler.wrap == Wrap::border && work.border != BorderColor{}) {
@@ -323,8 +321,6 @@ class PassWalk {
     }
     slot.array = work.array;
     slot.optional = work.slot->ref.optional;
-    slot.place = work.slot->place;
-    slot.ofSet = work.slot->ofSet;
     slot.firstUse = static_cast<std::uint32_t>(graph_.uses.size());
     const bool used = work.isConnected() || (work.state == State::missing && work.entity != kNone &&
                                              work.slot->access != Access::write);
@@ -372,15 +368,9 @@ class PassWalk {
       context.report(Code::badSlices, desc.slices.place(),
                      fmt::format("is a {}, which runs whole", desc.type),
                      {.hint = "remove \"slices\": the pass takes one frame"});
-    PassSpec spec{.name = name_,
-                  .declared = stanza.declared,
-                  .type = desc.type,
-                  .shader = desc.shader,
-                  .vertexShader = desc.vertexShader,
-                  .place = desc.place,
-                  .shaderPlace = desc.shaderPlace,
-                  .firstSlot = static_cast<std::uint32_t>(graph_.slots.size()),
-                  .slotCount = static_cast<std::uint32_t>(desc.slots.size())};
+    PassSpec spec{static_cast<const PassHead&>(desc), name_, stanza.declared};
+    spec.firstSlot = static_cast<std::uint32_t>(graph_.slots.size());
+    spec.slotCount = static_cast<std::uint32_t>(desc.slots.size());
     if (stanza.sound) fillSpec(context, desc, slots_, spec, pass, deferred_);
     flat.firstUse = static_cast<std::uint32_t>(graph_.uses.size());
     for (std::size_t i = 0; i < desc.slots.size(); ++i)

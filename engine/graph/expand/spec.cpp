@@ -507,12 +507,10 @@ void addRaster(const SlotContext& context, const PassDesc& desc, const std::vect
 
 void addGeometry(const SlotContext& context, const PassDesc& desc, PassSpec& spec,
                  std::vector<DeferredUniform>& deferred) {
-  spec.list = desc.list;
   if (const std::uint32_t own =
           findDeclared(context.model, context.names.scope(), desc.list, ImportKind::list);
       own != kNone && ensureShape(context.model, own))
     spec.listImport = context.model.entities[own].import;
-  spec.geometry = desc.geometry;
   if (isDynamic(context.model, context.names.scope(), desc.instances))
     deferred.push_back({.expr = &desc.instances});
   else if (const auto instances = evaluateWhole(context.names, desc.instances, 1, 0, 2147483647,

@@ -19,20 +19,15 @@ constexpr std::uint64_t kMaxIncludes = 1000;  // files of one graph, each use co
 constexpr std::size_t kMaxInRow = 64;  // files that include each other, and overlays that extend each other
 
 // A file, extended and overlaid.
-struct Source {
-  std::string path;                // as opened
-  std::string identity;            // canonical path, so that two spellings of one file are recognized
-  std::vector<std::string> files;  // itself, the files it extends, the presets
-  text::JsonValue root;            // whatever stands in the file; no "extends" and "set", no stanza of an
-                                   // overlay
+struct Source : FileDesc {
+  std::string identity;  // canonical path, so that two spellings of one file are recognized
+  text::JsonValue root;  // whatever stands in the file; no "extends" and "set", no stanza of an
+                         // overlay
   struct Set {
     text::JsonMember member;
     Origin origin = Origin::file;
   };
   std::vector<Set> sets;                                   // of "set", in the order they apply: the last wins
-  std::vector<RemovedPass> removed;                        // by overlays
-  std::vector<NamedDesc> named;                            // by overlays
-  std::string top;                                         // as GraphDesc::top
   std::map<std::string, std::shared_ptr<Source>> changed;  // by prefix: includes reached into
   std::size_t values = 0;                                  // of root: what a copy costs
 };

@@ -65,12 +65,8 @@ class GraphReader {
     JsonValue root = source.root;
     checkShape(root, diagnostics_);
     auto graph = std::make_shared<GraphDesc>();
-    graph->path = source.path;
+    static_cast<FileDesc&>(*graph) = source;
     graph->place = root.place;
-    graph->files = source.files;
-    graph->removed = source.removed;
-    graph->named = source.named;
-    graph->top = source.top;
     graph->name = textIn(root, "name");
     if (graph->name.empty()) graph->name = std::filesystem::path(source.path).stem().string();
     readVariables(context, root, *graph);

@@ -469,7 +469,7 @@ void readSlots(ReadContext& context, const JsonValue& slots, Access access, cons
                     fmt::format("the slot '{}' has a '?' in \"write\"", slot.key),
                     {.hint = "leave the '?' out: what a pass writes is always there, and costs nothing where "
                              "nobody reads it"});
-    if (good && ref) out.slots.push_back({slot.key, slot.place, access, *std::move(ref), ofSet});
+    if (good && ref) out.slots.push_back({{slot.key, slot.place, access, ofSet}, *std::move(ref)});
   }
 }
 

@@ -40,15 +40,10 @@ enum class Progress : std::uint8_t { fresh, active, done, failed };
 
 struct Scope;
 
-struct Parameter {
+struct Parameter : ParameterState {
   const ParameterDesc* desc = nullptr;
-  std::string path;  // "post.exposure", "post.dof.aperture"
-  Value value;
   const Scope* scope = nullptr;
-  bool structural = false;
   bool named = false;  // some expression reads it, or a pass declares it
-  Where valuePlace{};  // where `value` was written: a default, a "set", the command line
-  Origin origin = Origin::declaration;
 };
 
 struct Let {

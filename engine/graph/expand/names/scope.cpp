@@ -28,12 +28,8 @@ void addParameter(Model& model, Scope& scope, const ParameterDesc& desc, std::st
   const auto index = static_cast<std::uint32_t>(model.parameters.size());
   model.parametersByLeaf[desc.name].push_back(index);
   // A variant is chosen before the first frame.
-  model.parameters.push_back({.desc = &desc,
-                              .path = std::move(path),
-                              .value = desc.initial,
-                              .scope = &scope,
-                              .structural = desc.define,
-                              .valuePlace = desc.initialPlace});
+  model.parameters.push_back(
+      {{std::move(path), desc.initial, Origin::declaration, desc.initialPlace, desc.define}, &desc, &scope});
   declare(scope, model.parameters.back().path, {Variable::Kind::parameter, index});
 }
 
