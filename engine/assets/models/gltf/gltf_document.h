@@ -133,23 +133,6 @@ class GltfDocument {
   std::map<std::size_t, std::string> views_, accessors_;  // by row: what was packed
 };
 
-// KHR_materials_pbrSpecularGlossiness as the albedo, metallic and roughness that look the same.
-struct SpecGloss {
-  glm::vec3 diffuse{1}, specular{1};  // linear
-  float glossiness = 1;
-};
-
-struct Metallic {
-  glm::vec3 albedo{1};
-  float metallic = 0, roughness = 0;
-};
-
-Metallic toMetallic(const SpecGloss& from);
-
-// Of a texel of the diffuse map and one of the specular-glossiness map, with these factors.
-MakeTexel makeAlbedo(const SpecGloss& factors);
-MakeTexel makeMetallicRoughness(const SpecGloss& factors);
-
 // Which uv set a material's maps are looked up with, and how they are moved: KHR_texture_transform. One for all maps of a
 // material, because a vertex has one uv; maps that want another are left out, with W168.
 struct GltfUv {

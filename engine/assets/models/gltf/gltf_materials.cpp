@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/color_space.hpp>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -55,6 +58,54 @@ constexpr struct {
 
 Material defaultMaterial(std::string name) {
   return {.name = std::move(name), .albedo = glm::vec3(1), .metallic = 1, .roughness = 1};
+}
+
+// KHR_materials_pbrSpecularGlossiness as the albedo, metallic and roughness that look the same.
+struct SpecGloss {
+  glm::vec3 diffuse{1}, specular{1};  // linear
+  float glossiness = 1;
+};
+
+struct Metallic {
+  glm::vec3 albedo{1};
+  float metallic = 0, roughness = 0;
+};
+
+float brightnessOf(glm::vec3 color) {
+  return std::sqrt(glm::dot(color * color, glm::vec3(0.299f, 0.587f, 0.114f)));
+}
+
+// Whose diffuse part and reflectance along the normal are the same: the root of a quadratic. Khronos, the extension's
+// examples/convert-between-workflows.
+Metallic toMetallic(const SpecGloss& from) {
+  constexpr float kDielectric = 0.04f;
+  const float left = 1 - std::max({from.specular.r, from.specular.g, from.specular.b});
+  const float bright = brightnessOf(from.specular), c = kDielectric - bright;
+  const float b = brightnessOf(from.diffuse) * left / (1 - kDielectric) + bright - 2 * kDielectric;
+  const float root = std::sqrt(std::max(b * b - 4 * kDielectric * c, 0.0f));
+  const float metallic = c > 0 ? 0 : glm::clamp((root - b) / (2 * kDielectric), 0.0f, 1.0f);
+  const glm::vec3 dielectric = from.diffuse * (left / (1 - kDielectric) / std::max(1 - metallic, 1e-6f));
+  const glm::vec3 metal = (from.specular - kDielectric * (1 - metallic)) / std::max(metallic, 1e-6f);
+  return {glm::clamp(glm::mix(dielectric, metal, metallic * metallic), 0.0f, 1.0f), metallic,
+          1 - from.glossiness};
+}
+
+// Of a texel of the diffuse map and one of the specular-glossiness map, with these factors.
+Metallic texelOf(const SpecGloss& factors, const glm::u8vec4& diffuse, const glm::u8vec4& specular) {
+  static const std::array<float, 256> kLinear = [] {
+    std::array<float, 256> table{};
+    for (std::size_t i = 0; i < table.size(); ++i) table[i] = decodeSrgb(static_cast<float>(i) / 255);
+    return table;
+  }();
+  const auto linear = [](const glm::u8vec4& t) {
+    return glm::vec3(kLinear[t.r], kLinear[t.g], kLinear[t.b]);
+  };
+  return toMetallic({factors.diffuse * linear(diffuse), factors.specular * linear(specular),
+                     factors.glossiness * static_cast<float>(specular.a) / 255});
+}
+
+glm::u8vec4 toBytes(glm::vec4 texel) {
+  return glm::u8vec4(texel * 255.0f + 0.5f);
 }
 
 }  // namespace
@@ -237,10 +288,20 @@ float GltfMaterials::readGloss(const JsonValue& value, const Image& diffuse, con
   if (diffuse.number == kNoRow && specular.number == kNoRow) return factor[3];
   material.albedo = glm::vec3(1);
   material.metallic = material.roughness = 1;
-  material.albedoMap = pool_.useMade(diffuse.number, specular.number, makeAlbedo(gloss), diffuse.name,
-                                     TextureUse::color, value.place);
-  material.metallicRoughnessMap = pool_.useMade(diffuse.number, specular.number, makeMetallicRoughness(gloss),
-                                                specular.name, TextureUse::numbers, value.place);
+  material.albedoMap = pool_.useMade(
+      diffuse.number, specular.number,
+      [gloss](const glm::u8vec4& d, const glm::u8vec4& s) {
+        const glm::vec3 albedo = glm::convertLinearToSRGB(texelOf(gloss, d, s).albedo);
+        return toBytes({albedo, static_cast<float>(d.a) / 255});
+      },
+      diffuse.name, TextureUse::color, value.place);
+  material.metallicRoughnessMap = pool_.useMade(
+      diffuse.number, specular.number,
+      [gloss](const glm::u8vec4& d, const glm::u8vec4& s) {
+        const Metallic texel = texelOf(gloss, d, s);
+        return toBytes({1, texel.roughness, texel.metallic, 1});
+      },
+      specular.name, TextureUse::numbers, value.place);
   material.samplers[diffuse.number == kNoRow ? 0 : 2] = material.samplers[diffuse.number == kNoRow ? 2 : 0];
   return factor[3];
 }
