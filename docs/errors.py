@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes docs/errors.md: the codes and titles of engine/text/codes.h, the explanations of docs/errors.json, and what the program prints for a
+"""Makes docs/errors.md: the codes of engine/text/codes.json, with titles and explanations, and what the program prints for a
 file of tests/bad_graphs. `weft explain W053` prints a section of the page.
 
     docs/errors.py [WEFT]         write the page (by ./run, or by the program WEFT)
@@ -22,12 +22,8 @@ Every diagnostic code, in order: what it means and what mends it. `weft explain 
 and columns are counted from 1, columns in bytes; the value of an option is at `command line: --set bloom=yes`. Everything wrong is reported at
 once. Control characters and broken UTF-8 are printed as `\\n`, `\\x1b`, `\\u{202e}`; long words and fields are cut.
 
-`docs/errors.py` makes this page from `engine/text/codes.h`, `docs/errors.json` and the files of `tests/bad_graphs`. Codes are never reused.
+`docs/errors.py` makes this page from `engine/text/codes.json` and the files of `tests/bad_graphs`. Codes are never reused.
 """
-
-
-def codes():
-    return re.findall(r'^  X\((W\d+), \w+, *"((?:[^"\\]|\\.)*)"\)', (TOP / "engine/text/codes.h").read_text(), re.M)
 
 
 def printed(weft, entry):
@@ -41,15 +37,11 @@ def printed(weft, entry):
 
 
 def page(weft):
-    explanations = json.loads((TOP / "docs/errors.json").read_text())
-    known = [code for code, _ in codes()]
-    if wrong := sorted(set(known) ^ set(explanations)):
-        sys.exit(f"engine/text/codes.h and docs/errors.json differ in {', '.join(wrong)}")
+    codes = json.loads((TOP / "engine/text/codes.json").read_text())
     files = json.loads((BAD / "manifest.json").read_text())["files"]
     out = [HEAD]
-    for code, title in codes():
-        title = title.replace('\\"', '"')
-        out += [f"## {code}: {title}", "", explanations[code], ""]
+    for code, row in codes.items():
+        out += [f"## {code}: {row['title']}", "", row["text"], ""]
         example = next((text for entry in files if entry["code"] == code and (text := printed(weft, entry))), None)
         if example:
             out += ["```text", example, "```", ""]
