@@ -16,7 +16,6 @@ namespace weft::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostTasks = 1000;  // MaxArraySize of Slurm, unless a site says more
 constexpr const char* kOwn[] = {"kind", "--frames", "--per-task", "--script", "--submit", "--skip-done"};
@@ -62,27 +61,6 @@ std::string renderOf(const FarmOptions& options, bool inOrder) {
   return line + " --skip-done";
 }
 
-// Of https://github.com/OpenJobDescription/openjd-specifications, without extensions.
-// `script`: app/commands/farm_tasks.sh.
-std::string openJdOf(const std::string& script, std::size_t tasks) {
-  const auto step = [&](const char* name, Json words) {
-    words.insert(words.begin(), "{{Task.File.Run}}");
-    return Json{{"name", name},
-                {"script",
-                 {{"actions", {{"onRun", {{"command", "bash"}, {"args", std::move(words)}}}}},
-                  {"embeddedFiles",
-                   Json::array({{{"name", "Run"}, {"type", "TEXT"}, {"data", "#!/bin/bash\n" + script}}})}}}};
-  };
-  Json render = step("render", {"task", "{{Task.Param.Chunk}}"}), gather = step("gather", {"gather"});
-  render["parameterSpace"]["taskParameterDefinitions"] =
-      Json::array({{{"name", "Chunk"}, {"type", "INT"}, {"range", fmt::format("0-{}", tasks - 1)}}});
-  gather["dependencies"] = Json::array({{{"dependsOn", "render"}}});
-  return text::dumpJson({{"specificationVersion", "jobtemplate-2023-09"},
-                         {"name", "weft render"},
-                         {"steps", Json::array({std::move(render), std::move(gather)})}}) +
-         "\n";
-}
-
 int runFarm(FarmOptions& options) {
   const bool slurm = options.kind == "slurm";
   if (options.submit && (!slurm || options.script == "-")) {
@@ -113,13 +91,15 @@ int runFarm(FarmOptions& options) {
                                  {"%RENDER%", renderOf(options, inOrder)}},
                                 diagnostics);
     if (!tasks) return 1;
-    const auto script = slurm ? filledIn("commands/farm_slurm.sh",
-                                         {{"%COUNT%", text::counted(chunks.size(), "task")},
-                                          {"%TASKS%", *tasks},
-                                          {"%FOLDER%", wordOf(folder)},
-                                          {"%IN_ORDER%", inOrder ? "true" : "false"}},
-                                         diagnostics)
-                              : openJdOf(*tasks, chunks.size());
+    // The template is one of https://github.com/OpenJobDescription/openjd-specifications, without extensions.
+    const auto script = filledIn(slurm ? "commands/farm_slurm.sh" : "commands/farm_openjd.json",
+                                 {{"%COUNT%", text::counted(chunks.size(), "task")},
+                                  {"%LAST%", fmt::format("{}", chunks.size() - 1)},
+                                  {"%TASKS%", *tasks},
+                                  {"%SCRIPT%", text::dumpJson("#!/bin/bash\n" + *tasks, -1)},
+                                  {"%FOLDER%", wordOf(folder)},
+                                  {"%IN_ORDER%", inOrder ? "true" : "false"}},
+                                 diagnostics);
     if (!script) return 1;
     if (options.script == "-") {
       print(*script);
