@@ -1,12 +1,11 @@
 // weft diff: how the plan of one graph differs from that of another, and how their pictures do.
 
-#include <sstream>
-
 #include "app/commands/commands.h"
 #include "app/output/pictures.h"
 #include "app/trials/divergence.h"
 #include "app/trials/shot.h"
 #include "engine/graph/print/print.h"
+#include "engine/text/chars.h"
 
 namespace weft::app {
 
@@ -23,10 +22,7 @@ struct DiffOptions : OtherOptions {
 std::string textOf(const DiffOptions& options, const std::string& plans, const std::string& pictureText,
                    const Json& pictures) {
   if (options.format == "text") return plans + pictureText;
-  Json lines = Json::array();
-  std::istringstream stream(plans);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  Json json = {{"before", options.graph}, {"after", options.other}, {"plan", std::move(lines)}};
+  Json json = {{"before", options.graph}, {"after", options.other}, {"plan", text::linesOf(plans)}};
   if (!pictures.is_null()) json["pictures"] = pictures;
   return text::dumpJson(json) + "\n";
 }

@@ -3,11 +3,11 @@
 
 #include <cctype>
 #include <fstream>
-#include <sstream>
 
 #include "app/commands/commands.h"
 #include "engine/graph/language/keys.h"
 #include "engine/graph/print/print.h"
+#include "engine/text/chars.h"
 #include "engine/text/json/dom.h"
 #include "engine/text/json/edit.h"
 #include "engine/text/nearest.h"
@@ -161,8 +161,7 @@ int runPresets(ListOptions& options) {
 }
 
 void printIndented(const std::string& text) {
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) print("  " + line + "\n");
+  for (const std::string& line : text::linesOf(text)) print("  " + line + "\n");
 }
 
 // What a graph may name, from the registry itself.

@@ -1,11 +1,10 @@
 // weft report: one HTML page of a frame, or of what differs between two: app/report/page.html with the data that its script draws.
-#include <sstream>
-
 #include "app/commands/commands.h"
 #include "app/output/frame_look.h"
 #include "app/output/pictures.h"
 #include "app/trials/shot.h"
 #include "engine/graph/print/print.h"
+#include "engine/text/chars.h"
 #include "engine/text/json/report.h"
 
 namespace weft::app {
@@ -77,9 +76,7 @@ bool writeFramePage(gl::Context& context, const std::string& command, std::span<
     states.push_back(*std::move(state));
   }
   if (states.size() > 1) {
-    report["difference"] = Json::array();
-    std::istringstream lines(graph::diffText(states[0].plan, states[1].plan));
-    for (std::string line; std::getline(lines, line);) report["difference"].push_back(line);
+    report["difference"] = text::linesOf(graph::diffText(states[0].plan, states[1].plan));
     if (const auto found = comparePictures(states[1].picture, states[0].picture))
       report["pictures"] = found->bytes.equal() ? "pictures: the same" : "pictures: " + found->text();
   }

@@ -1,10 +1,10 @@
 // What the viewer asks before it writes, and before it closes with changes that are in no file. Declared in panels.h.
 
 #include <algorithm>
-#include <sstream>
 
 #include "app/output/standard_streams.h"
 #include "app/ui/panels.h"
+#include "engine/text/chars.h"
 #include "engine/text/printable.h"
 
 namespace weft::app::ui {
@@ -13,16 +13,9 @@ namespace {
 
 const ImVec4 kOld{1, 0.55f, 0.5f, 1}, kNew{0.6f, 1, 0.6f, 1};
 
-std::vector<std::string> linesOf(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
 // The lines that differ. The edits of a write are small and keep the order of lines.
 void drawDifference(const graph::WriteBack::File& file) {
-  const std::vector<std::string> before = linesOf(file.before), after = linesOf(file.after);
+  const std::vector<std::string> before = text::linesOf(file.before), after = text::linesOf(file.after);
   std::size_t a = 0, b = 0;
   while (a < before.size() || b < after.size()) {
     if (a < before.size() && b < after.size() && before[a] == after[b]) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace weft::text {
 
@@ -35,6 +36,11 @@ constexpr std::string_view takeLine(std::string_view& text) {
   const std::string_view line = text.substr(0, text.find('\n'));
   text.remove_prefix(std::min(line.size() + 1, text.size()));
   return line;
+}
+inline std::vector<std::string> linesOf(std::string_view text) {
+  std::vector<std::string> lines;
+  while (!text.empty()) lines.emplace_back(takeLine(text));
+  return lines;
 }
 // The next word of a text, which goes on behind it; "" at the end.
 constexpr std::string_view takeWord(std::string_view& text) {
