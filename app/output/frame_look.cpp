@@ -1,11 +1,11 @@
 #include "app/output/frame_look.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include "app/output/pictures.h"
 #include "engine/glsl/source.h"
 #include "engine/graph/print/print.h"
+#include "engine/text/apart.h"
 #include "engine/text/files/file.h"
 #include "engine/text/json/edit.h"
 #include "engine/text/json/report.h"
@@ -126,23 +126,11 @@ Json parametersOf(const graph::Plan& plan) {
   return all;
 }
 
-// What Graphviz makes of `dot`, as SVG; "" without Graphviz. The file between has no name that anybody could take.
+// What Graphviz makes of `dot`, as SVG; "" without Graphviz.
 std::string svgOf(const std::string& dot) {
-  std::FILE* const file = std::tmpfile();
-  if (!file) return "";
-  std::fwrite(dot.data(), 1, dot.size(), file);
-  std::fflush(file);
-  std::rewind(file);
-  std::string svg;
-  if (std::FILE* const pipe =
-          popen(fmt::format("dot -Tsvg /proc/self/fd/{} 2>/dev/null", fileno(file)).c_str(), "r")) {
-    char part[4096];
-    for (std::size_t n; (n = std::fread(part, 1, sizeof part, pipe)) > 0;) svg.append(part, n);
-    if (pclose(pipe) != 0) svg.clear();
-  }
-  std::fclose(file);
-  const std::size_t begin = svg.find("<svg");
-  return begin == std::string::npos ? "" : svg.substr(begin);
+  constexpr std::uint64_t kPatience = 60;  // seconds of processor time
+  const std::string svg = text::runApart({"dot", "-Tsvg"}, dot, kPatience).said;
+  return svg.ends_with("</svg>\n") ? svg.substr(svg.find("<svg")) : "";
 }
 
 // The whole plan, and where it has effects, those as one box each.

@@ -47,21 +47,21 @@ std::string readAll(int file) {
 }
 
 // Until the process closes its end. False when it was silent for too long, or `goOn` ended it.
-bool listen(int end, std::uint64_t seconds, const std::function<bool(char)>& goOn, std::string& said) {
+bool listen(int end, std::uint64_t seconds, const std::function<bool()>& goOn, std::string& said) {
   using Clock = std::chrono::steady_clock;
   const auto patience = std::chrono::seconds(kClockPerProcessor * seconds);
   for (auto last = Clock::now(); Clock::now() - last < patience;) {
     pollfd one{end, POLLIN, 0};
-    char step = 0;
+    char steps[4096];
     if (::poll(&one, 1, 50) > 0) {
-      const ssize_t got = ::recv(end, &step, 1, 0);
+      const ssize_t got = ::recv(end, steps, sizeof steps, 0);
       if (got == 0 || (got < 0 && errno != EINTR)) return true;
       if (got > 0) {
-        said += step;
+        said.append(steps, static_cast<std::size_t>(got));
         last = Clock::now();
       }
     }
-    if (goOn && !goOn(step)) return false;
+    if (goOn && !goOn()) return false;
   }
   return false;
 }
@@ -114,7 +114,7 @@ pid_t startProcess(std::vector<std::string> command, int input, int output, int 
 }
 
 ApartEnd runApart(std::vector<std::string> command, std::string_view input, std::uint64_t seconds,
-                  const std::function<bool(char)>& goOn) {
+                  const std::function<bool()>& goOn) {
   ApartEnd result;
   const int file = ::memfd_create("apart", MFD_CLOEXEC);
   int ends[2] = {-1, -1};

@@ -23,9 +23,9 @@ struct ApartEnd {
 };
 
 // The process is gone when this returns: it is ended when it closes its standard output, when it has said nothing for six times
-// `seconds` by the clock, or when `goOn` is false. That is asked with each step, and with 0 twenty times a second.
+// `seconds` by the clock, or when `goOn` is false. That is asked with each step, and twenty times a second.
 ApartEnd runApart(std::vector<std::string> command, std::string_view input, std::uint64_t seconds,
-                  const std::function<bool(char step)>& goOn = {});
+                  const std::function<bool()>& goOn = {});
 
 // Starts a program, which is looked for in the PATH when its name has no slash, with these as its standard streams (-1: /dev/null), and
 // returns at once. Ctrl-C does not reach it. -1, and errno says why, when it cannot be started.

@@ -29,7 +29,7 @@ std::optional<std::string> glbOfFbx(const std::string& bytes, ModelFiles& files)
   if (!bytes.starts_with("Kaydara FBX Binary") && !files.isTextInLimit(bytes)) return {};
   const std::uint64_t seconds = text::raised(4 + (bytes.size() >> 20)),
                       memory = text::raised((640ull << 20) + 64 * std::uint64_t{bytes.size()});
-  const auto goOn = [&](char) { return files.goOn(LoadStage::decoding, 0); };
+  const auto goOn = [&] { return files.goOn(LoadStage::decoding, 0); };
   const std::string program = readerProgram();
   if (program.empty()) {
     files.diagnostics().error(Code::unreadableModel, files.place(), "weft-fbx is not there",
@@ -38,7 +38,7 @@ std::optional<std::string> glbOfFbx(const std::string& bytes, ModelFiles& files)
   }
   text::ApartEnd end =
       text::runApart({program, std::to_string(seconds), std::to_string(memory)}, bytes, seconds, goOn);
-  if (!goOn(0)) return {};
+  if (!goOn()) return {};
   const char what = end.said.empty() ? '\0' : end.said.back();
   if (what == kMadeWithoutLights)
     files.diagnostics().warning(
