@@ -31,7 +31,9 @@ Diagnostic& reportLimit(Diagnostics& diagnostics, Where place, std::string messa
                         std::string_view counts, std::uint64_t needed) {
   return diagnostics.error(
       Code::limitExceeded, std::move(place), std::move(message),
-      {.expected = fmt::format("at most {} {}", raised(bound), counts), .hint = hintToRaise(bound, needed)});
+      {.expected = fmt::format("at most {} {}", raised(bound), counts),
+       .found = needed > 0 ? fmt::format("{} {}", needed, counts.substr(0, counts.find(' '))) : "",
+       .hint = hintToRaise(bound, needed)});
 }
 
 }  // namespace weft::text

@@ -23,7 +23,7 @@ inline std::uint64_t raised(std::uint64_t bound) {
 // "raise the limits with --limit 2, if that is meant": at least so that `needed` is allowed. "" when that cannot be.
 std::string hintToRaise(std::uint64_t bound, std::uint64_t needed = 0);
 
-// W201: more than `bound` allows; `counts` says of what.
+// W201: more than `bound` allows; `counts` says of what, with the word for one kind of them first ("bytes of all files").
 Diagnostic& reportLimit(Diagnostics& diagnostics, Where place, std::string message, std::uint64_t bound,
                         std::string_view counts, std::uint64_t needed = 0);
 

@@ -278,8 +278,7 @@ std::optional<std::string> readFile(const std::string& path, Diagnostics& diagno
 
 void reportTooLarge(const Place& place, std::uint64_t bytes, Diagnostics& diagnostics) {
   reportLimit(diagnostics, place, "the file is too large", kMaxTextBytes, "bytes of one JSON or .cube file",
-              bytes)
-      .found = fmt::format("{} bytes", bytes);
+              bytes);
 }
 
 std::optional<std::string> readWithin(const std::string& path, std::uint64_t most, std::uint64_t& bytes,

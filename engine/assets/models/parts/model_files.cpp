@@ -100,8 +100,7 @@ std::string ModelFiles::namedBeside(std::string path) const {
 bool ModelFiles::isTextInLimit(std::string_view bytes) {
   if (bytes.size() <= text::raised(kMaxModelTextBytes)) return true;
   text::reportLimit(diagnostics_, place(), "the model's text is too large", kMaxModelTextBytes,
-                    "bytes of one OBJ or text FBX file", bytes.size())
-      .found = fmt::format("{} bytes", bytes.size());
+                    "bytes of one OBJ or text FBX file", bytes.size());
   return false;
 }
 
@@ -109,8 +108,7 @@ bool ModelFiles::count(std::uint64_t bytes, const Place& place) {
   bytes_ += bytes;
   if (bytes_ <= text::raised(kMaxModelBytes)) return true;
   text::reportLimit(diagnostics_, place, "the model is too large", kMaxModelBytes,
-                    "bytes of all files of one model, and of what is packed in them", bytes_)
-      .found = fmt::format("{} bytes", bytes_);
+                    "bytes of all files of one model, and of what is packed in them", bytes_);
   return false;
 }
 

@@ -93,8 +93,7 @@ bool TexturePool::countTexels(std::uint64_t texels, const std::string& name, con
     texels_ = texels;
   else if (!std::exchange(full_, true))
     text::reportLimit(diagnostics_, place, fmt::format("with '{}' the model's textures are too large", name),
-                      kMaxTexels, "texels of all textures of one model", texels)
-        .found = fmt::format("{} texels", texels);
+                      kMaxTexels, "texels of all textures of one model", texels);
   return fits;
 }
 
