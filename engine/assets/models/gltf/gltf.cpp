@@ -29,20 +29,12 @@ std::size_t rowOf(std::string_view word, std::initializer_list<std::string_view>
 class GltfReader {
  public:
   GltfReader(GltfDocument& document, ModelFiles& files, Model& model, bool made)
-      : document_(document),
-        files_(files),
-        diagnostics_(files.diagnostics()),
-        model_(model),
-        made_(made),
-        builder_(model),
-        materials_(document, files, model, made),
-        rows_(document.rows("nodes")) {}
+      : document_(document), files_(files), model_(model), made_(made) {}
 
   void read() {
     readNodes();
-    findShown();
     for (const JsonValue& row : document_.rows("skins")) readSkin(row);
-    materials_.read();
+    uvs_ = readMaterials(document_, files_, model_, made_);
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       goOn(LoadStage::converting, static_cast<double>(i) / static_cast<double>(rows_.size()));
       if (shown_[i]) readInstances(rows_[i], rowOf_[i]);
@@ -74,7 +66,7 @@ class GltfReader {
     document_.numbers(value, "rotation", {&rotation.x, 4});
     if (!normalizeRotation(rotation))
       document_.fail(*value.find("rotation"), fmt::format("the rotation of node {} has no length", number),
-                     "a quaternion x, y, z, w");
+                     {"a quaternion x, y, z, w"});
     node.local.rotation = toRotation(rotation);
     return node;
   }
@@ -84,7 +76,8 @@ class GltfReader {
     return static_cast<std::uint32_t>(model_.nodes.size() - 1);
   }
 
-  // Parents before their children: rowOf_ takes a node of the file to its row.
+  // Parents before their children: rowOf_ takes a node of the file to its row. Shown are the roots of the scene and all below, up to
+  // what is invisible (KHR_node_visibility).
   void readNodes() {
     std::vector<std::uint32_t> parents(rows_.size(), kNoRow), work;
     for (std::uint32_t i = 0; i < rows_.size(); ++i)
@@ -92,17 +85,22 @@ class GltfReader {
         std::uint32_t& parent = parents[document_.index("nodes", item)];
         if (parent != kNoRow)
           document_.fail(item, fmt::format("a node cannot be a child of node {}", i),
-                         "one parent for each node", fmt::format("a child of node {} already", parent));
+                         {"one parent for each node", fmt::format("a child of node {} already", parent)});
         parent = i;
       }
+    const std::vector<bool> roots = findRoots(parents);
     rowOf_.assign(rows_.size(), kNoRow);
+    shown_.assign(rows_.size(), false);
     for (std::size_t i = rows_.size(); i-- > 0;)
       if (parents[i] == kNoRow) work.push_back(static_cast<std::uint32_t>(i));
     while (!work.empty()) {
       const std::uint32_t at = work.back();
       work.pop_back();
       ModelNode node = readNode(rows_[at], at);
-      if (parents[at] != kNoRow) node.parent = rowOf_[parents[at]];
+      const std::uint32_t parent = parents[at];
+      if (parent != kNoRow) node.parent = rowOf_[parent];
+      const JsonValue* visible = valueOf(rows_[at], {"extensions", "KHR_node_visibility", "visible"});
+      shown_[at] = (roots[at] || (parent != kNoRow && shown_[parent])) && (!visible || visible->flag);
       rowOf_[at] = addNode(std::move(node));
       const std::vector<JsonValue>& children = itemsOf(rows_[at], "children");
       for (std::size_t c = children.size(); c-- > 0;) work.push_back(document_.index("nodes", children[c]));
@@ -110,36 +108,26 @@ class GltfReader {
     if (const auto missing = std::ranges::find(rowOf_, kNoRow); missing != rowOf_.end())
       document_.fail(rows_[static_cast<std::size_t>(missing - rowOf_.begin())],
                      fmt::format("node {} is its own ancestor", missing - rowOf_.begin()),
-                     "nodes that form trees", "a circle of children");
+                     {"nodes that form trees", "a circle of children"});
   }
 
-  // What the scene shows: its roots and all below, up to what is invisible (KHR_node_visibility). Without a scene everything.
-  void findShown() {
+  // What the scene names. Without a scene, what has no parent.
+  std::vector<bool> findRoots(const std::vector<std::uint32_t>& parents) const {
     const std::vector<JsonValue>& scenes = document_.rows("scenes");
-    shown_.assign(rows_.size(), false);
     const JsonValue* chosen = document_.root().find("scene");
-    std::vector<std::uint32_t> work;
-    const auto add = [&](const JsonValue& of, std::string_view key) {
-      for (const JsonValue& item : itemsOf(of, key)) work.push_back(document_.index("nodes", item));
-    };
-    if (!scenes.empty()) add(scenes[chosen ? document_.index("scenes", *chosen) : 0], "nodes");
-    for (std::uint32_t i = 0; scenes.empty() && i < rows_.size(); ++i)
-      if (model_.nodes[rowOf_[i]].parent == kNoRow) work.push_back(i);
-    while (!work.empty()) {
-      const std::uint32_t at = work.back();
-      work.pop_back();
-      const JsonValue* visible = valueOf(rows_[at], {"extensions", "KHR_node_visibility", "visible"});
-      if (visible && !visible->flag) continue;
-      if (!shown_[at]) add(rows_[at], "children");
-      shown_[at] = true;
-    }
+    std::vector<bool> roots(rows_.size(), false);
+    if (!scenes.empty())
+      for (const JsonValue& item : itemsOf(scenes[chosen ? document_.index("scenes", *chosen) : 0], "nodes"))
+        roots[document_.index("nodes", item)] = true;
+    for (std::size_t i = 0; scenes.empty() && i < roots.size(); ++i) roots[i] = parents[i] == kNoRow;
+    return roots;
   }
 
   void readSkin(const JsonValue& row) {
     ModelSkin& skin = model_.skins.emplace_back();
     const std::vector<JsonValue>& joints = itemsOf(row, "joints");
     if (joints.empty() || joints.size() > 65535)
-      document_.fail(row, "a skin has no joints, or too many", "1 to 65535 joints");
+      document_.fail(row, "a skin has no joints, or too many", {"1 to 65535 joints"});
     for (const JsonValue& item : joints) skin.joints.push_back(rowOf_[document_.index("nodes", item)]);
     skin.inverseBind.assign(joints.size(), glm::mat4(1));
     const JsonValue* matrices = row.find("inverseBindMatrices");
@@ -147,11 +135,11 @@ class GltfReader {
     const GltfAccessor accessor = document_.accessor(*matrices, "MAT4", true);
     if (accessor.count < joints.size() || accessor.count > 65536 || accessor.type != 5126)
       document_.fail(*matrices, "the skin's matrices do not fit its joints",
-                     fmt::format("{} matrices of floats", joints.size()),
-                     fmt::format("{}, componentType {}", accessor.count, accessor.type));
+                     {fmt::format("{} matrices of floats", joints.size()),
+                      fmt::format("{}, componentType {}", accessor.count, accessor.type)});
     const std::vector<float> values = document_.read<float>(accessor);
     if (!std::ranges::all_of(values, [](float v) { return std::isfinite(v); }))
-      document_.fail(*matrices, "a matrix of the skin holds what is no number", "finite numbers");
+      document_.fail(*matrices, "a matrix of the skin holds what is no number", {"finite numbers"});
     for (std::size_t j = 0; j < joints.size(); ++j)
       skin.inverseBind[j] = glm::make_mat4(values.data() + 16 * j);
   }
@@ -187,8 +175,8 @@ class GltfReader {
       const bool skinned = model_.meshes[part.mesh].skinned;
       if (skinned && part.joints > model_.skins[skin].joints.size())
         document_.fail(node, "vertices are moved by joints that the skin does not have",
-                       fmt::format("joints below {}", model_.skins[skin].joints.size()),
-                       fmt::format("joint {}", part.joints - 1));
+                       {fmt::format("joints below {}", model_.skins[skin].joints.size()),
+                        fmt::format("joint {}", part.joints - 1)});
       for (const std::uint32_t each : nodes)
         model_.instances.push_back({each, part.mesh, part.material, skinned ? skin : kNoRow});
     }
@@ -264,7 +252,7 @@ class GltfReader {
     // Normals and tangents that are no numbers are made anew.
     mesh.normals = take(attribute<glm::vec3>(attributes, "NORMAL", {}), mesh, &RawVertex::normal);
     take(attribute<glm::vec4>(attributes, "TANGENT", {}), mesh, &RawVertex::tangent);
-    readUvs(attributes, materials_.uvOf(part.material), mesh);
+    readUvs(attributes, uvs_[part.material], mesh);
     readColors(attributes, mesh);
     morph(value, weights, mesh);
     if (skinned) part.joints = readWeights(attributes, mesh);
@@ -278,7 +266,7 @@ class GltfReader {
     const GltfAccessor accessor = document_.accessor(which, kind, floats);
     if (accessor.count != count_)
       document_.fail(which, fmt::format("'{}' has not one value for each vertex", name),
-                     fmt::format("{} elements", count_), fmt::format("{}", accessor.count));
+                     {fmt::format("{} elements", count_), fmt::format("{}", accessor.count)});
     return accessor;
   }
 
@@ -295,8 +283,8 @@ class GltfReader {
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (most && !(std::abs(values[i]) <= *most))
         document_.fail(*which, fmt::format("'{}' of vertex {} is no number that can be used", name, i / N),
-                       fmt::format("finite numbers within {}", *most), fmt::format("{}", values[i]),
-                       "repair the mesh and export it again");
+                       {fmt::format("finite numbers within {}", *most), fmt::format("{}", values[i]),
+                        "repair the mesh and export it again"});
       out[i / N][static_cast<int>(i % N)] = values[i];
     }
     return out;
@@ -330,8 +318,8 @@ class GltfReader {
     if (accessor.type != 5126 && !(accessor.normalized && (accessor.type == 5121 || accessor.type == 5123)))
       return document_.leaveOut(
           *where, fmt::format("the vertex colors of mesh '{}' were left out", mesh.name),
-          "floats, or normalized unsigned numbers of 8 or 16 bits",
-          fmt::format("componentType {}{}", accessor.type, accessor.normalized ? ", normalized" : ""));
+          {"floats, or normalized unsigned numbers of 8 or 16 bits",
+           fmt::format("componentType {}{}", accessor.type, accessor.normalized ? ", normalized" : "")});
     std::vector<glm::vec4> colors;
     if (opaque)
       for (const glm::vec3& color : attribute<glm::vec3>(attributes, "COLOR_0", 1e9f))
@@ -364,7 +352,7 @@ class GltfReader {
       if (!glm::all(glm::lessThanEqual(glm::abs(v.position), glm::vec3(kFarthest))))
         document_.fail(*primitive.find("targets"),
                        fmt::format("the morph targets move mesh '{}' too far", mesh.name),
-                       fmt::format("positions within {}", kFarthest));
+                       {fmt::format("positions within {}", kFarthest)});
   }
 
   // How many joints its vertices name, at least.
@@ -404,7 +392,7 @@ class GltfReader {
     if (bad != indices.end())
       document_.fail(*value.find("indices"),
                      fmt::format("index {} of mesh '{}' names no vertex", bad - indices.begin(), mesh.name),
-                     fmt::format("an index below {}", count_), fmt::format("{}", *bad));
+                     {fmt::format("an index below {}", count_), fmt::format("{}", *bad)});
     if (mode == 4) {
       indices.resize(indices.size() / 3 * 3);
       mesh.indices = std::move(indices);
@@ -444,15 +432,16 @@ class GltfReader {
     const std::size_t row = rowOf(kind, {"directional", "point", "spot"});
     if (row == 3) {
       document_.leaveOut(value, fmt::format("light '{}' was left out", light.name),
-                         "a 'type' of \"directional\", \"point\" or \"spot\"", fmt::format("\"{}\"", kind));
+                         {"a 'type' of \"directional\", \"point\" or \"spot\"", fmt::format("\"{}\"", kind)});
       return {};
     }
     light.kind = static_cast<ModelLightKind>(row);
     light.intensity = document_.number(value, "intensity", 1, 0, 1e12);
     if (document_.numbers(value, "color", {&light.color.x, 3}) &&
         glm::any(glm::lessThan(light.color, glm::vec3(0))))
-      document_.fail(*value.find("color"), "a light's 'color' is negative", "3 numbers of at least 0",
-                     fmt::format("{}, {}, {}", light.color[0], light.color[1], light.color[2]));
+      document_.fail(*value.find("color"), "a light's 'color' is negative",
+                     {"3 numbers of at least 0",
+                      fmt::format("{}, {}, {}", light.color[0], light.color[1], light.color[2])});
     if (light.kind == ModelLightKind::sun) return light;
     light.range = document_.number(value, "range", 0, 1e-6, 1e9);
     if (light.kind == ModelLightKind::spot) {
@@ -463,8 +452,8 @@ class GltfReader {
         light.outer = document_.number(*spot, "outerConeAngle", std::numbers::pi / 4, 0, kQuarter);
         if (light.inner > light.outer)
           document_.fail(*spot, "the inner cone of a light is wider than the outer one",
-                         fmt::format("an 'innerConeAngle' of at most {}", light.outer),
-                         fmt::format("{}", light.inner));
+                         {fmt::format("an 'innerConeAngle' of at most {}", light.outer),
+                          fmt::format("{}", light.inner)});
       }
     }
     return light;
@@ -481,8 +470,8 @@ class GltfReader {
     }
     if (brightnessOf(light) > brightnessOf(*other)) std::swap(light, *other);
     document_.leaveOut(where, fmt::format("the light '{}' was left out", light.name),
-                       "one directional light: a scene has one sun",
-                       fmt::format("another one, '{}', that is as bright or brighter", other->name));
+                       {"one directional light: a scene has one sun",
+                        fmt::format("another one, '{}', that is as bright or brighter", other->name)});
   }
 
   void readAnimation(const JsonValue& row) {
@@ -497,8 +486,8 @@ class GltfReader {
       if (path->text == "weights" && !std::exchange(saidWeights, true))
         document_.leaveOut(
             channel, fmt::format("the moving morph targets of animation '{}' were left out", animation.name),
-            "channels of translation, rotation or scale", "",
-            "meshes are shown with the 'weights' that they or their nodes begin with");
+            {"channels of translation, rotation or scale", "",
+             "meshes are shown with the 'weights' that they or their nodes begin with"});
       ModelTrack track;
       const std::size_t which = rowOf(path->text, {"translation", "rotation", "scale"});
       if (which == 3 || !node) continue;
@@ -535,17 +524,17 @@ class GltfReader {
         document_.accessor(document_.need(sampler, "output"), rotation ? "VEC4" : "VEC3", true);
     const std::uint64_t values = std::uint64_t{input.count} * (cubic ? 3 : 1);
     if (output.count != values)
-      document_.fail(sampler, "a sampler has not one value for each time", fmt::format("{} values", values),
-                     fmt::format("{}", output.count));
+      document_.fail(sampler, "a sampler has not one value for each time",
+                     {fmt::format("{} values", values), fmt::format("{}", output.count)});
     // The same accessor may serve any number of tracks.
     GltfDocument::refuseUnless(files_.count(std::uint64_t{input.count} * 4 + values * 16, sampler.place));
     track.times = document_.read<float>(input);
     float before = 0;
     for (const float time : track.times) {
       if (!(time >= before) || !std::isfinite(time))
-        document_.fail(sampler, "the times of an animation do not ascend",
-                       "seconds from 0 on, each later than the one before",
-                       fmt::format("{} after {}", time, before));
+        document_.fail(
+            sampler, "the times of an animation do not ascend",
+            {"seconds from 0 on, each later than the one before", fmt::format("{} after {}", time, before)});
       before = time;
     }
     const std::vector<float> numbers = document_.read<float>(output);
@@ -557,20 +546,20 @@ class GltfReader {
           (isRotation && !normalizeRotation(value)))
         document_.fail(sampler,
                        fmt::format("value {} of an animation is no {}", i, rotation ? "rotation" : "number"),
-                       "finite numbers, and quaternions with a length");
+                       {"finite numbers, and quaternions with a length"});
     }
   }
 
   GltfDocument& document_;
   ModelFiles& files_;
-  Diagnostics& diagnostics_;
+  Diagnostics& diagnostics_ = files_.diagnostics();
   Model& model_;
   const bool made_;  // of a file of another format
-  MeshBuilder builder_;
-  GltfMaterials materials_;
-  const std::vector<JsonValue>& rows_;  // of nodes
-  std::vector<std::uint32_t> rowOf_;    // by the file's index of a node: its row in the model
-  std::vector<bool> shown_;             // by the file's index: in the scene that is shown
+  MeshBuilder builder_{model_};
+  std::vector<GltfUv> uvs_;  // of the materials
+  const std::vector<JsonValue>& rows_ = document_.rows("nodes");
+  std::vector<std::uint32_t> rowOf_;  // by the file's index of a node: its row in the model
+  std::vector<bool> shown_;           // by the file's index: in the scene that is shown
   std::map<std::tuple<std::uint32_t, bool, std::vector<float>>, std::vector<Part>> parts_;
   std::uint32_t count_ = 0;  // of vertices of the primitive that is read
 };

@@ -105,26 +105,10 @@ std::string textOf(const JsonValue& object, std::string_view key, std::string ot
   return value && !value->text.empty() ? value->text : otherwise;
 }
 
-text::Diagnostic& GltfDocument::report(text::Severity severity, Code code, const JsonValue& where,
-                                       std::string message, std::string expected, std::string found,
-                                       std::string hint) {
-  return diagnostics_.add({.severity = severity,
-                           .code = code,
-                           .message = std::move(message),
-                           .place = where.place,
-                           .pointer = text::pointerAt(root_, where.begin),
-                           .expected = std::move(expected),
-                           .found = std::move(found),
-                           .hint = std::move(hint)});
-}
-
 void GltfDocument::failFile(std::string_view why, std::string expected, std::string found) {
-  diagnostics_.add({.code = Code::unreadableModel,
-                    .message = fmt::format("cannot read model '{}': {}", files_.path(), why),
-                    .place = files_.place(),
-                    .expected = std::move(expected),
-                    .found = std::move(found),
-                    .hint = "export or download the model again"});
+  diagnostics_.error(Code::unreadableModel, files_.place(),
+                     fmt::format("cannot read model '{}': {}", files_.path(), why),
+                     {std::move(expected), std::move(found), "export or download the model again"});
   throw Refused{};
 }
 
@@ -173,18 +157,20 @@ GltfDocument::GltfDocument(std::string bytes, ModelFiles& files)
 void GltfDocument::checkExtensions() {
   for (const JsonValue& name : rows("extensionsRequired"))
     if (!isKnown(name.text)) {
-      report(text::Severity::error, Code::unreadableModel, name,
-             fmt::format("the model needs the extension '{}', which Weft does not know", name.text),
-             fmt::format("{}", fmt::join(kKnownExtensions, ", ")), "",
-             "export the model without it, for example uncompressed");
+      pointTo(name,
+              diagnostics_.error(
+                  Code::unreadableModel, name.place,
+                  fmt::format("the model needs the extension '{}', which Weft does not know", name.text),
+                  {.expected = fmt::format("{}", fmt::join(kKnownExtensions, ", ")),
+                   .hint = "export the model without it, for example uncompressed"}));
       throw Refused{};
     }
   std::map<std::string, std::pair<const JsonValue*, std::size_t>> unknown;
   collectUnknown(root_, unknown);
   for (const auto& [name, use] : unknown)
     leaveOut(*use.first, fmt::format("the extension '{}' was left out", name),
-             fmt::format("{}", fmt::join(kKnownExtensions, ", ")),
-             fmt::format("{} use{} of it", use.second, use.second == 1 ? "" : "s"));
+             {fmt::format("{}", fmt::join(kKnownExtensions, ", ")),
+              fmt::format("{} use{} of it", use.second, use.second == 1 ? "" : "s")});
 }
 
 std::string GltfDocument::readBuffer(const JsonValue& row, std::string_view binary) {
@@ -196,7 +182,7 @@ std::string GltfDocument::readBuffer(const JsonValue& row, std::string_view bina
     bytes = std::string(binary);
   } else if (uri->text.starts_with("data:")) {
     bytes = decodeDataUri(uri->text);
-    if (!bytes) fail(*uri, "a buffer holds damaged base64", "data:…;base64,…");
+    if (!bytes) fail(*uri, "a buffer holds damaged base64", {"data:…;base64,…"});
     refuseUnless(files_.count(bytes->size(), uri->place));
   } else {
     bytes = files_.readBeside(uri->text, uri->place, Code::unreadableModel, true);
@@ -204,14 +190,15 @@ std::string GltfDocument::readBuffer(const JsonValue& row, std::string_view bina
   refuseUnless(bytes.has_value());
   const std::uint64_t length = whole(row, "byteLength");
   if (length > bytes->size())
-    fail(row, "a buffer is shorter than it says", fmt::format("{} bytes", length),
-         fmt::format("{} bytes", bytes->size()), "export or download the model again");
+    fail(row, "a buffer is shorter than it says",
+         {fmt::format("{} bytes", length), fmt::format("{} bytes", bytes->size()),
+          "export or download the model again"});
   return std::move(*bytes);
 }
 
 const JsonValue& GltfDocument::need(const JsonValue& object, std::string_view key) {
   const JsonValue* found = object.find(key);
-  if (!found) fail(object, fmt::format("'{}' is missing", key), fmt::format("\"{}\"", key));
+  if (!found) fail(object, fmt::format("'{}' is missing", key), {fmt::format("\"{}\"", key)});
   return *found;
 }
 
@@ -220,9 +207,9 @@ std::uint32_t GltfDocument::index(std::string_view table, std::size_t count, con
       value.number == std::floor(value.number))
     return static_cast<std::uint32_t>(value.number);
   fail(value, fmt::format("there is no such row of '{}'", table),
-       count == 0 ? fmt::format("none: the file has no '{}'", table)
-                  : fmt::format("an index from 0 to {}", count - 1),
-       describe(value));
+       {count == 0 ? fmt::format("none: the file has no '{}'", table)
+                   : fmt::format("an index from 0 to {}", count - 1),
+        describe(value)});
 }
 
 std::uint64_t GltfDocument::whole(const JsonValue& object, std::string_view key) {
@@ -230,8 +217,8 @@ std::uint64_t GltfDocument::whole(const JsonValue& object, std::string_view key)
   if (!value) return 0;
   if (!value->is(JsonValue::Type::number) || value->number < 0 ||
       value->number > static_cast<double>(kMaxBytes) || value->number != std::floor(value->number))
-    fail(*value, fmt::format("'{}' is no size", key), fmt::format("a whole number from 0 to {}", kMaxBytes),
-         describe(*value));
+    fail(*value, fmt::format("'{}' is no size", key),
+         {fmt::format("a whole number from 0 to {}", kMaxBytes), describe(*value)});
   return static_cast<std::uint64_t>(value->number);
 }
 
@@ -240,8 +227,8 @@ float GltfDocument::number(const JsonValue& object, std::string_view key, double
   const JsonValue* value = object.find(key);
   if (!value) return static_cast<float>(otherwise);
   if (!value->is(JsonValue::Type::number) || value->number < min || value->number > max)
-    fail(*value, fmt::format("'{}' is out of range", key), fmt::format("a number from {} to {}", min, max),
-         describe(*value));
+    fail(*value, fmt::format("'{}' is out of range", key),
+         {fmt::format("a number from {} to {}", min, max), describe(*value)});
   return static_cast<float>(value->number);
 }
 
@@ -253,7 +240,7 @@ bool GltfDocument::numbers(const JsonValue& object, std::string_view key, std::s
   };
   if (value->items.size() != out.size() || !std::ranges::all_of(value->items, isSound))
     fail(*value, fmt::format("'{}' does not hold {} numbers", key, out.size()),
-         fmt::format("{} numbers within 1e9", out.size()), describe(*value));
+         {fmt::format("{} numbers within 1e9", out.size()), describe(*value)});
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<float>(value->items[i].number);
   return true;
 }
@@ -269,8 +256,8 @@ GltfDocument::View GltfDocument::view(const JsonValue& which) {
   const std::uint64_t offset = whole(row, "byteOffset"), length = whole(row, "byteLength");
   if (offset + length > buffer.size())
     fail(row, "a buffer view reaches beyond its buffer",
-         fmt::format("an end of at most {} bytes", buffer.size()),
-         fmt::format("{} bytes from {}", length, offset));
+         {fmt::format("an end of at most {} bytes", buffer.size()),
+          fmt::format("{} bytes from {}", length, offset)});
   return {std::string_view(buffer).substr(offset, length), whole(row, "byteStride")};
 }
 
@@ -283,8 +270,8 @@ GltfAccessor GltfDocument::accessor(const JsonValue& which, std::string_view kin
   const bool isUnsigned = type == 5121 || type == 5123 || type == 5125;
   if (textOf(row, "type") != kind || count == 0 || bytes == 0 || !(floats ? type != 5125 : isUnsigned))
     fail(which, "an accessor is of another kind than is needed here",
-         fmt::format("\"{}\" of {}", kind, floats ? "floats, or of 8 or 16 bits" : "unsigned whole numbers"),
-         fmt::format("count {}, type \"{}\", componentType {}", count, textOf(row, "type"), type));
+         {fmt::format("\"{}\" of {}", kind, floats ? "floats, or of 8 or 16 bits" : "unsigned whole numbers"),
+          fmt::format("count {}, type \"{}\", componentType {}", count, textOf(row, "type"), type)});
   if (count > text::raised(kMaxVertices) * 3) {
     text::reportLimit(diagnostics_, row.place, "an accessor has more elements than a model may have corners",
                       kMaxVertices, "vertices of one model, and a third of its corners", count / 3)
@@ -303,43 +290,26 @@ GltfAccessor GltfDocument::accessor(const JsonValue& which, std::string_view kin
     out.data = unpacked->second.data();
     if (unpacked->second.size() != count * elementBytes)
       fail(row, "an accessor is of another size than what was packed",
-           fmt::format("{} bytes", unpacked->second.size()), fmt::format("{}", count * elementBytes));
+           {fmt::format("{} bytes", unpacked->second.size()), fmt::format("{}", count * elementBytes)});
   } else if (const JsonValue* name = row.find("bufferView")) {
     const View from = view(*name);
     out.stride = from.stride != 0 ? from.stride : elementBytes;
     if (out.stride < elementBytes || out.stride > 4096 ||
         offset + out.stride * (count - 1) + elementBytes > from.bytes.size())
-      fail(
-          row, "an accessor reaches beyond its buffer view",
-          fmt::format("an end of at most {} bytes", from.bytes.size()),
-          fmt::format("{} elements of {} bytes, {} apart, from {}", count, elementBytes, out.stride, offset));
+      fail(row, "an accessor reaches beyond its buffer view",
+           {fmt::format("an end of at most {} bytes", from.bytes.size()),
+            fmt::format("{} elements of {} bytes, {} apart, from {}", count, elementBytes, out.stride,
+                        offset)});
     out.data = from.bytes.data() + offset;
   }
-  if (const JsonValue* sparse = row.find("sparse")) readSparse(*sparse, elementBytes, out);
   return out;
-}
-
-void GltfDocument::readSparse(const JsonValue& sparse, std::size_t elementBytes, GltfAccessor& out) {
-  const JsonValue &indices = need(sparse, "indices"), &values = need(sparse, "values");
-  const std::uint64_t count = whole(sparse, "count"), type = whole(indices, "componentType");
-  const std::string_view from = view(need(indices, "bufferView")).bytes,
-                         to = view(need(values, "bufferView")).bytes;
-  const std::uint64_t indexOffset = whole(indices, "byteOffset"), valueOffset = whole(values, "byteOffset");
-  const std::size_t indexBytes = bytesOfType(type);
-  if (count > out.count || indexBytes == 0 || type == 5126 ||
-      indexOffset + count * indexBytes > from.size() || valueOffset + count * elementBytes > to.size())
-    fail(sparse, "a sparse accessor reaches beyond what it changes",
-         fmt::format("at most {} elements, in buffer views that hold them", out.count));
-  out.sparse = count;
-  out.sparseType = static_cast<int>(type);
-  out.sparseIndices = from.data() + indexOffset;
-  out.sparseValues = to.data() + valueOffset;
 }
 
 template <class T>
 std::vector<T> GltfDocument::read(const GltfAccessor& a) {
   std::vector<T> out(std::size_t{a.count} * a.components, T{});
-  const std::size_t step = bytesOfType(static_cast<std::uint64_t>(a.type));
+  const std::size_t step = bytesOfType(static_cast<std::uint64_t>(a.type)),
+                    elementBytes = step * a.components;
   const bool normalized = a.normalized && std::is_same_v<T, float>;
   const auto put = [&](std::size_t i, const char* element) {
     for (std::size_t c = 0; c < a.components; ++c)
@@ -347,13 +317,24 @@ std::vector<T> GltfDocument::read(const GltfAccessor& a) {
   };
   if (a.data)
     for (std::size_t i = 0; i < a.count; ++i) put(i, a.data + i * a.stride);
-  const std::size_t indexBytes = bytesOfType(static_cast<std::uint64_t>(a.sparseType));
-  for (std::size_t i = 0; i < a.sparse; ++i) {
-    const double at = componentAt(a.sparseIndices + i * indexBytes, a.sparseType, false);
+  const JsonValue* sparse = a.row->find("sparse");  // elements that are given apart
+  if (!sparse) return out;
+  const JsonValue &indices = need(*sparse, "indices"), &values = need(*sparse, "values");
+  const std::uint64_t count = whole(*sparse, "count"), type = whole(indices, "componentType"),
+                      indexOffset = whole(indices, "byteOffset"), valueOffset = whole(values, "byteOffset");
+  const std::string_view from = view(need(indices, "bufferView")).bytes,
+                         to = view(need(values, "bufferView")).bytes;
+  const std::size_t indexBytes = bytesOfType(type);
+  if (count > a.count || indexBytes == 0 || type == 5126 || indexOffset + count * indexBytes > from.size() ||
+      valueOffset + count * elementBytes > to.size())
+    fail(*sparse, "a sparse accessor reaches beyond what it changes",
+         {fmt::format("at most {} elements, in buffer views that hold them", a.count)});
+  for (std::size_t i = 0; i < count; ++i) {
+    const double at = componentAt(from.data() + indexOffset + i * indexBytes, static_cast<int>(type), false);
     if (at < 0 || at >= a.count)
       fail(*a.row, "a sparse accessor changes an element that it does not have",
-           fmt::format("indices below {}", a.count), fmt::format("{}", at));
-    put(static_cast<std::size_t>(at), a.sparseValues + i * step * a.components);
+           {fmt::format("indices below {}", a.count), fmt::format("{}", at)});
+    put(static_cast<std::size_t>(at), to.data() + valueOffset + i * elementBytes);
   }
   return out;
 }

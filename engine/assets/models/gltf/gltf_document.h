@@ -16,7 +16,6 @@
 
 #include "engine/assets/model.h"
 #include "engine/assets/models/parts/model_files.h"
-#include "engine/assets/models/parts/texture_pool.h"
 #include "engine/text/json/dom.h"
 
 namespace weft::assets {
@@ -31,28 +30,16 @@ struct GltfAccessor {
   bool normalized = false;
   const char* data = nullptr;  // null: zeros
   std::size_t stride = 0;
-  std::size_t sparse = 0;  // elements that are given apart
-  int sparseType = 0;
-  const char *sparseIndices = nullptr, *sparseValues = nullptr;
 };
 
 // Calls `work` with a number of a componentType.
 template <class Work>
 auto withComponent(int type, const Work& work) {
-  switch (type) {
-    case 5120:
-      return work(std::int8_t{});
-    case 5121:
-      return work(std::uint8_t{});
-    case 5122:
-      return work(std::int16_t{});
-    case 5123:
-      return work(std::uint16_t{});
-    case 5125:
-      return work(std::uint32_t{});
-    default:
-      return work(float{});
-  }
+  if (type == 5120) return work(std::int8_t{});
+  if (type == 5121) return work(std::uint8_t{});
+  if (type == 5122) return work(std::int16_t{});
+  if (type == 5123) return work(std::uint16_t{});
+  return type == 5125 ? work(std::uint32_t{}) : work(float{});
 }
 
 // The value at the end of these keys, or null.
@@ -101,28 +88,26 @@ class GltfDocument {
   static void refuseUnless(bool good) {
     if (!good) throw Refused{};
   }
-  [[noreturn]] void fail(const text::JsonValue& where, std::string message, std::string expected,
-                         std::string found = "", std::string hint = "") {
-    report(text::Severity::error, text::Code::badModelValue, where, std::move(message), std::move(expected),
-           std::move(found), std::move(hint));
+  [[noreturn]] void fail(const text::JsonValue& where, std::string message, text::Says says) {
+    pointTo(where,
+            diagnostics_.error(text::Code::badModelValue, where.place, std::move(message), std::move(says)));
     throw Refused{};
   }
   // W168
-  void leaveOut(const text::JsonValue& where, std::string message, std::string expected = "",
-                std::string found = "", std::string hint = "") {
-    report(text::Severity::warning, text::Code::modelPartLeftOut, where, std::move(message),
-           std::move(expected), std::move(found), std::move(hint));
+  void leaveOut(const text::JsonValue& where, std::string message, text::Says says = {}) {
+    pointTo(where, diagnostics_.warning(text::Code::modelPartLeftOut, where.place, std::move(message),
+                                        std::move(says)));
   }
 
  private:
-  text::Diagnostic& report(text::Severity severity, text::Code code, const text::JsonValue& where,
-                           std::string message, std::string expected, std::string found, std::string hint);
+  void pointTo(const text::JsonValue& where, text::Diagnostic& said) {
+    said.pointer = text::pointerAt(root_, where.begin);
+  }
   [[noreturn]] void failFile(std::string_view why, std::string expected, std::string found);
   std::string_view split(std::string_view bytes, std::string_view& binary);
   void checkExtensions();
   std::string unpackMeshopt(const text::JsonValue& packed);
   std::string readBuffer(const text::JsonValue& row, std::string_view binary);
-  void readSparse(const text::JsonValue& sparse, std::size_t elementBytes, GltfAccessor& out);
   // A whole number that a file can hold; 0 where it is absent.
   std::uint64_t whole(const text::JsonValue& object, std::string_view key);
 
@@ -142,36 +127,8 @@ struct GltfUv {
   friend bool operator==(const GltfUv&, const GltfUv&) = default;
 };
 
-// The materials of a document, and one more for meshes without: goes to the model as `read` is called.
-class GltfMaterials {
- public:
-  GltfMaterials(GltfDocument& document, ModelFiles& files, Model& model, bool made)
-      : document_(document), files_(files), model_(model), made_(made), pool_(files) {}
-  void read();
-  const GltfUv& uvOf(std::uint32_t material) const { return uvs_[material]; }
-
- private:
-  struct Image {
-    bool tried = false;
-    std::uint32_t number = kNoRow;  // in the pool
-    std::string name = "missing";
-  };
-  const Image& imageOf(const text::JsonValue& texture);
-  std::uint8_t samplerOf(const text::JsonValue& texture);
-  GltfUv readUv(const text::JsonValue& info);
-  void readMaterial(const text::JsonValue& value, std::size_t number);
-  void readLayers(const text::JsonValue& extensions, Material& material);
-  float readGloss(const text::JsonValue& value, const Image& diffuse, const Image& specular,
-                  Material& material);
-
-  GltfDocument& document_;
-  ModelFiles& files_;
-  Model& model_;
-  const bool made_;  // of a file of another format
-  TexturePool pool_;
-  std::vector<Image> images_;
-  std::vector<GltfUv> uvs_;  // parallel to the materials
-};
+// Puts the materials of a document, and one more for meshes without, into the model; the uv of each. `made`: of a file of another format.
+std::vector<GltfUv> readMaterials(GltfDocument& document, ModelFiles& files, Model& model, bool made);
 
 // The file as a Model; `made`: it was made of one of another format, whose paths may be those of another machine and whose
 // vertices are one for each corner. Left out, with W168: points and lines, the motion of morph targets, further uv sets, a second sun, extensions

@@ -11,6 +11,7 @@
 
 #include "engine/assets/models/gltf/gltf_document.h"
 #include "engine/assets/models/parts/mesh_builder.h"
+#include "engine/assets/models/parts/texture_pool.h"
 
 namespace weft::assets {
 
@@ -108,202 +109,227 @@ glm::u8vec4 toBytes(glm::vec4 texel) {
   return glm::u8vec4(texel * 255.0f + 0.5f);
 }
 
+class MaterialReader {
+ public:
+  MaterialReader(GltfDocument& document, ModelFiles& files, Model& model, bool made)
+      : document_(document), files_(files), model_(model), made_(made), pool_(files) {}
+
+  std::vector<GltfUv> read() {
+    const std::size_t before = files_.diagnostics().errorCount();
+    const std::vector<JsonValue>& rows = document_.rows("materials");
+    images_.resize(document_.rows("images").size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      GltfDocument::refuseUnless(files_.goOn(LoadStage::decoding, 0));
+      readMaterial(rows[i], i);
+    }
+    model_.materials.push_back(defaultMaterial("default"));
+    uvs_.emplace_back();
+    GltfDocument::refuseUnless(files_.diagnostics().errorCount() == before && pool_.finish(model_));
+    return std::move(uvs_);
+  }
+
+ private:
+  struct Image {
+    bool tried = false;
+    std::uint32_t number = kNoRow;  // in the pool
+    std::string name = "missing";
+  };
+
+  // Put into the pool once.
+  const Image& imageOf(const JsonValue& texture) {
+    static const Image kNone;
+    const JsonValue *webp = valueOf(texture, {"extensions", "EXT_texture_webp", "source"}),
+                    *source = webp ? webp : texture.find("source");
+    if (!source) return kNone;
+    const std::uint32_t row = document_.index("images", *source);
+    Image& image = images_[row];
+    if (std::exchange(image.tried, true)) return image;
+    const JsonValue& value = document_.rows("images")[row];
+    const JsonValue *uri = value.find("uri"), *view = value.find("bufferView");
+    image.name = textOf(value, "name", fmt::format("image {}", row));
+    const JsonValue& where = uri ? *uri : view ? *view : value;
+    std::optional<std::string> bytes;
+    if (uri && uri->text.starts_with("data:")) {
+      bytes = decodeDataUri(uri->text);
+      if (!bytes) pool_.reportMissing(image.name, "its base64 is damaged", where.place);
+      GltfDocument::refuseUnless(!bytes || files_.count(bytes->size(), where.place));
+    } else if (uri) {
+      image.name = made_ ? files_.namedBeside(uri->text) : uri->text;
+      bytes = files_.readOptional(image.name, where.place, Code::missingModelTexture, !made_);
+    } else if (view) {
+      bytes = std::string(document_.view(*view).bytes);
+    } else {
+      pool_.reportMissing(image.name, "it has neither 'uri' nor 'bufferView'", where.place);
+    }
+    if (bytes) image.number = pool_.put(std::move(*bytes), image.name, where.place);
+    return image;
+  }
+
+  // glTF 2.0, 5.26. What is made smaller is always mixed from texels and levels.
+  std::uint8_t samplerOf(const JsonValue& texture) {
+    const JsonValue* which = texture.find("sampler");
+    if (!which) return repeat;
+    const JsonValue& row = document_.rows("samplers")[document_.index("samplers", *which)];
+    const auto bitsOf = [&](const char* key, std::initializer_list<std::pair<int, MapSampler>> values) {
+      const JsonValue* value = row.find(key);
+      for (const auto& [number, bits] : values)
+        if (value && value->number == number) return int{bits};
+      return 0;
+    };
+    return static_cast<std::uint8_t>(bitsOf("wrapS", {{33071, clampU}, {33648, mirrorU}}) |
+                                     bitsOf("wrapT", {{33071, clampV}, {33648, mirrorV}}) |
+                                     bitsOf("magFilter", {{9728, nearest}}));
+  }
+
+  GltfUv readUv(const JsonValue& info) {
+    GltfUv uv;
+    uv.set = static_cast<std::uint32_t>(document_.number(info, "texCoord", 0, 0, 63));
+    const JsonValue* transform = valueOf(info, {"extensions", "KHR_texture_transform"});
+    if (!transform) return uv;
+    document_.numbers(*transform, "offset", uv.offset);
+    document_.numbers(*transform, "scale", uv.scale);
+    uv.rotation = document_.number(*transform, "rotation", 0, -1e6, 1e6);
+    uv.set = static_cast<std::uint32_t>(document_.number(*transform, "texCoord", uv.set, 0, 63));
+    return uv;
+  }
+
+  void readMaterial(const JsonValue& value, std::size_t number) {
+    Material material = defaultMaterial(textOf(value, "name", fmt::format("material {}", number)));
+    std::optional<GltfUv> uv;
+    const JsonValue* gloss = valueOf(value, {"extensions", "KHR_materials_pbrSpecularGlossiness"});
+    const bool unlit = valueOf(value, {"extensions", "KHR_materials_unlit"});
+    std::array<Image, kMaterialMaps> images;
+    static_assert(std::size(kMaps) == kMaterialMaps);
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      const auto& map = kMaps[i];
+      const JsonValue* info =
+          map.object.empty()            ? value.find(map.key)
+          : gloss && (i == 0 || i == 2) ? gloss->find(i == 0 ? "diffuseTexture" : "specularGlossinessTexture")
+          : map.object.starts_with("KHR") ? valueOf(value, {"extensions", map.object, map.key})
+                                          : valueOf(value, {map.object, map.key});
+      if (!info || (unlit && i > 0)) continue;
+      const GltfUv mine = readUv(*info);
+      if (uv.value_or(mine) != mine) {
+        document_.leaveOut(*info, fmt::format("'{}' of material {} was left out", map.key, number),
+                           {"one set of texture coordinates and one transform for all maps of a material",
+                            "another one than that of its first map"});
+        continue;
+      }
+      uv = mine;
+      const JsonValue& texture =
+          document_.rows("textures")[document_.index("textures", document_.need(*info, "index"))];
+      images[i] = imageOf(texture);
+      if (!images[i].tried)
+        pool_.reportMissing("a texture", "it names no image that Weft can read", texture.place);
+      material.samplers[i] = samplerOf(texture);
+      const TextureUse use = info->find("bump") ? TextureUse::bump : map.use;
+      *material.maps()[i] = pool_.use(images[i].number, images[i].name, use, texture.place);
+    }
+    uvs_.push_back(uv.value_or(GltfUv{}));
+    const auto numberOf = [&](std::initializer_list<std::string_view> object, std::string_view key,
+                              double otherwise, double min, double max) {
+      const JsonValue* of = valueOf(value, object);
+      return of ? document_.number(*of, key, otherwise, min, max) : static_cast<float>(otherwise);
+    };
+    std::array<float, 4> factor{1, 1, 1, 1};
+    if (const JsonValue* pbr = value.find("pbrMetallicRoughness"))
+      document_.numbers(*pbr, "baseColorFactor", factor);
+    material.albedo = {factor[0], factor[1], factor[2]};
+    material.metallic = numberOf({"pbrMetallicRoughness"}, "metallicFactor", 1, 0, 1);
+    material.roughness = numberOf({"pbrMetallicRoughness"}, "roughnessFactor", 1, 0, 1);
+    if (gloss) factor[3] = readGloss(*gloss, images[0], images[2], material);
+    material.normalScale = numberOf({"normalTexture"}, "scale", 1, -1e3, 1e3);
+    material.occlusionStrength = numberOf({"occlusionTexture"}, "strength", 1, 0, 1);
+    document_.numbers(value, "emissiveFactor", {&material.emissive.x, 3});
+    material.emissive *=
+        numberOf({"extensions", "KHR_materials_emissive_strength"}, "emissiveStrength", 1, 0, 1e9);
+    if (const JsonValue* shine = valueOf(value, {"extensions", "WEFT_blinn_phong"})) {
+      document_.numbers(*shine, "specular", {&material.specular.x, 3});
+      material.shininess = document_.number(*shine, "shininess", 0, 0, 10000);
+      toMetallicRoughness(material);
+    }
+    const std::string mode = textOf(value, "alphaMode");
+    material.blend = mode == "BLEND";
+    material.alpha = material.blend ? factor[3] : 1;
+    if (mode == "MASK") {
+      // The mask compares factor * texel; Weft's materials compare the texel.
+      const float cutoff = document_.number(value, "alphaCutoff", 0.5, 0, 1e3);
+      material.alphaCutoff = factor[3] > 0 ? cutoff / factor[3] : 2;
+    }
+    const JsonValue* both = value.find("doubleSided");
+    material.doubleSided = both && both->flag;
+    if (unlit) {
+      material.unlit = material.blinnPhong = true;
+      material.shininess = material.metallic = 1;
+      material.emissive = std::exchange(material.albedo, glm::vec3(0));
+      material.emissiveMap = material.albedoMap;
+      material.samplers[4] = material.samplers[0];
+    }
+    const JsonValue* extensions = value.find("extensions");
+    if (extensions && !unlit && !gloss) readLayers(*extensions, material);
+    model_.materials.push_back(std::move(material));
+  }
+
+  void readLayers(const JsonValue& extensions, Material& material) {
+    MaterialLayers& layers = material.layers;
+    for (const auto& each : kLayers) {
+      const JsonValue* extension = extensions.find(each.extension);
+      if (extension)
+        layers.*each.value = document_.number(*extension, each.key, layers.*each.value, each.min, each.max);
+    }
+    if (const JsonValue* specular = extensions.find("KHR_materials_specular"))
+      document_.numbers(*specular, "specularColorFactor", {&layers.specularColor.x, 3});
+    if (const JsonValue* sheen = extensions.find("KHR_materials_sheen"))
+      document_.numbers(*sheen, "sheenColorFactor", {&layers.sheen.x, 3});
+    if (const JsonValue* normal = valueOf(extensions, {"KHR_materials_clearcoat", "clearcoatNormalTexture"}))
+      layers.coatNormalScale = document_.number(*normal, "scale", 1, -1e3, 1e3);
+    layers.layered = layers != MaterialLayers{};
+  }
+
+  // KHR_materials_pbrSpecularGlossiness: maps are made of its two. The alpha factor.
+  float readGloss(const JsonValue& value, const Image& diffuse, const Image& specular, Material& material) {
+    std::array<float, 4> factor{1, 1, 1, 1};
+    document_.numbers(value, "diffuseFactor", factor);
+    SpecGloss gloss{.diffuse = {factor[0], factor[1], factor[2]}};
+    document_.numbers(value, "specularFactor", {&gloss.specular.x, 3});
+    gloss.glossiness = document_.number(value, "glossinessFactor", 1, 0, 1);
+    const Metallic whole = toMetallic(gloss);
+    std::tie(material.albedo, material.metallic, material.roughness) =
+        std::tie(whole.albedo, whole.metallic, whole.roughness);
+    if (diffuse.number == kNoRow && specular.number == kNoRow) return factor[3];
+    material.albedo = glm::vec3(1);
+    material.metallic = material.roughness = 1;
+    material.albedoMap = pool_.useMade(
+        diffuse.number, specular.number,
+        [gloss](const glm::u8vec4& d, const glm::u8vec4& s) {
+          const glm::vec3 albedo = glm::convertLinearToSRGB(texelOf(gloss, d, s).albedo);
+          return toBytes({albedo, static_cast<float>(d.a) / 255});
+        },
+        diffuse.name, TextureUse::color, value.place);
+    material.metallicRoughnessMap = pool_.useMade(
+        diffuse.number, specular.number,
+        [gloss](const glm::u8vec4& d, const glm::u8vec4& s) {
+          const Metallic texel = texelOf(gloss, d, s);
+          return toBytes({1, texel.roughness, texel.metallic, 1});
+        },
+        specular.name, TextureUse::numbers, value.place);
+    material.samplers[diffuse.number == kNoRow ? 0 : 2] = material.samplers[diffuse.number == kNoRow ? 2 : 0];
+    return factor[3];
+  }
+
+  GltfDocument& document_;
+  ModelFiles& files_;
+  Model& model_;
+  const bool made_;
+  TexturePool pool_;
+  std::vector<Image> images_;
+  std::vector<GltfUv> uvs_;  // parallel to the materials
+};
+
 }  // namespace
 
-void GltfMaterials::read() {
-  const std::size_t before = files_.diagnostics().errorCount();
-  const std::vector<JsonValue>& rows = document_.rows("materials");
-  images_.resize(document_.rows("images").size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    GltfDocument::refuseUnless(files_.goOn(LoadStage::decoding, 0));
-    readMaterial(rows[i], i);
-  }
-  model_.materials.push_back(defaultMaterial("default"));
-  uvs_.emplace_back();
-  GltfDocument::refuseUnless(files_.diagnostics().errorCount() == before && pool_.finish(model_));
-}
-
-// Put into the pool once.
-const GltfMaterials::Image& GltfMaterials::imageOf(const JsonValue& texture) {
-  static const Image kNone;
-  const JsonValue *webp = valueOf(texture, {"extensions", "EXT_texture_webp", "source"}),
-                  *source = webp ? webp : texture.find("source");
-  if (!source) return kNone;
-  const std::uint32_t row = document_.index("images", *source);
-  Image& image = images_[row];
-  if (std::exchange(image.tried, true)) return image;
-  const JsonValue& value = document_.rows("images")[row];
-  const JsonValue *uri = value.find("uri"), *view = value.find("bufferView");
-  image.name = textOf(value, "name", fmt::format("image {}", row));
-  const JsonValue& where = uri ? *uri : view ? *view : value;
-  std::optional<std::string> bytes;
-  if (uri && uri->text.starts_with("data:")) {
-    bytes = decodeDataUri(uri->text);
-    if (!bytes) pool_.reportMissing(image.name, "its base64 is damaged", where.place);
-    GltfDocument::refuseUnless(!bytes || files_.count(bytes->size(), where.place));
-  } else if (uri) {
-    image.name = made_ ? files_.namedBeside(uri->text) : uri->text;
-    bytes = files_.readOptional(image.name, where.place, Code::missingModelTexture, !made_);
-  } else if (view) {
-    bytes = std::string(document_.view(*view).bytes);
-  } else {
-    pool_.reportMissing(image.name, "it has neither 'uri' nor 'bufferView'", where.place);
-  }
-  if (bytes) image.number = pool_.put(std::move(*bytes), image.name, where.place);
-  return image;
-}
-
-// glTF 2.0, 5.26. What is made smaller is always mixed from texels and levels.
-std::uint8_t GltfMaterials::samplerOf(const JsonValue& texture) {
-  const JsonValue* which = texture.find("sampler");
-  if (!which) return repeat;
-  const JsonValue& row = document_.rows("samplers")[document_.index("samplers", *which)];
-  const auto bitsOf = [&](const char* key, std::initializer_list<std::pair<int, MapSampler>> values) {
-    const JsonValue* value = row.find(key);
-    for (const auto& [number, bits] : values)
-      if (value && value->number == number) return int{bits};
-    return 0;
-  };
-  return static_cast<std::uint8_t>(bitsOf("wrapS", {{33071, clampU}, {33648, mirrorU}}) |
-                                   bitsOf("wrapT", {{33071, clampV}, {33648, mirrorV}}) |
-                                   bitsOf("magFilter", {{9728, nearest}}));
-}
-
-GltfUv GltfMaterials::readUv(const JsonValue& info) {
-  GltfUv uv;
-  uv.set = static_cast<std::uint32_t>(document_.number(info, "texCoord", 0, 0, 63));
-  const JsonValue* transform = valueOf(info, {"extensions", "KHR_texture_transform"});
-  if (!transform) return uv;
-  document_.numbers(*transform, "offset", uv.offset);
-  document_.numbers(*transform, "scale", uv.scale);
-  uv.rotation = document_.number(*transform, "rotation", 0, -1e6, 1e6);
-  uv.set = static_cast<std::uint32_t>(document_.number(*transform, "texCoord", uv.set, 0, 63));
-  return uv;
-}
-
-void GltfMaterials::readMaterial(const JsonValue& value, std::size_t number) {
-  Material material = defaultMaterial(textOf(value, "name", fmt::format("material {}", number)));
-  std::optional<GltfUv> uv;
-  const JsonValue* gloss = valueOf(value, {"extensions", "KHR_materials_pbrSpecularGlossiness"});
-  const bool unlit = valueOf(value, {"extensions", "KHR_materials_unlit"});
-  std::array<Image, kMaterialMaps> images;
-  static_assert(std::size(kMaps) == kMaterialMaps);
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    const auto& map = kMaps[i];
-    const JsonValue* info =
-        map.object.empty()              ? value.find(map.key)
-        : gloss && (i == 0 || i == 2)   ? gloss->find(i == 0 ? "diffuseTexture" : "specularGlossinessTexture")
-        : map.object.starts_with("KHR") ? valueOf(value, {"extensions", map.object, map.key})
-                                        : valueOf(value, {map.object, map.key});
-    if (!info || (unlit && i > 0)) continue;
-    const GltfUv mine = readUv(*info);
-    if (uv.value_or(mine) != mine) {
-      document_.leaveOut(*info, fmt::format("'{}' of material {} was left out", map.key, number),
-                         "one set of texture coordinates and one transform for all maps of a material",
-                         "another one than that of its first map");
-      continue;
-    }
-    uv = mine;
-    const JsonValue& texture =
-        document_.rows("textures")[document_.index("textures", document_.need(*info, "index"))];
-    images[i] = imageOf(texture);
-    if (!images[i].tried)
-      pool_.reportMissing("a texture", "it names no image that Weft can read", texture.place);
-    material.samplers[i] = samplerOf(texture);
-    const TextureUse use = info->find("bump") ? TextureUse::bump : map.use;
-    *material.maps()[i] = pool_.use(images[i].number, images[i].name, use, texture.place);
-  }
-  uvs_.push_back(uv.value_or(GltfUv{}));
-  const auto numberOf = [&](std::initializer_list<std::string_view> object, std::string_view key,
-                            double otherwise, double min, double max) {
-    const JsonValue* of = valueOf(value, object);
-    return of ? document_.number(*of, key, otherwise, min, max) : static_cast<float>(otherwise);
-  };
-  std::array<float, 4> factor{1, 1, 1, 1};
-  if (const JsonValue* pbr = value.find("pbrMetallicRoughness"))
-    document_.numbers(*pbr, "baseColorFactor", factor);
-  material.albedo = {factor[0], factor[1], factor[2]};
-  material.metallic = numberOf({"pbrMetallicRoughness"}, "metallicFactor", 1, 0, 1);
-  material.roughness = numberOf({"pbrMetallicRoughness"}, "roughnessFactor", 1, 0, 1);
-  if (gloss) factor[3] = readGloss(*gloss, images[0], images[2], material);
-  material.normalScale = numberOf({"normalTexture"}, "scale", 1, -1e3, 1e3);
-  material.occlusionStrength = numberOf({"occlusionTexture"}, "strength", 1, 0, 1);
-  document_.numbers(value, "emissiveFactor", {&material.emissive.x, 3});
-  material.emissive *=
-      numberOf({"extensions", "KHR_materials_emissive_strength"}, "emissiveStrength", 1, 0, 1e9);
-  if (const JsonValue* shine = valueOf(value, {"extensions", "WEFT_blinn_phong"})) {
-    document_.numbers(*shine, "specular", {&material.specular.x, 3});
-    material.shininess = document_.number(*shine, "shininess", 0, 0, 10000);
-    toMetallicRoughness(material);
-  }
-  const std::string mode = textOf(value, "alphaMode");
-  material.blend = mode == "BLEND";
-  material.alpha = material.blend ? factor[3] : 1;
-  if (mode == "MASK") {
-    // The mask compares factor * texel; Weft's materials compare the texel.
-    const float cutoff = document_.number(value, "alphaCutoff", 0.5, 0, 1e3);
-    material.alphaCutoff = factor[3] > 0 ? cutoff / factor[3] : 2;
-  }
-  const JsonValue* both = value.find("doubleSided");
-  material.doubleSided = both && both->flag;
-  if (unlit) {
-    material.unlit = material.blinnPhong = true;
-    material.shininess = material.metallic = 1;
-    material.emissive = std::exchange(material.albedo, glm::vec3(0));
-    material.emissiveMap = material.albedoMap;
-    material.samplers[4] = material.samplers[0];
-  }
-  const JsonValue* extensions = value.find("extensions");
-  if (extensions && !unlit && !gloss) readLayers(*extensions, material);
-  model_.materials.push_back(std::move(material));
-}
-
-void GltfMaterials::readLayers(const JsonValue& extensions, Material& material) {
-  MaterialLayers& layers = material.layers;
-  for (const auto& each : kLayers) {
-    const JsonValue* extension = extensions.find(each.extension);
-    if (extension)
-      layers.*each.value = document_.number(*extension, each.key, layers.*each.value, each.min, each.max);
-  }
-  if (const JsonValue* specular = extensions.find("KHR_materials_specular"))
-    document_.numbers(*specular, "specularColorFactor", {&layers.specularColor.x, 3});
-  if (const JsonValue* sheen = extensions.find("KHR_materials_sheen"))
-    document_.numbers(*sheen, "sheenColorFactor", {&layers.sheen.x, 3});
-  if (const JsonValue* normal = valueOf(extensions, {"KHR_materials_clearcoat", "clearcoatNormalTexture"}))
-    layers.coatNormalScale = document_.number(*normal, "scale", 1, -1e3, 1e3);
-  layers.layered = layers != MaterialLayers{};
-}
-
-// KHR_materials_pbrSpecularGlossiness: maps are made of its two. The alpha factor.
-float GltfMaterials::readGloss(const JsonValue& value, const Image& diffuse, const Image& specular,
-                               Material& material) {
-  std::array<float, 4> factor{1, 1, 1, 1};
-  document_.numbers(value, "diffuseFactor", factor);
-  SpecGloss gloss{.diffuse = {factor[0], factor[1], factor[2]}};
-  document_.numbers(value, "specularFactor", {&gloss.specular.x, 3});
-  gloss.glossiness = document_.number(value, "glossinessFactor", 1, 0, 1);
-  const Metallic whole = toMetallic(gloss);
-  std::tie(material.albedo, material.metallic, material.roughness) =
-      std::tie(whole.albedo, whole.metallic, whole.roughness);
-  if (diffuse.number == kNoRow && specular.number == kNoRow) return factor[3];
-  material.albedo = glm::vec3(1);
-  material.metallic = material.roughness = 1;
-  material.albedoMap = pool_.useMade(
-      diffuse.number, specular.number,
-      [gloss](const glm::u8vec4& d, const glm::u8vec4& s) {
-        const glm::vec3 albedo = glm::convertLinearToSRGB(texelOf(gloss, d, s).albedo);
-        return toBytes({albedo, static_cast<float>(d.a) / 255});
-      },
-      diffuse.name, TextureUse::color, value.place);
-  material.metallicRoughnessMap = pool_.useMade(
-      diffuse.number, specular.number,
-      [gloss](const glm::u8vec4& d, const glm::u8vec4& s) {
-        const Metallic texel = texelOf(gloss, d, s);
-        return toBytes({1, texel.roughness, texel.metallic, 1});
-      },
-      specular.name, TextureUse::numbers, value.place);
-  material.samplers[diffuse.number == kNoRow ? 0 : 2] = material.samplers[diffuse.number == kNoRow ? 2 : 0];
-  return factor[3];
+std::vector<GltfUv> readMaterials(GltfDocument& document, ModelFiles& files, Model& model, bool made) {
+  return MaterialReader(document, files, model, made).read();
 }
 
 }  // namespace weft::assets
