@@ -69,54 +69,6 @@ double spreadLight(ImageF& image, int x, int y) {
   return left;
 }
 
-}  // namespace
-
-ImageF widenToRgba(ImageF image) {
-  if (image.channels == 4) return image;
-  const std::size_t from = static_cast<std::size_t>(image.channels);
-  const std::size_t count = image.texels.size() / from;
-  ImageF wide{image.width, image.height, 4, std::vector<float>(count * 4)};
-  for (std::size_t i = 0; i < count; ++i) {
-    const float* in = &image.texels[i * from];
-    float* out = &wide.texels[i * 4];
-    out[0] = in[0];
-    out[1] = from >= 3 ? in[1] : in[0];
-    out[2] = from >= 3 ? in[2] : in[0];
-    out[3] = from == 2 ? in[1] : 1.0f;
-  }
-  return wide;
-}
-
-std::string lowerExtension(const std::string& name) {
-  return text::lowered(std::filesystem::path(name).extension().string());
-}
-
-ImageKind kindOfName(const std::string& name) {
-  const std::string extension = lowerExtension(name);
-  if (extension == ".hdr") return ImageKind::hdr;
-  if (extension == ".exr") return ImageKind::exr;
-  if (extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".tga")
-    return ImageKind::eight_bit;
-  return ImageKind::unknown;
-}
-
-void reportUnreadable(Diagnostics& diagnostics, const std::string& name, const std::string& why) {
-  diagnostics.error(Code::unreadableImage, {name}, fmt::format("cannot read image '{}': {}", name, why));
-}
-
-bool checkSize(Diagnostics& diagnostics, const std::string& name, long long width, long long height) {
-  const bool tooLarge = width > kMaxImageSide || height > kMaxImageSide ||
-                        width * height > static_cast<long long>(kMaxImageTexels);
-  if (width >= 1 && height >= 1 && !tooLarge) return true;
-  diagnostics.error(
-      Code::badImageSize, {name}, fmt::format("image '{}' is {}", name, tooLarge ? "too large" : "empty"),
-      {.expected = fmt::format("1 to {} texels a side, at most {} in all", kMaxImageSide, kMaxImageTexels),
-       .found = fmt::format("{} x {}", width, height)});
-  return false;
-}
-
-namespace {
-
 // Rows of `texels`, top row first, into bytes with the bottom row first.
 template <class T>
 std::vector<std::byte> turnedOver(std::span<const T> texels, int height) {
@@ -191,6 +143,50 @@ std::optional<ImageHeader> readHeader(std::string_view bytes, const std::string&
 
 }  // namespace
 
+ImageF widenToRgba(ImageF image) {
+  if (image.channels == 4) return image;
+  const std::size_t from = static_cast<std::size_t>(image.channels);
+  const std::size_t count = image.texels.size() / from;
+  ImageF wide{image.width, image.height, 4, std::vector<float>(count * 4)};
+  for (std::size_t i = 0; i < count; ++i) {
+    const float* in = &image.texels[i * from];
+    float* out = &wide.texels[i * 4];
+    out[0] = in[0];
+    out[1] = from >= 3 ? in[1] : in[0];
+    out[2] = from >= 3 ? in[2] : in[0];
+    out[3] = from == 2 ? in[1] : 1.0f;
+  }
+  return wide;
+}
+
+std::string lowerExtension(const std::string& name) {
+  return text::lowered(std::filesystem::path(name).extension().string());
+}
+
+ImageKind kindOfName(const std::string& name) {
+  const std::string extension = lowerExtension(name);
+  if (extension == ".hdr") return ImageKind::hdr;
+  if (extension == ".exr") return ImageKind::exr;
+  if (extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".tga")
+    return ImageKind::eight_bit;
+  return ImageKind::unknown;
+}
+
+void reportUnreadable(Diagnostics& diagnostics, const std::string& name, const std::string& why) {
+  diagnostics.error(Code::unreadableImage, {name}, fmt::format("cannot read image '{}': {}", name, why));
+}
+
+bool checkSize(Diagnostics& diagnostics, const std::string& name, long long width, long long height) {
+  const bool tooLarge = width > kMaxImageSide || height > kMaxImageSide ||
+                        width * height > static_cast<long long>(kMaxImageTexels);
+  if (width >= 1 && height >= 1 && !tooLarge) return true;
+  diagnostics.error(
+      Code::badImageSize, {name}, fmt::format("image '{}' is {}", name, tooLarge ? "too large" : "empty"),
+      {.expected = fmt::format("1 to {} texels a side, at most {} in all", kMaxImageSide, kMaxImageTexels),
+       .found = fmt::format("{} x {}", width, height)});
+  return false;
+}
+
 std::optional<ImageHeader> loadHeader(const std::string& path, Diagnostics& diagnostics) {
   const auto bytes = text::readFile(path, diagnostics, Code::unreadableImage);
   return bytes ? readHeader(*bytes, path, diagnostics) : std::nullopt;
@@ -246,18 +242,10 @@ void sanitizeRadiance(ImageF& image, const std::string& name, Diagnostics& diagn
     float& value = image.texels[i];
     if (image.channels == 4 && i % 4 == 3) continue;
     if (value >= 0 && value <= kHalfMax) continue;
-    if (std::isnan(value)) {
-      ++undefined;
-      value = 0;
-    } else if (value < 0) {
-      ++negative;
-      value = 0;
-    } else if (std::isinf(value)) {
-      ++infinite;
-      value = kHalfMax;
-    } else {
-      ++tooBright;
-    }
+    const bool over = value > kHalfMax;
+    ++(std::isnan(value) ? undefined : !over ? negative : std::isinf(value) ? infinite : tooBright);
+    if (!over) value = 0;
+    if (std::isinf(value)) value = kHalfMax;
   }
   if (undefined + negative + infinite + tooBright == 0) return;
 

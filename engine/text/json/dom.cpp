@@ -35,12 +35,7 @@ bool isOneOf(char c, std::string_view all) {
 class Parser {
  public:
   Parser(std::string_view text, FileName file, Diagnostics* diagnostics, std::vector<ByteRange>* comments)
-      : text_(text),
-        file_(file),
-        diagnostics_(diagnostics),
-        comments_(comments),
-        first_(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0),
-        at_(first_) {
+      : text_(text), file_(file), diagnostics_(diagnostics), comments_(comments) {
     rewind();
   }
 
@@ -345,8 +340,9 @@ class Parser {
   const FileName file_;
   Diagnostics* const diagnostics_;  // null: mistakes are passed over
   std::vector<ByteRange>* const comments_;
-  const std::size_t first_;  // behind a byte order mark
-  std::size_t at_;
+  // Behind a byte order mark.
+  const std::size_t first_ = text_.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+  std::size_t at_ = first_;
   std::uint32_t line_ = 1;  // of the last place
   std::size_t lineStart_ = 0, lineEnd_ = 0;
   bool failed_ = false;
@@ -425,16 +421,10 @@ const char* nameOf(JsonValue::Type type) {
 }
 
 std::string describe(const JsonValue& value) {
-  switch (value.type) {
-    case JsonValue::Type::boolean:
-      return value.flag ? "true" : "false";
-    case JsonValue::Type::number:
-      return fmt::format("the number {}", value.number);
-    case JsonValue::Type::string:
-      return fmt::format("the string \"{}\"", shortened(value.text));
-    default:
-      return nameOf(value.type);
-  }
+  if (value.is(Type::boolean)) return value.flag ? "true" : "false";
+  if (value.is(Type::number)) return fmt::format("the number {}", value.number);
+  return value.is(Type::string) ? fmt::format("the string \"{}\"", shortened(value.text))
+                                : nameOf(value.type);
 }
 
 }  // namespace weft::text

@@ -73,11 +73,7 @@ bool expectType(const JsonValue& value, std::string_view name, JsonValue::Type t
 }
 
 JsonFields::JsonFields(const JsonValue& object, std::string what, Code rangeCode, Diagnostics& diagnostics)
-    : object_(object),
-      what_(std::move(what)),
-      rangeCode_(rangeCode),
-      diagnostics_(diagnostics),
-      known_{"$schema"} {
+    : object_(object), what_(std::move(what)), rangeCode_(rangeCode), diagnostics_(diagnostics) {
   expectType(object, what_, JsonValue::Type::object, diagnostics);
 }
 

@@ -63,7 +63,7 @@ class JsonFields {
   std::string what_;
   Code rangeCode_;
   Diagnostics& diagnostics_;
-  std::vector<std::string> known_;
+  std::vector<std::string> known_{"$schema"};
 };
 
 }  // namespace weft::text

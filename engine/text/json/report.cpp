@@ -158,14 +158,10 @@ std::string diagnosticsSarif(const Diagnostics& diagnostics, std::string_view ve
       result["locations"] = Json::array({locationOf(d.place.inFile())});
     results.push_back(std::move(result));
   }
-  Json driver{{"name", "weft"}, {"version", version}, {"rules", std::move(rules)}};
-  Json run;
-  run["tool"]["driver"] = std::move(driver);
-  run["results"] = std::move(results);
-  const Json document{{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
-                      {"version", "2.1.0"},
-                      {"runs", Json::array({std::move(run)})}};
-  return dumpJson(document, 2);
+  const Json driver{{"name", "weft"}, {"version", version}, {"rules", std::move(rules)}};
+  return dumpJson({{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
+                   {"version", "2.1.0"},
+                   {"runs", Json::array({{{"tool", {{"driver", driver}}}, {"results", results}}})}});
 }
 
 }  // namespace weft::text

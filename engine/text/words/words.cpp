@@ -47,6 +47,16 @@ const ForeignWord& findForeign(const std::string& word) {
   return found == table.end() ? none : found->second;
 }
 
+// Those of a paragraph of glsl_words.txt.
+std::vector<std::string_view> wordsOf(int paragraph) {
+  std::string_view all = kGlslWords;
+  const std::size_t gap = all.find("\n\n");
+  all = paragraph == 0 ? all.substr(0, gap) : all.substr(gap);
+  std::vector<std::string_view> words;
+  for (all = trimmed(all); !all.empty();) words.push_back(takeWord(all));
+  return words;
+}
+
 }  // namespace
 
 const ForeignWord& findForeignWord(std::string_view kind, std::string_view word) {
@@ -83,20 +93,6 @@ std::string hintForSpelling(std::string_view value) {
       return found.format(hint);
   return {};
 }
-
-namespace {
-
-// Those of a paragraph of glsl_words.txt.
-std::vector<std::string_view> wordsOf(int paragraph) {
-  std::string_view all = kGlslWords;
-  const std::size_t gap = all.find("\n\n");
-  all = paragraph == 0 ? all.substr(0, gap) : all.substr(gap);
-  std::vector<std::string_view> words;
-  for (all = trimmed(all); !all.empty();) words.push_back(takeWord(all));
-  return words;
-}
-
-}  // namespace
 
 bool isGlslWord(std::string_view word) {
   static const std::vector<std::string_view> kWords = wordsOf(0);

@@ -339,24 +339,17 @@ std::vector<std::array<std::size_t, 3>> triangulate(std::span<const glm::dvec3> 
   return out;
 }
 
-struct Corner {
-  std::size_t position = 0, uv = kNoRow, normal = kNoRow;
-  friend bool operator==(const Corner&, const Corner&) = default;
-};
+// Rows of position, uv and normal; kNoRow for a uv or a normal that is not named.
+using Corner = std::array<std::size_t, 3>;
 struct CornerHash {
   std::size_t operator()(const Corner& corner) const {
-    return text::hashCombine(text::hashCombine(corner.position, corner.uv), corner.normal);
+    return text::hashCombine(text::hashCombine(corner[0], corner[1]), corner[2]);
   }
 };
 
 class ObjReader {
  public:
-  ObjReader(ModelFiles& files, Model& model)
-      : files_(files),
-        diagnostics_(files.diagnostics()),
-        model_(model),
-        builder_(model),
-        materials_(files, model) {}
+  ObjReader(ModelFiles& files, Model& model) : files_(files), model_(model) {}
 
   bool read(std::string_view bytes) {
     const std::size_t before = diagnostics_.errorCount(), all = bytes.size();
@@ -418,24 +411,21 @@ class ObjReader {
     if (key.empty() || key.starts_with('#')) return;
     const std::string name(text::trimmed(rest));
     rest = rest.substr(0, rest.find('#'));
-    if (key == "v") {
-      readVertex(rest);
-    } else if (key == "vt") {
+    if (key == "v") return readVertex(rest);
+    if (key == "f" || key == "fo") return readFace(rest);
+    if (key == "mtllib") return materials_.readLibraries(name, here());
+    if (key == "vt") {
       if (const auto numbers = readNumbers<2>(rest, 1)) uvs_.push_back({(*numbers)[0], 1 - (*numbers)[1]});
     } else if (key == "vn") {
       if (const auto numbers = readNumbers<3>(rest, 3))
         normals_.push_back({(*numbers)[0], (*numbers)[1], (*numbers)[2]});
-    } else if (key == "f" || key == "fo") {
-      readFace(rest);
     } else if (key == "o" || key == "g") {
       node_ = nodeOf(name);
       part_ = nullptr;
     } else if (key == "usemtl") {
       material_ = materials_.rowOf(name, here());
       part_ = nullptr;
-    } else if (key == "mtllib") {
-      materials_.readLibraries(name, here());
-    } else if (key != "s" && key != "mtllib") {
+    } else if (key != "s") {
       leaveOut(std::string(key));
     }
   }
@@ -498,25 +488,21 @@ class ObjReader {
       colors_.back()[static_cast<int>(c)] = decodeSrgb(std::clamp((*n)[color + c], 0.0f, 1.0f));
   }
 
-  // A row of a table, counted from 1, or from its end when negative. False for one that there is not.
-  static bool readRow(std::string_view word, std::size_t count, std::size_t& row) {
-    const std::optional<std::int64_t> number = text::numberIn<std::int64_t>(word);
-    if (!number || *number == 0) return false;
-    const std::int64_t at = *number > 0 ? *number - 1 : static_cast<std::int64_t>(count) + *number;
-    row = static_cast<std::size_t>(at);
-    return at >= 0 && row < count;
-  }
-
-  // position, position/uv, position//normal or position/uv/normal
+  // position, position/uv, position//normal or position/uv/normal: rows counted from 1, or from the end of the table when negative.
+  // Empty for one that there is not.
   std::optional<Corner> readCorner(std::string_view word) const {
-    Corner corner;
-    const std::size_t first = word.find('/'), second = first == word.npos ? first : word.find('/', first + 1);
-    if (!readRow(word.substr(0, first), positions_.size(), corner.position)) return {};
-    const std::string_view uv =
-        first == word.npos ? std::string_view() : word.substr(first + 1, second - first - 1);
-    const std::string_view normal = second == word.npos ? std::string_view() : word.substr(second + 1);
-    if (!uv.empty() && !readRow(uv, uvs_.size(), corner.uv)) return {};
-    if (!normal.empty() && !readRow(normal, normals_.size(), corner.normal)) return {};
+    const std::size_t counts[] = {positions_.size(), uvs_.size(), normals_.size()};
+    Corner corner{kNoRow, kNoRow, kNoRow};
+    for (std::size_t i = 0; i < 3 && (i == 0 || !word.empty()); ++i) {
+      const std::string_view part = word.substr(0, i == 2 ? word.npos : word.find('/'));
+      word.remove_prefix(std::min(part.size() + 1, word.size()));
+      if (i > 0 && part.empty()) continue;
+      const auto count = static_cast<std::int64_t>(counts[i]);
+      const std::int64_t number = text::numberIn<std::int64_t>(part).value_or(0);
+      const std::int64_t at = number > 0 ? number - 1 : count + number;
+      if (number == 0 || at < 0 || at >= count) return {};
+      corner[i] = static_cast<std::size_t>(at);
+    }
     return corner;
   }
 
@@ -529,7 +515,7 @@ class ObjReader {
       good = good && corner;
       if (!good) continue;
       corners.push_back(*corner);
-      places.emplace_back(positions_[corner->position]);
+      places.emplace_back(positions_[(*corner)[0]]);
       if (corners.size() > kMaxCorners)
         return fail("a face of the model has too many corners", fmt::format("at most {}", kMaxCorners),
                     "more");
@@ -560,23 +546,22 @@ class ObjReader {
     RawMesh mesh;
     mesh.name = model_.nodes[part.node].name;
     mesh.colors = colored_ && !colorless_;
-    mesh.normals = std::ranges::any_of(part.corners, [](const Corner& c) { return c.normal != kNoRow; });
+    mesh.normals = std::ranges::any_of(part.corners, [](const Corner& c) { return c[2] != kNoRow; });
     const glm::vec4 move = materials_.moveOf(part.material);
     std::unordered_map<Corner, std::uint32_t, CornerHash> known;
     for (std::size_t i = 0; i < part.corners.size(); ++i) {
-      const Corner& corner = part.corners[i];
-      const bool flat = corner.normal == kNoRow && mesh.normals;  // among others that are not
+      const auto [position, uv, normal] = part.corners[i];
+      const bool flat = normal == kNoRow && mesh.normals;  // among others that are not
       const auto row = static_cast<std::uint32_t>(mesh.vertices.size());
-      mesh.indices.push_back(flat ? row : known.try_emplace(corner, row).first->second);
+      mesh.indices.push_back(flat ? row : known.try_emplace(part.corners[i], row).first->second);
       if (mesh.indices.back() != row) continue;
-      RawVertex vertex{.position = positions_[corner.position]};
-      if (corner.uv != kNoRow)
-        vertex.uv = {uvs_[corner.uv].x * move.x + move.z, 1 - (1 - uvs_[corner.uv].y) * move.y - move.w};
-      if (mesh.colors) vertex.color = glm::vec4(colors_[corner.position], 1);
-      if (corner.normal != kNoRow) vertex.normal = normals_[corner.normal];
+      RawVertex vertex{.position = positions_[position]};
+      if (uv != kNoRow) vertex.uv = {uvs_[uv].x * move.x + move.z, 1 - (1 - uvs_[uv].y) * move.y - move.w};
+      if (mesh.colors) vertex.color = glm::vec4(colors_[position], 1);
+      if (normal != kNoRow) vertex.normal = normals_[normal];
       if (flat) {
         std::array<glm::dvec3, 3> places;
-        for (std::size_t c = 0; c < 3; ++c) places[c] = positions_[part.corners[i / 3 * 3 + c].position];
+        for (std::size_t c = 0; c < 3; ++c) places[c] = positions_[part.corners[i / 3 * 3 + c][0]];
         vertex.normal = glm::vec3(areaOf(places));
       }
       mesh.vertices.push_back(vertex);
@@ -586,10 +571,10 @@ class ObjReader {
   }
 
   ModelFiles& files_;
-  Diagnostics& diagnostics_;
+  Diagnostics& diagnostics_ = files_.diagnostics();
   Model& model_;
-  MeshBuilder builder_;
-  MtlReader materials_;
+  MeshBuilder builder_{model_};
+  MtlReader materials_{files_, model_};
   std::uint32_t line_ = 0;
   std::vector<glm::vec3> positions_, normals_, colors_;
   std::vector<glm::vec2> uvs_;
