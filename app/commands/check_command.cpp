@@ -64,27 +64,19 @@ void addDeclared(const Declaration& declared, bool compute, bool last, bool opti
     slots.push_back(text);
     made.request.defines.push_back({glsl::presenceDefineOf(name), "1"});
   };
-  switch (declared.role) {
-    case Role::sampler:
-      return slot("read");
-    case Role::image:
-      return slot(access, compute && declared.writes ? "" : " as image");
-    case Role::storage_block:
-      return slot(access);
-    case Role::uniform_block:
-      if (name != "Parameters" && name != "View" && name != "Slice") slot("read", " as uniform");
-      return;
-    case Role::output:
-      if (!last || compute) return;
-      made.request.outputs.push_back(name);
-      return slot("write");
-    case Role::member:
-      if (declared.owner == "Parameters" && made.pass["parameters"].emplace(name, zeroOf(declared)).second)
-        made.request.defines.push_back({glsl::presenceDefineOf(name), "1"});
-      return;
-    default:
-      return;
+  const Role role = declared.role;
+  if (role == Role::sampler) slot("read");
+  if (role == Role::image) slot(access, compute && declared.writes ? "" : " as image");
+  if (role == Role::storage_block) slot(access);
+  if (role == Role::uniform_block && name != "Parameters" && name != "View" && name != "Slice")
+    slot("read", " as uniform");
+  if (role == Role::output && last && !compute) {
+    made.request.outputs.push_back(name);
+    slot("write");
   }
+  if (role == Role::member && declared.owner == "Parameters" &&
+      made.pass["parameters"].emplace(name, zeroOf(declared)).second)
+    made.request.defines.push_back({glsl::presenceDefineOf(name), "1"});
 }
 
 void addStage(const glsl::ShaderSource& source, bool compute, bool last, ShaderStanza& made) {

@@ -263,75 +263,6 @@ std::string checkTogether(const RenderOptions& options, std::span<const OutputFi
   return {};
 }
 
-}  // namespace
-
-int runRender(RenderOptions& options) {
-  const double start = gl::steadyMs();
-  FrameRun run{.frames = options.frames, .output = {}, .parts = {}};
-  std::string unfit = takeOutputs(options, run);
-  std::vector<OutputFile> outputs;
-  if (!run.output.empty()) outputs.push_back({"-o", run.output});
-  for (const Part& part : run.parts) outputs.push_back({"-o " + part.name, part.files[0]});
-  if (unfit.empty()) unfit = checkTogether(options, outputs);
-  if (!unfit.empty()) {
-    printError("weft render: " + text::shortened(text::printable(unfit)) + "\n");
-    return 2;
-  }
-  text::Diagnostics wrong;
-  for (const OutputFile& each : outputs)
-    if (!isVideo(each.pattern)) checkOutput(each.pattern, run.frames[0], run.frames.size() > 1, wrong);
-  if (wrong.hasErrors()) return report(wrong);
-  const std::string manifest =
-      options.manifest.empty() && options.skipDone ? manifestNameOf(outputs[0].pattern) : options.manifest;
-  if (!manifest.empty()) {
-    text::keepHashes();
-    text::chooseFile(manifest);
-  }
-  run.checkpoints = options.checkpoints.beside(outputs[0].pattern);
-  return runOnDevice({&options}, 1, [&](auto& session, auto& world, text::Diagnostics& diagnostics) {
-    runtime::Renderer& renderer = session->renderer;
-    if (!renderer.load(settingsOf(options, session->context->device().software), world, diagnostics) ||
-        (!run.output.empty() && !checkPresents(options, renderer, diagnostics)))
-      return 1;
-    const double prepared = gl::steadyMs();
-    findParts(options, renderer.execution()->plan(), run, diagnostics);
-    std::vector<OutputFile> all = outputs;
-    all.push_back({"--manifest", manifest});
-    if (!checkDistinct(all, diagnostics) || diagnostics.hasErrors()) return 1;
-    if (options.instead) return options.instead(renderer.execution()->remembers(world), all, diagnostics);
-    if (!manifest.empty() && !openManifest(options, manifest, *session, outputs, run, diagnostics)) return 1;
-    renderer.device().timers.setEnabled(options.profile);
-    const auto checkSaved = [&] {
-      for (const Part& part : run.parts)
-        if (!part.saved && !diagnostics.hasErrors())
-          refuseOutput(part.files[0], fmt::format("nothing was in '{}' to write", part.name),
-                       "its import may be missing, or its pass did not run", diagnostics);
-    };
-    runFrames(*session, world, options, run, checkSaved, diagnostics);
-    if (run.signal != 0) return tellInterrupted(run);
-    if (diagnostics.hasErrors()) return 0;
-    if (options.skipDone && !options.quiet)
-      printError(fmt::format("{}: {} done already, {} drawn\n", text::counted(options.frames.size(), "frame"),
-                             options.frames.size() - run.frames.size(), run.written));
-    if (!options.stats) return 0;
-    auto stats = statsOf(*session, {{"setup_ms", prepared - start},
-                                    {"first_frame_ms", run.firstMs},
-                                    {"total_ms", gl::steadyMs() - start},
-                                    {"frames_run", run.ran},
-                                    {"passes_run_last_frame", run.last.passesRun},
-                                    {"passes_skipped_last_frame", run.last.passesSkipped},
-                                    {"barriers_last_frame", run.last.barriers}});
-    stats["pictures"] = {{"written", run.writer.counts().pictures},
-                         {"with_nan_or_infinity", run.writer.counts().broken},
-                         {"pixels_nan_or_infinite", run.writer.counts().pixels}};
-    stats["gl_objects_left"] = closeDevice(std::move(session));
-    printError(text::dumpJson(stats) + "\n");
-    return 0;
-  });
-}
-
-namespace {
-
 // ---- dump ----
 
 struct DumpOptions : Options {
@@ -412,6 +343,71 @@ int runDump(DumpOptions& options) {
 }
 
 }  // namespace
+
+int runRender(RenderOptions& options) {
+  const double start = gl::steadyMs();
+  FrameRun run{.frames = options.frames, .output = {}, .parts = {}};
+  std::string unfit = takeOutputs(options, run);
+  std::vector<OutputFile> outputs;
+  if (!run.output.empty()) outputs.push_back({"-o", run.output});
+  for (const Part& part : run.parts) outputs.push_back({"-o " + part.name, part.files[0]});
+  if (unfit.empty()) unfit = checkTogether(options, outputs);
+  if (!unfit.empty()) {
+    printError("weft render: " + text::shortened(text::printable(unfit)) + "\n");
+    return 2;
+  }
+  text::Diagnostics wrong;
+  for (const OutputFile& each : outputs)
+    if (!isVideo(each.pattern)) checkOutput(each.pattern, run.frames[0], run.frames.size() > 1, wrong);
+  if (wrong.hasErrors()) return report(wrong);
+  const std::string manifest =
+      options.manifest.empty() && options.skipDone ? manifestNameOf(outputs[0].pattern) : options.manifest;
+  if (!manifest.empty()) {
+    text::keepHashes();
+    text::chooseFile(manifest);
+  }
+  run.checkpoints = options.checkpoints.beside(outputs[0].pattern);
+  return runOnDevice({&options}, 1, [&](auto& session, auto& world, text::Diagnostics& diagnostics) {
+    runtime::Renderer& renderer = session->renderer;
+    if (!renderer.load(settingsOf(options, session->context->device().software), world, diagnostics) ||
+        (!run.output.empty() && !checkPresents(options, renderer, diagnostics)))
+      return 1;
+    const double prepared = gl::steadyMs();
+    findParts(options, renderer.execution()->plan(), run, diagnostics);
+    std::vector<OutputFile> all = outputs;
+    all.push_back({"--manifest", manifest});
+    if (!checkDistinct(all, diagnostics) || diagnostics.hasErrors()) return 1;
+    if (options.instead) return options.instead(renderer.execution()->remembers(world), all, diagnostics);
+    if (!manifest.empty() && !openManifest(options, manifest, *session, outputs, run, diagnostics)) return 1;
+    renderer.device().timers.setEnabled(options.profile);
+    const auto checkSaved = [&] {
+      for (const Part& part : run.parts)
+        if (!part.saved && !diagnostics.hasErrors())
+          refuseOutput(part.files[0], fmt::format("nothing was in '{}' to write", part.name),
+                       "its import may be missing, or its pass did not run", diagnostics);
+    };
+    runFrames(*session, world, options, run, checkSaved, diagnostics);
+    if (run.signal != 0) return tellInterrupted(run);
+    if (diagnostics.hasErrors()) return 0;
+    if (options.skipDone && !options.quiet)
+      printError(fmt::format("{}: {} done already, {} drawn\n", text::counted(options.frames.size(), "frame"),
+                             options.frames.size() - run.frames.size(), run.written));
+    if (!options.stats) return 0;
+    auto stats = statsOf(*session, {{"setup_ms", prepared - start},
+                                    {"first_frame_ms", run.firstMs},
+                                    {"total_ms", gl::steadyMs() - start},
+                                    {"frames_run", run.ran},
+                                    {"passes_run_last_frame", run.last.passesRun},
+                                    {"passes_skipped_last_frame", run.last.passesSkipped},
+                                    {"barriers_last_frame", run.last.barriers}});
+    stats["pictures"] = {{"written", run.writer.counts().pictures},
+                         {"with_nan_or_infinity", run.writer.counts().broken},
+                         {"pixels_nan_or_infinite", run.writer.counts().pixels}};
+    stats["gl_objects_left"] = closeDevice(std::move(session));
+    printError(text::dumpJson(stats) + "\n");
+    return 0;
+  });
+}
 
 void addRender(CommandLine& line) {
   const auto [command, options] =

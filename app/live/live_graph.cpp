@@ -98,14 +98,12 @@ bool LiveGraph::tryGraph(Attempt attempt, const runtime::World& world, text::Dia
       warning.severity = text::Severity::warning;
       warning.message += "; left out until the files take it";
       said.add(std::move(warning));
-      const auto at = static_cast<std::ptrdiff_t>(refusal.index);
-      if (refusal.disable) {
-        lost.disables.push_back(std::move(wanted.disables[refusal.index]));
-        wanted.disables.erase(wanted.disables.begin() + at);
-      } else {
-        lost.sets.push_back(std::move(wanted.sets[refusal.index]));
-        wanted.sets.erase(wanted.sets.begin() + at);
-      }
+      const auto moveTo = [&](auto& to, auto& from) {
+        const auto at = from.begin() + static_cast<std::ptrdiff_t>(refusal.index);
+        to.push_back(std::move(*at));
+        from.erase(at);
+      };
+      refusal.disable ? moveTo(lost.disables, wanted.disables) : moveTo(lost.sets, wanted.sets);
     }
     good = renderer_.load(wanted, world, said);
   }

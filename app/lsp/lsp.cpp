@@ -157,7 +157,7 @@ class Server {
       else
         published_[path] = list;
       Json parameters{{"uri", text::uriOf(path)}};
-      if (opened != texts_.opened().end()) parameters["version"] = opened->second;
+      if (opened != texts_.opened().end()) parameters["version"] = opened->second.version;
       parameters["diagnostics"] = std::move(list);
       send({{"jsonrpc", "2.0"},
             {"method", "textDocument/publishDiagnostics"},
@@ -263,22 +263,16 @@ class Server {
   std::optional<int> ended_;
 };
 
-}  // namespace
-
-}  // namespace lsp
-
-namespace {
-
 int runLsp(Options& options) {
   std::ios::sync_with_stdio(false);  // what has arrived is known only of streams with a buffer of their own
-  lsp::Server server(options);
+  Server server(options);
   try {
     while (!server.ended()) {
       if (std::cin.rdbuf()->in_avail() <= 0)
         server.settle();  // nobody waits for it before all changes are taken
-      server.take(lsp::readMessage());
+      server.take(readMessage());
     }
-  } catch (const lsp::Failure& end) {
+  } catch (const Failure& end) {
     printError(fmt::format("weft lsp: {}; editors end the server by 'shutdown' and 'exit'\n", end.what));
     return 1;
   }
@@ -287,9 +281,11 @@ int runLsp(Options& options) {
 
 }  // namespace
 
+}  // namespace lsp
+
 void addLsp(CommandLine& line) {
   const auto [command, options] =
-      line.add("lsp", "language server for editors (docs/editors.md); needs no OpenGL", runLsp);
+      line.add("lsp", "language server for editors (docs/editors.md); needs no OpenGL", lsp::runLsp);
   addPath(command, "--scene", options.scene, "scene that graphs are checked with");
   options.addSize(command);
   command.add_flag("--stdio")->description("as always");

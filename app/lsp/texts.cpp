@@ -175,19 +175,17 @@ std::string_view Text::statementOf(const glsl::Declaration& declaration) const {
 }
 
 void Texts::open(const std::string& path, std::string text, std::int64_t version) {
-  opened_[path] = version;
   text::overlayFile(path, text);
-  texts_[path] = std::make_shared<const Text>(path, std::move(text));
+  opened_[path] = {version, std::make_shared<const Text>(path, std::move(text))};
 }
 
 void Texts::close(const std::string& path) {
   text::dropOverlay(path);
   opened_.erase(path);
-  texts_.erase(path);
 }
 
 std::shared_ptr<const Text> Texts::of(const std::string& path) const {
-  if (const auto found = texts_.find(path); found != texts_.end()) return found->second;
+  if (const auto found = opened_.find(path); found != opened_.end()) return found->second.text;
   const auto read = [](const std::string& file, text::Diagnostics& said) {
     auto text = text::readTextFile(file, said);
     return text ? std::optional(std::make_shared<const Text>(file, *std::move(text))) : std::nullopt;

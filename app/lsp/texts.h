@@ -99,16 +99,18 @@ class Texts {
  public:
   void open(const std::string& path, std::string text, std::int64_t version);
   void close(const std::string& path);
-  // Versions by path.
-  const std::map<std::string, std::int64_t>& opened() const { return opened_; }
+  struct Open {
+    std::int64_t version = 0;
+    std::shared_ptr<const Text> text;
+  };
+  const std::map<std::string, Open>& opened() const { return opened_; }  // by path
   bool isOpen(const std::string& path) const { return opened_.contains(path); }
 
   // Null when there is no such file. A text that was returned does not change when the file does.
   std::shared_ptr<const Text> of(const std::string& path) const;
 
  private:
-  std::map<std::string, std::int64_t> opened_;
-  std::map<std::string, std::shared_ptr<const Text>> texts_;  // of opened_
+  std::map<std::string, Open> opened_;
   mutable imports::Files onDisk_;
 };
 

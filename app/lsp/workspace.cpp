@@ -120,7 +120,7 @@ void Workspace::read(const std::string& path, Graph& graph) {
 void Workspace::readAll() {
   std::set<std::string> files;
   for (const std::string& folder : folders_) files.merge(jsonFilesBelow(folder));
-  for (const auto& [path, version] : texts_.opened()) files.insert(path);
+  for (const auto& [path, open] : texts_.opened()) files.insert(path);
   std::erase_if(files, [&](const std::string& path) { return !isGraph(path); });
   std::erase_if(graphs_, [&](const auto& known) { return !files.contains(known.first); });
   std::set<std::string> included;
@@ -160,7 +160,7 @@ std::optional<Location> Workspace::locate(const text::Place& place, std::string_
 
 void Workspace::check() {
   std::map<std::string, Graph*> open;
-  for (const auto& [path, version] : texts_.opened())
+  for (const auto& [path, opened] : texts_.opened())
     if (isGraph(path)) read(path, *(open[path] = &graphs_[path]));
   for (auto& [path, graph] : graphs_) {
     graph.checked = open.contains(path) && std::ranges::none_of(open, [&](const auto& other) {

@@ -45,21 +45,16 @@ std::optional<Shot> takeShot(gl::Context& context, const Options& options, const
       shot.records.culled.push_back(shot.plan->graph->passNames[pass]);
   runtime::StepRecorder recorder;
   const bool remembers = execution.remembers(world);
-  const std::uint32_t first = remembers ? 0 : wish.frames.front(), last = wish.frames.back();
   // Where nothing is remembered, the frames between those to look at need not run.
-  const auto frameAfter = [&](std::uint64_t frame) -> std::uint64_t {
-    if (remembers) return frame + 1;
-    const auto next = std::ranges::upper_bound(wish.frames, static_cast<std::uint32_t>(frame));
-    return next == wish.frames.end() ? std::uint64_t{last} + 1 : *next;
-  };
+  const std::uint64_t total = remembers ? std::uint64_t{wish.frames.back()} + 1 : wish.frames.size();
   PictureWriter writer;
-  for (std::uint64_t frame = first; frame <= last; frame = frameAfter(frame)) {
-    const auto number = static_cast<std::uint32_t>(frame);
+  for (std::uint64_t i = 0; i < total; ++i) {
+    const std::uint32_t number = remembers ? static_cast<std::uint32_t>(i) : wish.frames[i];
     const bool shown = std::ranges::find(wish.frames, number) != wish.frames.end();
     runtime::StepWatch watch;
     if (wish.poison)
       watch.before = [&](std::uint32_t step) { runtime::fillWithPoison(execution, step, *wish.poison); };
-    const bool recorded = wish.records && (shown || frame == first);
+    const bool recorded = wish.records && (shown || i == 0);
     if (recorded && !wish.poison)
       watch.before = [&](std::uint32_t step) { recorder.prepare(execution, step); };
     if (recorded) watch.after = [&](std::uint32_t step) { recorder.look(execution, step); };

@@ -57,14 +57,7 @@ void cell(const std::string& text) {
 
 Panels::Panels(LiveGraph& live, runtime::Renderer& renderer, Log& log, std::function<void(const char*)> act,
                EditFile edit)
-    : live_(live),
-      renderer_(renderer),
-      log_(log),
-      act_(std::move(act)),
-      edit_(std::move(edit)),
-      profiler_(renderer.device().timers),
-      inspector_(renderer, looks_),
-      pictures_(renderer.device(), looks_) {}
+    : live_(live), renderer_(renderer), log_(log), act_(std::move(act)), edit_(std::move(edit)) {}
 
 Panels::~Panels() {
   inspector_.release();

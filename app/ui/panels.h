@@ -158,10 +158,10 @@ class Panels {
   Log& log_;
   std::function<void(const char*)> act_;
   EditFile edit_;
-  runtime::FrameProfiler profiler_;
+  runtime::FrameProfiler profiler_{renderer_.device().timers};
   Looks looks_;
-  InspectorPanel inspector_;
-  PassPictures pictures_;
+  InspectorPanel inspector_{renderer_, looks_};
+  PassPictures pictures_{renderer_.device(), looks_};
   PixelPanel pixel_;
   scene::CameraPose pose_;                        // of the last frame
   std::uint64_t livesSet_ = 0;                    // by then

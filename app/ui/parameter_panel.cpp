@@ -77,23 +77,12 @@ std::optional<Value> editChoice(const char* label, const ParameterDesc& desc, co
 }
 
 std::optional<Value> edit(const char* label, const ParameterDesc& desc, const Value& now) {
-  switch (desc.type) {
-    case Type::boolean: {
-      bool on = now.truth();
-      return ImGui::Checkbox(label, &on) ? std::optional(Value::boolean(on)) : std::nullopt;
-    }
-    case Type::integer:
-    case Type::number:
-    case Type::vec2:
-    case Type::vec3:
-    case Type::vec4:
-      return isColor(desc) ? editColor(label, now) : editNumbers(label, desc, now);
-    case Type::choice:
-      return editChoice(label, desc, now);
-    case Type::file:
-      return editFile(label, now);
-  }
-  return std::nullopt;
+  if (desc.type == Type::choice) return editChoice(label, desc, now);
+  if (desc.type == Type::file) return editFile(label, now);
+  if (desc.type != Type::boolean)
+    return isColor(desc) ? editColor(label, now) : editNumbers(label, desc, now);
+  bool on = now.truth();
+  return ImGui::Checkbox(label, &on) ? std::optional(Value::boolean(on)) : std::nullopt;
 }
 
 }  // namespace

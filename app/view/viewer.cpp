@@ -86,20 +86,7 @@ void setIcon(GLFWwindow* window) {
 }  // namespace
 
 Viewer::Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& live, PageServer* server)
-    : options_(options),
-      session_(session),
-      window_(static_cast<GLFWwindow*>(session.context->window())),
-      renderer_(session.renderer),
-      live_(live),
-      input_(window_),
-      server_(server),
-      editor_(options.editor),
-      panels_(
-          live, session.renderer, log_, [this](const char* action) { act(action); },
-          [this](const text::Place& place) { edit(place); }),
-      renderScale_(options.renderScale),
-      vsync_(options.vsync),
-      idle_(options.idle) {
+    : options_(options), session_(session), live_(live), server_(server) {
   uiScale_ = options.uiScale > 0 ? static_cast<float>(options.uiScale) : session.context->contentScale();
   if (options.ui) overlay_ = ui::Overlay::create(window_, uiScale_);
   input_.setOverlay(overlay_.get());
@@ -122,6 +109,9 @@ void Viewer::addActions() {
   gl::PassTimers& timers = renderer_.device().timers;
   const auto step = [this](int by) {
     if (!live_.stepEnvironment(by)) told_ = "there is no other environment in the folder";
+  };
+  const auto atRest = [this](const std::function<void()>& change) {  // shows only in another frame
+    return [this, change] { change(), rest_.disturb(); };
   };
   actions_ = {{"help", [this] { help_ = !help_; }},
               {"panels", [this] { panels_.toggle(); }},
@@ -160,21 +150,9 @@ void Viewer::addActions() {
               {"edit_pass", [this] { edit(panels_.selectedPlace(false)); }},
               {"edit_shader", [this] { edit(panels_.selectedPlace(true)); }},
               {"pause", [this] { clock_.pause(!clock_.paused()); }},
-              {"step",
-               [this] {
-                 clock_.step();
-                 rest_.disturb();
-               }},
-              {"reset_time",
-               [this] {
-                 clock_.begin();
-                 rest_.disturb();
-               }},
-              {"find_nan",
-               [this] {
-                 scan_ = true;
-                 rest_.disturb();
-               }},
+              {"step", atRest([this] { clock_.step(); })},
+              {"reset_time", atRest([this] { clock_.begin(); })},
+              {"find_nan", atRest([this] { scan_ = true; })},
               {"full_screen",
                [this] {
                  const bool full = glfwGetWindowMonitor(window_) != nullptr;

@@ -92,16 +92,17 @@ class Viewer {
 
   const ViewOptions& options_;
   DeviceSession& session_;
-  GLFWwindow* window_;
-  runtime::Renderer& renderer_;
+  GLFWwindow* window_ = static_cast<GLFWwindow*>(session_.context->window());
+  runtime::Renderer& renderer_ = session_.renderer;
   LiveGraph& live_;
   std::map<std::string, std::function<void()>, std::less<>> actions_;  // by name
-  WindowInput input_;
+  WindowInput input_{window_};
   PageServer* server_;
   std::unique_ptr<ui::Overlay> overlay_;  // null with --no-ui
   ui::Log log_;
-  Editor editor_;
-  ui::Panels panels_;
+  Editor editor_{options_.editor};
+  ui::Panels panels_{live_, renderer_, log_, [this](const char* action) { act(action); },
+                     [this](const text::Place& place) { edit(place); }};
   ui::Wipe wipe_;
   CameraRig rig_{scene::CameraPose{}};
   std::string cameraName_;  // of the scene's camera that is followed; empty: the first
@@ -125,8 +126,8 @@ class Viewer {
   float uiScale_ = 1;
   gl::Size size_;       // of the window, as it was said last
   int before_[4] = {};  // place and size of the window, before it had the whole screen
-  double renderScale_ = 1;
-  bool vsync_ = true, idle_ = false, help_ = false, minimized_ = false;
+  double renderScale_ = options_.renderScale;
+  bool vsync_ = options_.vsync, idle_ = options_.idle, help_ = false, minimized_ = false;
   bool scan_ = false;                     // for NaN, in the next frame
   bool resting_ = false, shown_ = false;  // as it was said last; a picture was
   bool sceneLoads_ = false;               // as it was said last
