@@ -37,7 +37,7 @@ void addCommon(CLI::App& command) {
       ->check(CLI::Validator(confine, "FOLDER"));
   command
       .add_option_function<std::uint32_t>(
-          "--limit", [](std::uint32_t times) { text::raiseLimits(times); },
+          "--limit", [](std::uint32_t times) { text::limitsRaised = times; },
           "make the limits of docs/limits.md this many times as large")
       ->check(CLI::Range(1u, static_cast<unsigned>(text::kMaxRaise)));
 }

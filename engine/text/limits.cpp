@@ -7,22 +7,8 @@
 
 namespace weft::text {
 
-namespace {
-
-std::uint64_t raisedTimes = 1;
-
-}  // namespace
-
-void raiseLimits(std::uint64_t times) {
-  raisedTimes = times;
-}
-
-std::uint64_t limitsRaised() {
-  return raisedTimes;
-}
-
 std::string hintToRaise(std::uint64_t bound, std::uint64_t needed) {
-  const std::uint64_t times = std::max(2 * raisedTimes, needed / bound + (needed % bound != 0 ? 1 : 0));
+  const std::uint64_t times = std::max(2 * limitsRaised, needed / bound + (needed % bound != 0 ? 1 : 0));
   if (times > kMaxRaise) return {};
   return fmt::format("raise the limits with --limit {}, if that is meant", times);
 }

@@ -45,9 +45,9 @@ TEST_CASE("beyond it errors stay before warnings, from the first place on, and t
   CHECK(chooseMessages(all, false).items().back().message ==
         "further messages are left out: 400 errors, 500 warnings, 0 notes");
 
-  raiseLimits(10);
+  limitsRaised = 10;
   const Diagnostics most = chooseMessages(all);
-  raiseLimits(1);
+  limitsRaised = 1;
   CHECK(most.size() == 1001);
   CHECK(most.items().back().message == "further messages are left out: 0 errors, 0 warnings, 7 notes");
   CHECK(most.items()[0].severity == Severity::warning);  // in the order of places again

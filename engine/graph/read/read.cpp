@@ -236,7 +236,7 @@ class GraphReader {
                                  fmt::format("the graph includes too many {}", counts),
                                  {.expected = fmt::format("at most {} {}", bound, counts),
                                   .found = fmt::format("{} with '{}'", count, stanza.text)});
-    if (bound != kMaxInRow) d.hint = text::hintToRaise(bound / text::limitsRaised(), count);
+    if (bound != kMaxInRow) d.hint = text::hintToRaise(bound / text::limitsRaised, count);
     return true;
   }
 

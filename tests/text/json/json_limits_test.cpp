@@ -60,8 +60,8 @@ TEST_CASE("limits are raised together, and so far that what is needed fits") {
   CHECK(hintToRaise(100) == "raise the limits with --limit 2, if that is meant");
   CHECK(hintToRaise(100, 501) == "raise the limits with --limit 6, if that is meant");
   CHECK(hintToRaise(100, 6401).empty());
-  raiseLimits(3);
+  limitsRaised = 3;
   CHECK(raised(100) == 300);
   CHECK(hintToRaise(100) == "raise the limits with --limit 6, if that is meant");
-  raiseLimits(1);
+  limitsRaised = 1;
 }
