@@ -45,7 +45,7 @@ Json gridOf(const assets::ImageF& values) {
       chosen.insert(chosen.end(), texel, texel + channels);
     }
   std::vector<std::uint16_t> halves(chosen.size());
-  assets::floatsToHalves(chosen, halves);
+  std::ranges::transform(chosen, halves.begin(), assets::floatToHalf);
   const bool half = std::ranges::equal(chosen, halves, [](float value, std::uint16_t bits) {
     return std::isnan(value) || assets::halfToFloat(bits) == value;
   });
@@ -148,9 +148,6 @@ std::string withoutFolder(const std::string& path) {
   const std::string data = text::dataFolder() + "/";
   return path.starts_with(data) ? path.substr(data.size()) : path;
 }
-
-FrameLook::FrameLook(runtime::Renderer& renderer)
-    : renderer_(renderer), plan_(renderer.execution()->plan()), capture_(renderer.device()) {}
 
 void FrameLook::begin(text::Diagnostics& diagnostics) {
   const std::string all = "*";

@@ -18,7 +18,7 @@ std::string withoutFolder(const std::string& path);
 class FrameLook {
  public:
   // Of the plan that `renderer`, which must outlive this, runs now.
-  explicit FrameLook(runtime::Renderer& renderer);
+  explicit FrameLook(runtime::Renderer& renderer) : renderer_(renderer) {}
   // Before the frame. `diagnostics` must outlive it.
   void begin(text::Diagnostics& diagnostics);
   // After it. `facts`: words that tell the frame from others; `said`: messages of the graph.
@@ -29,8 +29,8 @@ class FrameLook {
 
  private:
   runtime::Renderer& renderer_;
-  graph::Plan plan_;
-  runtime::Capture capture_;
+  graph::Plan plan_ = renderer_.execution()->plan();
+  runtime::Capture capture_{renderer_.device()};
   nlohmann::ordered_json outputs_;
   assets::Image8 picture_;
 };

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "engine/text/chars.h"
 #include "engine/text/files/file.h"
 
 namespace weft::app {
@@ -58,10 +57,6 @@ std::optional<std::string> outputNameOf(const std::string& pattern, std::uint32_
          pattern.substr(end + 1);
 }
 
-std::string pictureKindOf(const std::string& path) {
-  return text::lowered(fs::path(path).extension().string());
-}
-
 bool checkOutput(const std::string& pattern, std::uint32_t firstFrame, bool several,
                  text::Diagnostics& diagnostics) {
   const auto first = outputNameOf(pattern, firstFrame);
@@ -71,7 +66,7 @@ bool checkOutput(const std::string& pattern, std::uint32_t firstFrame, bool seve
   if (several && pattern.find('%') == std::string::npos)
     return refuseOutput(pattern, fmt::format("several frames would all be written to '{}'", pattern),
                         "put a number into it: f_%04d.png", diagnostics);
-  if (const std::string kind = pictureKindOf(*first); kind != ".png" && kind != ".exr")
+  if (const std::string kind = text::lowerExtension(*first); kind != ".png" && kind != ".exr")
     return refuseOutput(pattern, fmt::format("cannot write '{}': unknown kind of image '{}'", *first, kind),
                         "name a .png or an .exr file", diagnostics);
   return makeFolderOf(*first, diagnostics);

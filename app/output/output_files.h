@@ -16,9 +16,6 @@ namespace weft::app {
 // "f_%04d.png" with the frame number; a name without % as it is. Empty when that is no pattern.
 std::optional<std::string> outputNameOf(const std::string& pattern, std::uint32_t frame);
 
-// ".png" of "Out.PNG": the kind of picture that a name asks for, in lower case.
-std::string pictureKindOf(const std::string& path);
-
 // Whether pictures can be written under `pattern`, from number `first` on; makes their folder. W180 if not.
 bool checkOutput(const std::string& pattern, std::uint32_t first, bool several,
                  text::Diagnostics& diagnostics);

@@ -36,7 +36,7 @@ bool saveInspected(runtime::Inspector& inspector, const std::string& path, text:
     return makeFolderOf(path, diagnostics) &&
            text::writeFile(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, diagnostics);
   }
-  if (pictureKindOf(path) != ".exr") {
+  if (text::lowerExtension(path) != ".exr") {
     const auto image = inspector.drawWhole(inspector.fittedView(), diagnostics);
     return image && (video ? video->add(*image, diagnostics) : savePng(path, *image, diagnostics));
   }
@@ -81,7 +81,7 @@ void PictureWriter::look(const assets::ImageF& picture, runtime::Renderer& rende
 
 bool PictureWriter::save(runtime::Renderer& renderer, const std::string& path, text::Diagnostics& diagnostics,
                          Video* video) {
-  const bool values = pictureKindOf(path) == ".exr";
+  const bool values = text::lowerExtension(path) == ".exr";
   bool good = false;
   if (const auto image = renderer.readPresentedFloat()) {
     look(*image, renderer, path);

@@ -18,6 +18,7 @@
 #include "app/output/output_files.h"
 #include "engine/text/apart.h"
 #include "engine/text/chars.h"
+#include "engine/text/files/file.h"
 
 namespace weft::app {
 
@@ -46,13 +47,13 @@ std::string lastLines(int file) {
 }  // namespace
 
 bool isVideo(const std::string& path) {
-  const std::string kind = pictureKindOf(path);
+  const std::string kind = text::lowerExtension(path);
   return kind == ".mp4" || kind == ".mkv";
 }
 
 std::unique_ptr<Video> Video::start(const std::string& path, std::uint32_t width, std::uint32_t height,
                                     double fps, text::Diagnostics& diagnostics) {
-  if (pictureKindOf(path) == ".mp4" && (width % 2 != 0 || height % 2 != 0)) {
+  if (text::lowerExtension(path) == ".mp4" && (width % 2 != 0 || height % 2 != 0)) {
     refuseOutput(
         path,
         fmt::format("cannot write '{}': an .mp4 has an even width and height, not {}x{}", path, width,
@@ -65,7 +66,7 @@ std::unique_ptr<Video> Video::start(const std::string& path, std::uint32_t width
       "ffmpeg -hide_banner -loglevel error -xerror -nostats -y -f rawvideo -pix_fmt rgba -video_size {}x{} "
       "-framerate {} "
       "-i pipe:0 -map_metadata -1 -fflags +bitexact -flags:v +bitexact {}",
-      width, height, fps, pictureKindOf(path) == ".mkv" ? kLossless : kSmall);
+      width, height, fps, text::lowerExtension(path) == ".mkv" ? kLossless : kSmall);
   std::vector<std::string> command;
   for (std::string_view rest = line; !rest.empty();) command.emplace_back(text::takeWord(rest));
   if (!makeFolderOf(path, diagnostics)) return nullptr;

@@ -155,12 +155,10 @@ scene::Selection drawListOf(const graph::ImportRequest& request);
 // For facts(): an argument that cannot be, without the place, which expansion knows.
 inline text::Diagnostic badArgument(std::string message, std::string expected, std::string found,
                                     std::string hint = {}) {
-  return {.code = text::Code::badImportArgument,
-          .message = std::move(message),
-          .place = {},
-          .expected = std::move(expected),
-          .found = std::move(found),
-          .hint = std::move(hint)};
+  return {{std::move(expected), std::move(found), std::move(hint)},
+          text::Severity::error,
+          text::Code::badImportArgument,
+          std::move(message)};
 }
 
 }  // namespace weft::imports

@@ -94,9 +94,7 @@ Diagnostic& Diagnostics::add(Diagnostic diagnostic) {
 }
 
 Diagnostic& Diagnostics::add(Severity severity, Code code, Where place, std::string message, Says says) {
-  return add({severity, code, std::move(message), std::move(place), "", std::move(says.pass),
-              std::move(says.resource), std::move(says.expected), std::move(says.found),
-              std::move(says.hint)});
+  return add({std::move(says), severity, code, std::move(message), std::move(place)});
 }
 
 Diagnostic& Diagnostics::error(Code code, Where place, std::string message, Says says) {

@@ -67,23 +67,22 @@ Where placeOfOption(std::string option);
 enum class Severity : std::uint8_t { note, warning, error };
 const char* nameOf(Severity severity);  // "note", "warning", "error"
 
-struct Diagnostic {
+// What one says beside its sentence. All may be empty.
+struct Says {
+  std::string expected{};  // "a number from 0 to 8"
+  std::string found{};     // "\"high\""
+  std::string hint{};      // the fix: "did you mean 'ldr'?"
+  std::string resource{};  // the resource concerned
+  std::string pass{};      // full instance name of the pass concerned
+};
+
+struct Diagnostic : Says {
   Severity severity = Severity::error;
   Code code{};
   std::string
       message;  // one sentence, no full stop, names the thing: "pass 'fxaa' reads unknown resource 'ldrr'"
-  Where place;
-  std::string pointer{};   // JSON pointer of the value where its place does not say it: in a binary file
-  std::string pass{};      // full instance name of the pass concerned, or empty
-  std::string resource{};  // the resource concerned, or empty
-  std::string expected{};  // "a number from 0 to 8"
-  std::string found{};     // "\"high\""
-  std::string hint{};      // the fix: "did you mean 'ldr'?"
-};
-
-// What one says beside its sentence. All may be empty.
-struct Says {
-  std::string expected{}, found{}, hint{}, resource{}, pass{};
+  Where place{};
+  std::string pointer{};  // JSON pointer of the value where its place does not say it: in a binary file
 };
 
 // "file:line:column: error[W040]: message", followed by indented lines for pass, resource, expected, found and fix. Parts of
@@ -98,6 +97,7 @@ class Diagnostics {
  public:
   // Adds and returns the stored diagnostic so that optional fields can be filled in.
   Diagnostic& add(Diagnostic diagnostic);
+  Diagnostic& add(Severity severity, Code code, Where place, std::string message, Says says = {});
   Diagnostic& error(Code code, Where place, std::string message, Says says = {});
   Diagnostic& warning(Code code, Where place, std::string message, Says says = {});
   void append(const Diagnostics& others);
@@ -117,8 +117,6 @@ class Diagnostics {
   std::string text() const;
 
  private:
-  Diagnostic& add(Severity severity, Code code, Where place, std::string message, Says says);
-
   std::vector<Diagnostic> items_;
   std::size_t errors_ = 0;
 };

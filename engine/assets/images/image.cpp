@@ -9,13 +9,11 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
-#include <filesystem>
 #include <limits>
 #include <numbers>
 #include <utility>
 
 #include "engine/assets/images/image_codecs.h"
-#include "engine/text/chars.h"
 #include "engine/text/files/file.h"
 
 namespace weft::assets {
@@ -26,10 +24,10 @@ using text::Diagnostics;
 namespace {
 
 void reportUnknownKind(Diagnostics& diagnostics, const std::string& name, std::string expected) {
-  diagnostics.error(Code::unknownImageKind, {name},
-                    fmt::format("'{}' is no kind of image that is known", name),
-                    {.expected = std::move(expected),
-                     .found = lowerExtension(name).empty() ? "no extension" : lowerExtension(name)});
+  diagnostics.error(
+      Code::unknownImageKind, {name}, fmt::format("'{}' is no kind of image that is known", name),
+      {.expected = std::move(expected),
+       .found = text::lowerExtension(name).empty() ? "no extension" : text::lowerExtension(name)});
 }
 
 // Solid angle of a texel of row `y` of an equirectangular map, in units of one at the equator.
@@ -42,10 +40,7 @@ double shareOfRow(const ImageF& image, int y) {
 double spreadLight(ImageF& image, int x, int y) {
   constexpr int kRings = 8;
   const auto at = [&](int column, int row) {
-    const int wrapped = (column % image.width + image.width) % image.width;
-    return &image.texels[(static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
-                          static_cast<std::size_t>(wrapped)) *
-                         static_cast<std::size_t>(image.channels)];
+    return image.texel((column % image.width + image.width) % image.width, row);
   };
   float* texel = at(x, y);
   const double most = std::max({texel[0], texel[1], texel[2]});
@@ -116,9 +111,7 @@ std::optional<ImageOf<T>> decodeUpright(std::string_view bytes, int channels, co
       int column = orientation >= 5 ? y : x, row = orientation >= 5 ? x : y;
       if (mirrorsX) column = stored->width - 1 - column;
       if (mirrorsY) row = stored->height - 1 - row;
-      const auto texel = static_cast<std::size_t>(row) * static_cast<std::size_t>(stored->width) +
-                         static_cast<std::size_t>(column);
-      std::copy_n(&stored->texels[texel * size], size, out);
+      std::copy_n(stored->texel(column, row), size, out);
     }
   return image;
 }
@@ -159,12 +152,8 @@ ImageF widenToRgba(ImageF image) {
   return wide;
 }
 
-std::string lowerExtension(const std::string& name) {
-  return text::lowered(std::filesystem::path(name).extension().string());
-}
-
 ImageKind kindOfName(const std::string& name) {
-  const std::string extension = lowerExtension(name);
+  const std::string extension = text::lowerExtension(name);
   if (extension == ".hdr") return ImageKind::hdr;
   if (extension == ".exr") return ImageKind::exr;
   if (extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".tga")
@@ -255,9 +244,7 @@ void sanitizeRadiance(ImageF& image, const std::string& name, Diagnostics& diagn
     for (int pass = 0; pass < 2; ++pass)
       for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
-          float* texel = &image.texels[(static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-                                        static_cast<std::size_t>(x)) *
-                                       channels];
+          const float* const texel = image.texel(x, y);
           const float most = std::max({texel[0], texel[1], texel[2]});
           if (pass == 0)
             whole += static_cast<double>(most) * shareOfRow(image, y);
@@ -277,13 +264,11 @@ void sanitizeRadiance(ImageF& image, const std::string& name, Diagnostics& diagn
         ", {} above the range (their light is spread over the texels around them, {:.2g} % of the map's "
         "is lost)",
         tooBright, whole > 0 ? 100 * lost / whole : 0.0);
-  diagnostics.add({.severity = undefined + negative > 0 ? text::Severity::warning : text::Severity::note,
-                   .code = Code::texelsReplaced,
-                   .message = fmt::format("{} of {} color values are no radiance and were replaced",
-                                          undefined + negative + infinite + tooBright, colors),
-                   .place = text::Place{name},
-                   .expected = fmt::format("numbers from 0 to {}", kHalfMax),
-                   .found = std::move(found)});
+  diagnostics.add(undefined + negative > 0 ? text::Severity::warning : text::Severity::note,
+                  Code::texelsReplaced, {name},
+                  fmt::format("{} of {} color values are no radiance and were replaced",
+                              undefined + negative + infinite + tooBright, colors),
+                  {.expected = fmt::format("numbers from 0 to {}", kHalfMax), .found = std::move(found)});
 }
 
 float decodeSrgb(float encoded) {
@@ -345,7 +330,7 @@ EnvironmentMap toEnvironmentMap(const ImageF& image) {
   const ImageF wide = image.channels == 4 ? ImageF{} : widenToRgba(image);
   const std::vector<float>& texels = image.channels == 4 ? image.texels : wide.texels;
   map.texels.resize(texels.size());
-  floatsToHalves(texels, map.texels);
+  std::ranges::transform(texels, map.texels.begin(), floatToHalf);
   return map;
 }
 
@@ -355,11 +340,6 @@ std::uint16_t floatToHalf(float value) {
 
 float halfToFloat(std::uint16_t half) {
   return imath_half_to_float(half);
-}
-
-void floatsToHalves(std::span<const float> from, std::span<std::uint16_t> to) {
-  assert(from.size() == to.size());
-  std::ranges::transform(from, to.begin(), floatToHalf);
 }
 
 }  // namespace weft::assets

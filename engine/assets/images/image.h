@@ -21,6 +21,9 @@ template <class T>
 struct ImageOf {
   int width = 0, height = 0, channels = 0;
   std::vector<T> texels{};  // width * height * channels, interleaved
+  T* texel(int x, int y) {
+    return &texels[static_cast<std::size_t>((std::int64_t{y} * width + x) * channels)];
+  }
 };
 using ImageF = ImageOf<float>;         // linear light
 using Image8 = ImageOf<std::uint8_t>;  // as stored: sRGB encoded for pictures
@@ -111,8 +114,5 @@ constexpr float kHalfMax = 65504.0f;
 
 std::uint16_t floatToHalf(float value);
 float halfToFloat(std::uint16_t half);
-
-// Element by element; both spans have the same length.
-void floatsToHalves(std::span<const float> from, std::span<std::uint16_t> to);
 
 }  // namespace weft::assets

@@ -10,8 +10,6 @@
 
 namespace weft::assets {
 
-std::string lowerExtension(const std::string& name);  // ".png" of "a/b.PNG"; or ""
-
 enum class ImageKind : std::uint8_t { unknown, hdr, exr, eight_bit };
 ImageKind kindOfName(const std::string& name);
 // Adds "cannot read NAME: WHY" as W150.

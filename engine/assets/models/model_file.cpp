@@ -4,17 +4,17 @@
 
 #include <filesystem>
 
-#include "engine/assets/images/image_codecs.h"
 #include "engine/assets/models/fbx/fbx.h"
 #include "engine/assets/models/gltf/gltf_document.h"
 #include "engine/assets/models/obj/obj.h"
 #include "engine/assets/models/parts/mesh_builder.h"
 #include "engine/assets/models/parts/model_files.h"
+#include "engine/text/files/file.h"
 
 namespace weft::assets {
 
 bool isModelName(const std::string& name) {
-  const std::string extension = lowerExtension(name);
+  const std::string extension = text::lowerExtension(name);
   return extension == ".gltf" || extension == ".glb" || extension == ".obj" || extension == ".fbx";
 }
 
@@ -25,7 +25,7 @@ std::optional<Model> loadModel(const std::string& path, text::Diagnostics& diagn
   Model model;
   model.name = std::filesystem::path(path).stem().string();
   bool good = false;
-  const std::string kind = lowerExtension(path);
+  const std::string kind = text::lowerExtension(path);
   const bool made = kind == ".fbx";
   if (!isModelName(path)) {
     said.error(text::Code::unreadableModel, mine.place(),

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "data_places.h"
+#include "engine/text/chars.h"
 #include "engine/text/files/pending_file.h"
 #include "engine/text/hash.h"
 #include "engine/text/limits.h"
@@ -216,6 +217,10 @@ std::string absolutePath(const std::string& path) {
 std::string besideFile(const Place& place, const std::string& path) {
   if (path.empty() || !place.file) return path;
   return (fs::path(*place.file).parent_path() / path).lexically_normal().string();
+}
+
+std::string lowerExtension(const std::string& path) {
+  return lowered(fs::path(path).extension().string());
 }
 
 bool isThere(const std::string& path) {

@@ -55,6 +55,8 @@ std::string besideFile(const Place& place, const std::string& path);
 // A path from the root, without "." and "..", and without a slash at its end. Links are not followed.
 std::string absolutePath(const std::string& path);
 
+std::string lowerExtension(const std::string& path);  // ".png" of "a/b.PNG"; or ""
+
 // Whether something has this path; whether that is a folder. No error is one of these.
 bool isThere(const std::string& path);
 bool isFolder(const std::string& path);

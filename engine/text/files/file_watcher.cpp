@@ -82,11 +82,9 @@ void FileWatcher::armFile(const std::string& absolute, const std::string& given)
 
 void FileWatcher::tell(int error, const std::string& file) {
   if (std::exchange(told_, true)) return;
-  notices_.add({.severity = Severity::note,
-                .code = Code::filesNotWatched,
-                .message = fmt::format("changes of '{}' are not seen", file),
-                .place = {file},
-                .found = fmt::format("inotify: {}", std::strerror(error)),
+  notices_.add(Severity::note, Code::filesNotWatched, {file},
+               fmt::format("changes of '{}' are not seen", file),
+               {.found = fmt::format("inotify: {}", std::strerror(error)),
                 .hint = "make its folder readable, or raise fs.inotify.max_user_watches and "
                         "max_user_instances with sysctl"});
 }

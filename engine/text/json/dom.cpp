@@ -149,10 +149,8 @@ class Parser {
       out.type = Type::absent;
       fail(at_, fmt::format("objects and arrays are nested more than {} levels deep", kMaxJsonDepth),
            "look for a bracket that is never closed", {}, Code::nestedTooDeeply);
-    } else if (container) {
-      members(out);
     } else {
-      scalar(out);
+      container ? members(out) : scalar(out);
     }
     out.end = static_cast<std::uint32_t>(at_);
   }

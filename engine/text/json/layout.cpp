@@ -46,10 +46,9 @@ class Arranger {
 
   Document run() {
     Document out;
-    out.before = comments(out.blankBefore);
+    out.before = comments(&out.blankBefore);
     out.root = node(tree_.root);
-    bool ignored = false;
-    out.after = comments(ignored);
+    out.after = comments();
     return out;
   }
 
@@ -72,8 +71,8 @@ class Arranger {
     return {found, false};
   }
 
-  // All up to the next token. `blank`: a blank line stands behind the last.
-  std::vector<Comment> comments(bool& blank) {
+  // All up to the next token. `blank`: whether a blank line stands behind the last.
+  std::vector<Comment> comments(bool* blank = nullptr) {
     std::vector<Comment> found;
     int lines = skipSpace();
     while (atComment()) {
@@ -81,7 +80,7 @@ class Arranger {
       found.back().blankBefore = lines > 1;
       lines = skipSpace();
     }
-    blank = lines > 1;
+    if (blank) *blank = lines > 1;
     return found;
   }
 
@@ -100,16 +99,15 @@ class Arranger {
 
   void items(const JsonValue& value, Node& out) {
     bool blank = false;
-    std::vector<Comment> leading = comments(blank);
+    std::vector<Comment> leading = comments(&blank);
     const auto add = [&](const JsonMember* member, const JsonValue& child) {
       Item& item = out.items.emplace_back();
       item.leading = std::move(leading);
       item.blankBefore = blank;
       if (member) {
         item.key = std::string(text_.substr(member->begin, member->end - member->begin)) + ": ";
-        bool ignored = false;
         for (at_ = member->end; at_ < child.begin; ++at_)  // around the colon
-          for (const Comment& each : comments(ignored)) item.leading.push_back(each);
+          for (const Comment& each : comments()) item.leading.push_back(each);
       }
       item.value = node(child);
       leading = behind(item, blank);
@@ -135,10 +133,7 @@ class Arranger {
         comma = true;
         ++at_;
         // What stands in front of the comma on lines of its own comes in front of the next item.
-        if (next.empty())
-          lines = skipSpace();
-        else
-          lines += skipSpace();
+        lines = (next.empty() ? 0 : lines) + skipSpace();
       } else if (atComment()) {
         const bool ended = !item.trailing.empty() && item.trailing.back().endsLine();
         Comment found = comment();

@@ -70,14 +70,11 @@ Diagnostics chooseMessages(const Diagnostics& all, bool notes) {
   const bool stopped = enoughErrors(all);
   if (stopped || noteCount + warningCount + errorCount > 0) {
     const std::string raise = hintToRaise(kMaxMessages);
-    chosen.add(
-        {.severity = Severity::note,
-         .code = Code::messagesLeftOut,
-         .message = fmt::format("further messages are left out: {}, {}, {}{}", counted(errorCount, "error"),
-                                counted(warningCount, "warning"), counted(noteCount, "note"),
-                                stopped ? "; no more were looked for" : ""),
-         .place = {},
-         .hint = raise.empty() ? "correct these first" : "correct these first, or " + raise});
+    chosen.add(Severity::note, Code::messagesLeftOut, {},
+               fmt::format("further messages are left out: {}, {}, {}{}", counted(errorCount, "error"),
+                           counted(warningCount, "warning"), counted(noteCount, "note"),
+                           stopped ? "; no more were looked for" : ""),
+               {.hint = raise.empty() ? "correct these first" : "correct these first, or " + raise});
   }
   return chosen;
 }

@@ -253,14 +253,12 @@ void report(Model& model, const Liveness& live, const std::vector<Cause>& reads)
       cause.fixes.insert(cause.fixes.begin(), fmt::format("enable '{}'", cause.disabled->name));
   }
   model.diagnostics.add(
-      {.severity = isLive(cause) ? text::Severity::error : text::Severity::warning,
-       .code = cause.code,
-       .message = fmt::format("{} {} {}{}", whoReads(model, first), more, thingOf(model, first), cause.tail),
-       .place = first.ref.place,
-       .pass = first.pass == kNone ? "" : graph.passNames[first.pass],
+      isLive(cause) ? text::Severity::error : text::Severity::warning, cause.code, first.ref.place,
+      fmt::format("{} {} {}{}", whoReads(model, first), more, thingOf(model, first), cause.tail),
+      {.found = cause.found.empty() ? first.ref.text : cause.found,
+       .hint = fmt::format("{}", fmt::join(cause.fixes, ", or ")),
        .resource = resourceOf(model, first),
-       .found = cause.found.empty() ? first.ref.text : cause.found,
-       .hint = fmt::format("{}", fmt::join(cause.fixes, ", or "))});
+       .pass = first.pass == kNone ? "" : graph.passNames[first.pass]});
 }
 
 }  // namespace
