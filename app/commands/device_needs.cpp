@@ -10,25 +10,6 @@ namespace weft::app {
 
 using glsl::Role;
 
-DeviceNeeds::DeviceNeeds()
-    : all_{{"vertex samplers", 16},
-           {"vertex images", 0},
-           {"vertex uniform blocks", 14},
-           {"vertex storage blocks", 0},
-           {"fragment samplers", 16},
-           {"fragment images", 8},
-           {"fragment uniform blocks", 14},
-           {"fragment storage blocks", 8},
-           {"compute samplers", 16},
-           {"compute images", 8},
-           {"compute uniform blocks", 14},
-           {"compute storage blocks", 8},
-           {"images, storage blocks and outputs", 8},
-           {"outputs", 8},
-           {"bytes of a uniform block", 16384},
-           {"threads of a work group", 1024},
-           {"threads of a work group along z", 64}} {}
-
 void DeviceNeeds::note(const std::string& what, std::uint32_t needed, const std::string& pass) {
   const auto found = std::ranges::find(all_, what, &DeviceNeed::what);
   if (needed <= found->needed) return;

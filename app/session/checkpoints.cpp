@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <map>
@@ -22,13 +21,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMagic = 0x3174'706b'6374'6677;  // "wftckpt1"
-constexpr std::string_view kEnding = ".checkpoint";
 // Of a file besides the contents of textures and buffers: more than the numbers of a graph within its limits take.
 constexpr std::uint64_t kMostNumbers = 64u << 20;
 
 // "studio_000050.checkpoint"
 std::string nameOf(const std::string& graph, std::uint32_t frame) {
-  return fmt::format("{}_{:06}{}", fs::path(graph).stem().string(), frame, kEnding);
+  return fmt::format("{}_{:06}{}", fs::path(graph).stem().string(), frame, kCheckpointEnding);
 }
 
 // The checkpoints of a graph in a folder, by their frames, the last first.
@@ -40,8 +38,8 @@ std::map<std::uint32_t, std::string, std::greater<>> checkpointsIn(const std::st
        entry.increment(ec)) {
     const std::string name = entry->path().filename().string();
     const std::size_t number = name.rfind('_') + 1;
-    const auto frame = text::numberIn<std::uint32_t>(
-        std::string_view(name).substr(number, name.size() - std::min(name.size(), number + kEnding.size())));
+    const auto frame = text::numberIn<std::uint32_t>(std::string_view(name).substr(
+        number, name.size() - std::min(name.size(), number + kCheckpointEnding.size())));
     if (frame && name == nameOf(graph, *frame)) found[*frame] = entry->path().string();
   }
   return found;
@@ -75,15 +73,6 @@ CheckpointOptions CheckpointOptions::beside(const std::string& output) const {
   return {every, where.empty() ? (fs::path(output).parent_path() / "checkpoints").string() : where,
           !where.empty()};
 }
-
-Checkpoints::Checkpoints(const CheckpointOptions& wish, DeviceSession& session, const runtime::World& world,
-                         const Options& options)
-    : wish_(wish),
-      session_(session),
-      world_(world),
-      options_(options),
-      named_(wish.where.ends_with(kEnding)),
-      folder_(named_ ? fs::path(wish.where).parent_path().string() : wish.where) {}
 
 // Why the file is no checkpoint for this run, or "". Most that do not fit say so in their first bytes.
 std::string Checkpoints::problemOf(const std::string& path, std::string& bytes, Header& header) const {

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
 #include "app/session/session.h"
 
 namespace weft::app {
+
+constexpr std::string_view kCheckpointEnding = ".checkpoint";
 
 struct CheckpointOptions {
   std::uint32_t every = 0;  // frames; 0: none is saved
@@ -24,7 +27,8 @@ class Checkpoints {
  public:
   // All must outlive this.
   Checkpoints(const CheckpointOptions& wish, DeviceSession& session, const runtime::World& world,
-              const Options& options);
+              const Options& options)
+      : wish_(wish), session_(session), world_(world), options_(options) {}
 
   // Brings the execution, which has run no frame, to the frame to run first, and returns that: `first`, where no frame depends on
   // earlier ones; else that of the nearest checkpoint at or before it, or 0. One that was named and does not fit is an error
@@ -45,8 +49,9 @@ class Checkpoints {
   DeviceSession& session_;
   const runtime::World& world_;
   const Options& options_;
-  const bool named_;  // `where` is a checkpoint
-  const std::string folder_;
+  const bool named_ = wish_.where.ends_with(kCheckpointEnding);  // `where` is a checkpoint
+  const std::string folder_ =
+      named_ ? std::filesystem::path(wish_.where).parent_path().string() : wish_.where;
   bool saves_ = false;
   Key key_;
 };

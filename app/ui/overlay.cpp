@@ -12,12 +12,6 @@
 
 namespace weft::app::ui {
 
-namespace {
-
-constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";  // of fonts-dejavu-core
-
-}  // namespace
-
 std::unique_ptr<Overlay> Overlay::create(GLFWwindow* window, float scale) {
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
@@ -35,6 +29,7 @@ std::unique_ptr<Overlay> Overlay::create(GLFWwindow* window, float scale) {
 
 void Overlay::setScale(float scale) {
   // Text is drawn anew at its size: Latin, Greek, Cyrillic and mathematics. Dear ImGui's own font would be stretched.
+  constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";  // of fonts-dejavu-core
   static constexpr ImWchar kScripts[] = {0x20, 0x52f, 0x1e00, 0x22ff, 0x25a0, 0x25ff, 0};
   ImGuiIO& io = ImGui::GetIO();
   io.Fonts->Clear();

@@ -4,16 +4,6 @@
 
 namespace weft::app::ui {
 
-namespace {
-
-// "3/24" of a pass that runs in slices, else nothing.
-std::string sliceText(const runtime::SliceRange& range) {
-  return range.of > 1 && range.count < range.of ? fmt::format("{}/{}", range.first + 1, range.of)
-                                                : std::string();
-}
-
-}  // namespace
-
 void Panels::drawPasses(text::Diagnostics& diagnostics) {
   const bool profile = measureBox();
   ImGui::SameLine();
@@ -91,7 +81,9 @@ void Panels::drawPassRow(std::size_t index, text::Diagnostics& diagnostics) {
       }
       const bool now = execution.steps().ran(step);
       ran |= now;
-      if (now && !row.effect()) state = sliceText(execution.steps().slices(step));
+      const runtime::SliceRange range = execution.steps().slices(step);
+      const bool sliced = range.of > 1 && range.count < range.of;
+      if (now && !row.effect()) state = sliced ? fmt::format("{}/{}", range.first + 1, range.of) : "";
       const auto times = renderer_.device().timers.results();
       if (step >= times.size() || !times[step].ran) continue;
       timed = true;

@@ -16,9 +16,7 @@ constexpr std::chrono::seconds kPatience{60};  // a frame with everything on may
 
 std::string makeToken() {
   std::random_device random;
-  std::string token;
-  for (int i = 0; i < 4; ++i) token += fmt::format("{:08x}", random());
-  return token;
+  return fmt::format("{:08x}{:08x}{:08x}{:08x}", random(), random(), random(), random());
 }
 
 }  // namespace

@@ -111,7 +111,10 @@ void Viewer::addActions() {
     if (!live_.stepEnvironment(by)) told_ = "there is no other environment in the folder";
   };
   const auto atRest = [this](const std::function<void()>& change) {  // shows only in another frame
-    return [this, change] { change(), rest_.disturb(); };
+    return [this, change] {
+      change();
+      rest_.disturb();
+    };
   };
   actions_ = {{"help", [this] { help_ = !help_; }},
               {"panels", [this] { panels_.toggle(); }},

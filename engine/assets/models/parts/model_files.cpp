@@ -33,9 +33,6 @@ bool leadsOut(const std::filesystem::path& relative) {
 
 }  // namespace
 
-ModelFiles::ModelFiles(std::string path, text::Diagnostics& diagnostics, const LoadObserver& observer)
-    : path_(std::move(path)), diagnostics_(diagnostics), observer_(observer), files_{path_} {}
-
 std::optional<std::string> ModelFiles::readModel() {
   return readCounted(path_, {}, Code::unreadableModel, diagnostics_);
 }

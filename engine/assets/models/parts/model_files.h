@@ -22,7 +22,8 @@ constexpr std::uint64_t kMaxModelBytes = 512ull << 20, kMaxModelTextBytes = 24ul
 class ModelFiles {
  public:
   // `path` is the model's own file. `observer` may be empty.
-  ModelFiles(std::string path, text::Diagnostics& diagnostics, const LoadObserver& observer);
+  ModelFiles(std::string path, text::Diagnostics& diagnostics, const LoadObserver& observer)
+      : path_(std::move(path)), diagnostics_(diagnostics), observer_(observer) {}
 
   const std::string& path() const { return path_; }
   text::Diagnostics& diagnostics() const { return diagnostics_; }
@@ -64,7 +65,7 @@ class ModelFiles {
   std::string path_;
   text::Diagnostics& diagnostics_;
   const LoadObserver& observer_;
-  std::vector<std::string> files_;
+  std::vector<std::string> files_{path_};
   std::uint64_t bytes_ = 0;
   bool gaveUp_ = false;
 };
