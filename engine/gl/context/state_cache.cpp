@@ -5,51 +5,27 @@
 
 namespace weft::gl {
 
-// Keeps the vectors' memory: a frame allocates nothing.
-void StateCache::forget() {
-  known_ = {};
-  enabled_ = {};
-  stencil_ = {};
-  for (auto* list : {&textures_, &samplers_}) std::ranges::fill(*list, std::nullopt);
-  for (auto* list : {&uniformBuffers_, &storageBuffers_}) std::ranges::fill(*list, std::nullopt);
-  std::ranges::fill(images_, std::nullopt);
-  std::ranges::fill(drawBuffers_, DrawBuffer{});
-}
-
 void StateCache::bindBuffer(GLenum target, GLuint index, GLuint buffer, GLintptr offset, GLsizeiptr size) {
   assert(target == GL_UNIFORM_BUFFER || target == GL_SHADER_STORAGE_BUFFER);
-  auto& known = target == GL_UNIFORM_BUFFER ? uniformBuffers_ : storageBuffers_;
-  if (!takes(slotAt(known, index), Range{buffer, offset, size})) return;
-  if (size == 0)
-    glBindBufferBase(target, index, buffer);
+  const Call call = target == GL_UNIFORM_BUFFER ? Call::uniform_buffer : Call::storage_buffer;
+  if (size != 0)
+    set(call, index, glBindBufferRange, target, index, buffer, offset, size);
   else
-    glBindBufferRange(target, index, buffer, offset, size);
+    set(call, index, glBindBufferBase, target, index, buffer);
 }
 
 void StateCache::enable(GLenum capability, bool on) {
-  const auto index =
-      static_cast<std::size_t>(std::ranges::find(kCapabilities, capability) - kCapabilities.begin());
-  assert(index < kCapabilities.size());
-  if (!takes(enabled_[index], on)) return;
-  if (on)
-    glEnable(capability);
-  else
-    glDisable(capability);
+  constexpr GLenum kCapabilities[] = {
+      GL_SCISSOR_TEST, GL_DEPTH_TEST,  GL_CULL_FACE,   GL_POLYGON_OFFSET_FILL,      GL_FRAMEBUFFER_SRGB,
+      GL_STENCIL_TEST, GL_DEPTH_CLAMP, GL_SAMPLE_MASK, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_PROGRAM_POINT_SIZE};
+  const auto at = std::ranges::find(kCapabilities, capability) - std::begin(kCapabilities);
+  assert(at < std::ssize(kCapabilities));
+  if (takes(Call::capability, static_cast<GLuint>(at), {on ? 1.0 : 0.0}))
+    (on ? glEnable : glDisable)(capability);
 }
 
-void StateCache::blend(GLuint index, const std::optional<Blend>& mode) {
-  if (index >= drawBuffers_.size()) drawBuffers_.resize(index + 1);
-  DrawBuffer& known = drawBuffers_[index];
-  if (takes(known.on, mode.has_value())) {
-    if (mode)
-      glEnablei(GL_BLEND, index);
-    else
-      glDisablei(GL_BLEND, index);
-  }
-  if (!mode || known.mode == mode) return;
-  glBlendEquationSeparatei(index, mode->equation, mode->equationAlpha);
-  glBlendFuncSeparatei(index, mode->source, mode->destination, mode->sourceAlpha, mode->destinationAlpha);
-  known.mode = mode;
+void StateCache::blend(GLuint index, bool on) {
+  if (takes(Call::blend, index, {on ? 1.0 : 0.0})) (on ? glEnablei : glDisablei)(GL_BLEND, index);
 }
 
 void StateCache::openMasks() {

@@ -28,14 +28,14 @@ GLenum glOf(const GLenum (&all)[kCount], Enum value) {
   return all[static_cast<std::size_t>(value)];
 }
 
-std::optional<gl::StateCache::Blend> blendOf(const graph::Blend& blend) {
-  if (blend == graph::Blend{}) return std::nullopt;
-  return gl::StateCache::Blend{.equation = glOf(kEquations, blend.color.equation),
-                               .equationAlpha = glOf(kEquations, blend.alpha.equation),
-                               .source = glOf(kFactors, blend.color.source),
-                               .destination = glOf(kFactors, blend.color.destination),
-                               .sourceAlpha = glOf(kFactors, blend.alpha.source),
-                               .destinationAlpha = glOf(kFactors, blend.alpha.destination)};
+void applyBlend(GLuint index, const graph::Blend& blend, gl::StateCache& states) {
+  const bool on = !(blend == graph::Blend{});
+  states.blend(index, on);
+  if (!on) return;
+  const auto& [color, alpha] = blend;
+  states.blendEquation(index, glOf(kEquations, color.equation), glOf(kEquations, alpha.equation));
+  states.blendFunction(index, glOf(kFactors, color.source), glOf(kFactors, color.destination),
+                       glOf(kFactors, alpha.source), glOf(kFactors, alpha.destination));
 }
 
 // Of the faces; what the pass only reads is not written.
@@ -43,14 +43,11 @@ void applyStencil(const graph::StencilState* stencil, bool writable, gl::StateCa
   states.enable(GL_STENCIL_TEST, stencil != nullptr);
   if (!stencil) return;
   states.stencilMask(writable ? stencil->writeMask : 0u);
-  for (const bool back : {false, true}) {
-    const graph::StencilFace& face = back ? stencil->back : stencil->front;
-    states.stencil(back, {.test = glCompareOf(face.test),
-                          .reference = stencil->reference,
-                          .mask = stencil->readMask,
-                          .fail = glOf(kStencilOps, face.fail),
-                          .depthFail = glOf(kStencilOps, face.depthFail),
-                          .pass = glOf(kStencilOps, face.pass)});
+  for (const GLenum side : {GL_FRONT, GL_BACK}) {
+    const graph::StencilFace& face = side == GL_BACK ? stencil->back : stencil->front;
+    states.stencilTest(side, glCompareOf(face.test), stencil->reference, stencil->readMask);
+    states.stencilOps(side, glOf(kStencilOps, face.fail), glOf(kStencilOps, face.depthFail),
+                      glOf(kStencilOps, face.pass));
   }
 }
 
@@ -71,7 +68,7 @@ void applyState(const PreparedPass& pass, gl::StateCache& states) {
     const GLuint index = attachment.point - GL_COLOR_ATTACHMENT0;
     const auto said = std::ranges::find(pass.colors, index, &PreparedPass::DrawBuffer::first);
     const graph::ColorState color = said == pass.colors.end() ? graph::ColorState{} : said->second;
-    states.blend(index, blendOf(color.blend));
+    applyBlend(index, color.blend, states);
     if (pass.writesColor && color.mask != 15) states.colorMask(index, color.mask);
   }
   states.enable(GL_FRAMEBUFFER_SRGB, pass.encodesSrgb);
