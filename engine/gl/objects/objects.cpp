@@ -39,9 +39,8 @@ LiveObjects liveObjects() {
 }
 
 std::string toText(const LiveObjects& objects) {
-  static constexpr const char* kNames[kKinds] = {"texture", "texture view", "buffer", "framebuffer",
-                                                 "sampler", "vertex array", "query",  "fence",
-                                                 "shader",  "program"};
+  static constexpr const char* kNames[kKinds] = {
+      "texture", "buffer", "framebuffer", "sampler", "vertex array", "query", "fence", "shader", "program"};
   std::string text;
   for (std::size_t i = 0; i < kKinds; ++i)
     if (const auto n = objects.counts[i]; n != 0)
@@ -55,7 +54,7 @@ void countObject(ObjectKind kind) {
 
 void deleteObject(ObjectKind kind, GLuint id) {
   --live(kind);
-  if (kind == ObjectKind::texture || kind == ObjectKind::view) glDeleteTextures(1, &id);
+  if (kind == ObjectKind::texture) glDeleteTextures(1, &id);
   if (kind == ObjectKind::buffer) glDeleteBuffers(1, &id);
   if (kind == ObjectKind::framebuffer) glDeleteFramebuffers(1, &id);
   if (kind == ObjectKind::sampler) glDeleteSamplers(1, &id);
@@ -268,11 +267,11 @@ std::optional<Texture> Texture::create(const TextureDesc& desc, std::string_view
   return texture;
 }
 
-std::optional<TextureView> TextureView::create(const TextureRef& of, const ViewDesc& view,
-                                               std::string_view label, text::Diagnostics& diagnostics) {
+std::optional<Texture> Texture::create(const TextureRef& of, const ViewDesc& view, std::string_view label,
+                                       text::Diagnostics& diagnostics) {
   GLuint id = 0;
   glGenTextures(1, &id);  // workarounds.md: view-names-from-gen
-  TextureView texture(id);
+  Texture texture(id);
   const GLenum format = view.format == 0 ? of.desc.format : view.format;
   glTextureView(id, view.target, of.id, format, view.mip, view.mips, view.layer, view.layers);
   if (!glIsTexture(id)) {

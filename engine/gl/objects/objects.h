@@ -23,7 +23,6 @@ namespace weft::gl {
 
 enum class ObjectKind : std::uint8_t {
   texture,
-  view,
   buffer,
   framebuffer,
   sampler,
@@ -89,20 +88,6 @@ struct TextureRef {
   TextureDesc desc;
 };
 
-class Texture : public Owner<ObjectKind::texture> {
- public:
-  // Reports W116 when the driver's limits or memory do not allow it. Filters are set to nearest, wrapping to clamp
-  // to edge, GL_TEXTURE_MAX_LEVEL to mips - 1. Contents are undefined.
-  static std::optional<Texture> create(const TextureDesc& desc, std::string_view label,
-                                       text::Diagnostics& diagnostics);
-  const TextureDesc& desc() const { return desc_; }
-  TextureRef ref() const { return {id_, desc_}; }
-
- private:
-  using Owner::Owner;
-  TextureDesc desc_;
-};
-
 struct ViewDesc {
   GLenum target = GL_TEXTURE_2D;
   GLenum format = 0;  // 0: the texture's own; others must be in its view class (depth: its own only)
@@ -111,13 +96,16 @@ struct ViewDesc {
   friend bool operator==(const ViewDesc&, const ViewDesc&) = default;
 };
 
-// A texture that shares the storage of another texture and keeps that storage alive.
-class TextureView : public Owner<ObjectKind::view> {
+class Texture : public Owner<ObjectKind::texture> {
  public:
-  // Reports W118 when the driver rejects it (range, target, class).
-  static std::optional<TextureView> create(const TextureRef& of, const ViewDesc& view, std::string_view label,
-                                           text::Diagnostics& diagnostics);
-  const TextureDesc& desc() const { return desc_; }  // sizes of the view's level 0
+  // Reports W116 when the driver's limits or memory do not allow it. Filters are set to nearest, wrapping to clamp
+  // to edge, GL_TEXTURE_MAX_LEVEL to mips - 1. Contents are undefined.
+  static std::optional<Texture> create(const TextureDesc& desc, std::string_view label,
+                                       text::Diagnostics& diagnostics);
+  // A view, which shares the storage of `of` and keeps that alive. Reports W118 when the driver rejects it (range, target, class).
+  static std::optional<Texture> create(const TextureRef& of, const ViewDesc& view, std::string_view label,
+                                       text::Diagnostics& diagnostics);
+  const TextureDesc& desc() const { return desc_; }  // of a view: sizes of its level 0
   TextureRef ref() const { return {id_, desc_}; }
 
  private:

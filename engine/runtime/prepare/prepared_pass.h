@@ -48,7 +48,7 @@ class ImportPart {
     part.mip = std::min(part.mip, texture.desc.mips - part.mips);
     part.layers = std::min(part.layers, texture.desc.layers);
     part.layer = std::min(part.layer, texture.desc.layers - part.layers);
-    if (auto made = gl::TextureView::create(texture, part, import_, diagnostics)) view_ = std::move(*made);
+    gl::remake(view_, texture, part, import_, diagnostics);
     return view_.id();
   }
 
@@ -57,7 +57,7 @@ class ImportPart {
   std::string import_;
   GLuint texture_ = 0;  // of which view_ is
   std::uint64_t generation_ = 0;
-  gl::TextureView view_;
+  gl::Texture view_;
 };
 
 // Condition of a binding: that of what "first" of a resource names is used until publication @-history of that resource exists.

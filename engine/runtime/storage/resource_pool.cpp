@@ -70,7 +70,7 @@ gl::TextureRef PhysicalTexture::view(std::uint32_t copy, const gl::ViewDesc& des
   if (whole) return texture.ref();
   for (const View& view : views_)
     if (view.copy == copy && view.desc == desc) return view.view.ref();
-  auto made = gl::TextureView::create(texture.ref(), desc, label_, diagnostics);
+  auto made = gl::Texture::create(texture.ref(), desc, label_, diagnostics);
   if (!made) return {};
   views_.push_back({copy, desc, std::move(*made)});
   return views_.back().view.ref();

@@ -35,7 +35,7 @@ class PhysicalTexture {
   struct View {
     std::uint32_t copy = 0;
     gl::ViewDesc desc;
-    gl::TextureView view;
+    gl::Texture view;
   };
   gl::TextureDesc desc_;
   std::string owner_, label_;

@@ -118,7 +118,7 @@ TEST_CASE("checkpoint: texels of every format come back to the bit") {
     const auto texture = gl::Texture::create(
         {.format = runtime::glFormatOf(format), .width = side, .height = side}, "texels", diagnostics);
     REQUIRE(texture);
-    const auto view = gl::TextureView::create(texture->ref(), {.format = texel.view}, "bits", diagnostics);
+    const auto view = gl::Texture::create(texture->ref(), {.format = texel.view}, "bits", diagnostics);
     REQUIRE(view);
     std::vector<std::byte> bytes = texelsFor(format, std::size_t{side} * side);
     gl::uploadTexture(view->ref(), 0, 0, texel.format, texel.type, bytes);
