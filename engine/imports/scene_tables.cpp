@@ -196,7 +196,7 @@ BufferRef SceneTables::meshes(scene::DrawList list, const RowLayout& layout, tex
 }
 
 void SceneTables::see(std::span<scene::MeshView* const> views) {
-  meshViews_.update(world_->scene(), meshFrame(), views);
+  scene::MeshView::update(world_->scene(), meshFrame(), views);
 }
 
 MeshDraw SceneTables::draw(MeshPass& pass, text::Diagnostics& diagnostics) {

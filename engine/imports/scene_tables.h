@@ -128,7 +128,6 @@ class SceneTables {
   std::vector<scene::Selection> chosen_;  // those behind the scene's
   scene::MeshFrame meshFrame_;
   std::uint64_t meshFrameNumber_ = 0;
-  scene::MeshViews meshViews_;
   MeshBuffers meshBuffers_;
   MaterialTextures textures_;
 };

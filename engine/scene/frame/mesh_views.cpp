@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/scene/frame/parallel.h"
 
@@ -55,59 +56,53 @@ void makeCommands(const Scene& scene, std::span<const MeshRow> rows, std::span<c
   }
 }
 
-void MeshView::look(DrawList list, const glm::mat4& view, const glm::mat4& viewProjection, MeshOrder order) {
-  wish_ = {list, view, viewProjection, order};
-}
-
-void MeshViews::see(const Scene& scene, const MeshFrame& frame, MeshView& view, bool little) {
-  const std::span<const Box> boxes = frame.bounds(view.wish_.list);
-  const Frustum frustum = frustumOf(view.wish_.viewProjection);
-  view.seen_.resize(boxes.size());
+void MeshView::see(const Scene& scene, const MeshFrame& frame, bool little) {
+  const std::span<const Box> boxes = frame.bounds(wish_.list);
+  const Frustum frustum = frustumOf(wish_.viewProjection);
+  seen_.resize(boxes.size());
   forRanges(boxes.size(), little ? boxes.size() : kFewBoxes, [&](std::size_t from, std::size_t to) {
-    for (std::size_t row = from; row < to; ++row) view.seen_[row] = reaches(frustum, boxes[row]) ? 1 : 0;
+    for (std::size_t row = from; row < to; ++row) seen_[row] = reaches(frustum, boxes[row]) ? 1 : 0;
   });
-  view.visible_.clear();
-  view.visible_.reserve(boxes.size());
+  visible_.clear();
+  visible_.reserve(boxes.size());
   for (std::uint32_t row = 0; row < boxes.size(); ++row)
-    if (view.seen_[row] != 0) view.visible_.push_back(row);
-  if (view.wish_.order != MeshOrder::by_mesh) sort(frame, view);
-  makeCommands(scene, frame.rows(view.wish_.list), view.visible_, view.commands_);
+    if (seen_[row] != 0) visible_.push_back(row);
+  if (wish_.order != MeshOrder::by_mesh) sort(frame);
+  makeCommands(scene, frame.rows(wish_.list), visible_, commands_);
 }
 
-void MeshViews::sort(const MeshFrame& frame, MeshView& view) {
-  const std::span<const Box> boxes = frame.bounds(view.wish_.list);
-  const std::span<const MeshRow> rows = frame.rows(view.wish_.list);
-  const MeshOrder order = view.wish_.order;
-  const float sign = order == MeshOrder::back_to_front ? -1.0f : 1.0f;
-  view.keys_.resize(view.visible_.size());
-  forRanges(view.keys_.size(), kFewKeys, [&](std::size_t from, std::size_t to) {
+void MeshView::sort(const MeshFrame& frame) {
+  const std::span<const Box> boxes = frame.bounds(wish_.list);
+  const std::span<const MeshRow> rows = frame.rows(wish_.list);
+  const float sign = wish_.order == MeshOrder::back_to_front ? -1.0f : 1.0f;
+  keys_.resize(visible_.size());
+  forRanges(keys_.size(), kFewKeys, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
-      const std::uint32_t row = view.visible_[i];
-      view.keys_[i] = {order == MeshOrder::by_material
-                           ? rows[row].material
-                           : depthKey(sign * (view.wish_.view * glm::vec4(boxes[row].center(), 1)).z),
-                       row};
+      const std::uint32_t row = visible_[i];
+      keys_[i] = {wish_.order == MeshOrder::by_material
+                      ? rows[row].material
+                      : depthKey(sign * (wish_.view * glm::vec4(boxes[row].center(), 1)).z),
+                  row};
     }
   });
-  sortElements(view.keys_, view.scratch_);
-  for (std::size_t i = 0; i < view.keys_.size(); ++i) view.visible_[i] = view.keys_[i].index;
+  sortElements(keys_, scratch_);
+  for (std::size_t i = 0; i < keys_.size(); ++i) visible_[i] = keys_[i].index;
 }
 
-void MeshViews::update(const Scene& scene, const MeshFrame& frame, std::span<MeshView* const> views) {
-  due_.clear();
+void MeshView::update(const Scene& scene, const MeshFrame& frame, std::span<MeshView* const> views) {
   std::size_t work = 0;
   for (MeshView* view : views) {
-    const std::uint64_t rows = frame.generation(view->wish_.list);
-    if (view->generation_ != 0 && view->rows_ == rows && view->wish_ == view->made_) continue;
-    view->rows_ = rows;
+    const std::uint64_t rows = std::exchange(view->rows_, frame.generation(view->wish_.list));
+    view->due_ = view->generation_ == 0 || view->rows_ != rows || !(view->wish_ == view->made_);
+    if (!view->due_) continue;
     view->made_ = view->wish_;
-    view->generation_ = ++count_;
-    due_.push_back(view);
+    ++view->generation_;
     work += frame.bounds(view->wish_.list).size();
   }
   const bool little = work < kLittleViewWork;
-  forRanges(due_.size(), little ? due_.size() : 1, [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from; i < to; ++i) see(scene, frame, *due_[i], little);
+  forRanges(views.size(), little ? views.size() : 1, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i)
+      if (views[i]->due_) views[i]->see(scene, frame, little);
   });
 }
 

@@ -39,8 +39,13 @@ void makeCommands(const Scene& scene, std::span<const MeshRow> rows, std::span<c
 // One view of one draw list. Keeps its memory from frame to frame.
 class MeshView {
  public:
+  // Brings those of the views up to date whose list or wish is another than they were made of.
+  static void update(const Scene& scene, const MeshFrame& frame, std::span<MeshView* const> views);
+
   // What to look at, from the next update() on.
-  void look(DrawList list, const glm::mat4& view, const glm::mat4& viewProjection, MeshOrder order);
+  void look(DrawList list, const glm::mat4& view, const glm::mat4& viewProjection, MeshOrder order) {
+    wish_ = {list, view, viewProjection, order};
+  }
 
   // Rows of the list, as MeshFrame::rows() has them.
   std::span<const std::uint32_t> visible() const { return visible_; }
@@ -49,33 +54,23 @@ class MeshView {
   std::uint64_t generation() const { return generation_; }
 
  private:
-  friend class MeshViews;
   struct Wish {
     DrawList list = DrawList::opaque;
     glm::mat4 view{1}, viewProjection{1};
     MeshOrder order = MeshOrder::by_mesh;
     friend bool operator==(const Wish&, const Wish&) = default;
   };
+  void see(const Scene& scene, const MeshFrame& frame, bool little);
+  void sort(const MeshFrame& frame);
+
   Wish wish_, made_;
+  bool due_ = false;        // in the present update()
   std::uint64_t rows_ = 0;  // generation of the list that it was made of
   std::uint64_t generation_ = 0;
   std::vector<std::uint8_t> seen_;  // by row of the list
   std::vector<std::uint32_t> visible_;
   std::vector<SortElement> keys_, scratch_;
   std::vector<DrawCommand> commands_;
-};
-
-class MeshViews {
- public:
-  // Brings the views up to date whose list or wish is another than they were made of.
-  void update(const Scene& scene, const MeshFrame& frame, std::span<MeshView* const> views);
-
- private:
-  static void see(const Scene& scene, const MeshFrame& frame, MeshView& view, bool little);
-  static void sort(const MeshFrame& frame, MeshView& view);
-
-  std::vector<MeshView*> due_;  // of the present update()
-  std::uint64_t count_ = 0;
 };
 
 }  // namespace weft::scene

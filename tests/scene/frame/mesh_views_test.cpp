@@ -69,7 +69,6 @@ std::vector<std::uint32_t> sortedByHand(std::vector<std::uint32_t> rows, std::sp
 TEST_CASE("all views at once see what each would see alone, on one thread and on two, byte for byte") {
   const Scene scene = scatteredMeshes(30000, 3);
   MeshFrame frame;
-  MeshViews one, two;
   tbb::task_arena single(1), pair(2);
   std::vector<MeshView> seen(5), seenByTwo(5);
   for (int i = 0; i < 4; ++i) {
@@ -87,8 +86,8 @@ TEST_CASE("all views at once see what each would see alone, on one thread and on
       for (MeshView& view : from) all.push_back(&view);
       return all;
     };
-    single.execute([&] { one.update(scene, frame, pointers(seen)); });
-    pair.execute([&] { two.update(scene, frame, pointers(seenByTwo)); });
+    single.execute([&] { MeshView::update(scene, frame, pointers(seen)); });
+    pair.execute([&] { MeshView::update(scene, frame, pointers(seenByTwo)); });
     for (std::size_t v = 0; v < seen.size(); ++v) {
       CHECK(areSame(seen[v].visible(), seenByTwo[v].visible()));
       CHECK(areSame(seen[v].commands(), seenByTwo[v].commands()));
@@ -121,7 +120,6 @@ TEST_CASE("all views at once see what each would see alone, on one thread and on
 TEST_CASE("a view is made anew when it, its order, or the rows of its list are others, and only then") {
   Scene scene = scatteredMeshes(500, 9);
   MeshFrame frame;
-  MeshViews views;
   MeshView still;
   MeshView* const all[] = {&still};
   const ViewData front = viewFrom({0, 0, 80}, {0, 0, 0}), top = viewFrom({0, 90, 1}, {0, 0, 0});
@@ -130,7 +128,7 @@ TEST_CASE("a view is made anew when it, its order, or the rows of its list are o
   CHECK(still.generation() == 0);
   std::uint64_t before = 0;
   const auto isAnother = [&] {
-    views.update(scene, frame, all);
+    MeshView::update(scene, frame, all);
     return std::exchange(before, still.generation()) != still.generation();
   };
   CHECK(isAnother());
@@ -167,14 +165,13 @@ TEST_CASE("meshes are drawn from far to near, those at one depth in the order of
   }
   MeshFrame frame;
   frame.update(scene, 1, 0, 0);
-  MeshViews views;
   MeshView view;
   MeshView* const all[] = {&view};
   lookFrom(view, DrawList::transparent, viewFrom({0, 0, 30}, {0, 0, 0}), MeshOrder::back_to_front);
-  views.update(scene, frame, all);
+  MeshView::update(scene, frame, all);
   CHECK(std::ranges::equal(view.visible(), std::vector<std::uint32_t>{1, 4, 0, 2, 5, 3}));
   CHECK(view.commands().size() == 1);  // one mesh: one command, whatever the order
   lookFrom(view, DrawList::transparent, viewFrom({0, 0, -30}, {0, 0, 0}), MeshOrder::back_to_front);
-  views.update(scene, frame, all);
+  MeshView::update(scene, frame, all);
   CHECK(std::ranges::equal(view.visible(), std::vector<std::uint32_t>{3, 0, 2, 5, 1, 4}));
 }
