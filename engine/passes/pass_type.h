@@ -14,12 +14,12 @@ namespace weft::passes {
 
 // A range of levels and layers of a texture, as bound for a pass type without a shader.
 struct BoundTexture {
-  GLuint name = 0;         // a view of exactly the levels and layers below, or the texture itself
+  // A view of exactly the levels and layers below, or the texture itself; of a type with framebuffers all levels and layers.
+  GLuint name = 0;
   GLuint framebuffer = 0;  // with level 0 of that range attached; 0 when the type does not blit
   std::uint32_t width = 1, height = 1;
   GLbitfield planes = GL_COLOR_BUFFER_BIT;
-  // Of an exact copy, which has no framebuffer: a texture or view of all levels and layers, and which of them is meant.
-  GLuint texture = 0;
+  // Of an exact copy, which has no framebuffer: which level and layer is meant.
   GLenum target = GL_TEXTURE_2D;
   GLint level = 0, layer = 0;
 };

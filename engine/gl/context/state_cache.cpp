@@ -9,9 +9,9 @@ void StateCache::bindBuffer(GLenum target, GLuint index, GLuint buffer, GLintptr
   assert(target == GL_UNIFORM_BUFFER || target == GL_SHADER_STORAGE_BUFFER);
   const Call call = target == GL_UNIFORM_BUFFER ? Call::uniform_buffer : Call::storage_buffer;
   if (size != 0)
-    set(call, index, glBindBufferRange, target, index, buffer, offset, size);
+    setAt(call, index, glBindBufferRange, target, index, buffer, offset, size);
   else
-    set(call, index, glBindBufferBase, target, index, buffer);
+    setAt(call, index, glBindBufferBase, target, index, buffer);
 }
 
 void StateCache::enable(GLenum capability, bool on) {
@@ -31,7 +31,7 @@ void StateCache::blend(GLuint index, bool on) {
 void StateCache::openMasks() {
   colorMask(15);
   depthMask(true);
-  stencilMask(0xff);
+  set(Call::stencil_mask, glStencilMask, 0xff);
   enable(GL_SCISSOR_TEST, false);
   enable(GL_FRAMEBUFFER_SRGB, false);  // clears and copies do not convert
 }

@@ -26,9 +26,9 @@ std::unique_ptr<PassType> makeBlit() {
     }
     const BoundTexture &from = context.source, &to = context.destination;
     if (context.exact) {
-      glCopyImageSubData(from.texture, from.target, from.level, 0, 0, from.layer, to.texture, to.target,
-                         to.level, 0, 0, to.layer, static_cast<GLsizei>(from.width),
-                         static_cast<GLsizei>(from.height), 1);
+      glCopyImageSubData(from.name, from.target, from.level, 0, 0, from.layer, to.name, to.target, to.level,
+                         0, 0, to.layer, static_cast<GLsizei>(from.width), static_cast<GLsizei>(from.height),
+                         1);
       return;
     }
     const bool linear = context.linear && from.planes == GL_COLOR_BUFFER_BIT;

@@ -12,6 +12,8 @@ using graph::kNone;
 
 namespace {
 
+using Call = gl::StateCache::Call;
+
 // In the order of the enumerations.
 // clang-format off
 constexpr GLenum kFactors[] = {
@@ -33,21 +35,24 @@ void applyBlend(GLuint index, const graph::Blend& blend, gl::StateCache& states)
   states.blend(index, on);
   if (!on) return;
   const auto& [color, alpha] = blend;
-  states.blendEquation(index, glOf(kEquations, color.equation), glOf(kEquations, alpha.equation));
-  states.blendFunction(index, glOf(kFactors, color.source), glOf(kFactors, color.destination),
-                       glOf(kFactors, alpha.source), glOf(kFactors, alpha.destination));
+  states.setAt(Call::blend_equation, index, glBlendEquationSeparatei, index, glOf(kEquations, color.equation),
+               glOf(kEquations, alpha.equation));
+  states.setAt(Call::blend_function, index, glBlendFuncSeparatei, index, glOf(kFactors, color.source),
+               glOf(kFactors, color.destination), glOf(kFactors, alpha.source),
+               glOf(kFactors, alpha.destination));
 }
 
 // Of the faces; what the pass only reads is not written.
 void applyStencil(const graph::StencilState* stencil, bool writable, gl::StateCache& states) {
   states.enable(GL_STENCIL_TEST, stencil != nullptr);
   if (!stencil) return;
-  states.stencilMask(writable ? stencil->writeMask : 0u);
+  states.set(Call::stencil_mask, glStencilMask, writable ? stencil->writeMask : 0u);
   for (const GLenum side : {GL_FRONT, GL_BACK}) {
     const graph::StencilFace& face = side == GL_BACK ? stencil->back : stencil->front;
-    states.stencilTest(side, glCompareOf(face.test), stencil->reference, stencil->readMask);
-    states.stencilOps(side, glOf(kStencilOps, face.fail), glOf(kStencilOps, face.depthFail),
-                      glOf(kStencilOps, face.pass));
+    states.setAt(Call::stencil_test, side == GL_BACK, glStencilFuncSeparate, side, glCompareOf(face.test),
+                 stencil->reference, stencil->readMask);
+    states.setAt(Call::stencil_ops, side == GL_BACK, glStencilOpSeparate, side, glOf(kStencilOps, face.fail),
+                 glOf(kStencilOps, face.depthFail), glOf(kStencilOps, face.pass));
   }
 }
 
@@ -75,28 +80,28 @@ void applyState(const PreparedPass& pass, gl::StateCache& states) {
   const std::array<std::int32_t, 4> whole{0, 0, static_cast<std::int32_t>(pass.width),
                                           static_cast<std::int32_t>(pass.height)};
   const auto& viewport = state.viewport ? *state.viewport : whole;
-  states.viewport(viewport[0], viewport[1], viewport[2], viewport[3]);
-  std::array<GLfloat, 4> constant{};
-  std::ranges::transform(state.blendColor, constant.begin(),
-                         [](double c) { return static_cast<GLfloat>(c); });
-  states.blendColor(constant);
+  states.set(Call::viewport, glViewport, viewport[0], viewport[1], viewport[2], viewport[3]);
+  const auto constant = [&](std::size_t i) { return static_cast<GLfloat>(state.blendColor[i]); };
+  states.set(Call::blend_color, glBlendColor, constant(0), constant(1), constant(2), constant(3));
   applyStencil(state.stencil ? &*state.stencil : nullptr, stencilWritable, states);
   states.enable(GL_DEPTH_CLAMP, state.depthClamp);
   states.enable(GL_SAMPLE_ALPHA_TO_COVERAGE, state.alphaToCoverage);
   states.enable(GL_SAMPLE_MASK, state.sampleMask.has_value());
-  if (state.sampleMask) states.sampleMask(*state.sampleMask);
+  if (state.sampleMask) states.set(Call::sample_mask, glSampleMaski, 0, *state.sampleMask);
   states.enable(GL_PROGRAM_POINT_SIZE, pass.sizesPoints);
   const bool depthTest = depthAttached && state.depthTest;
   states.enable(GL_DEPTH_TEST, depthTest);
-  if (depthTest) states.depthFunc(glCompareOf(state.depthCompare));
+  if (depthTest) states.set(Call::depth_func, glDepthFunc, glCompareOf(state.depthCompare));
   states.depthMask(depthTest && depthWritable && state.depthWrite);
   states.enable(GL_CULL_FACE, state.cull != graph::Cull::none);
-  if (state.cull != graph::Cull::none) states.cullFace(state.cull == graph::Cull::back ? GL_BACK : GL_FRONT);
-  states.polygonMode(state.lines ? GL_LINE : GL_FILL);
+  if (state.cull != graph::Cull::none)
+    states.set(Call::cull_face, glCullFace, state.cull == graph::Cull::back ? GL_BACK : GL_FRONT);
+  states.set(Call::polygon_mode, glPolygonMode, GL_FRONT_AND_BACK, state.lines ? GL_LINE : GL_FILL);
   const bool offset = state.offsetFactor != 0 || state.offsetUnits != 0;
   states.enable(GL_POLYGON_OFFSET_FILL, offset);
   if (offset)
-    states.polygonOffset(static_cast<GLfloat>(state.offsetFactor), static_cast<GLfloat>(state.offsetUnits));
+    states.set(Call::polygon_offset, glPolygonOffset, static_cast<GLfloat>(state.offsetFactor),
+               static_cast<GLfloat>(state.offsetUnits));
 }
 
 // Confines rendering to the rows of the pass's slices; off for a pass that runs whole.
@@ -107,7 +112,8 @@ void scissorTo(const PreparedPass& pass, gl::StateCache& states) {
   if (!confined) return;
   const auto at = [&](std::uint64_t slice) { return static_cast<GLint>(pass.height * slice / c.slices); };
   const GLint from = at(c.slice);
-  states.scissor(from, static_cast<GLsizei>(pass.width), at(c.slice + c.sliceCount) - from);
+  states.set(Call::scissor, glScissor, 0, from, static_cast<GLsizei>(pass.width),
+             at(c.slice + c.sliceCount) - from);
 }
 
 }  // namespace
@@ -122,7 +128,7 @@ void StepRunner::run(std::size_t step, PreparedPass& pass, bool clears, text::Di
   if (clears && !pass.clears.empty()) clear(pass, framebuffer, diagnostics);
   if (const std::uint16_t after = plan_.steps[step].barriersAfterClears) glMemoryBarrier(glBarriersOf(after));
   if (framebuffer) {
-    states_.bindFramebuffer(framebuffer);
+    states_.set(Call::framebuffer, glBindFramebuffer, GL_FRAMEBUFFER, framebuffer);
     applyState(pass, states_);
     scissorTo(pass, states_);
   } else {
@@ -190,20 +196,12 @@ GLuint StepRunner::framebufferOf(const PreparedPass& pass, text::Diagnostics& di
                            {spec.raster[0], spec.raster[1], spec.rasterSamples});
 }
 
-namespace {
-
-GLuint viewOf(const GpuResource& resource, const std::vector<GLuint>& views, std::uint32_t history,
-              std::uint32_t group) {
-  return views.empty() ? resource.importedFor(group).id : views[resource.copyOf(history, group)];
-}
-
-}  // namespace
-
 template <class Binding>
 GLuint StepRunner::textureOf(const Binding& binding, const PreparedPass& pass,
                              text::Diagnostics& diagnostics) {
   const GpuResource& resource = pool_[binding.resource];
-  if (!binding.part) return viewOf(resource, binding.views, binding.history, pass.group);
+  if (!binding.views.empty()) return binding.views[resource.copyOf(binding.history, pass.group)];
+  if (!binding.part) return resource.importedFor(pass.group).id;
   const graph::ImportSpec& import = plan_.graph->imports[plan_.graph->resources[binding.resource].import];
   return binding.part->viewOf(resource.importedFor(pass.group), device_.imports.generation(import),
                               diagnostics);
@@ -211,8 +209,9 @@ GLuint StepRunner::textureOf(const Binding& binding, const PreparedPass& pass,
 
 bool StepRunner::bind(PreparedPass& pass, text::Diagnostics& diagnostics) {
   if (pass.meshes) gatherMeshes(pass, diagnostics);
-  if (pass.variant) states_.useProgram(pass.variant->program.id());
-  if (pass.context.geometry.vertexArray) states_.bindVertexArray(pass.context.geometry.vertexArray);
+  if (pass.variant) states_.set(Call::program, glUseProgram, pass.variant->program.id());
+  if (const GLuint vertices = pass.context.geometry.vertexArray)
+    states_.set(Call::vertex_array, glBindVertexArray, vertices);
   const auto holds = [&](const FirstOf& first) {
     return first.resource == kNone || !pool_[first.resource].hasPublication(first.history, pass.group);
   };
@@ -220,17 +219,20 @@ bool StepRunner::bind(PreparedPass& pass, text::Diagnostics& diagnostics) {
     if (!holds(binding.firstOf)) continue;
     const GLuint texture = textureOf(binding, pass, diagnostics);
     if (binding.access) {
-      states_.bindImage(binding.unit, texture, binding.layered, binding.access, binding.format);
+      states_.setAt(Call::image, binding.unit, glBindImageTexture, binding.unit, texture, 0, binding.layered,
+                    0, binding.access, binding.format);
     } else {
-      states_.bindTexture(binding.unit, texture);
-      states_.bindSampler(binding.unit, binding.sampler);
+      states_.setAt(Call::texture, binding.unit, glBindTextureUnit, binding.unit, texture);
+      states_.setAt(Call::sampler, binding.unit, glBindSampler, binding.unit, binding.sampler);
     }
   }
   for (const BufferBinding& binding : pass.buffers)
     if (holds(binding.firstOf)) bindBuffer(binding, pass, diagnostics);
-  bindBlock(pass.parametersBlock, pass.parametersOffset);
-  bindBlock(pass.viewBlock, pass.viewOffset);
-  bindBlock(pass.sliceBlock, pass.sliceOffset);
+  for (const auto& [block, offset] : {std::pair(pass.parametersBlock, pass.parametersOffset),
+                                      {pass.viewBlock, pass.viewOffset},
+                                      {pass.sliceBlock, pass.sliceOffset}})
+    if (block)
+      states_.bindBuffer(GL_UNIFORM_BUFFER, block->binding, uniforms_.buffer(), offset, block->bytes);
   bool bound = true;
   for (const FixedBinding& binding : pass.fixed)
     if (holds(binding.firstOf)) bound = bindFixed(binding, pass, diagnostics) && bound;
@@ -273,10 +275,6 @@ void StepRunner::bindBuffer(const BufferBinding& binding, PreparedPass& pass,
   }
 }
 
-void StepRunner::bindBlock(const gl::Block* block, std::uint32_t offset) {
-  if (block) states_.bindBuffer(GL_UNIFORM_BUFFER, block->binding, uniforms_.buffer(), offset, block->bytes);
-}
-
 // Binds what a pass type without a shader works on: GL names of textures, and framebuffers around them if it wants some.
 bool StepRunner::bindFixed(const FixedBinding& binding, PreparedPass& pass, text::Diagnostics& diagnostics) {
   if (const GpuResource& resource = pool_[binding.resource]; !resource.texture && !resource.buffers.empty()) {
@@ -289,15 +287,13 @@ bool StepRunner::bindFixed(const FixedBinding& binding, PreparedPass& pass, text
   passes::BoundTexture& bound = binding.source ? pass.context.source : pass.context.destination;
   bound.name = textureOf(binding, pass, diagnostics);
   if (!pass.framebuffers || !bound.name) return bound.name != 0;
-  const GLuint whole = viewOf(pool_[binding.resource], binding.textures, binding.history, pass.group);
   const graph::FlatResource& shape = plan_.graph->resources[binding.resource];
-  bound.texture = whole;
   bound.target = glTargetOf(shape.target);
   bound.level = static_cast<GLint>(binding.mip);
   bound.layer = std::max(0, binding.layer);
   if (pass.context.exact) return true;
   const gl::Attachment attachment{.point = gl::attachmentPointOf(glFormatOf(shape.format)),
-                                  .texture = whole,
+                                  .texture = bound.name,
                                   .mip = binding.mip,
                                   .layer = binding.layer};
   bound.framebuffer = framebuffers_.get({&attachment, 1}, pass.context.spec->name, diagnostics);

@@ -34,7 +34,6 @@ class StepRunner {
   bool bind(PreparedPass& pass, text::Diagnostics& diagnostics);
   void gatherMeshes(PreparedPass& pass, text::Diagnostics& diagnostics);
   void bindBuffer(const BufferBinding& binding, PreparedPass& pass, text::Diagnostics& diagnostics);
-  void bindBlock(const gl::Block* block, std::uint32_t offset);
   bool bindFixed(const FixedBinding& binding, PreparedPass& pass, text::Diagnostics& diagnostics);
   // The GL name of the texture that a binding of `pass` means now; of an import, of the part that the binding has.
   template <class Binding>

@@ -270,15 +270,12 @@ class Preparer {
           if (other->access == Access::read) span.mip = source.mip;
         span.mips = static_cast<std::uint16_t>(use.mip + use.mips - span.mip);
       }
-      FixedBinding binding{
-          .source = from, .resource = use.resource, .history = use.history, .views = viewsOf(span, 0)};
+      FixedBinding binding{.source = from, .resource = use.resource, .history = use.history};
       const FlatResource& resource = graph_.resources[use.resource];
       binding.mip = use.mip;
       if (use.layers < resource.layers && use.layers == 1) binding.layer = use.layer;
-      if (out_.framebuffers)
-        binding.textures = wholesOf(use.resource);
-      else
-        binding.part = importPartOf(use, 0);
+      binding.views = out_.framebuffers ? wholesOf(use.resource) : viewsOf(span, 0);
+      if (!out_.framebuffers) binding.part = importPartOf(use, 0);
       passes::BoundTexture& bound = from ? out_.context.source : out_.context.destination;
       bound.width = std::max(1u, resource.width >> use.mip);
       bound.height = std::max(1u, resource.height >> use.mip);
@@ -291,7 +288,7 @@ class Preparer {
       const FlatUse& read = graph_.uses[slot->firstUse];
       if (use.resource != read.resource || use.history != read.history)
         binding.firstOf = {read.resource, read.history};
-      if (!complete(binding.views) || !complete(binding.textures)) return false;
+      if (!complete(binding.views)) return false;
       out_.fixed.push_back(std::move(binding));
     }
     return true;

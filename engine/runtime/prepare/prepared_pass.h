@@ -107,10 +107,9 @@ struct FixedBinding {
   std::uint32_t resource = 0, mip = 0;
   std::int32_t layer = -1;  // -1: all
   std::uint8_t history = 0;
-  std::vector<GLuint> views;           // per copy, of exactly the levels and layers
+  // Per copy, of exactly the levels and layers; of types with framebuffers the whole: Mesa's blits do not see where a view begins.
+  std::vector<GLuint> views;
   std::shared_ptr<ImportPart> part{};  // as above; of types without framebuffers
-  std::vector<GLuint>
-      textures;  // per copy, the whole, for framebuffers: Mesa's blits do not see where a view begins
   FirstOf firstOf{};
 };
 
