@@ -42,6 +42,16 @@ std::string folderOf(const std::string& path) {
   return folder.empty() ? "." : folder;
 }
 
+// The first that may be read and is there; `before` gets those that were looked for in vain.
+std::optional<std::string> firstThere(std::span<const std::string> candidates,
+                                      std::set<std::string>* before) {
+  for (const std::string& path : candidates) {
+    if (text::mayRead(path) && (text::overlayOf(path) || text::isThere(path))) return path;
+    if (before) before->insert(path);
+  }
+  return std::nullopt;
+}
+
 // The first that may not be read, where nothing is said of whether it is there.
 std::optional<std::string> outsideOf(std::span<const std::string> candidates) {
   const auto outside =
@@ -116,7 +126,7 @@ class IncludeExpander {
   // The state of each file before it was read: what changes meanwhile is read again next time.
   const std::vector<FileStamp>& files() const { return files_; }
   // Where includes were looked for in vain: those that were not found, and those that a later place has.
-  const std::vector<std::string>& missing() const { return missing_; }
+  const std::set<std::string>& missing() const { return missing_; }
 
  private:
   std::size_t addFile(const FileStamp& file) {
@@ -204,7 +214,7 @@ class IncludeExpander {
     std::uint64_t bytes = 0;
     const std::optional<std::string> text =
         text::readWithin(*path, room, bytes, diagnostics_, Code::missingShaderInclude, place);
-    if (!text) missing_.push_back(*path);
+    if (!text) missing_.insert(*path);
     if (bytes > room) {
       diagnostics_.error(Code::malformedInclude, place,
                          fmt::format("includes expand to more than {} MiB", kMaxText >> 20),
@@ -234,20 +244,11 @@ class IncludeExpander {
       if (const fs::path inRoot = fs::path(folder).lexically_relative(root);
           !inRoot.empty() && *inRoot.begin() != "..")
         std::ranges::move(below(loader_.roots_, (inRoot / name).string()), std::back_inserter(candidates));
-    std::error_code ec;
-    for (const std::string& path : candidates) {
-      if (text::mayRead(path) && (text::overlayOf(path) || fs::is_regular_file(path, ec))) return path;
-      missing_.push_back(path);
-    }
+    if (const auto there = firstThere(candidates, &missing_)) return there;
     if (const auto outside = outsideOf(candidates)) {
       text::reportOutside(*outside, diagnostics_, place);
       return std::nullopt;
     }
-    for (const std::string& path : candidates)
-      if (fs::exists(path, ec)) {  // and is no regular file: readFile() says what it is
-        text::readFile(path, diagnostics_, Code::missingShaderInclude, place);
-        return std::nullopt;
-      }
     diagnostics_.error(Code::missingShaderInclude, place, fmt::format("included file '{}' not found", name),
                        {.expected = fmt::format("a file beside the including one or below {}",
                                                 fmt::join(loader_.roots_, ", ")),
@@ -268,7 +269,7 @@ class IncludeExpander {
   Diagnostics& diagnostics_;
   std::shared_ptr<ShaderSource> source_ = std::make_shared<ShaderSource>();
   std::vector<FileStamp> files_;  // by file number
-  std::vector<std::string> missing_;
+  std::set<std::string> missing_;
   std::vector<bool> unconditional_;  // by file number: is in the text outside every #if
   std::vector<std::size_t> stack_;   // file numbers, from the stage's own to the current one
   std::uint32_t textLine_ = 0;
@@ -305,12 +306,7 @@ std::optional<std::string> SourceLoader::locate(const std::string& path,
   std::vector<std::string> candidates;
   if (!fs::path(path).is_absolute()) candidates = below(roots_, path);
   candidates.push_back(fs::path(path).lexically_normal().string());
-  for (const std::string& each : candidates) {
-    std::error_code ec;
-    if (text::mayRead(each) && (text::overlayOf(each) || fs::exists(each, ec))) return each;
-    if (before) before->insert(each);
-  }
-  return std::nullopt;
+  return firstThere(candidates, before);
 }
 
 // Nobody looks for shaders in the current folder on purpose, so it is not mentioned where there are roots.
