@@ -56,23 +56,14 @@ bool sameShape(const Output& a, const Output& b) {
 }
 
 // What glReadPixels gets: as many channels as the format has, as numbers of 32 bits.
-struct Client {
-  GLenum format = GL_RGBA, type = GL_FLOAT, point = GL_COLOR_ATTACHMENT0;
-};
-
-Client clientOf(const FlatResource& resource, const FlatUse& use) {
-  const graph::FormatInfo& info = graph::infoOf(resource.format);
-  if (use.planes == 2) return {GL_STENCIL_INDEX, GL_UNSIGNED_INT, GL_DEPTH_STENCIL_ATTACHMENT};
-  if (info.kind == TexelKind::depth_stencil)
-    return {GL_DEPTH_COMPONENT, GL_FLOAT, GL_DEPTH_STENCIL_ATTACHMENT};
-  if (info.kind == TexelKind::depth) return {GL_DEPTH_COMPONENT, GL_FLOAT, GL_DEPTH_ATTACHMENT};
-  static constexpr GLenum kFloats[] = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
-  static constexpr GLenum kIntegers[] = {GL_RED_INTEGER, GL_RG_INTEGER, GL_RGB_INTEGER, GL_RGBA_INTEGER};
-  const std::size_t channels = info.channels - std::size_t{1};
-  if (info.kind == TexelKind::unsigned_integer)
-    return {kIntegers[channels], GL_UNSIGNED_INT, GL_COLOR_ATTACHMENT0};
-  if (info.kind == TexelKind::signed_integer) return {kIntegers[channels], GL_INT, GL_COLOR_ATTACHMENT0};
-  return {kFloats[channels], GL_FLOAT, GL_COLOR_ATTACHMENT0};
+gl::ClientFormat clientOf(const FlatResource& resource, const FlatUse& use) {
+  if (use.planes == 2) return {GL_STENCIL_INDEX, GL_UNSIGNED_INT};
+  gl::ClientFormat client = gl::clientFormatOf(glFormatOf(resource.format));
+  constexpr GLenum kFloats[] = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
+  constexpr GLenum kIntegers[] = {GL_RED_INTEGER, GL_RG_INTEGER, GL_RGB_INTEGER, GL_RGBA_INTEGER};
+  const std::size_t channels = graph::infoOf(resource.format).channels - std::size_t{1};
+  if (client.channels > 1) client.format = (client.type == GL_FLOAT ? kFloats : kIntegers)[channels];
+  return client;
 }
 
 }  // namespace
@@ -167,7 +158,7 @@ void ReadBack::copyTexture(const graph::Plan& plan, const FlatUse& use, Resource
   const FlatResource& resource = plan.graph->resources[use.resource];
   const gl::TextureRef texture =
       pool.whole(plan, use.resource, pool[use.resource].copyOf(use.history), diagnostics);
-  const Client client = clientOf(resource, use);
+  const gl::ClientFormat client = clientOf(resource, use);
   const bool plain = resource.target == graph::Target::texture_2d,
              volume = resource.target == graph::Target::texture_3d;
   glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer.id());
@@ -176,7 +167,7 @@ void ReadBack::copyTexture(const graph::Plan& plan, const FlatUse& use, Resource
                         height = std::max(1u, resource.height >> mip);
     const std::uint32_t layers = volume ? std::max(1u, resource.depth >> mip) : use.layers;
     for (std::uint32_t layer = use.layer; layer < use.layer + layers; ++layer) {
-      const gl::Attachment attachment{.point = client.point,
+      const gl::Attachment attachment{.point = gl::attachmentPointOf(glFormatOf(resource.format)),
                                       .texture = texture.id,
                                       .mip = mip,
                                       .layer = plain ? -1 : static_cast<std::int32_t>(layer)};

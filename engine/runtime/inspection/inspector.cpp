@@ -30,16 +30,9 @@ std::uint32_t lastStep(const graph::Plan& plan, std::uint32_t resource, bool unw
 }
 
 bool isWanted(std::string_view resource, std::span<const std::string> patterns) {
-  const auto fits = [](std::string_view pattern, std::string_view name) {
-    for (;;) {  // the name and each suffix of it
-      if (graph::matchesPattern(pattern, name)) return true;
-      const std::size_t dot = name.find('.');
-      if (dot == std::string_view::npos) return false;
-      name.remove_prefix(dot + 1);
-    }
-  };
   return std::ranges::any_of(patterns, [&](const std::string& pattern) {
-    return fits(pattern, pattern.find('#') == std::string::npos ? graph::sharedName(resource) : resource);
+    const auto name = pattern.find('#') == std::string::npos ? graph::sharedName(resource) : resource;
+    return graph::matchesPattern(pattern, name) || graph::matchesPattern("*." + pattern, name);
   });
 }
 

@@ -128,7 +128,6 @@ void StepRecorder::look(Execution& execution, std::uint32_t step) {
     records_.push_back({.pass = graph.passNames[index],
                         .resource = name,
                         .hash = sum.hash,
-                        .texture = sum.texels > 0,
                         .broken = static_cast<double>(sum.broken) /
                                   static_cast<double>(std::max<std::size_t>(1, sum.texels))});
 }

@@ -14,7 +14,6 @@ namespace weft::runtime {
 struct StepRecord {
   std::string pass, resource;  // full instance name; name in the graph without the number of the version
   std::uint64_t hash = 0;      // of every byte
-  bool texture = false;        // not a buffer
   double broken = 0;           // share of the texels that have a NaN or an infinity
 };
 
