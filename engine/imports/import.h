@@ -71,6 +71,25 @@ class Provider {
   virtual void dropUploaded(World&) const {}
 };
 
+// One of a table: `Made` has rows(frame), which are those of its generation(frame).
+template <class Made, class Row>
+class RowsProvider : public Provider {
+ public:
+  RowsProvider(std::string label, Columns<Row> columns) : table_(std::move(label), std::move(columns)) {}
+  BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
+    const auto rows = [&] { return static_cast<Made&>(*this).rows(frame); };
+    return table_.get(layout, generation(frame), rows, diagnostics);
+  }
+  bool value(const Frame& frame, const ViewPart& part, std::uint32_t column, Numbers& out) override {
+    generation(frame);
+    const auto& rows = static_cast<Made&>(*this).rows(frame);
+    return table_.read(rows, part.element, column, out);
+  }
+
+ private:
+  RowTable<Row> table_;
+};
+
 // The providers of a device.
 class Providers {
  public:

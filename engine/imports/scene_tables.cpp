@@ -49,20 +49,6 @@ bool create(gl::Buffer& buffer, const std::vector<T>& rows, const char* label,
 
 }  // namespace
 
-bool MeshBuffers::renew(const scene::Scene& scene, std::uint64_t generation, text::Diagnostics& diagnostics) {
-  if (generation_ == generation || data_ == scene.meshData) {
-    generation_ = generation;
-    return true;
-  }
-  ++serial_;
-  generation_ = generation;
-  data_ = scene.meshData;
-  if (!data_) return true;
-  return create(vertices_, data_->vertices, "mesh vertices", diagnostics) &&
-         create(skin_, data_->skin, "mesh skins", diagnostics) &&
-         create(indices_, data_->indices, "mesh indices", diagnostics);
-}
-
 MeshPass::MeshPass(const gl::Reflection& reflection, std::string label)
     : label_(std::move(label)),
       vertex_(wantedOf(reflection, kVertex)),
@@ -71,12 +57,11 @@ MeshPass::MeshPass(const gl::Reflection& reflection, std::string label)
       vertexArray_(gl::VertexArray::create(label_)) {}
 
 void MeshPass::attach(const MeshBuffers& buffers) {
-  if (serial_ != buffers.serial()) {
-    serial_ = buffers.serial();
-    vertexArray_.setVertices(0, buffers.vertices(), 0, sizeof(scene::Vertex), vertex_);
-    vertexArray_.setIndices(buffers.indices());
-    if (buffers.skin())
-      vertexArray_.setVertices(1, buffers.skin(), 0, sizeof(scene::SkinVertex), skin_);
+  if (std::exchange(serial_, buffers.serial) != buffers.serial) {
+    vertexArray_.setVertices(0, buffers.vertices.id(), 0, sizeof(scene::Vertex), vertex_);
+    vertexArray_.setIndices(buffers.indices.id());
+    if (buffers.skin)
+      vertexArray_.setVertices(1, buffers.skin.id(), 0, sizeof(scene::SkinVertex), skin_);
     else
       vertexArray_.disable(skin_);  // joints and weights are the constant 0 then
   }
@@ -200,8 +185,16 @@ void SceneTables::see(std::span<scene::MeshView* const> views) {
 }
 
 MeshDraw SceneTables::draw(MeshPass& pass, text::Diagnostics& diagnostics) {
-  if (!meshBuffers_.renew(world_->scene(), world_->sceneGeneration(), diagnostics)) return {};
-  return pass.draw(meshBuffers_, diagnostics);
+  MeshBuffers& buffers = meshBuffers_;
+  const auto& data = world_->scene().meshData;
+  if (std::exchange(buffers.data, data) != data) {
+    ++buffers.serial;
+    if (data && !(create(buffers.vertices, data->vertices, "mesh vertices", diagnostics) &&
+                  create(buffers.skin, data->skin, "mesh skins", diagnostics) &&
+                  create(buffers.indices, data->indices, "mesh indices", diagnostics)))
+      return {};
+  }
+  return pass.draw(buffers, diagnostics);
 }
 
 }  // namespace weft::imports

@@ -24,19 +24,10 @@ namespace weft::imports {
 
 // Meshes on the device: the vertices and indices of all of a scene, once, and of each draw pass what its view sees of a list,
 // as commands for one glMultiDrawElementsIndirect.
-class MeshBuffers {
- public:
-  // Sends the vertices when the scene's are others. False after an error.
-  bool renew(const scene::Scene& scene, std::uint64_t generation, text::Diagnostics& diagnostics);
-  GLuint vertices() const { return vertices_.id(); }
-  GLuint skin() const { return skin_.id(); }  // 0: no mesh has one
-  GLuint indices() const { return indices_.id(); }
-  std::uint64_t serial() const { return serial_; }  // another one when the buffers are others
-
- private:
-  std::shared_ptr<const scene::MeshData> data_;
-  std::uint64_t generation_ = 0, serial_ = 0;
-  gl::Buffer vertices_, skin_, indices_;
+struct MeshBuffers {
+  std::shared_ptr<const scene::MeshData> data;
+  std::uint64_t serial = 0;            // another one when the buffers are others
+  gl::Buffer vertices, skin, indices;  // without a skin: no mesh has one
 };
 
 // `commands`: DrawCommand[count] in a buffer of their own. Count 0: nothing is seen.
@@ -128,7 +119,7 @@ class SceneTables {
   std::vector<scene::Selection> chosen_;  // those behind the scene's
   scene::MeshFrame meshFrame_;
   std::uint64_t meshFrameNumber_ = 0;
-  MeshBuffers meshBuffers_;
+  MeshBuffers meshBuffers_;  // of the scene that draw() saw last
   MaterialTextures textures_;
 };
 

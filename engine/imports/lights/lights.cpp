@@ -43,7 +43,7 @@ Columns<SunRow> sunColumns() {
                                           "world to u, v and reversed-Z depth of its map, 0 to 1")};
 }
 
-class SunProvider : public Provider {
+class SunProvider : public RowsProvider<SunProvider, SunRow> {
  public:
   static graph::ImportType reflect() {
     return {
@@ -70,17 +70,14 @@ class SunProvider : public Provider {
   }
 
   explicit SunProvider(const graph::ImportRequest& request)
-      : texels_(
+      : RowsProvider("sun", sunColumns()),
+        texels_(
             static_cast<std::uint32_t>(std::clamp(std::floor(request.at("texels").v[0]), 1.0, kMaxTexels))),
         direction_(directionOf(request)) {}
 
-  BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
-    const auto rows = [this] { return row(); };
-    return table_.get(layout, generation(frame), rows, diagnostics);
-  }
-  bool value(const Frame& frame, const ViewPart& part, std::uint32_t column, Numbers& out) override {
-    generation(frame);
-    return table_.read(row(), part.element, column, out);
+  std::array<SunRow, 1> rows(const Frame&) const {
+    const auto cosAngle = static_cast<float>(std::cos(sun_.angle / 2 * std::numbers::pi / 180));
+    return {SunRow{sun_, cosAngle, fitted_.texel, fitted_.shadowMatrix}};
   }
   const scene::ViewData& view(const Frame& frame, const ViewPart&) override {
     generation(frame);
@@ -106,18 +103,12 @@ class SunProvider : public Provider {
   bool isStill(const World& world) const override { return !scene::isMoving(world.scene()); }
 
  private:
-  std::array<SunRow, 1> row() const {
-    const auto cosAngle = static_cast<float>(std::cos(sun_.angle / 2 * std::numbers::pi / 180));
-    return {SunRow{sun_, cosAngle, fitted_.texel, fitted_.shadowMatrix}};
-  }
-
   std::uint32_t texels_;
   std::optional<glm::vec3> direction_;
   scene::Sun sun_;
   scene::SunView fitted_;
   scene::Box bounds_;
   std::uint64_t frame_ = 0, scene_ = 0, generation_ = 0;
-  RowTable<SunRow> table_{"sun", sunColumns()};
 };
 
 struct LampRow : scene::Lamp {
@@ -139,7 +130,7 @@ Columns<LampRow> lampColumns() {
           column<Row, &Row::caster>("shadow", "index among those that cast shadows, or -1")};
 }
 
-class LampsProvider : public Provider {
+class LampsProvider : public RowsProvider<LampsProvider, LampRow> {
  public:
   static graph::ImportType reflect() {
     return {.name = "lamps",
@@ -159,15 +150,15 @@ class LampsProvider : public Provider {
     return {.exists = count > 0, .count = static_cast<double>(count)};
   }
 
-  explicit LampsProvider(const graph::ImportRequest& request) : casting_(request.at("casting").truth()) {}
+  explicit LampsProvider(const graph::ImportRequest& request)
+      : RowsProvider("lamps", lampColumns()), casting_(request.at("casting").truth()) {}
 
-  BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
-    const auto rows = [this] { return tableRows(); };
-    return table_.get(layout, generation(frame), rows, diagnostics);
-  }
-  bool value(const Frame& frame, const ViewPart& part, std::uint32_t column, Numbers& out) override {
-    generation(frame);
-    return table_.read(tableRows(), part.element, column, out);
+  std::vector<LampRow> rows(const Frame&) const {
+    std::vector<LampRow> rows;
+    std::int32_t casters = 0;
+    for (const std::uint32_t row : rows_)
+      rows.push_back({lamps_[row], scene::nearPlaneOf(lamps_[row]), lamps_[row].shadow ? casters++ : -1});
+    return rows;
   }
   const scene::ViewData& view(const Frame& frame, const ViewPart& part) override {
     generation(frame);
@@ -196,21 +187,12 @@ class LampsProvider : public Provider {
   }
 
  private:
-  std::vector<LampRow> tableRows() const {
-    std::vector<LampRow> rows;
-    std::int32_t casters = 0;
-    for (const std::uint32_t row : rows_)
-      rows.push_back({lamps_[row], scene::nearPlaneOf(lamps_[row]), lamps_[row].shadow ? casters++ : -1});
-    return rows;
-  }
-
   bool casting_;
   std::uint64_t frame_ = 0, generation_ = 0;
   std::uint64_t placed_ = 0;            // generation of the lamps that were seen last
   std::span<const scene::Lamp> lamps_;  // of this frame
   std::vector<std::uint32_t> rows_;     // of lamps_ that the import has
   scene::ViewData view_;
-  RowTable<LampRow> table_{"lamps", lampColumns()};
 };
 
 }  // namespace

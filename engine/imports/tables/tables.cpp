@@ -22,8 +22,9 @@ using graph::ImportFacts;
 using graph::ImportKind;
 using graph::ImportType;
 
-class SpheresProvider : public Provider {
+class SpheresProvider : public RowsProvider<SpheresProvider, scene::Instance> {
  public:
+  SpheresProvider() : RowsProvider("spheres", sphereColumns()) {}
   static ImportType reflect() {
     return {.name = "spheres",
             .kind = ImportKind::buffer,
@@ -38,17 +39,12 @@ class SpheresProvider : public Provider {
   BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
     return frame.tables.spheres(kList, layout, diagnostics);
   }
-  bool value(const Frame& frame, const ViewPart& part, std::uint32_t column, Numbers& out) override {
-    return spheres_.read(frame.tables.rows(kList), part.element, column, out);
-  }
+  static const std::vector<scene::Instance>& rows(const Frame& frame) { return frame.tables.rows(kList); }
   std::uint64_t generation(const Frame& frame) override { return frame.tables.generation(kList); }
   bool isStill(const World& world) const override { return !scene::isMoving(world.scene(), kList); }
-
- private:
-  RowTable<scene::Instance> spheres_{"spheres", sphereColumns()};
 };
 
-class MeshesProvider : public Provider {
+class MeshesProvider : public RowsProvider<MeshesProvider, scene::MeshRow> {
  public:
   static ImportType reflect() {
     return {
@@ -65,28 +61,29 @@ class MeshesProvider : public Provider {
     return {.exists = count > 0, .count = count};
   }
 
-  explicit MeshesProvider(const graph::ImportRequest& request) : list_(drawListOf(request)) {}
+  explicit MeshesProvider(const graph::ImportRequest& request)
+      : RowsProvider("meshes", meshColumns()), list_(drawListOf(request)) {}
   BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
     return frame.tables.meshes(frame.tables.listOf(list_), layout, diagnostics);
   }
   std::uint64_t generation(const Frame& frame) override {
     return frame.tables.meshFrame().generation(frame.tables.listOf(list_));
   }
-  bool value(const Frame& frame, const ViewPart& part, std::uint32_t column, Numbers& out) override {
-    return meshes_.read(frame.tables.meshFrame().rows(frame.tables.listOf(list_)), part.element, column, out);
+  std::span<const scene::MeshRow> rows(const Frame& frame) const {
+    return frame.tables.meshFrame().rows(frame.tables.listOf(list_));
   }
   bool isStill(const World& world) const override { return !scene::isMoving(world.scene()); }
 
  private:
   scene::Selection list_;
-  RowTable<scene::MeshRow> meshes_{"meshes", meshColumns()};
 };
 
 // The others. `Table` has functions without an object: reflect() without the columns, columns(), facts(world), rows(frame), and,
 // where the table changes with more than the scene, generation(frame) and isStill(world).
 template <class Table>
-class TableProvider : public Provider {
+class TableProvider : public RowsProvider<TableProvider<Table>, typename Table::Row> {
  public:
+  TableProvider() : TableProvider::RowsProvider(Table::reflect().name, Table::columns()) {}
   static ImportType reflect() {
     ImportType type = Table::reflect();
     type.kind = ImportKind::buffer;
@@ -97,20 +94,10 @@ class TableProvider : public Provider {
     return Table::facts(world);
   }
 
-  BufferRef buffer(const Frame& frame, const RowLayout& layout, text::Diagnostics& diagnostics) override {
-    const auto rows = [&] { return Table::rows(frame); };
-    return table_.get(layout, generation(frame), rows, diagnostics);
-  }
-  bool value(const Frame& frame, const ViewPart& part, std::uint32_t column, Numbers& out) override {
-    const auto& rows = Table::rows(frame);
-    return table_.read(rows, part.element, column, out);
-  }
+  static decltype(auto) rows(const Frame& frame) { return Table::rows(frame); }
   std::uint64_t generation(const Frame& frame) override { return Table::generation(frame); }
   bool isStill(const World& world) const override { return Table::isStill(world); }
   bool followsPointer() const override { return std::is_same_v<typename Table::Row, Pointer>; }
-
- private:
-  RowTable<typename Table::Row> table_{Table::reflect().name, Table::columns()};
 };
 
 template <class Of>
