@@ -22,7 +22,11 @@ struct Shader : Owner<ObjectKind::shader> {
   explicit Shader(GLenum stage) : Owner(glCreateShader(stage)) {}
 };
 
-std::string textOf(GLint length, GLuint id, void (*read)(GLuint, GLsizei, GLsizei*, GLchar*)) {
+// Of a shader or a program.
+std::string logOf(GLuint id, void (*ask)(GLuint, GLenum, GLint*),
+                  void (*read)(GLuint, GLsizei, GLsizei*, GLchar*)) {
+  GLint length = 0;
+  ask(id, GL_INFO_LOG_LENGTH, &length);
   std::string text(static_cast<std::size_t>(std::max(length, 1)), '\0');
   read(id, static_cast<GLsizei>(text.size()), nullptr, text.data());
   return text.c_str();
@@ -57,11 +61,8 @@ bool compileStage(const Shader& shader, const StageSource& stage, std::span<cons
   // What is wrong is told of the text as it is, unless that is nothing.
   if (isCompiled(clamped)) return true;
   if (clamped != text && isCompiled(text)) isCompiled(clamped);
-  GLint logLength = 0;
-  glGetShaderiv(shader.id(), GL_INFO_LOG_LENGTH, &logLength);
-  const std::string log = textOf(logLength, shader.id(), glGetShaderInfoLog);
-  reportLog(log, *stage.source, Code::shaderDoesNotCompile, "the shader does not compile", diagnostics,
-            defines);
+  reportLog(logOf(shader.id(), glGetShaderiv, glGetShaderInfoLog), *stage.source, Code::shaderDoesNotCompile,
+            "the shader does not compile", diagnostics, defines);
   return false;
 }
 
@@ -252,13 +253,11 @@ std::optional<Program> Program::compile(std::span<const StageSource> stages,
     if (!outputs[i].empty()) glBindFragDataLocation(program.id_, static_cast<GLuint>(i), outputs[i].c_str());
   glLinkProgram(program.id_);
   for (const Shader& shader : shaders) glDetachShader(program.id_, shader.id());
-  GLint linked = 0, logLength = 0;
+  GLint linked = 0;
   glGetProgramiv(program.id_, GL_LINK_STATUS, &linked);
   if (!linked) {
-    glGetProgramiv(program.id_, GL_INFO_LOG_LENGTH, &logLength);
-    const std::string log = textOf(logLength, program.id_, glGetProgramInfoLog);
-    reportLog(log, *stages.back().source, Code::programDoesNotLink,
-              fmt::format("program '{}' does not link", label), diagnostics);
+    reportLog(logOf(program.id_, glGetProgramiv, glGetProgramInfoLog), *stages.back().source,
+              Code::programDoesNotLink, fmt::format("program '{}' does not link", label), diagnostics);
     return std::nullopt;
   }
   program.reflection_ = reflectProgram(program.id_, stages.front().stage == GL_COMPUTE_SHADER);

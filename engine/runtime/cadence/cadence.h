@@ -43,10 +43,9 @@ class FrameCadence {
     std::ranges::fill(ran_, std::uint8_t{0});
   }
   // Takes `own[step]` and `generations[resource]` as they are before the frame. Afterwards runs(step) and slices(step)
-  // give the result.
-  void decide(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& generations) {
-    decide(own, generations, false);
-  }
+  // give the result. `ahead`: of decideAhead().
+  void decide(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& generations,
+              bool ahead = false);
   // Decides a round ahead of the frame, in which time-sliced groups run whole. Of the other passes only those run that are
   // not `always` and that a group may wait for. False, and nothing runs, when no time-sliced group has to.
   bool decideAhead(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& generations);
@@ -92,8 +91,6 @@ class FrameCadence {
   bool wants(std::size_t step, const std::vector<std::uint64_t>& own,
              const std::vector<std::uint64_t>& generations) const;
   bool isInside(std::size_t step, std::uint32_t resource) const;
-  void decide(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& generations,
-              bool ahead);
   bool sweep(bool ahead);
   void takeTurn(Group& group, bool whole);
   void take(std::size_t step, PassMemory& memory, std::uint64_t own, const std::vector<std::uint64_t>& before,
