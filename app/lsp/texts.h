@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/glsl/interface.h"
-#include "engine/imports/files.h"
+#include "engine/imports/world.h"
 #include "engine/text/files/file.h"
 #include "engine/text/json/edit.h"
 

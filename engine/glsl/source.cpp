@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -20,22 +19,13 @@ namespace weft::glsl {
 namespace fs = std::filesystem;
 using text::Code;
 using text::Diagnostics;
+using text::FileStamp;
 using text::Place;
 
 namespace {
 
 // Of one stage; a guarded include may repeat its text.
 constexpr std::size_t kMaxText = std::size_t{16} << 20;
-
-// Each unsaved text has a number of its own, which is no time of a file.
-FileStamp stampOf(const std::string& path) {
-  if (const auto unsaved = text::overlayOf(path))
-    return {path, -1 - static_cast<std::int64_t>(unsaved->generation), unsaved->text->size()};
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) return {path};
-  return {path, std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec,
-          static_cast<std::uint64_t>(status.st_size)};
-}
 
 std::string folderOf(const std::string& path) {
   const std::string folder = fs::path(path).parent_path().string();
@@ -210,7 +200,7 @@ class IncludeExpander {
       if (unconditional_[number]) return;
     }
     const std::uint64_t room = kMaxText - std::min(source_->text.size(), kMaxText);
-    const FileStamp stamp = stampOf(*path);
+    const FileStamp stamp = text::stampOf(*path);
     std::uint64_t bytes = 0;
     const std::optional<std::string> text =
         text::readWithin(*path, room, bytes, diagnostics_, Code::missingShaderInclude, place);
@@ -276,12 +266,8 @@ class IncludeExpander {
 };
 
 std::shared_ptr<const ShaderSource> SourceLoader::answer(const std::string& key) {
-  const auto found = cache_.find(key);
-  if (found == cache_.end()) return nullptr;
-  const auto isSame = [](const FileStamp& stamp) { return stampOf(stamp.path) == stamp; };
-  if (!std::ranges::all_of(found->second.stamps, isSame)) return nullptr;
-  for (const FileStamp& stamp : found->second.stamps) touched_.insert(stamp.path);
-  return found->second.source;
+  const text::FileCache::Entry* kept = files_.find(key, typeid(ShaderSource));
+  return kept ? std::static_pointer_cast<const ShaderSource>(kept->made) : nullptr;
 }
 
 // `own`: the file, whose path is the key; else the name of a text in memory.
@@ -295,10 +281,11 @@ std::shared_ptr<const ShaderSource> SourceLoader::expand(const std::string& key,
   const auto taken = std::span(expander.files()).subspan(isFile ? 0 : 1);
   std::vector<FileStamp> stamps(taken.begin(), taken.end());
   for (const std::string& path : expander.missing()) stamps.push_back({path});
-  for (const FileStamp& file : stamps) touched_.insert(file.path);
+  for (const FileStamp& file : stamps) files_.touch(file.path);
   diagnostics.append(found);
   if (found.hasErrors()) return nullptr;
-  return (cache_[key] = {std::move(source), std::move(stamps)}).source;
+  files_.keep(key, typeid(ShaderSource), {std::move(stamps), source});
+  return source;
 }
 
 std::optional<std::string> SourceLoader::locate(const std::string& path,
@@ -313,7 +300,7 @@ std::optional<std::string> SourceLoader::locate(const std::string& path,
 void SourceLoader::reportMissing(const std::string& path, Diagnostics& diagnostics, const Place& place) {
   const bool asItIs = fs::path(path).is_absolute() || roots_.empty();
   const std::vector<std::string> candidates = asItIs ? std::vector<std::string>{path} : below(roots_, path);
-  touched_.insert(candidates.begin(), candidates.end());
+  for (const std::string& each : candidates) files_.touch(each);
   if (const auto outside = outsideOf(candidates)) return text::reportOutside(*outside, diagnostics, place);
   diagnostics.error(Code::unreadableShader, place, fmt::format("shader '{}' not found", path),
                     {.expected = roots_.empty() ? "an existing file"
@@ -329,14 +316,14 @@ std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, 
     reportMissing(path, diagnostics, place);
     return nullptr;
   }
-  touched_.merge(before);
+  for (const std::string& each : before) files_.touch(each);
   if (auto source = answer(*where)) return source;
-  const FileStamp own = stampOf(*where);
+  const FileStamp own = text::stampOf(*where);
   const std::uint64_t most = std::max<std::uint64_t>(kMaxText, text::raised(kMaxShaderBytes));
   std::uint64_t bytes = 0;
   const std::optional<std::string> text =
       text::readWithin(*where, most, bytes, diagnostics, Code::unreadableShader, place);
-  touched_.insert(*where);
+  files_.touch(*where);
   if (bytes > most) {
     ShaderSource large;
     large.file = *where;

@@ -13,10 +13,10 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "engine/text/diagnostic.h"
+#include "engine/text/files/file_cache.h"
 
 namespace weft::glsl {
 
@@ -50,14 +50,6 @@ struct ShaderSource {
   mutable std::shared_ptr<const Interface> allBranches_;
 };
 
-// The state of a file that took part in an expansion.
-struct FileStamp {
-  std::string path;
-  std::int64_t time = -1;  // -1: not there
-  std::uint64_t bytes = ~0ull;
-  friend bool operator==(const FileStamp&, const FileStamp&) = default;
-};
-
 // The GLSL files below folders, as paths relative to their folder, sorted, each once. Folders that may not be read are left
 // out, and no more than 10,000 files and folders of each are looked at.
 std::vector<std::string> shadersBelow(std::span<const std::string> folders);
@@ -82,7 +74,7 @@ class SourceLoader {
   // Where load() would find `path`, or nullopt. `before` gets the places where it was looked for in vain.
   std::optional<std::string> locate(const std::string& path, std::set<std::string>* before = nullptr) const;
   // Forgets everything (files will be read again).
-  void clear() { cache_.clear(); }
+  void clear() { files_.clear(); }
   const std::vector<std::string>& roots() const { return roots_; }
   // Forgets everything when they are others: names may lead to other files.
   void setRoots(std::vector<std::string> roots) {
@@ -91,25 +83,20 @@ class SourceLoader {
     clear();
   }
   // The files to watch: every path that was read or looked for since forgetTouched(), whether or not it exists.
-  const std::set<std::string>& touched() const { return touched_; }
-  void forgetTouched() { touched_.clear(); }
+  const std::set<std::string>& touched() const { return files_.touched(); }
+  void forgetTouched() { files_.forgetTouched(); }
   // Files expanded so far, not answered from the cache.
   std::uint64_t expansions() const { return expansions_; }
 
  private:
   friend class IncludeExpander;
-  struct Entry {
-    std::shared_ptr<const ShaderSource> source;
-    std::vector<FileStamp> stamps;  // of the files that took part, and of places that were looked at before
-  };
   std::shared_ptr<const ShaderSource> answer(const std::string& key);
-  std::shared_ptr<const ShaderSource> expand(const std::string& key, const FileStamp& own,
+  std::shared_ptr<const ShaderSource> expand(const std::string& key, const text::FileStamp& own,
                                              std::string_view text, text::Diagnostics& diagnostics);
   void reportMissing(const std::string& path, text::Diagnostics& diagnostics, const text::Place& place);
 
   std::vector<std::string> roots_;
-  std::unordered_map<std::string, Entry> cache_;
-  std::set<std::string> touched_;
+  text::FileCache files_;
   std::uint64_t expansions_ = 0;
 };
 

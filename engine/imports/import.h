@@ -22,8 +22,6 @@
 
 namespace weft::imports {
 
-class Files;
-
 // What a pass looks from: `@lamps[element].face[face]`, in a picture of width x height pixels.
 struct ViewPart {
   std::uint32_t width = 1, height = 1;

@@ -7,6 +7,7 @@
 
 #include "engine/assets/images/image.h"
 #include "engine/scene/scene.h"
+#include "engine/text/files/file_cache.h"
 
 namespace weft::imports {
 
@@ -85,8 +86,10 @@ struct BufferRef {
   std::uint64_t bytes = 0;
 };
 
+// What imports read from files, for whoever asks for facts and whoever uploads.
+using Files = text::FileCache;
+
 class CameraProvider;
-class Files;
 class Providers;
 class SceneTables;
 

@@ -1,5 +1,3 @@
-#include "engine/imports/files.h"
-
 #include <doctest/doctest.h>
 
 #include <chrono>
@@ -9,6 +7,7 @@
 #include <string>
 
 #include "engine/assets/cube_lut.h"
+#include "engine/imports/world.h"
 #include "tests/temporary_folder.h"
 
 using namespace weft;

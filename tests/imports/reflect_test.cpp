@@ -6,8 +6,8 @@
 #include <set>
 
 #include "engine/assets/images/image.h"
-#include "engine/imports/files.h"
 #include "engine/imports/import.h"
+#include "engine/imports/world.h"
 #include "tests/temporary_folder.h"
 
 using namespace weft;

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "engine/imports/builtin.h"
-#include "engine/imports/files.h"
 
 namespace weft::imports {
 

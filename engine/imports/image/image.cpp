@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "engine/imports/builtin.h"
-#include "engine/imports/files.h"
 #include "engine/text/chars.h"
 #include "engine/text/files/file.h"
 

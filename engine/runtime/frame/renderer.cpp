@@ -9,7 +9,6 @@
 
 #include "engine/gl/context/state_cache.h"
 #include "engine/graph/read/read.h"
-#include "engine/imports/files.h"
 #include "engine/passes/draw/geometry.h"
 #include "engine/runtime/frame/device.h"
 #include "engine/runtime/frame/execution.h"

@@ -10,7 +10,6 @@
 #include "engine/gl/objects/objects.h"
 #include "engine/graph/flat_graph.h"
 #include "engine/imports/camera/camera.h"
-#include "engine/imports/files.h"
 #include "engine/imports/import.h"
 #include "engine/imports/scene_tables.h"
 #include "engine/text/diagnostic.h"

@@ -294,6 +294,16 @@ std::optional<std::string> readWithin(const std::string& path, std::uint64_t mos
   });
 }
 
+// Each unsaved text has a number of its own, which is no time of a file.
+FileStamp stampOf(const std::string& path) {
+  if (const auto unsaved = overlayOf(path))
+    return {path, -1 - static_cast<std::int64_t>(unsaved->generation), unsaved->text->size()};
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return {path};
+  return {path, std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec,
+          static_cast<std::uint64_t>(status.st_size)};
+}
+
 std::optional<std::string> readTextFile(const std::string& path, Diagnostics& diagnostics, Code code,
                                         const Place& place) {
   const std::uint64_t most = raised(kMaxTextBytes);

@@ -49,6 +49,15 @@ void reportTooLarge(const Place& place, std::uint64_t bytes, Diagnostics& diagno
 // leads to it, and a device is written to directly. On failure reports Code::outputNotWritten and returns false.
 bool writeFile(const std::string& path, std::span<const char> bytes, Diagnostics& diagnostics);
 
+// The state of a file.
+struct FileStamp {
+  std::string path;
+  std::int64_t time = -1;  // -1: not there; below: of an unsaved text
+  std::uint64_t bytes = ~0ull;
+  friend bool operator==(const FileStamp&, const FileStamp&) = default;
+};
+FileStamp stampOf(const std::string& path);
+
 // A path that is written in a file, as seen from that file's folder. Absolute paths and "" stay as they are.
 std::string besideFile(const Place& place, const std::string& path);
 
