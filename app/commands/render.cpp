@@ -121,10 +121,10 @@ void runFrames(DeviceSession& session, runtime::World& world, const Options& opt
   ProgressLines lines({.total = total, .lead = all ? run.frames.front() - begin : 0});
   std::vector<runtime::CaptureItem> items;
   for (const Part& part : run.parts) items.push_back(part.item);
-  runtime::Capture capture(renderer.device());
+  runtime::Inspector inspector(renderer.device());
   std::uint32_t frame = 0;
   text::Diagnostics said;
-  const auto save = [&](std::size_t i, runtime::Inspector& inspector) {
+  const auto save = [&](std::size_t i) {
     Part& part = run.parts[i];
     part.saved = std::ranges::all_of(part.files, [&](const std::string& file) {
       return saveInspected(inspector, *outputNameOf(file, frame), said, run.videoOf(file));
@@ -135,7 +135,7 @@ void runFrames(DeviceSession& session, runtime::World& world, const Options& opt
   while (run.ran < total && !diagnostics.hasErrors() && (run.signal = cameSignal) == 0) {
     frame = all ? begin + static_cast<std::uint32_t>(run.ran) : run.frames[run.written];
     const bool wanted = frame == run.frames[run.written];
-    if (!items.empty() && wanted) capture.start(execution, items, save);
+    if (!items.empty() && wanted) runtime::watchItems(execution, inspector, items, save);
     for (Part& part : run.parts) part.saved = false;
     const double before = gl::steadyMs();
     run.last = drawFrame(renderer, world, options, frame, diagnostics);
@@ -144,7 +144,7 @@ void runFrames(DeviceSession& session, runtime::World& world, const Options& opt
       glFinish();
       run.firstMs = gl::steadyMs() - before;
     }
-    if (!items.empty()) capture.stop(execution);
+    if (!items.empty()) inspector.release(execution);
     if (wanted) {
       diagnostics.append(std::exchange(said, {}));
       onWritten();

@@ -156,16 +156,15 @@ void FrameLook::begin(text::Diagnostics& diagnostics) {
   std::erase_if(items,
                 [&](const runtime::CaptureItem& item) { return ++count[item.step] > kPicturesOfStep; });
   outputs_ = Json(plan_.steps.size(), Json::array());
-  capture_.start(*renderer_.execution(), items,
-                 [this, items, &diagnostics](std::size_t i, runtime::Inspector& inspector) {
-                   if (inspector.picture().id != 0)
-                     outputs_[items[i].step].push_back(outputOf(items[i], inspector, diagnostics));
-                 });
+  runtime::watchItems(*renderer_.execution(), inspector_, items, [this, items, &diagnostics](std::size_t i) {
+    if (inspector_.picture().id != 0)
+      outputs_[items[i].step].push_back(outputOf(items[i], inspector_, diagnostics));
+  });
 }
 
 Json FrameLook::end(const std::string& title, const std::vector<std::string>& facts,
                     const text::Diagnostics& said) {
-  capture_.stop(*renderer_.execution());
+  inspector_.release(*renderer_.execution());
   if (auto picture = renderer_.readPresented8()) picture_ = *std::move(picture);
   return {{"title", title},
           {"facts", facts},

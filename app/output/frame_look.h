@@ -30,7 +30,7 @@ class FrameLook {
  private:
   runtime::Renderer& renderer_;
   graph::Plan plan_ = renderer_.execution()->plan();
-  runtime::Capture capture_{renderer_.device()};
+  runtime::Inspector inspector_{renderer_.device()};
   nlohmann::ordered_json outputs_;
   assets::Image8 picture_;
 };

@@ -432,20 +432,13 @@ std::optional<CaptureItem> captureItemOf(const graph::Plan& plan, const graph::P
                       .stencil = pick.stencil}};
 }
 
-void Capture::start(Execution& execution, std::vector<CaptureItem> items, Visit visit) {
-  items_ = std::move(items);
-  visit_ = std::move(visit);
-  execution.watch({.after = [this, &execution](std::uint32_t step) {
-    for (std::size_t i = 0; i < items_.size(); ++i)
-      if (items_[i].step == step && isThere(execution, items_[i]) &&
-          inspector_.look(execution, items_[i].target))
-        visit_(i, inspector_);
+void watchItems(Execution& execution, Inspector& inspector, std::vector<CaptureItem> items,
+                std::function<void(std::size_t item)> visit) {
+  execution.watch({.after = [&, items = std::move(items), visit = std::move(visit)](std::uint32_t step) {
+    for (std::size_t i = 0; i < items.size(); ++i)
+      if (items[i].step == step && isThere(execution, items[i]) && inspector.look(execution, items[i].target))
+        visit(i);
   }});
-}
-
-void Capture::stop(Execution& execution) {
-  execution.watch({});
-  visit_ = {};
 }
 
 }  // namespace weft::runtime

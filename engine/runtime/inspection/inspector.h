@@ -135,21 +135,9 @@ std::vector<CaptureItem> captureItems(const graph::Plan& plan, std::span<const s
 std::optional<CaptureItem> captureItemOf(const graph::Plan& plan, const graph::Pick& pick,
                                          text::Diagnostics& diagnostics);
 
-class Capture {
- public:
-  explicit Capture(Device& device) : inspector_(device) {}
-
-  // The type of a function that is called within a frame, for each item, with its index. `inspector` has the copy. Not for an
-  // item whose pass has not run (FrameCadence::hasResults).
-  using Visit = std::function<void(std::size_t item, Inspector& inspector)>;
-  // Before a frame; holds until stop(), or until `execution` is another. There is one watch, which is this one's until then.
-  void start(Execution& execution, std::vector<CaptureItem> items, Visit visit);
-  void stop(Execution& execution);
-
- private:
-  Inspector inspector_;
-  std::vector<CaptureItem> items_;
-  Visit visit_;
-};
+// Within each frame from the next on, calls `visit` for each item, with its index, when `inspector` has the copy. Not for an item
+// whose pass has not run (FrameCadence::hasResults). There is one watch of `execution`, which is this one until Inspector::release().
+void watchItems(Execution& execution, Inspector& inspector, std::vector<CaptureItem> items,
+                std::function<void(std::size_t item)> visit);
 
 }  // namespace weft::runtime

@@ -42,13 +42,12 @@ bool areSame(const Seen& a, const Seen& b) {
 }
 
 std::map<std::size_t, Seen> captureAll(Stage& stage, const std::vector<CaptureItem>& items) {
-  Capture capture(stage.renderer().device());
+  Inspector inspector(stage.renderer().device());
   std::map<std::size_t, Seen> seen;
-  capture.start(stage.execution(), items, [&](std::size_t item, Inspector& inspector) {
-    seen.insert_or_assign(item, seenIn(inspector));
-  });
+  watchItems(stage.execution(), inspector, items,
+             [&](std::size_t item) { seen.insert_or_assign(item, seenIn(inspector)); });
   stage.run();
-  capture.stop(stage.execution());
+  inspector.release(stage.execution());
   return seen;
 }
 
