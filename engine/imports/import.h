@@ -169,6 +169,11 @@ scene::Selection selectionOf(const graph::ImportRequest& list);
 // The draw list that a request names: expansion lets known ones through only.
 scene::Selection drawListOf(const graph::ImportRequest& request);
 
+// For facts(): a table, which is there when it has rows.
+inline graph::ImportFacts factsOfRows(auto count) {
+  return {.exists = count > 0, .count = static_cast<double>(count)};
+}
+
 // For facts(): an argument that cannot be, without the place, which expansion knows.
 inline text::Diagnostic badArgument(std::string message, std::string expected, std::string found,
                                     std::string hint = {}) {

@@ -65,8 +65,7 @@ class SunProvider : public RowsProvider<SunProvider, SunRow> {
   static graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) {
     const bool casting = request.at("casting").truth();
     const std::optional<scene::Sun>& sun = world.scene->sun;
-    const bool exists = directionOf(request) || (sun && (sun->shadow || !casting));
-    return {.exists = exists, .count = exists ? 1.0 : 0.0};
+    return factsOfRows(directionOf(request) || (sun && (sun->shadow || !casting)) ? 1 : 0);
   }
 
   explicit SunProvider(const graph::ImportRequest& request)
@@ -145,9 +144,8 @@ class LampsProvider : public RowsProvider<LampsProvider, LampRow> {
 
   static graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) {
     const bool casting = request.at("casting").truth();
-    const auto count = std::ranges::count_if(
-        world.scene->lamps.rows(), [&](const scene::Lamp& lamp) { return lamp.shadow || !casting; });
-    return {.exists = count > 0, .count = static_cast<double>(count)};
+    return factsOfRows(static_cast<std::size_t>(std::ranges::count_if(
+        world.scene->lamps.rows(), [&](const scene::Lamp& lamp) { return lamp.shadow || !casting; })));
   }
 
   explicit LampsProvider(const graph::ImportRequest& request)

@@ -57,8 +57,7 @@ class MeshesProvider : public RowsProvider<MeshesProvider, scene::MeshRow> {
         .columns = tell(meshColumns())};
   }
   static ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) {
-    const double count = world.meshesOf(drawListOf(request));
-    return {.exists = count > 0, .count = count};
+    return factsOfRows(world.meshesOf(drawListOf(request)));
   }
 
   explicit MeshesProvider(const graph::ImportRequest& request)
@@ -118,10 +117,7 @@ struct Joints : SceneTable<scene::Joint> {
     return {column<Row, &Row::now>("now", "bind pose to world"),
             column<Row, &Row::previous>("previous", "of the frame before")};
   }
-  static ImportFacts facts(const WorldFacts& world) {
-    const std::size_t skins = world.scene->skins.size();
-    return {.exists = skins > 0, .count = static_cast<double>(skins)};
-  }
+  static ImportFacts facts(const WorldFacts& world) { return factsOfRows(world.scene->skins.size()); }
   static std::span<const Row> rows(const Frame& frame) { return frame.tables.meshFrame().joints(); }
   static std::uint64_t generation(const Frame& frame) { return frame.tables.meshFrame().jointsGeneration(); }
   static bool isStill(const World& world) { return world.scene().skins.size() == 0; }
@@ -137,10 +133,7 @@ struct VertexColors : SceneTable<glm::vec4> {
   static Columns<Row> columns() {
     return {column<Row, std::identity{}>("color", "linear; a factor of the material's albedo and alpha")};
   }
-  static ImportFacts facts(const WorldFacts& world) {
-    const std::size_t count = of(*world.scene).size();
-    return {.exists = count > 0, .count = static_cast<double>(count)};
-  }
+  static ImportFacts facts(const WorldFacts& world) { return factsOfRows(of(*world.scene).size()); }
   static std::span<const Row> of(const scene::Scene& scene) {
     return scene.meshData ? std::span(scene.meshData->colors) : std::span<const Row>();
   }
@@ -253,10 +246,7 @@ struct Ground : SceneTable<scene::Ground> {
             column<Row, [](const Row& row) { return row.albedo ? row.radius : 0.0f; }>(
                 "radius", "of its surface; 0: it has none and shows the environment")};
   }
-  static ImportFacts facts(const WorldFacts& world) {
-    const bool exists = world.scene->ground.has_value();
-    return {.exists = exists, .count = exists ? 1.0 : 0.0};
-  }
+  static ImportFacts facts(const WorldFacts& world) { return factsOfRows(world.scene->ground ? 1 : 0); }
   static auto rows(const Frame& frame) { return std::array{frame.world.scene().ground.value_or(Row{})}; }
 };
 
