@@ -9,7 +9,7 @@ bool Execution::canSave(const World& world, text::Diagnostics& diagnostics) cons
   const std::size_t before = diagnostics.errorCount();
   const graph::FlatGraph& graph = *plan().graph;
   for (const graph::ImportSpec& import : graph.imports)
-    if (device_.imports.remembers(import, world))
+    if (device_.imports.of(import).remembers(world))
       diagnostics.error(
           text::Code::outputNotWritten, import.place,
           fmt::format("no checkpoint can be made: the import '{}' remembers earlier frames", import.name));

@@ -36,7 +36,7 @@ bool readsPointer(const graph::Plan& plan, Imports& imports) {
   const graph::FlatGraph& graph = *plan.graph;
   const auto follows = [&](const graph::FlatUse& use) {
     const std::uint32_t import = graph.resources[use.resource].import;
-    return import != graph::kNone && imports.followsPointer(graph.imports[import]);
+    return import != graph::kNone && imports.of(graph.imports[import]).followsPointer();
   };
   for (std::size_t step = 0; step < plan.steps.size(); ++step)
     if (std::ranges::any_of(plan.usesOf(step), follows)) return true;
@@ -103,7 +103,7 @@ FrameReport Execution::frame(const World& world, const FrameInput& input, text::
   FrameReport report;
   beginFrame(world, input);
   publishFinished(diagnostics);
-  refreshUniforms(false);
+  uniforms_.refresh(prepared_.passes, publications_.ages(), false);
   for (std::size_t step = 0; step < hashes_.size(); ++step)
     if (!steps_.isAlways(step))
       hashes_[step] = hashOf(prepared_.passes[step], plan().passOf(step).cadence, *prepared_.pool,
@@ -144,14 +144,14 @@ void Execution::runAhead(FrameReport& report, text::Diagnostics& diagnostics) {
     any = true;
   }
   if (!any) return;
-  refreshUniforms(false);  // ages
+  uniforms_.refresh(prepared_.passes, publications_.ages(), false);  // ages
 }
 
 // All steps of the frame see what its steps will publish as new, of age 0.
 void Execution::chooseSteps() {
   steps_.decide(hashes_, publications_.generations());
   if (!publications_.announce()) return;
-  refreshUniforms(true);
+  uniforms_.refresh(prepared_.passes, publications_.ages(), true);
 }
 
 // Skipped steps issue their barriers too, see plan.h.
@@ -203,10 +203,6 @@ void Execution::endFrame(FrameReport& report, text::Diagnostics& diagnostics) {
   }
   report.passesSkipped = static_cast<std::uint32_t>(steps) - report.passesRun;
   publications_.endFrame();
-}
-
-void Execution::refreshUniforms(bool alwaysOnly) {
-  uniforms_.refresh(prepared_.passes, publications_.ages(), alwaysOnly);
 }
 
 // Finds what the views of all passes that draw meshes in this round see of the meshes.
@@ -264,14 +260,16 @@ bool Execution::remembers(const World& world) const {
   std::vector<std::uint8_t> still(graph.resources.size(), 1);
   for (std::size_t r = 0; r < still.size(); ++r)
     if (const std::uint32_t import = graph.resources[r].import; import != graph::kNone)
-      still[r] = imports.isStill(graph.imports[import], world);
+      still[r] = imports.of(graph.imports[import]).isStill(world);
   for (std::size_t step = 0; step < passes.size(); ++step)
     for (const graph::FlatUse& use : plan.usesOf(step))
       if (use.access != graph::Access::read && (plan.passOf(step).cadence == graph::Cadence::always ||
                                                 plan.passOf(step).cadence == graph::Cadence::every))
         still[use.resource] = 0;
   for (const graph::HistorySpec& history : graph.histories) {
-    const auto moves = [&](std::uint32_t import) { return !imports.isStill(graph.imports[import], world); };
+    const auto moves = [&](std::uint32_t import) {
+      return !imports.of(graph.imports[import]).isStill(world);
+    };
     const auto changes = [&](std::uint32_t resource) { return !still[resource]; };
     if (std::ranges::any_of(history.resetImports, moves) ||
         std::ranges::any_of(history.resetResources, changes))
@@ -280,7 +278,7 @@ bool Execution::remembers(const World& world) const {
   const scene::Camera* camera = scene::findCamera(world.scene(), "");
   const bool cameraMoves = !camera || scene::isMoving(*camera);
   const auto remembers = [&](std::uint32_t import) {
-    return import != graph::kNone && imports.remembers(graph.imports[import], world);
+    return import != graph::kNone && imports.of(graph.imports[import]).remembers(world);
   };
   for (std::size_t step = 0; step < passes.size(); ++step) {
     const PreparedPass& pass = passes[step];
@@ -305,7 +303,7 @@ bool Execution::remembers(const World& world) const {
       for (const std::uint32_t key : uniform.dynamic.parameterKeys())
         if (kept && key >= graph.parameters.size())
           unsteady |=
-              !imports.isStill(graph.imports[graph.watched[key - graph.parameters.size()].import], world);
+              !imports.of(graph.imports[graph.watched[key - graph.parameters.size()].import]).isStill(world);
     }
     look(spec.timedInstances);
     if (unsteady) return true;

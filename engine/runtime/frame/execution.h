@@ -99,6 +99,12 @@ class Execution {
   gl::TextureRef texture(std::uint32_t resource, std::uint32_t history = 0);
   BufferRef buffer(std::uint32_t resource, std::uint64_t& offset, std::uint32_t history = 0);
 
+  // Fills every copy of a resource of the graph's own.
+  void fill(std::uint32_t resource, const graph::Value& value) {
+    text::Diagnostics ignored;
+    prepared_.pool->fill(plan(), resource, value, ignored);
+  }
+
   // Reports the imports that remember, and the textures that must be kept and cannot be read, because they have samples. False:
   // there are some, and save() must not be called.
   bool canSave(const World& world, text::Diagnostics& diagnostics) const;
@@ -125,7 +131,6 @@ class Execution {
   void runSteps(const StepWatch& watch, FrameReport& report, text::Diagnostics& diagnostics);
   void endFrame(FrameReport& report, text::Diagnostics& diagnostics);
 
-  void refreshUniforms(bool alwaysOnly);
   void carry(StateStream& state, text::Diagnostics& diagnostics);
   void lookAtMeshes();
 

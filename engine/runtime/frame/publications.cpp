@@ -110,7 +110,7 @@ void Publications::publishImports(std::uint32_t group) {
 
 void Publications::show(std::size_t r) {
   GpuResource& resource = pool_[r];
-  auto held = imports_.hold(importOf(r));
+  auto held = imports_.of(importOf(r)).hold();
   if (held != resource.held) ++resource.shows;
   resource.held = std::move(held);
   resource.shown = resource.imported;
@@ -133,7 +133,7 @@ void Publications::refreshImports(text::Diagnostics& diagnostics) {
         if (each.resource.empty()) each.resource = plan_.graph->resourceNames[r];
         diagnostics.add(std::move(each));
       }
-      if (pool_[r].publisher == kNone || !imports_.hold(import)) show(r);
+      if (pool_[r].publisher == kNone || !imports_.of(import).hold()) show(r);
     }
     generations_[r] = imports_.generation(import);
   }

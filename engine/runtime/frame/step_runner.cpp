@@ -261,7 +261,8 @@ void StepRunner::bindBuffer(const BufferBinding& binding, PreparedPass& pass,
     states_.bindBuffer(binding.target, binding.index, table.id, 0, 0);
   } else if (binding.import != kNone) {
     const graph::ImportSpec& import = plan_.graph->imports[binding.import];
-    const BufferRef table = device_.imports.buffer(import, binding.layout, diagnostics);
+    const BufferRef table =
+        device_.imports.of(import).buffer(device_.imports.frame(), binding.layout, diagnostics);
     states_.bindBuffer(binding.target, binding.index, table.id, 0, 0);
   } else {
     const GpuResource& resource = pool_[binding.resource];

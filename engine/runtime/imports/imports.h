@@ -37,19 +37,13 @@ class Imports : public imports::Providers {
   // Takes the frame's inputs; uploads happen in texture() and buffer(). Call once per frame before anything else.
   void beginFrame(const World& world, const FrameInput& input);
 
-  // The functions of imports::Provider, which says what they mean.
+  imports::Provider& of(const graph::ImportSpec& import) { return use(heldOf(import)); }
+  // For the functions of providers.
+  imports::Frame frame() { return {*world_, input_, frames_, files_, tables_, camera_, *this, generations_}; }
+  // What stands in for a texture included.
   gl::TextureRef texture(const graph::ImportSpec& import, text::Diagnostics& diagnostics) {
     const gl::TextureRef texture = of(import).texture(frame(), diagnostics);
     return texture.id != 0 ? texture : heldOf(import).standIn;
-  }
-  std::shared_ptr<const gl::Texture> hold(const graph::ImportSpec& import) { return of(import).hold(); }
-  BufferRef buffer(const graph::ImportSpec& import, const RowLayout& layout, text::Diagnostics& diagnostics) {
-    return of(import).buffer(frame(), layout, diagnostics);
-  }
-  bool value(const graph::FlatGraph& graph, const graph::WatchedValue& asked, imports::Numbers& out) {
-    const auto row = static_cast<std::uint16_t>(asked.row);
-    return of(graph.imports[asked.import])
-        .value(frame(), {graph.screenWidth, graph.screenHeight, row}, asked.column, out);
   }
   // What a pass whose attachments have this size is seen from: its view, else the scene's camera as it is. A camera's is of
   // the screen of the pass.
@@ -64,9 +58,6 @@ class Imports : public imports::Providers {
     return meshes ? tables_.meshFrame().isMoving(list) : tables_.isMoving(list);
   }
   std::uint64_t generation(const graph::ImportSpec& import) { return of(import).generation(frame()); }
-  bool isStill(const graph::ImportSpec& import, const World& world) { return of(import).isStill(world); }
-  bool remembers(const graph::ImportSpec& import, const World& world) { return of(import).remembers(world); }
-  bool followsPointer(const graph::ImportSpec& import) { return of(import).followsPointer(); }
 
   // The draw lists, for draw passes, whether or not a graph imports them.
   imports::SceneTables& tables() { return tables_; }
@@ -109,7 +100,6 @@ class Imports : public imports::Providers {
     return hold(request, key);
   }
   Held& heldOf(const graph::ImportSpec& import) { return heldOf(import.request, import.key); }
-  imports::Provider& of(const graph::ImportSpec& import) { return use(heldOf(import)); }
   imports::Provider& of(const graph::ImportRequest& request, std::uint64_t key) override {
     return use(heldOf(request, key));
   }
@@ -117,7 +107,6 @@ class Imports : public imports::Providers {
     held.used = true;
     return *held.provider;
   }
-  imports::Frame frame() { return {*world_, input_, frames_, files_, tables_, camera_, *this, generations_}; }
 
   std::shared_ptr<const imports::ImportRegistry> registry_;
   std::deque<Held> held_;  // stays in place while another is made for it

@@ -140,18 +140,8 @@ void fillWithPoison(Execution& execution, std::uint32_t step, PoisonPattern patt
   for (std::uint32_t r = 0; r < plan.graph->resources.size(); ++r) {
     const graph::FlatResource& desc = plan.graph->resources[r];
     if (plan.firstStep[r] != step || plan.persistent[r] || graph::isImported(desc)) continue;
-    if (desc.kind == graph::ResourceKind::buffer) {
-      std::uint64_t offset = 0;
-      const BufferRef buffer = execution.buffer(r, offset);
-      const double value = pattern == PoisonPattern::nan ? std::numeric_limits<double>::quiet_NaN() : 30000;
-      if (buffer.id) clearBuffer(buffer.id, offset, buffer.bytes, graph::Value::number(value));
-      continue;
-    }
-    const gl::TextureRef texture = execution.texture(r);
-    if (texture.id == 0) continue;
-    const graph::Value value = graph::Value::number(valueFor(desc.format, pattern));
-    for (std::uint32_t mip = 0; mip < desc.mips; ++mip)
-      clearTexture(texture, desc.format, mip, 0, desc.layers, value);
+    const bool buffer = desc.kind == graph::ResourceKind::buffer;
+    execution.fill(r, graph::Value::number(valueFor(buffer ? graph::Format::r32f : desc.format, pattern)));
   }
   glMemoryBarrier(kTransfer | GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                   GL_SHADER_STORAGE_BARRIER_BIT);

@@ -51,27 +51,17 @@ gl::ProgramRequest programRequestOf(const FlatGraph& graph, const Plan& plan, st
   request.label = spec.name;
   request.pass = spec.name;
   request.place = spec.shaderPlace;
-  switch (type.shader) {
-    case ShaderShape::none:
-      return request;
-    case ShaderShape::fragment:
-      if (spec.vertexShader.empty())
-        request.stages = {{GL_VERTEX_SHADER, "fullscreen.vert.glsl", kFullscreenVertex}};
-      else
-        request.stages = {{GL_VERTEX_SHADER, spec.vertexShader, ""}};
-      request.stages.push_back({GL_FRAGMENT_SHADER, spec.shader, ""});
-      break;
-    case ShaderShape::compute:
-      request.stages = {{GL_COMPUTE_SHADER, spec.shader, ""}};
-      break;
-    case ShaderShape::draw:
-      if (spec.vertexShader.empty())
-        request.stages = {{GL_VERTEX_SHADER, spec.shader + ".vert.glsl", ""},
-                          {GL_FRAGMENT_SHADER, spec.shader + ".frag.glsl", ""}};
-      else
-        request.stages = {{GL_VERTEX_SHADER, spec.vertexShader, ""}, {GL_FRAGMENT_SHADER, spec.shader, ""}};
-      break;
-  }
+  if (type.shader == ShaderShape::none) return request;
+  if (type.shader == ShaderShape::compute)
+    request.stages = {{GL_COMPUTE_SHADER, spec.shader, ""}};
+  else if (!spec.vertexShader.empty())
+    request.stages = {{GL_VERTEX_SHADER, spec.vertexShader, ""}, {GL_FRAGMENT_SHADER, spec.shader, ""}};
+  else if (type.shader == ShaderShape::draw)
+    request.stages = {{GL_VERTEX_SHADER, spec.shader + ".vert.glsl", ""},
+                      {GL_FRAGMENT_SHADER, spec.shader + ".frag.glsl", ""}};
+  else
+    request.stages = {{GL_VERTEX_SHADER, "fullscreen.vert.glsl", kFullscreenVertex},
+                      {GL_FRAGMENT_SHADER, spec.shader, ""}};
   for (const SlotSpec& slot : graph.slotsOf(spec)) {
     if (slot.useCount == 0) continue;
     if (slot.access != Access::read && !plan.attached[slot.firstUse]) continue;

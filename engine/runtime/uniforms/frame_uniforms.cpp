@@ -78,7 +78,9 @@ void FrameUniforms::followImports() {
     const bool view = import.kind == graph::ImportKind::view;
     const std::uint64_t generation = view ? 0 : imports_.generation(import);
     if (!view && std::exchange(generations_[i], generation) == generation) continue;
-    if (!imports_.value(graph, asked, numbers)) continue;
+    const imports::ViewPart part{graph.screenWidth, graph.screenHeight,
+                                 static_cast<std::uint16_t>(asked.row)};
+    if (!imports_.of(import).value(imports_.frame(), part, asked.column, numbers)) continue;
     const std::size_t key = graph.parameters.size() + i;
     graph::Value value = asked.shape;
     const bool column = asked.part != graph::kWholeValue;
