@@ -246,7 +246,7 @@ class ShaderCheck {
       const auto variant = session_->renderer.device().programs.get(request, said);
       if (!variant) return;
       needs.add(request.pass, variant->stages, variant->defines, variant->program.reflection());
-      const runtime::LinkedProgram linked{variant->program.reflection(), session_->context->device().limits};
+      const runtime::LinkedProgram linked{variant->program.reflection(), session_->context->device()};
       if (runtime::checkProgram(plan, pass, variant->stages, variant->defines, &linked, said))
         runtime::warnOfConditions(plan.graph->specs[pass], variant->stages, variant->defines, said);
       return;

@@ -305,7 +305,7 @@ nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json ti
 std::string closeDevice(std::unique_ptr<DeviceSession> session) {
   const std::unique_ptr<gl::Context> context = std::move(session->context);
   session.reset();
-  return gl::toText(gl::liveObjects());
+  return gl::liveObjects();
 }
 
 }  // namespace weft::app

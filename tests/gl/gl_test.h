@@ -39,7 +39,7 @@ class CleanScope {
     text::Diagnostics diagnostics;
     log_.drain(diagnostics);
     CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
-    CHECK_MESSAGE(liveObjects() == before_, "alive: " << toText(liveObjects()));
+    CHECK_MESSAGE(liveObjects() == before_, "alive: " << liveObjects());
     log_.clear();
   }
   // For tests that provoke errors: forgets those seen so far.
@@ -50,7 +50,7 @@ class CleanScope {
 
  private:
   DebugLog& log_;
-  LiveObjects before_;
+  std::string before_;
 };
 
 }  // namespace weft::gl::test

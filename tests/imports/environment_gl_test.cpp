@@ -81,7 +81,7 @@ TEST_CASE("the environment in use stays as it is while another is sent, dropped,
   textures.send(b, diagnostics);
   sendAll(textures, c, diagnostics);
   CHECK(levelsOf(textures.hold()->ref()) == levels);
-  const auto alive = [] { return gl::liveObjects().of(gl::ObjectKind::texture); };
+  const auto alive = [] { return gl::liveObjects(gl::ObjectKind::texture); };
   CHECK(alive() == 2);
   REQUIRE(textures.use(c, diagnostics));
   CHECK(textures.hold()->ref().desc.width == 32);

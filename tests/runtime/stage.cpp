@@ -41,7 +41,7 @@ CleanScope::~CleanScope() {
   text::Diagnostics diagnostics;
   context().debugLog().drain(diagnostics);
   CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
-  CHECK_MESSAGE(gl::liveObjects() == before_, "alive: " << gl::toText(gl::liveObjects()));
+  CHECK_MESSAGE(gl::liveObjects() == before_, "alive: " << gl::liveObjects());
   context().debugLog().clear();
 }
 

@@ -34,7 +34,7 @@ class CleanScope {
   ~CleanScope();
 
  private:
-  gl::LiveObjects before_;
+  std::string before_;
 };
 
 class Stage {

@@ -45,9 +45,9 @@ DeviceInfo describeDevice(Backend backend, const std::string& platform) {
   GLint bits = 0;
   glGetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
   d.hasTimerQueries = !d.software && bits >= 30;
-  d.limits.uniformOffsetAlignment = integerOf(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT);
+  d.uniformOffsetAlignment = integerOf(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT);
   for (GLuint axis = 0; axis < 3; ++axis)
-    glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, axis, &d.limits.computeGroups[axis]);
+    glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, axis, &d.computeGroups[axis]);
   // The backend is in the key because of binaries-per-backend (workarounds.md).
   const std::string all = fmt::format("{}\n{}\n{}\n{}\n{}", d.vendor, d.renderer, d.version,
                                       textOf(GL_SHADING_LANGUAGE_VERSION), nameOf(backend));

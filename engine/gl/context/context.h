@@ -34,11 +34,6 @@ struct ContextOptions {
   bool debug = true;                         // a debug context with its messages in debugLog()
 };
 
-struct Limits {
-  std::int32_t uniformOffsetAlignment = 256;
-  std::int32_t computeGroups[3] = {};
-};
-
 struct DeviceInfo {
   std::string vendor, renderer, version;
   Backend backend = Backend::osmesa;  // never automatic
@@ -46,7 +41,8 @@ struct DeviceInfo {
   bool software = false;  // llvmpipe, softpipe, swrast: timer queries are not to be believed
   bool hasProgramBinaries = false;
   bool hasTimerQueries = false;  // hardware with timestamp counters of at least 30 bits
-  Limits limits;
+  std::int32_t uniformOffsetAlignment = 256;
+  std::int32_t computeGroups[3] = {};  // that a dispatch may have
   std::string driverKey;  // 16 hex digits over vendor, renderer, version and backend: keys caches on disk
 };
 

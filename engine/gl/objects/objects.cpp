@@ -26,24 +26,16 @@ std::atomic<std::int64_t>& live(ObjectKind kind) {
 
 }  // namespace
 
-std::int64_t LiveObjects::total() const {
-  std::int64_t sum = 0;
-  for (const auto n : counts) sum += n;
-  return sum;
+std::int64_t liveObjects(ObjectKind kind) {
+  return live(kind);
 }
 
-LiveObjects liveObjects() {
-  LiveObjects live;
-  for (std::size_t i = 0; i < kKinds; ++i) live.counts[i] = g_live[i];
-  return live;
-}
-
-std::string toText(const LiveObjects& objects) {
+std::string liveObjects() {
   static constexpr const char* kNames[kKinds] = {
       "texture", "buffer", "framebuffer", "sampler", "vertex array", "query", "fence", "shader", "program"};
   std::string text;
   for (std::size_t i = 0; i < kKinds; ++i)
-    if (const auto n = objects.counts[i]; n != 0)
+    if (const std::int64_t n = g_live[i]; n != 0)
       text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", n, kNames[i], n == 1 ? "" : "s");
   return text.empty() ? "none" : text;
 }
@@ -85,32 +77,10 @@ std::optional<Buffer> Buffer::create(std::uint64_t bytes, GLbitfield flags, std:
   return buffer;
 }
 
-SamplerObject SamplerObject::create(const SamplerDesc& desc, std::string_view label) {
+SamplerObject SamplerObject::create(std::string_view label) {
   GLuint id = 0;
   glCreateSamplers(1, &id);
   SamplerObject sampler(id);
-  glSamplerParameteri(id, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(desc.minFilter));
-  glSamplerParameteri(id, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(desc.magFilter));
-  for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
-    glSamplerParameteri(id, axis, static_cast<GLint>(desc.wrap));
-  if (desc.compare != 0) {
-    glSamplerParameteri(id, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-    glSamplerParameteri(id, GL_TEXTURE_COMPARE_FUNC, static_cast<GLint>(desc.compare));
-  }
-  if (desc.wrap == GL_CLAMP_TO_BORDER && desc.borderBase == GL_FLOAT) {
-    glSamplerParameterfv(id, GL_TEXTURE_BORDER_COLOR, desc.border.data());
-  } else if (desc.wrap == GL_CLAMP_TO_BORDER) {
-    std::array<GLint, 4> wholes{};
-    std::array<GLuint, 4> naturals{};
-    for (std::size_t i = 0; i < 4; ++i) {
-      wholes[i] = static_cast<GLint>(std::clamp<double>(desc.border[i], INT32_MIN, INT32_MAX));
-      naturals[i] = static_cast<GLuint>(std::clamp<double>(desc.border[i], 0, UINT32_MAX));
-    }
-    if (desc.borderBase == GL_INT)
-      glSamplerParameterIiv(id, GL_TEXTURE_BORDER_COLOR, wholes.data());
-    else
-      glSamplerParameterIuiv(id, GL_TEXTURE_BORDER_COLOR, naturals.data());
-  }
   labelObject(GL_SAMPLER, id, label);
   return sampler;
 }

@@ -34,16 +34,9 @@ enum class ObjectKind : std::uint8_t {
   count_
 };
 
-// Objects of this process that are alive, per kind.
-struct LiveObjects {
-  std::array<std::int64_t, static_cast<std::size_t>(ObjectKind::count_)> counts{};
-  std::int64_t of(ObjectKind kind) const { return counts[static_cast<std::size_t>(kind)]; }
-  std::int64_t total() const;
-  friend bool operator==(const LiveObjects&, const LiveObjects&) = default;
-};
-LiveObjects liveObjects();
-// "2 textures, 1 buffer" or "none".
-std::string toText(const LiveObjects& objects);
+// Objects of this process that are alive: of a kind; of all kinds, "2 textures, 1 buffer" or "none".
+std::int64_t liveObjects(ObjectKind kind);
+std::string liveObjects();
 
 void countObject(ObjectKind kind);  // one more
 void deleteObject(ObjectKind kind, GLuint id);
@@ -149,19 +142,9 @@ struct Framebuffer : Owner<ObjectKind::framebuffer> {
                                            text::Diagnostics& diagnostics, const Raster& raster = {});
 };
 
-struct SamplerDesc {
-  GLenum minFilter = GL_NEAREST, magFilter = GL_NEAREST;
-  GLenum wrap = GL_CLAMP_TO_EDGE;  // s, t and r
-  GLenum compare = 0;              // GL_LEQUAL, …; 0: no comparison
-  // The color of GL_CLAMP_TO_BORDER, and the kind of its numbers: GL_FLOAT, GL_INT or GL_UNSIGNED_INT.
-  std::array<float, 4> border{};
-  GLenum borderBase = GL_FLOAT;
-  friend bool operator==(const SamplerDesc&, const SamplerDesc&) = default;
-};
-
 struct SamplerObject : Owner<ObjectKind::sampler> {
   using Owner::Owner;
-  static SamplerObject create(const SamplerDesc& desc, std::string_view label);
+  static SamplerObject create(std::string_view label);  // with OpenGL's parameters
 };
 
 // Replaces an object by one of these arguments of its create(). False after an error; then the old one stays.

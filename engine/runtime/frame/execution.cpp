@@ -31,18 +31,6 @@ bool drawsNothing(const graph::Expr& instances, std::span<const std::uint8_t> st
          instancesAt(instances, [](std::uint32_t) { return std::numeric_limits<double>::infinity(); }) == 0;
 }
 
-// Whether a step reads an import that follows the mouse.
-bool readsPointer(const graph::Plan& plan, Imports& imports) {
-  const graph::FlatGraph& graph = *plan.graph;
-  const auto follows = [&](const graph::FlatUse& use) {
-    const std::uint32_t import = graph.resources[use.resource].import;
-    return import != graph::kNone && imports.of(graph.imports[import]).followsPointer();
-  };
-  for (std::size_t step = 0; step < plan.steps.size(); ++step)
-    if (std::ranges::any_of(plan.usesOf(step), follows)) return true;
-  return false;
-}
-
 }  // namespace
 
 std::uint64_t hashOf(const PreparedPass& pass, graph::Cadence cadence, ResourcePool& pool, Imports& imports,
@@ -67,10 +55,10 @@ std::uint64_t ownHashOf(const PreparedPass& pass, graph::Cadence cadence, const 
                         Imports& imports) {
   std::uint64_t hash = text::kHashSeed;
   for (const std::uint32_t resource : pass.written) hash = text::hashCombine(hash, pool[resource].serial);
-  if (cadence != graph::Cadence::every && pass.list >= 0)
-    hash = text::hashCombine(
-        hash, imports.generation(static_cast<scene::DrawList>(pass.list), pass.meshes != nullptr));
-  return hash;
+  if (cadence == graph::Cadence::every || pass.list < 0) return hash;
+  const auto list = static_cast<scene::DrawList>(pass.list);
+  imports::SceneTables& tables = imports.tables();
+  return text::hashCombine(hash, pass.meshes ? tables.meshFrame().generation(list) : tables.generation(list));
 }
 
 std::unique_ptr<Execution> Execution::create(Device& device, std::shared_ptr<const graph::Plan> plan,
@@ -89,15 +77,13 @@ std::unique_ptr<Execution> Execution::create(Device& device, std::shared_ptr<con
 Execution::Execution(Device& device, PreparedPlan prepared, const Execution* before)
     : device_(device),
       prepared_(std::move(prepared)),
-      uniforms_(
-          plan(), device.imports,
-          static_cast<std::uint32_t>(std::max(16, device.context.device().limits.uniformOffsetAlignment))),
+      uniforms_(plan(), device.imports,
+                static_cast<std::uint32_t>(std::max(16, device.context.device().uniformOffsetAlignment))),
       steps_(plan(), before ? &before->steps_ : nullptr),
       hashes_(prepared_.passes.size()),
       publications_(plan(), *prepared_.pool, device.imports, steps_, prepared_.passes,
                     before ? &before->publications_ : nullptr),
-      runner_(plan(), device, *prepared_.pool, uniforms_),
-      followsPointer_(readsPointer(plan(), device.imports)) {}
+      runner_(plan(), device, *prepared_.pool, uniforms_) {}
 
 FrameReport Execution::frame(const World& world, const FrameInput& input, text::Diagnostics& diagnostics) {
   FrameReport report;
@@ -225,10 +211,20 @@ void Execution::lookAtMeshes() {
   if (!meshViews_.empty()) device_.imports.tables().see(meshViews_);
 }
 
+bool Execution::followsPointer() const {
+  const graph::FlatGraph& graph = *plan().graph;
+  for (std::size_t r = 0; r < graph.resources.size(); ++r)
+    if (const std::uint32_t import = graph.resources[r].import;
+        import != kNone && plan().firstStep[r] != kNone)
+      if (device_.imports.of(graph.imports[import]).followsPointer()) return true;
+  return false;
+}
+
 bool Execution::drawsMotion() const {
+  imports::SceneTables& tables = device_.imports.tables();
   return std::ranges::any_of(prepared_.passes, [&](const PreparedPass& pass) {
-    return pass.list >= 0 &&
-           device_.imports.isMoving(static_cast<scene::DrawList>(pass.list), pass.meshes != nullptr);
+    const auto list = static_cast<scene::DrawList>(pass.list);
+    return pass.list >= 0 && (pass.meshes ? tables.meshFrame().isMoving(list) : tables.isMoving(list));
   });
 }
 

@@ -91,7 +91,7 @@ class Execution {
   // view or not.
   bool drawsMotion() const;
   // Whether a pass reads an import that follows the mouse.
-  bool followsPointer() const { return followsPointer_; }
+  bool followsPointer() const;
 
   // The presented level and layer of a texture; id 0 when the graph presents nothing.
   gl::TextureRef presented();
@@ -145,7 +145,6 @@ class Execution {
   FrameInput input_;
   StepWatch watch_;
   std::vector<scene::MeshView*> meshViews_;  // of passes that draw meshes in this round
-  bool followsPointer_ = false;
 };
 
 }  // namespace weft::runtime

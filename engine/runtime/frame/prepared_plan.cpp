@@ -148,7 +148,7 @@ class PassKeeper {
     };
     for (TextureBinding& binding : prepared.textures) rename(binding);
     for (BufferBinding& binding : prepared.buffers) {
-      if (binding.list >= 0) continue;  // names no resource
+      if (binding.drawn) continue;  // names no resource
       rename(binding);
       if (binding.import != kNone) binding.import = graph.resources[binding.resource].import;
     }
@@ -216,7 +216,7 @@ std::shared_ptr<const gl::Variant> findVariant(Device& device, const graph::Plan
   if (reflected.shader == graph::ShaderShape::none) return nullptr;
   auto variant = device.programs.get(programRequestOf(*plan.graph, plan, pass, reflected), problems);
   if (!variant) return nullptr;
-  const LinkedProgram linked{variant->program.reflection(), device.context.device().limits};
+  const LinkedProgram linked{variant->program.reflection(), device.context.device()};
   checkProgram(plan, pass, variant->stages, variant->defines, &linked, problems);
   return variant;
 }
@@ -273,7 +273,7 @@ std::optional<PreparedPlan> preparePlan(Device& device, std::shared_ptr<const gr
         },
         diagnostics);
     if (!pass) return std::nullopt;
-    std::copy_n(device.context.device().limits.computeGroups, 3, pass->context.maxGroups);
+    std::copy_n(device.context.device().computeGroups, 3, pass->context.maxGroups);
     made.passes[step] = *std::move(pass);
   }
   return made;

@@ -26,7 +26,7 @@ NumberKind kindOf(GLenum base) {
 NumberKind kindOfBuffer(std::uint32_t resource, std::span<const PreparedPass> passes) {
   for (const PreparedPass& pass : passes)
     for (const BufferBinding& binding : pass.buffers) {
-      if (binding.resource != resource || binding.import != graph::kNone || binding.list >= 0) continue;
+      if (binding.resource != resource || binding.import != graph::kNone || binding.drawn) continue;
       const gl::Reflection& reflection = pass.variant->program.reflection();
       const bool storage = binding.target == GL_SHADER_STORAGE_BUFFER;
       for (const gl::Block& block : storage ? reflection.storageBlocks : reflection.uniformBlocks) {

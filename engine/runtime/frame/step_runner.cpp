@@ -253,11 +253,11 @@ void StepRunner::gatherMeshes(PreparedPass& pass, text::Diagnostics& diagnostics
 
 void StepRunner::bindBuffer(const BufferBinding& binding, PreparedPass& pass,
                             text::Diagnostics& diagnostics) {
-  if (binding.list >= 0) {
-    const auto list = static_cast<scene::DrawList>(binding.list);
+  if (binding.drawn) {
+    const auto list = static_cast<scene::DrawList>(pass.list);
     imports::SceneTables& tables = device_.imports.tables();
-    const BufferRef table = binding.meshes ? tables.meshes(list, binding.layout, diagnostics)
-                                           : tables.spheres(list, binding.layout, diagnostics);
+    const BufferRef table = pass.meshes ? tables.meshes(list, binding.layout, diagnostics)
+                                        : tables.spheres(list, binding.layout, diagnostics);
     states_.bindBuffer(binding.target, binding.index, table.id, 0, 0);
   } else if (binding.import != kNone) {
     const graph::ImportSpec& import = plan_.graph->imports[binding.import];

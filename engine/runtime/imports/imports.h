@@ -49,14 +49,6 @@ class Imports : public imports::Providers {
   // the screen of the pass.
   const scene::ViewData& view(const graph::FlatGraph& graph, const graph::PassSpec& spec, std::uint32_t width,
                               std::uint32_t height);
-  // Moves when what a draw list draws may be another: its spheres or its meshes.
-  std::uint64_t generation(scene::DrawList list, bool meshes) {
-    return meshes ? tables_.meshFrame().generation(list) : tables_.generation(list);
-  }
-  // Whether its spheres, or its meshes, can be elsewhere in another frame of this world.
-  bool isMoving(scene::DrawList list, bool meshes) {
-    return meshes ? tables_.meshFrame().isMoving(list) : tables_.isMoving(list);
-  }
   std::uint64_t generation(const graph::ImportSpec& import) { return of(import).generation(frame()); }
 
   // The draw lists, for draw passes, whether or not a graph imports them.

@@ -122,8 +122,7 @@ class Preparer {
         out_.variant->program.reflection().findStorageBlock(imports::kInstancesBlock);
     if (instances && !spec_.list.empty() && !graph_.hasSlot(spec_, imports::kInstancesBlock)) {
       BufferBinding binding{.index = instances->binding};
-      binding.list = listOf();
-      binding.meshes = spec_.meshes;
+      binding.drawn = true;
       takeLayout(*instances, instanceColumnsOf(spec_), binding);
       out_.buffers.push_back(binding);
     }

@@ -86,8 +86,7 @@ struct BufferBinding {
   std::uint8_t history = 0;
   std::uint32_t import = graph::kNone;  // into FlatGraph::imports
   imports::RowLayout layout;            // of a table
-  int list = -1;                        // scene::DrawList of the implicit `instances` block, else -1
-  bool meshes = false;                  // of that list's meshes
+  bool drawn = false;                   // the implicit block `instances`: rows of what the pass draws
   FirstOf firstOf{};
 };
 

@@ -36,11 +36,11 @@ namespace {
 
 // What a shader declares for a slot. Nothing: no shader knows of it.
 std::optional<Role> roleFor(Kind kind) {
-  constexpr std::pair<Kind, Role> kRoles[] = {
-      {Kind::sampled, Role::sampler},       {Kind::image, Role::image},  {Kind::uniform, Role::uniform_block},
-      {Kind::storage, Role::storage_block}, {Kind::color, Role::output}, {Kind::depth, Role::output}};
-  const auto found = std::ranges::find(kRoles, kind, &std::pair<Kind, Role>::first);
-  return found == std::end(kRoles) ? std::nullopt : std::optional(found->second);
+  // In the order of Kind.
+  constexpr std::optional<Role> kRoles[] = {Role::sampler,       Role::image,  Role::uniform_block,
+                                            Role::storage_block, std::nullopt, Role::output,
+                                            Role::output,        std::nullopt};
+  return kRoles[static_cast<std::size_t>(kind)];
 }
 
 bool isBlock(Role role) {
@@ -527,7 +527,7 @@ class Checker {
     passes::PassContext context;
     context.spec = &spec_;
     std::copy_n(linked_->reflection.workGroup, 3, context.groupSize);
-    std::copy_n(linked_->limits.computeGroups, 3, context.maxGroups);
+    std::copy_n(linked_->device.computeGroups, 3, context.maxGroups);
     if (context.groupSize[0] == 0) return;  // no compute shader
     const passes::WorkGroups groups = passes::workGroupsOf(context);
     for (int axis = 0; axis < 3; ++axis) {

@@ -36,7 +36,7 @@ std::vector<graph::TableColumn> instanceColumnsOf(const graph::PassSpec& spec);
 // A program and the device that it is for.
 struct LinkedProgram {
   const gl::Reflection& reflection;
-  const gl::Limits& limits;
+  const gl::DeviceInfo& device;
 };
 
 // Reports W181 to W187 for slots and parameters, and W206 for work groups that the device does not allow; warns of W077. `linked`:

@@ -37,30 +37,31 @@ Framebuffer makeFramebuffer(std::vector<Attachment> attachments) {
 
 TEST_CASE("owners move, count and delete") {
   CleanScope clean;
-  const LiveObjects before = liveObjects();
+  const std::string before = liveObjects();
+  const std::int64_t textures = liveObjects(ObjectKind::texture);
   {
     Texture a = makeTexture({});
     const GLuint id = a.id();
     Texture b = std::move(a);
     CHECK(a.id() == 0);
     CHECK(b.id() == id);
-    CHECK(liveObjects().of(ObjectKind::texture) == before.of(ObjectKind::texture) + 1);
+    CHECK(liveObjects(ObjectKind::texture) == textures + 1);
     Texture c = makeTexture({.width = 4});
     c = std::move(b);
     CHECK(c.id() == id);
-    CHECK(liveObjects().of(ObjectKind::texture) == before.of(ObjectKind::texture) + 1);
+    CHECK(liveObjects(ObjectKind::texture) == textures + 1);
     Fence fence = Fence::insert();
     Fence moved = std::move(fence);
     CHECK(fence.isSignalled());
     CHECK(moved.wait(1'000'000'000));
     CHECK(moved.isSignalled());
-    CHECK(toText(liveObjects()) == "1 texture, 1 fence");
+    CHECK(liveObjects() == "1 texture, 1 fence");
     char label[64] = {};
     glGetObjectLabel(GL_TEXTURE, id, sizeof label, nullptr, label);
     CHECK(std::string(label) == "test texture");
   }
   CHECK(liveObjects() == before);
-  CHECK(toText(liveObjects()) == "none");
+  CHECK(liveObjects() == "none");
 }
 
 TEST_CASE("every target takes an upload and gives it back, level by level and layer by layer") {
@@ -167,7 +168,7 @@ TEST_CASE("a view shows one level, one layer, another format of the class, or th
     survivor =
         Texture::create(texture.ref(), {.format = GL_R32UI, .mip = 1, .layer = 2}, "view", diagnostics);
     REQUIRE_MESSAGE(survivor, diagnostics.text());
-    CHECK(liveObjects().of(ObjectKind::texture) == 2);
+    CHECK(liveObjects(ObjectKind::texture) == 2);
     CHECK(survivor->desc().width == 4);
     CHECK(survivor->desc().height == 2);
     CHECK(survivor->desc().target == GL_TEXTURE_2D);
@@ -256,19 +257,8 @@ TEST_CASE("buffers hold, change and give back bytes, and a fence is reached") {
   CHECK(fence.wait(1'000'000'000));
 }
 
-TEST_CASE("samplers and vertex arrays keep what they are told") {
+TEST_CASE("vertex arrays keep what they are told") {
   CleanScope clean;
-  const SamplerObject sampler = SamplerObject::create(
-      {.minFilter = GL_LINEAR_MIPMAP_LINEAR, .magFilter = GL_LINEAR, .wrap = GL_REPEAT, .compare = GL_GEQUAL},
-      "sampler");
-  GLint value = 0;
-  glGetSamplerParameteriv(sampler.id(), GL_TEXTURE_MIN_FILTER, &value);
-  CHECK(value == GL_LINEAR_MIPMAP_LINEAR);
-  glGetSamplerParameteriv(sampler.id(), GL_TEXTURE_WRAP_R, &value);
-  CHECK(value == GL_REPEAT);
-  glGetSamplerParameteriv(sampler.id(), GL_TEXTURE_COMPARE_FUNC, &value);
-  CHECK(value == GL_GEQUAL);
-
   Diagnostics diagnostics;
   auto buffer = Buffer::create(64, 0, "vertices", diagnostics);
   REQUIRE(buffer);
@@ -276,6 +266,7 @@ TEST_CASE("samplers and vertex arrays keep what they are told") {
   const VertexAttribute attributes[] = {{.location = 0}, {.location = 3, .components = 2, .offset = 12}};
   array.setVertices(0, buffer->id(), 0, 20, attributes);
   array.setIndices(buffer->id());
+  GLint value = 0;
   glGetVertexArrayIndexediv(array.id(), 3, GL_VERTEX_ATTRIB_ARRAY_ENABLED, &value);
   CHECK(value == 1);
   glGetVertexArrayIndexediv(array.id(), 3, GL_VERTEX_ATTRIB_RELATIVE_OFFSET, &value);

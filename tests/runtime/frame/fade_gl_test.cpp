@@ -215,13 +215,13 @@ TEST_CASE(
   Live live("false");
   live.use(a);
   for (int k = 0; k < 20; ++k) live.frame();
-  const auto textures = gl::liveObjects().of(gl::ObjectKind::texture);
+  const auto textures = gl::liveObjects(gl::ObjectKind::texture);
   const auto compiled = live.stage.renderer().device().programs.stats().compilations;
   live.use(b);
   live.frame();
-  CHECK(gl::liveObjects().of(gl::ObjectKind::texture) == textures);
+  CHECK(gl::liveObjects(gl::ObjectKind::texture) == textures);
   for (int k = 0; k < 20; ++k) live.frame();
-  CHECK(gl::liveObjects().of(gl::ObjectKind::texture) == textures);
+  CHECK(gl::liveObjects(gl::ObjectKind::texture) == textures);
   CHECK(live.stage.renderer().device().programs.stats().compilations == compiled);
 }
 
