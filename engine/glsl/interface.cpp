@@ -476,26 +476,17 @@ bool Interface::isLive(const Declaration& declared) const {
          });
 }
 
-Interface readInterface(std::span<const Token> tokens) {
-  Interface out;
-  InterfaceReader(tokens, out).run();
-  return out;
-}
-
 Interface readInterface(std::string_view text, std::span<const Define> defines, Branches branches) {
   const auto deepest =
       static_cast<std::uint32_t>(std::min<std::uint64_t>(text::raised(kMaxShaderDepth), 5000));
-  if (text.size() > text::raised(kMaxShaderBytes)) {
-    Interface none;
-    none.unsure = true;
-    none.size.bytes = text.size();
-    return none;
-  }
+  Interface out;
+  out.size.bytes = text.size();
+  out.unsure = text.size() > text::raised(kMaxShaderBytes);
+  if (out.unsure) return out;
   TokenList list = expandTokens(text, defines, deepest + 1, branches);
-  Interface out = readInterface(list.tokens);
+  InterfaceReader(list.tokens, out).run();
   out.unsure = out.unsure || list.uncertain;
   out.pasted = std::move(list.pasted);
-  out.size.bytes = text.size();
   out.size.tokens = list.tokens.size();
   measure(list.tokens, out.size);
   return out;

@@ -81,8 +81,6 @@ bool checkShaderSize(const ShaderSize& size, const ShaderSource& source, text::D
 // Whether the driver may not survive the shader, or must work long: then a process of its own tries it first.
 bool isUnusual(const Interface& interface);
 
-// Of these tokens, directives apart.
-Interface readInterface(std::span<const Token> tokens);
 // Of a text with these defines, as assembleSource() puts them before it. The text must outlive the interface.
 // Of all branches of every #if at once a name may be several things.
 Interface readInterface(std::string_view text, std::span<const Define> defines,
