@@ -153,12 +153,6 @@ bool Inspector::prepareTexture(const gl::TextureRef& from) {
   return true;
 }
 
-bool Inspector::prepareBuffer(std::uint64_t bytes) {
-  text::Diagnostics ignored;
-  return (buffer_ && buffer_.bytes() == bytes) ||
-         gl::remake(buffer_, bytes, GL_DYNAMIC_STORAGE_BIT | GL_MAP_READ_BIT, "inspector", ignored);
-}
-
 // Runs within the frame. What shaders stored must be visible to the copy, and the copy must be done before shaders store
 // again. The plan knows nothing of this copy, so the inspector issues barriers of its own.
 void Inspector::copy() {
@@ -168,7 +162,10 @@ void Inspector::copy() {
   if (desc.kind == graph::ResourceKind::buffer) {
     std::uint64_t offset = 0;
     const BufferRef from = execution_->buffer(resource_, offset, history_);
-    hasBuffer_ = from.id != 0 && prepareBuffer(from.bytes);
+    text::Diagnostics ignored;
+    hasBuffer_ = from.id != 0 && (buffer_.bytes() == from.bytes ||
+                                  gl::remake(buffer_, from.bytes, GL_DYNAMIC_STORAGE_BIT | GL_MAP_READ_BIT,
+                                             "inspector", ignored));
     if (hasBuffer_)
       glCopyNamedBufferSubData(from.id, buffer_.id(), static_cast<GLintptr>(offset), 0,
                                static_cast<GLsizeiptr>(from.bytes));

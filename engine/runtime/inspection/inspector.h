@@ -103,7 +103,6 @@ class Inspector {
   // Numbers of a texel, and those of a part of the picture, as they are stored, row 0 at the bottom.
   std::uint32_t numbers() const;
   std::vector<double> read(std::uint32_t x, std::uint32_t y, std::uint32_t width, std::uint32_t height) const;
-  bool prepareBuffer(std::uint64_t bytes);
 
   Device& device_;
   Execution* execution_ = nullptr;  // that is watched; used while its watch runs, it may be gone else

@@ -32,12 +32,11 @@ class Preparer {
     out_.context.spec = &spec_;
     const graph::PassType type = out_.type->reflect();
     out_.framebuffers = type.framebuffers;
-    out_.fromSource = type.fromSource;
     out_.group = c_.plan.groups.groupOf(step_.pass);
     collectUses();
     const bool shaded = type.shader != graph::ShaderShape::none;
     if (shaded) takeProgram();
-    if (!(shaded ? bindSlots() : bindFixed())) return std::nullopt;
+    if (!(shaded ? bindSlots() : bindFixed(type.fromSource))) return std::nullopt;
     if (shaded) prepareGeometry(type);
     collectClears();
     return std::move(out_);
@@ -142,11 +141,9 @@ class Preparer {
   // For a read of @-n: also binds, in the same place, what "first" of the resource names.
   bool bindFirst(const SlotSpec& slot, std::uint32_t index, std::uint32_t element) {
     if (slot.firstValue == kNone) return true;
-    const std::size_t textures = out_.textures.size(), buffers = out_.buffers.size();
+    firstOf_ = {graph_.uses[index].resource, graph_.uses[index].history};
     const bool good = bindUse(slot, slot.firstValue, element);
-    const FirstOf firstOf{graph_.uses[index].resource, graph_.uses[index].history};
-    for (std::size_t i = textures; i < out_.textures.size(); ++i) out_.textures[i].firstOf = firstOf;
-    for (std::size_t i = buffers; i < out_.buffers.size(); ++i) out_.buffers[i].firstOf = firstOf;
+    firstOf_ = {};
     return good;
   }
 
@@ -174,7 +171,8 @@ class Preparer {
                                .resource = use.resource,
                                .history = use.history,
                                .views = viewsOf(use, target),
-                               .part = importPartOf(use, target)};
+                               .part = importPartOf(use, target),
+                               .firstOf = firstOf_};
         if (image) {
           binding.access = slot.access == Access::read    ? GL_READ_ONLY
                            : slot.access == Access::write ? GL_WRITE_ONLY
@@ -200,7 +198,8 @@ class Preparer {
             .index = block->binding,
             .resource = use.resource,
             .history = use.history,
-            .import = resource.import};
+            .import = resource.import,
+            .firstOf = firstOf_};
         if (const auto columns = columnsOf(graph_, use); !columns.empty())
           takeLayout(*block, columns, binding);
         out_.buffers.push_back(binding);
@@ -222,8 +221,10 @@ class Preparer {
                                                : GL_DEPTH_STENCIL_ATTACHMENT);
       }
       case Kind::indirect:
-        out_.buffers.push_back(
-            {.target = GL_DRAW_INDIRECT_BUFFER, .resource = use.resource, .history = use.history});
+        out_.buffers.push_back({.target = GL_DRAW_INDIRECT_BUFFER,
+                                .resource = use.resource,
+                                .history = use.history,
+                                .firstOf = firstOf_});
         return true;
       case Kind::copy:
         return true;
@@ -254,7 +255,7 @@ class Preparer {
   }
 
   // Pass types without a shader name a source and a target slot.
-  bool bindFixed() {
+  bool bindFixed(bool fromSource) {
     std::vector<std::pair<const SlotSpec*, FlatUse>> uses;
     for (const SlotSpec& slot : graph_.slotsOf(spec_)) {
       if (slot.useCount > 0) uses.emplace_back(&slot, graph_.uses[slot.firstUse]);
@@ -264,7 +265,7 @@ class Preparer {
     for (const auto& [slot, use] : uses) {
       const bool from = slot->access == Access::read;
       FlatUse span = use;
-      if (!from && out_.fromSource) {  // one view from the source level to the last one written
+      if (!from && fromSource) {  // one view from the source level to the last one written
         for (const auto& [other, source] : uses)
           if (other->access == Access::read) span.mip = source.mip;
         span.mips = static_cast<std::uint16_t>(use.mip + use.mips - span.mip);
@@ -325,6 +326,7 @@ class Preparer {
   const graph::Step& step_;
   const graph::FlatGraph& graph_;
   const PassSpec& spec_;
+  FirstOf firstOf_;  // of the use that bindUse() binds
   PreparedPass out_;
 };
 

@@ -140,9 +140,9 @@ struct PreparedPass {
   bool writesColor = true;   // false: the shader has no output, and an attachment only says the size
   bool sizesPoints = false;  // its vertex shader writes gl_PointSize
   bool encodesSrgb = false;  // an attachment is sRGB: GL encodes the linear light of shaders
-  std::uint32_t group = graph::kNone;             // as Plan::groups
-  bool framebuffers = false, fromSource = false;  // as graph::PassType
-  int list = -1;  // scene::DrawList whose rows are the instances of a draw; -1: none
+  std::uint32_t group = graph::kNone;  // as Plan::groups
+  bool framebuffers = false;           // as graph::PassType
+  int list = -1;                       // scene::DrawList whose rows are the instances of a draw; -1: none
   std::shared_ptr<imports::MeshPass> meshes;  // of a draw of the list's meshes
   // The uniform blocks of the program, null for one that it does not have. The bytes of all passes lie in one buffer;
   // UniformArena gives the offsets in it, which are aligned.
