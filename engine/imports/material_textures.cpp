@@ -85,14 +85,13 @@ bool MaterialTextures::renew(const scene::Scene& scene, text::Diagnostics& diagn
   arrays_.clear();
   for (const MaterialArray& array : batchTextures(scene)) {
     const auto layers = static_cast<std::uint32_t>(array.textures.size());
-    const auto mips = static_cast<std::uint32_t>(std::bit_width(std::max(array.width, array.height)));
     auto texture =
         gl::Texture::create({.target = GL_TEXTURE_2D_ARRAY,
                              .format = static_cast<GLenum>(array.srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8),
                              .width = array.width,
                              .height = array.height,
                              .layers = layers,
-                             .mips = mips},
+                             .mips = gl::mipsOf(array.width, array.height)},
                             fmt::format("material maps {}", arrays_.size()), diagnostics);
     if (!texture) return false;
     for (std::uint32_t layer = 0; layer < layers; ++layer) {

@@ -8,34 +8,30 @@ namespace weft::imports {
 
 namespace {
 
-struct Attribute {
-  std::string_view name;
-  GLint components;
-  GLenum type;
-  std::uint32_t offset;
-  bool integer;
-};
-constexpr std::array<Attribute, 4> kVertex = {
-    {{"position", 3, GL_FLOAT, offsetof(scene::Vertex, position), false},
-     {"normal", 3, GL_FLOAT, offsetof(scene::Vertex, normal), false},
-     {"tangent", 4, GL_FLOAT, offsetof(scene::Vertex, tangent), false},
-     {"uv", 2, GL_FLOAT, offsetof(scene::Vertex, uv), false}}};
-constexpr std::array<Attribute, 2> kSkin = {
-    {{"joints", 4, GL_UNSIGNED_SHORT, offsetof(scene::SkinVertex, joints), true},
-     {"weights", 4, GL_FLOAT, offsetof(scene::SkinVertex, weights), false}}};
-constexpr std::array<Attribute, 1> kInstance = {{{"instance", 1, GL_UNSIGNED_INT, 0, true}}};
+// By their names; the program says where.
+using Attribute = std::pair<std::string_view, gl::VertexAttribute>;
+constexpr Attribute kVertex[] = {{"position", {.offset = offsetof(scene::Vertex, position)}},
+                                 {"normal", {.offset = offsetof(scene::Vertex, normal)}},
+                                 {"tangent", {.components = 4, .offset = offsetof(scene::Vertex, tangent)}},
+                                 {"uv", {.components = 2, .offset = offsetof(scene::Vertex, uv)}}};
+constexpr Attribute kSkin[] = {
+    {"joints",
+     {.components = 4,
+      .type = GL_UNSIGNED_SHORT,
+      .offset = offsetof(scene::SkinVertex, joints),
+      .integer = true}},
+    {"weights", {.components = 4, .offset = offsetof(scene::SkinVertex, weights)}}};
+constexpr Attribute kInstance[] = {{"instance", {.components = 1, .type = GL_UNSIGNED_INT, .integer = true}}};
 
 std::vector<gl::VertexAttribute> wantedOf(const gl::Reflection& reflection,
                                           std::span<const Attribute> known) {
   std::vector<gl::VertexAttribute> wanted;
   for (const gl::Interface& each : reflection.attributes)
-    for (const Attribute& attribute : known)
-      if (each.name == attribute.name)
-        wanted.push_back({.location = static_cast<GLuint>(each.location),
-                          .components = attribute.components,
-                          .type = attribute.type,
-                          .offset = attribute.offset,
-                          .integer = attribute.integer});
+    for (const auto& [name, attribute] : known)
+      if (each.name == name) {
+        wanted.push_back(attribute);
+        wanted.back().location = static_cast<GLuint>(each.location);
+      }
   return wanted;
 }
 

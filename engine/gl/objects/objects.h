@@ -6,7 +6,9 @@
 
 #include <glad/gl.h>
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -207,6 +209,10 @@ struct Extent {
   std::uint32_t width = 1, height = 1, layers = 1;  // layers: array layers, faces, or slices of this level
 };
 Extent extentOf(const TextureDesc& desc, std::uint32_t mip);
+// Levels of a full chain.
+inline std::uint32_t mipsOf(std::uint32_t width, std::uint32_t height) {
+  return static_cast<std::uint32_t>(std::bit_width(std::max(width, height)));
+}
 
 // Writes one layer of one level; data holds exactly width * height texels of (format, type).
 void uploadTexture(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format,

@@ -1,7 +1,6 @@
 #include "engine/imports/environment/environment.h"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <utility>
 
@@ -13,11 +12,6 @@ namespace {
 
 // The share of a transfer that is sending the rows. The rest is the GPU, which makes the levels.
 constexpr float kShareOfRows = 0.9f;
-
-// Levels of a full mip chain.
-std::uint32_t fullMips(std::uint32_t width, std::uint32_t height) {
-  return static_cast<std::uint32_t>(std::bit_width(std::max({width, height, 1u})));
-}
 
 class Environment : public ImportOf<EnvironmentProvider> {
  public:
@@ -32,7 +26,7 @@ std::optional<float> EnvironmentProvider::send(const Map& map, text::Diagnostics
     const gl::TextureDesc desc{.format = GL_RGBA16F,
                                .width = map->width,
                                .height = map->height,
-                               .mips = fullMips(map->width, map->height)};
+                               .mips = gl::mipsOf(map->width, map->height)};
     if (!gl::remake(incoming_.texture, desc, "@environment", diagnostics)) return std::nullopt;
     incoming_.map = map;
   }
@@ -78,7 +72,7 @@ graph::ImportFacts EnvironmentProvider::facts(const graph::ImportRequest&, const
           .format = graph::Format::rgba16f,
           .width = world.environmentWidth,
           .height = world.environmentHeight,
-          .mips = fullMips(world.environmentWidth, world.environmentHeight)};
+          .mips = gl::mipsOf(world.environmentWidth, world.environmentHeight)};
 }
 
 std::unique_ptr<Import> makeEnvironment() {

@@ -49,9 +49,7 @@ TexelLayout layoutOf(StoredType type, bool srgb) {
 }
 
 std::uint32_t levelsOf(const ImageHeader& header, bool mips) {
-  return mips ? static_cast<std::uint32_t>(
-                    std::bit_width(static_cast<unsigned>(std::max(header.width, header.height))))
-              : 1;
+  return mips ? gl::mipsOf(static_cast<unsigned>(header.width), static_cast<unsigned>(header.height)) : 1;
 }
 
 gl::TextureDesc textureDescOf(const ImageHeader& header, const ImageRequest& request) {

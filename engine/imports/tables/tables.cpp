@@ -303,7 +303,7 @@ class MaterialMapsProvider : public Provider {
       facts.height = std::max(facts.height, array.height);
       facts.layers = std::max(facts.layers, static_cast<std::uint32_t>(array.textures.size()));
     }
-    facts.mips = static_cast<std::uint32_t>(std::bit_width(std::max(facts.width, facts.height)));
+    facts.mips = gl::mipsOf(facts.width, facts.height);
     return facts;
   }
 
