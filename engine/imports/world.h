@@ -7,7 +7,10 @@
 
 #include "engine/assets/images/image.h"
 #include "engine/scene/scene.h"
-#include "engine/text/files/file_cache.h"
+
+namespace weft::text {
+class FileCache;
+}
 
 namespace weft::imports {
 

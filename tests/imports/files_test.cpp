@@ -8,6 +8,7 @@
 
 #include "engine/assets/cube_lut.h"
 #include "engine/imports/world.h"
+#include "engine/text/files/file_cache.h"
 #include "tests/temporary_folder.h"
 
 using namespace weft;

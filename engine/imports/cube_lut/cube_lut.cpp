@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/imports/builtin.h"
+#include "engine/text/files/file_cache.h"
 
 namespace weft::imports {
 

@@ -11,6 +11,7 @@
 #include "engine/imports/builtin.h"
 #include "engine/text/chars.h"
 #include "engine/text/files/file.h"
+#include "engine/text/files/file_cache.h"
 
 namespace weft::imports {
 

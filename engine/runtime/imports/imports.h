@@ -13,6 +13,7 @@
 #include "engine/imports/import.h"
 #include "engine/imports/scene_tables.h"
 #include "engine/text/diagnostic.h"
+#include "engine/text/files/file_cache.h"
 
 namespace weft::runtime {
 
