@@ -32,14 +32,18 @@ std::string folderOf(const std::string& path) {
   return folder.empty() ? "." : folder;
 }
 
-// The first that may be read and is there; `before` gets those that were looked for in vain.
+// The first that may be read and is there, a folder only where nothing else is; `before` gets those that were looked for in vain.
 std::optional<std::string> firstThere(std::span<const std::string> candidates,
                                       std::set<std::string>* before) {
+  std::optional<std::string> folder;
   for (const std::string& path : candidates) {
-    if (text::mayRead(path) && (text::overlayOf(path) || text::isThere(path))) return path;
+    if (text::mayRead(path) && (text::overlayOf(path) || text::isThere(path))) {
+      if (std::error_code ignored; !fs::is_directory(path, ignored)) return path;
+      if (!folder) folder = path;
+    }
     if (before) before->insert(path);
   }
-  return std::nullopt;
+  return folder;
 }
 
 // The first that may not be read, where nothing is said of whether it is there.

@@ -25,7 +25,7 @@ vec3 meshRadiance(MeshSurface self, Surface surface, Response response, Point po
     light *= coverWithCoat(point, response);
   }
 #endif
-#if defined HAS_AIR && !LAYERED  // what lies over the G-buffer is fogged with it
+#if defined HAS_AIR && !defined LAYERED  // what lies over the G-buffer is fogged with it
   light = mix(fog_light.rgb, light, throughFog(world_position - eye));
 #endif
   return light;

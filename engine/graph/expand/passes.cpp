@@ -220,7 +220,8 @@ class PassWalk {
 
   // Whether there are not too many slots, and versions that they read.
   bool maySee(const StanzaWalk& stanza) {
-    if (slotsMade_ + graph_.uses.size() + graph_.links.runs.size() <= text::raised(kMaxSlots)) return true;
+    const std::size_t seen = graph_.uses.size() + graph_.links.runs.size() + model_.offReads.size();
+    if (slotsMade_ + seen <= text::raised(kMaxSlots)) return true;
     stopAt(
         model_, stanza.desc.place,
         fmt::format("with pass '{}' the graph has too many slots, parameters and defines", stanza.declared),

@@ -144,6 +144,12 @@ def passes_that_read_all_before(n):
     return {"g.json": {"resources": resources, "passes": passes, "present": f"r{n - 1}"}}
 
 
+def layers_read_by_disabled(layers, passes, history=""):
+    resources = {"a": {**SMALL, "layers": layers, **({"history": 1} if history else {})}}
+    off = {**PASS, "name": "off", "enabled": False, "repeat": {"i": [1, passes]}, "read": {f"s{j}": f"a{history}" for j in range(100)}, "write": {"r": "ldr"}}
+    return {"g.json": graph(resources, [{**PASS, "name": "fill", "repeat": {"i": [0, layers - 1]}, "write": {"r": "a.layer[i]"}}, off, reader("a")])}
+
+
 def small_passes(n):
     return {"g.json": graph({"a": {**SMALL, "clear": 0}}, [*({**PASS, "name": f"p{i}", "read": {"s": "a"}, "write": {"r": "a"}} for i in range(n)), reader("a")])}
 

@@ -7,8 +7,10 @@
 #include <set>
 
 #include "engine/graph/expand/judge/judge.h"
+#include "engine/graph/expand/names/names.h"
 #include "engine/graph/subresource.h"
 #include "engine/graph/versions/versions.h"
+#include "engine/text/limits.h"
 
 namespace weft::graph::expansion {
 
@@ -62,19 +64,19 @@ Reach findReach(Model& model) {
   const auto passes = static_cast<std::uint32_t>(graph.passes.size());
   graph.passes.push_back({.sideEffect = true});
   const auto see = [&](const OffRead& read, std::uint32_t writer) {
+    if (graph.uses.size() - uses >= text::raised(kMaxSlots)) return false;  // so many are hardly meant
     graph.uses.push_back(read.use);
     graph.links.passOf.push_back(std::min(passAt(model, read.position), passes));
     graph.links.seen.push_back(writer);
+    return true;
   };
   for (OffRead read : model.offReads) {
     if (read.writer != kNone) {
       see(read, read.writer);
     } else if (read.use.resource = model.entities[read.entity].elements[read.element].resource;
                read.use.resource != kNone) {
-      model.versions.forEachRun(read.use, [&](std::uint32_t writer, std::uint32_t, std::uint32_t) {
-        see(read, writer);
-        return true;
-      });
+      model.versions.forEachRun(
+          read.use, [&](std::uint32_t writer, std::uint32_t, std::uint32_t) { return see(read, writer); });
     }
   }
   graph.links.forward = true;

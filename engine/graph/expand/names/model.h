@@ -4,6 +4,7 @@
 
 #include <array>
 #include <deque>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -110,6 +111,8 @@ struct Scope {
   KnownNames<std::uint32_t> resources;  // entities
   // Parameters, lets, and parameters of passes, "composite.fog"; those of the files that are included below, "post.exposure".
   KnownNames<Variable> variables;
+  // Of the files below by the end of their names, as far as somebody asked.
+  mutable std::map<std::string, Variable, std::less<>> meant;
   KnownNames<Scope*> includes;
   KnownNames<const PassDesc*> passes;
   // Imports with their defaults, by type: of the root all, else of those whose defaults see from the file's camera. Entities.

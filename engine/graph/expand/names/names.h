@@ -16,6 +16,8 @@ namespace weft::graph::expansion {
 
 // Of a graph with all that it includes; `--limit` raises them. Names: parameters, resources, values in "set", each.
 constexpr std::uint64_t kMaxNames = 4096, kMaxLets = 256, kMaxAlternatives = 64;
+// Slots, parameters and defines of all passes, and the versions that they read.
+constexpr std::uint64_t kMaxSlots = std::uint64_t{1} << 18;
 constexpr std::uint32_t kMaxSize = 16384, kMaxSize3d = 2048, kMaxMips = 32, kMaxLayers = 2048,
                         kMaxHistory = 16, kMaxArray = 256;
 constexpr std::uint64_t kMaxBufferBytes = 2ull << 30;

@@ -416,8 +416,7 @@ bool mendDeclarations(Model& model) {
     // In the file of the declaration, and where it is found from above.
     const auto alsoCall = [&](std::string_view name, const Variable& found) {
       declare(scope, model.misspelt.emplace_back(scope.prefix).append(name), found);
-      for (Scope* outer = scope.parent; outer; outer = outer->parent)
-        outer->variables.try_emplace(name, found);
+      for (Scope* outer = scope.parent; outer; outer = outer->parent) outer->meant[std::string(name)] = found;
     };
     for (const ResourceDesc& each : scope.desc->resources)
       if (const std::uint32_t index = scope.resources.at(each.name);
@@ -562,9 +561,12 @@ std::vector<std::uint32_t> parametersMeant(const Model& model, std::string_view 
 Variable findVariable(const Model& model, const Scope& from, std::string_view name) {
   for (const Scope* scope = &from; scope; scope = scope->parent)
     if (const auto own = scope->variables.find(name); own != scope->variables.end()) return own->second;
-  const std::vector<std::uint32_t> meant = parametersMeant(model, from.prefix, name);
-  if (meant.empty()) return {};
-  return {meant.size() == 1 ? Variable::Kind::parameter : Variable::Kind::ambiguous, meant[0]};
+  if (const auto known = from.meant.find(name); known != from.meant.end()) return known->second;
+  Variable found;
+  if (const std::vector<std::uint32_t> meant = parametersMeant(model, from.prefix, name); !meant.empty())
+    found = {meant.size() == 1 ? Variable::Kind::parameter : Variable::Kind::ambiguous, meant[0]};
+  from.meant.emplace(name, found);
+  return found;
 }
 
 // ---- what expressions depend on ----
