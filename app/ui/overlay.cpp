@@ -61,19 +61,25 @@ Overlay::~Overlay() {
 }
 
 void Overlay::take(const WindowEvent& event) {
-  using Kind = WindowEvent::Kind;
-  if (event.kind == Kind::move) {
-    x_ = static_cast<float>(event.x);
-    y_ = static_cast<float>(event.y);
+  switch (event.kind) {
+    case WindowEvent::Kind::move:
+      x_ = static_cast<float>(event.x);
+      y_ = static_cast<float>(event.y);
+      inside_ = true;
+      return;
+    case WindowEvent::Kind::leave:
+      inside_ = down_[0] || down_[1] || down_[2];
+      return;
+    case WindowEvent::Kind::button:
+      if (event.key >= 0 && event.key < 3) down_[event.key] = event.action == GLFW_PRESS;
+      return;
+    case WindowEvent::Kind::wheel:
+      return ImGui_ImplGlfw_ScrollCallback(window_, event.x, event.y);
+    case WindowEvent::Kind::key:
+      return ImGui_ImplGlfw_KeyCallback(window_, event.key, event.scancode, event.action, event.mods);
+    case WindowEvent::Kind::character:
+      return ImGui_ImplGlfw_CharCallback(window_, event.codepoint);
   }
-  if (event.kind == Kind::move || event.kind == Kind::leave)
-    inside_ = event.kind == Kind::move || down_[0] || down_[1] || down_[2];
-  if (event.kind == Kind::button && event.key >= 0 && event.key < 3)
-    down_[event.key] = event.action == GLFW_PRESS;
-  if (event.kind == Kind::wheel) ImGui_ImplGlfw_ScrollCallback(window_, event.x, event.y);
-  if (event.kind == Kind::key)
-    ImGui_ImplGlfw_KeyCallback(window_, event.key, event.scancode, event.action, event.mods);
-  if (event.kind == Kind::character) ImGui_ImplGlfw_CharCallback(window_, event.codepoint);
 }
 
 void Overlay::begin() {

@@ -231,10 +231,18 @@ void sanitizeRadiance(ImageF& image, const std::string& name, Diagnostics& diagn
     float& value = image.texels[i];
     if (image.channels == 4 && i % 4 == 3) continue;
     if (value >= 0 && value <= kHalfMax) continue;
-    const bool over = value > kHalfMax;
-    ++(std::isnan(value) ? undefined : !over ? negative : std::isinf(value) ? infinite : tooBright);
-    if (!over) value = 0;
-    if (std::isinf(value)) value = kHalfMax;
+    if (std::isnan(value)) {
+      ++undefined;
+      value = 0;
+    } else if (value < 0) {
+      ++negative;
+      value = 0;
+    } else if (std::isinf(value)) {
+      ++infinite;
+      value = kHalfMax;
+    } else {
+      ++tooBright;
+    }
   }
   if (undefined + negative + infinite + tooBright == 0) return;
 

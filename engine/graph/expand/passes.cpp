@@ -44,7 +44,7 @@ void noteEmptyRepeat(Model& model, Scope& scope, const PassDesc& desc, EmptyRepe
   for (const SlotDesc& slot : desc.slots) {
     const std::uint32_t found = findEntity(model, scope, slot.ref.name, slot.ref.import);
     if (found == kNone) continue;
-    if (first) noteOff(model, found, slot.access, slot.ref.history);
+    if (first) wouldUse(model, found, slot.access, slot.ref.history);
     if (slot.access != Access::read && model.entities[found].emptied == kNone)
       model.entities[found].emptied = static_cast<std::uint32_t>(model.emptied.size());
   }
@@ -220,8 +220,7 @@ class PassWalk {
 
   // Whether there are not too many slots, and versions that they read.
   bool maySee(const StanzaWalk& stanza) {
-    const std::size_t seen = graph_.uses.size() + graph_.links.runs.size() + model_.offReads.size();
-    if (slotsMade_ + seen <= text::raised(kMaxSlots)) return true;
+    if (slotsMade_ + graph_.uses.size() + graph_.links.runs.size() <= text::raised(kMaxSlots)) return true;
     stopAt(
         model_, stanza.desc.place,
         fmt::format("with pass '{}' the graph has too many slots, parameters and defines", stanza.declared),
@@ -286,13 +285,11 @@ class PassWalk {
   void disable(const StanzaWalk& stanza, const SlotContext& context, DisabledPass pass) {
     const auto index = static_cast<std::uint32_t>(graph_.disabled.size());
     graph_.disabled.push_back(std::move(pass));
-    for (const SlotWork& work : slots_) {
-      if (!work.isConnected()) continue;
-      // It may test the depth, or read the storage, that it modifies; color it only draws over.
-      if (work.reads() || (work.use.access == Access::modify && work.use.kind != Kind::color))
-        noteOffRead(model_, work);
-      if (!work.reads()) record(work, kNone, index);
-    }
+    for (const SlotWork& work : slots_)
+      if (work.isConnected() && work.reads())
+        wouldUse(model_, {work});
+      else if (work.isConnected())
+        record(work, kNone, index);
     if (!context.ranges || !stanza.sound) return;
     PassSpec ignored;
     std::vector<DeferredUniform> never;

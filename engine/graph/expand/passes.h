@@ -13,8 +13,9 @@ namespace weft::graph::expansion {
 
 // Of a graph, each instance of a repeat counted; `--limit` raises them.
 constexpr std::uint64_t kMaxPasses = 4096;
-// Slots, parameters and defines of a pass.
+// Slots, parameters and defines of a pass; of all passes, and the versions that they read.
 constexpr std::uint64_t kMaxSlotsOfPass = 1024;
+constexpr std::uint64_t kMaxSlots = std::uint64_t{1} << 18;
 
 // A uniform or "instances" that contains age() or live parameters: it is folded when all versions are known.
 struct DeferredUniform {

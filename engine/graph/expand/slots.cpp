@@ -135,7 +135,7 @@ void noteOff(const SlotContext& context, const Leaf& leaf, const RefDesc& ref) {
   if (!placeSelection(off, leaf, ref, work) || !work.isConnected()) return;
   work.use.kind = Kind::copy;
   work.use.history = static_cast<std::uint8_t>(leaf.history);
-  noteOffRead(context.model, work);
+  wouldUse(context.model, {work});
 }
 
 // All concrete candidates of a reference whose conditions hold, in order; the others are noted. `leaf` says what `ref` means, and what
@@ -227,11 +227,9 @@ struct SlotChoice {
         return work;
       }
       onlyImports = onlyImports && import;
-      if (slot.access == Access::read && context.versions && !import) {
-        const bool zeroed = found.complete && !slot.ref.optional;
-        context.model.emptyReads.push_back({work, context.model.position, context.model.slot, zeroed});
-        noteOffRead(context.model, work);
-      }
+      if (slot.access == Access::read && context.versions)
+        wouldUse(context.model,
+                 {work, found.complete && !slot.ref.optional ? WouldUse::Why::zero : WouldUse::Why::empty});
       if (found.complete && !zero) zero = work;
       if (!first) first = std::move(work);
     }

@@ -44,6 +44,9 @@ bool FrameUniforms::layOut(std::span<PreparedPass> passes, text::Diagnostics& di
   if (end > 0 && !gl::remake(buffer_, end, GL_DYNAMIC_STORAGE_BIT, "uniforms", diagnostics)) return false;
   readersOf_.resize(parameters_.size());
   for (PreparedPass& pass : passes) fill(pass);
+  std::size_t most = 0;
+  for (const auto& readers : readersOf_) most = std::max(most, readers.size());
+  results_.resize(most);
   return true;
 }
 
@@ -137,15 +140,14 @@ bool FrameUniforms::set(std::string_view path, const graph::Value& value) {
   graph::Value& mine = parameters_[index];
   graph::Value before = std::exchange(mine, value);
   const std::vector<Reader>& readers = readersOf_[index];
-  const auto resultOf = [&](const Reader& reader) {
-    return reader.expr->evaluateFolded(trialAge, parameters_);
-  };
-  if (!std::ranges::all_of(readers, [&](const Reader& each) { return each.field.takes(resultOf(each)); })) {
+  for (std::size_t i = 0; i < readers.size(); ++i) {
+    results_[i] = readers[i].expr->evaluateFolded(trialAge, parameters_);
+    if (readers[i].field.takes(results_[i])) continue;
     mine = std::move(before);
     return false;
   }
-  for (const Reader& reader : readers)
-    if (!reader.expr->dynamic()) write(reader.block, reader.field, resultOf(reader));
+  for (std::size_t i = 0; i < readers.size(); ++i)
+    if (!readers[i].expr->dynamic()) write(readers[i].block, readers[i].field, results_[i]);
   return true;
 }
 

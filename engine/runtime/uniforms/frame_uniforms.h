@@ -72,6 +72,7 @@ class FrameUniforms {
   std::unordered_map<std::string_view, std::size_t> indexOf_;  // of a parameter, by its path in the plan
   std::vector<std::vector<Reader>> readersOf_;                 // of each of these
   std::vector<std::uint64_t> generations_;  // of the imports of FlatGraph::watched, when they were read
+  std::vector<graph::Value> results_;       // scratch of set()
 };
 
 }  // namespace weft::runtime

@@ -7,10 +7,8 @@
 #include <set>
 
 #include "engine/graph/expand/judge/judge.h"
-#include "engine/graph/expand/names/names.h"
 #include "engine/graph/subresource.h"
 #include "engine/graph/versions/versions.h"
-#include "engine/text/limits.h"
 
 namespace weft::graph::expansion {
 
@@ -28,15 +26,17 @@ Line lineOf(const Model& model, std::uint32_t use, std::uint32_t who) {
   return {{entity, element, 1, rect}, model.positionOf[model.graph.links.passOf[use]], who};
 }
 
-// The pass at a position of declared order; kNone: it is off.
-std::uint32_t passAt(const Model& model, std::uint32_t position) {
-  const auto at = std::ranges::lower_bound(model.positionOf, position);
-  const bool runs = at != model.positionOf.end() && *at == position;
-  return runs ? static_cast<std::uint32_t>(at - model.positionOf.begin()) : kNone;
-}
-
 bool isOwn(const Model& model, std::uint32_t entity) {
   return entity != kNone && model.entities[entity].isOwn();
+}
+
+// Calls f(write) for each WriteRecord and WouldUse that writes something, if what is switched off now were there.
+template <class F>
+void eachOffWrite(const Model& model, F&& f) {
+  for (const WriteRecord& write : model.writes)
+    if (write.pass == kNone) f(write);
+  for (const WouldUse& would : model.would)
+    if (would.use.access != Access::read) f(would);
 }
 
 // What is alive: `live` in the graph. `ever`, if everything that is disabled or whose condition is false were there, too: a disabled
@@ -49,51 +49,84 @@ struct Reach {
   bool isGone(std::uint32_t use) const { return live.use[use] == 0 ? ever.use[use] == 0 : now.use[use] == 0; }
 };
 
-Reach findReach(Model& model) {
-  FlatGraph& graph = model.graph;
+Reach findReach(const Model& model) {
+  const FlatGraph& graph = model.graph;
   Reach reach{.live = findLive(graph), .ever = {}, .now = {}};
   reach.ever = reach.now = reach.live;
   const bool all = std::ranges::find(reach.live.pass, 0) == reach.live.pass.end() &&
                    std::ranges::find(reach.live.use, 0) == reach.live.use.end();
   if (all && graph.histories.empty()) return reach;
 
-  // For a while, the graph has what is off: reads of passes that run, and of one that stands for all others and is never culled. What
-  // those write is drawn over what is there.
-  const VersionLinks links = graph.links;
-  const std::size_t uses = graph.uses.size();
-  const auto passes = static_cast<std::uint32_t>(graph.passes.size());
-  graph.passes.push_back({.sideEffect = true});
-  const auto see = [&](const OffRead& read, std::uint32_t writer) {
-    if (graph.uses.size() - uses >= text::raised(kMaxSlots)) return false;  // so many are hardly meant
-    graph.uses.push_back(read.use);
-    graph.links.passOf.push_back(std::min(passAt(model, read.position), passes));
-    graph.links.seen.push_back(writer);
-    return true;
+  // Each texture, buffer and element of an array is one resource, whatever versions it has; each position is one pass.
+  FlatGraph whole;
+  std::vector<std::uint32_t> resourceOf(model.entities.size(), kNone);  // of the first element
+  for (std::uint32_t i = 0; i < model.entities.size(); ++i)
+    if (isOwn(model, i)) {
+      resourceOf[i] = static_cast<std::uint32_t>(whole.resources.size());
+      whole.resources.resize(whole.resources.size() + model.entities[i].elements.size(),
+                             model.entities[i].shape);
+    }
+  std::vector<Line> lines;
+  for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
+    for (const std::uint32_t u : graph.usesOf(p)) lines.push_back(lineOf(model, u, u));
+  const auto add = [&](Line line) {
+    // It may test the depth, or read the storage, that it modifies; color it only draws over.
+    line.use.keep = line.use.access == Access::modify && line.use.kind != Kind::color;
+    if (line.use.access == Access::write) line.use.access = Access::modify;  // it removes nothing now
+    lines.push_back(line);
   };
-  for (OffRead read : model.offReads) {
-    if (read.writer != kNone) {
-      see(read, read.writer);
-    } else if (read.use.resource = model.entities[read.entity].elements[read.element].resource;
-               read.use.resource != kNone) {
-      model.versions.forEachRun(
-          read.use, [&](std::uint32_t writer, std::uint32_t, std::uint32_t) { return see(read, writer); });
+  eachOffWrite(model, [&](const auto& what) { add({what, what.position}); });
+  for (const WouldUse& would : model.would)
+    if (would.use.access == Access::read) add({would, would.position});
+  // What is off now is never culled; what is read after all passes counts.
+  const auto isKept = [&](std::uint32_t position) {
+    const auto at = std::ranges::lower_bound(model.positionOf, position) - model.positionOf.begin();
+    const auto p = static_cast<std::size_t>(at);
+    return p == graph.passes.size() || model.positionOf[p] != position || graph.passes[p].sideEffect;
+  };
+  std::ranges::stable_sort(lines, {}, &Line::position);
+  std::vector<std::uint32_t> useOf;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const Line& line = lines[i];
+    if (i == 0 || line.position != lines[i - 1].position)
+      whole.passes.push_back(
+          {.firstUse = static_cast<std::uint32_t>(whole.uses.size()), .sideEffect = isKept(line.position)});
+    for (std::uint32_t e = 0; isOwn(model, line.entity) && e < line.elementCount; ++e) {
+      whole.uses.push_back(line.use);
+      whole.uses.back().resource = resourceOf[line.entity] + line.firstElement + e;
+      useOf.push_back(line.who);
+      ++whole.passes.back().useCount;
     }
   }
-  graph.links.forward = true;
+  whole.present.resource = kNone;
+  const auto addFinal = [&](FlatUse use, auto&& take) {
+    const auto [entity, element] = model.elementOf[use.resource];
+    if (!isOwn(model, entity)) return;
+    use.resource = resourceOf[entity] + element;
+    take(use);
+  };
+  if (graph.present.resource != kNone)
+    addFinal(graph.present, [&](const FlatUse& use) { whole.present = use; });
+  for (const FlatUse& output : graph.outputs)
+    addFinal(output, [&](const FlatUse& use) { whole.outputs.push_back(use); });
+  linkVersions(whole);
+
   const auto spread = [&](Liveness& live) {
-    live = findLive(graph);
-    live.pass.resize(passes);
-    live.use.resize(uses);
+    const Liveness found = findLive(whole);
+    live.use.assign(graph.uses.size(), 1);
+    for (std::uint32_t p = 0; p < graph.passes.size(); ++p) live.pass[p] = graph.passes[p].sideEffect ? 1 : 0;
+    for (std::uint32_t u = 0; u < useOf.size(); ++u)
+      if (useOf[u] != kNone) {
+        live.use[useOf[u]] = found.use[u];
+        live.pass[graph.links.passOf[useOf[u]]] |= found.pass[whole.links.passOf[u]];
+      }
   };
   if (!all) spread(reach.ever);
-  for (std::size_t u = 0; u < graph.uses.size(); ++u)
-    if (graph.uses[u].history > 0) graph.links.seen[u] = kNone;
-  for (std::size_t i = 0; i < graph.outputs.size(); ++i)
-    if (graph.outputs[i].history > 0) graph.links.outputs[i] = kNone;
+  for (std::uint32_t u = 0; u < useOf.size(); ++u)
+    if (whole.uses[u].history > 0) whole.links.seen[u] = kNone;
+  for (std::size_t i = 0; i < whole.outputs.size(); ++i)
+    if (whole.outputs[i].history > 0) whole.links.outputs[i] = kNone;
   spread(reach.now);
-  graph.passes.pop_back();
-  graph.uses.resize(uses);
-  graph.links = links;
   return reach;
 }
 
@@ -129,7 +162,7 @@ class Lines {
 struct Missed {
   Line line;
   std::uint32_t slot = kNone;  // of the pass
-  bool zero = true;            // else it is empty, or another alternative
+  WouldUse::Why why = WouldUse::Why::zero;
   std::uint32_t pass = kNone;
   std::string part{};  // of what the slot reads, where that is more
 };
@@ -153,7 +186,7 @@ void addMissedParts(const Model& model, std::uint32_t use, std::uint32_t slot, s
       part.use.layer = static_cast<std::uint16_t>(layer);
       part.use.mips = part.use.layers = 1;
       part.use.planes = static_cast<std::uint8_t>(1u << plane);
-      missed.push_back({part, slot, true, pass, " of " + subresourceText(shape, s)});
+      missed.push_back({part, slot, WouldUse::Why::zero, pass, " of " + subresourceText(shape, s)});
     }
     next = s + 1;
   });
@@ -162,9 +195,13 @@ void addMissedParts(const Model& model, std::uint32_t use, std::uint32_t slot, s
 std::vector<Missed> findMissedReads(const Model& model) {
   const FlatGraph& graph = model.graph;
   std::vector<Missed> missed;
-  for (const EmptyRead& read : model.emptyReads)
-    if (const std::uint32_t pass = passAt(model, read.position); pass != kNone && read.slot != kNone)
-      missed.push_back({{read, read.position, pass}, read.slot, read.zero, pass});
+  for (const WouldUse& would : model.would) {
+    if (would.why == WouldUse::Why::off || would.slot == kNone || !isOwn(model, would.entity)) continue;
+    const auto at = std::ranges::lower_bound(model.positionOf, would.position);
+    if (at == model.positionOf.end() || *at != would.position) continue;
+    const auto pass = static_cast<std::uint32_t>(at - model.positionOf.begin());
+    missed.push_back({{would, would.position, pass}, would.slot, would.why, pass});
+  }
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
     for (std::uint32_t s = 0; s < graph.specs[p].slotCount; ++s) {
       const SlotSpec& slot = graph.slots[graph.specs[p].firstSlot + s];
@@ -381,8 +418,7 @@ void warnMisplaced(Model& model, const Reach& reach, const std::vector<Missed>& 
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
     for (const std::uint32_t u : graph.usesOf(p))
       if (!reach.isLost(p) && graph.uses[u].access != Access::read) writers.add(model, lineOf(model, u, p));
-  for (const WriteRecord& write : model.writes)
-    if (write.pass == kNone) off.add(model, {write, write.position, 0});
+  eachOffWrite(model, [&](const auto& what) { off.add(model, {what, what.position, 0}); });
   // What stands on the wrong side of the same entry is one mistake.
   struct Mistake {
     std::pair<std::string, std::string> entries;  // of reader and writer
@@ -416,15 +452,15 @@ void warnMisplaced(Model& model, const Reach& reach, const std::vector<Missed>& 
     writers.eachAt(miss.line, true, [&](const Line& line) { at->below.insert(line.who); });
   }
   for (const auto& [entries, miss, writer, others, below] : mistakes) {
-    const auto& [line, slotOfPass, zero, reader, part] = miss;
+    const auto& [line, slotOfPass, why, reader, part] = miss;
     const PassSpec& spec = graph.specs[reader];
     const SlotSpec& slot = graph.slots[spec.firstSlot + slotOfPass];
     const std::string& resource = model.entities[line.entity].name;
     std::string message = fmt::format("pass '{}' reads '{}' before pass '{}' writes it: its slot '{}' {}{}",
                                       spec.name, resource, graph.specs[writer].name, slot.name,
-                                      zero                 ? "has only what \"clear\" says"
-                                      : slot.useCount == 0 ? "stays empty"
-                                                           : "takes another alternative",
+                                      why == WouldUse::Why::zero ? "has only what \"clear\" says"
+                                      : slot.useCount == 0       ? "stays empty"
+                                                                 : "takes another alternative",
                                       part);
     addNames(message, "likewise", others);
     addNames(message, "culled:", findCulled(graph, reach, entries.second, below));

@@ -139,8 +139,7 @@ struct Part {
   }
 };
 
-// A write of a pass, enabled or not, in declared order: for messages that say which pass would have written something. One that does not
-// repeat even once is of neither.
+// A write of a pass, enabled or not, in declared order: for messages that say which pass would have written something.
 struct WriteRecord : Part {
   std::uint32_t position = 0;
   std::uint32_t pass = kNone;      // of FlatGraph::passes when enabled
@@ -149,20 +148,17 @@ struct WriteRecord : Part {
   bool passesOn = false;  // the pass reads or modifies the same: it needs another to have written it before
 };
 
-// A read of an enabled pass of what nothing wrote so far: by an optional slot or an alternative, which is empty then, or of what
-// "clear" says.
-struct EmptyRead : Part {
-  std::uint32_t position = 0, slot = kNone;  // of the pass, in declared order; of its slots
-  bool zero = false;                         // it reads what "clear" says
-};
-
-// What a read sees that is not in the graph. It would be there if a pass or a condition that is switched off now were not, or if there
-// were something to read.
-struct OffRead {
+// A read or write that is not in the graph. It would be there if a pass or a condition that is switched off now were not, or
+// if there were something to read.
+struct WouldUse : Part {
+  enum class Why : std::uint8_t {
+    off,    // of a disabled pass, or its condition is false
+    empty,  // an optional slot or an alternative that nothing wrote so far
+    zero    // it reads what "clear" says: nothing wrote it so far
+  };
+  Why why = Why::off;
   std::uint32_t position = kNone;  // of the instance, in declared order; kNone: after all passes
-  std::uint32_t writer = kNone;  // a use; kNone: the last ones of all write what it reads of an earlier frame
-  std::uint32_t entity = kNone, element = 0;
-  FlatUse use{};
+  std::uint32_t slot = kNone;      // of the pass, when it is enabled
 };
 
 // A pass whose "repeat" leaves nothing of it.
@@ -208,8 +204,7 @@ struct Model {
   KnownNames<std::vector<std::uint32_t>> parametersByLeaf{};  // all of one name, in any file, in their order
   std::unordered_map<std::string, std::vector<DisableRule>> disables{};  // by declared name
   std::vector<WriteRecord> writes{};
-  std::vector<EmptyRead> emptyReads{};  // by position
-  std::vector<OffRead> offReads{};
+  std::vector<WouldUse> would{};  // by position
   std::vector<MissingRead> missing{};
   std::vector<EmptyRepeat> emptied{};
   std::vector<std::array<std::uint32_t, 3>>

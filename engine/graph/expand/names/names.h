@@ -16,8 +16,6 @@ namespace weft::graph::expansion {
 
 // Of a graph with all that it includes; `--limit` raises them. Names: parameters, resources, values in "set", each.
 constexpr std::uint64_t kMaxNames = 4096, kMaxLets = 256, kMaxAlternatives = 64;
-// Slots, parameters and defines of all passes, and the versions that they read.
-constexpr std::uint64_t kMaxSlots = std::uint64_t{1} << 18;
 constexpr std::uint32_t kMaxSize = 16384, kMaxSize3d = 2048, kMaxMips = 32, kMaxLayers = 2048,
                         kMaxHistory = 16, kMaxArray = 256;
 constexpr std::uint64_t kMaxBufferBytes = 2ull << 30;
@@ -218,9 +216,9 @@ void addUse(Model& model, std::uint32_t entity, std::uint32_t element, const Fla
 // less than all of it begins with its "clear".
 std::uint32_t resourceToWrite(Model& model, std::uint32_t entity, std::uint32_t element, bool whole,
                               bool covers);
-// Notes what a read that is not in the graph would see at this position. Imports do not matter.
-void noteOffRead(Model& model, const Part& read);
-// The same for all of `entity`, or of what it lists; and what a pass that is not there would write of it.
-void noteOff(Model& model, std::uint32_t entity, Access access, int history);
+// Notes in Model::would what would be used at this position. Imports do not matter.
+void wouldUse(Model& model, WouldUse use);
+// The same for all of `entity`, or of what it lists.
+void wouldUse(Model& model, std::uint32_t entity, Access access, int history);
 
 }  // namespace weft::graph::expansion

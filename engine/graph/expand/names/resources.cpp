@@ -512,31 +512,22 @@ std::uint32_t resourceToWrite(Model& model, std::uint32_t index, std::uint32_t e
   return next;
 }
 
-void noteOffRead(Model& model, const Part& read) {
-  const Entity& entity = model.entities[read.entity];
-  for (std::uint32_t e = 0; entity.isOwn() && e < read.elementCount; ++e) {
-    FlatUse use = read.use;
-    use.resource = entity.elements[read.firstElement + e].resource;
-    if (use.history > 0)
-      model.offReads.push_back({model.position, kNone, read.entity, read.firstElement + e, use});
-    else if (use.resource != kNone)
-      model.versions.forEachRun(use, [&](std::uint32_t writer, std::uint32_t, std::uint32_t) {
-        if (writer != kNone) model.offReads.push_back({model.position, writer});
-        return true;
-      });
-  }
+void wouldUse(Model& model, WouldUse use) {
+  if (model.entities[use.entity].kind == ResourceDesc::Kind::import) return;
+  use.position = model.position;
+  use.slot = model.slot;
+  model.would.push_back(use);
 }
 
-void noteOff(Model& model, std::uint32_t index, Access access, int history) {
+void wouldUse(Model& model, std::uint32_t index, Access access, int history) {
   const Entity& entity = model.entities[index];
   for (std::size_t i = 0; i < entity.candidates.size(); ++i)
     if (entity.candidates[i] != kNone)
-      noteOff(model, entity.candidates[i], access, history + entity.desc->alternatives[i].history);
+      wouldUse(model, entity.candidates[i], access, history + entity.desc->alternatives[i].history);
   if (!entity.isOwn() || entity.state != Progress::done) return;
-  Part whole{index, 0, std::max(1u, entity.arrayCount), wholeUse(0, entity.shape, Kind::copy, access)};
-  whole.use.history = static_cast<std::uint8_t>(history);
-  if (access != Access::write) noteOffRead(model, whole);
-  if (access != Access::read) model.writes.push_back({whole, model.position});
+  FlatUse whole = wholeUse(0, entity.shape, Kind::copy, access);
+  whole.history = static_cast<std::uint8_t>(history);
+  wouldUse(model, {{index, 0, std::max(1u, entity.arrayCount), whole}});
 }
 
 }  // namespace weft::graph::expansion
