@@ -71,13 +71,16 @@ struct MaterialLayers {
   float anisotropy = 0, anisotropyTurn = 0;                      // radians from the tangent
   bool layered = false;                                          // it is something
   float film = 0, filmIor = 1.3f, filmMin = 100, filmMax = 400;  // nm
+  float transmission = 0;   // share of the diffuse light that goes through instead
+  float thickness = 0;      // of what is below the surface, in units of the mesh; 0: a thin wall
+  glm::vec3 absorption{0};  // of it, per unit of the world: e^-absorption is left
   std::uint32_t specularMap = kNoRow, specularColorMap = kNoRow, coatMap = kNoRow, coatRoughnessMap = kNoRow,
                 coatNormalMap = kNoRow, sheenMap = kNoRow, sheenRoughnessMap = kNoRow, anisotropyMap = kNoRow,
-                filmMap = kNoRow, filmThicknessMap = kNoRow;
+                filmMap = kNoRow, filmThicknessMap = kNoRow, transmissionMap = kNoRow, thicknessMap = kNoRow;
   friend bool operator==(const MaterialLayers&, const MaterialLayers&) = default;
 };
 
-constexpr std::size_t kMaterialMaps = 15;
+constexpr std::size_t kMaterialMaps = 17;
 
 struct Material {
   std::string name;
@@ -109,7 +112,8 @@ struct Material {
     return {&albedoMap,           &normalMap,        &metallicRoughnessMap, &occlusionMap,
             &emissiveMap,         &on.specularMap,   &on.specularColorMap,  &on.coatMap,
             &on.coatRoughnessMap, &on.coatNormalMap, &on.sheenMap,          &on.sheenRoughnessMap,
-            &on.anisotropyMap,    &on.filmMap,       &on.filmThicknessMap};
+            &on.anisotropyMap,    &on.filmMap,       &on.filmThicknessMap,  &on.transmissionMap,
+            &on.thicknessMap};
   }
 };
 

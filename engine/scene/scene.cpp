@@ -5,8 +5,8 @@
 namespace weft::scene {
 
 const std::vector<std::string>& drawListNames() {
-  static const std::vector<std::string> names = {"spheres", "opaque", "shadow_casters", "transparent_spheres",
-                                                 "transparent"};
+  static const std::vector<std::string> names = {
+      "spheres", "opaque", "shadow_casters", "transparent_spheres", "transparent", "transmissive"};
   return names;
 }
 

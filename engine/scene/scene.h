@@ -128,8 +128,15 @@ struct Ground {
 
 // The draw lists that every scene has. A list holds spheres and mesh instances; each may stand in several. Greater numbers are those
 // of lists that graphs choose, each with a Selection, which whoever numbers them keeps.
-enum class DrawList : std::uint16_t { spheres, opaque, shadow_casters, transparent_spheres, transparent };
-constexpr int kDrawListCount = 5;
+enum class DrawList : std::uint16_t {
+  spheres,
+  opaque,
+  shadow_casters,
+  transparent_spheres,
+  transparent,
+  transmissive
+};
+constexpr int kDrawListCount = 6;
 const std::vector<std::string>& drawListNames();  // in the order of the enum
 std::optional<DrawList> findDrawList(std::string_view name);
 constexpr std::uint8_t maskOf(DrawList list) {

@@ -2,9 +2,11 @@
 // it. Behind meshes/surface.vert.glsl.
 // read    materials, material_maps?   see meshes/surface.glsl
 //         material_layers?            see meshes/layers.glsl
+//         behind?                     see meshes/behind.glsl
 //         ao?                         as in deferred/lighting.frag.glsl
 //         air?, the lights            see meshes/radiance.glsl
 // modify  radiance   scene-referred, premultiplied by the material's alpha: blend "premultiplied"
+//         velocity   screen UV per frame
 // define  LAYERED   1: materials with layers alone
 // params, defines    see shading/light.glsl and shading_model.glsl
 #include "meshes/surface.glsl"
@@ -16,6 +18,9 @@ uniform sampler2D ao;
 #endif
 #ifdef HAS_RADIANCE
 out vec4 radiance;
+#endif
+#ifdef HAS_VELOCITY
+out vec2 velocity;
 #endif
 
 void main() {
@@ -37,5 +42,8 @@ void main() {
   Response response = modelResponse(surface, self.shininess, point.nv);
   vec3 light = meshRadiance(self, surface, response, point);
   radiance = vec4(light * self.alpha, self.alpha);
+#endif
+#ifdef HAS_VELOCITY
+  velocity = meshVelocity(viewport);
 #endif
 }

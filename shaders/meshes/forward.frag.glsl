@@ -1,6 +1,7 @@
 // A mesh, lit as it is drawn. Behind meshes/surface.vert.glsl.
 // read    materials, material_maps?   see meshes/surface.glsl
 //         material_layers?            see meshes/layers.glsl
+//         behind?                     see meshes/behind.glsl
 //         air?, the lights            see meshes/radiance.glsl
 // modify  radiance   scene-referred; alpha 1, with BLEND premultiplied by the material's: blend "premultiplied"
 //         velocity   screen UV per frame

@@ -47,6 +47,12 @@ Layers meshLayers() {
   layers.film = self.film * texel[8].r;
   layers.film_ior = self.film_ior;
   layers.film_thickness = mix(self.film_min, self.film_max, texel[9].g);
+#ifdef HAS_BEHIND
+  layers.transmission = self.transmission * sampleMap(self.transmission_map, map_uv, dx, dy).r;
+  layers.thickness = self.thickness * sampleMap(self.thickness_map, map_uv, dx, dy).g * world_scale;
+  layers.absorption = self.absorption;
+  layers.ior = max(self.ior, 1.0);
+#endif
   return layers;
 }
 #endif

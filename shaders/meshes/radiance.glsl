@@ -1,5 +1,5 @@
 // What a mesh emits and reflects towards the eye, through the layers of its material and the air. Behind meshes/surface.glsl and a
-// shading model. Slots: air?, see fog/fog.glsl; material_layers?, see meshes/layers.glsl; the lights, see shading/light.glsl
+// shading model. Slots: air?, see fog/fog.glsl; material_layers?, see meshes/layers.glsl; behind?, see meshes/behind.glsl; the lights, see shading/light.glsl
 #ifndef MESHES_RADIANCE_GLSL
 #define MESHES_RADIANCE_GLSL
 
@@ -10,10 +10,13 @@
 #endif
 #include "shading/light.glsl"
 #include "shading/lobe.glsl"
+#ifdef HAS_BEHIND
+#include "meshes/behind.glsl"
+#endif
 
 vec3 meshRadiance(MeshSurface self, Surface surface, Response response, Point point) {
   LightsSeen seen = lightsSeen(point);
-  vec3 light = self.emissive;
+  vec3 light = self.emissive, through = vec3(0.0);
 #ifdef HAS_MATERIAL_LAYERS
   if (layers.on) response = enterLayers(point, surface);
   for (int layer = 0; layer < 2; ++layer) {
@@ -21,14 +24,19 @@ vec3 meshRadiance(MeshSurface self, Surface surface, Response response, Point po
     Ambient ambient = ambientOf(point, response, lobeOf(response.roughness, 0.0), seen);
     light += lightOf(point, response, ambient, seen).radiance * self.lit;
 #ifdef HAS_MATERIAL_LAYERS
+#ifdef HAS_BEHIND
+    if (layers.on && greatest(layers.passed) > 0.0) through = layers.passed * lightFromBehind(point, response);
+#endif
     if (!layers.on || layers.coat <= 0.0) break;
-    light *= coverWithCoat(point, response);
+    float below = coverWithCoat(point, response);
+    light *= below;
+    through *= below;
   }
 #endif
 #if defined HAS_AIR && !defined LAYERED  // what lies over the G-buffer is fogged with it
   light = mix(fog_light.rgb, light, throughFog(world_position - eye));
 #endif
-  return light;
+  return light + through;
 }
 
 #endif

@@ -21,6 +21,9 @@ flat in uint row;
 #ifdef HAS_VERTEX_COLORS
 in vec4 own_color;
 #endif
+#ifdef HAS_BEHIND
+flat in float world_scale;
+#endif
 
 struct MeshSurface {
   vec3 normal;       // world, unit, towards the viewer's side of a double-sided material

@@ -17,6 +17,9 @@ flat out uint row;        // of @materials
 #ifdef HAS_VERTEX_COLORS
 out vec4 own_color;       // linear
 #endif
+#ifdef HAS_BEHIND
+flat out float world_scale;  // world units in a unit of the mesh
+#endif
 
 void main() {
   mat4 transform = meshTransform();
@@ -27,6 +30,9 @@ void main() {
   map_uv = uv;
 #ifdef HAS_VERTEX_COLORS
   own_color = vertex_color[gl_VertexID].color;
+#endif
+#ifdef HAS_BEHIND
+  world_scale = pow(abs(determinant(mat3(transform))), 1.0 / 3.0);
 #endif
   row = mesh_row[instance].material;
   previous_clip = previous_view_projection * (meshPreviousTransform() * vec4(position, 1.0));

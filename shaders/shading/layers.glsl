@@ -1,4 +1,5 @@
 // What the layers of a material do with light: glTF's KHR_materials_ior, specular, clearcoat, sheen, anisotropy and iridescence.
+// With `behind` also transmission and volume, see meshes/behind.glsl.
 // A shading model includes it where there is material_layers; main() sets `layers` before it asks for light.
 #ifndef SHADING_LAYERS_GLSL
 #define SHADING_LAYERS_GLSL
@@ -17,6 +18,11 @@ struct Layers {
   vec3 along;              // unit, where it is rougher; enterLayers() brings it into the surface
   float anisotropy;
   float film, film_ior, film_thickness;  // nm
+#ifdef HAS_BEHIND
+  float transmission, thickness, ior;    // world units; 0: a thin wall
+  vec3 absorption;                       // per unit
+  vec3 passed;                           // enterLayers(): share of the light from behind that goes through
+#endif
 };
 Layers layers;
 
@@ -129,6 +135,10 @@ Response layeredResponse(Surface surface, float nv) {
   response.single = mix(single[0], single[1], surface.metallic);
   response.multiple = mix(several[0], several[1], surface.metallic);
   response.diffuse = surface.albedo * ((1.0 - surface.metallic) * (1.0 - greatest(single[0] + several[0])));
+#ifdef HAS_BEHIND
+  layers.passed = response.diffuse * layers.transmission;
+  response.diffuse -= layers.passed;
+#endif
   return response;
 }
 

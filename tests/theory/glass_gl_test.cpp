@@ -1,6 +1,9 @@
 // Meshes that one sees through, among ray-traced spheres, in the studio and in the deferred frame: what is before the glass, what is
-// behind it, and the share that its alpha says.
+// behind it, and the share that its alpha says. Glass that transmits (KHR_materials_transmission, KHR_materials_volume) is held against
+// rays of this file's own.
 #include <cmath>
+#include <numbers>
+#include <random>
 #include <string>
 
 #include "tests/theory/mesh_scene.h"
@@ -82,6 +85,129 @@ TEST_CASE(
     Shot without = shot;
     without.disables = {std::string("lit.transparent")};
     CHECK(render(without, Pane::glass).radiance == behind.radiance);
+  }
+}
+
+namespace {
+
+// Shining stripes in the plane z = 0, in no other light.
+glm::dvec3 stripeAt(double x) {
+  const auto number = static_cast<int>(std::floor(x / 0.75));
+  return number % 2 == 0 ? glm::dvec3(0.2, 0.6, 1) : glm::dvec3(1, 0.5, 0.1);
+}
+
+struct Glass {
+  float roughness = 0, thickness = 0;
+  glm::vec3 albedo{1}, absorption{0};
+  double mean = 0, often = 0;  // allowed: mean difference, and share of pixels over 0.05
+};
+
+constexpr double kEye = 9, kPane = 2, kIor = 1.5, kTan = 0.41421356237309503;  // half of 45 degrees
+
+scene::Scene stripesBehind(const Glass& glass) {
+  MeshScene made({0, 0, kEye}, 45);
+  const scene::MeshId stripe = made.addSquare(0.375f), square = made.addSquare(1.6f);
+  for (int x = -10; x < 10; ++x)
+    for (int y = -5; y <= 5; ++y) {
+      const double middle = (x + 0.5) * 0.75;
+      made.put(stripe, {.name = "", .albedo = glm::vec3(0), .emissive = glm::vec3(stripeAt(middle))},
+               {float(middle), 0.75f * float(y), 0});
+    }
+  scene::Material material{.name = "", .albedo = glass.albedo, .roughness = glass.roughness};
+  material.layers.transmission = 1;
+  material.layers.thickness = glass.thickness;
+  material.layers.absorption = glass.absorption;
+  material.layers.layered = true;
+  made.put(square, material, {0, 0, float(kPane)}, scene::maskOf(scene::DrawList::transmissive));
+  return made.scene;
+}
+
+// A facet that an eye at `v` sees (z: the normal), of GGX: Heitz, "Sampling the GGX distribution of visible normals", JCGT 2018.
+glm::dvec3 facetSeen(glm::dvec3 v, double alpha, double u1, double u2) {
+  const glm::dvec3 s = glm::normalize(glm::dvec3(alpha * v.x, alpha * v.y, v.z));
+  const glm::dvec3 t1 = s.x * s.x + s.y * s.y > 0 ? glm::normalize(glm::dvec3(-s.y, s.x, 0))
+                                                  : glm::dvec3(1, 0, 0),
+                   t2 = glm::cross(s, t1);
+  const double r = std::sqrt(u1), phi = 2 * std::numbers::pi * u2, p1 = r * std::cos(phi),
+               half = 0.5 * (1 + s.z), p2 = (1 - half) * std::sqrt(1 - p1 * p1) + half * r * std::sin(phi);
+  const glm::dvec3 n = p1 * t1 + p2 * t2 + std::sqrt(std::max(0.0, 1 - p1 * p1 - p2 * p2)) * s;
+  return glm::normalize(glm::dvec3(alpha * n.x, alpha * n.y, std::max(n.z, 1e-9)));
+}
+
+// What the pane lets through of the stripes towards a point of the picture, -1 to 1 each way.
+glm::dvec3 seenThrough(const Glass& glass, double x, double y, std::mt19937& random) {
+  const glm::dvec3 eye(0, 0, kEye), ray = glm::normalize(glm::dvec3(x, y, -1)),
+                                    at = eye + ray * ((kEye - kPane) / -ray.z), v = -ray;
+  glm::dvec3 light(0);
+  if (glass.thickness > 0) {
+    // Snell's law; the stripes lie on the far side.
+    glm::dvec3 into = glm::dvec3(ray.x, ray.y, 0) / kIor;
+    into.z = -std::sqrt(1 - into.x * into.x - into.y * into.y);
+    const double way = double(glass.thickness) / -into.z;
+    light = stripeAt(at.x + into.x * way) * glm::exp(-glm::dvec3(glass.absorption) * way);
+  } else {
+    // The lobe that the extension gives a thin wall: that of what is reflected, on the other side.
+    const double alpha = double(glass.roughness) * double(glass.roughness);
+    const int count = alpha > 0 ? 4000 : 1;
+    double all = 0;
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (int i = 0; i < count; ++i) {
+      const glm::dvec3 h = alpha > 0 ? facetSeen(v, alpha, uniform(random), uniform(random))
+                                     : glm::dvec3(0, 0, 1),
+                       out = 2 * glm::dot(v, h) * h - v;
+      if (out.z <= 0) continue;
+      const double masked = alpha * alpha * (1 - out.z * out.z) / (out.z * out.z),
+                   weight =
+                       2 / (1 + std::sqrt(1 + masked));  // of Smith's masking; the view's is in the sampling
+      light += weight * stripeAt(at.x + out.x * kPane / out.z);
+      all += weight;
+    }
+    light /= all;
+  }
+  const double f = 0.04 + 0.96 * std::pow(1 - v.z, 5);
+  return light * glm::dvec3(glass.albedo) * (1 - f);
+}
+
+}  // namespace
+
+TEST_CASE("glass transmits what rays find behind it: thin walls, smooth and rough, and a tinted slab") {
+  const CleanScope clean;
+  const Glass panes[] = {
+      {.albedo = {0.9f, 0.6f, 0.3f}, .mean = 0.004, .often = 0.01},
+      {.roughness = 0.15f, .mean = 0.03, .often = 0.2},
+      {.roughness = 0.35f, .mean = 0.035, .often = 0.2},
+      {.thickness = float(kPane), .absorption = {0.1f, 0.4f, 0.05f}, .mean = 0.012, .often = 0.1}};
+  for (const char* graph : {"graphs/studio.json", "graphs/deferred.json"}) {
+    const Shot shot{.graph = graph, .width = 192, .height = 128, .environment = 0};
+    Camera camera(shot);
+    std::mt19937 random(7);
+    for (const Glass& glass : panes) {
+      const Taken taken = camera.take(stripesBehind(glass), shot);
+      double sum = 0;
+      int over = 0, count = 0;
+      for (std::uint32_t row = 3; row < shot.height; row += 5)
+        for (std::uint32_t column = 0; column < shot.width; ++column) {
+          const double y = (2 * (row + 0.5) / shot.height - 1) * kTan,
+                       x = (2 * (column + 0.5) / shot.width - 1) * kTan * shot.width / shot.height;
+          if (std::max(std::abs(x), std::abs(y)) * (kEye - kPane) > 1.5) continue;
+          const glm::dvec3 right = seenThrough(glass, x, y, random);
+          double worst = 0;
+          for (int c = 0; c < 3; ++c)
+            worst = std::max(
+                worst,
+                std::abs(
+                    double(taken.radiance[4 * (std::size_t{row} * shot.width + column) + std::size_t(c)]) -
+                    right[c]));
+          sum += worst;
+          over += worst > 0.05;
+          ++count;
+        }
+      MESSAGE(std::string(graph), ", roughness ", glass.roughness, ", thickness ", glass.thickness, ": mean ",
+              sum / count, ", ", over, " of ", count, " over 0.05");
+      CHECK(count > 500);
+      CHECK(sum / count < glass.mean);
+      CHECK(over < glass.often * count);
+    }
   }
 }
 

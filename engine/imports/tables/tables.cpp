@@ -211,6 +211,9 @@ struct Layers : SceneTable<assets::MaterialLayers> {
             column<Row, &Row::filmIor>("film_ior", ""),
             column<Row, &Row::filmMin>("film_min", "nm, where its map is 0"),
             column<Row, &Row::filmMax>("film_max", "nm, where it is 1, and without it"),
+            column<Row, &Row::transmission>("transmission", "share of the diffuse light, 0 to 1"),
+            column<Row, &Row::absorption>("absorption", "per world unit below the surface"),
+            column<Row, &Row::thickness>("thickness", "of what is below it, in the mesh's units; 0: a wall"),
             column<Row, &Row::specularMap>("specular_map", "in a; as in `materials`"),
             column<Row, &Row::specularColorMap>("specular_color_map", ""),
             column<Row, &Row::coatMap>("coat_map", "in r"),
@@ -220,7 +223,9 @@ struct Layers : SceneTable<assets::MaterialLayers> {
             column<Row, &Row::sheenRoughnessMap>("sheen_roughness_map", "in a"),
             column<Row, &Row::anisotropyMap>("anisotropy_map", "direction in r and g, strength in b"),
             column<Row, &Row::filmMap>("film_map", "in r"),
-            column<Row, &Row::filmThicknessMap>("film_thickness_map", "in g")};
+            column<Row, &Row::filmThicknessMap>("film_thickness_map", "in g"),
+            column<Row, &Row::transmissionMap>("transmission_map", "in r"),
+            column<Row, &Row::thicknessMap>("thickness_map", "in g")};
   }
   static ImportFacts facts(const WorldFacts& world) {
     const auto& materials = world.scene->materials;

@@ -185,7 +185,7 @@ class Reader {
   std::vector<double> surfaceSeen(const MeshFrame& frame) const {
     std::vector<double> seen(std::size(kViews), 0);
     std::uint32_t corners = 0;
-    for (const DrawList list : {DrawList::opaque, DrawList::transparent})
+    for (const DrawList list : {DrawList::opaque, DrawList::transparent, DrawList::transmissive})
       for (const MeshRow& row : frame.rows(list)) {
         const Mesh& mesh = scene_.meshes.rows()[row.mesh];
         const bool both = scene_.materials.rows()[row.material].doubleSided;

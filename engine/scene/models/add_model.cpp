@@ -123,7 +123,10 @@ std::vector<NodeId> addModelCopy(Scene& scene, const ModelRows& rows, const asse
     if (from.skin != kNoRow) instance.skin = skins[from.skin];
     if (copy.lists)
       instance.lists = *copy.lists;
-    else if (scene.materials.find(instance.material)->blend)
+    else if (const Material& material = *scene.materials.find(instance.material);
+             material.layers.transmission > 0)
+      instance.lists = maskOf(DrawList::transmissive);
+    else if (material.blend)
       instance.lists = maskOf(DrawList::transparent);
     scene.meshInstances.add(instance);
   }

@@ -28,10 +28,9 @@ std::vector<LabelId> addLabels(Scene& scene, const assets::Model& model, const s
 
 // A node without a transform, which no animation moves, gets no row: what names it names its parent.
 struct ModelCopy {
-  Node root;  // above the model's own; its parent must be in the scene
-  std::optional<std::uint8_t>
-      lists;                    // empty: opaque and shadow_casters, or transparent where the material blends
-  std::vector<LabelId> labels;  // parallel to the model's instances; empty: none
+  Node root;                               // above the model's own; its parent must be in the scene
+  std::optional<std::uint8_t> lists;       // empty: as the material says (docs/scenes.md)
+  std::vector<LabelId> labels;             // parallel to the model's instances; empty: none
   std::optional<MaterialId> material;      // of every instance
   std::optional<std::uint32_t> animation;  // row of the model's animations
   float speed = 1;

@@ -50,16 +50,15 @@ std::size_t viewOf(GltfMaker& maker, const std::string& bytes) {
 
 TEST_CASE("each extension that is not known is one warning that names it, wherever it is") {
   GltfMaker maker = plainSquare();
-  maker.document["materials"] = {
-      {{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}},
-      {{"extensions", {{"KHR_materials_transmission", json::object()}}}}};
+  maker.document["materials"] = {{{"extensions", {{"KHR_materials_dispersion", {{"dispersion", 1}}}}}},
+                                 {{"extensions", {{"KHR_materials_dispersion", json::object()}}}}};
   maker.document["nodes"][0]["extensions"]["EXT_new"] = json::object();
   maker.document["extras"]["extensions"]["EXT_not_one"] = json::object();
   const TemporaryFolder folder;
   text::Diagnostics diagnostics;
   REQUIRE(loadModel(folder.write("m.gltf", maker.gltf()), diagnostics));
   REQUIRE_MESSAGE(diagnostics.size() == 2, diagnostics.text());
-  for (const char* name : {"KHR_materials_transmission", "EXT_new"})
+  for (const char* name : {"KHR_materials_dispersion", "EXT_new"})
     CHECK(std::ranges::any_of(diagnostics.items(), [&](const text::Diagnostic& d) {
       return d.code == Code::modelPartLeftOut && d.message.find(name) != std::string::npos;
     }));
@@ -94,8 +93,15 @@ TEST_CASE("layers: what the extensions of a material say; what changes nothing i
          {"KHR_materials_sheen", {{"sheenColorFactor", {0.5, 0, 1}}, {"sheenRoughnessFactor", 0.5}}},
          {"KHR_materials_anisotropy", {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 1}}},
          {"KHR_materials_iridescence",
-          {{"iridescenceFactor", 1}, {"iridescenceIor", 1.5}, {"iridescenceThicknessMinimum", 200}}}}}});
+          {{"iridescenceFactor", 1}, {"iridescenceIor", 1.5}, {"iridescenceThicknessMinimum", 200}}},
+         {"KHR_materials_transmission", {{"transmissionFactor", 0.5}}},
+         {"KHR_materials_volume",
+          {{"thicknessFactor", 2},
+           {"attenuationDistance", 4},
+           {"attenuationColor", {1, std::exp(-2.0), 1}}}}}}});
   MaterialLayers layers = model.materials[0].layers;
+  CHECK(layers.absorption.g == doctest::Approx(0.5));
+  layers.absorption = glm::vec3(0);
   CHECK(layers == MaterialLayers{.specularColor = {1, 0.5f, 0.25f},
                                  .specular = 0.5f,
                                  .ior = 1.8f,
@@ -108,7 +114,9 @@ TEST_CASE("layers: what the extensions of a material say; what changes nothing i
                                  .layered = true,
                                  .film = 1,
                                  .filmIor = 1.5f,
-                                 .filmMin = 200});
+                                 .filmMin = 200,
+                                 .transmission = 0.5f,
+                                 .thickness = 2});
   model = withMaterial(
       {{"extensions", {{"KHR_materials_ior", {{"ior", 1.5}}}, {"KHR_materials_specular", json::object()}}}});
   CHECK(model.materials[0].layers == MaterialLayers{});

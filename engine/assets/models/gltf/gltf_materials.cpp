@@ -38,24 +38,27 @@ constexpr struct {
              {"KHR_materials_sheen", "sheenRoughnessTexture", TextureUse::numbers},
              {"KHR_materials_anisotropy", "anisotropyTexture", TextureUse::numbers},
              {"KHR_materials_iridescence", "iridescenceTexture", TextureUse::numbers},
-             {"KHR_materials_iridescence", "iridescenceThicknessTexture", TextureUse::numbers}};
+             {"KHR_materials_iridescence", "iridescenceThicknessTexture", TextureUse::numbers},
+             {"KHR_materials_transmission", "transmissionTexture", TextureUse::numbers},
+             {"KHR_materials_volume", "thicknessTexture", TextureUse::numbers}};
 
 constexpr struct {
   std::string_view extension, key;
   float MaterialLayers::*value;
   double min, max;
-} kLayers[] = {
-    {"KHR_materials_ior", "ior", &MaterialLayers::ior, 0, 1e3},
-    {"KHR_materials_specular", "specularFactor", &MaterialLayers::specular, 0, 1},
-    {"KHR_materials_clearcoat", "clearcoatFactor", &MaterialLayers::coat, 0, 1},
-    {"KHR_materials_clearcoat", "clearcoatRoughnessFactor", &MaterialLayers::coatRoughness, 0, 1},
-    {"KHR_materials_sheen", "sheenRoughnessFactor", &MaterialLayers::sheenRoughness, 0, 1},
-    {"KHR_materials_anisotropy", "anisotropyStrength", &MaterialLayers::anisotropy, 0, 1},
-    {"KHR_materials_anisotropy", "anisotropyRotation", &MaterialLayers::anisotropyTurn, -1e6, 1e6},
-    {"KHR_materials_iridescence", "iridescenceFactor", &MaterialLayers::film, 0, 1},
-    {"KHR_materials_iridescence", "iridescenceIor", &MaterialLayers::filmIor, 1, 1e3},
-    {"KHR_materials_iridescence", "iridescenceThicknessMinimum", &MaterialLayers::filmMin, 0, 1e6},
-    {"KHR_materials_iridescence", "iridescenceThicknessMaximum", &MaterialLayers::filmMax, 0, 1e6}};
+} kLayers[] = {{"KHR_materials_ior", "ior", &MaterialLayers::ior, 0, 1e3},
+               {"KHR_materials_specular", "specularFactor", &MaterialLayers::specular, 0, 1},
+               {"KHR_materials_clearcoat", "clearcoatFactor", &MaterialLayers::coat, 0, 1},
+               {"KHR_materials_clearcoat", "clearcoatRoughnessFactor", &MaterialLayers::coatRoughness, 0, 1},
+               {"KHR_materials_sheen", "sheenRoughnessFactor", &MaterialLayers::sheenRoughness, 0, 1},
+               {"KHR_materials_anisotropy", "anisotropyStrength", &MaterialLayers::anisotropy, 0, 1},
+               {"KHR_materials_anisotropy", "anisotropyRotation", &MaterialLayers::anisotropyTurn, -1e6, 1e6},
+               {"KHR_materials_iridescence", "iridescenceFactor", &MaterialLayers::film, 0, 1},
+               {"KHR_materials_iridescence", "iridescenceIor", &MaterialLayers::filmIor, 1, 1e3},
+               {"KHR_materials_iridescence", "iridescenceThicknessMinimum", &MaterialLayers::filmMin, 0, 1e6},
+               {"KHR_materials_iridescence", "iridescenceThicknessMaximum", &MaterialLayers::filmMax, 0, 1e6},
+               {"KHR_materials_transmission", "transmissionFactor", &MaterialLayers::transmission, 0, 1},
+               {"KHR_materials_volume", "thicknessFactor", &MaterialLayers::thickness, 0, 1e6}};
 
 Material defaultMaterial(std::string name) {
   return {.name = std::move(name), .albedo = glm::vec3(1), .metallic = 1, .roughness = 1};
@@ -281,6 +284,12 @@ class MaterialReader {
       document_.numbers(*specular, "specularColorFactor", {&layers.specularColor.x, 3});
     if (const JsonValue* sheen = extensions.find("KHR_materials_sheen"))
       document_.numbers(*sheen, "sheenColorFactor", {&layers.sheen.x, 3});
+    if (const JsonValue* volume = extensions.find("KHR_materials_volume")) {
+      glm::vec3 left{1};  // of white light, after this distance
+      document_.numbers(*volume, "attenuationColor", {&left.x, 3});
+      const float distance = document_.number(*volume, "attenuationDistance", 1e9, 1e-9, 1e9);
+      layers.absorption = -glm::log(glm::clamp(left, 1e-6f, 1.0f)) / distance;
+    }
     if (const JsonValue* normal = valueOf(extensions, {"KHR_materials_clearcoat", "clearcoatNormalTexture"}))
       layers.coatNormalScale = document_.number(*normal, "scale", 1, -1e3, 1e3);
     layers.layered = layers != MaterialLayers{};
