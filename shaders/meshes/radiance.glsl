@@ -14,6 +14,10 @@
 #include "meshes/behind.glsl"
 #endif
 
+#ifndef LAYERED
+#define LAYERED 0
+#endif
+
 vec3 meshRadiance(MeshSurface self, Surface surface, Response response, Point point) {
   LightsSeen seen = lightsSeen(point);
   vec3 light = self.emissive, through = vec3(0.0);
@@ -33,7 +37,7 @@ vec3 meshRadiance(MeshSurface self, Surface surface, Response response, Point po
     through *= below;
   }
 #endif
-#if defined HAS_AIR && !defined LAYERED  // what lies over the G-buffer is fogged with it
+#if defined HAS_AIR && !LAYERED  // what lies over the G-buffer is fogged with it
   light = mix(fog_light.rgb, light, throughFog(world_position - eye));
 #endif
   return light + through;
