@@ -57,8 +57,16 @@ struct Texture {
   std::uint64_t content = 0;            // hash of size, texels and srgb; equal contents are one row
 };
 
-// How a texture is looked up, in bits: wrap of u, of v, and whether texels are seen as they are where they are magnified.
-enum MapSampler : std::uint8_t { repeat = 0, clampU = 1, mirrorU = 2, clampV = 4, mirrorV = 8, nearest = 16 };
+// How a texture is looked up, in bits: wrap of u, of v, whether texels are seen as they are where they are magnified, and where.
+enum MapSampler : std::uint8_t {
+  repeat = 0,
+  clampU = 1,
+  mirrorU = 2,
+  clampV = 4,
+  mirrorV = 8,
+  nearest = 16,
+  atSecondUv = 32
+};
 
 // What glTF's extensions say of a material: its dielectric reflection, a coat, a sheen, brushed grooves, a thin film. As it
 // is here it is nothing.
@@ -136,6 +144,7 @@ struct MeshData {
   std::vector<SkinVertex> skin;  // parallel to vertices, or empty: no mesh is skinned
   // Parallel to vertices, or empty: all are white. Linear; a factor of the material's albedo and alpha.
   std::vector<glm::vec4> colors;
+  std::vector<glm::vec2> secondUvs;  // parallel to vertices, or empty: no material asks for them
   std::vector<std::uint32_t> indices;
 };
 

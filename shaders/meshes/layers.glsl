@@ -10,12 +10,12 @@
 // To be called before meshSurface(): llvmpipe of Mesa 22.3 dies of such lookups behind a discard.
 Layers meshLayers() {
   MaterialLayers self = layers_of[row];
-  vec2 dx = dFdx(map_uv), dy = dFdy(map_uv);
+  MapPlace place = mapPlace();
   float side = gl_FrontFacing ? 1.0 : -1.0;
   uint maps[10] = uint[](self.specular_map, self.specular_color_map, self.coat_map, self.coat_roughness_map, self.coat_normal_map, self.sheen_map,
                          self.sheen_roughness_map, self.anisotropy_map, self.film_map, self.film_thickness_map);
   vec4 texel[10];
-  for (int i = 0, end = self.layered != 0u ? 10 : 0; i < end; ++i) texel[i] = sampleMap(maps[i], map_uv, dx, dy);
+  for (int i = 0, end = self.layered != 0u ? 10 : 0; i < end; ++i) texel[i] = mapAt(maps[i], place);
   vec4 specular = vec4(self.specular_color * texel[1].rgb, self.specular * texel[0].a);
   float r = (self.ior - 1.0) / (self.ior + 1.0);
   Layers layers;
@@ -48,8 +48,8 @@ Layers meshLayers() {
   layers.film_ior = self.film_ior;
   layers.film_thickness = mix(self.film_min, self.film_max, texel[9].g);
 #ifdef HAS_BEHIND
-  layers.transmission = self.transmission * sampleMap(self.transmission_map, map_uv, dx, dy).r;
-  layers.thickness = self.thickness * sampleMap(self.thickness_map, map_uv, dx, dy).g * world_scale;
+  layers.transmission = self.transmission * mapAt(self.transmission_map, place).r;
+  layers.thickness = self.thickness * mapAt(self.thickness_map, place).g * world_scale;
   layers.absorption = self.absorption;
   layers.ior = max(self.ior, 1.0);
 #endif

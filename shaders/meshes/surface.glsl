@@ -16,6 +16,9 @@ in vec3 world_position;
 in vec3 world_normal;
 in vec4 world_tangent;
 in vec2 map_uv;
+#ifdef HAS_SECOND_UVS
+in vec2 map_uv_2;
+#endif
 in vec4 previous_clip;
 flat in uint row;
 #ifdef HAS_VERTEX_COLORS
@@ -34,14 +37,35 @@ struct MeshSurface {
   float shininess;   // of Blinn–Phong; 0: none
 };
 
+// Where maps are looked up, with derivatives: to be asked for where all pixels of a quad are.
+struct MapPlace {
+  vec2 uv, dx, dy;
+#ifdef HAS_SECOND_UVS
+  vec2 uv_2, dx_2, dy_2;
+#endif
+};
+MapPlace mapPlace() {
+  return MapPlace(map_uv, dFdx(map_uv), dFdy(map_uv)
+#ifdef HAS_SECOND_UVS
+                  , map_uv_2, dFdx(map_uv_2), dFdy(map_uv_2)
+#endif
+  );
+}
+vec4 mapAt(uint map, MapPlace place) {
+#ifdef HAS_SECOND_UVS
+  if ((map >> 25 & 1u) != 0u) return sampleMap(map, place.uv_2, place.dx_2, place.dy_2);
+#endif
+  return sampleMap(map, place.uv, place.dx, place.dy);
+}
+
 // Discards the fragment in a hole of a mask, and on the back of a single-sided material: draw with "cull": "none".
 MeshSurface meshSurface() {
   Material self = material[row];
-  vec2 dx = dFdx(map_uv), dy = dFdy(map_uv);
+  MapPlace place = mapPlace();
   vec3 n = normalize(world_normal);
   uint maps[5] = uint[](self.albedo_map, self.normal_map, self.metallic_roughness_map, self.occlusion_map, self.emissive_map);
   vec4 texel[5];
-  for (int i = 0; i < 5; ++i) texel[i] = sampleMap(maps[i], map_uv, dx, dy);
+  for (int i = 0; i < 5; ++i) texel[i] = mapAt(maps[i], place);
   vec4 color = texel[0] * vec4(self.albedo, self.alpha);
 #ifdef HAS_VERTEX_COLORS
   color *= own_color;

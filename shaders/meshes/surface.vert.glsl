@@ -1,5 +1,5 @@
 // A vertex of a mesh, for the fragment shaders that include meshes/surface.glsl. Slots: skeleton?  @joints,
-// vertex_colors?  @vertex_colors
+// vertex_colors?  @vertex_colors, second_uvs?  @second_uvs
 #include "common/view.glsl"
 #include "scene/mesh_vertex.glsl"
 
@@ -12,6 +12,9 @@ out vec3 world_position;
 out vec3 world_normal;
 out vec4 world_tangent;   // w: sign of the bitangent
 out vec2 map_uv;
+#ifdef HAS_SECOND_UVS
+out vec2 map_uv_2;
+#endif
 out vec4 previous_clip;
 flat out uint row;        // of @materials
 #ifdef HAS_VERTEX_COLORS
@@ -28,6 +31,9 @@ void main() {
   world_normal = meshNormal(transform, normal);
   world_tangent = vec4(mat3(transform) * tangent.xyz, tangent.w);
   map_uv = uv;
+#ifdef HAS_SECOND_UVS
+  map_uv_2 = second_uv[gl_VertexID].uv;
+#endif
 #ifdef HAS_VERTEX_COLORS
   own_color = vertex_color[gl_VertexID].color;
 #endif

@@ -35,7 +35,7 @@ vec2 placeInMap(uint map, vec2 uv, vec2 dx, vec2 dy) {
 
 // White when `map` is none. The caller gives the derivatives, because not all pixels of a quad may take the same branch here.
 vec4 sampleMap(uint map, vec2 uv, vec2 dx, vec2 dy) {
-  if (map >> 20 != 0u && map != 0xffffffffu) uv = placeInMap(map, uv, dx, dy);
+  if ((map >> 20 & 31u) != 0u && map != 0xffffffffu) uv = placeInMap(map, uv, dx, dy);
   vec3 at = vec3(uv, float(map & 0xffffu));
   vec4 texel = vec4(1.0);
   for (uint i = 0u; i < 8u; ++i)  // the index of a sampler is the same for all invocations that are here

@@ -1,5 +1,5 @@
 // A vertex of a mesh in the world, now and in the frame before: by its row, or by its joints; and its color. Slots:
-// skeleton? (@joints), vertex_colors? (@vertex_colors).
+// skeleton? (@joints), vertex_colors? (@vertex_colors), second_uvs? (@second_uvs).
 #ifndef SCENE_MESH_VERTEX_GLSL
 #define SCENE_MESH_VERTEX_GLSL
 #include "scene/meshes.glsl"
@@ -20,6 +20,12 @@ struct VertexColor {
   vec4 color;  // linear; a factor of the material's albedo and alpha
 };
 layout(std430) readonly buffer vertex_colors { VertexColor vertex_color[]; };
+#endif
+#ifdef HAS_SECOND_UVS
+struct SecondUv {
+  vec2 uv;  // of maps that say so: scene/materials.glsl
+};
+layout(std430) readonly buffer second_uvs { SecondUv second_uv[]; };
 #endif
 
 // Model to world of this vertex.

@@ -113,6 +113,7 @@ inline std::vector<ImportType> testImports() {
       {.name = "material_layers", .kind = ImportKind::buffer, .doc = ""},
       {.name = "joints", .kind = ImportKind::buffer, .doc = ""},
       {.name = "vertex_colors", .kind = ImportKind::buffer, .doc = ""},
+      {.name = "second_uvs", .kind = ImportKind::buffer, .doc = ""},
       {.name = "material_maps", .kind = ImportKind::texture, .doc = "", .array = 8},
       {"point_lights", ImportKind::list, "", {}},
       {"shadowed_lights", ImportKind::view, "", {}},

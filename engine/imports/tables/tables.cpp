@@ -123,7 +123,17 @@ struct Joints : SceneTable<scene::Joint> {
   static bool isStill(const World& world) { return world.scene().skins.size() == 0; }
 };
 
-struct VertexColors : SceneTable<glm::vec4> {
+// What only some vertices of the scene have.
+template <class Of, std::vector<Of> scene::MeshData::*kMember>
+struct VertexTable : SceneTable<Of> {
+  static ImportFacts facts(const WorldFacts& world) { return factsOfRows(of(*world.scene).size()); }
+  static std::span<const Of> of(const scene::Scene& scene) {
+    return scene.meshData ? std::span(*scene.meshData.*kMember) : std::span<const Of>();
+  }
+  static std::span<const Of> rows(const Frame& frame) { return of(frame.world.scene()); }
+};
+
+struct VertexColors : VertexTable<glm::vec4, &scene::MeshData::colors> {
   static ImportType reflect() {
     return {.name = "vertex_colors",
             .doc =
@@ -133,11 +143,18 @@ struct VertexColors : SceneTable<glm::vec4> {
   static Columns<Row> columns() {
     return {column<Row, std::identity{}>("color", "linear; a factor of the material's albedo and alpha")};
   }
-  static ImportFacts facts(const WorldFacts& world) { return factsOfRows(of(*world.scene).size()); }
-  static std::span<const Row> of(const scene::Scene& scene) {
-    return scene.meshData ? std::span(scene.meshData->colors) : std::span<const Row>();
+};
+
+struct SecondUvs : VertexTable<glm::vec2, &scene::MeshData::secondUvs> {
+  static ImportType reflect() {
+    return {.name = "second_uvs",
+            .doc =
+                "As `vertex_colors`: where maps are looked up whose word in `materials` says so. It exists "
+                "where a material has maps with two sets of texture coordinates, or transforms of them."};
   }
-  static std::span<const Row> rows(const Frame& frame) { return of(frame.world.scene()); }
+  static Columns<Row> columns() {
+    return {column<Row, std::identity{}>("uv", "0,0 is the top left of the image")};
+  }
 };
 
 // A mesh's row says which one it has.
@@ -161,7 +178,7 @@ struct Materials : SceneTable<scene::Material> {
         column<Row, &Row::albedoMap>(
             "albedo_map",
             "layer | array << 16 of @material_maps | wrap of u << 20 | of v << 22 (1: "
-            "clamp, 2: mirror) | nearest << 24; 0xffffffff: none"),
+            "clamp, 2: mirror) | nearest << 24 | at @second_uvs << 25; 0xffffffff: none"),
         column<Row, &Row::normalMap>("normal_map", "tangent space"),
         column<Row, &Row::metallicRoughnessMap>("metallic_roughness_map", "metallic in b, roughness in g"),
         column<Row, &Row::occlusionMap>("occlusion_map", "in r"),
@@ -460,10 +477,10 @@ class CutProvider : public Provider {
 
 void addTables(graph::PlugIns<Import>& imports) {
   const auto add = [&]<class... Made>() { (imports.add(std::make_unique<ImportOf<Made>>()), ...); };
-  add.
-  operator()<SpheresProvider, MeshesProvider, TableProvider<Materials>, TableProvider<Layers>,
-             TableProvider<Joints>, TableProvider<VertexColors>, TableProvider<Ground>, TableProvider<Mouse>,
-             MaterialMapsProvider, DrawOrderProvider, SilhouettesProvider, CutProvider>();
+  add.operator()<SpheresProvider, MeshesProvider, TableProvider<Materials>, TableProvider<Layers>,
+                 TableProvider<Joints>, TableProvider<VertexColors>, TableProvider<SecondUvs>,
+                 TableProvider<Ground>, TableProvider<Mouse>, MaterialMapsProvider, DrawOrderProvider,
+                 SilhouettesProvider, CutProvider>();
 }
 
 }  // namespace weft::imports

@@ -55,16 +55,15 @@ ModelRows addModelTables(Scene& scene, MeshData& data, const assets::Model& mode
   const auto firstVertex = static_cast<std::uint32_t>(data.vertices.size());
   const auto firstIndex = static_cast<std::uint32_t>(data.indices.size());
   append(data.vertices, model.vertices);
-  if (!model.skin.empty() || !data.skin.empty()) {
-    data.skin.resize(firstVertex);
-    append(data.skin, model.skin);
-    data.skin.resize(data.vertices.size());
-  }
-  if (!model.colors.empty() || !data.colors.empty()) {
-    data.colors.resize(firstVertex, glm::vec4(1));
-    append(data.colors, model.colors);
-    data.colors.resize(data.vertices.size(), glm::vec4(1));
-  }
+  const auto appendIfAny = [&](auto& all, const auto& more, const auto& otherwise) {
+    if (more.empty() && all.empty()) return;
+    all.resize(firstVertex, otherwise);
+    append(all, more);
+    all.resize(data.vertices.size(), otherwise);
+  };
+  appendIfAny(data.skin, model.skin, assets::SkinVertex{});
+  appendIfAny(data.colors, model.colors, glm::vec4(1));
+  appendIfAny(data.secondUvs, model.secondUvs, glm::vec2(0));
   append(data.indices, model.indices);
   for (Mesh mesh : model.meshes) {
     mesh.firstVertex += firstVertex;

@@ -24,7 +24,7 @@ def uri(kind, data):
 
 
 class Model:
-    """Quads from -1 to 1 in the plane z = 0, uv from `low` to `high` (v down), each a node."""
+    """Quads from -1 to 1 in the plane z = 0, uv from `low` to `high` (v down), twice as much in a second set, each a node."""
 
     def __init__(self, materials, **more):
         self.bytes = b""
@@ -45,7 +45,8 @@ class Model:
             "POSITION": self.accessor("VEC3", 5126, [(x, y, 0) for x, y in corners]),
             "NORMAL": self.accessor("VEC3", 5126, [normal] * 4),
             "TANGENT": self.accessor("VEC4", 5126, [(1, 0, 0, 1)] * 4),
-            "TEXCOORD_0": self.accessor("VEC2", 5126, [(span(x), span(-y)) for x, y in corners])}
+            "TEXCOORD_0": self.accessor("VEC2", 5126, [(span(x), span(-y)) for x, y in corners]),
+            "TEXCOORD_1": self.accessor("VEC2", 5126, [(2 * span(x), 2 * span(-y)) for x, y in corners])}
         indices = self.accessor("SCALAR", 5123, [(0, 1, 2, 0, 2, 3)[i:i + 1] for i in range(6)])
         self.json["meshes"].append({"primitives": [{"attributes": attributes, "indices": indices, "material": material}]})
         self.json["nodes"].append({"mesh": len(self.json["meshes"]) - 1, **node})
@@ -103,6 +104,19 @@ def check_colors(folder):
         expect(f"{graph}: a scene of glass alone is not drawn", red > blue + 60)
 
 
+def check_second_uvs(folder):
+    """Maps of a material with coordinates of their own: what shines is seen as it is without the other map."""
+    images = [{"uri": uri("image/png", png(rows))} for rows in ([[(0, 0, 0)]], [[(255, 0, 0), (0, 255, 0)], [(0, 0, 255), (255, 255, 255)]])]
+    shared = {"images": images, "samplers": [{"magFilter": 9728}], "textures": [{"source": 0}, {"source": 1, "sampler": 0}]}
+    shines = {"index": 1, "texCoord": 1, "extensions": {"KHR_texture_transform": {"offset": [0.25, 0.5], "rotation": 0.5}}}
+    for graph in ("deferred.json", "studio.json"):
+        both, alone = (Model([{"pbrMetallicRoughness": base, "emissiveTexture": shines, "emissiveFactor": [1, 1, 1]}], **shared).quad(0).render(folder, graph=graph)
+                       for base in ({"baseColorTexture": {"index": 0}}, {"baseColorFactor": [0, 0, 0, 1]}))
+        apart = sum(max(abs(a - b) for a, b in zip(left, right)) > 1 for lefts, rights in zip(both, alone) for left, right in zip(lefts, rights))
+        expect(f"{graph}: {apart} pixels of a map with its own coordinates differ", apart == 0)
+        expect(f"{graph}: the map does not shine", len({texel for row in both for texel in row}) > 20)
+
+
 def check_backs(folder):
     """A map that tilts the normal, and vertices that have that normal: the same from both sides."""
     texel = bytes(round((c + 1) / 2 * 255) for c in TILT)
@@ -132,7 +146,7 @@ def check_cameras(folder):
 
 
 with tempfile.TemporaryDirectory() as name:
-    for check in (check_wrap, check_colors, check_backs, check_cameras):
+    for check in (check_wrap, check_colors, check_second_uvs, check_backs, check_cameras):
         check(pathlib.Path(name))
 print("\n".join(problems) or "model pictures: as glTF says")
 sys.exit(1 if problems else 0)

@@ -252,7 +252,9 @@ class GltfReader {
     // Normals and tangents that are no numbers are made anew.
     mesh.normals = take(attribute<glm::vec3>(attributes, "NORMAL", {}), mesh, &RawVertex::normal);
     take(attribute<glm::vec4>(attributes, "TANGENT", {}), mesh, &RawVertex::tangent);
-    readUvs(attributes, uvs_[part.material], mesh);
+    const std::vector<GltfUv>& uvs = uvs_[part.material];
+    readUvs(attributes, uvs[0], mesh, &RawVertex::uv);
+    if (uvs.size() > 1) mesh.secondUvs = readUvs(attributes, uvs[1], mesh, &RawVertex::secondUv);
     readColors(attributes, mesh);
     morph(value, weights, mesh);
     if (skinned) part.joints = readWeights(attributes, mesh);
@@ -296,7 +298,7 @@ class GltfReader {
     return !values.empty();
   }
 
-  void readUvs(const JsonValue& attributes, const GltfUv& uv, RawMesh& mesh) {
+  bool readUvs(const JsonValue& attributes, const GltfUv& uv, RawMesh& mesh, glm::vec2 RawVertex::*member) {
     std::vector<glm::vec2> uvs = attribute<glm::vec2>(attributes, fmt::format("TEXCOORD_{}", uv.set), 1e6f);
     // Counter-clockwise as uv are drawn, with v downwards: github.com/KhronosGroup/glTF/issues/1563.
     const float c = std::cos(uv.rotation), s = std::sin(uv.rotation);
@@ -305,7 +307,7 @@ class GltfReader {
       const float u = each[0] * uv.scale[0], v = each[1] * uv.scale[1];
       each = {c * u + s * v + uv.offset[0], -s * u + c * v + uv.offset[1]};
     }
-    take(uvs, mesh, &RawVertex::uv);
+    return take(uvs, mesh, member);
   }
 
   // glTF 2.0, 3.7.2.1: linear, clamped to 0..1; floats, or unsigned bytes and shorts that are normalized.
@@ -556,7 +558,7 @@ class GltfReader {
   Model& model_;
   const bool made_;  // of a file of another format
   MeshBuilder builder_{model_};
-  std::vector<GltfUv> uvs_;  // of the materials
+  std::vector<std::vector<GltfUv>> uvs_;  // of the materials
   const std::vector<JsonValue>& rows_ = document_.rows("nodes");
   std::vector<std::uint32_t> rowOf_;  // by the file's index of a node: its row in the model
   std::vector<bool> shown_;           // by the file's index: in the scene that is shown

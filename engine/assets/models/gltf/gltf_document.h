@@ -118,8 +118,8 @@ class GltfDocument {
   std::map<std::size_t, std::string> views_, accessors_;  // by row: what was packed
 };
 
-// Which uv set a material's maps are looked up with, and how they are moved: KHR_texture_transform. One for all maps of a
-// material, because a vertex has one uv; maps that want another are left out, with W168.
+// Which uv set maps of a material are looked up with, and how they are moved: KHR_texture_transform. A material has one or two,
+// because a vertex has two uv; maps that want a third are left out, with W168.
 struct GltfUv {
   std::uint32_t set = 0;
   std::array<float, 2> offset{0, 0}, scale{1, 1};
@@ -127,8 +127,8 @@ struct GltfUv {
   friend bool operator==(const GltfUv&, const GltfUv&) = default;
 };
 
-// Puts the materials of a document, and one more for meshes without, into the model; the uv of each. `made`: of a file of another format.
-std::vector<GltfUv> readMaterials(GltfDocument& document, ModelFiles& files, Model& model, bool made);
+// Puts the materials of a document, and one more for meshes without, into the model; the uvs of each. `made`: of a file of another format.
+std::vector<std::vector<GltfUv>> readMaterials(GltfDocument& document, ModelFiles& files, Model& model, bool made);
 
 // The file as a Model; `made`: it was made of one of another format, whose paths may be those of another machine and whose
 // vertices are one for each corner. Left out, with W168: points and lines, the motion of morph targets, further uv sets, a second sun, extensions

@@ -117,7 +117,7 @@ class MaterialReader {
   MaterialReader(GltfDocument& document, ModelFiles& files, Model& model, bool made)
       : document_(document), files_(files), model_(model), made_(made), pool_(files) {}
 
-  std::vector<GltfUv> read() {
+  std::vector<std::vector<GltfUv>> read() {
     const std::size_t before = files_.diagnostics().errorCount();
     const std::vector<JsonValue>& rows = document_.rows("materials");
     images_.resize(document_.rows("images").size());
@@ -126,7 +126,7 @@ class MaterialReader {
       readMaterial(rows[i], i);
     }
     model_.materials.push_back(defaultMaterial("default"));
-    uvs_.emplace_back();
+    uvs_.emplace_back(1);
     GltfDocument::refuseUnless(files_.diagnostics().errorCount() == before && pool_.finish(model_));
     return std::move(uvs_);
   }
@@ -198,7 +198,7 @@ class MaterialReader {
 
   void readMaterial(const JsonValue& value, std::size_t number) {
     Material material = defaultMaterial(textOf(value, "name", fmt::format("material {}", number)));
-    std::optional<GltfUv> uv;
+    std::vector<GltfUv> uvs;
     const JsonValue* gloss = valueOf(value, {"extensions", "KHR_materials_pbrSpecularGlossiness"});
     const bool unlit = valueOf(value, {"extensions", "KHR_materials_unlit"});
     std::array<Image, kMaterialMaps> images;
@@ -212,23 +212,28 @@ class MaterialReader {
                                           : valueOf(value, {map.object, map.key});
       if (!info || (unlit && i > 0)) continue;
       const GltfUv mine = readUv(*info);
-      if (uv.value_or(mine) != mine) {
-        document_.leaveOut(*info, fmt::format("'{}' of material {} was left out", map.key, number),
-                           {"one set of texture coordinates and one transform for all maps of a material",
-                            "another one than that of its first map"});
+      const std::size_t most = gloss ? 1 : 2;  // maps are made of two
+      auto at = std::ranges::find(uvs, mine);
+      if (at == uvs.end() && uvs.size() == most) {
+        document_.leaveOut(
+            *info, fmt::format("'{}' of material {} was left out", map.key, number),
+            {gloss ? "one set of texture coordinates, and one transform, for both maps"
+                   : "at most two sets of texture coordinates, or transforms, for the maps of a material",
+             "one more"});
         continue;
       }
-      uv = mine;
+      if (at == uvs.end()) at = uvs.insert(at, mine);
       const JsonValue& texture =
           document_.rows("textures")[document_.index("textures", document_.need(*info, "index"))];
       images[i] = imageOf(texture);
       if (!images[i].tried)
         pool_.reportMissing("a texture", "it names no image that Weft can read", texture.place);
-      material.samplers[i] = samplerOf(texture);
+      material.samplers[i] = samplerOf(texture) | (at == uvs.begin() ? repeat : atSecondUv);
       const TextureUse use = info->find("bump") ? TextureUse::bump : map.use;
       *material.maps()[i] = pool_.use(images[i].number, images[i].name, use, texture.place);
     }
-    uvs_.push_back(uv.value_or(GltfUv{}));
+    if (uvs.empty()) uvs.emplace_back();
+    uvs_.push_back(std::move(uvs));
     const auto numberOf = [&](std::initializer_list<std::string_view> object, std::string_view key,
                               double otherwise, double min, double max) {
       const JsonValue* of = valueOf(value, object);
@@ -332,12 +337,13 @@ class MaterialReader {
   const bool made_;
   TexturePool pool_;
   std::vector<Image> images_;
-  std::vector<GltfUv> uvs_;  // parallel to the materials
+  std::vector<std::vector<GltfUv>> uvs_;  // parallel to the materials
 };
 
 }  // namespace
 
-std::vector<GltfUv> readMaterials(GltfDocument& document, ModelFiles& files, Model& model, bool made) {
+std::vector<std::vector<GltfUv>> readMaterials(GltfDocument& document, ModelFiles& files, Model& model,
+                                               bool made) {
   return MaterialReader(document, files, model, made).read();
 }
 

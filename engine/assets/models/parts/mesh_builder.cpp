@@ -186,13 +186,16 @@ std::uint32_t MeshBuilder::add(RawMesh mesh) {
   row.firstIndex = static_cast<std::uint32_t>(model_.indices.size());
   row.indexCount = static_cast<std::uint32_t>(mesh.indices.size());
   row.skinned = mesh.skinned;
-  const bool skins = mesh.skinned || !model_.skin.empty(), colors = mesh.colors || !model_.colors.empty();
+  const bool skins = mesh.skinned || !model_.skin.empty(), colors = mesh.colors || !model_.colors.empty(),
+             uvs = mesh.secondUvs || !model_.secondUvs.empty();
   if (skins) model_.skin.resize(row.firstVertex);
   if (colors) model_.colors.resize(row.firstVertex, glm::vec4(1));
+  if (uvs) model_.secondUvs.resize(row.firstVertex);
   for (const RawVertex& v : mesh.vertices) {
     model_.vertices.push_back({v.position, v.normal, v.tangent, v.uv});
     if (skins) model_.skin.push_back(v.skin);
     if (colors) model_.colors.push_back(v.color);
+    if (uvs) model_.secondUvs.push_back(v.secondUv);
     row.bounds.add(v.position);
     for (std::size_t i = 0; row.skinned && i < 4; ++i) {
       const std::size_t joint = v.skin.joints[i];

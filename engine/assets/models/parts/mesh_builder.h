@@ -23,19 +23,19 @@ inline glm::quat toRotation(const glm::vec4& q) {
 
 struct RawVertex {
   glm::vec3 position{0}, normal{0};
-  glm::vec4 tangent{0};  // no unit vector: to be made
-  glm::vec2 uv{0};       // (0,0) top left
-  glm::vec4 color{1};    // linear, 0 to 1
+  glm::vec4 tangent{0};          // no unit vector: to be made
+  glm::vec2 uv{0}, secondUv{0};  // (0,0) top left
+  glm::vec4 color{1};            // linear, 0 to 1
   SkinVertex skin{};
 };
-static_assert(sizeof(RawVertex) == 88);  // no padding: vertices are compared by their bytes
+static_assert(sizeof(RawVertex) == 96);  // no padding: vertices are compared by their bytes
 
 // One mesh before it is finished.
 struct RawMesh {
   std::string name;
   std::vector<RawVertex> vertices;
-  std::vector<std::uint32_t> indices;                     // triangles; below the number of vertices
-  bool normals = false, colors = false, skinned = false;  // what the file has
+  std::vector<std::uint32_t> indices;  // triangles; below the number of vertices
+  bool normals = false, colors = false, secondUvs = false, skinned = false;  // what the file has
   bool join = false;  // equal vertices become one: of formats without indices
 };
 
