@@ -213,7 +213,8 @@ inline Registry testRegistry(const World& world = {}) {
   Registry registry;
   registry.passTypes = testPassTypes();
   registry.imports = testImports();
-  registry.drawLists = {"spheres", "opaque", "shadow_casters", "transparent_spheres", "transparent", "ui"};
+  registry.drawLists = {"spheres",      "opaque", "shadow_casters", "transparent_spheres", "transparent",
+                        "transmissive", "ui"};
   registry.geometries = {{"quad", {}},
                          {"icosphere", {{"subdivision", 0, 6, 2}}},
                          {"mesh", {}, true},

@@ -218,7 +218,9 @@ TEST_CASE("every value of a material arrives") {
   CHECK(model.materials[2].alpha == 1);  // ignored where the material is opaque
 }
 
-TEST_CASE("uv are moved as KHR_texture_transform says; maps that want another set are left out") {
+TEST_CASE(
+    "uv are moved as KHR_texture_transform says; a material has two uv, maps that want a third are left "
+    "out") {
   GltfMaker maker;
   maker.square();
   const std::string uri = "data:image/png;base64," + GltfMaker::base64(kRedPng);
@@ -231,11 +233,16 @@ TEST_CASE("uv are moved as KHR_texture_transform says; maps that want another se
            {"extensions",
             {{"KHR_texture_transform",
               {{"offset", {0.5, 0.25}}, {"scale", {2, 4}}, {"rotation", 1.5707963267948966}}}}}}}}},
+       {"occlusionTexture", {{"index", 0}, {"texCoord", 1}}},
        {"emissiveTexture", {{"index", 0}}}}};
   maker.document["meshes"][0]["primitives"][0]["material"] = 0;
   maker.document["extensionsRequired"] = {"KHR_texture_transform"};
   const Model model = make(maker, 1);
   CHECK(model.materials[0].emissiveMap == kNoRow);
+  CHECK(model.materials[0].occlusionMap != kNoRow);
+  CHECK(model.materials[0].samplers[0] == repeat);
+  CHECK(model.materials[0].samplers[3] == atSecondUv);
+  CHECK(model.secondUvs.empty());  // the mesh has none
   // Scaled, turned counter-clockwise as uv are drawn (v downwards), then moved: (1, 1) to (2, 4) to (4, -2).
   const glm::vec2 uv = model.vertices[1].uv;  // of (1, 1)
   CHECK(uv[0] == doctest::Approx(0.5 + 4));
