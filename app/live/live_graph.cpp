@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <filesystem>
+#include <map>
 #include <ranges>
 
 #include "app/session/session.h"
@@ -50,7 +51,7 @@ LiveGraph::LiveGraph(const Options& options, runtime::Renderer& renderer, runtim
       settings_(std::move(settings)),
       scene_(scenePathOf(options), {.camera = options.camera, .materials = options.materials},
              world_.scene().files),
-      presetFolder_(presetFolders(options.presetFolder).front()) {
+      presetFolders_(presetFolders(options.presetFolder)) {
   if (world_.scene().cameras.rows().empty()) scene_.outdate();
   if (world_.environmentPending())
     environment_.request(options.environment);
@@ -398,7 +399,7 @@ bool LiveGraph::saveCamera(const scene::CameraPose& pose, text::Diagnostics& dia
 
 std::optional<std::string> LiveGraph::savePreset(const std::string& name, text::Diagnostics& diagnostics) {
   ++changes_;
-  const std::string file = presetFolder_ + "/" + name + ".json";
+  const std::string file = presetFolders_.front() + "/" + name + ".json";
   std::error_code ignored;
   if (name.find_first_of("/.") != std::string::npos || text::isThere(file) || isWefts(file)) {
     diagnostics.error(text::Code::outputNotWritten, {file},
@@ -416,7 +417,7 @@ std::optional<std::string> LiveGraph::savePreset(const std::string& name, text::
       if (graph::hasSuffix(pass, disable.name))
         text["passes"].push_back({{"name", pass}, {"enabled", false}});
   });
-  fs::create_directories(presetFolder_, ignored);
+  fs::create_directories(presetFolders_.front(), ignored);
   Moment wanted = now(), before = wanted;
   wanted.presets.push_back(file);
   wanted.settings.sets.clear();
@@ -461,6 +462,33 @@ bool LiveGraph::open(const std::string& file, text::Diagnostics& diagnostics) {
   if (!takeUp(std::move(wanted), diagnostics)) return false;
   remember(std::move(before));
   return true;
+}
+
+bool LiveGraph::stepPreset(int by, text::Diagnostics& diagnostics) {
+  std::map<std::string, std::string> named{{"", ""}};  // files; that of an earlier folder is meant; or none
+  for (const std::string& folder : presetFolders_) {
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(folder, none))
+      if (entry.path().extension() == ".json") named.emplace(entry.path().stem(), entry.path());
+  }
+  Moment before = now(), wanted = before;
+  auto at = std::ranges::find_if(named, [&](const auto& each) {
+    return !wanted.presets.empty() && each.second == wanted.presets.back();
+  });
+  at == named.end() ? void(at = named.begin()) : wanted.presets.pop_back();
+  for (std::size_t i = 1; i < named.size(); ++i) {
+    if (by < 0 && at == named.begin()) at = named.end();
+    std::advance(at, by);
+    if (at == named.end()) at = named.begin();
+    Moment next = wanted;
+    if (!at->second.empty()) next.presets.push_back(at->second);
+    text::Diagnostics said;
+    if (!takeUp(std::move(next), said)) continue;
+    diagnostics.append(said);
+    remember(std::move(before));
+    return true;
+  }
+  return false;
 }
 
 }  // namespace weft::app

@@ -62,6 +62,9 @@ class LiveGraph {
   void endChange() { changing_.clear(); }
   // Another graph, scene or environment, or one more preset: what the file holds decides. False, and nothing has changed.
   bool open(const std::string& file, text::Diagnostics& diagnostics);
+  // The next (1) or previous (-1) preset that the graph takes, of all that have names; instead of the last one, if that has a name. False
+  // when it takes none.
+  bool stepPreset(int by, text::Diagnostics& diagnostics);
 
   // Everything that was read, or missed.
   std::vector<std::string> files() const;
@@ -111,7 +114,7 @@ class LiveGraph {
   graph::Settings lost_;  // that the files, as they are, do not take: tried again at each load
   LiveScene scene_;
   LiveEnvironment environment_;
-  std::string presetFolder_;
+  std::vector<std::string> presetFolders_;
   text::FileWatcher watcher_;
   bool graphStale_ = false, good_ = false, environmentGood_ = true;
   bool untried_ = false;              // as the files are since the last change

@@ -20,27 +20,26 @@ namespace weft::app {
 
 namespace {
 
-// A person's folder of this kind: that of the variable, else the one in the home folder; "" where there is neither.
-std::string userFolder(const char* variable, const char* inHome) {
-  if (const char* folder = std::getenv(variable); folder && *folder) return folder;
-  const char* home = std::getenv("HOME");
-  return home && *home ? std::string(home) + "/" + inHome : "";
-}
-
 std::string cacheFolderOf(const Options& options) {
   if (options.cacheFolder == "none") return {};
   if (!options.cacheFolder.empty()) return options.cacheFolder;
-  const std::string user = userFolder("XDG_CACHE_HOME", ".cache");
-  return user.empty() ? "" : user + "/weft/programs";
+  return userFile("XDG_CACHE_HOME", ".cache", "programs");
 }
 
 }  // namespace
 
+std::string userFile(const char* variable, const char* inHome, const std::string& name) {
+  const char* folder = std::getenv(variable);
+  const char* home = std::getenv("HOME");
+  if (folder && *folder) return std::string(folder) + "/weft/" + name;
+  return home && *home ? std::string(home) + "/" + inHome + "/weft/" + name : "";
+}
+
 std::vector<std::string> presetFolders(const std::string& own) {
   std::vector<std::string> folders;
   if (!own.empty()) folders.push_back(own);
-  if (const std::string user = userFolder("XDG_CONFIG_HOME", ".config"); !user.empty())
-    folders.push_back(user + "/weft/presets");
+  if (std::string user = userFile("XDG_CONFIG_HOME", ".config", "presets"); !user.empty())
+    folders.push_back(std::move(user));
   folders.push_back(dataFolder() + kPresets);
   return folders;
 }

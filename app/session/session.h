@@ -20,6 +20,9 @@ namespace weft::app {
 
 using text::dataFolder;
 
+// A file or folder of Weft's in a person's folder: that of the variable, else the one in the home folder; "" where there is neither.
+std::string userFile(const char* variable, const char* inHome, const std::string& name);
+
 constexpr const char* kPresets = "/graphs/presets";  // the bundled ones, in the data folder
 // Where a preset's name is looked for, the first first: `own` (--preset-folder) unless it is empty, the user's folder
 // ($XDG_CONFIG_HOME/weft/presets, else ~/.config/weft/presets), the bundled ones. They need not be there.

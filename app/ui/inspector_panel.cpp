@@ -91,10 +91,9 @@ void InspectorPanel::select(const graph::Plan& plan, std::uint32_t pass) {
   target_ = targetAfter(plan, pass).value_or(target_);
 }
 
-void InspectorPanel::draw(text::Diagnostics& diagnostics) {
+void InspectorPanel::draw(bool inPlace, text::Diagnostics& diagnostics) {
   const graph::Plan& plan = renderer_.execution()->plan();
-  const runtime::InspectTarget before = target_;
-  chooseTarget(plan);
+  if (!inPlace) chooseTarget(plan);
   const std::uint32_t index = indexIn(plan.graph->resourceNames, target_.resource);
   if (index == graph::kNone || !found_) {
     wantsFrame_ = target_.resource.empty() || !(target_ == watched_);  // not looked for yet
@@ -102,16 +101,15 @@ void InspectorPanel::draw(text::Diagnostics& diagnostics) {
     return;
   }
   const FlatResource& resource = plan.graph->resources[index];
-  choosePart(resource);
+  if (!inPlace) choosePart(resource);
   const bool arrived = target_ == watched_ && inspector_.copies() > copiesBefore_;
-  if (resource.kind == ResourceKind::buffer) {
-    drawNumbers();
-  } else {
-    Look& look = looks_.of(plan, index, inspector_, arrived);
-    chooseView(resource, look);
-    drawPicture(look, diagnostics);
-  }
-  wantsFrame_ = !(target_ == before) || !arrived;
+  wantsFrame_ = !arrived;
+  if (resource.kind == ResourceKind::buffer) return drawNumbers();
+  Look& look = looks_.of(plan, index, inspector_, arrived);
+  if (!inPlace) chooseView(resource, look);
+  Look whole = look;
+  whole.moved = false;
+  if (inPlace || !large) drawPicture(inPlace ? whole : look, diagnostics);
 }
 
 void InspectorPanel::chooseTarget(const graph::Plan& plan) {
@@ -199,7 +197,12 @@ void InspectorPanel::chooseView(const FlatResource& resource, Look& look) {
   flow(em * 10);
   ImGui::SetNextItemWidth(em * 6);
   ImGui::SliderFloat("EV", &view.ev, -10, 10, "%.1f");
-  ImGui::Checkbox("false color", &view.falseColor);
+  static constexpr const char* kColors[] = {"values", "false color", "direction", "motion"};
+  int colors = static_cast<int>(view.colors);
+  ImGui::SetNextItemWidth(em * 8);
+  if (ImGui::Combo("##colors", &colors, kColors, 4))
+    view.colors = static_cast<runtime::InspectColors>(colors);
+  tooltip("a direction as red, green and blue; a motion as hue and brightness");
   flow(em * 5);
   ImGui::Checkbox("sRGB", &view.encode);
   flow(em * 12);
@@ -218,6 +221,12 @@ void InspectorPanel::chooseView(const FlatResource& resource, Look& look) {
   }
   flow(em * 5);
   if (ImGui::Button("whole")) look.moved = false;
+  flow(em * 4);
+  ImGui::Checkbox("flip", &look.flip);
+  tooltip("the first row on top");
+  flow(em * 5);
+  ImGui::Checkbox("large", &large);
+  tooltip("in the place of the picture");
   if (!statistics_) return;
   std::string means;
   for (int c = 0; c < channels; ++c)
@@ -248,26 +257,29 @@ void InspectorPanel::drawPicture(Look& look, text::Diagnostics& diagnostics) {
   ImGui::InvisibleButton("canvas", area,
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
   const ImGuiIO& io = ImGui::GetIO();
-  const double px = io.MousePos.x - corner.x, py = corner.y + area.y - io.MousePos.y;  // from the lower left
+  // From the lower left.
+  const double px = io.MousePos.x - corner.x,
+               py = look.flip ? io.MousePos.y - corner.y : corner.y + area.y - io.MousePos.y;
   if (ImGui::IsItemActive()) {
     look.moved |= io.MouseDelta.x != 0 || io.MouseDelta.y != 0;
     view.x -= io.MouseDelta.x * view.texelsPerPixel;
-    view.y += io.MouseDelta.y * view.texelsPerPixel;
+    view.y += (look.flip ? -io.MouseDelta.y : io.MouseDelta.y) * view.texelsPerPixel;
   }
-  const bool hovered = ImGui::IsItemHovered();
-  if (hovered && io.MouseWheel != 0) {
+  const bool hovered = ImGui::IsItemHovered() || (large && !io.WantCaptureMouse);
+  if (ImGui::IsItemHovered() && io.MouseWheel != 0) {
     look.moved = true;
     const double before = view.texelsPerPixel;
     view.texelsPerPixel = std::clamp(before * std::pow(0.8, io.MouseWheel), 1.0 / 64, 64.0);
     view.x += px * (before - view.texelsPerPixel);
     view.y += py * (before - view.texelsPerPixel);
   }
+  const float bottom = look.flip ? 1 : 0;
   const GLuint canvas = inspector_.draw(view, static_cast<std::uint32_t>(area.x),
                                         static_cast<std::uint32_t>(area.y), diagnostics);
   const ImVec2 end(corner.x + area.x, corner.y + area.y);
   if (canvas)
     ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(canvas)),
-                                         corner, end, {0, 1}, {1, 0});
+                                         corner, end, {0, 1 - bottom}, {1, bottom});
   const double tx = std::floor(view.x + px * view.texelsPerPixel),
                ty = std::floor(view.y + py * view.texelsPerPixel);
   std::string text = fmt::format("{:.0f} %; point at a texel for its value", 100 / view.texelsPerPixel);

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 
 #include "engine/runtime/inspection/inspector.h"
 
@@ -12,6 +13,7 @@ struct Look {
   runtime::InspectView view;
   bool ranged = false;  // the range was fitted, or chosen
   bool moved = false;   // the zoom was chosen; else the whole is shown
+  bool flip = false;    // the first row on top
 };
 
 class Looks {
@@ -21,9 +23,16 @@ class Looks {
     const auto [at, first] = looks_.try_emplace(plan.graph->resourceNames[resource]);
     Look& look = at->second;
     if (first) look.view = runtime::Inspector::viewOf(plan.graph->resources[resource]);
-    if (!look.ranged && there) look = {.view = inspector.fittedView(), .ranged = true};
+    if (!look.ranged && there) {
+      const runtime::InspectView chosen = std::exchange(look.view, inspector.fittedView());
+      look.view.colors = chosen.colors;
+      look.view.channel = chosen.channel;
+      look.ranged = true;
+    }
     return look;
   }
+
+  void choose(const std::string& resource, const Look& look) { looks_[resource] = look; }
 
  private:
   std::map<std::string, Look> looks_;  // by resource

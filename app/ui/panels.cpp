@@ -21,10 +21,10 @@ ImVec4 colorOf(text::Severity severity) {
                                                : ImVec4(0.7f, 0.7f, 0.7f, 1);
 }
 
-void beginFixed(const char* name, float x, float y, float width, float height) {
+void beginFixed(const char* name, float x, float y, float width, float height, ImGuiWindowFlags flags = 0) {
   ImGui::SetNextWindowPos({x, y});
   ImGui::SetNextWindowSize({width, height});
-  ImGui::Begin(name, nullptr, kFixed);
+  ImGui::Begin(name, nullptr, kFixed | flags);
 }
 
 }  // namespace
@@ -113,7 +113,7 @@ void Panels::beforeFrame(const scene::CameraPose& pose) {
     pixel_.beforeFrame();
     also = [this](std::uint32_t step) { pixel_.afterStep(*renderer_.execution(), step); };
   }
-  inspector_.beforeFrame(shows(kSelected), std::move(also));
+  inspector_.beforeFrame(shows(kSelected) || inspector_.large, std::move(also));
   profiler_.begin();
 }
 
@@ -124,7 +124,7 @@ void Panels::afterFrame() {
 bool Panels::wantsFrame() const {
   const bool unmeasured = renderer_.device().timers.enabled() &&
                           (profiler_.history().empty() || profiler_.history().back().passes.empty());
-  return unmeasured || (shows(kSelected) && inspector_.wantsFrame()) ||
+  return unmeasured || ((shows(kSelected) || inspector_.large) && inspector_.wantsFrame()) ||
          (shows(kPictures) && pictures_.wantsFrame());
 }
 
@@ -160,10 +160,17 @@ void Panels::draw(const runtime::FrameReport& report, const LoopState& state,
     ImGui::End();
     if (wanted_ == wanted) wanted_.reset();  // else a click wants one, which may have been drawn before
   }
+  if (inspector_.large && live_.running()) {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+    beginFixed("large", 0, 0, width_ - column_, height_ - line_ - strip_, ImGuiWindowFlags_NoInputs);
+    ImGui::PopStyleVar();
+    inspector_.draw(true, diagnostics);
+    ImGui::End();
+  }
   if (visible()) drawLine(state);
   if (!shows(kMessages) || !live_.running()) drawAlarm();
   drawLoading();
-  drawQuestion(diagnostics);
+  drawQuestion(state, diagnostics);
   if (visible()) return;
   ImGui::SetNextWindowPos({width_, 0}, ImGuiCond_Always, {1, 0});
   ImGui::Begin("button", nullptr, kFixed | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_AlwaysAutoResize);
@@ -175,7 +182,7 @@ void Panels::drawTabs(std::size_t place, std::size_t first, std::size_t end,
                       const runtime::FrameReport& report, text::Diagnostics& diagnostics) {
   const std::array<std::function<void()>, kTabCount> draws = {[&] { drawParameters(report, diagnostics); },
                                                               [&] { drawPasses(diagnostics); },
-                                                              [&] { inspector_.draw(diagnostics); },
+                                                              [&] { inspector_.draw(false, diagnostics); },
                                                               [&] { drawPictures(diagnostics); },
                                                               [&] { drawPixel(); },
                                                               [&] { drawProfiler(); },
@@ -214,6 +221,7 @@ void Panels::drawLine(const LoopState& state) {
   };
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(fmt::format("frame {:<6} {:8.2f} s", state.frame, state.time).c_str());
+  button("open", "open", "another graph, scene, model, environment or preset (Ctrl O)");
   button(state.paused ? "run" : "pause", "pause", "time stands still, or goes on (T)");
   button("step", "step", "one frame of 1/60 s, while it stands still (.)");
   button("0 s", "reset_time", "time begins anew (Home)");

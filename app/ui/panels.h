@@ -7,6 +7,7 @@
 
 #include <initializer_list>
 #include <map>
+#include <span>
 #include <string_view>
 
 #include "app/live/live_graph.h"
@@ -36,13 +37,16 @@ class InspectorPanel {
 
   // To be called before each frame. `wanted`: it is on the screen. `also`: what else is to be called after each step, or nothing.
   void beforeFrame(bool wanted, runtime::StepWatch::Look also);
-  void draw(text::Diagnostics& diagnostics);
+  // `inPlace`: of the picture.
+  void draw(bool inPlace, text::Diagnostics& diagnostics);
   void release() {
     if (renderer_.execution()) inspector_.release(*renderer_.execution());
   }
   bool wantsFrame() const { return wantsFrame_; }  // something else is to be copied
   // What a pass writes first, after that pass.
   void select(const graph::Plan& plan, std::uint32_t pass);
+  void select(const runtime::InspectTarget& target) { target_ = target; }
+  bool large = false;  // what is selected is in the place of the picture
 
  private:
   void chooseTarget(const graph::Plan& plan);
@@ -67,8 +71,9 @@ struct LoopState {
   std::uint32_t frame = 0;
   double time = 0;  // seconds
   bool paused = false;
-  std::string modes;  // "REC 12, FLY"
-  std::string said;   // what was done last
+  std::string modes;                      // "REC 12, FLY"
+  std::string said;                       // what was done last
+  std::span<const std::string> recent{};  // files that were opened, the last first
 };
 
 class Panels {
@@ -90,6 +95,15 @@ class Panels {
   void select(std::string_view pass);
   // Brings what passes leave at a place of the picture to the front: from its lower left corner, 0 to 1 each way.
   void markPixel(glm::dvec2 place);
+  // Shows a texture in the place of the picture; the same of what is selected, or the picture again.
+  void show(const runtime::InspectTarget& target, const Look& look) {
+    inspector_.select(target);
+    looks_.choose(target.resource, look);
+    inspector_.large = true;
+  }
+  void showSelected() { inspector_.large = !inspector_.large; }
+  // False when the picture is there.
+  bool hideShown() { return std::exchange(inspector_.large, false); }
   // Where the selected pass is written, or, with `shader`, its shader; nowhere when none is selected.
   text::Place selectedPlace(bool shader) const;
   // The height of text in pixels, and the size of the window; to be called before the functions below.
@@ -114,6 +128,10 @@ class Panels {
   std::string writeBack(text::Diagnostics& diagnostics);
   // Asks whether to close with changes that are in no file.
   void askToLeave() { question_ = Question::leave; }
+  // Asks for a file to open.
+  void askToOpen() { question_ = Question::open; }
+  // The answer, once.
+  std::string takeChosen() { return std::exchange(chosen_, {}); }
   // False when there is no question to close.
   bool closeQuestion() { return std::exchange(question_, Question::none) != Question::none; }
 
@@ -130,7 +148,7 @@ class Panels {
     kMessages,
     kTabCount
   };
-  enum class Question : std::uint8_t { none, write, leave };
+  enum class Question : std::uint8_t { none, write, leave, open };
 
   bool wide() const { return width_ >= 78.5f * em_; }  // 1,100 pixels at scale 1
   bool visible() const { return visible_.value_or(wide()); }
@@ -149,8 +167,9 @@ class Panels {
   void drawAlarm();  // messages that cannot wait, where their tab is not there
   void drawLine(const LoopState& state);
   void drawLoading();  // what is being loaded
-  void drawQuestion(text::Diagnostics& diagnostics);
+  void drawQuestion(const LoopState& state, text::Diagnostics& diagnostics);
   void drawWrites(text::Diagnostics& diagnostics);
+  void drawOpen(const LoopState& state);
   bool measureBox();  // whether each pass is measured
 
   LiveGraph& live_;
@@ -180,7 +199,8 @@ class Panels {
   std::size_t errors_ = 0;                   // in the log, when it was looked at last
   Question question_ = Question::none;
   std::optional<graph::WriteBack> writes_;
-  char preset_[64] = {};
+  char preset_[64] = {}, file_[1024] = {};
+  std::string chosen_;
   ImGuiTextFilter filter_;  // of the parameters
   ImGuiTextFilter passFilter_;
   std::uint32_t selected_ = graph::kNone;  // a row

@@ -88,8 +88,6 @@ std::optional<Value> edit(const char* label, const ParameterDesc& desc, const Va
 }  // namespace
 
 void Panels::drawParameters(const runtime::FrameReport& report, text::Diagnostics& diagnostics) {
-  const graph::FlatGraph& graph = *renderer_.execution()->plan().graph;
-  const std::span<const Value> values = renderer_.execution()->uniforms().parameters();
   ImGui::TextWrapped("%ux%u, %u of %u passes ran", live_.settings().screenWidth,
                      live_.settings().screenHeight, report.passesRun,
                      report.passesRun + report.passesSkipped);
@@ -102,6 +100,9 @@ void Panels::drawParameters(const runtime::FrameReport& report, text::Diagnostic
   ImGui::EndDisabled();
   ImGui::SameLine();
   filter_.Draw("search", -4 * em_);
+  // After the buttons, which may make another plan.
+  const graph::FlatGraph& graph = *renderer_.execution()->plan().graph;
+  const std::span<const Value> values = renderer_.execution()->uniforms().parameters();
   if (!ImGui::BeginTable(
           "list", 2,
           ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_NoPadOuterX))

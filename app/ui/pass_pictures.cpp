@@ -75,7 +75,9 @@ void PassPictures::afterStep(runtime::Execution& execution, std::uint32_t step) 
     if (!tile.wanted || tile.step != step || !execution.steps().hasResults(step) ||
         !inspector_.look(execution, tile.target))
       continue;
-    runtime::InspectView view = looks_.of(execution.plan(), tile.resource, inspector_, true).view;
+    const Look& look = looks_.of(execution.plan(), tile.resource, inspector_, true);
+    runtime::InspectView view = look.view;
+    tile.flip = look.flip;
     const gl::TextureDesc& from = inspector_.picture().desc;
     const auto high = static_cast<std::uint32_t>(std::max(height_, 16.0f));
     const auto wide = static_cast<std::uint32_t>(
@@ -138,10 +140,11 @@ void PassPictures::drawTile(Tile& tile, const graph::Plan& plan) {
     tip = fmt::format("{}\n{}: {}", tile.target.pass, tile.target.resource,
                       graph::shapeText(plan.graph->resources[tile.resource]));
   tooltip(tip);
+  const float bottom = tile.flip ? 1 : 0;
   if (tile.texture)
     ImGui::GetWindowDrawList()->AddImage(
-        reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(tile.texture.id())), corner, end, {0, 1},
-        {1, 0});
+        reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(tile.texture.id())), corner, end,
+        {0, 1 - bottom}, {1, bottom});
   else
     ImGui::GetWindowDrawList()->AddRect(corner, end, ImGui::GetColorU32(ImGuiCol_Border));
   const ImVec2 under = ImGui::GetCursorScreenPos();

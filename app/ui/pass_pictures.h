@@ -38,7 +38,7 @@ class PassPictures {
     std::string label;
     gl::Texture texture;
     bool stale = true;  // since what is in it may have changed
-    bool inView = false, wanted = false;
+    bool inView = false, wanted = false, flip = false;
   };
   void drawTile(Tile& tile, const graph::Plan& plan);
 

@@ -86,18 +86,39 @@ void Panels::drawWrites(text::Diagnostics& diagnostics) {
   if (ImGui::Button("Back (Esc)")) question_ = Question::none;
 }
 
-void Panels::drawQuestion(text::Diagnostics& diagnostics) {
+void Panels::drawOpen(const LoopState& state) {
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::InputTextWithHint("##file", "a graph, scene, model, environment or preset", file_, sizeof file_,
+                               ImGuiInputTextFlags_EnterReturnsTrue))
+    chosen_ = file_;
+  ImGui::BeginChild("recent", {0, -ImGui::GetFrameHeightWithSpacing()});
+  for (const std::string& file : state.recent)
+    if (ImGui::Selectable(file.c_str())) chosen_ = file;
+  ImGui::EndChild();
+  if (ImGui::Button("Back (Esc)") || !chosen_.empty()) question_ = Question::none;
+}
+
+void Panels::drawQuestion(const LoopState& state, text::Diagnostics& diagnostics) {
   if (question_ == Question::none) return;
-  const bool write = question_ == Question::write;
-  const float width = std::min(60 * em_, width_ - em_),
-              height = std::min((write ? 30 : 7) * em_, height_ - em_);
+  const bool write = question_ == Question::write, open = question_ == Question::open;
+  const float width = std::min(60 * em_, width_ - em_), height = std::min((write  ? 30
+                                                                           : open ? 20
+                                                                                  : 7) *
+                                                                              em_,
+                                                                          height_ - em_);
   ImGui::SetNextWindowPos({width_ / 2, height_ / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSize({width, height});
-  ImGui::Begin(write ? "Write into the files" : "Close", nullptr,
+  ImGui::Begin(write  ? "Write into the files"
+               : open ? "Open"
+                      : "Close",
+               nullptr,
                ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                    ImGuiWindowFlags_NoSavedSettings);
   if (write) {
     drawWrites(diagnostics);
+  } else if (open) {
+    drawOpen(state);
   } else {
     ImGui::TextWrapped("%s",
                        fmt::format("{} made here {} in no file.", text::counted(live_.unsaved(), "change"),

@@ -4,71 +4,146 @@
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "engine/text/chars.h"
+#include "engine/text/json/fields.h"
+#include "engine/text/nearest.h"
+
 namespace weft::app {
 
 namespace {
 
-// clang-format off
-constexpr WithKey kAlone = WithKey::nothing;
-constexpr KeyBinding kBindings[] = {
-    {0, kAlone, "", "left drag", "turn around the scene"},
-    {0, kAlone, "", "Ctrl left drag", "the same, where the graph reads the mouse"},
-    {0, kAlone, "", "right drag", "slide sideways"},
-    {0, kAlone, "", "wheel", "nearer and farther; flying: faster and slower"},
-    {'F', kAlone, "fly", "F", "fly, with the mouse captured; again: back to turning"},
-    {0, kAlone, "", "W A S D", "flying: forward, left, back, right (places of a US keyboard)"},
-    {0, kAlone, "", "E Q", "flying: up, down"},
-    {0, kAlone, "", "Shift", "flying: four times as fast"},
-    {'B', kAlone, "head_bob", "B", "flying: head-bob on and off"},
-    {'R', kAlone, "reset_camera", "R", "the first camera again"},
-    {'1', kAlone, "camera_1", "1 ... 9", "cameras of the scene: the one it began with, the others in the order of its file"},
-    {'C', kAlone, "copy_command", "C", "copy and print the command that renders what is seen"},
-    {'K', kAlone, "save_camera", "K", "keep the view as a camera of the scene file (Ctrl Z takes it back)"},
-    {GLFW_KEY_PAGE_DOWN, kAlone, "next_environment", "PgDn PgUp", "next and previous environment of the folder"},
-    {GLFW_KEY_PAGE_UP, kAlone, "previous_environment", "", ""},
-    {GLFW_KEY_SPACE, kAlone, "panels", "Space", "show or hide the panels"},
-    {GLFW_KEY_F1, kAlone, "help", "F1", "show or hide this help"},
-    {'Z', WithKey::control, "undo", "Ctrl Z", "take back the last change"},
-    {'Y', WithKey::control, "redo", "Ctrl Y", "make it again"},
-    {GLFW_KEY_F8, kAlone, "write_back", "F8", "show what would be written into which file; again: write it"},
-    {'T', kAlone, "pause", "T", "time stands still, or goes on"},
-    {'.', kAlone, "step", ".", "one frame of 1/60 s, and time stands still"},
-    {GLFW_KEY_HOME, kAlone, "reset_time", "Home", "time begins anew"},
-    {'P', kAlone, "profile", "P", "measure each pass (slower on software)"},
-    {'N', kAlone, "find_nan", "N", "name the first pass that writes NaN or an infinity, and select it"},
-    {'X', kAlone, "trace_pixel", "X", "show what each pass leaves at the pixel under the mouse"},
-    {'O', kAlone, "edit_pass", "O", "open the selected pass in the editor, where its stanza is"},
-    {'O', WithKey::shift, "edit_shader", "Shift O", "open its shader there"},
-    {'M', kAlone, "compare", "M", "keep the picture and compare with it along a line; again: let it go"},
-    {'V', kAlone, "vsync", "V", "wait for the screen's refresh, or not"},
-    {'I', kAlone, "idle", "I", "idle mode: draw only when something changed"},
-    {'-', kAlone, "render_scale_down", "- =", "render with fewer or more pixels than the picture has"},
-    {'=', kAlone, "render_scale_up", "", ""},
-    {'+', kAlone, "render_scale_up", "", ""},
-    {GLFW_KEY_F10, kAlone, "record", "F10", "start or stop recording every frame, at a fixed step"},
-    {GLFW_KEY_F11, kAlone, "full_screen", "F11", "the whole screen; again: a window"},
-    {GLFW_KEY_F12, kAlone, "screenshot", "F12", "save the picture as weft_<frame>.png"},
-    {GLFW_KEY_F12, WithKey::shift, "screenshot_exr", "Shift F12", "save its values as weft_<frame>.exr"},
-    {GLFW_KEY_ESCAPE, kAlone, "close", "Esc", "close what is on top: a list, the help, a question, a flight, then the window"},
-    {GLFW_KEY_ESCAPE, WithKey::shift, "close_at_once", "Shift Esc", "close the window without writing anything"},
-};
-// clang-format on
+constexpr std::pair<const char*, int> kNames[] = {
+    {"Space", GLFW_KEY_SPACE},   {"Home", GLFW_KEY_HOME},      {"End", GLFW_KEY_END},
+    {"PgUp", GLFW_KEY_PAGE_UP},  {"PgDn", GLFW_KEY_PAGE_DOWN}, {"Esc", GLFW_KEY_ESCAPE},
+    {"Tab", GLFW_KEY_TAB},       {"Enter", GLFW_KEY_ENTER},    {"Backspace", GLFW_KEY_BACKSPACE},
+    {"Insert", GLFW_KEY_INSERT}, {"Delete", GLFW_KEY_DELETE},  {"Left", GLFW_KEY_LEFT},
+    {"Right", GLFW_KEY_RIGHT},   {"Up", GLFW_KEY_UP},          {"Down", GLFW_KEY_DOWN}};
+constexpr const char* kVerbs[] = {"do", "toggle", "step", "show", "open"};
+const std::vector<std::string> kAs = {"values", "scale", "direction", "motion", "distance"},
+                               kChannels = {"RGB", "R", "G", "B", "A"};
+
+// The key of "Shift F12"; 0: there is none of this name.
+std::pair<int, WithKey> keyOf(std::string_view text) {
+  WithKey with = WithKey::nothing;
+  if (text.starts_with("Shift "))
+    with = WithKey::shift;
+  else if (text.starts_with("Ctrl "))
+    with = WithKey::control;
+  if (with != WithKey::nothing) text.remove_prefix(text.find(' ') + 1);
+  if (text.size() == 1 && text[0] > ' ' && text[0] <= '~' && !(text[0] >= 'a' && text[0] <= 'z'))
+    return {text[0], with};
+  for (const auto& [name, key] : kNames)
+    if (text == name) return {key, with};
+  for (int i = 1; i <= 25; ++i)
+    if (text == fmt::format("F{}", i)) return {GLFW_KEY_F1 + i - 1, with};
+  return {0, with};
+}
 
 }  // namespace
 
-std::span<const KeyBinding> keyBindings() {
-  return kBindings;
+KeyTable::KeyTable() {
+  text::Diagnostics none;
+  add(kKeys, {}, none);
+  weft_ = rows_;
 }
 
-std::string actionOf(int key, WithKey with) {
-  if (key >= '1' && key <= '9' && with != WithKey::control) return fmt::format("camera_{}", key - '0');
-  std::string alone;
-  for (const KeyBinding& binding : kBindings) {
-    if (binding.key != key || !*binding.action) continue;
-    if (binding.with == with) return binding.action;
-    if (binding.with == kAlone && with == WithKey::shift) alone = binding.action;
+void KeyTable::add(std::string_view json, text::FileName file, text::Diagnostics& diagnostics) {
+  const auto root = text::parseJson(json, file, diagnostics);
+  if (!root || !text::expectType(*root, "the table of keys", text::JsonValue::Type::object, diagnostics))
+    return;
+  for (const text::JsonMember& member : root->members)
+    if (member.key != "$schema") addRow(member, diagnostics);
+}
+
+void KeyTable::addRow(const text::JsonMember& member, text::Diagnostics& diagnostics) {
+  using Type = text::JsonValue::Type;
+  const text::JsonValue& value = member.value;
+  const std::string what = fmt::format("key '{}'", member.key);
+  const bool weft = weft_.empty();
+  std::vector<std::string> actions;
+  for (const KeyBinding& each : weft_)
+    if (each.verb == "do") actions.push_back(each.name);
+  const std::size_t before = diagnostics.errorCount();
+  KeyBinding row{.keys = member.key};
+  std::tie(row.key, row.with) = keyOf(member.key);
+  // The index of a word.
+  const auto take = [&](const text::JsonValue* at, std::span<const std::string> known) -> std::size_t {
+    if (!at || !text::expectType(*at, what, Type::string, diagnostics)) return 0;
+    const auto found = std::ranges::find(known, at->text);
+    if (found == known.end())
+      diagnostics.error(text::Code::unknownWord, at->textPlace(),
+                        fmt::format("{}: '{}' is nothing that a key can do", what, at->text),
+                        {.hint = text::nearestHint(at->text, known)});
+    return static_cast<std::size_t>(found - known.begin());
+  };
+  if (value.is(Type::string)) {
+    row.verb = "do";
+    row.name = value.text;
+    take(&value, actions);
+  } else if (!value.is(Type::null)) {
+    text::JsonFields fields(value, what, text::Code::outOfRange, diagnostics);
+    for (const char* verb : kVerbs) {
+      const auto name = fields.text(verb);
+      if (!name) continue;
+      if (!row.verb.empty())
+        diagnostics.error(text::Code::keysExclude, fields.find(verb)->place,
+                          fmt::format("{} has '{}' and '{}'", what, row.verb, verb),
+                          {.hint = "write one of them"});
+      row.verb = verb;
+      row.name = *name;
+    }
+    if (row.verb == "do" && !weft) take(fields.find("do"), actions);
+    row.by = fields.number("by").value_or(1);
+    row.as = take(fields.find("as"), kAs);
+    row.channel = take(fields.find("channel"), kChannels);
+    row.low = fields.number("low");
+    row.high = fields.number("high");
+    row.help = fields.text("help").value_or("");
+    fields.finish();
+    if (row.verb.empty() && !weft && diagnostics.errorCount() == before) fields.require({"do"});
+  }
+  if (row.key == 0 && !weft)
+    diagnostics.error(
+        text::Code::unknownWord, member.place.after(1), fmt::format("there is no key '{}'", member.key),
+        {.hint = "the names of keys are those of docs/viewer.md: \"Shift F12\", \"Ctrl Z\", \"PgDn\""});
+  if (diagnostics.errorCount() > before) return;
+  if (row.help.empty() && !row.verb.empty()) {
+    const auto same = std::ranges::find_if(
+        weft_, [&](const KeyBinding& each) { return each.verb == row.verb && each.name == row.name; });
+    row.help = weft ? rows_.back().help : row.verb == "do" ? same->help : row.verb + " " + row.name;
+  }
+  const auto old = std::ranges::find_if(
+      rows_, [&](const KeyBinding& each) { return row.key && each.key == row.key && each.with == row.with; });
+  if (old == rows_.end() && !value.is(Type::null))
+    rows_.push_back(std::move(row));
+  else if (old != rows_.end() && value.is(Type::null))
+    rows_.erase(old);
+  else if (old != rows_.end())
+    *old = std::move(row);
+}
+
+const KeyBinding* KeyTable::find(int key, WithKey with) const {
+  const KeyBinding* alone = nullptr;
+  for (const KeyBinding& row : rows_) {
+    if (row.key != key || row.verb.empty()) continue;
+    if (row.with == with) return &row;
+    if (row.with == WithKey::nothing && with == WithKey::shift) alone = &row;
   }
   return alone;
+}
+
+std::vector<std::pair<std::string, std::string>> KeyTable::help() const {
+  std::vector<std::pair<std::string, std::string>> out;
+  for (std::size_t first = 0, end = 0; first < rows_.size(); first = end) {
+    while (end < rows_.size() && rows_[end].help == rows_[first].help) ++end;
+    std::string keys = rows_[first].keys;
+    for (std::size_t i = end - first > 3 ? end - 1 : first + 1; i < end; ++i)
+      keys += (end - first > 3 ? " ... " : " ") + rows_[i].keys;
+    out.emplace_back(std::move(keys), rows_[first].help);
+  }
+  return out;
 }
 
 }  // namespace weft::app

@@ -122,6 +122,11 @@ void addView(CommandLine& line) {
   command.add_flag("--idle", options.idle, "draw only when something changed");
   command.add_option("--render-scale", options.renderScale, "pixels of the scene per pixel of the window")
       ->check(numberFrom(0.1, 4));
+  command
+      .add_option("--moving-scale", options.movingScale,
+                  "of the render scale, while the camera is moved (default: where frames are slow, half or a "
+                  "quarter)")
+      ->check(numberFrom(0.1, 1));
   command.add_option("--ui-scale", options.uiScale, "size of the panels (default: the screen's)")
       ->check(numberFrom(0.25, 8));
 }

@@ -12,7 +12,7 @@
 
 #include "app/output/output_files.h"
 #include "app/output/standard_streams.h"
-#include "app/view/key_bindings.h"
+#include "engine/graph/language/names.h"
 #include "engine/text/files/file.h"
 #include "engine/text/hash.h"
 #include "engine/text/json/report.h"
@@ -25,7 +25,10 @@ namespace {
 constexpr double kLookAround = 0.05;   // seconds between looks at everything while nothing is drawn
 constexpr double kLookAtFiles = 0.02;  // the same while files that changed are to settle
 constexpr std::chrono::milliseconds kWaitForWrites{5};
-constexpr int kWaitsForWrites = 10;     // who writes for longer than this gets frames in between
+constexpr int kWaitsForWrites = 10;  // who writes for longer than this gets frames in between
+constexpr double kHandRests = 0.3;   // seconds without a movement of the camera
+constexpr double kSlow = 0.1;        // seconds of a frame
+constexpr std::size_t kMostRecent = 12;
 constexpr int kRestlessAfterEvent = 4;  // panels answer an event within so many redraws
 
 // What is wrong with the files or with a change made here is reported, and does not count against the program.
@@ -35,30 +38,27 @@ void tell(text::Diagnostics& diagnostics, ui::Log& log, ui::Log::Topic topic) {
   diagnostics.clear();
 }
 
-// The rows of keyBindings(), in two columns and as small as the window asks for.
-void drawHelp() {
+// In two columns and as small as the window asks for.
+void drawHelp(const std::vector<std::pair<std::string, std::string>>& rows) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  std::vector<const KeyBinding*> rows;
-  for (const KeyBinding& binding : keyBindings())
-    if (*binding.keys) rows.push_back(&binding);
   const std::size_t high = (rows.size() + 1) / 2;
   float width = 0;
-  for (const KeyBinding* row : rows) width = std::max(width, ImGui::CalcTextSize(row->does).x);
+  for (const auto& [keys, help] : rows) width = std::max(width, ImGui::CalcTextSize((keys + help).c_str()).x);
   ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowFocus();
   ImGui::Begin("Help", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_AlwaysAutoResize);
   ImGui::SetWindowFontScale(
-      std::min({1.0f, (screen.x - 16) / (2 * width + 24 * ImGui::GetFontSize()),
+      std::min({1.0f, (screen.x - 16) / (2 * width + 8 * ImGui::GetFontSize()),
                 (screen.y - 16) / (static_cast<float>(high + 1) * ImGui::GetTextLineHeightWithSpacing())}));
   if (ImGui::BeginTable("keys", 4, ImGuiTableFlags_SizingFixedFit)) {
     for (std::size_t row = 0; row < high; ++row)
       for (std::size_t at = row; at < rows.size(); at += high) {
         ImGui::TableNextColumn();
-        ImGui::TextColored({0.6f, 0.85f, 1, 1}, "%s", rows[at]->keys);
+        ImGui::TextColored({0.6f, 0.85f, 1, 1}, "%s", rows[at].first.c_str());
         ImGui::TableNextColumn();
-        ImGui::TextUnformatted(rows[at]->does);
+        ImGui::TextUnformatted(rows[at].second.c_str());
       }
     ImGui::EndTable();
   }
@@ -90,6 +90,13 @@ Viewer::Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& li
   uiScale_ = options.uiScale > 0 ? static_cast<float>(options.uiScale) : session.context->contentScale();
   if (options.ui) overlay_ = ui::Overlay::create(window_, uiScale_);
   input_.setOverlay(overlay_.get());
+  if (const std::string file = userFile("XDG_CONFIG_HOME", ".config", "keys.json"); text::isThere(file)) {
+    text::chooseFile(file);
+    text::Diagnostics said;
+    if (const auto json = text::readTextFile(file, said)) keys_.add(*json, file, said);
+    log_.addPast(said);
+    report(said);
+  }
   addActions();
   setIcon(window_);
   renderer_.device().timers.setEnabled(options.profile);
@@ -109,6 +116,11 @@ void Viewer::addActions() {
   gl::PassTimers& timers = renderer_.device().timers;
   const auto step = [this](int by) {
     if (!live_.stepEnvironment(by)) told_ = "there is no other environment in the folder";
+  };
+  const auto preset = [this](int by) {
+    if (!live_.stepPreset(by, diagnostics_)) return void(told_ = "the graph takes no preset");
+    const auto presets = renderer_.presets();
+    told_ = presets.empty() ? "no preset" : "preset " + std::filesystem::path(presets.back()).stem().string();
   };
   const auto atRest = [this](const std::function<void()>& change) {  // shows only in another frame
     return [this, change] {
@@ -135,6 +147,10 @@ void Viewer::addActions() {
                }},
               {"next_environment", [step] { step(1); }},
               {"previous_environment", [step] { step(-1); }},
+              {"next_preset", [this, preset] { preset(1); }},
+              {"previous_preset", [this, preset] { preset(-1); }},
+              {"open", [this] { panels_.askToOpen(); }},
+              {"show_selected", [this] { panels_.showSelected(); }},
               {"undo", [this] { told_ = live_.undo(diagnostics_) ? "taken back" : "nothing to take back"; }},
               {"redo", [this] { told_ = live_.redo(diagnostics_) ? "made again" : "nothing to make again"; }},
               {"trace_pixel",
@@ -184,15 +200,90 @@ void Viewer::addActions() {
                }}};
   for (std::size_t i = 0; i < 9; ++i)
     actions_[fmt::format("camera_{}", i + 1)] = [this, i] { lookThrough(i); };
-  for ([[maybe_unused]] const KeyBinding& binding : keyBindings())
-    assert((!*binding.action || actions_.contains(binding.action)) && "every key does something");
+  for ([[maybe_unused]] const KeyBinding& key : keys_.rows())
+    assert((key.verb != "do" || actions_.contains(key.name)) && "every key does something");
 }
 
-void Viewer::act(const std::string& action) {
+void Viewer::act(const KeyBinding& key) {
   const std::uint64_t changes = live_.changes();
-  actions_.find(action)->second();
-  say(fmt::format("action {}", action));
+  if (key.verb == "do")
+    actions_.find(key.name)->second();
+  else if (live_.running())
+    told_ = key.verb == "show"   ? show(key)
+            : key.verb == "open" ? open(presetFile(key.name, options_.presetFolder))
+                                 : step(key);
+  if (key.verb != "do") rest_.disturb();
+  say("action " + (key.verb == "do" ? "" : key.verb + " ") + text::printable(key.name));
   if (live_.changes() != changes) tell(diagnostics_, log_, ui::Log::kChange);
+}
+
+std::string Viewer::step(const KeyBinding& key) {
+  const std::span<const graph::ParameterSpec> parameters = renderer_.execution()->plan().graph->parameters;
+  std::vector<std::string> names;
+  for (const graph::ParameterSpec& each : parameters) names.push_back(each.path);
+  const std::vector<std::size_t> found = graph::suffixMatches(names, key.name);
+  if (found.empty()) {  // a pass or an effect
+    text::Diagnostics said;
+    const bool off = std::ranges::any_of(live_.settings().disables,
+                                         [&](const graph::Disable& each) { return each.name == key.name; });
+    if (!live_.setEnabled(key.name, off, said)) return said.items().front().message;
+    return key.name + (off ? ": true" : ": false");
+  }
+  const graph::ParameterDesc& desc = parameters[found.front()].desc;
+  graph::Value value = renderer_.execution()->uniforms().parameters()[found.front()];
+  if (value.type == graph::Value::Type::boolean) {
+    value = graph::Value::boolean(!value.truth());
+  } else if (value.type == graph::Value::Type::number) {
+    value.v[0] = std::clamp(value.v[0] + key.by, desc.min.value_or(-1e9), desc.max.value_or(1e9));
+  } else if (const auto count = static_cast<std::ptrdiff_t>(desc.choices.size())) {
+    const auto at = std::ranges::find(desc.choices, value.symbol) - desc.choices.begin();
+    value.symbol = desc.choices[static_cast<std::size_t>((at + count + (key.by < 0 ? -1 : 1)) % count)];
+  }
+  live_.setParameter(names[found.front()], value, diagnostics_);
+  live_.endChange();
+  return fmt::format("{}: {}", names[found.front()], graph::toText(value));
+}
+
+std::string Viewer::show(const KeyBinding& key) {
+  if (std::exchange(shownBy_, &key) == &key && panels_.hideShown()) return "";
+  const graph::Plan& plan = renderer_.execution()->plan();
+  text::Diagnostics said;
+  const auto pick = graph::parsePick(key.name).value_or(graph::Pick{.text = key.name});
+  const auto item = runtime::captureItemOf(plan, pick, said);
+  if (!item) return panels_.hideShown(), said.items().front().message;
+  const auto& names = plan.graph->resourceNames;
+  const auto index =
+      static_cast<std::size_t>(std::ranges::find(names, item->target.resource) - names.begin());
+  ui::Look look{.view = runtime::Inspector::viewOf(plan.graph->resources[index])};
+  look.view.channel = static_cast<runtime::InspectChannel>(key.channel);
+  look.view.depth = key.as == 4;
+  look.view.colors = static_cast<runtime::InspectColors>(key.as % 4);
+  look.ranged = key.low || key.high;
+  look.view.low = static_cast<float>(key.low.value_or(0));
+  look.view.high = static_cast<float>(key.high.value_or(1));
+  panels_.show(item->target, look);
+  return key.name;
+}
+
+std::string Viewer::open(const std::string& file) {
+  if (!live_.open(file, diagnostics_)) return "not opened, see the messages: " + file;
+  remember(file);
+  return "opened " + file;
+}
+
+void Viewer::remember(const std::string& file) {
+  const std::string list = userFile("XDG_STATE_HOME", ".local/state", "recent");
+  if (!overlay_ || options_.maxFrames || list.empty()) return;
+  text::Diagnostics ignored;  // a home that cannot be written
+  std::error_code none;
+  text::chooseFile(list);
+  if (text::isThere(list)) recent_ = text::linesOf(text::readTextFile(list, ignored).value_or(""));
+  const std::string path = text::absolutePath(file);
+  std::erase_if(recent_, [&](const std::string& each) { return each == path || each.empty(); });
+  recent_.insert(recent_.begin(), path);
+  recent_.resize(std::min(recent_.size(), kMostRecent));
+  std::filesystem::create_directories(std::filesystem::path(list).parent_path(), none);
+  text::writeFile(list, fmt::format("{}\n", fmt::join(recent_, "\n")), ignored);
 }
 
 void Viewer::edit(const text::Place& place) {
@@ -202,7 +293,7 @@ void Viewer::edit(const text::Place& place) {
 
 void Viewer::close() {
   if (overlay_ && overlay_->closePopup()) return;
-  if (std::exchange(help_, false) || panels_.closeQuestion()) return;
+  if (std::exchange(help_, false) || panels_.closeQuestion() || panels_.hideShown()) return;
   if (input_.captured()) return toggleFlight();
   glfwSetWindowShouldClose(window_, GLFW_TRUE);
 }
@@ -278,6 +369,7 @@ int Viewer::run(text::Diagnostics said) {
   diagnostics_ = std::move(said);
   tell(diagnostics_, log_, ui::Log::kFiles);
   if (!options_.record.empty()) toggleRecording();
+  remember(renderer_.graphPath());
   while (true) {
     if (glfwWindowShouldClose(window_)) {
       if (leave_ || !overlay_ || live_.unsaved() == 0) break;
@@ -335,14 +427,27 @@ void Viewer::takeInput(gl::Size size) {
     // A layout follows: without one the panels would be nowhere for the next.
     if (overlay_ && came) overlay_->begin();
     input_.decide(overlay_ && overlay_->wantsMouse());
-    for (const std::string& action : input_.takeActions()) act(action);
+    for (const KeyBinding* key : input_.takeActions()) act(*key);
     if (more && overlay_) drawUi(false);
   }
-  for (const std::string& file : input_.takeDropped()) {
-    told_ = (live_.open(file, diagnostics_) ? "opened " : "not opened, see the messages: ") + file;
+  const auto take = [&](const std::string& file, const char* how) {
+    told_ = open(file);
     tell(diagnostics_, log_, ui::Log::kChange);
-    say("dropped " + text::printable(file));
-  }
+    say(fmt::format("{} {}", how, text::printable(file)));
+  };
+  for (const std::string& file : input_.takeDropped()) take(file, "dropped");
+  if (const std::string file = panels_.takeChosen(); !file.empty()) take(file, "opened");
+}
+
+void Viewer::chooseScale() {
+  const double now = glfwGetTime(),
+               slow = std::min(slow_[0], slow_[1]);  // one alone may have compiled shaders
+  if (input_.movesCamera() || rig_.moving()) movedAt_ = now;
+  const bool never = options_.maxFrames || options_.events || slow < kSlow;
+  const double wanted = options_.movingScale.value_or(never ? 1 : slow < 4 * kSlow ? 0.5 : 0.25);
+  const bool moves = recording_.empty() && now - movedAt_ < kHandRests;
+  const double scale = !moves ? 1 : movingScale_ < 1 ? movingScale_ : wanted;
+  if (std::exchange(movingScale_, scale) != scale) say(fmt::format("scale {}", renderScale_ * scale));
 }
 
 void Viewer::update(gl::Size size) {
@@ -351,9 +456,11 @@ void Viewer::update(gl::Size size) {
     say(fmt::format("size {} {}", size.width, size.height));
   size_ = size;
   // A recording keeps the size it began with.
+  chooseScale();
   if (recording_.empty() || recorded_ == 0) {
+    const double scale = std::max(renderScale_ * movingScale_, std::min(renderScale_, 0.25));
     const auto scaled = [&](std::uint32_t pixels) {
-      return static_cast<std::uint32_t>(std::clamp(std::lround(pixels * renderScale_), 1l, 16384l));
+      return static_cast<std::uint32_t>(std::clamp(std::lround(pixels * scale), 1l, 16384l));
     };
     if (live_.resize(scaled(area_.width), scaled(area_.height), diagnostics_))
       tell(diagnostics_, log_, ui::Log::kChange);
@@ -416,7 +523,7 @@ imports::Pointer Viewer::pointer() {
 }
 
 bool Viewer::busy() {
-  if (!recording_.empty() || rig_.moving() || rig_.cuts() != cuts_ || input_.captured() ||
+  if (!recording_.empty() || rig_.moving() || movingScale_ < 1 || rig_.cuts() != cuts_ || input_.captured() ||
       input_.movesCamera() || input_.waiting() || (server_ && server_->wanted()) ||
       live_.environment().status() || live_.scene().loading())
     return true;
@@ -438,7 +545,8 @@ bool Viewer::mustDraw() {
 }
 
 void Viewer::frame() {
-  const FrameClock::Tick tick = clock_.tick(glfwGetTime());
+  const double begun = glfwGetTime();
+  const FrameClock::Tick tick = clock_.tick(begun);
   moveCamera(tick);
   runtime::FrameInput in;
   in.frame = frame_;
@@ -466,6 +574,7 @@ void Viewer::frame() {
   ++frame_;
   if (look) servePage(*look);
   show();
+  if (movingScale_ == 1) slow_[frame_ % 2] = glfwGetTime() - begun;
   panels_.afterFrame();
   if (std::exchange(scan_, false)) tellBroken(steps.take());
 }
@@ -562,14 +671,21 @@ void Viewer::drawUi(bool seen) {
   if (rig_.mode() == CameraRig::Mode::fly) add("FLY");
   if (idle_) add("IDLE");
   if (!vsync_) add("NO VSYNC");
-  if (renderScale_ != 1) add(fmt::format("scale {}", renderScale_));
-  panels_.draw(
-      report_,
-      {.frame = frame_, .time = clock_.last().time, .paused = clock_.paused(), .modes = modes, .said = told_},
-      diagnostics_);
-  wipe_.draw(area_);
-  if (help_) drawHelp();
+  if (renderScale_ * movingScale_ != 1) add(fmt::format("scale {}", renderScale_ * movingScale_));
+  const ui::LoopState state{frame_, clock_.last().time, clock_.paused(), modes, told_, recent_};
+  const auto layOut = [&] {
+    panels_.draw(report_, state, diagnostics_);
+    wipe_.draw(area_);
+    if (help_) drawHelp(keys_.help());
+  };
+  const std::uint64_t plan = live_.switches();
+  layOut();
   const auto click = overlay_->releasedMouse();
+  if (seen && live_.switches() != plan) {  // nothing of the plan before is seen
+    overlay_->skip();
+    overlay_->begin();
+    layOut();
+  }
   seen ? overlay_->end() : overlay_->skip();
   if (panels_.wantsFrame()) rest_.disturb();
   if (panels_.wantsLayout()) restless_ = std::max(restless_, 1);

@@ -24,7 +24,9 @@ struct ViewOptions : Options {
   bool waitForAssets = false;       // before the first frame
   bool events = false;              // says what happens, for scripts
   bool idle = false;
-  double renderScale = 1;    // pixels of the scene per pixel of the window
+  double renderScale = 1;  // pixels of the scene per pixel of the window
+  std::optional<double>
+      movingScale;  // of that, while the camera is moved; without it by the time of frames, and 1 for scripts
   double uiScale = 0;        // 0: as the screen says
   std::string editor;        // its command; empty: the one of the environment
   std::optional<int> serve;  // the port of a page of the frame, 0 for any
@@ -47,7 +49,13 @@ class Viewer {
 
  private:
   void addActions();
-  void act(const std::string& action);
+  void act(const KeyBinding& key);
+  // What it led to, for the line at the bottom.
+  std::string step(const KeyBinding& key);
+  std::string show(const KeyBinding& key);
+  std::string open(const std::string& file);
+  // Files that were opened, the last first, are kept between runs.
+  void remember(const std::string& file);
   void edit(const text::Place& place);
   void close();
   // The command that renders what is seen.
@@ -65,6 +73,8 @@ class Viewer {
   void takeInput(gl::Size size);
   void update(gl::Size size);
   void showState();
+  // Fewer pixels while a hand moves the camera and frames are slow.
+  void chooseScale();
   // Idle mode: whether something is under way that may not show for a while, and whether a frame is due.
   bool busy();
   bool mustDraw();
@@ -96,12 +106,14 @@ class Viewer {
   runtime::Renderer& renderer_ = session_.renderer;
   LiveGraph& live_;
   std::map<std::string, std::function<void()>, std::less<>> actions_;  // by name
-  WindowInput input_{window_};
+  KeyTable keys_;
+  WindowInput input_{window_, keys_};
   PageServer* server_;
   std::unique_ptr<ui::Overlay> overlay_;  // null with --no-ui
   ui::Log log_;
   Editor editor_{options_.editor};
-  ui::Panels panels_{live_, renderer_, log_, [this](const char* action) { act(action); },
+  ui::Panels panels_{live_, renderer_, log_,
+                     [this](const char* action) { act({.verb = "do", .name = action}); },
                      [this](const text::Place& place) { edit(place); }};
   ui::Wipe wipe_;
   CameraRig rig_{scene::CameraPose{}};
@@ -127,6 +139,10 @@ class Viewer {
   gl::Size size_;       // of the window, as it was said last
   int before_[4] = {};  // place and size of the window, before it had the whole screen
   double renderScale_ = options_.renderScale;
+  double movingScale_ = 1;                  // of that, now
+  double movedAt_ = -1, slow_[2] = {0, 0};  // seconds: when the camera was moved; of the last frames at rest
+  std::vector<std::string> recent_;
+  const KeyBinding* shownBy_ = nullptr;
   bool vsync_ = options_.vsync, idle_ = options_.idle, help_ = false, minimized_ = false;
   bool scan_ = false;                     // for NaN, in the next frame
   bool resting_ = false, shown_ = false;  // as it was said last; a picture was

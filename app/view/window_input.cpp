@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cctype>
 
-#include "app/view/key_bindings.h"
-
 namespace weft::app {
 
 WindowInput& WindowInput::of(GLFWwindow* window) {
@@ -16,7 +14,7 @@ WindowInput& WindowInput::of(GLFWwindow* window) {
   return input;
 }
 
-WindowInput::WindowInput(GLFWwindow* window) : window_(window) {
+WindowInput::WindowInput(GLFWwindow* window, const KeyTable& keys) : window_(window), keys_(keys) {
   using Kind = ui::WindowEvent::Kind;
   glfwSetWindowUserPointer(window, this);
   glfwSetInputMode(window, GLFW_STICKY_KEYS,
@@ -100,10 +98,14 @@ void WindowInput::onKey(const ui::WindowEvent& event) {
   const char* letter = glfwGetKeyName(event.key, event.scancode);
   const int written = letter && letter[0] && !letter[1] ? std::toupper(letter[0]) : event.key;
   // Ctrl may be held for the mouse.
-  std::string name = event.mods & GLFW_MOD_CONTROL ? actionOf(written, WithKey::control) : "";
-  if (name.empty()) name = actionOf(written, shift);
-  if (name.empty() && event.key >= GLFW_KEY_1 && event.key <= GLFW_KEY_9) name = actionOf(event.key, shift);
-  if (!name.empty()) actions_.push_back(std::move(name));
+  const bool digit = event.key >= GLFW_KEY_1 && event.key <= GLFW_KEY_9;
+  const KeyBinding* row = nullptr;
+  for (const WithKey with : {WithKey::control, shift}) {
+    if (with == WithKey::control && !(event.mods & GLFW_MOD_CONTROL)) continue;
+    if (!row) row = keys_.find(written, with);
+    if (!row && digit) row = keys_.find(event.key, with);
+  }
+  if (row) actions_.push_back(row);
 }
 
 void WindowInput::onButton(const ui::WindowEvent& event) {

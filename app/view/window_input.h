@@ -1,5 +1,5 @@
-// The events of a GLFW window, queued and handed over a few at a time, however long a frame takes: to the panels, and here as names
-// of actions, held keys, what the mouse did over the picture (what it did over a panel is the panel's), and the captured mouse of flight.
+// The events of a GLFW window, queued and handed over a few at a time, however long a frame takes: to the panels, and here as rows of
+// the table of keys, held keys, what the mouse did over the picture (what it did over a panel is the panel's), and the captured mouse of flight.
 #pragma once
 
 #include <deque>
@@ -8,14 +8,15 @@
 
 #include "app/ui/overlay.h"
 #include "app/view/camera_rig.h"
+#include "app/view/key_bindings.h"
 #include "engine/imports/world.h"
 
 namespace weft::app {
 
 class WindowInput {
  public:
-  // Installs callbacks. `window` must outlive this.
-  explicit WindowInput(GLFWwindow* window);
+  // Installs callbacks. `window` and `keys` must outlive this.
+  WindowInput(GLFWwindow* window, const KeyTable& keys);
   WindowInput(const WindowInput&) = delete;
   WindowInput& operator=(const WindowInput&) = delete;
 
@@ -50,7 +51,7 @@ class WindowInput {
   // To be called after each hand(), when the overlay has seen the events. `panels`: the mouse is theirs, and so is what it did,
   // but for a drag that began over the picture.
   void decide(bool panels);
-  std::vector<std::string> takeActions() { return std::exchange(actions_, {}); }
+  std::vector<const KeyBinding*> takeActions() { return std::exchange(actions_, {}); }
   std::vector<std::string> takeDropped() { return std::exchange(dropped_, {}); }  // paths of files
   // Counts every event of any kind: whether anything happened at all.
   std::uint64_t events() const { return events_; }
@@ -63,9 +64,11 @@ class WindowInput {
   void point();
 
   GLFWwindow* window_;
+  const KeyTable& keys_;
   ui::Overlay* overlay_ = nullptr;
   std::deque<ui::WindowEvent> queue_;
-  std::vector<std::string> actions_, dropped_;
+  std::vector<const KeyBinding*> actions_;
+  std::vector<std::string> dropped_;
   glm::dvec2 corner_{0}, size_{1};
   CameraInput camera_;
   CameraInput fresh_;  // of the mouse, since decide()

@@ -7,11 +7,13 @@
 //         channel           0: rgb, 1..4: red, green, blue, alpha
 //         low, high         values shown black and white
 //         ev                stops, before the range
-//         false_color       above 0: one value as colors, blue to red
+//         false_color       1: one value as colors, blue to red; 2: a direction as red, green and blue; 3: a motion in two channels as
+//                           hue and brightness; 4: a direction in two channels, octahedral
 //         encode            above 0: sRGB curve, for linear light
 //         highlight         above 0: NaN magenta, infinite cyan, above the range yellow, below it blue, in stripes
 //         near              above 0: reversed depth d is shown as near / d, infinitely far as the largest
 // defines INTEGER           0: floats, 1: unsigned integers, 2: signed integers
+#include "../common/octahedral.glsl"
 #include "../common/srgb.glsl"
 
 #ifndef INTEGER
@@ -56,6 +58,9 @@ vec4 valueAt(ivec2 at) {
   return value;
 }
 
+// 0 and 1: red; a third: green.
+vec3 hueOf(float turn) { return clamp(abs(fract(turn + vec3(0.0, 2.0, 1.0) / 3.0) * 6.0 - 3.0) - 1.0, 0.0, 1.0); }
+
 bvec2 marksOf(vec4 value) {  // NaN, infinite: of the channels that are shown
   if (channel > 0) value = vec4(value[channel - 1]);
   return bvec2(any(isnan(value.rgb)), any(isinf(value.rgb)));
@@ -72,11 +77,14 @@ void main() {
   }
   vec4 value = valueAt(at);
   vec3 shown = channel == 0 ? value.rgb : vec3(value[channel - 1]);
-  if (false_color > 0 && channel == 0) shown = vec3(dot(shown, vec3(0.2126, 0.7152, 0.0722)));
+  if (false_color == 2) shown = value.rgb * 0.5 + 0.5;
+  if (false_color == 3) shown = length(value.xy) * hueOf(atan(value.y, value.x) / 6.28318531);
+  if (false_color == 4) shown = value.xy == vec2(0.0) ? vec3(0.0) : decodeNormal(value.xy) * 0.5 + 0.5;
+  if (false_color == 1 && channel == 0) shown = vec3(dot(shown, vec3(0.2126, 0.7152, 0.0722)));
   vec3 scaled = (shown * exp2(ev) - low) / max(high - low, 1e-30);
   vec3 color = clamp(scaled, 0.0, 1.0);
-  if (false_color > 0) color = colorOf(scaled.r);
-  else if (encode > 0) color = encodeSrgb(color);
+  if (false_color == 1) color = colorOf(scaled.r);
+  else if (encode > 0 && false_color == 0) color = encodeSrgb(color);
   if (highlight > 0) {
     bool stripe = ((int(gl_FragCoord.x) + int(gl_FragCoord.y)) & 4) != 0;
     if (stripe && any(greaterThan(scaled, vec3(1.0)))) color = mix(color, vec3(1.0, 0.9, 0.0), 0.6);

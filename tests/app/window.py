@@ -23,7 +23,8 @@ class Session:
 
     def __init__(self, weft, folder, *arguments, graph="graphs/studio.json", size="320x180", data=True):
         self.folder, self.log, self.told = folder, folder / "stderr.txt", folder / "stdout.txt"
-        environment = {**os.environ, **({"WEFT_DATA": str(folder)} if data else {})}
+        homes = {name: str(folder / "home") for name in ("XDG_CONFIG_HOME", "XDG_STATE_HOME")}
+        environment = {**os.environ, **homes, **({"WEFT_DATA": str(folder)} if data else {})}
         command = [weft, "view", graph, "--size", size, "--program-cache", "none", "--events", *map(str, arguments)]
         count_run()
         with open(self.log, "w") as log, open(self.told, "w") as told:

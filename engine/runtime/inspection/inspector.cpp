@@ -224,7 +224,8 @@ GLuint Inspector::draw(const InspectView& view, std::uint32_t width, std::uint32
   set("low", number(view.low));
   set("high", number(view.high));
   set("ev", number(view.ev));
-  set("false_color", number(view.falseColor));
+  const bool octahedral = view.colors == InspectColors::direction && channels_ == 2;
+  set("false_color", number(octahedral ? 4 : static_cast<int>(view.colors)));
   set("encode", number(view.encode));
   set("highlight", number(view.highlight));
   set("near", number(view.depth && depth && !stencil_ ? view.nearPlane : 0));

@@ -29,16 +29,19 @@ struct InspectTarget {
 };
 
 enum class InspectChannel : std::uint8_t { rgb, red, green, blue, alpha };
+// scale: one channel (rgb: its luminance) as a color scale; direction: a vector, or two channels from 0 to 1 as octahedral, as red, green
+// and blue; motion: two channels as hue and brightness.
+enum class InspectColors : std::uint8_t { values, scale, direction, motion };
 
 // How texels become pixels (shaders/inspect/inspect.frag.glsl).
 struct InspectView {
   InspectChannel channel = InspectChannel::rgb;
   float low = 0, high = 1;  // values shown black and white
   float ev = 0;             // stops, before the range
-  bool falseColor = false;  // one channel (rgb: its luminance) as a color scale
-  bool encode = true;       // sRGB curve, for linear light
-  bool highlight = true;    // NaN magenta, infinities and what is outside the range marked
-  bool depth = false;       // reversed depth d as near / d: distance in units of `near`
+  InspectColors colors = InspectColors::values;
+  bool encode = true;     // sRGB curve, for linear light
+  bool highlight = true;  // NaN magenta, infinities and what is outside the range marked
+  bool depth = false;     // reversed depth d as near / d: distance in units of `near`
   float nearPlane = 0.1f;
   double x = 0, y = 0;  // texel at the canvas's lower left corner, from the texture's lower left
   double texelsPerPixel = 1;

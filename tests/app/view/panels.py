@@ -8,6 +8,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import signal
 import sys
 
@@ -342,6 +343,78 @@ def compare(weft, folder, display, report):
         live.stop()
 
 
+def keys(weft, folder, display, report):
+    """A file sets keys. They change parameters and presets, which Ctrl Z takes back, and show textures in place of the picture. Files that
+    were opened are kept between runs. While the camera is moved there are fewer pixels."""
+    home, screen = folder / "home/weft", Screen(display)
+    shutil.rmtree(home, ignore_errors=True)
+    (home / "presets").mkdir(parents=True)
+    (home / "keys.json").write_text(KEYS)
+    (home / "presets/dim.json").write_text('{ "set": { "exposure": 0.25 } }')
+    (folder / "graphs/keyed.json").write_text(KEYED)
+    (folder / "shaders/keyed.frag.glsl").write_text(
+        "uniform sampler2D source;\nlayout(std140) uniform Parameters { float gain; };\nout vec4 result;\n"
+        "void main() { result = gain * texelFetch(source, ivec2(gl_FragCoord.xy), 0); }\n")
+    live = Session(weft, folder, "--idle", "--moving-scale", "0.5", graph="graphs/keyed.json", size="1100x400")
+
+    def shown(shot):
+        picture = [bytes(value for texel in row for value in texel[:3]) for row in read_png(shot.read_bytes())]
+        return lambda: all(row[:len(part)] == part for row, part in zip(screen.read()[2][:160], picture))
+
+    try:
+        if not report.check(live.open(40, 40) and live.rest(0), f"no picture at rest\n{live.said()}"):
+            return
+        live.tool("mousemove", 1279, 1023)
+        first = live.shot()
+        for said in ("6:9: error[W011]", "7:3: error[W006]", "8:28: error[W004]"):
+            report.check(f"home/weft/keys.json:{said}" in live.said(), f"{said} is not said\n{live.said()}")
+        for key, action in (("u", "step exposure"), ("j", "step curve"), ("F2", "toggle bloom"), ("n", "toggle tints"), ("Right", "next_preset")):
+            live.act(key, action)
+            report.check(live.until(lambda: live.shot().read_bytes() != first.read_bytes()), f"{action} changes nothing\n{live.said()}")
+            live.act("ctrl+z", "undo")
+            report.check(live.until(lambda: live.shot().read_bytes() == first.read_bytes()), f"Ctrl Z does not take back {action}")
+        report.check(live.until(shown(first)), "the picture is not on the screen")
+        for key in ("h", "g"):
+            live.key(key)
+            report.check(live.until(lambda: not shown(first)()), f"{key} leaves the picture in its place")
+            live.act(*(("Escape", "close") if key == "h" else ("g", "show_selected")))
+            report.check(live.until(shown(first)) and live.alive(), f"the picture does not come back after {key}")
+        since = live.mark()
+        live.tool("mousemove", "--window", live.window, 200, 100)
+        drag(live, (200, 100))
+        report.check(live.event("scale 0.5", since) and live.event("scale 1", since), f"the scale does not follow the hand\n{live.lines()[-9:]}")
+        live.act("ctrl+o", "open")
+        live.tool("type", "graphs/pair.json")
+        since = live.key("Return")
+        report.check(live.event("opened graphs/pair.json", since), f"nothing is opened\n{live.lines()[-9:]}")
+        report.check((home / "recent").read_text() == f"{folder}/graphs/pair.json\n{folder}/graphs/keyed.json\n", (home / "recent").read_text())
+        live.leave(report)
+    finally:
+        live.stop()
+
+
+KEYED = """{ "parameters": { "exposure": { "default": 1.0, "min": 0, "max": 4 }, "curve": { "default": "plain", "choices": ["plain", "dark"] },
+    "bloom": { "default": true } },
+  "resources": { "ldr": { "texture": "rgba8", "size": "screen" }, "seen": { "texture": "rgba8", "size": "screen" } },
+  "passes": [
+    { "name": "base", "type": "fullscreen", "shader": "base.frag.glsl", "write": { "result": "ldr" } },
+    { "include": "tints.json", "as": "tints", "bind": { "ldr": "ldr" } },
+    { "name": "keyed", "type": "fullscreen", "shader": "keyed.frag.glsl", "read": { "source": "ldr" }, "write": { "result": "seen" },
+      "parameters": { "gain": "$exposure * ($curve == dark ? 0.5 : 1) * ($bloom ? 1 : 0.75)" } } ],
+  "present": "seen" }
+"""
+KEYS = """{
+  "U": { "step": "exposure", "by": -0.5 },
+  "J": { "step": "curve" },
+  "N": { "toggle": "tints" },
+  "H": { "show": "ldr", "as": "scale" },
+  "K": "flu",
+  "J": null,
+  "B": { "do": "head_bob", "speed": 2 }
+}
+"""
+
+
 def main():
     weft, report = os.path.abspath(sys.argv[1]), Report()
     display = inside_display(report, weft, "none", __file__)
@@ -363,6 +436,7 @@ def main():
         hidden(weft, folder, report)
         scan(weft, folder, report)
         compare(weft, folder, display, report)
+        keys(weft, folder, display, report)
     report.end()
 
 

@@ -1,6 +1,7 @@
 // The parts of the viewer that need no window: keys, clock, rest.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -17,11 +18,9 @@ namespace {
 // What is listed, as a Markdown table.
 std::string keyTable() {
   std::string text = "| input | does |\n|---|---|\n";
-  for (const KeyBinding& binding : keyBindings()) {
-    if (!*binding.keys) continue;
-    const std::string_view keys = binding.keys;
+  for (const auto& [keys, help] : KeyTable().help()) {
     const char* quote = keys.ends_with("drag") || keys == "wheel" ? "" : "`";
-    text += std::string("| ") + quote + binding.keys + quote + " | " + binding.does + " |\n";
+    text += std::string("| ") + quote + keys + quote + " | " + help + " |\n";
   }
   return text;
 }
@@ -35,19 +34,62 @@ TEST_CASE("docs/viewer.md has the table of keys as it is") {
 }
 
 TEST_CASE("no key has two meanings, and each is found") {
+  const KeyTable keys;
+  text::Diagnostics said;
+  KeyTable().add(kKeys, "again.json",
+                 said);  // by the rules for a person's file, which has actions on keys alone
+  CHECK(said.errorCount() == 14);
   std::set<std::pair<int, WithKey>> pressed;
-  for (const KeyBinding& binding : keyBindings()) {
-    CAPTURE(binding.action);
-    CHECK((*binding.keys != 0) == (*binding.does != 0));
-    if (!*binding.action) continue;
-    CHECK(pressed.insert({binding.key, binding.with}).second);
-    CHECK(actionOf(binding.key, binding.with) == binding.action);
+  for (const KeyBinding& row : keys.rows()) {
+    CAPTURE(row.keys);
+    CHECK(!row.help.empty());
+    if (row.verb.empty()) continue;
+    CHECK(row.key != 0);
+    CHECK(pressed.insert({row.key, row.with}).second);
+    CHECK(keys.find(row.key, row.with) == &row);
   }
-  CHECK(actionOf('9', WithKey::nothing) == "camera_9");
-  CHECK(actionOf('F', WithKey::shift) == "fly");
-  CHECK(actionOf('F', WithKey::control).empty());
-  CHECK(actionOf('W', WithKey::nothing).empty());
-  CHECK(actionOf(-1, WithKey::nothing).empty());
+  CHECK(keys.find('9', WithKey::nothing)->name == "camera_9");
+  CHECK(keys.find('F', WithKey::shift)->name == "fly");
+  CHECK(keys.find('F', WithKey::control) == nullptr);
+  CHECK(keys.find('W', WithKey::nothing) == nullptr);
+  CHECK(keys.find(-1, WithKey::nothing) == nullptr);
+}
+
+TEST_CASE("a person's file of keys goes over Weft's; each mistake has its place") {
+  KeyTable keys;
+  text::Diagnostics said;
+  keys.add(R"({ // mine
+  "F": null,
+  "U": "fly",
+  "Shift F12": { "show": "hdr#1", "as": "scale", "channel": "G", "high": 4 },
+  "Enter": { "step": "exposure", "by": -1 }
+})",
+           "keys.json", said);
+  CHECK(said.text() == "");
+  CHECK(keys.find('F', WithKey::nothing) == nullptr);
+  CHECK(keys.find('U', WithKey::nothing)->help == "fly, with the mouse captured; again: back to turning");
+  const auto help = keys.help();
+  CHECK(std::ranges::count(help, std::pair<std::string, std::string>("Shift F12", "show hdr#1")) == 1);
+  CHECK(help.back() == std::pair<std::string, std::string>("Enter", "step exposure"));
+  keys.add(R"({
+  "Shfit F12": "fly",
+  "G": "flu",
+  "H": { "do": "fly", "toggle": "bloom" },
+  "U": { "show": "hdr", "as": "colour", "low": [1] },
+  "L": { "toggle": "bloom", "speed": 2 },
+  "J": {},
+  "J": "fly",
+  "PgDn": 7
+})",
+           "keys.json", said);
+  std::string text;
+  for (const text::Diagnostic& each : said.items())
+    text += std::to_string(each.place.line) + ":" + std::to_string(each.place.column) + " " +
+            text::nameOf(each.code) + "\n";
+  CHECK(text ==
+        "8:3 W006\n2:4 W011\n3:9 W011\n4:33 W014\n5:32 W011\n5:48 W003\n6:29 W004\n7:8 W005\n9:11 W003\n");
+  CHECK(keys.find('U', WithKey::nothing)->name == "fly");
+  CHECK(keys.find('L', WithKey::nothing)->name == "wireframe");
 }
 
 TEST_CASE(

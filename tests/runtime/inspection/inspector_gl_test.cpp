@@ -166,6 +166,12 @@ TEST_CASE("what is shown: range, marks, zoom; the same as a pass with the shader
   view.ev = 1;
   canvas = inspector.draw(view, 16, 8, diagnostics);
   CHECK(pixel(canvas, 8, 4) == std::array<int, 3>{128, 128, 128});
+  // As a direction, of texel (0, 0): 0, 0, 1; as a motion, of (4, 0): to the right.
+  const auto shownAs = [&](InspectColors colors, std::uint32_t x, std::uint32_t y) {
+    return pixel(inspector.draw({.high = 1, .colors = colors, .highlight = false}, 8, 4, diagnostics), x, y);
+  };
+  CHECK(shownAs(InspectColors::direction, 0, 0) == std::array<int, 3>{128, 128, 255});
+  CHECK(shownAs(InspectColors::motion, 4, 0) == std::array<int, 3>{255, 0, 0});
   // Zoomed out, one texel that is no number still shows.
   canvas = inspector.draw({.high = 8, .texelsPerPixel = 4}, 2, 1, diagnostics);
   CHECK(pixel(canvas, 0, 0) == std::array<int, 3>{255, 0, 255});
@@ -183,7 +189,7 @@ TEST_CASE("what is shown: range, marks, zoom; the same as a pass with the shader
   CHECK(statistics->mean[2] == 1);
 
   look(stage, inspector, {.resource = "ids"});
-  canvas = inspector.draw({.high = 40, .falseColor = true, .encode = false, .texelsPerPixel = 0.5}, 16, 8,
+  canvas = inspector.draw({.high = 40, .colors = InspectColors::scale, .encode = false, .texelsPerPixel = 0.5}, 16, 8,
                           diagnostics);
   const auto ids = gl::readTexture(stage.texture("shown_ids"), 0, 0, GL_RGBA, GL_UNSIGNED_BYTE);
   glGetTextureImage(canvas, 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(drawn.size()), drawn.data());
