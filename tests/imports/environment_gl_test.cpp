@@ -145,7 +145,7 @@ TEST_CASE(
     CAPTURE(graph);
     context();
     const CleanScope scope;
-    Stage late(graph, 64, 36), early(graph, 64, 36);
+    Stage late(withSmallMaps(graph), 64, 36), early(withSmallMaps(graph), 64, 36);
     const auto map = makeMap(128, 64, 5);  // not the size that is assumed meanwhile
     late.world.expectEnvironment();
     REQUIRE(late.load());

@@ -4,6 +4,7 @@
 #include "tests/backend.h"
 #include "tests/load_image.h"
 #include "tests/skip.h"
+#include "tests/temporary_folder.h"
 
 namespace weft::runtime::test {
 
@@ -19,6 +20,26 @@ gl::Context& context() {
 
 std::string sourcePath(const std::string& relative) {
   return relative.starts_with('/') ? relative : std::string(WEFT_SOURCE_DIR) + "/" + relative;
+}
+
+std::string withSmallMaps(const std::string& graph) {
+  static const TemporaryFolder folder;
+  static const bool made = [] {
+    const auto size = [](const char* file, const std::string& from, const std::string& to) {
+      std::ifstream in(folder.path() / "graphs" / file);
+      std::string text{std::istreambuf_iterator<char>(in), {}};
+      const std::size_t at = text.find(from);
+      REQUIRE_MESSAGE(at != std::string::npos, file << " has no " << from);
+      folder.write(std::string("graphs/") + file, text.replace(at, from.size(), to));
+    };
+    std::filesystem::copy(sourcePath("graphs"), folder.path() / "graphs",
+                          std::filesystem::copy_options::recursive);
+    size("ibl.json", "\"size\": 512", "\"size\": 32");
+    size("ibl.json", "\"size\": [1024, 512]", "\"size\": [128, 64]");
+    size("daylight.json", "\"size\": [1024, 512]", "\"size\": [128, 64]");
+    return true;
+  }();
+  return made && graph.starts_with("graphs/") ? folder.at(graph) : graph;
 }
 
 std::shared_ptr<const assets::ImageF> realEnvironment() {

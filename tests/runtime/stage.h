@@ -23,6 +23,9 @@ namespace weft::runtime::test {
 gl::Context& context();
 
 std::string sourcePath(const std::string& relative);
+// The same file of graphs/ in a copy of it whose environments have small maps, made in little time: for tests that hold pictures against each
+// other, or look at no reflection.
+std::string withSmallMaps(const std::string& graph);
 // The photographed environment that comes with Weft.
 std::shared_ptr<const assets::ImageF> realEnvironment();
 World worldOf(const std::string& scene = "scenes/spheres.json");

@@ -256,8 +256,8 @@ TEST_CASE("checkpoint: bundled graphs that remember") {
        }) {
     CAPTURE(each.graph);
     const CleanScope clean;
-    Stage whole(each.graph, 32, 18, each.scene, programs.at("cache")),
-        rest(each.graph, 32, 18, each.scene, programs.at("cache"));
+    Stage whole(withSmallMaps(each.graph), 32, 18, each.scene, programs.at("cache")),
+        rest(withSmallMaps(each.graph), 32, 18, each.scene, programs.at("cache"));
     whole.settings.sets = rest.settings.sets = each.sets;
     if (!each.sets.empty())
       for (Stage* stage : {&whole, &rest}) stage->world.setEnvironment(environment);

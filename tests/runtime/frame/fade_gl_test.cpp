@@ -262,7 +262,8 @@ TEST_CASE(
   for (const bool loaded : {false, true}) {
     CAPTURE(loaded);
     const CleanScope clean;
-    Stage stage("graphs/studio.json", 96, 54), fresh("graphs/studio.json", 96, 54);
+    Stage stage(withSmallMaps("graphs/studio.json"), 96, 54),
+        fresh(withSmallMaps("graphs/studio.json"), 96, 54);
     int count = 0;
     const auto frames = [&](Stage& of, int n) {
       for (int k = 0; k < n; ++k) {

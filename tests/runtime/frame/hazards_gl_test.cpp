@@ -87,7 +87,7 @@ TEST_CASE("hazards: no bundled graph lacks a barrier, in the declared order and 
   for (const std::string& graph : graphsThatRun()) {
     CAPTURE(graph);
     GlTrace trace;
-    Stage stage(graph, 64, 36, "tests/runtime/scenes/everything.json");
+    Stage stage(withSmallMaps(graph), 64, 36, "tests/runtime/scenes/everything.json");
     if (graph.starts_with("graphs/deferred")) stage.settings.sets = smallShadows();
     if (!stage.load()) continue;  // a part, whose inputs only an includer binds
     ++graphs;

@@ -24,7 +24,7 @@ bool sameBytes(std::span<const std::byte> a, std::span<const std::byte> b) {
 
 TEST_CASE("live: two hundred changes build no plan, allocate nothing, and give the picture of a fresh run") {
   const CleanScope clean;
-  Stage stage("graphs/studio.json");
+  Stage stage(withSmallMaps("graphs/studio.json"));
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   for (std::uint32_t frame = 0; frame < 3; ++frame) stage.run(frame);
   const std::uint64_t plans = stage.renderer().plansBuilt();
@@ -54,7 +54,7 @@ TEST_CASE("live: two hundred changes build no plan, allocate nothing, and give t
   const auto live = stage.pixels();
   CHECK(live != first);
 
-  Stage fresh("graphs/studio.json");
+  Stage fresh(withSmallMaps("graphs/studio.json"));
   for (const auto& slider : sliders)
     fresh.settings.sets.emplace_back(slider.path, Value::number(slider.from + slider.step * 199),
                                      Origin::panel);
@@ -66,12 +66,12 @@ TEST_CASE("live: two hundred changes build no plan, allocate nothing, and give t
 
 TEST_CASE("live: every live parameter of the studio, one after the other, leaves the bytes of a fresh run") {
   const CleanScope clean;
-  Stage stage("graphs/studio.json", 64, 36);
+  Stage stage(withSmallMaps("graphs/studio.json"), 64, 36);
   stage.settings.sets = {
       {"dof", "true"}, {"motion_blur", "true"}, {"auto_exposure", "true"}, {"fog", "true"}};
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   const auto& parameters = stage.execution().plan().graph->parameters;
-  Stage fresh("graphs/studio.json", 64, 36);
+  Stage fresh(withSmallMaps("graphs/studio.json"), 64, 36);
   fresh.settings = stage.settings;
   std::size_t set = 0;
   for (const ParameterSpec& parameter : parameters) {
@@ -102,7 +102,7 @@ TEST_CASE("live: every live parameter of the studio, one after the other, leaves
 
 TEST_CASE("live: a pass that runs on change wakes, and what it feeds; the rest is kept") {
   const CleanScope clean;
-  Stage stage("graphs/studio.json", 64, 36);
+  Stage stage(withSmallMaps("graphs/studio.json"), 64, 36);
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   stage.run(0);
   stage.run(1);
@@ -193,7 +193,7 @@ TEST_CASE("live: another plan begins with the values it is made with") {
 
 TEST_CASE("toggle: only passes that differ are prepared, and the picture is that of a fresh run") {
   const CleanScope clean;
-  Stage stage("graphs/studio.json");
+  Stage stage(withSmallMaps("graphs/studio.json"));
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   stage.run(0);
   const auto all = static_cast<std::uint32_t>(stage.execution().plan().steps.size());
@@ -214,7 +214,7 @@ TEST_CASE("toggle: only passes that differ are prepared, and the picture is that
     CHECK(stage.execution().passesPrepared() <= toggle.most);
     stage.run(0);
     CHECK_FALSE(stage.ran("ibl.brdf_table"));
-    Stage fresh("graphs/studio.json");
+    Stage fresh(withSmallMaps("graphs/studio.json"));
     fresh.settings.sets = stage.settings.sets;
     REQUIRE_MESSAGE(fresh.load(), fresh.diagnostics.text());
     fresh.run(0);

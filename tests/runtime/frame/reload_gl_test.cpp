@@ -299,7 +299,7 @@ TEST_CASE("reload: what a shader declares is looked at again when it was edited"
 
 TEST_CASE("reload: changed parameters rerun what they reach and keep the rest") {
   const CleanScope clean;
-  Stage stage("graphs/studio.json");
+  Stage stage(withSmallMaps("graphs/studio.json"));
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   stage.run(0);
   const auto first = stage.pixels();

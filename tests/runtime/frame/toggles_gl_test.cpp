@@ -121,8 +121,8 @@ struct Toggle {
 };
 
 std::string overlay(const std::string& graph, const std::string& rest = "", const std::string& preset = "") {
-  std::string below = "\"" + sourcePath("graphs/" + graph) + "\"";
-  if (!preset.empty()) below = "[" + below + ", \"" + sourcePath("graphs/presets/" + preset) + "\"]";
+  std::string below = "\"" + withSmallMaps("graphs/" + graph) + "\"";
+  if (!preset.empty()) below = "[" + below + ", \"" + withSmallMaps("graphs/presets/" + preset) + "\"]";
   return "{ \"extends\": " + below + rest + " }";
 }
 
