@@ -26,11 +26,11 @@ def has_backend(report, weft, backend, folder):
     return report.check(result.code == 0, f"{backend}: {result.err}")
 
 
-def check_environment(report, weft, folder, name, arguments, backends):
+def check_environment(report, weft, folder, name, size, arguments, backends):
     pictures = {}
     for backend in backends:
         cache = folder / f"cache_{name}_{backend}"
-        common = ["--size", "1920x1080", "--backend", backend, "--program-cache", cache, *arguments]
+        common = ["--size", size, "--backend", backend, "--program-cache", cache, *arguments]
         pictures[backend] = render(report, weft, f"{name}, {backend}, cold cache", folder / f"{name}_{backend}.png", *common)
         report.check(any(cache.rglob("*")), f"{backend}: nothing was written to {cache}")
         warm = render(report, weft, f"{name}, {backend}, warm cache", folder / f"{name}_{backend}_warm.png", *common)
@@ -73,8 +73,8 @@ def main():
     with temporary_folder() as name:
         folder = pathlib.Path(name)
         backends = [b for b in ("osmesa", "egl") if has_backend(report, weft, b, folder)]
-        check_environment(report, weft, folder, "daylight", [], backends)
-        check_environment(report, weft, folder, "real", ["--environment", REAL_HDR], backends)
+        check_environment(report, weft, folder, "daylight", "960x540", [], backends)
+        check_environment(report, weft, folder, "real", "1920x1080", ["--environment", REAL_HDR], backends)
         check_frames(report, weft, folder)
     report.end()
 

@@ -44,7 +44,7 @@ std::vector<std::string> declaredPasses(const graph::FlatGraph& graph) {
 }
 
 Stage smallStage(const std::string& graph, const std::string& scene = "scenes/spheres.json") {
-  return Stage(graph, 96, 54, scene, "", {sourcePath("tests/small_maps.json")});
+  return Stage(graph, 48, 27, scene, "", {sourcePath("tests/small_maps.json")});
 }
 
 struct Outcome {

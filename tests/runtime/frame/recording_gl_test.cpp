@@ -73,7 +73,7 @@ TEST_CASE(
   all.emplace_back("tests/runtime/graphs/masks.json");
   for (const std::string& graph : all) {
     CAPTURE(graph);
-    Stage stage(withSmallMaps(graph), 96, 54);
+    Stage stage(withSmallMaps(graph), 48, 27);
     const bool loaded = stage.load();
     CHECK_MESSAGE(loaded != kParts.contains(graph), stage.diagnostics.text());
     if (!loaded) continue;
@@ -123,7 +123,7 @@ TEST_CASE("the judge finds a barrier that is missing, moved or has other bits, a
 TEST_CASE("the same where headless frames finish time-sliced work ahead, a walk for each round of it") {
   const CleanScope clean;
   Tally tally;
-  Stage studio(withSmallMaps("graphs/studio.json"), 96, 54);
+  Stage studio(withSmallMaps("graphs/studio.json"), 48, 27);
   studio.settings.sets = {{"ibl.sliced", "true"}};
   REQUIRE_MESSAGE(studio.load(), studio.diagnostics.text());
   recordFrames(studio, "lighting in slices", tally);
@@ -141,7 +141,7 @@ TEST_CASE("the same with each preset") {
   for (const std::string& preset : bundledIn("graphs/presets")) {
     CAPTURE(preset);
     const bool probes = preset.ends_with("/point_probes.json");  // is for studio_gi
-    Stage stage(withSmallMaps(probes ? "graphs/studio_gi.json" : "graphs/studio.json"), 96, 54,
+    Stage stage(withSmallMaps(probes ? "graphs/studio_gi.json" : "graphs/studio.json"), 48, 27,
                 "scenes/spheres.json", "", {sourcePath(preset)});
     REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
     recordFrames(stage, preset, tally, 2);
@@ -163,7 +163,7 @@ TEST_CASE("the same while one environment fades into the next, with lighting in 
     CAPTURE(sliced);
     const CleanScope clean;
     Tally tally;
-    Stage stage(withSmallMaps("graphs/studio.json"), 96, 54);
+    Stage stage(withSmallMaps("graphs/studio.json"), 48, 27);
     stage.settings.sets = {{"ibl.sliced", sliced}};
     GlRecorder recorder;
     std::uint32_t frames = 0, changed = 0;
@@ -191,7 +191,7 @@ TEST_CASE("the same while one environment fades into the next, with lighting in 
 TEST_CASE("the same with every boolean parameter of the studio switched, one by one") {
   const CleanScope clean;
   Tally tally;
-  Stage stage(withSmallMaps("graphs/studio.json"), 96, 54, "tests/runtime/scenes/everything.json");
+  Stage stage(withSmallMaps("graphs/studio.json"), 48, 27, "tests/runtime/scenes/everything.json");
   REQUIRE(stage.load());
   const auto parameters = stage.execution().plan().graph->parameters;
   std::size_t switched = 0;
@@ -209,7 +209,7 @@ TEST_CASE("the same with every boolean parameter of the studio switched, one by 
 TEST_CASE("the same with probes in textures and in a buffer, shown and not") {
   const CleanScope clean;
   Tally tally;
-  Stage stage(withSmallMaps("graphs/studio_gi.json"), 96, 54, "tests/golden/moving.json");
+  Stage stage(withSmallMaps("graphs/studio_gi.json"), 48, 27, "tests/golden/moving.json");
   for (const char* sampling : {"textures", "buffer"})
     for (const char* shown : {"false", "true"}) {
       stage.settings.sets = {{"gi_sampling", sampling}, {"probes_debug", shown}};
@@ -232,7 +232,7 @@ TEST_CASE("the same for the deferred graphs with all that a scene may hold, and 
   for (const bool with_probes : {false, true}) {
     Tally& tally = with_probes ? gi : deferred;
     const std::string graph = with_probes ? "graphs/deferred_gi.json" : "graphs/deferred.json";
-    Stage stage(withSmallMaps(graph), 96, 54, "tests/runtime/scenes/everything.json");
+    Stage stage(withSmallMaps(graph), 48, 27, "tests/runtime/scenes/everything.json");
     for (const std::vector<graph::Setting>& sets : with_probes ? probes : ways) {
       stage.settings.sets = sets;
       for (const auto& [name, texels] : {std::pair("sun_texels", "256"), std::pair("lamp_texels", "64")})
