@@ -44,8 +44,8 @@ class Session:
     def alive(self):
         return self.process.poll() is None
 
-    def until(self, holds):
-        """The first thing true of `holds`; None when time is up or the program has ended."""
+    def until(self, holds, pause=0.02):
+        """The first thing true of `holds`, asked every `pause` seconds; None when time is up or the program has ended."""
         end = time.monotonic() + LIMIT
         while time.monotonic() < end:
             ended = not self.alive()  # asked first: what holds at the end is seen
@@ -54,7 +54,7 @@ class Session:
                 return found
             if ended:
                 return None
-            time.sleep(0.02)
+            time.sleep(pause)
         return None
 
     def line(self, pattern, since=0):
@@ -84,7 +84,7 @@ class Session:
 
     def open(self, x=160, y=90):
         """Until the window is there and takes keys: the display gives them to what is under the pointer."""
-        found = self.until(lambda: self.tool("search", "--onlyvisible", "--name", "^weft: "))
+        found = self.until(lambda: self.tool("search", "--onlyvisible", "--name", "^weft: "), 0.1)
         self.window = found[-1] if found else None
         if self.window:
             self.tool("mousemove", "--window", self.window, x, y)
