@@ -12,12 +12,21 @@ import shutil
 import signal
 import sys
 
-from pictures import read_png
+from pictures import decode
 from program import Report, temporary_folder
 from screen import Screen
 from window import Session, copy_of_tree, edit, inside_display, save
 
 TABS = ["parameters", "passes", "selected", "times", "storage", "histogram", "messages", "pictures"]
+
+
+def rgb_rows(shot):
+    """Rows of RGB bytes, as Screen.read() has them."""
+    width, channels, texels = decode(shot.read_bytes())
+    planes = [texels[c::channels] for c in range(3)]
+    rgb = bytearray(3 * len(planes[0]))
+    rgb[0::3], rgb[1::3], rgb[2::3] = planes
+    return [bytes(rgb[at:at + 3 * width]) for at in range(0, len(rgb), 3 * width)]
 
 
 def panels(weft, folder, display, report, scale, size):
@@ -30,7 +39,7 @@ def panels(weft, folder, display, report, scale, size):
             live.tool("mousemove", 1279, 1023)
             live.act("p", "profile")
             shot = live.shot()
-            picture = [bytes(value for texel in row for value in texel[:3]) for row in read_png(shot.read_bytes())]
+            picture = rgb_rows(shot)
             report.check(len(picture[0]) // 3 < width, f"scale {scale}: the picture has the whole window")
 
             def beside():
@@ -311,13 +320,13 @@ def compare(weft, folder, display, report):
     try:
         if not report.check(live.open(40, 40) and live.rest(0), f"no picture at rest\n{live.said()}"):
             return
-        shots = [[bytes(value for texel in row for value in texel[:3]) for row in read_png(live.shot().read_bytes())]]
+        shots = [rgb_rows(live.shot())]
         live.act("m", "compare")
         live.tool("mousemove", 1200, 300)  # away from the picture
         before = live.mark()
         save(base, BASE.replace("0.25", "0.75"))
         report.check(live.event("files good", before) and live.rest(before), f"the save is not seen\n{live.said()}")
-        shots.append([bytes(value for texel in row for value in texel[:3]) for row in read_png(live.shot().read_bytes())])
+        shots.append(rgb_rows(live.shot()))
         width = len(shots[0][0]) // 3
         report.check(shots[0] != shots[1], "the save changes nothing")
 
