@@ -57,7 +57,7 @@ class Model:
         path, picture = folder / "m.gltf", folder / "m.png"
         path.write_text(json.dumps(self.json))
         made = subprocess.run([WEFT, "render", TOP / "graphs" / graph, "--scene", path, "--size", f"{WIDTH}x{HEIGHT}", "--set", "bloom=false",
-                               "--set", "fxaa=false", "--set", "curve=filmic", "--backend", "osmesa", *options, "-o", picture], capture_output=True, text=True)
+                               "--set", "fxaa=false", "--set", "curve=filmic", "--backend", "osmesa", "--preset", TOP / "tests/small_maps.json", *options, "-o", picture], capture_output=True, text=True)
         if made.returncode != 0 or made.stderr:
             problems.append(f"{options}: {made.stderr}")
         return [[texel[:3] for texel in row] for row in read_png(picture.read_bytes())]

@@ -28,8 +28,8 @@ def main():
         (folder / "maps").mkdir()
         (folder / "maps/a_dark.hdr").write_bytes(radiance(40))
         (folder / "maps/b_bright.hdr").write_bytes(radiance(200))
-        live = Session(weft, folder, "--no-ui", "--stats", "--fps", FPS, "--environment", folder / "maps/a_dark.hdr", size="96x54",
-                       data=False, graph=TOP / "graphs/studio.json")
+        live = Session(weft, folder, "--no-ui", "--stats", "--fps", FPS, "--environment", folder / "maps/a_dark.hdr",
+                       "--preset", TOP / "tests/small_maps.json", size="96x54", data=False, graph=TOP / "graphs/studio.json")
 
         def mean(picture):
             return float(run(compare, "--describe", picture).out.split()[2])

@@ -77,8 +77,8 @@ def session(weft, folder, display, report, moves):
 def studio(weft, folder, display, report):
     """sky_rotation of graphs/studio.json, below the sliders of two parameters that change the plan. The viewer says of each frame in which
     a panel changed something; when each of these was a value that was set at once, none of them built a plan."""
-    live = Session(weft, folder, "--panels", "parameters", "--stats", "--no-vsync", "--render-scale", "0.25", size="640x800", data=False,
-                   graph=TOP / "graphs/studio.json")
+    live = Session(weft, folder, "--panels", "parameters", "--stats", "--no-vsync", "--render-scale", "0.25",
+                   "--preset", TOP / "tests/small_maps.json", size="640x800", data=False, graph=TOP / "graphs/studio.json")
     screen = Screen(display)
     try:
         if not report.check(live.open() and live.event("shown"), f"no picture\n{live.said()}"):
