@@ -26,11 +26,9 @@ const std::vector<std::string> kAs = {"values", "scale", "direction", "motion", 
 
 // The key of "Shift F12"; 0: there is none of this name.
 std::pair<int, WithKey> keyOf(std::string_view text) {
-  WithKey with = WithKey::nothing;
-  if (text.starts_with("Shift "))
-    with = WithKey::shift;
-  else if (text.starts_with("Ctrl "))
-    with = WithKey::control;
+  const WithKey with = text.starts_with("Shift ")  ? WithKey::shift
+                       : text.starts_with("Ctrl ") ? WithKey::control
+                                                   : WithKey::nothing;
   if (with != WithKey::nothing) text.remove_prefix(text.find(' ') + 1);
   if (text.size() == 1 && text[0] > ' ' && text[0] <= '~' && !(text[0] >= 'a' && text[0] <= 'z'))
     return {text[0], with};
@@ -105,15 +103,13 @@ void KeyTable::addRow(const text::JsonMember& member, text::Diagnostics& diagnos
     if (row.verb.empty() && !weft && diagnostics.errorCount() == before) fields.require({"do"});
   }
   if (row.key == 0 && !weft)
-    diagnostics.error(
-        text::Code::unknownWord, member.place.after(1), fmt::format("there is no key '{}'", member.key),
-        {.hint = "the names of keys are those of docs/viewer.md: \"Shift F12\", \"Ctrl Z\", \"PgDn\""});
+    diagnostics.error(text::Code::unknownWord, member.place.after(1), fmt::format("there is no {}", what),
+                      {.hint = "keys are written \"G\", \"Shift F12\", \"Ctrl Z\", \"PgDn\""});
   if (diagnostics.errorCount() > before) return;
-  if (row.help.empty() && !row.verb.empty()) {
-    const auto same = std::ranges::find_if(
-        weft_, [&](const KeyBinding& each) { return each.verb == row.verb && each.name == row.name; });
-    row.help = weft ? rows_.back().help : row.verb == "do" ? same->help : row.verb + " " + row.name;
-  }
+  if (row.help.empty() && !row.verb.empty())
+    row.help = weft               ? rows_.back().help
+               : row.verb == "do" ? std::ranges::find(weft_, row.name, &KeyBinding::name)->help
+                                  : row.verb + " " + row.name;
   const auto old = std::ranges::find_if(
       rows_, [&](const KeyBinding& each) { return row.key && each.key == row.key && each.with == row.with; });
   if (old == rows_.end() && !value.is(Type::null))

@@ -25,10 +25,9 @@ namespace {
 constexpr double kLookAround = 0.05;   // seconds between looks at everything while nothing is drawn
 constexpr double kLookAtFiles = 0.02;  // the same while files that changed are to settle
 constexpr std::chrono::milliseconds kWaitForWrites{5};
-constexpr int kWaitsForWrites = 10;  // who writes for longer than this gets frames in between
-constexpr double kHandRests = 0.3;   // seconds without a movement of the camera
-constexpr double kSlow = 0.1;        // seconds of a frame
-constexpr std::size_t kMostRecent = 12;
+constexpr int kWaitsForWrites = 10;     // who writes for longer than this gets frames in between
+constexpr double kHandRests = 0.3;      // seconds without a movement of the camera
+constexpr double kSlow = 0.1;           // seconds of a frame
 constexpr int kRestlessAfterEvent = 4;  // panels answer an event within so many redraws
 
 // What is wrong with the files or with a change made here is reported, and does not count against the program.
@@ -281,7 +280,7 @@ void Viewer::remember(const std::string& file) {
   const std::string path = text::absolutePath(file);
   std::erase_if(recent_, [&](const std::string& each) { return each == path || each.empty(); });
   recent_.insert(recent_.begin(), path);
-  recent_.resize(std::min(recent_.size(), kMostRecent));
+  recent_.resize(std::min<std::size_t>(recent_.size(), 12));
   std::filesystem::create_directories(std::filesystem::path(list).parent_path(), none);
   text::writeFile(list, fmt::format("{}\n", fmt::join(recent_, "\n")), ignored);
 }

@@ -189,8 +189,9 @@ TEST_CASE("what is shown: range, marks, zoom; the same as a pass with the shader
   CHECK(statistics->mean[2] == 1);
 
   look(stage, inspector, {.resource = "ids"});
-  canvas = inspector.draw({.high = 40, .colors = InspectColors::scale, .encode = false, .texelsPerPixel = 0.5}, 16, 8,
-                          diagnostics);
+  canvas =
+      inspector.draw({.high = 40, .colors = InspectColors::scale, .encode = false, .texelsPerPixel = 0.5}, 16,
+                     8, diagnostics);
   const auto ids = gl::readTexture(stage.texture("shown_ids"), 0, 0, GL_RGBA, GL_UNSIGNED_BYTE);
   glGetTextureImage(canvas, 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(drawn.size()), drawn.data());
   CHECK(drawn == ids);
