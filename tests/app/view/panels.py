@@ -388,6 +388,7 @@ def keys(weft, folder, display, report):
             report.check(live.until(lambda: not shown(first)()), f"{key} leaves the picture in its place")
             live.act(*(("Escape", "close") if key == "h" else ("g", "show_selected")))
             report.check(live.until(shown(first)) and live.alive(), f"the picture does not come back after {key}")
+        report.check(live.line(r"weft render .*keyed.json --size \d+x\d+ .*--camera [-\d.,e]+", live.key("c")), f"C prints no command\n{live.lines()[-5:]}")
         since = live.mark()
         live.tool("mousemove", "--window", live.window, 200, 100)
         drag(live, (200, 100))
