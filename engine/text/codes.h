@@ -6,7 +6,7 @@
 // W100-W149 shaders and GL, W150-W179 assets and scenes, W180-W199 command line, runtime and outputs, W200-W219 limits, W220-W239 pipelines of other
 // programs, W240-W259 graph again.
 // Numbers are never reused; W010 (overlays are not supported yet), W027 (like a pass that is not there), W087 (reserved kinds), W088 (reads of what timed passes made) and W093-W099 (workloads) are retired. Does not hold the message texts: those
-// stand where the mistake is found.
+// are in the sentences.json of each room.
 #pragma once
 
 #include <cstdint>

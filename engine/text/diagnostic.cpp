@@ -87,6 +87,19 @@ std::string format(const Diagnostic& d) {
   return out;
 }
 
+Diagnostic diagnosticOf(const Sentence& sentence, fmt::format_args args) {
+  const auto filled = [&](const char* text) { return fmt::vformat(text, args); };
+  Diagnostic made;
+  made.code = sentence.code;
+  made.message = filled(sentence.message);
+  made.expected = filled(sentence.expected);
+  made.found = filled(sentence.found);
+  made.hint = filled(sentence.hint);
+  made.resource = filled(sentence.resource);
+  made.pass = filled(sentence.pass);
+  return made;
+}
+
 Diagnostic& Diagnostics::add(Diagnostic diagnostic) {
   if (diagnostic.severity == Severity::error) ++errors_;
   items_.push_back(std::move(diagnostic));
@@ -95,6 +108,12 @@ Diagnostic& Diagnostics::add(Diagnostic diagnostic) {
 
 Diagnostic& Diagnostics::add(Severity severity, Code code, Where place, std::string message, Says says) {
   return add({std::move(says), severity, code, std::move(message), std::move(place)});
+}
+
+Diagnostic& Diagnostics::add(Severity severity, Diagnostic said, Where place) {
+  said.severity = severity;
+  said.place = std::move(place);
+  return add(std::move(said));
 }
 
 Diagnostic& Diagnostics::error(Code code, Where place, std::string message, Says says) {

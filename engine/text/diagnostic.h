@@ -3,10 +3,14 @@
 // optional (or false) when the result cannot be used. Nothing here throws, aborts or prints.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "engine/text/codes.h"
@@ -85,6 +89,26 @@ struct Diagnostic : Says {
   std::string pointer{};  // JSON pointer of the value where its place does not say it: in a binary file
 };
 
+// What is said of one kind of mistake: a row of the sentences.json of a room, "texture '{0}' has the unknown format '{1}'". Each text is
+// one of fmt, and has the same arguments.
+struct Sentence {
+  Code code{};
+  const char *message = "", *expected = "", *found = "", *hint = "", *resource = "", *pass = "";
+};
+// A sentence that fits arguments of these types: the compiler checks it, as it checks those of fmt::format().
+template <class... Args>
+struct SentenceFor {
+  const Sentence& sentence;
+  consteval SentenceFor(const Sentence& row) : sentence(row) {  // NOLINT: as fmt::format_string
+    for (const char* text : {row.message, row.expected, row.found, row.hint, row.resource, row.pass})
+      static_cast<void>(fmt::format_string<Args...>(text));
+  }
+};
+template <class... Args>
+using Saying = SentenceFor<std::type_identity_t<Args>...>;
+// Without a severity and a place.
+Diagnostic diagnosticOf(const Sentence& sentence, fmt::format_args args);
+
 // "file:line:column: error[W040]: message", followed by indented lines for pass, resource, expected, found and fix. Parts of
 // the place that are unknown are left out.
 std::string format(const Diagnostic& diagnostic);
@@ -98,6 +122,17 @@ class Diagnostics {
   // Adds and returns the stored diagnostic so that optional fields can be filled in.
   Diagnostic& add(Diagnostic diagnostic);
   Diagnostic& add(Severity severity, Code code, Where place, std::string message, Says says = {});
+  Diagnostic& add(Severity severity, Diagnostic said, Where place);
+  template <class... Args>
+  Diagnostic& error(Saying<Args...> what, Where place, Args&&... args) {
+    return add(Severity::error, diagnosticOf(what.sentence, fmt::make_format_args(args...)),
+               std::move(place));
+  }
+  template <class... Args>
+  Diagnostic& warning(Saying<Args...> what, Where place, Args&&... args) {
+    return add(Severity::warning, diagnosticOf(what.sentence, fmt::make_format_args(args...)),
+               std::move(place));
+  }
   Diagnostic& error(Code code, Where place, std::string message, Says says = {});
   Diagnostic& warning(Code code, Where place, std::string message, Says says = {});
   void append(const Diagnostics& others);

@@ -24,6 +24,7 @@
 #include "engine/text/hash.h"
 #include "engine/text/limits.h"
 #include "engine/text/nearest.h"
+#include "text_sentences.h"
 
 namespace weft::text {
 
@@ -319,12 +320,10 @@ bool writeFile(const std::string& path, std::span<const char> bytes, Diagnostics
     keepHash(path, {bytes.data(), bytes.size()});
     return true;
   }
-  diagnostics.error(
-      Code::outputNotWritten, {path, 0, 0},
-      fmt::format("cannot write '{}': {}", path,
-                  file.error() == EISDIR ? "it is a directory" : std::strerror(file.error())),
-      {.hint = file.error() == ENOSPC ? "free some space, or name a file on another disk"
-                                      : "name a file in an existing folder that can be written to"});
+  diagnostics.error(say::cannotWrite, {path, 0, 0}, path,
+                    file.error() == EISDIR ? "it is a directory" : std::strerror(file.error()),
+                    file.error() == ENOSPC ? "free some space, or name a file on another disk"
+                                           : "name a file in an existing folder that can be written to");
   return false;
 }
 
@@ -375,12 +374,7 @@ bool mayRead(const std::string& path) {
 void reportOutside(const std::string& path, Diagnostics& diagnostics, const Place& place) {
   std::vector<std::string> folders;
   for (Rules all; const std::string& each : all->named) folders.push_back(fmt::format("'{}'", each));
-  diagnostics.error(
-      Code::outsideConfinement, placeOr(place, path),
-      fmt::format("'{}' leads out of the folders that this run is confined to", path),
-      {.expected = fmt::format("a path that stays, with links followed, in {} or in Weft's own data",
-                               fmt::join(folders, ", ")),
-       .hint = "move the file into one of them, or allow its folder with --confine FOLDER"});
+  diagnostics.error(say::outsideConfinement, placeOr(place, path), path, fmt::join(folders, ", "));
 }
 
 std::set<std::string> filesRead() {

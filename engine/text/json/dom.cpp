@@ -11,6 +11,7 @@
 #include "engine/text/files/file.h"
 #include "engine/text/limits.h"
 #include "engine/text/printable.h"
+#include "text_sentences.h"
 
 namespace weft::text {
 
@@ -71,11 +72,10 @@ class Parser {
   }
 
   // Reports the first mistake and passes over the rest of the text.
-  void fail(std::size_t at, std::string message, std::string hint, std::string expected = {},
-            Code code = Code::notJson) {
+  template <class... Args>
+  void fail(Saying<Args...> what, std::size_t at, Args&&... args) {
     if (!diagnostics_ || failed_) return;
-    diagnostics_->error(code, placeAt(at), std::move(message),
-                        {.expected = std::move(expected), .hint = std::move(hint)});
+    diagnostics_->error<Args...>(what, placeAt(at), std::forward<Args>(args)...);
     failed_ = true;
     at_ = text_.size();
   }
@@ -90,7 +90,7 @@ class Parser {
     if (ends()) return endsEarly();
     const std::size_t end = now() == '"' ? text_.find_first_of("\"\r\n", at_ + 1) + 1 : endOfWord(at_);
     const std::string_view found = text_.substr(at_, end > at_ ? end - at_ : 1);
-    fail(at_, fmt::format("'{}' where {} is expected", found, expected), std::move(hint), expected);
+    fail(say::unexpected, at_, found, expected, hint);
   }
 
   std::string openContainer() {
@@ -103,9 +103,9 @@ class Parser {
     std::size_t end = text_.size();
     while (end > first_ && isSpace(text_[end - 1])) --end;
     if (open_.empty())
-      fail(end, "the file holds no value", "write an object: { … }", "an object");
+      fail(say::holdsNoValue, end);
     else
-      fail(end, "the file ends inside " + openContainer(), "close it with a bracket");
+      fail(say::endsInside, end, openContainer());
   }
 
   // ---- white space and comments ----
@@ -129,7 +129,7 @@ class Parser {
       end += 2;
     at_ = std::min(end, text_.size());
     if (comments_) comments_->push_back({begin, at_});
-    if (open) fail(begin, "the comment that opens here is never closed", "end it with */");
+    if (open) fail(say::openComment, begin);
     return true;
   }
 
@@ -140,15 +140,13 @@ class Parser {
     out.begin = static_cast<std::uint32_t>(at_);
     const bool container = now() == '{' || now() == '[';
     if (++count_ > raised(kMaxValues))
-      fail(at_, "the file has too many values", hintToRaise(kMaxValues),
-           fmt::format("at most {} values", raised(kMaxValues)), Code::limitExceeded);
+      fail(say::tooManyValues, at_, raised(kMaxValues), hintToRaise(kMaxValues));
     if (ends() || isOneOf(now(), "}],:")) {
       out.type = Type::absent;
       unexpected("a value", "add a value, or remove the comma before it");
     } else if (container && open_.size() >= kMaxJsonDepth) {
       out.type = Type::absent;
-      fail(at_, fmt::format("objects and arrays are nested more than {} levels deep", kMaxJsonDepth),
-           "look for a bracket that is never closed", {}, Code::nestedTooDeeply);
+      fail(say::nestedTooDeeply, at_, kMaxJsonDepth);
     } else {
       container ? members(out) : scalar(out);
     }
@@ -208,18 +206,13 @@ class Parser {
     read.begin = static_cast<std::uint32_t>(at_);
     string(read.key, read.closed);
     read.end = static_cast<std::uint32_t>(at_);
-    if (read.key.size() > kMaxNameBytes)
-      fail(read.begin, fmt::format("a key of {} bytes is too long", read.key.size()), {},
-           fmt::format("at most {} bytes", kMaxNameBytes), Code::limitExceeded);
+    if (read.key.size() > kMaxNameBytes) fail(say::keyTooLong, read.begin, read.key.size(), kMaxNameBytes);
     blank();
     read.hasValue = now() == ':';
     if (!read.hasValue) unexpected("':'", "write ':' between a key and its value");
     if (const JsonMember* before = diagnostics_ ? findKey(object, read.key, keys) : nullptr;
         before && !failed_) {
-      diagnostics_->error(
-          Code::duplicateKey, read.place, fmt::format("the key \"{}\" appears twice in one object", read.key),
-          {.hint =
-               fmt::format("remove one; the first is at {}:{}", before->place.line, before->place.column)});
+      diagnostics_->error(say::duplicateKey, read.place, read.key, before->place.line, before->place.column);
       skip();
       blank();
       return value(dropped);
@@ -269,11 +262,7 @@ class Parser {
     if (end == begin) out.type = Type::absent;
     at_ = end;
     if (out.is(Type::broken) || out.is(Type::absent))
-      fail(
-          begin,
-          fmt::format("'{}' is not a JSON value", text_.substr(begin, std::max<std::size_t>(end - begin, 1))),
-          "values are numbers, true, false, null, \"strings\", [arrays] and {objects}; comments are // and "
-          "/* … */");
+      fail(say::notJsonValue, begin, text_.substr(begin, std::max<std::size_t>(end - begin, 1)));
   }
 
   void number(JsonValue& out) {
@@ -293,9 +282,7 @@ class Parser {
     out.number += 0.0;  // no -0
     const std::size_t begin = at_;
     at_ += word.size();
-    if (good && error != std::errc())
-      fail(begin, fmt::format("{} is beyond what a number can be", word),
-           "numbers have 64 bits: the largest is about 1.8e308");
+    if (good && error != std::errc()) fail(say::numberTooLarge, begin, word);
   }
 
   void string(std::string& out, bool& closed) {
@@ -305,11 +292,8 @@ class Parser {
       while (!ends() && isPlain(text_[at_])) ++at_;
       if (ends() || isOneOf(now(), "\"\r\n")) break;
       const Character c = firstCharacterOf(text_.substr(at_));
-      if (!c.good || c.value < ' ')
-        fail(at_,
-             c.good ? "a control character in a string"
-                    : fmt::format("the byte 0x{:02X} is not UTF-8", c.value),
-             "write a tab as \\t, and save the file as UTF-8");
+      if (!c.good) fail(say::notUtf8, at_, c.value);
+      if (c.value < ' ') fail(say::controlCharacter, at_);
       const bool escape = now() == '\\';
       escapes = escapes || escape;
       at_ = std::min(at_ + c.bytes, text_.size());
@@ -319,8 +303,7 @@ class Parser {
     out = text_.substr(begin + 1, at_ - begin - 1);
     if (closed) ++at_;
     if (!closed)
-      fail(begin, "the string that opens here is not closed on its line",
-           "close it with '\"'; a line break inside a string is written \\n");
+      fail(say::openString, begin);
     else if (escapes)
       resolve(out, begin);
   }
@@ -329,8 +312,7 @@ class Parser {
     try {
       out = nlohmann::ordered_json::parse(text_.substr(begin, at_ - begin)).get<std::string>();
     } catch (const nlohmann::ordered_json::parse_error& error) {
-      fail(text_.rfind('\\', begin + error.byte - 1), "an escape that JSON does not have",
-           "escapes are \\\" \\\\ \\/ \\n \\r \\t \\b \\f \\uXXXX; write '/' in paths");
+      fail(say::unknownEscape, text_.rfind('\\', begin + error.byte - 1));
     }
   }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/text/nearest.h"
+#include "text_sentences.h"
 
 namespace weft::text {
 
@@ -20,8 +21,7 @@ std::string describeRange(const NumberRange& range) {
 
 void reportType(const JsonValue& value, std::string_view name, Diagnostics& diagnostics,
                 std::string expected) {
-  diagnostics.error(Code::wrongType, value.place, fmt::format("{} has the wrong type of value", name),
-                    {.expected = std::move(expected), .found = describe(value)});
+  diagnostics.error(say::wrongType, value.place, name, expected, describe(value));
 }
 
 }  // namespace
@@ -94,9 +94,7 @@ const JsonValue* JsonFields::find(std::string_view key, JsonValue::Type type) {
 void JsonFields::require(std::initializer_list<std::string_view> keys) {
   if (!object_.is(JsonValue::Type::object)) return;
   for (const std::string_view key : keys) {
-    if (!object_.find(key))
-      diagnostics_.error(Code::missingKey, object_.place, fmt::format("{} has no '{}'", what_, key),
-                         {.hint = fmt::format("add \"{}\"", key)});
+    if (!object_.find(key)) diagnostics_.error(say::missingKey, object_.place, what_, key);
   }
 }
 
@@ -123,8 +121,7 @@ std::optional<std::string> JsonFields::text(std::string_view key) {
 void JsonFields::finish() {
   for (const JsonMember& member : object_.members) {
     if (std::ranges::find(known_, member.key) != known_.end()) continue;
-    diagnostics_.error(Code::unknownKey, member.place, fmt::format("{} has no key '{}'", what_, member.key),
-                       {.hint = nearestHint(member.key, known_)});
+    diagnostics_.error(say::unknownKey, member.place, what_, member.key, nearestHint(member.key, known_));
   }
 }
 
