@@ -7,6 +7,7 @@
 #include "engine/graph/compile/steps.h"
 #include "engine/graph/versions/versions.h"
 #include "engine/text/limits.h"
+#include "graph_sentences.h"
 
 namespace weft::graph {
 
@@ -97,10 +98,9 @@ bool checkMemory(const Plan& plan, text::Diagnostics& diagnostics) {
   for (std::uint32_t r = 1; r < graph.resources.size(); ++r)
     if (bytesOf(r) > bytesOf(largest)) largest = r;
   text::Diagnostic& d =
-      diagnostics.error(text::Code::texturesTooLarge,
+      diagnostics.error(say::texturesTooLarge,
                         largest < graph.resourcePlaces.size() ? graph.resourcePlaces[largest] : text::Place{},
-                        fmt::format("the textures and buffers of '{}' need {} bytes, more than they may",
-                                    graph.name, plan.bytesAllocated));
+                        graph.name, plan.bytesAllocated);
   d.resource = graph.resourceNames[largest];
   d.expected = fmt::format("at most {} bytes", most);
   d.found = fmt::format("the largest is '{}', {} bytes", d.resource, bytesOf(largest));

@@ -11,6 +11,7 @@
 #include "engine/graph/read/read.h"
 #include "engine/text/files/file.h"
 #include "engine/text/json/edit.h"
+#include "graph_sentences.h"
 
 namespace weft::graph {
 
@@ -228,8 +229,7 @@ class Planner {
 
  private:
   void fail(const std::string& what, const std::string& found, const text::Place& place = {}) {
-    diagnostics_.error(Code::cannotWriteBack, place, fmt::format("{} cannot be written into the files", what),
-                       {.found = found, .hint = "write it by hand, or take the change back"});
+    diagnostics_.error(say::cannotWriteBack, place, what, found);
   }
 
   std::shared_ptr<const FlatGraph> expand(const GraphDesc& desc) const {
@@ -319,9 +319,7 @@ bool saveWriteBack(const WriteBack& plan, text::Diagnostics& diagnostics) {
     if (now && *now == file.before) continue;
     same = false;
     if (!now) continue;
-    diagnostics.error(Code::fileChanged, {file.path, 0, 0},
-                      fmt::format("'{}' has changed since it was read", file.path),
-                      {.hint = "wait until the viewer shows the file as it is, then write again"});
+    diagnostics.error(say::fileChanged, {file.path, 0, 0}, file.path);
   }
   if (!same) return false;
   for (std::size_t i = 0; i < plan.files.size(); ++i) {

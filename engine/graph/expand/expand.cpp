@@ -10,6 +10,7 @@
 #include "engine/graph/pick/pick.h"
 #include "engine/graph/subresource.h"
 #include "engine/text/json/report.h"
+#include "graph_sentences.h"
 
 namespace weft::graph {
 
@@ -25,10 +26,7 @@ std::optional<FlatUse> resolveFinal(Model& model, Scope& scope, const RefDesc& r
   const SlotContext context{model, names, nullptr, user, {}};
   const SlotWork work = ref.wordsSize > 0 ? SlotWork() : resolveSlot(context, slot, kNone);
   if (work.array || ref.wordsSize > 0)
-    context.report(
-        Code::badKind, ref.place, fmt::format("reads '{}', which is more than a name or an array", ref.text),
-        {.expected =
-             fmt::format("a texture or buffer that no shader samples: '{0}', or '{0}[0]'", ref.name)});
+    context.report(say::finalIsMoreThanName, ref.place, ref.text, ref.name);
   if (work.array || !work.isConnected()) return std::nullopt;
   FlatUse use = work.use;
   use.kind = Kind::copy;
@@ -49,10 +47,7 @@ void resolvePresent(Model& model) {
   const FlatResource& resource = model.graph.resources[use->resource];
   if (model.diagnostics.errorCount() == before &&
       (isBuffer(resource) || isDepth(resource.format) || use->history > 0))
-    report(model, Code::badKind, ref.place,
-           fmt::format("present shows '{}', which is no color texture", ref.text),
-           {.expected = "a color texture of this frame",
-            .hint = fmt::format("to look at it: weft render --present {}", ref.text)});
+    report(model, say::presentsNoColor, ref.place, ref.text);
 }
 
 void resolveOutputs(Model& model) {
@@ -66,14 +61,8 @@ void resolveOutputs(Model& model) {
       const FlatResource& resource = model.graph.resources[use->resource];
       const std::uint64_t bytes = isImported(resource) ? 0 : outputBytesOf(*use, resource);
       if (isImported(resource) || resource.samples != 1 || bytes > kMaxOutputBytes) {
-        report(
-            model, Code::badOutput, ref.place,
-            fmt::format("output '{}' cannot read back '{}'", name, ref.text),
-            {.expected = fmt::format("a buffer or plain texture of this graph, at most {} bytes (4 for each "
-                                     "channel of a texel)",
-                                     kMaxOutputBytes),
-             .found = bytes > 0 ? fmt::format("{} bytes", bytes) : "",
-             .hint = "read back a small level (x.mip[n]) or a buffer that a pass sums up into"});
+        report(model, say::cannotReadBack, ref.place, name, ref.text, kMaxOutputBytes,
+               bytes > 0 ? fmt::format("{} bytes", bytes) : "");
         continue;
       }
       // A version zero alone is nothing to read back.
@@ -103,11 +92,7 @@ void addResets(Model& model, const Entity& entity, HistorySpec& spec) {
     spec.resetValues.push_back(value.evaluate(names, model.diagnostics));
   for (const RefDesc& ref : entity.desc->resetRefs) {
     if (!isWhole(ref))
-      report(model, Code::badSelector, ref.place,
-             fmt::format("the reset of '{}' names '{}'", entity.name, ref.text),
-             {.expected = "the name of a whole resource or import",
-              .hint = fmt::format("write '{}{}'", ref.import ? "@" : "", ref.name),
-              .resource = entity.name});
+      report(model, say::resetNotWhole, ref.place, entity.name, ref.text, ref.import ? "@" : "", ref.name);
     const std::uint32_t found = findEntityOrReport(model, *entity.scope, ref, "\"reset\"", "names");
     if (found == kNone) continue;
     // An import that has nothing now may have something later.
@@ -217,8 +202,7 @@ void foldDeferred(Model& model, const std::vector<DeferredUniform>& deferred) {
     else if (!watched)
       markStructural(model, *each.scope, *each.expr);
     else if (!unfollowed.hasErrors())
-      unfollowed.error(Code::badTime, each.expr->place(), "values of imports in it cannot be followed",
-                       {.hint = "leave out branches that are not taken"});
+      unfollowed.error(say::cannotFollowImports, each.expr->place());
   }
   model.diagnostics = said;  // what cannot be folded is no mistake
   model.diagnostics.append(unfollowed);

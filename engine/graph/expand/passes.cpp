@@ -8,6 +8,7 @@
 #include <span>
 
 #include "engine/text/limits.h"
+#include "graph_sentences.h"
 
 namespace weft::graph::expansion {
 
@@ -160,11 +161,8 @@ class PassWalk {
     const std::uint64_t most = text::raised(kMaxPasses);
     if (made_ + more <= most) return true;
     model_.stopped = true;
-    return report(model_, Code::tooManyPasses, place,
-                  fmt::format("with pass '{}' the graph has more than {} passes", stanza.declared, most),
-                  {.expected = "one compute pass with more threads",
-                   .hint = text::hintToRaise(kMaxPasses, made_ + more),
-                   .pass = stanza.declared});
+    return report(model_, say::tooManyPasses, place, stanza.declared, most,
+                  text::hintToRaise(kMaxPasses, made_ + more));
   }
 
   void repeat(std::span<StanzaWalk> stanzas, Names& names) {
@@ -187,10 +185,7 @@ class PassWalk {
     const auto first = evaluateWhole(names, range.first, 0, -kFar, kFar, "a bound of a repeat");
     const auto last = evaluateWhole(names, range.last, 0, -kFar, kFar, "a bound of a repeat");
     const auto step = evaluateWhole(names, range.step, 1, -kFar, kFar, "the step of a repeat");
-    if (step && *step == 0)
-      report(model_, Code::numberOutOfRange, range.place,
-             fmt::format("pass '{}' repeats '{}' in steps of 0", stanza.declared, range.index),
-             {.expected = "a step that leads from the first to the last index"});
+    if (step && *step == 0) report(model_, say::stepOfZero, range.place, stanza.declared, range.index);
     if (!first || !last || !step || *step == 0) {
       for (StanzaWalk& each : stanzas) each.failed = true;
       return;
@@ -363,9 +358,7 @@ class PassWalk {
     flat.slices = static_cast<std::uint32_t>(
         evaluateWhole(context.names, desc.slices, 1, 0, 65536, "the number of slices").value_or(1));
     if (flat.slices > 1 && stanza.type->shader == ShaderShape::none)
-      context.report(Code::badSlices, desc.slices.place(),
-                     fmt::format("is a {}, which runs whole", desc.type),
-                     {.hint = "remove \"slices\": the pass takes one frame"});
+      context.report(say::runsWhole, desc.slices.place(), desc.type);
     PassSpec spec{static_cast<const PassHead&>(desc), name_, stanza.declared};
     spec.firstSlot = static_cast<std::uint32_t>(graph_.slots.size());
     spec.slotCount = static_cast<std::uint32_t>(desc.slots.size());

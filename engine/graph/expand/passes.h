@@ -88,7 +88,16 @@ struct SlotContext {
   bool quiet = false;       // report() says nothing
 
   // Reports a mistake of the pass: "pass 'glow_down[3]' MESSAGE". Returns false.
-  bool report(Code code, const Place& place, std::string_view message, Says says = {}) const;
+  template <class... Args>
+  bool report(text::Saying<Args...> what, const Place& place, Args&&... args) const {
+    return !quiet && report(text::diagnosticOf(what.sentence, fmt::make_format_args(args...)), place);
+  }
+  // The same where the sentence was checked before.
+  template <class... Own, class... Args>
+  bool report(text::SentenceFor<Own...> what, const Place& place, const Args&... args) const {
+    return !quiet && report(text::diagnosticOf(what.sentence, fmt::make_format_args(args...)), place);
+  }
+  bool report(text::Diagnostic said, const Place& place) const;
 };
 
 // Resolves one slot: from a reference as written to the texture, buffer or import it means and the sub-resources it selects,

@@ -6,6 +6,7 @@
 
 #include "engine/graph/expand/passes.h"
 #include "engine/graph/subresource.h"
+#include "graph_sentences.h"
 
 namespace weft::graph::expansion {
 
@@ -27,9 +28,7 @@ bool addSelection(const SlotContext& context, Names& names, const RefDesc& ref, 
     const auto first = evaluateWhole(names, said.first, 0, -kFar, kFar, kPartWords[i]);
     const auto last = evaluateWhole(names, said.last, 0, -kFar, kFar, kPartWords[i]);
     if (!first || !last) return false;
-    if (into.parts[i])
-      return context.report(Code::badSelector, ref.place, fmt::format("selects twice in '{}'", ref.text),
-                            {.hint = "the list of alternatives selects this already", .resource = ref.name});
+    if (into.parts[i]) return context.report(say::selectsTwice, ref.place, ref.text, ref.name);
     into.parts[i] = {*first, said.range ? *last : *first, said.range && !said.last.present(),
                      said.first.present() ? said.first.place() : said.last.place()};
   }
@@ -68,9 +67,7 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
   const bool texture = !isBuffer(shape), cube = isCube(shape), deep = shape.target == Target::texture_3d;
   const auto misfit = [&](std::string_view what, std::string hint = {}) {
     if (hint.empty()) hint = "leave the selector out, or name a resource that has such parts";
-    return context.report(Code::badSelector, ref.place,
-                          fmt::format("selects in '{}', which {}", entity.name, what),
-                          {.found = ref.text, .hint = std::move(hint), .resource = entity.name});
+    return context.report(say::selectorMisfits, ref.place, entity.name, what, ref.text, hint);
   };
   const std::int64_t counts[] = {texture ? shape.mips : 0,
                                  !texture || deep ? 0
@@ -91,14 +88,10 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
     const auto range =
         closeSpan(*said, counts[i], i == Selection::level ? entity.writtenMips : counts[i], context.ranges);
     if (!range)
-      return context.report(
-          Code::missingSubresource, said->place.line ? said->place : ref.place,
-          fmt::format("uses a {} of '{}' that is not there", kPartWords[i], entity.name),
-          {.expected = fmt::format("{} 0 to {}", kPartWords[i], counts[i] - 1),
-           .found = said->first == said->last ? fmt::format("{}", said->first)
-                                              : fmt::format("{}..{}", said->first, said->last),
-           .hint = fmt::format("the last {} is {}", kPartWords[i], counts[i] - 1),
-           .resource = entity.name});
+      return context.report(say::partNotThere, said->place.line ? said->place : ref.place, kPartWords[i],
+                            entity.name, counts[i] - 1,
+                            said->first == said->last ? fmt::format("{}", said->first)
+                                                      : fmt::format("{}..{}", said->first, said->last));
     ranges[i] = *range;
     empty = empty || range->empty;
   }
@@ -182,10 +175,7 @@ bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref,
 bool isWritable(const SlotContext& context, const SlotDesc& slot, std::uint32_t found) {
   const Entity& entity = context.model.entities[found];
   return (entity.isOwn() && slot.ref.history == 0) ||
-         context.report(Code::notWritable, slot.ref.place,
-                        fmt::format("{} '{}', which is an import, a list or an earlier publication",
-                                    verbOf(slot.access), slot.ref.text),
-                        {.hint = "write a texture or buffer of the graph's own", .resource = entity.name});
+         context.report(say::notWritable, slot.ref.place, verbOf(slot.access), slot.ref.text, entity.name);
 }
 
 SlotWork noneOf(const SlotDesc& slot) {
@@ -283,11 +273,11 @@ struct SlotChoice {
 
 }  // namespace
 
-bool SlotContext::report(Code code, const Place& place, std::string_view message, Says says) const {
-  if (quiet) return false;
-  says.pass = pass;
-  return expansion::report(model, code, place, fmt::format("{} {}", whoIs(user, pass), message),
-                           std::move(says));
+bool SlotContext::report(text::Diagnostic said, const Place& place) const {
+  said.message = fmt::format("{} {}", whoIs(user, pass), said.message);
+  said.pass = pass;
+  if (!quiet) model.diagnostics.add(text::Severity::error, std::move(said), place);
+  return false;
 }
 
 SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint32_t pass) {
@@ -351,14 +341,9 @@ SlotWork resolveFirst(const SlotContext& context, const SlotWork& work, std::uin
 
   const FlatResource& source = model.entities[first.entity].shape;
   if (!canReplace(entity.shape, work, source, first)) {
-    context.report(
-        Code::badFormat, ref.place,
-        fmt::format("cannot read '{}' as the first value of '{}'", ref.text, entity.name),
-        {.expected = shapeText(entity.shape, 0, entity.shape.layers) + ", in this frame",
-         .found = shapeText(source, first.use.mip, first.use.layers),
-         .hint =
-             "let a pass write a texture of that size and format, with \"update\": \"once\", and name that",
-         .resource = entity.name});
+    context.report(say::firstMisfits, ref.place, ref.text, entity.name,
+                   shapeText(entity.shape, 0, entity.shape.layers),
+                   shapeText(source, first.use.mip, first.use.layers));
     return {};
   }
   entity.firstUse = first.use;

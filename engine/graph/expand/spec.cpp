@@ -11,6 +11,7 @@
 #include "engine/graph/expand/passes.h"
 #include "engine/text/nearest.h"
 #include "engine/text/words/words.h"
+#include "graph_sentences.h"
 
 namespace weft::graph::expansion {
 
@@ -33,14 +34,13 @@ void checkShaders(const SlotContext& context, const PassDesc& desc) {
   if ((pair || !desc.shader.empty()) && (!pair || shader != ShaderShape::compute) &&
       !endsOtherwise(desc.shader, ending) && !endsOtherwise(desc.vertexShader, ".vert.glsl"))
     return;
-  const bool lacks = !pair && desc.shader.empty();
-  context.report(
-      lacks ? Code::keyNeeded : Code::keyNotTaken, lacks ? desc.namePlace : desc.shaderPlace,
-      lacks ? "lacks a shader"
-            : fmt::format("is a {} pass and names a shader for another stage", context.type->name),
-      {.expected = draw ? "\"shader\": a path without stage and ending, or { \"vertex\": …, \"fragment\": … }"
-                        : fmt::format("\"shader\": \"folder/name{}\"", ending),
-       .found = desc.shader});
+  const std::string expected =
+      draw ? "\"shader\": a path without stage and ending, or { \"vertex\": …, \"fragment\": … }"
+           : fmt::format("\"shader\": \"folder/name{}\"", ending);
+  if (!pair && desc.shader.empty())
+    context.report(say::lacksShader, desc.namePlace, expected);
+  else
+    context.report(say::shaderOfOtherStage, desc.shaderPlace, context.type->name, expected, desc.shader);
 }
 
 const GeometryType* findGeometry(const SlotContext& context, const PassDesc& desc) {
@@ -74,10 +74,7 @@ void checkIndirect(const SlotContext& context, const PassDesc& desc) {
        desc.geometryPlace},
       {"the geometry \"mesh\"", geometry && geometry->meshes, desc.geometryPlace}};
   for (const auto& [what, said, place] : refused)
-    if (slot && said)
-      context.report(Code::keyNotTaken, place,
-                     fmt::format("has {} and takes its arguments from '{}'", what, slot->ref.name),
-                     {.hint = "leave one of the two out: the records of the buffer say how much is run"});
+    if (slot && said) context.report(say::saidBesideIndirect, place, what, slot->ref.name);
 }
 
 void checkKeys(const SlotContext& context, const PassDesc& desc) {
@@ -103,26 +100,20 @@ void checkKeys(const SlotContext& context, const PassDesc& desc) {
               {"defines", !desc.defines.empty(), hasShader, placeOf(desc.defines)}};
   for (const auto& [key, present, taken, place] : keys)
     if (present && !taken && std::ranges::find(context.type->keys, key) == context.type->keys.end())
-      context.report(Code::keyNotTaken, place,
-                     fmt::format("has the key '{}', which a {} pass does not take", key, context.type->name),
-                     {.hint = fmt::format("remove \"{}\"", key)});
+      context.report(say::keyNotTaken, place, key, context.type->name);
   const auto modifies = [](const SlotDesc& slot) { return slot.access == Access::modify; };
   const struct {
     bool idle;
     Place place;
-    const char *what, *hint;
-  } rules[] = {{desc.feedback && std::ranges::none_of(desc.slots, modifies), desc.namePlace,
-                "has the key 'feedback' and modifies nothing",
-                "leave \"feedback\" out, or say \"modify\" where the slot says \"write\""},
-               {!desc.list.empty() && desc.instances.present(), desc.instances.place(),
-                "has \"instances\" and a \"list\", which says how many", "leave one of the two out"},
-               {desc.draws.present() && !findIndirect(desc), desc.draws.place(),
-                "has \"draws\" and no buffer that says what to draw",
-                "read the buffer as indirect: \"read\": { \"commands\": \"x as indirect\" }"},
-               {hasShader && desc.samples.present() && !desc.raster.present(), desc.samples.place(),
-                "has \"samples\" and no \"raster\"", "write \"samples\" on the textures that it draws into"}};
-  for (const auto& [idle, place, what, hint] : rules)
-    if (idle) context.report(Code::keyNotTaken, place, what, {.hint = hint});
+    text::SentenceFor<> what;
+  } rules[] = {
+      {desc.feedback && std::ranges::none_of(desc.slots, modifies), desc.namePlace, say::feedbackOfNothing},
+      {!desc.list.empty() && desc.instances.present(), desc.instances.place(), say::instancesAndList},
+      {desc.draws.present() && !findIndirect(desc), desc.draws.place(), say::drawsWithoutBuffer},
+      {hasShader && desc.samples.present() && !desc.raster.present(), desc.samples.place(),
+       say::samplesWithoutRaster}};
+  for (const auto& [idle, place, what] : rules)
+    if (idle) context.report(what, place);
   checkIndirect(context, desc);
   if (!hasShader) return;
   checkShaders(context, desc);
@@ -132,8 +123,7 @@ void checkKeys(const SlotContext& context, const PassDesc& desc) {
                                       !isCounted(context, desc) && !findIndirect(desc)
                                   ? "what to draw: \"list\" or \"instances\""
                                   : nullptr;
-  if (lacking)
-    context.report(Code::keyNeeded, desc.namePlace, "lacks a key or a slot", {.expected = lacking});
+  if (lacking) context.report(say::lacksKeyOrSlot, desc.namePlace, lacking);
 }
 
 // Reports what a list of the graph's own says of meshes, while spheres are drawn.
@@ -141,10 +131,7 @@ void checkOwnList(const SlotContext& context, const PassDesc& desc, const Import
   const ImportType& type = *findNamed(context.model.registry.imports, list.type);
   for (const ImportArgument& argument : type.arguments)
     if (argument.ofMeshes && !(list.at(argument.name) == argument.initial))
-      context.report(
-          Code::keyNotTaken, desc.listPlace,
-          fmt::format("draws spheres of '{}', whose \"{}\" is of meshes", desc.list, argument.name),
-          {.hint = "draw its meshes, or sort with the import draw_order"});
+      context.report(say::spheresOfMeshList, desc.listPlace, desc.list, argument.name);
 }
 
 void checkLists(const SlotContext& context, const PassDesc& desc) {
@@ -155,30 +142,22 @@ void checkLists(const SlotContext& context, const PassDesc& desc) {
   if (!desc.list.empty() && own == kNone && std::ranges::find(lists, desc.list) == lists.end()) {
     for (const std::string& name : resourceNames(model, context.names.scope()))
       if (findDeclared(model, context.names.scope(), name, ImportKind::list) != kNone) lists.push_back(name);
-    context.report(Code::unknownDrawList, desc.listPlace,
-                   fmt::format("draws the unknown list '{}'", desc.list),
-                   {.hint = text::nearestHint(desc.list, lists)});
+    context.report(say::drawsUnknownList, desc.listPlace, desc.list, text::nearestHint(desc.list, lists));
   }
   if (desc.geometry.empty()) return;
   const GeometryType* const geometry = findGeometry(context, desc);
   if (!geometry)
-    context.report(Code::unknownGeometry, desc.geometryPlace,
-                   fmt::format("draws the unknown geometry '{}'", desc.geometry),
-                   {.hint = text::nearestHint(desc.geometry, namesOf(geometries))});
+    context.report(say::drawsUnknownGeometry, desc.geometryPlace, desc.geometry,
+                   text::nearestHint(desc.geometry, namesOf(geometries)));
   else if (own != kNone && !geometry->meshes && ensureShape(model, own))
     checkOwnList(context, desc, model.graph.imports[model.entities[own].import].request);
   else if (geometry->meshes && desc.list.empty())
-    context.report(Code::keyNeeded, desc.geometryPlace, fmt::format("draws '{}' of no list", desc.geometry),
-                   {.expected = "\"list\": the draw list whose meshes are drawn"});
+    context.report(say::meshesOfNoList, desc.geometryPlace, desc.geometry);
   else if (desc.geometryArguments.size() > geometry->arguments.size())
-    context.report(Code::numberOutOfRange, desc.geometryPlace,
-                   fmt::format("gives '{}' too many arguments", desc.geometry),
-                   {.expected = fmt::format("at most {}", geometry->arguments.size()),
-                    .found = fmt::format("{}", desc.geometryArguments.size())});
+    context.report(say::tooManyGeometryArguments, desc.geometryPlace, desc.geometry,
+                   geometry->arguments.size(), desc.geometryArguments.size());
   else if (geometry->counted && desc.geometryArguments.empty() && !findIndirect(desc))
-    context.report(Code::keyNeeded, desc.geometryPlace,
-                   fmt::format("draws '{}' without saying how many vertices", desc.geometry),
-                   {.expected = fmt::format("\"{}(n)\", n of each instance", desc.geometry)});
+    context.report(say::verticesNotCounted, desc.geometryPlace, desc.geometry);
 }
 
 // The slots of a pass type without a shader. What is wrong with them is one mistake.
@@ -197,27 +176,21 @@ void checkFixedSlots(const SlotContext& context, const PassDesc& desc) {
   for (const FixedSlot& slot : fixed)
     expected += fmt::format("{}\"{}\": {{ \"{}\": … }}", expected.empty() ? "" : ", ", nameOf(slot.access),
                             slot.name);
-  const bool lacks = wrong == slots.end();
-  context.report(Code::badSlots, lacks ? desc.namePlace : wrong->place,
-                 lacks ? "lacks a slot"
-                       : fmt::format("has the slot '{}', which a {} pass does not have there", wrong->name,
-                                     context.type->name),
-                 {.expected = expected, .hint = lacks ? "" : text::nearestHint(wrong->name, namesOf(fixed))});
+  if (wrong == slots.end())
+    context.report(say::lacksSlot, desc.namePlace, expected);
+  else
+    context.report(say::hasNoSuchSlot, wrong->place, wrong->name, context.type->name, expected,
+                   text::nearestHint(wrong->name, namesOf(fixed)));
 }
 
 void checkCadence(const SlotContext& context, const PassDesc& desc) {
   if (desc.cadence == Cadence::always || desc.cadence == Cadence::every) {
-    if (desc.slices.present())
-      context.report(Code::badSlices, desc.slices.place(), "is time-sliced but runs by the clock",
-                     {.hint = "slices go with \"update\": \"on_change\" or \"once\""});
+    if (desc.slices.present()) context.report(say::slicedByClock, desc.slices.place());
     return;
   }
   const auto check = [&](const Expr& expr, std::string_view what) {
     if (isDynamic(context.model, context.names.scope(), expr))
-      context.report(Code::badTime, expr.place(),
-                     fmt::format("sees time in {}, but does not run in every frame", what),
-                     {.found = expr.text(),
-                      .hint = "use age() in passes that are \"update\": \"always\" or \"every(n)\""});
+      context.report(say::seesTime, expr.place(), what, expr.text());
   };
   for (const PassParameterDesc& parameter : desc.parameters)
     if (!parameter.declared)
@@ -235,9 +208,8 @@ bool checkStanza(const SlotContext& context, const PassDesc& desc) {
     checkLists(context, desc);
     checkFixedSlots(context, desc);
   } else {
-    context.report(
-        Code::unknownPassType, desc.typePlace, fmt::format("is of the unknown type '{}'", desc.type),
-        {.hint = text::hintOrNearest("pass_type", desc.type, namesOf(context.model.registry.passTypes))});
+    context.report(say::unknownPassType, desc.typePlace, desc.type,
+                   text::hintOrNearest("pass_type", desc.type, namesOf(context.model.registry.passTypes)));
   }
   const auto check = [&](const Expr& expr) {
     checkExpr(context.model, context.names.scope(), expr, desc.repeat);
@@ -282,12 +254,9 @@ void resolveView(const SlotContext& context, const PassDesc& desc, PassSpec& spe
     std::vector<std::string> known;
     for (const ImportType& each : model.registry.imports)
       if (each.kind == ImportKind::view || each.views) known.push_back("@" + each.name);
-    context.report(missing ? Code::emptyImport : Code::notAView, ref.place,
-                   fmt::format("is seen from '{}', which {}", ref.text,
-                               missing ? "the scene does not have" : "is no view"),
-                   {.expected = fmt::format("one of {}, perhaps with [element] and one .face, without '?'",
-                                            fmt::join(known, ", ")),
-                    .hint = fmt::format("\"enabled\": \"has({})\" leaves the pass out", ref.name)});
+    const std::string all = fmt::format("{}", fmt::join(known, ", "));
+    missing ? context.report(say::viewNotThere, ref.place, ref.text, all, ref.name)
+            : context.report(say::notAView, ref.place, ref.text, all, ref.name);
     return;
   }
   const std::int64_t last =
@@ -323,12 +292,8 @@ void emitDefine(const SlotContext& context, PassSpec& spec, const std::string& n
     for (std::size_t i = 0; i < choices.size(); ++i)
       spec.defines.push_back({name + "_" + upper(choices[i]), fmt::format("{}", i)});
   } else {
-    context.report(
-        Code::wordForNumber, place,
-        fmt::format("cannot define '{}' as {}", name, value.type == Value::Type::list ? "a list" : "a word"),
-        {.expected = "true, false, a number or a choice parameter",
-         .found = toText(value),
-         .hint = hintForWord(context.names, value)});
+    context.report(say::cannotDefine, place, name, value.type == Value::Type::list ? "a list" : "a word",
+                   toText(value), hintForWord(context.names, value));
   }
 }
 
@@ -382,11 +347,8 @@ void addUniform(const SlotContext& context, const PassDesc& pass, const PassPara
       deferred.push_back({.uniform = static_cast<std::uint32_t>(spec.uniforms.size()), .expr = &value});
   }
   if (uniform.value.type == Value::Type::symbol) {
-    context.report(
-        Code::wordForNumber, desc.place, fmt::format("gives its parameter '{}' a word", uniform.text()),
-        {.expected = "a number, true, false or a list; a choice becomes a define by \"define\": true",
-         .found = toText(uniform.value),
-         .hint = hintForWord(context.names, uniform.value)});
+    context.report(say::parameterIsWord, desc.place, uniform.text(), toText(uniform.value),
+                   hintForWord(context.names, uniform.value));
     return;
   }
   spec.uniforms.push_back(std::move(uniform));
@@ -413,8 +375,7 @@ void checkDefineNames(const SlotContext& context, const PassDesc& desc, const Pa
   std::set<std::string_view> all;
   for (const DefineSpec& define : spec.defines)
     if (!all.insert(define.name).second) {
-      context.report(Code::nameUsedTwice, desc.namePlace, fmt::format("defines '{}' twice", define.name),
-                     {.hint = "a choice also defines NAME_CHOICE, a parameter its name in capitals"});
+      context.report(say::definedTwice, desc.namePlace, define.name);
       return;
     }
 }
@@ -446,9 +407,7 @@ void addThreads(const SlotContext& context, const PassDesc& desc, const std::vec
     if (shape.target != Target::texture_3d) spec.threads[2] = work.use.layers;
     return;
   }
-  if (!failed)
-    context.report(Code::keyNeeded, desc.namePlace, "lacks threads",
-                   {.expected = "\"threads\": a number or a list, as no texture is written"});
+  if (!failed) context.report(say::lacksThreads, desc.namePlace);
 }
 
 // A buffer that is read as indirect holds records of the command (OpenGL 4.5 core, 10.4 and 19).
@@ -468,14 +427,13 @@ void addIndirect(const SlotContext& context, const PassDesc& desc, const std::ve
                                          : 16,
                       has = context.model.entities[work->entity].shape.bytes;
   if (has < record * spec.draws)
-    context.report(Code::numberOutOfRange, work->slot->ref.place,
-                   fmt::format("takes {} of {} bytes from '{}', which has {}",
-                               spec.draws == 1 ? "a record" : fmt::format("{} records", spec.draws), record,
-                               work->slot->ref.name, has),
-                   {.expected = dispatch  ? "uint groups_x, groups_y, groups_z"
-                                : indexed ? "uint count, instances, first_index, base_vertex, base_instance"
-                                          : "uint count, instances, first, base_instance",
-                    .hint = fmt::format("write \"buffer\": {}", record * spec.draws)});
+    context.report(say::bufferTooShort, work->slot->ref.place,
+                   spec.draws == 1 ? "a record" : fmt::format("{} records", spec.draws), record,
+                   work->slot->ref.name, has,
+                   dispatch  ? "uint groups_x, groups_y, groups_z"
+                   : indexed ? "uint count, instances, first_index, base_vertex, base_instance"
+                             : "uint count, instances, first, base_instance",
+                   record * spec.draws);
 }
 
 // What a pass draws over: its attachments, or "raster".
@@ -487,15 +445,10 @@ void addRaster(const SlotContext& context, const PassDesc& desc, const std::vect
   const bool attached = std::ranges::any_of(slots, attaches);
   if (!desc.raster.present()) {
     if (!attached && !context.model.incomplete && std::ranges::all_of(slots, &SlotWork::isConnected))
-      context.report(
-          Code::keyNeeded, desc.namePlace, "lacks something to draw into",
-          {.expected = "an attachment in \"write\" or \"modify\", or \"raster\": how large it is"});
+      context.report(say::lacksAttachment, desc.namePlace);
     return;
   }
-  if (attached)
-    context.report(Code::keyNotTaken, desc.raster.place(),
-                   "has \"raster\" and an attachment, which says how large it is",
-                   {.hint = "leave one of the two out"});
+  if (attached) context.report(say::rasterAndAttachment, desc.raster.place());
   // kMaxSize is GL_MAX_FRAMEBUFFER_WIDTH and _HEIGHT of every device.
   const auto size = evaluateSize(context.names, desc.raster, kMaxSize,
                                  fmt::format("the raster of pass '{}'", context.pass));

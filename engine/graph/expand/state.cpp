@@ -11,6 +11,7 @@
 #include "engine/text/chars.h"
 #include "engine/text/nearest.h"
 #include "engine/text/words/words.h"
+#include "graph_sentences.h"
 
 namespace weft::graph::expansion {
 
@@ -34,8 +35,9 @@ struct StateFiller {
     checkCover();
   }
 
-  void error(const Place& place, std::string_view message, Says says) const {
-    context.report(Code::badState, place, message, std::move(says));
+  template <class... Args>
+  void error(text::Saying<Args...> what, const Place& place, Args&&... args) const {
+    context.report<Args...>(what, place, std::forward<Args>(args)...);
   }
   const NamedExpr* find(std::string_view name) const { return findNamed(desc.state, name); }
 
@@ -49,8 +51,7 @@ struct StateFiller {
   void refuse(const NamedExpr& said, const Value& value, std::string expected, std::string hint = "") {
     failed = true;
     if (value.type != Value::Type::none)  // reported
-      error(said.expr.place(), fmt::format("has an unknown value for the state '{}'", said.name),
-            {.expected = std::move(expected), .found = toText(value), .hint = std::move(hint)});
+      error(say::unknownStateWord, said.expr.place(), said.name, expected, toText(value), hint);
   }
 
   // Index among the words of the key; 0 after a report.
@@ -120,10 +121,8 @@ struct StateFiller {
     if (known && !masks && !factor) given.blend = kBlends[static_cast<std::size_t>(word(said))];
     if (!known || (colors.empty() && given != ColorState{})) {
       failed = true;
-      return error(said.place,
-                   fmt::format("{} '{}', which is no color slot of it", masks ? "masks" : "blends", slot),
-                   {.expected = "one word, \"blend\": \"alpha\", or one for each color slot",
-                    .hint = text::hintOrNearest("state_key", slot, colors)});
+      return error(say::noColorSlot, said.place, masks ? "masks" : "blends", slot,
+                   text::hintOrNearest("state_key", slot, colors));
     }
     if (!all) colors = {slot};
     for (const std::string& color : colors) {
@@ -205,8 +204,7 @@ struct StateFiller {
       if (said.name == "polygon") state.lines = found == 1;
       // The one triangle of a fullscreen pass has no back, and is filled.
       if (found != 0 && context.type->shader == ShaderShape::fragment)
-        error(said.place, fmt::format("has the state '{}', which is for draws", said.name),
-              {.hint = fmt::format("leave \"{}\" out", said.name)});
+        error(say::stateForDraws, said.place, said.name);
     }
   }
 
@@ -219,11 +217,7 @@ struct StateFiller {
       sides[i] = std::floor(sides[i]);
       failed = failed || sides[i] < (i < 2 ? -kMost : 1) || sides[i] > kMost;
     }
-    if (failed)
-      context.report(Code::numberOutOfRange, said.expr.place(), "has a viewport without texels",
-                     {.expected = fmt::format("a width and a height from 1 to {}", kMost),
-                      .found = fmt::format("[{}]", fmt::join(sides, ", ")),
-                      .hint = "write 'max(…, 1)' where it is computed"});
+    if (failed) context.report(say::emptyViewport, said.expr.place(), kMost, fmt::join(sides, ", "));
     state.viewport.emplace();
     for (std::size_t i = 0; i < 4; ++i) (*state.viewport)[i] = static_cast<std::int32_t>(sides[i]);
   }
@@ -241,22 +235,18 @@ struct StateFiller {
     const NamedExpr *test = find("depth_test"), *write = find("depth_write"), *offset = find("offset");
     if (!depth) {
       if (const NamedExpr* said = test ? test : write ? write : offset; said && known)
-        error(said->place, fmt::format("says '{}' but has no depth attachment", said->name),
-              {.hint = "add \"modify\": { \"depth\": \"depth\" }, or leave it out"});
+        error(say::lacksDepth, said->place, said->name);
       return;
     }
     if (!test && !write && findWithin("stencil")) return;  // it is attached for its stencil
     const std::string& slot = depth->slot->name;
-    if (test && write && state.depthWrite && !writable)
-      error(write->place, fmt::format("writes depth, and its depth slot '{}' is only read", slot),
-            {.hint = fmt::format("move '{}' to \"modify\", or leave \"depth_write\" out", slot)});
+    if (test && write && state.depthWrite && !writable) error(say::writesReadDepth, write->place, slot);
     const bool writes = writable && !(write && write->expr.isConstant() && !state.depthWrite);
     if (!test) {
       state.depthTest = true;
       state.depthCompare = depth->slot->access == Access::write ? Compare::always : Compare::greater;
     } else if (test->expr.text() == "always" && !writes) {
-      error(depth->slot->place, fmt::format("has the depth slot '{}' and neither tests nor writes it", slot),
-            {.hint = "leave \"depth_test\" out, and the nearer surface wins, or leave the slot out"});
+      error(say::idleDepth, depth->slot->place, slot);
     }
   }
 
@@ -272,17 +262,13 @@ struct StateFiller {
     const auto idle = [](const StencilFace& face) { return face.test == Compare::always && !face.writes(); };
     const auto varies = [](const NamedExpr& each) { return !each.expr.variables().empty(); };
     if (said && !slot)
-      error(said->place, "says 'stencil' but has no stencil attachment",
-            {.hint = "add \"modify\": { \"depth\": \"depth\" }, a texture of the format depth24_stencil8 or "
-                     "depth32f_stencil8, or leave it out"});
+      error(say::lacksStencil, said->place);
     else if (said && slot->reads() && state.stencil->writes())
-      error(said->place, fmt::format("writes the stencil, and its slot '{}' is only read", slot->slot->name),
-            {.hint = fmt::format("move '{}' to \"modify\", or write \"write_mask\": 0", slot->slot->name)});
+      error(say::writesReadStencil, said->place, slot->slot->name);
     else if (said ? idle(state.stencil->front) && idle(state.stencil->back) &&
                         std::ranges::none_of(desc.state, varies)
                   : slot && slot->use.planes == 2)
-      error(said ? said->place : slot->slot->place, "neither tests nor writes the stencil",
-            {.expected = "\"stencil\": { \"test\": \"equal\", … } or { \"pass\": \"replace\", … }"});
+      error(say::idleStencil, said ? said->place : slot->slot->place);
   }
 
   void checkColors() const {
@@ -293,22 +279,17 @@ struct StateFiller {
       if ((!blends && !masks) || work == slots.end() || work->entity == kNone) continue;
       const Format format = context.model.entities[work->entity].shape.format;
       if (blends && isInteger(format))
-        error(findWithin(find("blend") ? "blend" : "blend." + name)->place,
-              fmt::format("blends '{}', whose format {} does not blend", name, infoOf(format).name),
-              {.hint = fmt::format("write \"blend\": {{ \"{}\": \"none\" }}", name)});
+        error(say::blendsIntegers, findWithin(find("blend") ? "blend" : "blend." + name)->place, name,
+              infoOf(format).name);
       else if (work->slot->access == Access::write && context.type->shader == ShaderShape::fragment)
-        error(work->slot->place,
-              fmt::format("{} '{}' with nothing, as it says \"write\"", blends ? "blends" : "masks", name),
-              {.hint = fmt::format("say \"modify\", or leave \"{}\" out of '{}'",
-                                   blends ? "blend" : "color_mask", name)});
+        error(say::blendsWithNothing, work->slot->place, blends ? "blends" : "masks", name,
+              blends ? "blend" : "color_mask");
     }
     const auto constant = [](const NamedExpr& each) {
       return each.expr.text().find("constant_") != std::string::npos;
     };
     if (const NamedExpr* said = find("blend_color"); said && std::ranges::none_of(desc.state, constant))
-      error(
-          said->place, "says 'blend_color', and no blend has it as a factor",
-          {.hint = "write \"blend\": { \"slot\": { \"source\": \"constant_color\", … } }, or leave it out"});
+      error(say::idleBlendColor, said->place);
   }
 
   void checkSamples() const {
@@ -321,8 +302,7 @@ struct StateFiller {
       samples = std::max<std::uint32_t>(samples, context.model.entities[work.entity].shape.samples);
     }
     if (said && samples == 1 && (mask || state.alphaToCoverage))
-      error(said->place, fmt::format("says '{}', and its attachments have one sample", said->name),
-            {.hint = "write \"samples\": 4 on each texture that it draws into, or leave it out"});
+      error(say::oneSampleOnly, said->place, said->name);
   }
 
   // A draw covers what its geometry covers.
@@ -332,10 +312,7 @@ struct StateFiller {
         continue;
       const Entity& entity = context.model.entities[work.entity];
       if (entity.shape.hasClear) continue;
-      context.report(
-          Code::badSlots, work.slot->place,
-          fmt::format("draws a part of '{}' and says \"write\"", entity.name),
-          {.hint = fmt::format("give '{}' a \"clear\" for the rest, or say \"modify\"", entity.name)});
+      context.report(say::drawsPartOnly, work.slot->place, entity.name);
       return;
     }
   }

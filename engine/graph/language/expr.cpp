@@ -12,6 +12,7 @@
 #include "engine/graph/language/expr_node.h"
 #include "engine/text/nearest.h"
 #include "engine/text/words/words.h"
+#include "graph_sentences.h"
 
 namespace weft::graph {
 
@@ -415,12 +416,9 @@ class Evaluator {
   }
 
  private:
-  Value fail(Code code, const ExprNode& node, std::string message, std::string hint,
-             std::string expected = {}, std::string found = {}) {
-    if (!diagnostics_) return {};
-    diagnostics_->error(
-        code, node.place, std::move(message),
-        {.expected = std::move(expected), .found = std::move(found), .hint = std::move(hint)});
+  template <class... Args>
+  Value fail(text::Saying<Args...> what, const ExprNode& node, Args&&... args) {
+    if (diagnostics_) diagnostics_->error<Args...>(what, node.place, std::forward<Args>(args)...);
     return {};
   }
 
@@ -435,7 +433,7 @@ class Evaluator {
     const bool misspelt = hint.empty() && !nearest.empty();
     if (misspelt) hint = fmt::format("did you mean '{}{}'?", sigil, nearest);
     if (hint.empty()) hint = text::nearestHint(name, names);
-    fail(Code::unknownVariable, node, std::move(message), std::move(hint));
+    fail(say::unknownName, node, message, hint);
     // It is read as the one that is meant, so that nothing else is reported because of it.
     return misspelt && variable ? scope_.variable(nearest).value_or(Value{}) : Value{};
   }
@@ -446,33 +444,33 @@ class Evaluator {
     constexpr double kMost = 65535;
     const Value which = node.children.empty() ? Value::number(0) : run(*node.children[0]);
     if (!which.isNumeric() || which.v[0] != std::floor(which.v[0]) || which.v[0] < 0 || which.v[0] > kMost)
-      return misfit(*node.children[0], "a level or a row is a whole number", "0, 1, 2, …", which);
+      return misfit(say::levelNotWhole, *node.children[0], which);
     const auto index = static_cast<std::uint32_t>(which.v[0]);
     if (node.fact == Fact::value)
       return scope_.importValue({node.name, node.value.symbol, index, node.part}, node.place);
     if (std::optional<Value> value = scope_.fact(node.fact, node.name, index, node.place))
       return *std::move(value);
-    if (node.fact == Fact::age && scope_.ageKey(node.name))
-      return fail(
-          Code::operandsDoNotFit, node, fmt::format("age({}) is not known before the frame runs", node.name),
-          "age() may stand in parameters and \"instances\" of passes and in \"let\" used by them, not "
-          "in sizes, conditions, repeats or defines");
+    if (node.fact == Fact::age && scope_.ageKey(node.name)) return fail(say::ageNotKnownYet, node, node.name);
     return unknown(node, fmt::format("{}() of unknown resource '{}'", nameOf(node.fact), node.name),
                    EvalScope::NameKind::fact_argument, "");
   }
 
-  Value misfit(const ExprNode& blamed, std::string message, std::string expected, const Value& operand) {
-    if (operand.type == Value::Type::none) return {};
-    return fail(Code::operandsDoNotFit, blamed, std::move(message), hintForWord(scope_, operand),
-                std::move(expected), describe(operand));
+  template <class... Args>
+  Value misfit(text::Saying<Args...> what, const ExprNode& blamed, const Value& operand, Args&&... args) {
+    if (operand.type == Value::Type::none || !diagnostics_) return {};
+    auto& d = diagnostics_->error<Args...>(what, blamed.place, std::forward<Args>(args)...);
+    d.found = describe(operand);
+    d.hint = hintForWord(scope_, operand);
+    return {};
   }
 
   // Whether an operand is a number or, where `lists` may be, a list; else it is reported.
   bool fits(const Value& operand, const ExprNode& from, const ExprNode& node, bool lists = false) {
     const bool good = operand.isNumeric() || (lists && operand.type == Value::Type::list);
+    const char* const sign = infoOf(node.op).spelling;
     if (!good)
-      misfit(from, fmt::format("'{}' needs a {}", infoOf(node.op).spelling, lists ? "number" : "condition"),
-             lists ? "a number or a list" : "true, false or a number", operand);
+      lists ? misfit(say::needsNumber, from, operand, sign)
+            : misfit(say::needsCondition, from, operand, sign);
     return good;
   }
 
@@ -481,8 +479,7 @@ class Evaluator {
     out.type = Value::Type::list;
     for (const ExprPtr& child : node.children) {
       const Value item = run(*child);
-      if (!item.isNumeric())
-        return misfit(*child, "a list holds numbers", "a number, such as 'screen.x' or 'size(a).y'", item);
+      if (!item.isNumeric()) return misfit(say::listHoldsNumbers, *child, item);
       out.v[out.count++] = item.v[0];
     }
     return out;
@@ -491,8 +488,7 @@ class Evaluator {
   Value component(const ExprNode& node) {
     const Value operand = run(*node.children[0]);
     if (operand.type != Value::Type::list || node.key >= operand.count)
-      return misfit(node, fmt::format("'.{}' of what has no such component", "xyzw"[node.key]),
-                    fmt::format("a list of at least {}", node.key + 1), operand);
+      return misfit(say::noSuchComponent, node, operand, "xyzw"[node.key], node.key + 1);
     return Value::number(operand.v[node.key]);
   }
 
@@ -512,9 +508,8 @@ class Evaluator {
     const std::vector<std::string> choices = scope_.choicesOf(parameter.name);
     const std::string& found = word.op == ExprOp::identifier ? word.name : word.value.symbol;
     if (choices.empty() || std::ranges::find(choices, found) != choices.end()) return true;
-    fail(Code::notAChoice, word,
-         fmt::format("'{}' is not one of the choices of '${}'", found, parameter.name),
-         text::nearestHint(found, choices), fmt::format("{}", fmt::join(choices, ", ")));
+    fail(say::notAChoice, word, found, parameter.name, fmt::join(choices, ", "),
+         text::nearestHint(found, choices));
     return false;
   }
 
@@ -526,18 +521,13 @@ class Evaluator {
       return side->op == ExprOp::identifier && !scope_.index(side->name);
     };
     if (bare(node.children[0]) && bare(node.children[1]))
-      return fail(Code::unknownVariable, *node.children[0],
-                  fmt::format("'{}' and '{}' are bare words: comparing them always gives the same",
-                              left.symbol, right.symbol),
-                  hintForWord(scope_, left), "a parameter or an index of \"repeat\" on one side");
+      return fail(say::comparesBareWords, *node.children[0], left.symbol, right.symbol,
+                  hintForWord(scope_, left));
     const bool comparable =
         left.isNumeric() ? right.isNumeric() : left.type == right.type && left.count == right.count;
     if (!comparable)
-      return fail(
-          Code::operandsDoNotFit, node,
-          fmt::format("'{}' compares {} with {}", infoOf(node.op).spelling, describe(left), describe(right)),
-          hintForWord(scope_, left.type == Value::Type::symbol ? left : right),
-          "two numbers, two lists of one length, or two words");
+      return fail(say::cannotCompare, node, infoOf(node.op).spelling, describe(left), describe(right),
+                  hintForWord(scope_, left.type == Value::Type::symbol ? left : right));
     const bool same = left.isNumeric()                 ? left.v[0] == right.v[0]
                       : left.type == Value::Type::list ? left.v == right.v
                                                        : left.symbol == right.symbol;
@@ -550,9 +540,9 @@ class Evaluator {
     if (left.type == Value::Type::none || right.type == Value::Type::none) return {};
     for (const Value* operand : {&left, &right})
       if (!operand->isNumeric())
-        return misfit(operand->type == Value::Type::symbol ? *node.children[operand == &left ? 0 : 1] : node,
-                      fmt::format("'{}' compares numbers only", infoOf(node.op).spelling), "a number",
-                      *operand);
+        return misfit(say::comparesNumbers,
+                      operand->type == Value::Type::symbol ? *node.children[operand == &left ? 0 : 1] : node,
+                      *operand, infoOf(node.op).spelling);
     return Value::boolean(infoOf(node.op).apply(left.v[0], right.v[0]) != 0);
   }
 
@@ -560,9 +550,7 @@ class Evaluator {
     const bool listLeft = left.type == Value::Type::list, listRight = right.type == Value::Type::list;
     const auto operands = [&] { return fmt::format("{} and {}", toText(left), toText(right)); };
     if (listLeft && listRight && left.count != right.count)
-      return fail(Code::operandsDoNotFit, node,
-                  fmt::format("'{}' of two lists that differ in length", infoOf(node.op).spelling), "",
-                  "lists of one length", operands());
+      return fail(say::listsDifferInLength, node, infoOf(node.op).spelling, operands());
     const auto combine = infoOf(node.op).apply;
     Value out;
     out.type = listLeft || listRight ? Value::Type::list : Value::Type::number;
@@ -573,9 +561,7 @@ class Evaluator {
       out.v[i] = combine(a, b);
       // Infinite ages pass through; a NaN, or an infinity made of finite operands, does not.
       if (std::isnan(out.v[i]) || (!std::isfinite(out.v[i]) && isFinite(left) && isFinite(right)))
-        return fail(Code::noFiniteResult, node,
-                    fmt::format("'{}' has no finite result", infoOf(node.op).spelling),
-                    "guard it: 'b == 0 ? 0 : a / b'", "operands for which there is one", operands());
+        return fail(say::hasNoFiniteResult, node, infoOf(node.op).spelling, operands());
     }
     return out;
   }
@@ -677,9 +663,8 @@ ExprPtr foldNode(const ExprPtr& node, EvalScope& scope, text::Diagnostics& diagn
     const std::optional<std::uint32_t> key = scope.ageKey(node->name);
     if (!key) {
       if (scope.fact(Fact::age, node->name, 0, node->place)) return nullptr;  // reported
-      diagnostics.error(
-          Code::unknownVariable, node->place, fmt::format("age() of unknown resource '{}'", node->name),
-          {.hint = text::nearestHint(node->name, scope.candidates(EvalScope::NameKind::fact_argument))});
+      diagnostics.error(say::ageOfUnknown, node->place, node->name,
+                        text::nearestHint(node->name, scope.candidates(EvalScope::NameKind::fact_argument)));
       return nullptr;
     }
     auto folded = std::make_shared<ExprNode>(*node);
@@ -702,12 +687,7 @@ ExprPtr foldNode(const ExprPtr& node, EvalScope& scope, text::Diagnostics& diagn
     children.push_back(std::move(child));
   }
   if (heightOver(children) > kMaxExprHeight || termsOver(children) > kMaxFoldedTerms) {
-    diagnostics.error(
-        Code::badExpression, node->place,
-        fmt::format("the expression and the \"let\" it uses have more than {} operators and operands, or "
-                    "too many in a row",
-                    kMaxFoldedTerms),
-        {.hint = "age() changes in every frame, and all of it is evaluated then: use it fewer times"});
+    diagnostics.error(say::timedExpressionTooLong, node->place, kMaxFoldedTerms);
     return nullptr;
   }
   auto folded = std::make_shared<ExprNode>(*node);

@@ -12,6 +12,7 @@
 #include "engine/graph/language/expr_node.h"
 #include "engine/graph/language/names.h"
 #include "engine/text/words/words.h"
+#include "graph_sentences.h"
 
 namespace weft::graph {
 
@@ -75,8 +76,7 @@ class Parser {
   }
 
   ExprPtr parseWhole() {
-    if (token_.kind == Token::Kind::end)
-      return fail(token_, "the expression is empty", "write a value, such as 1 or $name");
+    if (token_.kind == Token::Kind::end) return fail(say::emptyExpression, token_);
     ExprPtr root = parseConditional();
     if (root && token_.kind != Token::Kind::end) return failUnexpected("the end of the expression");
     return root;
@@ -85,24 +85,21 @@ class Parser {
  private:
   text::Place placeOf(const Token& token) const { return place_.after(token.begin); }
 
-  ExprPtr fail(const Token& token, std::string message, std::string hint = {}, std::string expected = {}) {
-    auto& diagnostic = diagnostics_.error(text::Code::badExpression, placeOf(token), std::move(message));
-    diagnostic.found = fmt::format("\"{}\"", text_);
-    diagnostic.hint = std::move(hint);
-    diagnostic.expected = std::move(expected);
+  template <class... Args>
+  ExprPtr fail(text::Saying<Args...> what, const Token& token, Args&&... args) {
+    diagnostics_.error<Args...>(what, placeOf(token), std::forward<Args>(args)...).found =
+        fmt::format("\"{}\"", text_);
     return nullptr;
   }
 
   ExprPtr failUnexpected(const char* expected) {
     if (std::string hint = text::hintForSpelling(text_); !hint.empty()) {
-      diagnostics_.error(text::Code::badExpression, place_, fmt::format("'{}' is no value", text_),
-                         {.expected = "a number, a list or an expression", .hint = std::move(hint)});
+      diagnostics_.error(say::noValue, place_, text_, hint);
       return nullptr;
     }
-    if (token_.kind == Token::Kind::end)
-      return fail(token_, fmt::format("the expression ends where {} is expected", expected), "", expected);
-    return fail(token_, fmt::format("unexpected '{}' where {} is expected", token_.text, expected),
-                text::hintForForeign("expression", token_.text), expected);
+    if (token_.kind == Token::Kind::end) return fail(say::expressionEnds, token_, expected);
+    return fail(say::unexpectedToken, token_, token_.text, expected,
+                text::hintForForeign("expression", token_.text));
   }
 
   // ---- tokens ----
@@ -122,19 +119,14 @@ class Parser {
 
   ExprPtr build(ExprOp op, const Token& blamed, std::vector<ExprPtr> children) {
     if (heightOver(children) > kMaxParsedHeight || termsOver(children) > kMaxParsedTerms)
-      return fail(blamed,
-                  fmt::format("the expression chains more than {} operators, or has more than {} operands",
-                              kMaxParsedHeight - 1, kMaxParsedTerms),
-                  "split it with \"let\"");
+      return fail(say::expressionTooLong, blamed, kMaxParsedHeight - 1, kMaxParsedTerms);
     return makeNode(op, placeOf(blamed), std::move(children));
   }
 
   // One level deeper while `parse` runs; an error where that is too deep.
   template <class Parse>
   ExprPtr nested(const Parse& parse) {
-    if (depth_ == kMaxNesting)
-      return fail(token_, fmt::format("the expression is nested more than {} levels deep", kMaxNesting),
-                  "split it with \"let\"");
+    if (depth_ == kMaxNesting) return fail(say::expressionTooDeep, token_, kMaxNesting);
     ++depth_;
     ExprPtr inner = parse();
     --depth_;
@@ -175,8 +167,7 @@ class Parser {
       if (!right) return nullptr;
       left = build(infix, blamed, {left, right});
       if (left && precedence == kComparison && infoOf(infixAt()).precedence == kComparison)
-        return fail(token_, fmt::format("comparisons do not chain: '{}' follows another one", token_.text),
-                    "join two comparisons with '&&'");
+        return fail(say::comparisonsDoNotChain, token_, token_.text);
     }
     return left;
   }
@@ -212,9 +203,7 @@ class Parser {
 
   ExprPtr parsePrimary() {
     const Token first = token_;
-    if (first.kind == Token::Kind::bad)
-      return fail(first, fmt::format("the number '{}' is out of range", first.text),
-                  "use a value a double can hold");
+    if (first.kind == Token::Kind::bad) return fail(say::numberTooLarge, first, first.text);
     if (first.kind == Token::Kind::number) {
       advance();
       return makeConstant(Value::number(first.number), placeOf(first));
@@ -253,10 +242,7 @@ class Parser {
       name += fmt::format(".{}", token_.text);
       advance();
     }
-    if (dot == std::string::npos)
-      return fail(
-          at, fmt::format("'@{}' is an import, which is no value by itself", name),
-          fmt::format("name a value of it, '@{0}.…', or ask count(@{0}), size(@{0}), has(@{0})", name));
+    if (dot == std::string::npos) return fail(say::importIsNoValue, at, name);
     node->op = ExprOp::fact;
     node->fact = Fact::value;
     node->watched = true;
@@ -274,10 +260,8 @@ class Parser {
       const Token itemStart = token_;
       ExprPtr item = parseConditional();
       if (!item) return nullptr;
-      if (item->op == ExprOp::list) return fail(itemStart, "a list holds numbers, not lists");
-      if (items.size() == kMaxItems)
-        return fail(bracket, fmt::format("a list of more than {} items", kMaxItems), "",
-                    fmt::format("at most {} items", kMaxItems));
+      if (item->op == ExprOp::list) return fail(say::listInList, itemStart);
+      if (items.size() == kMaxItems) return fail(say::listTooLong, bracket, kMaxItems);
       items.push_back(std::move(item));
     } while (accept(","));
     if (!accept("]")) return failUnexpected("',' or ']'");
@@ -288,8 +272,7 @@ class Parser {
     const Token dollar = token_;
     advance();
     if (token_.kind != Token::Kind::identifier || token_.begin != dollar.begin + 1)
-      return fail(dollar, "'$' stands without a name",
-                  "write '$name', as in \"parameters\" or \"let\", without braces");
+      return fail(say::dollarWithoutName, dollar);
     std::string name;
     if (!parseDotted(name, true)) return nullptr;
     auto node = std::make_shared<ExprNode>();
@@ -308,16 +291,10 @@ class Parser {
       if (next.kind != Token::Kind::identifier) return advance(), failUnexpected("a name"), false;
       if (componentIndex(next.text) >= 0) {
         if (components) return true;
-        return fail(next, fmt::format("'.{}' is no part of a name", next.text), "put it behind the ')'"),
-               false;
+        return fail(say::componentInName, next, next.text), false;
       }
       if (level && next.text == "mip") return true;
-      if (isReservedWord(next.text))
-        return fail(next, fmt::format("'.{}' selects a sub-resource, where a name is expected", next.text),
-                    fmt::format(
-                        "values know the whole of it, and the size of a level: size({0}), size({0}.mip[1])",
-                        name)),
-               false;
+      if (isReservedWord(next.text)) return fail(say::selectorInName, next, next.text, name), false;
       advance();
       name += '.';
       name += token_.text;
@@ -341,8 +318,7 @@ class Parser {
       if (!level) return nullptr;
       if (!accept("]")) return failUnexpected("']'");
     }
-    if (at("["))
-      return fail(token_, fmt::format("{}() takes a whole resource, without a selector", word.text));
+    if (at("[")) return fail(say::selectorInCall, token_, word.text);
     if (!accept(")")) return failUnexpected("')'");
     auto node = std::make_shared<ExprNode>();
     node->op = ExprOp::fact;
@@ -366,9 +342,8 @@ class Parser {
       for (const Fact fact : kFacts) known.emplace_back(nameOf(fact));
       for (auto op = ExprOp::minimum; op <= kLastOp; op = static_cast<ExprOp>(static_cast<int>(op) + 1))
         known.emplace_back(infoOf(op).spelling);
-      diagnostics_.error(text::Code::badFunctionCall, placeOf(word),
-                         fmt::format("unknown function '{}'", word.text),
-                         {.hint = text::hintOrNearest("expression", word.text, known)});
+      diagnostics_.error(say::unknownFunction, placeOf(word), word.text,
+                         text::hintOrNearest("expression", word.text, known));
       return nullptr;
     }
     std::vector<ExprPtr> arguments;
@@ -377,18 +352,16 @@ class Parser {
         ExprPtr argument = parseConditional();
         if (!argument) return nullptr;
         if (arguments.size() == kMaxArguments)
-          return fail(word, fmt::format("{}() with more than {} arguments", word.text, kMaxArguments));
+          return fail(say::tooManyArguments, word, word.text, kMaxArguments);
         arguments.push_back(std::move(argument));
       } while (accept(","));
     }
     if (!accept(")")) return failUnexpected("',' or ')'");
     if (arguments.size() < info.least || arguments.size() > info.most) {
-      diagnostics_.error(
-          text::Code::badFunctionCall, placeOf(word),
-          fmt::format("{}() with the wrong number of arguments", word.text),
-          {.expected = info.least == info.most ? fmt::format("{}", info.least)
-                                               : fmt::format("{} to {}", info.least, info.most),
-           .found = fmt::format("{}", arguments.size())});
+      diagnostics_.error(say::wrongNumberOfArguments, placeOf(word), word.text,
+                         info.least == info.most ? fmt::format("{}", info.least)
+                                                 : fmt::format("{} to {}", info.least, info.most),
+                         arguments.size());
       return nullptr;
     }
     return build(function, word, std::move(arguments));
@@ -419,7 +392,7 @@ class Parser {
             fmt::format("ask size({0}), mips({0}) or count({0}), with .x and .y; '${0}.{1}' is a parameter",
                         word.text, next.text);
       if (next.kind == Token::Kind::identifier && componentIndex(next.text) < 0)
-        return fail(word, fmt::format("'{}.{}' is no value", word.text, next.text), std::move(hint));
+        return fail(say::dottedNoValue, word, word.text, next.text, hint);
     }
     return node;
   }

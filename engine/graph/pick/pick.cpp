@@ -10,6 +10,7 @@
 #include "engine/graph/language/names.h"
 #include "engine/graph/subresource.h"
 #include "engine/text/chars.h"
+#include "graph_sentences.h"
 
 namespace weft::graph {
 
@@ -17,11 +18,13 @@ namespace {
 
 using text::Code;
 
-void reportPick(text::Diagnostics& diagnostics, Code code, const Pick& pick, std::string message,
-                text::Says says) {
-  says.resource = pick.name;
+template <class... Args>
+bool reportPick(text::Diagnostics& diagnostics, const Pick& pick, text::Saying<Args...> what,
+                Args&&... args) {
   const std::string option = pick.option + (pick.option.empty() ? "" : " ") + pick.text;
-  diagnostics.error(code, text::placeOfOption(option), std::move(message), std::move(says));
+  diagnostics.error<Args...>(what, text::placeOfOption(option), std::forward<Args>(args)...).resource =
+      pick.name;
+  return false;
 }
 
 // Which version of its name a resource is, from 1.
@@ -41,22 +44,17 @@ std::uint32_t findVersion(const FlatGraph& graph, const Pick& pick, text::Diagno
   constexpr const char* kPathHint = "a path with = in it is written ./a=b.png";
   if (!parsePick(pick.text)) {
     const std::string near = suffixHint(pick.text.substr(0, pick.text.find_first_of(".#[@ ")), names);
-    reportPick(diagnostics, Code::unknownResource, pick,
-               fmt::format("'{}' cannot name a resource", pick.text),
-               {.expected = "a name such as depth, hdr#1 or 'glow.mip[2]'",
-                .hint = near + (near.empty() ? "" : "; ") + kPathHint});
+    reportPick(diagnostics, pick, say::cannotNameResource, pick.text,
+               near + (near.empty() ? "" : "; ") + kPathHint);
     return kNone;
   }
   const std::vector<std::size_t> matches = suffixMatches(names, pick.name);
   if (matches.size() != 1) {
-    std::string hint = matches.empty()
-                           ? suffixHint(pick.name, names)
-                           : fmt::format("write '{}' or '{}'", names[matches[0]], names[matches[1]]);
+    std::string hint = suffixHint(pick.name, names);
     if (hint.empty() && pick.option == "-o") hint = kPathHint;
-    reportPick(diagnostics, matches.empty() ? Code::unknownResource : Code::ambiguousName, pick,
-               matches.empty() ? fmt::format("no pass that is enabled uses a resource '{}'", pick.name)
-                               : fmt::format("'{}' may be any of {} resources", pick.name, matches.size()),
-               {.hint = std::move(hint)});
+    matches.empty() ? reportPick(diagnostics, pick, say::noPassUses, pick.name, hint)
+                    : reportPick(diagnostics, pick, say::ambiguousResource, pick.name, matches.size(),
+                                 names[matches[0]], names[matches[1]]);
     return kNone;
   }
   std::uint32_t found = kNone, last = 0;
@@ -66,32 +64,20 @@ std::uint32_t findVersion(const FlatGraph& graph, const Pick& pick, text::Diagno
     if (pick.version == 0 ? version > last : version == pick.version) found = r;
     last = std::max(last, version);
   }
-  if (found == kNone)
-    reportPick(diagnostics, Code::missingSubresource, pick,
-               fmt::format("'{}' has no version {}", pick.name, pick.version),
-               {.expected = fmt::format("#1 to #{}", last), .found = fmt::format("#{}", pick.version)});
+  if (found == kNone) reportPick(diagnostics, pick, say::hasNoVersion, pick.name, pick.version, last);
   return found;
 }
 
 bool checkParts(const FlatResource& resource, const Pick& pick, text::Diagnostics& diagnostics) {
-  const auto refuse = [&](Code code, const std::string& what, std::string expected) {
-    reportPick(diagnostics, code, pick, fmt::format("'{}' has no {}", pick.name, what),
-               {.expected = std::move(expected)});
-    return false;
-  };
   const std::uint32_t slices = slicesOf(resource, pick.mip);
   if (pick.mip >= resource.mips)
-    return refuse(Code::missingSubresource, fmt::format("level {}", pick.mip),
-                  fmt::format("level 0 to {}", resource.mips - 1));
+    return reportPick(diagnostics, pick, say::hasNoLevel, pick.name, pick.mip, resource.mips - 1);
   if (pick.layer >= slices)
-    return refuse(Code::missingSubresource, fmt::format("layer {}", pick.layer),
-                  fmt::format("layer 0 to {}", slices - 1));
+    return reportPick(diagnostics, pick, say::hasNoLayer, pick.name, pick.layer, slices - 1);
   if (pick.history > resource.history)
-    return refuse(Code::noHistory, fmt::format("publication @-{}", pick.history),
-                  fmt::format("at most @-{}; \"history\": {} in its declaration keeps more", resource.history,
-                              pick.history));
+    return reportPick(diagnostics, pick, say::hasNoPublication, pick.name, pick.history, resource.history);
   return !pick.stencil || hasStencil(resource.format) ||
-         refuse(Code::badSelector, "stencil", "a resource with a format that has one");
+         reportPick(diagnostics, pick, say::hasNoStencil, pick.name);
 }
 
 }  // namespace
@@ -179,10 +165,9 @@ std::optional<FoundPick> findPick(const FlatGraph& graph, const Pick& pick, text
   }
   const std::string name(pick.version == 0 ? sharedName(graph.resourceNames[resource])
                                            : std::string_view(graph.resourceNames[resource]));
-  reportPick(diagnostics, matches.empty() ? Code::unknownPass : Code::ambiguousName, pick,
-             fmt::format("{} '{}' that writes '{}'",
-                         matches.empty() ? "there is no pass" : "more than one pass is", pick.pass, name),
-             {.expected = fmt::format("{}", fmt::join(writers, ", "))});
+  const std::string all = fmt::format("{}", fmt::join(writers, ", "));
+  matches.empty() ? reportPick(diagnostics, pick, say::noPassWrites, pick.pass, name, all)
+                  : reportPick(diagnostics, pick, say::severalPassesWrite, pick.pass, name, all);
   return std::nullopt;
 }
 

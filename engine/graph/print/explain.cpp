@@ -15,6 +15,7 @@
 #include "engine/graph/language/names.h"
 #include "engine/graph/print/print.h"
 #include "engine/graph/subresource.h"
+#include "graph_sentences.h"
 
 namespace weft::graph {
 
@@ -458,15 +459,13 @@ std::optional<std::string> describe(const Plan& plan, std::string_view name, tex
     describer.add(matches.empty() ? declared->name : names[matches[0]]);
     return describer.text();
   }
-  const bool several = !matches.empty();
-  text::Diagnostic& d = diagnostics.error(
-      several ? text::Code::ambiguousName : text::Code::unknownPass, text::placeOfOption(""),
-      several ? fmt::format("'{}' may mean several", name)
-              : fmt::format("no pass, resource or parameter is called '{}'", name),
-      {.hint = several ? fmt::format("write more of the name, such as '{}'", names[matches[0]])
-                       : suffixHint(name, names)});
-  for (std::size_t i = 0; i < std::min<std::size_t>(matches.size(), 8); ++i)
-    d.found += (i ? ", " : "") + names[matches[i]];
+  std::vector<std::string> meant;
+  for (const std::size_t match : std::span(matches).first(std::min<std::size_t>(matches.size(), 8)))
+    meant.push_back(names[match]);
+  if (meant.empty())
+    diagnostics.error(say::nothingIsCalled, text::placeOfOption(""), name, suffixHint(name, names));
+  else
+    diagnostics.error(say::mayMeanSeveral, text::placeOfOption(""), name, fmt::join(meant, ", "), meant[0]);
   return std::nullopt;
 }
 

@@ -7,6 +7,7 @@
 #include "engine/graph/language/names.h"
 #include "engine/graph/read/overlay.h"
 #include "engine/graph/read/read_context.h"
+#include "graph_sentences.h"
 
 namespace weft::graph {
 
@@ -61,8 +62,7 @@ class Lists {
       for (JsonValue& member : std::exchange(members->value.items, {})) {
         if (!loader_.mayShare(stanza, member.place)) return;
         if (member.find("passes"))
-          said_.error(Code::keysExclude, member, "a group within a group",
-                      {.hint = "end the outer group before it, and say what it says here, too"});
+          said_.error(say::groupWithinGroup, member);
         else
           made.push_back(member.is(Type::object) ? ofGroup(std::move(member), stanza) : member);
       }
@@ -74,9 +74,7 @@ class Lists {
   JsonValue ofGroup(JsonValue stanza, const JsonValue& group) {
     said_.pass = stanzaName(stanza);
     const auto both = [&](const JsonMember& member) {
-      said_.error(Code::duplicateName, member.place,
-                  fmt::format("the key '{}' is declared twice", member.key),
-                  {.hint = "leave one out: the group that the pass stands in has it, too"});
+      said_.error(say::alsoInGroup, member.place, member.key);
     };
     JsonMember together{"passes", group.place, {}};
     together.value.type = Type::object;
@@ -132,9 +130,7 @@ class Lists {
     for (const JsonValue& item : std::exchange(list.value.items, {})) {
       for (const JsonMember& member : item.members) add(member);
       const std::string_view name = called(item.text);
-      if (item.is(Type::string) && name.empty())
-        said_.error(Code::notAName, item, fmt::format("an item of \"{}\" begins with no name", list.key),
-                    {.hint = fmt::format("write {{ \"name\": \"{}\" }}", item.text)});
+      if (item.is(Type::string) && name.empty()) said_.error(say::itemWithoutName, item, list.key, item.text);
       if (name.empty()) continue;
       // At the character before the name, as any key.
       const Place place = item.place.after(static_cast<std::size_t>(name.data() - item.text.data()));

@@ -13,6 +13,7 @@
 #include "engine/text/files/file.h"
 #include "engine/text/limits.h"
 #include "engine/text/nearest.h"
+#include "graph_sentences.h"
 
 namespace weft::graph {
 
@@ -127,8 +128,7 @@ class Applier {
   // Passes first: other sections may reach into what the overlay includes.
   void run(const JsonValue& overlay, bool preset) {
     if (const std::uint64_t values = valuesOf(overlay); values > text::raised(kMaxChanges)) {
-      said_.error(Code::limitExceeded, overlay, "the overlay changes too much",
-                  {.hint = text::hintToRaise(kMaxChanges, values)});
+      said_.error(say::overlayTooLarge, overlay, text::hintToRaise(kMaxChanges, values));
       return;
     }
     if (const JsonValue* passes = overlay.find("passes");
@@ -176,9 +176,7 @@ class Applier {
       if (next == waiting.end()) {
         const JsonValue& anchor = *anchorOf(waiting[0]);
         said_.pass = stanzaName(waiting[0]);
-        said_.error(Code::passCycle, anchor,
-                    fmt::format("pass '{}' stands beside '{}', which waits for it", said_.pass, anchor.text),
-                    {.hint = "leave one \"before\" or \"after\" out"});
+        said_.error(say::waitForEachOther, anchor, said_.pass, anchor.text);
         std::ranges::move(waiting, std::back_inserter(passesOf(target_)));
         return;
       }
@@ -197,8 +195,7 @@ class Applier {
     std::erase_if(stanza.members, [&](const JsonMember& member) {
       if (member.key != "remove") return false;
       said_.pass = stanzaName(stanza);
-      said_.error(Code::overlayOutOfPlace, member.place, "\"remove\" in a file that extends no other",
-                  {.hint = "leave the pass out, or say what this file \"extends\""});
+      said_.error(say::removeWithoutExtends, member.place);
       return true;
     });
   }
@@ -212,9 +209,7 @@ class Applier {
       if (there)
         into.members.erase(into.members.begin() + (there - into.members.data()));
       else
-        said_.error(Code::nothingToChange, over.place,
-                    fmt::format("null takes \"{}\" away, which is not there", over.key),
-                    {.hint = "leave it out"});
+        said_.error(say::nothingToTakeAway, over.place, over.key);
       return;
     }
     if (!there) there = &into.members.emplace_back(over.key, over.place);
@@ -385,10 +380,9 @@ class Applier {
     const bool fresh = !spot.index && declares(section.key, entry) && spot.own.find('.') == std::string::npos;
     if (!spot.index && !fresh) {
       const std::string hint = meantBy(whole, section.key).hint;
-      said_.error(Code::nothingToChange, entry.place,
-                  fmt::format("'{}' of \"{}\" is not there to be {}", whole, section.key,
-                              entry.value.is(Type::null) ? "removed" : "changed"),
-                  {.hint = hint.empty() ? "write all of it to declare a new one" : hint});
+      said_.error(say::entryNotThere, entry.place, whole, section.key,
+                  entry.value.is(Type::null) ? "removed" : "changed",
+                  hint.empty() ? "write all of it to declare a new one" : hint);
     } else if (Source* source = open(spot.below, entry.place)) {
       entry.key = spot.own;  // "bloom.glow" is "glow" in its own file
       JsonMember* there = memberOf(source->root, section.key);
@@ -414,12 +408,10 @@ class Applier {
                              ? !over.empty() && over != before && !(dropped && dropped->is(Type::null))
                              : over.empty();
     if (!changes) return true;
-    said_.error(
-        Code::kindsDoNotMerge, entry.place,
-        fmt::format("resource '{}' cannot be merged with what is there", entry.key),
-        {.expected = before == "alternatives" ? "a reference or a list of references, or a whole resource"
-                                              : fmt::format("keys of \"{0}\", or \"{0}\": null", before),
-         .found = over.empty() ? describe(entry.value) : fmt::format("\"{}\"", over)});
+    said_.error(say::resourceCannotBeMerged, entry.place, entry.key,
+                before == "alternatives" ? "a reference or a list of references, or a whole resource"
+                                         : fmt::format("keys of \"{0}\", or \"{0}\": null", before),
+                over.empty() ? describe(entry.value) : fmt::format("\"{}\"", over));
     return false;
   }
 
@@ -431,8 +423,7 @@ class Applier {
     said_.pass = stanzaName(stanza);
     const JsonValue *after = stanza.find("after"), *remove = stanza.find("remove");
     if (stanza.find("before") && after)
-      said_.error(Code::keysExclude, stanza.place, "a pass cannot stand both \"before\" and \"after\" others",
-                  {.hint = "keep one of them"});
+      said_.error(say::beforeAndAfter, stanza.place);
     else if (remove && !remove->is(Type::boolean))
       said_.expect(*remove, Type::boolean, "\"remove\"");
     else if (const JsonValue* anchor = anchorOf(stanza))
@@ -459,10 +450,8 @@ class Applier {
     if (!beside.index) {
       const Meant meant = meantBy(anchor.text, "passes");
       if (!isMisspeltInclude(meant.near))
-        said_.error(Code::passWithoutPlace, anchor.place,
-                    fmt::format("pass '{}' stands {} '{}', which is not there", said_.pass,
-                                after ? "after" : "before", anchor.text),
-                    {.expected = "the name of a pass, or the prefix of an include", .hint = meant.hint});
+        said_.error(say::anchorNotThere, anchor.place, said_.pass, after ? "after" : "before", anchor.text,
+                    meant.hint);
       // Where it was probably meant, else at the end, so that what stands beside it is no second mistake.
       if (!meant.near.empty()) beside = locate("passes", meant.near);
     }
@@ -496,10 +485,7 @@ class Applier {
     const JsonValue* own = placed.find("passes");
     if (!own) placed.members.push_back({"passes", group->place, *group});
     if (!own || own->place == group->place) return true;
-    said_.error(Code::passWithoutPlace, placed.place,
-                fmt::format("pass '{}', which stands in a group, comes between passes of another",
-                            stanzaName(placed)),
-                {.hint = "move it before or after all passes that repeat together"});
+    said_.error(say::betweenPassesOfGroup, placed.place, stanzaName(placed));
     return false;
   }
 
@@ -507,26 +493,23 @@ class Applier {
   bool mayStand(const JsonValue& stanza, const JsonValue& anchor, const Spot& beside, const Spot& moved,
                 std::string_view own) {
     const JsonValue* named = stanza.find("name");
-    const auto refuse = [&](const JsonValue& at, std::string message, std::string hint) {
-      said_.error(Code::passWithoutPlace, at.place, std::move(message), {.hint = std::move(hint)});
-      return false;
-    };
-    if (beside.index && moved.index && beside.below == moved.below)
-      return *beside.index != *moved.index ||
-             refuse(anchor, fmt::format("pass '{}' stands beside itself", said_.pass), "name another pass");
-    if (beside.index && (moved.index || own.find('.') != std::string_view::npos)) {
+    const JsonValue& where = named ? *named : stanza;
+    if (beside.index && moved.index && beside.below == moved.below) {
+      if (*beside.index != *moved.index) return true;
+      said_.error(say::standsBesideItself, anchor, said_.pass);
+    } else if (beside.index && (moved.index || own.find('.') != std::string_view::npos)) {
       std::string whole;
       for (const std::string& prefix : beside.below) whole += prefix + ".";
-      return refuse(named ? *named : stanza,
-                    fmt::format("pass '{}' cannot stand beside '{}', which is in another file", said_.pass,
-                                anchor.text),
-                    moved.index
-                        ? "name a pass of its own file, or remove it and write a new one here"
-                        : fmt::format("call it '{}{}'", whole, said_.pass.substr(said_.pass.rfind('.') + 1)));
+      said_.error(say::anchorInOtherFile, where, said_.pass, anchor.text,
+                  moved.index
+                      ? "name a pass of its own file, or remove it and write a new one here"
+                      : fmt::format("call it '{}{}'", whole, said_.pass.substr(said_.pass.rfind('.') + 1)));
+    } else if (declaresPass(stanza)) {
+      return true;
+    } else {
+      said_.error(say::passNotToBeMoved, where, said_.pass, meantBy(said_.pass, "passes").hint);
     }
-    return declaresPass(stanza) ||
-           refuse(named ? *named : stanza, fmt::format("pass '{}' is not there to be moved", said_.pass),
-                  meantBy(said_.pass, "passes").hint);
+    return false;
   }
 
   void change(const JsonValue& stanza, bool remove) {
@@ -535,11 +518,8 @@ class Applier {
     const Spot spot = find("passes", said_.pass, place);
     if (!spot.index) {
       const Meant meant = meantBy(said_.pass, "passes");
-      said_.error(remove ? Code::nothingToChange : Code::passWithoutPlace, place,
-                  fmt::format("pass '{}' is not there to be {}", said_.pass,
-                              remove ? "removed" : "changed, and a new one needs a place"),
-                  {.expected = remove ? "" : "the name of a pass, or \"before\" or \"after\" one",
-                   .hint = meant.hint});
+      remove ? said_.error(say::passNotToBeRemoved, place, said_.pass, meant.hint)
+             : said_.error(say::passNotToBeChanged, place, said_.pass, meant.hint);
       if (!remove && declaresPass(stanza) && meant.whole.empty())
         passesOf(target_).push_back(withoutPlace(stanza, said_.pass));
       return;
@@ -562,10 +542,8 @@ class Applier {
                    const std::vector<std::string>& below) {
     const bool include = there.find("include") != nullptr;
     if (const JsonValue* culprit = stanza.find(include ? "type" : "include")) {
-      said_.error(Code::kindsDoNotMerge, culprit->place,
-                  fmt::format("'{}' cannot be merged with what is there", said_.pass),
-                  {.expected = include ? "keys of an include" : "keys of a pass",
-                   .hint = "remove the one, and give the other a name of its own"});
+      said_.error(say::passCannotBeMerged, culprit->place, said_.pass,
+                  include ? "keys of an include" : "keys of a pass");
       return false;
     }
     if (include && stanza.find("include")) {
@@ -672,10 +650,7 @@ std::shared_ptr<const Source> SourceLoader::complete(JsonValue root, const std::
   const JsonValue* set = root.find("set");
   const JsonValue* extends = root.find("extends");
   if (!extends && set && !root.find("passes")) {
-    diagnostics_.error(
-        Code::overlayOutOfPlace, set->place, fmt::format("'{}' is a preset, not a graph", path),
-        {.hint = fmt::format(
-             "lay it over a graph: weft check GRAPH --preset {}; or say what this file \"extends\"", path)});
+    diagnostics_.error(say::presetNotGraph, set->place, path);
     return nullptr;
   }
   if (!extends) {
@@ -720,12 +695,8 @@ bool SourceLoader::mayExtend(const JsonValue& written) {
   std::string found;
   const auto again = std::ranges::find(open_, identity, &std::pair<std::string, std::string>::first);
   for (auto each = again; each != open_.end(); ++each) found += each->second + " -> ";
-  diagnostics_.error(
-      circle ? Code::extendsItself : Code::limitExceeded, written.place,
-      circle ? fmt::format("'{}' extends itself", below) : "overlays extend each other in too long a row",
-      {.expected = circle ? "" : fmt::format("at most {}", kMaxInRow),
-       .found = found + below,
-       .hint = "one of these must not extend the next"});
+  circle ? diagnostics_.error(say::extendsItself, written.place, below, found + below)
+         : diagnostics_.error(say::extendsTooLong, written.place, kMaxInRow, found + below);
   return false;
 }
 
@@ -748,12 +719,10 @@ bool SourceLoader::layFile(Source& made, const std::string& path, const JsonValu
   bool good = root && ReadContext(diagnostics_).expect(*root, Type::object, "a preset");
   const JsonValue* extends = good ? root->find("extends") : nullptr;
   if (good && !extends && isWholeGraph(*root) && (written || root->find("present"))) {
-    diagnostics_.error(
-        Code::overlayOutOfPlace, (written ? *written : *root).place,
-        fmt::format("'{}' is a graph of its own, which cannot be laid over another", path),
-        {.expected = fmt::format("an overlay on '{}', or a preset", made.path),
-         .hint = written ? "a file extends one graph, the first of its list; give the others as includes"
-                         : "include it in a graph, or check it by itself"});
+    diagnostics_.error(say::graphAsOverlay, (written ? *written : *root).place, path, made.path,
+                       written
+                           ? "a file extends one graph, the first of its list; give the others as includes"
+                           : "include it in a graph, or check it by itself");
     good = false;
   }
   open_.emplace_back(own, path);

@@ -11,6 +11,7 @@
 #include "engine/graph/read/overlay.h"
 #include "engine/graph/read/read_context.h"
 #include "engine/text/nearest.h"
+#include "graph_sentences.h"
 
 namespace weft::graph {
 
@@ -110,10 +111,7 @@ class GraphReader {
       for (SlotDesc& slot : pass.slots) {
         if (slot.access == Access::write || slot.ref.import || !optional.contains(slot.ref.name)) continue;
         if (std::exchange(slot.ref.optional, true))
-          diagnostics_.warning(
-              Code::unusedDeclaration, slot.ref.place,
-              fmt::format("the '?' of \"{}\" says nothing new: the input is optional", slot.ref.text),
-              {.hint = "leave it out; `weft format` does"});
+          diagnostics_.warning(say::optionalAnyway, slot.ref.place, slot.ref.text);
       }
   }
 
@@ -124,10 +122,7 @@ class GraphReader {
              shapeOfFile(false).find(member.key);
     };
     if (std::ranges::any_of(root.members, own)) return false;
-    context.error(
-        Code::missingKey, root, "this file has no \"passes\": it is not a graph",
-        {.hint = fmt::format("add \"passes\": [ … ]; a scene goes with a graph: weft check GRAPH --scene {}",
-                             root.place.file ? *root.place.file : "FILE")});
+    context.error(say::notAGraph, root, root.place.file ? *root.place.file : "FILE");
     return true;
   }
 
@@ -169,9 +164,7 @@ class GraphReader {
         if (count > 1 && !sets.find(name)) missing.push_back(name);
       const std::string meant = text::nearestName(set.key, missing);
       if (meant.empty()) continue;
-      context.error(Code::unknownSet, set.place,
-                    fmt::format("no pass uses the set '{}', and {} use '{}'", set.key, uses[meant], meant),
-                    {.hint = fmt::format("did you mean '{}'?", meant)});
+      context.error(say::setMisspelt, set.place, set.key, uses[meant], meant);
       set.key = meant;
     }
     return sets;
@@ -204,8 +197,7 @@ class GraphReader {
     const std::string identity = identityOf(path);
     const auto again = std::ranges::find(open_, identity, &std::pair<std::string, std::string>::first);
     if (again != open_.end()) {
-      auto& d =
-          diagnostics_.error(Code::includesItself, stanza.place, fmt::format("'{}' includes itself", path));
+      auto& d = diagnostics_.error(say::includesItself, stanza.place, path);
       for (auto file = again; file != open_.end(); ++file) d.found += file->second + " -> ";
       d.found += path;
       d.hint = "remove one of these includes";
@@ -232,10 +224,7 @@ class GraphReader {
   bool exceeds(std::uint64_t bound, const char* counts, std::uint64_t count, const JsonValue& stanza) {
     if (count <= bound) return false;
     tooMuch_ = true;
-    auto& d = diagnostics_.error(Code::limitExceeded, stanza.place,
-                                 fmt::format("the graph includes too many {}", counts),
-                                 {.expected = fmt::format("at most {} {}", bound, counts),
-                                  .found = fmt::format("{} with '{}'", count, stanza.text)});
+    auto& d = diagnostics_.error(say::includesTooMany, stanza.place, counts, bound, count, stanza.text);
     if (bound != kMaxInRow) d.hint = text::hintToRaise(bound / text::limitsRaised, count);
     return true;
   }

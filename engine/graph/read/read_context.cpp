@@ -31,11 +31,10 @@ std::string foundText(const JsonValue& value) {
   return value.is(Type::array) ? fmt::format("an array of {}", value.items.size()) : describe(value);
 }
 
-text::Diagnostic& ReadContext::error(Code code, const Place& place, std::string message, text::Says says) {
-  auto& d = goesOn() ? diagnostics_.error(code, place, std::move(message), std::move(says)) : unkept_;
-  d.pass = pass;
-  d.resource = resource;
-  return d;
+text::Diagnostic& ReadContext::error(text::Diagnostic said, const Place& place) {
+  said.pass = pass;
+  said.resource = resource;
+  return goesOn() ? diagnostics_.add(text::Severity::error, std::move(said), place) : unkept_ = said;
 }
 
 void ReadContext::adopt(const text::Diagnostics& said) {
@@ -49,8 +48,7 @@ void ReadContext::adopt(const text::Diagnostics& said) {
 
 text::Diagnostic& ReadContext::wrongType(const JsonValue& value, std::string_view what,
                                          std::string expected) {
-  return error(Code::wrongType, value, fmt::format("{} has the wrong type", what),
-               {.expected = std::move(expected), .found = foundText(value)});
+  return error(say::wrongType, value, what, expected, foundText(value));
 }
 
 bool ReadContext::expect(const JsonValue& value, Type type, std::string_view what, std::string hint) {
@@ -60,30 +58,23 @@ bool ReadContext::expect(const JsonValue& value, Type type, std::string_view wha
 }
 
 bool ReadContext::checkName(std::string_view name, const Place& place, const Named& named) {
-  const bool tooLong = name.size() > text::kMaxNameBytes;
-  const std::string why = tooLong ? ": it is too long" : whyNoShaderName(name, named);
-  if (isIdent(name) && !isReservedWord(name) && why.empty()) return true;
-  auto& d = error(tooLong ? Code::limitExceeded : Code::notAName, place,
-                  fmt::format("\"{:.60}\" cannot name {}{}", name, named.noun, why));
-  d.expected = fmt::format("letters, digits and '_', not beginning with a digit, {} at most; reserved are {}",
-                           text::kMaxNameBytes, fmt::join(kReservedWords, ", "));
-  if (tooLong) {
-    d.expected = fmt::format("at most {} bytes", text::kMaxNameBytes);
-    d.found = fmt::format("{} bytes", name.size());
-  } else if (!why.empty()) {
-    d.hint = "choose another here and in the shader";
-  } else if (named.ofFile && name.find('.') != std::string_view::npos) {
-    d.hint = "only an overlay, a file that \"extends\" this one, changes what an include has";
+  if (name.size() > text::kMaxNameBytes) {
+    error(say::nameTooLong, place, name, named.noun, text::kMaxNameBytes, name.size());
+    return false;
   }
+  const std::string_view why = whyNoShaderName(name, named);
+  if (isIdent(name) && !isReservedWord(name) && why.empty()) return true;
+  error(say::cannotName, place, name, named.noun, why, text::kMaxNameBytes, fmt::join(kReservedWords, ", "),
+        !why.empty() ? "choose another here and in the shader"
+        : named.ofFile && name.find('.') != std::string_view::npos
+            ? "only an overlay, a file that \"extends\" this one, changes what an include has"
+            : "");
   return false;
 }
 
 bool ReadContext::checkFresh(Seen& seen, const std::string& name, const Place& place, std::string_view what) {
   const auto [before, fresh] = seen.try_emplace(name, place);
-  if (!fresh)
-    error(Code::duplicateName, place, fmt::format("{} '{}' is declared twice", what, name)).hint =
-        fmt::format("rename one or leave it out; the first stands at {}:{}", before->second.line,
-                    before->second.column);
+  if (!fresh) error(say::declaredTwice, place, what, name, before->second.line, before->second.column);
   return fresh;
 }
 
@@ -112,11 +103,7 @@ std::optional<RefDesc> ReadContext::refOf(const JsonValue& value, bool alternati
   if (!value.is(Type::string)) return std::nullopt;
   std::optional<RefDesc> ref = parsed(value, parseRef);
   if (!ref || alternative || !ref->condition.present()) return ref;
-  error(Code::badReference, ref->condition.place(), "an 'if' outside of a list of alternatives",
-        {.found = fmt::format("\"{}\"", value.text),
-         .hint = fmt::format(
-             "declare \"maybe_{0}\": [\"{0} if {1}\"] under \"resources\", and read \"maybe_{0} ?\"",
-             ref->name, ref->condition.text())});
+  error(say::ifOutsideList, ref->condition.place(), value.text, ref->name, ref->condition.text());
   ref->condition = Expr();
   return ref;
 }

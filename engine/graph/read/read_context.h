@@ -37,10 +37,14 @@ class ReadContext {
 
   std::string pass, resource;  // set while one is read
 
-  text::Diagnostic& error(text::Code code, const Place& place, std::string message, text::Says says = {});
-  text::Diagnostic& error(text::Code code, const JsonValue& value, std::string message,
-                          text::Says says = {}) {
-    return error(code, value.place, std::move(message), std::move(says));
+  text::Diagnostic& error(text::Diagnostic said, const Place& place);
+  template <class... Args>
+  text::Diagnostic& error(text::Saying<Args...> what, const Place& place, Args&&... args) {
+    return error(text::diagnosticOf(what.sentence, fmt::make_format_args(args...)), place);
+  }
+  template <class... Args>
+  text::Diagnostic& error(text::Saying<Args...> what, const JsonValue& value, Args&&... args) {
+    return error(text::diagnosticOf(what.sentence, fmt::make_format_args(args...)), value.place);
   }
   // Code::wrongType. `what` has the wrong type.
   text::Diagnostic& wrongType(const JsonValue& value, std::string_view what, std::string expected);

@@ -15,6 +15,7 @@
 #include "engine/graph/subresource.h"
 #include "engine/text/files/file.h"
 #include "engine/text/nearest.h"
+#include "graph_sentences.h"
 
 namespace weft::graph {
 
@@ -69,10 +70,10 @@ std::optional<ValueKind> findKind(ReadContext& context, const JsonValue& object,
   if (initial.is(Type::array))
     return static_cast<ValueKind>(static_cast<std::size_t>(ValueKind::vec2) + initial.items.size() - 2);
   if (object.find("choices")) return ValueKind::choice;
-  context.error(Code::missingKey, object, "a parameter has a string as its default, but no \"choices\"",
-                {.hint = parseValue(initial.text).type == Value::Type::symbol
-                             ? "list the \"choices\", or say \"type\": \"file\""
-                             : fmt::format("write {}, without quotes", initial.text)});
+  context.error(say::stringWithoutChoices, object,
+                parseValue(initial.text).type == Value::Type::symbol
+                    ? "list the \"choices\", or say \"type\": \"file\""
+                    : fmt::format("write {}, without quotes", initial.text));
   return std::nullopt;
 }
 
@@ -83,9 +84,9 @@ bool readDefault(ReadContext& context, const JsonValue& object, const JsonValue&
   const std::optional<Value> value = valueOf(initial);
   if (!value || !initial.is(kind.json) || initial.items.size() != kind.count ||
       (out.type == ValueKind::integer && initial.number != std::floor(initial.number))) {
-    auto& d = context.error(
-        Code::wrongType, initial, fmt::format("the default does not fit the type \"{}\"", typeName(out.type)),
-        {.expected = kind.count > 0 ? fmt::format("a list of {} numbers", kind.count) : nameOf(kind.json)});
+    auto& d =
+        context.error(say::defaultDoesNotFitType, initial, typeName(out.type),
+                      kind.count > 0 ? fmt::format("a list of {} numbers", kind.count) : nameOf(kind.json));
     if (out.type == ValueKind::integer) d.expected = "a whole number";
     d.found = foundText(initial);
     return false;
@@ -96,14 +97,11 @@ bool readDefault(ReadContext& context, const JsonValue& object, const JsonValue&
     out.initial = Value::text(text::besideFile(initial.textPlace(), initial.text));
   if (out.type != ValueKind::choice) return true;
   if (!object.find("choices")) {
-    context.error(Code::missingKey, object, "a choice without \"choices\"",
-                  {.hint = "list the words it may be"});
+    context.error(say::choiceWithoutChoices, object);
     return false;
   }
   if (out.choices.empty() || std::ranges::find(out.choices, initial.text) != out.choices.end()) return true;
-  auto& d = context.error(Code::notAChoice, initial,
-                          fmt::format("the default '{}' is not one of the choices", initial.text),
-                          {.expected = fmt::format("{}", fmt::join(out.choices, ", "))});
+  auto& d = context.error(say::defaultNotAChoice, initial, initial.text, fmt::join(out.choices, ", "));
   if (const std::string nearest = text::nearestName(initial.text, out.choices); !nearest.empty())
     d.hint = fmt::format("did you mean \"{}\"?", nearest);
   out.initial = Value::text(out.choices[0]);  // expressions that it stands in have no mistake of their own
@@ -112,19 +110,18 @@ bool readDefault(ReadContext& context, const JsonValue& object, const JsonValue&
 
 void checkRange(ReadContext& context, const JsonValue& object, const JsonValue& initial,
                 const ParameterDesc& out) {
-  const auto report = [&](const JsonValue& at, std::string message, std::string expected) {
-    context.error(Code::outOfRange, at, std::move(message),
-                  {.expected = std::move(expected), .found = foundText(at)});
-  };
-  if (out.min && out.max && *out.min > *out.max)
-    return report(*object.find("min"), "the range is empty", fmt::format("at most \"max\", {}", *out.max));
-  if (out.step && *out.step <= 0)
-    report(*object.find("step"), "the step is not above zero", "a number above zero");
+  if (const JsonValue* min = object.find("min"); out.min && out.max && *out.min > *out.max) {
+    context.error(say::emptyRange, *min, *out.max, foundText(*min));
+    return;
+  }
+  if (const JsonValue* step = object.find("step"); out.step && *out.step <= 0)
+    context.error(say::stepNotAboveZero, *step, foundText(*step));
   for (std::size_t i = 0; i < out.initial.count; ++i)
-    if ((out.min && out.initial.v[i] < *out.min) || (out.max && out.initial.v[i] > *out.max))
-      report(initial.is(Type::array) ? initial.items[i] : initial, "the default is out of its range",
-             fmt::format("a number{}{}", out.min ? fmt::format(" from {}", *out.min) : "",
-                         out.max ? fmt::format(" up to {}", *out.max) : ""));
+    if ((out.min && out.initial.v[i] < *out.min) || (out.max && out.initial.v[i] > *out.max)) {
+      const JsonValue& at = initial.is(Type::array) ? initial.items[i] : initial;
+      context.error(say::defaultOutOfRange, at, out.min ? fmt::format(" from {}", *out.min) : "",
+                    out.max ? fmt::format(" up to {}", *out.max) : "", foundText(at));
+    }
 }
 
 std::optional<double> numberIn(const JsonValue& object, std::string_view key) {
@@ -163,9 +160,7 @@ std::optional<ParameterDesc> readParameter(ReadContext& context, const JsonMembe
   for (const std::string_view key : {"min", "max", "step", "choices"})
     if (const JsonValue* value = object.find(key);
         value && !(key == "choices" ? *kind == ValueKind::choice : numeric))
-      context.error(Code::keysExclude, *value,
-                    fmt::format("\"{}\" does not go with the type \"{}\"", key, typeName(*kind)),
-                    {.hint = "remove the key, or change the type"});
+      context.error(say::keyMisfitsType, *value, key, typeName(*kind));
   return named ? std::optional(std::move(out)) : std::nullopt;
 }
 
@@ -234,10 +229,7 @@ void readFirst(ReadContext& context, const JsonValue& first, ResourceDesc& out) 
   if (!out.firstRef ||
       (!out.firstRef->kind && out.firstRef->sampler == Sampler{} && out.firstRef->history == 0))
     return;
-  context.error(
-      Code::badReference, first, fmt::format("\"first\" of '{}' is more than a name", out.name),
-      {.hint =
-           "leave out '@-n' and the words after 'as': it is read as the slot that reads the history says"});
+  context.error(say::firstIsMoreThanName, first, out.name);
   out.firstRef.reset();
 }
 
@@ -253,9 +245,7 @@ void readHistory(ReadContext& context, const JsonValue& value, ResourceDesc& out
     }
   for (const char* key : {"first", "reset"})
     if (const JsonValue* found = value.find(key); found && !value.find("history")) {
-      context.error(Code::keysExclude, *found,
-                    fmt::format("\"{}\" of '{}', which keeps no history", key, out.name),
-                    {.hint = "add \"history\": 1, or remove the key"});
+      context.error(say::withoutHistory, *found, key, out.name);
       out.history =
           Expr::constant(Value::number(1), found->place);  // what reads it has no mistake of its own
     }
@@ -266,9 +256,7 @@ bool readFullMips(ReadContext& context, const JsonValue& mips) {
   constexpr std::string_view kAll[] = {"all", "auto", "max", "complete", "true"};
   const bool meant = mips.is(Type::string) ? std::ranges::find(kAll, mips.text) != std::end(kAll)
                                            : mips.is(Type::boolean) && mips.flag;
-  if (meant)
-    context.error(Code::wrongValueType, mips, "the number of mips is no number",
-                  {.hint = "write \"full\" for all levels"});
+  if (meant) context.error(say::mipsNoNumber, mips);
   return meant || mips.text == "full";
 }
 
@@ -277,9 +265,7 @@ bool readInput(ReadContext& context, const JsonValue& input, ResourceDesc& out) 
   std::optional<RefDesc> ref = context.refOf(input);
   if (!ref) return false;
   if (ref->import || ref->selects() || ref->kind || ref->history > 0)
-    context.error(Code::badReference, ref->place, fmt::format("the input '{}' is more than a name", out.name),
-                  {.hint = "an input is a name, perhaps with 'as', words for sampling, and '?'; say the rest "
-                           "where it is used"});
+    context.error(say::inputIsMoreThanName, ref->place, out.name);
   out.optional = ref->optional;
   if (ref->samples) out.sample = std::move(ref);
   return true;
@@ -312,9 +298,7 @@ bool readResourceInto(ReadContext& context, const JsonValue& value, ResourceDesc
     words.place.column -= 10;
     out.sample = context.refOf(words);
     if (out.sample) out.sample->place = sample->textPlace();
-    if (out.sample && (out.sample->kind || out.sample->optional))
-      context.error(Code::badReference, *sample, "\"sample\" says how a texture is sampled, and no more",
-                    {.hint = "write words such as \"linear wrap\""});
+    if (out.sample && (out.sample->kind || out.sample->optional)) context.error(say::sampleSaysMore, *sample);
   }
   if (kind == "import") {
     out.kind = Kind::import;
@@ -384,8 +368,7 @@ void readInclude(ReadContext& context, const JsonValue& value, PassDesc& out) {
   include.filePlace = file.place;
   out.enabled = context.expr(value, "enabled");
   if (const JsonValue* group = value.find("passes"); group && group->find("repeat"))
-    context.error(Code::keysExclude, file, "an include in a group that repeats",
-                  {.hint = "let it stand outside the group, or say \"repeat\" at the passes of its file"});
+    context.error(say::includeInRepeat, file);
   include.screen = context.expr(value, "screen");
   for (const JsonMember& member : membersIn(value, "bind")) {
     const bool named = context.checkName(member.key, member.place, {"an input"});
@@ -394,9 +377,7 @@ void readInclude(ReadContext& context, const JsonValue& value, PassDesc& out) {
     include.binds.emplace_back(member.key, *std::move(ref));
     include.bindPlaces.push_back(member.place);
   }
-  if (include.file.empty() && file.is(Type::string))
-    context.error(Code::notAName, file, "an include without a path",
-                  {.hint = "write the path of a graph, from this file's folder"});
+  if (include.file.empty() && file.is(Type::string)) context.error(say::includeWithoutPath, file);
   if (include.file.empty()) return;
   out.namePlace = as ? as->place : file.place;
   include.as = as ? as->text : std::filesystem::path(include.file).stem().string();
@@ -409,16 +390,11 @@ void readInclude(ReadContext& context, const JsonValue& value, PassDesc& out) {
 // False when the repeat gives no index, or not from where to where: what the pass says with it is not looked at.
 bool readRanges(ReadContext& context, const JsonValue& ranges, ReadContext::Seen& seen, PassDesc& out) {
   bool all = !ranges.is(Type::absent);
-  if (all && ranges.members.empty())
-    context.error(Code::missingKey, ranges, "\"repeat\" without an index",
-                  {.hint = "write { \"i\": [0, 3] }"});
+  if (all && ranges.members.empty()) context.error(say::repeatWithoutIndex, ranges);
   for (const JsonMember& member : ranges.members) {
     if (seen.size() == text::raised(kMaxIndices)) {
-      context.error(
-          Code::limitExceeded, member.value,
-          fmt::format("\"repeat\" has more indices than a pass can have, '{}' is one too many", member.key),
-          {.expected = fmt::format("at most {} indices of one repeat", text::raised(kMaxIndices)),
-           .hint = text::hintToRaise(kMaxIndices)});
+      context.error(say::tooManyIndices, member.value, member.key, text::raised(kMaxIndices),
+                    text::hintToRaise(kMaxIndices));
       return false;
     }
     bool good = context.checkName(member.key, member.place, {"an index"});
@@ -465,10 +441,7 @@ void readSlots(ReadContext& context, const JsonValue& slots, Access access, cons
     // Only a part may be missing, at some size.
     if (ref && ref->optional && access == Access::write && !ref->mip && !ref->layer && !ref->face &&
         !ref->element)
-      context.error(Code::badReference, slot.value,
-                    fmt::format("the slot '{}' has a '?' in \"write\"", slot.key),
-                    {.hint = "leave the '?' out: what a pass writes is always there, and costs nothing where "
-                             "nobody reads it"});
+      context.error(say::optionalWrite, slot.value, slot.key);
     if (good && ref) out.slots.push_back({{slot.key, slot.place, access, ofSet}, *std::move(ref)});
   }
 }
@@ -509,8 +482,7 @@ void readState(ReadContext& context, const JsonValue& value, PassDesc& out) {
     const bool own = !member.value.is(Type::string) || isIdent(member.value.text);
     const std::string hint = own ? "" : text::hintForForeign("state_word", member.value.text);
     if (!hint.empty()) {
-      context.error(Code::badState, member.value, fmt::format("unknown value for the state '{}'", name),
-                    {.hint = hint});
+      context.error(say::foreignStateWord, member.value, name, hint);
       return;
     }
     if (Expr expr = context.exprOf(member.value); expr.present())
@@ -537,12 +509,9 @@ std::optional<JsonValue> withSets(ReadContext& context, const JsonValue& pass, c
     if (set == sets.members.end()) {
       std::vector<std::string> known;
       for (const JsonMember& each : sets.members) known.push_back(each.key);
-      context.error(
-          Code::unknownSet, name, fmt::format("\"sets\" has no '{}'", name.text),
-          {.expected = "the name of a set of this file", .hint = text::nearestHint(name.text, known)});
+      context.error(say::unknownSet, name, name.text, text::nearestHint(name.text, known));
     } else if (std::ranges::find(used, &*set) != used.end()) {
-      context.error(Code::duplicateName, name, fmt::format("the set '{}' is used twice", name.text),
-                    {.hint = "name it once"});
+      context.error(say::setUsedTwice, name, name.text);
     } else if (!set->value.is(Type::absent)) {
       out.uses.push_back({name.text, name.place, set->place});
       used.push_back(&*set);
@@ -552,9 +521,7 @@ std::optional<JsonValue> withSets(ReadContext& context, const JsonValue& pass, c
   JsonValue whole = pass;
   for (auto set = used.rbegin(); set != used.rend(); ++set)
     addSet(whole, (*set)->value, [&](const JsonMember& member) {
-      context.error(Code::duplicateName, member.place,
-                    fmt::format("the key '{}' is declared twice", member.key),
-                    {.hint = fmt::format("leave one out: the set '{}' has it, too", (*set)->key)});
+      context.error(say::alsoInSet, member.place, member.key, (*set)->key);
     });
   return whole;
 }
@@ -570,8 +537,7 @@ void inferType(ReadContext& context, const JsonValue& value, PassDesc& out) {
                : value.find("geometry") || !out.shader.ends_with(".frag.glsl") ? "draw"
                                                                                : "fullscreen";
   else if (textIn(value, "name").find('.') == std::string::npos)  // else its name is the mistake
-    context.error(Code::missingKey, value.place, "the pass has neither a \"type\" nor a \"shader\"",
-                  {.hint = "add \"shader\", or what kind of pass it is: \"type\": \"mipmap\""});
+    context.error(say::neitherTypeNorShader, value.place);
 }
 
 void readGeometry(ReadContext& context, const JsonValue& value, PassDesc& out) {
@@ -592,9 +558,7 @@ void readUpdate(ReadContext& context, const JsonValue& value, PassDesc& out) {
   out.cadence = Cadence::always;
   if (!call) return;
   if (call->name != "every" || call->arguments.size() != 1) {
-    context.error(
-        Code::badFunctionCall, *update, fmt::format("\"update\" cannot be '{}'", update->text),
-        {.expected = fmt::format("{} or every(n), in each n-th frame", fmt::join(kUpdateWords, ", "))});
+    context.error(say::unknownUpdate, *update, update->text, fmt::join(kUpdateWords, ", "));
     return;
   }
   out.cadence = Cadence::every;

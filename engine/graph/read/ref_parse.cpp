@@ -13,6 +13,7 @@
 #include "engine/graph/subresource.h"
 #include "engine/text/nearest.h"
 #include "engine/text/words/words.h"
+#include "graph_sentences.h"
 
 namespace weft::graph {
 
@@ -72,9 +73,10 @@ class RefParser {
   }
 
  private:
-  bool fail(std::size_t offset, std::string message, std::string hint) {
-    diagnostics_.error(Code::badReference, place_.after(offset), std::move(message),
-                       {.found = fmt::format("\"{}\"", whole_), .hint = std::move(hint)});
+  template <class... Args>
+  bool fail(text::Saying<Args...> what, std::size_t offset, Args&&... args) {
+    diagnostics_.error<Args...>(what, place_.after(offset), std::forward<Args>(args)...).found =
+        fmt::format("\"{}\"", whole_);
     return false;
   }
 
@@ -107,13 +109,11 @@ class RefParser {
     while (true) {
       const string_view word = peekWord(at_);
       if (word.empty())
-        return fail(at_, fmt::format("{} where a name is expected", found()),
+        return fail(say::nameExpected, at_, found(),
                     here() == '$'
                         ? "resources have no '$'; a choice is a list in \"resources\": [\"a if $x\", \"b\"]"
                         : "names are letters, digits and '_', joined by '.'; '?' stands at the very end");
-      if (isReservedWord(word))
-        return fail(at_, fmt::format("'{}' may not stand in a name", word),
-                    "it selects a sub-resource, as in \"glow.mip[0]\"");
+      if (isReservedWord(word)) return fail(say::reservedInName, at_, word);
       ref_.name += word;
       at_ += word.size();
       if (here() != '.' || isReservedWord(peekWord(at_ + 1))) return true;
@@ -130,19 +130,15 @@ class RefParser {
   // The offset of the bracket that closes the one at at_; 0 after a report, also of empty brackets. Moves behind it.
   std::size_t closeBracket() {
     const std::size_t close = closingBracket(text_, at_), from = at_ + 1;
-    if (close == string_view::npos)
-      return fail(at_, "the '[' that opens here is never closed", "close it with ']'"), 0;
+    if (close == string_view::npos) return fail(say::openBracket, at_), 0;
     at_ = close + 1;
-    if (trimmed(text_.substr(from, close - from)).empty())
-      return fail(from, "empty brackets", "write an index, or a span such as [0..3]"), 0;
+    if (trimmed(text_.substr(from, close - from)).empty()) return fail(say::emptyBrackets, from), 0;
     return close;
   }
 
   bool parseSpan(std::optional<SpanDesc>& span, string_view word, std::size_t wordAt) {
-    if (span) return fail(wordAt, fmt::format("'.{}' stands twice", word), "select it once");
-    if (here() != '[')
-      return fail(at_, fmt::format("'.{}' without its index", word),
-                  fmt::format("write '.{0}[0]', or '.{0}[1..]' for a span", word));
+    if (span) return fail(say::selectorTwice, wordAt, word);
+    if (here() != '[') return fail(say::selectorWithoutIndex, at_, word);
     const std::size_t from = at_ + 1, end = closeBracket();
     if (end == 0) return false;
     const auto side = [&](std::size_t a, std::size_t b, Expr& out) {
@@ -161,7 +157,7 @@ class RefParser {
     while (here() == '[' || here() == '.') {
       const std::size_t start = at_;
       if (here() == '[') {
-        if (ref_.element) return fail(at_, "a second '[…]'", "an array has one dimension");
+        if (ref_.element) return fail(say::secondElement, at_);
         const std::size_t end = closeBracket();
         const std::optional<Expr> index = end > 0 ? parseInner(start + 1, end) : std::nullopt;
         if (!index) return false;
@@ -176,7 +172,7 @@ class RefParser {
                                       : word == "face"  ? &ref_.face
                                                         : nullptr;
       if (!span)
-        return fail(start, fmt::format("'.{}' selects nothing, or is said twice", word),
+        return fail(say::unknownSelector, start, word,
                     text::nearestHint(word, std::vector<std::string>{"mip", "layer", "face", "stencil"}));
       if (!parseSpan(*span, word, start)) return false;
     }
@@ -193,8 +189,7 @@ class RefParser {
       at_ = static_cast<std::size_t>(end - text_.data());
       if (error == std::errc() && ref_.history > 0) return true;
     }
-    return fail(start, "history is written '@-1', '@-2', …",
-                fmt::format("write '{}@-1' for what it was in the frame before", ref_.name));
+    return fail(say::badHistory, start, ref_.name);
   }
 
   // ---- the words after "as": a kind and filters ----
@@ -207,9 +202,7 @@ class RefParser {
     for (bool any = false;; any = true) {
       skipSpace();
       const string_view word = peekWord(at_);
-      if ((word.empty() || word == "if") && !any)
-        return fail(at_, "'as' without a word",
-                    "say a kind or a filter, such as 'as depth' or 'as linear wrap'");
+      if ((word.empty() || word == "if") && !any) return fail(say::asWithoutWord, at_);
       if (word.empty() || word == "if") break;
       if (!takeWord(word, at_)) return false;
     }
@@ -229,9 +222,7 @@ class RefParser {
     at_ += word.size();
     const bool filters = sampler < 2, wraps = sampler >= 2 && sampler < 6;
     bool& taken = isKind ? hasKind_ : filters ? filtered_ : wraps ? wrapped_ : ref_.sampler.compare;
-    if (std::exchange(taken, true))
-      return fail(wordAt, fmt::format("'{}' repeats or contradicts an earlier word", word),
-                  "keep one of them");
+    if (std::exchange(taken, true)) return fail(say::wordRepeats, wordAt, word);
     if (isKind) ref_.kind = static_cast<Kind>(kind);
     if (filters) ref_.sampler.linear = word == "linear";
     if (wraps) ref_.sampler.wrap = static_cast<Wrap>(sampler - 2);
@@ -240,7 +231,7 @@ class RefParser {
     const bool mayFilter = !ref_.kind || *ref_.kind == Kind::sampled || *ref_.kind == Kind::copy;
     const bool maySample = !ref_.kind || *ref_.kind == Kind::sampled;
     if ((filtered_ && !mayFilter) || ((wrapped_ || ref_.sampler.compare) && !maySample))
-      return fail(wordAt, "filters belong to sampled textures only", "drop the kind or the filter");
+      return fail(say::filterOfUnsampled, wordAt);
     return true;
   }
 
@@ -249,23 +240,20 @@ class RefParser {
     known.insert(known.end(), kSamplerWords.begin(), kSamplerWords.end());
     std::string hint = text::hintOrNearest("sampling", word, known);
     if (hint.empty()) hint = fmt::format("known: {}", fmt::join(known, " "));
-    return fail(wordAt, fmt::format("unknown word '{}' after 'as'", word), std::move(hint));
+    return fail(say::unknownWordAfterAs, wordAt, word, hint);
   }
 
   // What stands between parentheses right behind a word, of which there need be none: `border(0, 0, 0, 1)`, `compare(greater)`.
   bool takeArguments(string_view word, std::size_t wordAt) {
     if (here() != '(') return true;
     const std::size_t from = at_ + 1, end = text_.find(')', from);
-    if (end == string_view::npos)
-      return fail(at_, "the '(' that opens here is never closed", "close it with ')'");
+    if (end == string_view::npos) return fail(say::openParenthesis, at_);
     at_ = end + 1;
     const string_view argument = trimmed(text_.substr(from, end - from));
     if (word == "border") {
       const std::optional<BorderColor> color = parseColor(argument);
       if (color) ref_.border = *color;
-      return color ||
-             fail(wordAt, fmt::format("'{}' is no color of a border", text_.substr(wordAt, at_ - wordAt)),
-                  "write four numbers, 'border(0, 0, 0, 1)', or one for all channels, 'border(1)'");
+      return color || fail(say::noBorderColor, wordAt, text_.substr(wordAt, at_ - wordAt));
     }
     const auto found = std::ranges::find(kCompareNames, argument);
     if (found != kCompareNames.end()) {
@@ -273,7 +261,7 @@ class RefParser {
       return true;
     }
     const std::vector<std::string> known(kCompareNames.begin(), kCompareNames.end());
-    return fail(wordAt, fmt::format("'{}' is no comparison", text_.substr(wordAt, at_ - wordAt)),
+    return fail(say::noComparison, wordAt, text_.substr(wordAt, at_ - wordAt),
                 text::hintOrNearest("state_word", argument, known));
   }
 
@@ -284,13 +272,12 @@ class RefParser {
     if (word != "if") {
       const bool sampling = std::ranges::find(kSamplerWords, word) != kSamplerWords.end() ||
                             std::ranges::find(kKindNames, word) != kKindNames.end();
-      return fail(at_, fmt::format("unexpected {}", found()),
+      return fail(say::unexpectedInReference, at_, found(),
                   sampling ? fmt::format("write 'as {}'", word)
                            : "a reference is: name, selectors, @-n, 'as' words, 'if' condition, '?'");
     }
     at_ += 2;
-    if (trimmed(text_.substr(at_)).empty())
-      return fail(at_, "'if' without a condition", "write one, such as 'if $bloom'");
+    if (trimmed(text_.substr(at_)).empty()) return fail(say::ifWithoutCondition, at_);
     auto condition = parseInner(at_, text_.size());
     if (condition) ref_.condition = *std::move(condition);
     return ref_.condition.present();
@@ -326,10 +313,7 @@ std::optional<CallText> parseCallText(string_view text, const Place& place, text
   call.name = text.substr(0, at);
   if (!isIdent(call.name) || (at < text.size() && (text[at] != '(' || text.back() != ')' ||
                                                    closingBracket(text, at) != text.size() - 1))) {
-    diagnostics.error(Code::badReference, place.after(isIdent(call.name) ? at : 0),
-                      "this is no word with its arguments",
-                      {.expected = "a word with its arguments, such as \"quad\" or \"icosphere(2)\"",
-                       .found = fmt::format("\"{}\"", text)});
+    diagnostics.error(say::notACall, place.after(isIdent(call.name) ? at : 0), text);
     return std::nullopt;
   }
   const std::size_t end = text.empty() ? 0 : text.size() - 1;

@@ -15,6 +15,7 @@
 #include "engine/graph/read/overlay.h"
 #include "engine/graph/read/read_context.h"
 #include "engine/text/nearest.h"
+#include "graph_sentences.h"
 
 namespace weft::graph {
 
@@ -95,15 +96,14 @@ class ShapeCheck {
     if (!value.is(Type::object) || kinds == 1) {
       checkValue(value, shapeOf("resource"), member.key, "a resource");
     } else if (!mends_) {
-      if (kinds > 0 || member.key.find('.') == std::string::npos)  // else its name is the mistake
-        said_.error(
-            kinds == 0 ? Code::missingKey : Code::keysExclude, value,
-            fmt::format("the resource '{}' {}", member.key,
-                        kinds == 0 ? "does not say what it is" : "is of two kinds at once"),
-            {.hint = value.find("input")
-                         ? fmt::format("write \"inputs\": [\"{}\"] beside \"resources\"; `weft format` does",
-                                       member.key)
-                         : "say one of \"texture\", \"buffer\" and \"import\""});
+      const std::string hint =
+          value.find("input")
+              ? fmt::format("write \"inputs\": [\"{}\"] beside \"resources\"; `weft format` does", member.key)
+              : "say one of \"texture\", \"buffer\" and \"import\"";
+      if (kinds > 0)
+        said_.error(say::ofTwoKinds, value, member.key, hint);
+      else if (member.key.find('.') == std::string::npos)  // else its name is the mistake
+        said_.error(say::saysNotWhatItIs, value, member.key, hint);
       drop(value);
     }
     said_.resource.clear();
@@ -117,10 +117,7 @@ class ShapeCheck {
     if (mends_ && !says("include") && !says("type") && !says("shader"))
       checkKeys(stanza, {std::span(shapeOf("include").keys).first(1)}, "include");
     if (const JsonMember* like = mends_ ? nullptr : memberOf(stanza, "like")) {  // of the first edition
-      said_.error(Code::unknownKey, like->place, "a pass is no longer \"like\" another",
-                  {.hint = "declare what they share under \"sets\", and name it with \"use\"; `weft format` "
-                           "writes this pass "
-                           "out whole"});
+      said_.error(say::passLike, like->place);
       drop(stanza);
       return said_.pass.clear();
     }
@@ -184,8 +181,7 @@ class ShapeCheck {
 
   bool checkWord(JsonValue& value, const Shape& shape, std::string_view key) {
     if (std::ranges::find(shape.words, value.text) != shape.words.end()) return true;
-    auto& d =
-        said_.error(Code::unknownWord, value, fmt::format("unknown word \"{}\" for \"{}\"", value.text, key));
+    auto& d = said_.error(say::unknownWord, value, value.text, key);
     d.expected = fmt::format("{}", fmt::join(shape.words, ", "));
     if (shape.kind == "parameterType") d.hint = text::hintForForeign("value_type", value.text);
     const std::string nearest =
@@ -230,11 +226,11 @@ class ShapeCheck {
           !ofState && !nearest.empty() && !object.find(nearest) &&
           (theirs.hint.empty() ? text::editDistance(member.key, nearest, 2) <= 1 : theirs.isOnlyKey);
       if (mends_ && !sure) continue;
-      said_.error(Code::unknownKey, member.place, fmt::format("unknown key \"{}\" in '{}'", member.key, what),
-                  {.hint = ofState ? fmt::format("it is a key of \"state\": {{ \"{}\": … }}", member.key)
-                           : !theirs.hint.empty() ? theirs.hint
-                           : nearest.empty()      ? fmt::format("known: {}", fmt::join(known, ", "))
-                                                  : fmt::format("did you mean \"{}\"?", nearest)});
+      said_.error(say::unknownKey, member.place, member.key, what,
+                  ofState ? fmt::format("it is a key of \"state\": {{ \"{}\": … }}", member.key)
+                  : !theirs.hint.empty() ? theirs.hint
+                  : nearest.empty()      ? fmt::format("known: {}", fmt::join(known, ", "))
+                                         : fmt::format("did you mean \"{}\"?", nearest));
       meant.push_back(nearest);
       if (mends_) member.key = nearest;
     }
@@ -243,9 +239,7 @@ class ShapeCheck {
       for (const KeySpec& spec : keys)
         if (spec.required && !object.find(spec.key) && stanzaName(object).find('.') == std::string::npos &&
             std::ranges::find(meant, spec.key) == meant.end())
-          said_.error(Code::missingKey, object.place,
-                      fmt::format("'{}' lacks the key \"{}\"", what, spec.key),
-                      {.hint = fmt::format("\"{}\": {}", spec.key, spec.doc)});
+          said_.error(say::lacksKey, object.place, what, spec.key, spec.doc);
   }
 
   bool mends_, overlay_;

@@ -8,6 +8,7 @@
 
 #include "engine/graph/expand/judge/judge.h"
 #include "engine/graph/versions/versions.h"
+#include "graph_sentences.h"
 
 namespace weft::graph::expansion {
 
@@ -54,10 +55,13 @@ Mistiming findMistiming(const FlatGraph& graph, std::uint32_t pass, std::uint32_
   return found;
 }
 
-void fail(Model& model, std::uint32_t pass, std::uint32_t resource, std::string message, std::string hint) {
+template <class... Args>
+void fail(Model& model, std::uint32_t pass, std::uint32_t resource, text::Saying<Args...> what,
+          Args&&... args) {
   const FlatGraph& graph = model.graph;
-  report(model, Code::badSlices, graph.specs[pass].place, std::move(message),
-         {.hint = std::move(hint), .resource = graph.resourceNames[resource], .pass = graph.passNames[pass]});
+  auto& d = model.diagnostics.error<Args...>(what, graph.specs[pass].place, std::forward<Args>(args)...);
+  d.resource = graph.resourceNames[resource];
+  d.pass = graph.passNames[pass];
 }
 
 // Follows what `group` writes through passes that are not of it: where it comes back to the group, neither could ever end.
@@ -73,11 +77,7 @@ void checkWayBack(Model& model, const Groups& groups, std::uint32_t group) {
       std::uint32_t& between = from[use.resource];
       follows |= groups.slicedWriterOf(use.resource) == group || between != kNone;
       if (!inside || between == kNone) continue;
-      fail(model, between, use.resource,
-           fmt::format(
-               "pass '{}' stands between slices: it reads what they write and pass '{}' reads what it writes",
-               graph.passNames[between], graph.passNames[p]),
-           "make it \"update\": \"on_change\"");
+      fail(model, between, use.resource, say::betweenSlices, graph.passNames[between], graph.passNames[p]);
       between = kNone;
     }
     if (inside || !follows || runsByClock(graph.passes[p])) continue;
@@ -103,20 +103,16 @@ void checkSlices(Model& model) {
     if (!runsByClock(graph.passes[p]) || use.access == Access::read) return;
     alwaysWriter[use.resource] = p;
     if (sliced)
-      fail(model, p, use.resource,
-           fmt::format("pass '{}' runs by the clock and writes '{}', which others write over several frames",
-                       graph.passNames[p], graph.resourceNames[use.resource]),
-           "write a resource of its own, or remove \"slices\"");
+      fail(model, p, use.resource, say::clockedWritesSliced, graph.passNames[p],
+           graph.resourceNames[use.resource]);
   });
   eachUse([&](std::uint32_t p, const FlatUse& use, bool sliced) {
     const std::uint32_t group = groups.groupOf(p), writer = alwaysWriter[use.resource];
     if (group == kNone || groups.sliced[group] == 0 || use.access != Access::read || use.history > 0 ||
         writer == kNone || sliced)
       return;
-    fail(model, p, use.resource,
-         fmt::format("pass '{}' is time-sliced and reads '{}', which pass '{}' makes anew by the clock",
-                     graph.passNames[p], graph.resourceNames[use.resource], graph.passNames[writer]),
-         fmt::format("make '{}' \"update\": \"on_change\", or remove \"slices\"", graph.passNames[writer]));
+    fail(model, p, use.resource, say::slicedReadsClocked, graph.passNames[p],
+         graph.resourceNames[use.resource], graph.passNames[writer]);
   });
   for (std::uint32_t group = 0; group < groups.sliced.size(); ++group)
     if (groups.sliced[group] != 0) checkWayBack(model, groups, group);
@@ -149,10 +145,8 @@ void warnCadence(Model& model) {
     const FlatUse& read = graph.uses[found.use];
     std::string name = graph.resourceNames[read.resource];
     if (read.history > 0) name += fmt::format("@-{}", read.history);
-    warn(model, Code::cadenceMisfit, spec.place,
-         fmt::format("pass '{}' runs {}: it reads '{}'{}", spec.name,
-                     once ? "once" : "in every frame, though it says \"on_change\"", name, found.why),
-         {.hint = found.hint, .resource = name, .pass = spec.name});
+    warn(model, say::cadenceMisfit, spec.place, spec.name,
+         once ? "once" : "in every frame, though it says \"on_change\"", name, found.why, found.hint);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "engine/graph/expand/judge/judge.h"
+#include "graph_sentences.h"
 
 namespace weft::graph::expansion {
 
@@ -56,16 +57,8 @@ void inferComparison(Model& model, std::uint32_t pass, SlotSpec& slot) {
     slot.sampler.function = *tests.found.begin();
     return;
   }
-  report(
-      model, Code::badKind, slot.place,
-      fmt::format("pass '{}': slot '{}' compares with '{}', which no one depth test made",
-                  graph.passNames[pass], slot.name, graph.resourceNames[resource]),
-      {.expected = "the comparison that a lookup passes: less, less_equal, greater, greater_equal, …",
-       .hint =
-           "write 'compare(greater)' where nearer is greater, as in every view here; 'compare(less)' where "
-           "nearer is less",
-       .resource = graph.resourceNames[resource],
-       .pass = graph.passNames[pass]});
+  report(model, say::comparisonUnknown, slot.place, graph.passNames[pass], slot.name,
+         graph.resourceNames[resource]);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "engine/graph/expand/judge/judge.h"
 #include "engine/graph/subresource.h"
 #include "engine/graph/versions/versions.h"
+#include "graph_sentences.h"
 
 namespace weft::graph::expansion {
 
@@ -305,34 +306,25 @@ void report(Model& model, const Loss& loss, bool runs, const std::vector<std::st
   const std::string by = loss.by == kNone ? "" : graph.passNames[loss.by];
   const auto [lost, other] = entriesOf(spec.declared, loss.by == kNone ? "" : graph.specs[loss.by].declared);
   const bool overwritten = loss.reason == Reason::overwritten;
-  std::string message =
+  const std::string what =
       !runs         ? fmt::format("pass '{}' is culled", spec.name)
       : overwritten ? fmt::format("what pass '{}' writes to '{}' is lost", spec.name, resource)
                     : fmt::format("only later frames see what pass '{}' writes to '{}'", spec.name, resource);
-  std::string hint;
-  switch (loss.reason) {
-    case Reason::overwritten:
-      message += fmt::format(": '{}' overwrites '{}' before anybody reads it", by, resource);
-      hint = graph.uses[loss.use].access == Access::modify
-                 ? fmt::format("move '{}' above '{}', or read '{}' in between", other, lost, resource)
-                 : fmt::format("read '{}' in '{}', or use \"modify\" there{}", resource, by, orDisable);
-      break;
-    case Reason::readerAbove:
-      message += fmt::format(": '{}', which reads '{}', stands above it", by, resource);
-      hint = fmt::format("move '{}' above '{}'{}", lost, other, orDisable);
-      break;
-    case Reason::unread:
-      message += ": nobody reads what it writes";
-      hint = fmt::format("read '{}' in a later pass{}", resource, orDisable);
-      break;
-    case Reason::writesNothing:
-      message += ": it writes nothing";
-      hint = "say \"side_effect\": true if it is meant to run all the same";
-      break;
-  }
-  addNames(message, "with it:", others);
-  warn(model, overwritten ? Code::culledOverwritten : Code::culledUnread, spec.place, std::move(message),
-       {.hint = std::move(hint), .resource = resource, .pass = spec.name});
+  text::Diagnostics& all = model.diagnostics;
+  text::Diagnostic& said =
+      overwritten
+          ? all.warning(
+                say::lossOverwritten, spec.place, what, by, resource,
+                graph.uses[loss.use].access == Access::modify
+                    ? fmt::format("move '{}' above '{}', or read '{}' in between", other, lost, resource)
+                    : fmt::format("read '{}' in '{}', or use \"modify\" there{}", resource, by, orDisable))
+      : loss.reason == Reason::readerAbove
+          ? all.warning(say::lossReadAbove, spec.place, what, by, resource, lost, other, orDisable)
+      : loss.reason == Reason::unread ? all.warning(say::lossUnread, spec.place, what, resource, orDisable)
+                                      : all.warning(say::lossWritesNothing, spec.place, what);
+  addNames(said.message, "with it:", others);
+  said.resource = resource;
+  said.pass = spec.name;
 }
 
 void warnOfLosses(Model& model, const Reach& reach, const std::vector<Missed>& missed) {
@@ -456,19 +448,14 @@ void warnMisplaced(Model& model, const Reach& reach, const std::vector<Missed>& 
     const PassSpec& spec = graph.specs[reader];
     const SlotSpec& slot = graph.slots[spec.firstSlot + slotOfPass];
     const std::string& resource = model.entities[line.entity].name;
-    std::string message = fmt::format("pass '{}' reads '{}' before pass '{}' writes it: its slot '{}' {}{}",
-                                      spec.name, resource, graph.specs[writer].name, slot.name,
-                                      why == WouldUse::Why::zero ? "has only what \"clear\" says"
-                                      : slot.useCount == 0       ? "stays empty"
-                                                                 : "takes another alternative",
-                                      part);
-    addNames(message, "likewise", others);
-    addNames(message, "culled:", findCulled(graph, reach, entries.second, below));
-    warn(model, Code::readBeforeWrite, slot.place, std::move(message),
-         {.hint = fmt::format("move '{}' above '{}', or read '{}@-1' for what it was in the frame before",
-                              entries.second, entries.first, resource),
-          .resource = resource,
-          .pass = spec.name});
+    text::Diagnostic& said = model.diagnostics.warning(
+        say::readsBeforeWrite, slot.place, spec.name, resource, graph.specs[writer].name, slot.name,
+        why == WouldUse::Why::zero ? "has only what \"clear\" says"
+        : slot.useCount == 0       ? "stays empty"
+                                   : "takes another alternative",
+        part, entries.second, entries.first);
+    addNames(said.message, "likewise", others);
+    addNames(said.message, "culled:", findCulled(graph, reach, entries.second, below));
   }
 }
 
@@ -478,8 +465,7 @@ void warnUnread(Model& model) {
   FlatGraph& graph = model.graph;
   if (graph.present.resource == kNone && graph.outputs.empty() &&
       std::ranges::none_of(graph.passes, &FlatPass::sideEffect)) {
-    return warn(model, Code::nothingPresented, model.desc.place, "the graph shows nothing: no pass will run",
-                {.hint = "say \"present\" with the texture to show"});
+    return warn(model, say::showsNothing, model.desc.place);
   }
   const Reach reach = findReach(model);
   const std::vector<Missed> missed = findMissedReads(model);

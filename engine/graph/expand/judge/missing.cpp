@@ -9,6 +9,7 @@
 #include "engine/graph/expand/judge/judge.h"
 #include "engine/graph/expand/names/names.h"
 #include "engine/graph/versions/versions.h"
+#include "graph_sentences.h"
 
 namespace weft::graph::expansion {
 
@@ -126,25 +127,14 @@ const std::string& resourceOf(const Model& model, const MissingRead& missing) {
 }
 
 struct Cause {
-  Code code{};
-  std::string tail;
-  std::vector<std::string> fixes{};
-  std::string found{};                     // "": the reference as written
+  text::Diagnostic said;                   // its message: a tail
   const DisabledPass* disabled = nullptr;  // that would have written it
   bool unwritten = false;                  // no pass would: what it is depends on the read alone
   const MissingRead* read = nullptr;
 };
-
-Cause ofDisabled(const Model& model, const MissingRead& missing, const WriteRecord& write,
-                 const std::string& orElse) {
-  const DisabledPass& disabled = model.graph.disabled[write.disabled];
-  Cause cause{.code = Code::disabledWriter,
-              .tail = fmt::format(", but pass '{}' that would write it is disabled ({})", disabled.name,
-                                  disabled.why),
-              .disabled = &disabled};
-  if (missing.pass != kNone && missing.access == Access::read) cause.fixes.emplace_back(kMayBeEmpty);
-  cause.fixes.push_back(orElse);
-  return cause;
+template <class... Args>
+Cause because(text::Saying<Args...> what, Args&&... args) {
+  return {text::diagnosticOf(what.sentence, fmt::make_format_args(args...))};
 }
 
 // `cycle`: see cycleOf().
@@ -159,60 +149,46 @@ Cause causeOf(const Model& model, const MissingRead& missing, const Writers& wri
   const std::string orBefore =
       missing.first ? "name another texture or buffer as \"first\""
                     : fmt::format("read '{}@-1' for what it was in the frame before", missing.ref.name);
+  const auto ofDisabled = [&](const WriteRecord& write) {
+    const DisabledPass& disabled = graph.disabled[write.disabled];
+    const bool reads = missing.pass != kNone && missing.access == Access::read;
+    Cause cause = because(say::writerDisabled, disabled.name, disabled.why,
+                          reads ? fmt::format("{}, or ", kMayBeEmpty) : "", orElse);
+    cause.disabled = &disabled;
+    return cause;
+  };
   const bool modifies = missing.access == Access::modify;
-  if (!missing.unbound.empty())
-    return Cause{Code::unboundInput,
-                 fmt::format(", and nothing is bound to the input '{}'", missing.unbound),
-                 {kMayBeEmpty}};
+  if (!missing.unbound.empty()) return because(say::readOfUnbound, missing.unbound, kMayBeEmpty);
   if (missing.cause == MissingRead::Cause::condition)
-    return Cause{Code::conditionLeavesSlotEmpty,
-                 fmt::format(", whose condition is false: slot '{}' stays empty", missing.slot),
-                 {kMayBeEmpty}};
-  if (missing.cause == MissingRead::Cause::import)
-    return Cause{Code::emptyImport, ", which has nothing now", {"provide it", kMayBeEmpty}};
+    return because(say::conditionIsFalse, missing.slot, kMayBeEmpty);
+  if (missing.cause == MissingRead::Cause::import) return because(say::importHasNothing, kMayBeEmpty);
   if (const RemovedPass* removed = writers.removed) {
     const Place& place = removed->place;
-    return Cause{
-        Code::disabledWriter,
-        fmt::format(", but pass '{}' that would write it is removed", removed->name),
-        {fmt::format("let another pass write '{}' before it", resourceOf(model, missing)), orElse},
-        place.file ? fmt::format("\"remove\" at {}:{}:{}", *place.file, place.line, place.column) : ""};
+    return because(
+        say::writerRemoved, removed->name, resourceOf(model, missing), orElse,
+        place.file ? fmt::format("\"remove\" at {}:{}:{}", *place.file, place.line, place.column) : "");
   }
-  if (writers.disabledEarlier) return ofDisabled(model, missing, *writers.disabledEarlier, orElse);
+  if (writers.disabledEarlier) return ofDisabled(*writers.disabledEarlier);
   if (const EmptyRepeat* empty = writers.empty)
-    return Cause{Code::disabledWriter,
-                 fmt::format(", but pass '{}' that would write it is not there once: its \"repeat\" is empty",
-                             empty->pass),
-                 {rangeHint(*empty), orElse},
-                 rangeText(*empty)};
+    return because(say::writerNeverRepeats, empty->pass, rangeHint(*empty), orElse, rangeText(*empty));
   if (writers.enabledLater && missing.pass != kNone) {
-    if (!cycle.empty())
-      return Cause{Code::passCycle, ", and passes wait for each other: " + cycle, {orBefore}};
+    if (!cycle.empty()) return because(say::passCycle, cycle, orBefore);
     const PassSpec& later = graph.specs[writers.enabledLater->pass];
-    return Cause{Code::readBeforeWrite,
-                 fmt::format(" before pass '{}' writes it", later.name),
-                 {fmt::format("move '{}' before it", later.declared), modifies ? orElse : orBefore}};
+    return because(say::writtenLater, later.name, later.declared, modifies ? orElse : orBefore);
   }
   // A pass reads what it writes itself, and neither is a whole resource: there is no earlier version of it.
   if (writers.self && !writers.self->whole && missing.access == Access::read)
-    return Cause{
-        Code::readAndWritten,
-        " and writes it in one go",
-        {fmt::format("read a level, layer or element that an earlier pass wrote, such as '{0}.mip[i-1]' in "
-                     "a pass that writes '{0}.mip[i]'",
-                     missing.ref.name),
-         orBefore}};
-  if (writers.disabledLater && !writers.self)
-    return ofDisabled(model, missing, *writers.disabledLater, orElse);
-  Cause cause{Code::readBeforeWrite, ", which nothing wrote before"};
+    return because(say::readsOwnWrite, missing.ref.name, orBefore);
+  if (writers.disabledLater && !writers.self) return ofDisabled(*writers.disabledLater);
+  Cause cause;
   if (missing.pass == kNone && missing.slot == "present")
-    cause = {Code::presentsUnwritten, ", which no pass writes", {"name a texture that the last pass writes"}};
+    cause = because(say::presentsUnwritten);
   else if (modifies && graph.specs[missing.pass].geometry.empty())  // a draw covers a part
-    cause.fixes = {"use \"write\" if the pass covers everything", orElse};
+    cause = because(say::modifiesUnwritten, orElse);
   else if (modifies || writers.selfElsewhere)
-    cause.fixes = {orElse, orBefore};
+    cause = because(say::readsUnwritten, orElse, orBefore);
   else
-    cause = {Code::nobodyWrites, ", which no pass writes", {"let a pass before it write it", orElse}};
+    cause = because(say::nobodyWrites, orElse);
   cause.unwritten = true;
   return cause;
 }
@@ -238,6 +214,7 @@ void report(Model& model, const Liveness& live, const std::vector<Cause>& reads)
       readers.size() < 2
           ? verbOf(first)
           : fmt::format("and {} more read", readers.size() == 2 ? "one" : fmt::to_string(readers.size() - 1));
+  text::Diagnostic& said = cause.said;
   if (cause.disabled) {
     // Without what writes the presented texture there would be no picture.
     const std::uint32_t shown = graph.present.resource;
@@ -247,18 +224,17 @@ void report(Model& model, const Liveness& live, const std::vector<Cause>& reads)
     };
     if (!passes.empty() && passes.size() <= 4 &&
         (shown == kNone || std::ranges::any_of(model.writes, remains)))
-      cause.fixes.insert(cause.fixes.begin(), fmt::format("disable '{}' too", fmt::join(passes, "' and '")));
+      said.hint.insert(0, fmt::format("disable '{}' too, or ", fmt::join(passes, "' and '")));
     const auto isSwitch = [&](const Disable& each) { return sourceOf(each) == cause.disabled->why; };
     if (!cause.disabled->absent && std::ranges::none_of(model.settings.disables, isSwitch))
-      cause.fixes.insert(cause.fixes.begin(), fmt::format("enable '{}'", cause.disabled->name));
+      said.hint.insert(0, fmt::format("enable '{}', or ", cause.disabled->name));
   }
-  model.diagnostics.add(
-      isLive(cause) ? text::Severity::error : text::Severity::warning, cause.code, first.ref.place,
-      fmt::format("{} {} {}{}", whoReads(model, first), more, thingOf(model, first), cause.tail),
-      {.found = cause.found.empty() ? first.ref.text : cause.found,
-       .hint = fmt::format("{}", fmt::join(cause.fixes, ", or ")),
-       .resource = resourceOf(model, first),
-       .pass = first.pass == kNone ? "" : graph.passNames[first.pass]});
+  said.message = fmt::format("{} {} {}{}", whoReads(model, first), more, thingOf(model, first), said.message);
+  if (said.found.empty()) said.found = first.ref.text;
+  said.resource = resourceOf(model, first);
+  if (first.pass != kNone) said.pass = graph.passNames[first.pass];
+  model.diagnostics.add(isLive(cause) ? text::Severity::error : text::Severity::warning, std::move(said),
+                        first.ref.place);
 }
 
 }  // namespace
@@ -291,10 +267,11 @@ void reportMissingReads(Model& model) {
       cycle = cycleOf(model.graph, wouldRead, missing.pass, writers[i].enabledLater->pass);
     Cause cause = causeOf(model, missing, writers[i], cycle);
     cause.read = &missing;
-    if (cause.code == Code::disabledWriter && writers[i].empty) emptied.insert(writers[i].empty->pass);
-    const auto at =
-        known.try_emplace({thingOf(model, missing), cause.unwritten ? "" : cause.tail}, mistakes.size())
-            .first;
+    if (cause.said.code == Code::disabledWriter && writers[i].empty) emptied.insert(writers[i].empty->pass);
+    const auto at = known
+                        .try_emplace({thingOf(model, missing), cause.unwritten ? "" : cause.said.message},
+                                     mistakes.size())
+                        .first;
     if (at->second == mistakes.size()) mistakes.emplace_back();
     mistakes[at->second].push_back(std::move(cause));
   }
@@ -303,9 +280,7 @@ void reportMissingReads(Model& model) {
   // Nobody needs what it would write, and yet nobody writes a range to have nothing.
   for (const EmptyRepeat& empty : model.emptied) {
     if (!empty.mistake || isOver(model) || !emptied.insert(empty.pass).second) continue;
-    warn(model, Code::culledUnread, empty.place,
-         fmt::format("pass '{}' is not there once: its \"repeat\" is empty", empty.pass),
-         {.found = rangeText(empty), .hint = rangeHint(empty), .pass = empty.pass});
+    warn(model, say::emptyRepeat, empty.place, empty.pass, rangeText(empty), rangeHint(empty));
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "engine/graph/expand/judge/judge.h"
 #include "engine/graph/expand/names/names.h"
+#include "graph_sentences.h"
 
 namespace weft::graph::expansion {
 
@@ -20,30 +21,17 @@ bool isOnTop(const Scope& scope, const Place& place) {
   return scope.desc->top.empty() || (place.file && *place.file == scope.desc->top);
 }
 
-void warnAt(Model& model, const Place& place, std::string message, std::string hint,
-            const std::string& resource = "") {
-  warn(model, Code::unusedDeclaration, place, std::move(message),
-       {.hint = std::move(hint), .resource = resource});
-}
-
 // ---- parameters and lets ----
 
 void warnOfVariables(Model& model) {
   for (const Parameter& parameter : model.parameters) {
     const std::string& name = parameter.desc->name;
     if (!isNamed(model.parameters, parameter) && isOnTop(*parameter.scope, parameter.desc->place))
-      warnAt(model, parameter.desc->place,
-             fmt::format("the parameter '{0}' changes nothing: no expression reads '${0}'", name),
-             fmt::format(
-                 "write '${0}' where its value is meant, such as \"parameters\": {{ \"{0}\": \"${0}\" }} "
-                 "of a pass, or remove it",
-                 name));
+      warn(model, say::unusedParameter, parameter.desc->place, name);
   }
   for (const Let& let : model.lets)  // an including file may want one
     if (!let.named && !let.scope->parent && isOnTop(*let.scope, let.desc->place))
-      warnAt(model, let.desc->place,
-             fmt::format("the \"let\" '{0}' changes nothing: no expression reads '${0}'", let.desc->name),
-             fmt::format("write '${}' where its value is meant, or remove it", let.desc->name));
+      warn(model, say::unusedLet, let.desc->place, let.desc->name);
 }
 
 // ---- resources ----
@@ -64,14 +52,10 @@ void warnOfResource(Model& model, const Entity& entity) {
   // Files that include this one may read what it keeps: it presents nothing, or just that.
   const bool mayBeReadAbove = entity.scope->parent || !file.present || file.present->name == name;
   if (!isNamed(model.entities, entity) && !servesAll(model, resource))
-    warnAt(model, resource.place,
-           fmt::format("the {} '{}' is not used: no pass, list or expression of {} names it",
-                       input ? "input" : "resource", name, input ? "this file" : "the graph"),
-           fmt::format("name '{}' where it is meant, or remove it", name), name);
+    warn(model, say::unusedResource, resource.place, input ? "input" : "resource", name,
+         input ? "this file" : "the graph");
   else if (resource.history.present() && !entity.lookedBackAt && !mayBeReadAbove)
-    warnAt(model, resource.history.place(),
-           fmt::format("'{0}' keeps what it was before, and no pass reads '{0}@-1'", name),
-           fmt::format("read '{}@-1' where that is meant, or leave \"history\" out", name), name);
+    warn(model, say::unusedHistory, resource.history.place(), name);
 }
 
 // A stanza that nothing in the files leaves out.
@@ -107,10 +91,8 @@ void warnOfList(Model& model, const Entity& list) {
                                     [](const RefDesc& ref) { return ref.condition.present(); });
     const PassDesc* pass = later == refs.end() ? nullptr : alwaysWrites(model, list.candidates[i], list);
     if (!pass) continue;
-    warnAt(model, later->place,
-           fmt::format("'{}' never means '{}': '{}' stands before it, and pass '{}' always writes that",
-                       list.desc->name, later->text, refs[i].text, pass->name),
-           fmt::format("put '{}' before '{}', or remove it", later->text, refs[i].text), list.name);
+    warn(model, say::unreachableAlternative, later->place, list.desc->name, later->text, refs[i].text,
+         pass->name, list.name);
     return;
   }
 }
@@ -135,13 +117,10 @@ void warnOfSceneLists(Model& model) {
   }
   for (const Registry::Things& things : model.registry.things)
     if (std::ranges::none_of(things.lists, [&](const std::string& list) { return drawn.contains(list); }))
-      warnAt(
-          model, model.desc.place,
-          fmt::format("the scene has {} in the list{} '{}', which no pass of '{}' draws",
-                      things.count == 1 ? "a thing" : fmt::format("{} things", things.count),
-                      things.lists.size() == 1 ? "" : "s", fmt::join(things.lists, "', '"), model.desc.name),
-          fmt::format("add a pass with \"list\": \"{}\", or put them into a list that is drawn: {}",
-                      things.lists[0], fmt::join(drawn, ", ")));
+      warn(model, say::listNotDrawn, model.desc.place,
+           things.count == 1 ? "a thing" : fmt::format("{} things", things.count),
+           things.lists.size() == 1 ? "" : "s", fmt::join(things.lists, "', '"), model.desc.name,
+           things.lists[0], fmt::join(drawn, ", "));
 }
 
 }  // namespace
@@ -156,8 +135,7 @@ void warnUnused(Model& model) {
       };
       if (scope.desc->unread.empty() && std::ranges::none_of(scope.desc->passes, uses) &&
           isOnTop(scope, place))
-        warnAt(model, place, fmt::format("the set '{}' is in no pass", name),
-               fmt::format("write \"use\": \"{}\" in a pass of this file, or remove it", name));
+        warn(model, say::unusedSet, place, name);
     }
   for (const Entity& entity : model.entities) {
     if (!entity.desc || !isOnTop(*entity.scope, entity.desc->place)) continue;

@@ -243,11 +243,23 @@ bool isOver(const Model& model);  // nothing more is worth expanding
 // W201: more than a bound allows, of `counts`. Ends the expansion.
 void stopAt(Model& model, const Where& place, std::string message, std::uint64_t bound, const char* counts);
 
-using text::Says;
-
 // Reports an error; returns false, so that a check can end with it.
-bool report(Model& model, Code code, const Where& place, std::string message, Says says = {});
-void warn(Model& model, Code code, const Where& place, std::string message, Says says = {});
+template <class... Args>
+bool report(Model& model, text::Saying<Args...> what, const Where& place, Args&&... args) {
+  model.diagnostics.error<Args...>(what, place, std::forward<Args>(args)...);
+  return false;
+}
+// The same where the sentence was checked before.
+template <class... Own, class... Args>
+bool report(Model& model, text::SentenceFor<Own...> what, const Where& place, const Args&... args) {
+  model.diagnostics.add(text::Severity::error,
+                        text::diagnosticOf(what.sentence, fmt::make_format_args(args...)), place);
+  return false;
+}
+template <class... Args>
+void warn(Model& model, text::Saying<Args...> what, const Where& place, Args&&... args) {
+  model.diagnostics.warning<Args...>(what, place, std::forward<Args>(args)...);
+}
 
 // Lives while a definition (a let, a size, what an input stands for, a list of alternatives) is evaluated for another.
 // `state` is that of the definition. It is not good when the definition is being evaluated already (W050: "a -> b -> a"), or

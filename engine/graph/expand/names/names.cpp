@@ -12,6 +12,7 @@
 #include "engine/text/json/report.h"
 #include "engine/text/limits.h"
 #include "engine/text/nearest.h"
+#include "graph_sentences.h"
 
 namespace weft::graph::expansion {
 
@@ -24,15 +25,6 @@ void stopAt(Model& model, const Where& place, std::string message, std::uint64_t
     text::reportLimit(model.diagnostics, place, std::move(message), bound, counts);
 }
 
-bool report(Model& model, Code code, const Where& place, std::string message, Says says) {
-  model.diagnostics.error(code, place, std::move(message), std::move(says));
-  return false;
-}
-
-void warn(Model& model, Code code, const Where& place, std::string message, Says says) {
-  model.diagnostics.warning(code, place, std::move(message), std::move(says));
-}
-
 Evaluation::Evaluation(Model& model, Progress& state, std::string label, const Place& place, std::size_t most)
     : model_(model), good_(false) {
   auto& stack = model.evaluating;
@@ -40,14 +32,9 @@ Evaluation::Evaluation(Model& model, Progress& state, std::string label, const P
     std::string path;
     for (const std::string& each : stack)
       if (each == label || !path.empty()) path += each + " -> ";
-    report(model, Code::dependsOnItself, place, fmt::format("{} depends on itself: {}{}", label, path, label),
-           {.hint = "one of them must not refer to the next"});
+    report(model, say::dependsOnItself, place, label, path);
   } else if (stack.size() >= most) {
-    if (!std::exchange(model.stopped, true))
-      report(model, Code::limitExceeded, place,
-             fmt::format("definitions depend on each other in too long a row, which ends at {}", label),
-             {.expected = fmt::format("at most {} in a row", kMax),
-              .hint = "let some of them use fewer others"});
+    if (!std::exchange(model.stopped, true)) report(model, say::definitionsTooDeep, place, label, kMax);
   } else {
     good_ = true;
     stack.push_back(std::move(label));
@@ -91,20 +78,13 @@ std::optional<Value> Names::variable(std::string_view name) {
     std::vector<std::string> all;
     for (const std::uint32_t index : parametersMeant(model_, scope_.prefix, name))
       all.push_back("$" + model_.parameters[index].path.substr(scope_.prefix.size()));
-    report(model_, Code::ambiguousName, scope_.desc->place,
-           fmt::format("'${}' may mean several parameters of included files", name),
-           {.hint = fmt::format("write one of {}", fmt::join(all, ", "))});
+    report(model_, say::ambiguousVariable, scope_.desc->place, name, fmt::join(all, ", "));
     return Value{};
   }
   Let& let = model_.lets[found.index];
   if (checking && (let.dynamic || let.watched)) return Value::number(1);
   if (!let.dynamic || let.state == Progress::active) return letValue(*this, let);
-  if (!model_.stopped)
-    report(model_, Code::badTime, let.desc->place,
-           fmt::format("'${}' contains age() and changes from frame to frame, but its value is needed before "
-                       "the first",
-                       let.path),
-           {.hint = "use age() only in parameters and \"instances\" of passes"});
+  if (!model_.stopped) report(model_, say::ageNeededBeforeFrame, let.desc->place, let.path);
   return Value{};
 }
 
@@ -168,9 +148,7 @@ std::optional<Value> Names::fact(Fact fact, std::string_view resource, std::uint
   if (fact == Fact::has) return Value::boolean(target != kNone);
   if (target != kNone) return factOfShape(fact, target, mip, level, place);
   if (!model_.stopped && std::ranges::find(entity.candidates, kNone) == entity.candidates.end())
-    report(model_, Code::conditionLeavesSlotEmpty, place,
-           fmt::format("no alternative of '{}' holds, so it has no {}", entity.name, nameOf(fact)),
-           {.resource = entity.name});
+    report(model_, say::noAlternativeHolds, place, entity.name, nameOf(fact));
   return Value{};
 }
 
@@ -180,10 +158,8 @@ std::optional<Value> Names::factOfShape(Fact fact, std::uint32_t target, std::ui
   const Entity& entity = model_.entities[target];
   const FlatResource& shape = entity.shape;
   if (level > 0 && mip + level >= std::max(entity.writtenMips, shape.mips)) {
-    report(model_, Code::missingSubresource, place,
-           fmt::format("the size of level {} of '{}' is asked for", mip + level, entity.name),
-           {.expected = fmt::format("a level from 0 to {}", std::max(entity.writtenMips, shape.mips) - 1),
-            .resource = entity.name});
+    report(model_, say::sizeOfMissingLevel, place, mip + level, entity.name,
+           std::max(entity.writtenMips, shape.mips) - 1);
     return Value{};
   }
   if (fact == Fact::count && entity.kind == ResourceDesc::Kind::import) return Value::number(entity.count);
@@ -197,11 +173,9 @@ std::optional<Value> Names::factOfShape(Fact fact, std::uint32_t target, std::ui
     std::ranges::copy_n(sizeAt(shape, mip + level).begin(), size.count, size.v.begin());
     return size;
   }
-  report(model_, Code::wrongValueType, place,
-         fmt::format("'{}' is asked for what it does not have", entity.name),
-         {.expected = fact == Fact::count ? "an import or an array for count()"
-                                          : fmt::format("a texture for {}()", nameOf(fact)),
-          .resource = entity.name});
+  report(model_, say::hasNoSuchFact, place, entity.name,
+         fact == Fact::count ? "an import or an array for count()"
+                             : fmt::format("a texture for {}()", nameOf(fact)));
   return Value{};
 }
 
@@ -306,15 +280,7 @@ Value shapeOf(const TableColumn& column, std::uint8_t part) {
 }  // namespace
 
 Value Names::importValue(const ImportValue& asked, const Place& place) {
-  const auto name = [&] { return fmt::format("{}.{}", asked.import, asked.value); };
-  const auto refuse = [&](Code code, std::string message, std::string expected, std::string hint) {
-    report(model_, code, place, std::move(message),
-           {.expected = std::move(expected), .hint = std::move(hint), .resource = std::string(asked.import)});
-    return Value{};
-  };
-  if (!follows)
-    return refuse(Code::badTime, fmt::format("'{}' is known only while the graph runs", name()), "",
-                  "only \"parameters\" of passes, and what those read of \"let\", may follow imports");
+  if (!follows) return report(model_, say::knownWhileRunning, place, asked.import, asked.value), Value{};
   const FoundValue found = findValue(model_, scope_, asked);
   if (found.entity == kNone) {
     const RefDesc ref{.place = place, .name = std::string(asked.import.substr(1)), .import = true};
@@ -324,23 +290,20 @@ Value Names::importValue(const ImportValue& asked, const Place& place) {
   if (!found.type) return {};
   if (!found.told) {
     const std::vector<std::string> known = namesOf(found.type->columns);
-    return refuse(Code::unknownVariable, fmt::format("'{}' has no value '{}'", asked.import, asked.value),
-                  known.empty() ? "an import with values, such as '@camera'"
-                                : fmt::format("{}", fmt::join(known, ", ")),
-                  text::nearestHint(std::string(asked.value), known));
+    report(model_, say::hasNoValue, place, asked.import, asked.value,
+           known.empty() ? "an import with values, such as '@camera'"
+                         : fmt::format("{}", fmt::join(known, ", ")),
+           text::nearestHint(std::string(asked.value), known));
+    return {};
   }
   const Entity& entity = model_.entities[found.entity];
   if (!entity.exists && !absent)
-    return refuse(Code::emptyImport, fmt::format("'{}' is not there", asked.import), "",
-                  fmt::format("write 'has({}) ? {} : …'", asked.import, name()));
+    return report(model_, say::importNotThere, place, asked.import, asked.value), Value{};
   if (entity.count > 0 && asked.row >= entity.count && !absent)
-    return refuse(Code::missingSubresource, fmt::format("'{}' has no row {}", asked.import, asked.row),
-                  fmt::format("a row from 0 to {}", entity.count - 1), "");
+    return report(model_, say::hasNoRow, place, asked.import, asked.row, entity.count - 1), Value{};
   Value value = shapeOf(*found.told, asked.part);
-  return value.type != Value::Type::none
-             ? value
-             : refuse(Code::operandsDoNotFit, fmt::format("'{}' is a matrix", name()), "a number or a list",
-                      "a matrix stands alone in a parameter");
+  if (value.type == Value::Type::none) report(model_, say::isMatrix, place, asked.import, asked.value);
+  return value;
 }
 
 std::optional<std::uint32_t> Names::importKey(const ImportValue& asked) {
@@ -369,11 +332,12 @@ bool isMatrix(Model& model, Scope& scope, const Expr& expr) {
 namespace {
 
 // nullopt after a report, and without a value.
-std::nullopt_t refuse(Names& names, Code code, const Expr& expr, std::string message, std::string expected,
-                      const Value& found, std::string hint = {}) {
-  if (hint.empty()) hint = hintForWord(names, found);
-  report(names.model(), code, expr.place(), std::move(message),
-         {.expected = std::move(expected), .found = toText(found), .hint = std::move(hint)});
+template <class... Args>
+std::nullopt_t refuse(text::Saying<Args...> what, Names& names, const Expr& expr, const Value& found,
+                      Args&&... args) {
+  auto& d = names.model().diagnostics.error<Args...>(what, expr.place(), std::forward<Args>(args)...);
+  d.found = toText(found);
+  if (d.hint.empty()) d.hint = hintForWord(names, found);
   return std::nullopt;
 }
 
@@ -384,8 +348,7 @@ std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absen
   const Value value = expr.evaluate(names, names.model().diagnostics);
   if (value.type == Value::Type::none) return std::nullopt;
   if (value.isNumeric()) return value.truth();
-  return refuse(names, Code::wrongValueType, expr, fmt::format("{} is no condition", what),
-                "true, false or a number", value);
+  return refuse(say::noCondition, names, expr, value, what);
 }
 
 std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::int64_t absent,
@@ -398,9 +361,8 @@ std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::i
   const bool whole = value.isNumeric() && std::isfinite(number) && number == std::floor(number);
   if (whole && number >= static_cast<double>(low) && number <= static_cast<double>(high))
     return static_cast<std::int64_t>(number);
-  return refuse(names, whole ? Code::numberOutOfRange : Code::wrongValueType, expr,
-                fmt::format("{} is {}", what, whole ? "out of its range" : "not a whole number"),
-                fmt::format("a whole number from {} to {}", low, high), value);
+  return whole ? refuse(say::wholeOutOfRange, names, expr, value, what, low, high)
+               : refuse(say::notWhole, names, expr, value, what, low, high);
 }
 
 std::optional<Counts> evaluateCounts(Names& names, const Expr& expr, std::span<const std::uint64_t> bounds,
@@ -410,7 +372,7 @@ std::optional<Counts> evaluateCounts(Names& names, const Expr& expr, std::span<c
   const bool list = value.type == Value::Type::list;
   if (!value.isNumeric() && (!list || value.count < 2 || value.count > bounds.size()))
     return refuse(
-        names, Code::wrongValueType, expr, fmt::format("{} is no size", what), expected, value,
+        say::noSize, names, expr, value, what, expected,
         names.scope().resources.contains(value.symbol) ? fmt::format("write 'size({})'", value.symbol) : "");
   Counts counts{.size = list ? value.count : 1u};
   const std::uint64_t bound = bounds[counts.size - 1];
@@ -420,12 +382,10 @@ std::optional<Counts> evaluateCounts(Names& names, const Expr& expr, std::span<c
         count < 0 || (expr.isConstant() ? count < 1
                                         : count == 0 && bounds.size() > 1 &&
                                               !countsElements(names.model(), names.scope(), expr));
-    if (!std::isfinite(count) || low || count > static_cast<double>(bound)) {
+    if (!std::isfinite(count) || low || count > static_cast<double>(bound))
       return refuse(
-          names, Code::numberOutOfRange, expr, fmt::format("{} is out of its range", what),
-          fmt::format("1 to {}", bound), value,
+          say::sizeOutOfRange, names, expr, value, what, bound,
           expr.isConstant() ? "" : fmt::format("it is computed: write 'max(…, 1)' or 'min(…, {})'", bound));
-    }
     counts.each[i] = static_cast<std::uint64_t>(std::max(1.0, std::floor(count)));
   }
   return counts;

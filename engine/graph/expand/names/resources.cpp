@@ -9,6 +9,7 @@
 #include "engine/graph/subresource.h"
 #include "engine/text/nearest.h"
 #include "engine/text/words/words.h"
+#include "graph_sentences.h"
 
 namespace weft::graph::expansion {
 
@@ -35,15 +36,16 @@ bool checkArgument(Model& model, const Entity& entity, const ImportArgument& arg
                     : initial.type == Value::Type::none
                         ? true
                         : initial.type == value.type && initial.count == value.count;
-  return fits || report(model, word && argument.drawList ? Code::unknownDrawList : Code::badImportArgument,
-                        given.expr.place(),
-                        fmt::format("import '{}': argument '{}' does not fit", entity.name, argument.name),
-                        {.expected = argument.view    ? "a view that the graph declares"
-                                     : !words.empty() ? fmt::format("one of {}", fmt::join(words, ", "))
-                                     : numeric        ? "a number"
-                                                      : fmt::format("a value like {}", toText(initial)),
-                         .found = toText(value),
-                         .hint = text::nearestHint(value.symbol, words)});
+  if (fits) return true;
+  const std::string expected = argument.view    ? "a view that the graph declares"
+                               : !words.empty() ? fmt::format("one of {}", fmt::join(words, ", "))
+                               : numeric        ? "a number"
+                                                : fmt::format("a value like {}", toText(initial));
+  using Misfit = text::SentenceFor<std::string, std::string, std::string, std::string, std::string>;
+  return report(model,
+                word && argument.drawList ? Misfit(say::argumentOfUnknownList) : say::argumentDoesNotFit,
+                given.expr.place(), entity.name, argument.name, expected, toText(value),
+                text::nearestHint(value.symbol, words));
 }
 
 // The import that the word of an argument names.
@@ -65,10 +67,8 @@ bool evaluateArguments(Model& model, const Entity& entity, const ImportType& typ
   if (base && base->type != type.name) base = nullptr;  // reported
   for (const NamedExpr& argument : given)
     if (!findNamed(type.arguments, argument.name))
-      good = report(
-          model, Code::badImportArgument, argument.place,
-          fmt::format("import '{}' has no argument '{}'", type.name, argument.name),
-          {.hint = text::nearestHint(argument.name, namesOf(type.arguments)), .resource = entity.name});
+      good = report(model, say::unknownArgument, argument.place, type.name, argument.name,
+                    text::nearestHint(argument.name, namesOf(type.arguments)), entity.name);
   for (const ImportArgument& argument : type.arguments) {
     const NamedExpr* const says = findNamed(given, argument.name);
     Value value = base ? base->at(argument.name) : argument.initial;
@@ -81,9 +81,8 @@ bool evaluateArguments(Model& model, const Entity& entity, const ImportType& typ
     } else if (says) {
       good = value.type != Value::Type::none && checkArgument(model, entity, argument, *says, value) && good;
     } else if (value.type == Value::Type::none && good) {
-      good = report(model, Code::badImportArgument, entity.desc ? entity.desc->place : Place{},
-                    fmt::format("import '{}' needs the argument '{}'", type.name, argument.name),
-                    {.expected = fmt::format("\"import\": \"{}\", \"{}\": …", type.name, argument.name)});
+      good = report(model, say::missingArgument, entity.desc ? entity.desc->place : Place{}, type.name,
+                    argument.name);
     }
     if (named) request.of.emplace_back(argument.name, *named);
     request.arguments.emplace_back(argument.name, std::move(value));
@@ -177,9 +176,8 @@ bool evaluateImport(Model& model, Entity& entity) {
                                             : entity.name.substr(entity.scope->prefix.size() + 1)};
   const ImportType* type = findNamed(model.registry.imports, request.type);
   if (!type)
-    return report(model, Code::unknownImport, entity.desc->place,
-                  fmt::format("resource '{}' is of the unknown import '{}'", entity.name, request.type),
-                  {.hint = hintForImport(model.registry, request.type), .resource = entity.name});
+    return report(model, say::resourceOfUnknownImport, entity.desc->place, entity.name, request.type,
+                  hintForImport(model.registry, request.type));
   if (!evaluateArguments(model, entity, *type, given, request)) return false;
   bool good = true;
   const ImportFacts facts = model.registry.factsOf ? model.registry.factsOf(request) : ImportFacts{};
@@ -203,11 +201,7 @@ Value evaluateTexel(Names& names, const Expr& expr, const std::string& name, con
   if (!expr.present()) return {};
   Value value = expr.evaluate(names, names.model().diagnostics);
   if (value.type != Value::Type::symbol) return value;
-  report(names.model(), Code::wrongValueType, expr.place(),
-         fmt::format("the {} value of '{}' is a word", what, name),
-         {.expected = "a number or a list of numbers",
-          .found = value.symbol,
-          .hint = "write the channels, such as [0, 0, 0, 1] for black"});
+  report(names.model(), say::texelIsWord, expr.place(), what, name, value.symbol);
   return {};
 }
 
@@ -234,28 +228,18 @@ bool decideTarget(Model& model, Entity& entity) {
   const struct {
     bool broken;
     const Place& place;
-    const char *what, *expected;
-    Code code = Code::contradictoryTexture;
-  } rules[] = {
-      {!desc.view.empty() && volume != (desc.view == "3d"), desc.viewPlace,
-       "has a view that does not fit its size", "a size of 3 numbers for a 3d texture, of 2 for the others"},
-      {volume && layered, desc.layers.place(), "has layers and is 3d", "a size of 3 numbers, or layers"},
-      {cube && shape.width != shape.height, desc.size.place(), "is a cube with oblong faces",
-       "faces as wide as high"},
-      {desc.view == "cube" && shape.layers > 1, desc.layers.place(), "is a cube with layers",
-       "\"view\": \"cube_array\""},
-      {several && (volume || layered || cube || desc.view == "2d_array"), desc.samples.place(),
-       "has several samples and is not plain 2d", "no layers, cube or 3d"},
-      {several && (desc.fullMips || shape.mips > 1), desc.samples.place(),
-       "has several samples and several levels", "\"mips\": 1"},
-      {(shape.samples & (shape.samples - 1)) != 0, desc.samples.place(),
-       "has a number of samples out of its range", "1, 2, 4, 8, 16 or 32", Code::numberOutOfRange},
-      {cube && shape.layers * 6u > kMaxLayers, desc.layers.place(), "has too many cubes",
-       "at most 341 layers", Code::numberOutOfRange}};
-  for (const auto& [broken, place, what, expected, code] : rules)
-    if (broken)
-      return report(model, code, place, fmt::format("texture '{}' {}", entity.name, what),
-                    {.expected = expected, .resource = entity.name});
+    text::SentenceFor<std::string> what;
+  } rules[] = {{!desc.view.empty() && volume != (desc.view == "3d"), desc.viewPlace, say::viewMisfitsSize},
+               {volume && layered, desc.layers.place(), say::layersOfVolume},
+               {cube && shape.width != shape.height, desc.size.place(), say::oblongCube},
+               {desc.view == "cube" && shape.layers > 1, desc.layers.place(), say::layersOfCube},
+               {several && (volume || layered || cube || desc.view == "2d_array"), desc.samples.place(),
+                say::samplesNotFlat},
+               {several && (desc.fullMips || shape.mips > 1), desc.samples.place(), say::samplesAndLevels},
+               {(shape.samples & (shape.samples - 1)) != 0, desc.samples.place(), say::samplesOutOfRange},
+               {cube && shape.layers * 6u > kMaxLayers, desc.layers.place(), say::tooManyCubes}};
+  for (const auto& [broken, place, what] : rules)
+    if (broken) return report(model, what, place, entity.name);
   if (several) shape.target = Target::texture_2d_multisample;
   if (cube) {
     shape.target = desc.view == "cube" ? Target::texture_cube : Target::texture_cube_array;
@@ -274,13 +258,9 @@ bool evaluateFormat(Model& model, Names& names, Entity& entity) {
   const auto format = findFormat(name);
   if (format) entity.shape.format = *format;
   const std::string meant = format ? "" : text::hintForForeign("format", name);
-  return format ||
-         report(model, Code::unknownFormat, said.place(),
-                fmt::format("texture '{}' has the unknown format '{}'", entity.name, name),
-                {.expected = "channels, bits and kind: r8, rg16f, rgba16f, rgba32ui, srgb8_a8, depth32f, …",
-                 .hint = findFormat(meant) ? fmt::format("write '{}'", meant)
-                                           : text::nearestHint(name, formatNames()),
-                 .resource = entity.name});
+  return format || report(model, say::unknownFormat, said.place(), entity.name, name,
+                          findFormat(meant) ? fmt::format("write '{}'", meant)
+                                            : text::nearestHint(name, formatNames()));
 }
 
 bool evaluateTexture(Model& model, Names& names, Entity& entity) {

@@ -11,6 +11,7 @@
 #include "engine/graph/language/names.h"
 #include "engine/text/limits.h"
 #include "engine/text/nearest.h"
+#include "graph_sentences.h"
 
 namespace weft::graph::expansion {
 
@@ -125,18 +126,10 @@ void checkBinds(Model& model, Scope& scope) {
       std::vector<std::string> inputs;
       for (const ResourceDesc& resource : scope.desc->resources)
         if (isInput(resource)) inputs.push_back(resource.name);
-      report(
-          model, Code::badBind, ref.place,
-          fmt::format("include '{}' binds '{}', which is no input of '{}'", include.as, name, include.file),
-          {.hint = text::nearestHint(name, inputs)});
+      report(model, say::bindsNoInput, ref.place, include.as, name, include.file,
+             text::nearestHint(name, inputs));
     }
-    if (!isWhole(ref))
-      report(model, Code::badBind, ref.place,
-             fmt::format("include '{}' binds '{}' to more than a name", include.as, name),
-             {.expected = "the name of a whole resource",
-              .found = ref.text,
-              .hint = fmt::format("bind '{}', and say the rest in the slots that read it, or bind a list",
-                                  ref.name)});
+    if (!isWhole(ref)) report(model, say::bindsMoreThanName, ref.place, include.as, name, ref.text, ref.name);
     const std::uint32_t bound =
         type ? findEntityOrReport(model, *scope.parent, ref, "\"bind\"", "names") : kNone;
     if (bound == kNone) continue;
@@ -146,10 +139,7 @@ void checkBinds(Model& model, Scope& scope) {
                                   : findNamed(model.registry.imports,
                                               entity.desc ? entity.desc->import.type : entity.name.substr(1));
     if (!given || given->kind != type->kind || (own && given != type))
-      report(model, Code::badBind, ref.place,
-             fmt::format("include '{}' binds the import '{}' to '{}', which is another kind of thing",
-                         include.as, name, ref.text),
-             {.expected = fmt::format("\"import\": \"{}\"", type->name)});
+      report(model, say::bindsOtherImport, ref.place, include.as, name, ref.text, type->name);
   }
 }
 
@@ -160,11 +150,7 @@ void reportToInclude(Model& model) {
   if (first == model.desc.resources.end()) return;
   model.toInclude = true;
   const std::string file = std::filesystem::path(model.desc.path).filename().string();
-  report(model, Code::unboundInput, first->place,
-         fmt::format("'{}' is a file to include: nothing is behind its input '{}'", file, first->name),
-         {.hint = fmt::format("include it: {{ \"include\": \"{}\", \"bind\": {{ \"{}\": … }} }}", file,
-                              first->name),
-          .resource = first->name});
+  report(model, say::fileToInclude, first->place, file, first->name);
 }
 
 // Counts the alternatives that a list leads to, those of lists in it counted. Reports lists that lead back to themselves or to
@@ -276,13 +262,8 @@ std::uint32_t boundTo(Model& model, Entity& input, std::uint32_t index) {
     return index;
   }
   if (parent)
-    report(model, Code::unboundInput, input.scope->stanza->place,
-           fmt::format("include '{}' leaves the input '{}' without a resource",
-                       input.scope->stanza->include->as, name),
-           {.expected =
-                fmt::format("a resource '{0}' in the including file, or \"bind\": {{ \"{0}\": … }}", name),
-            .hint = suffixHint(name, resourceNames(model, *parent)),
-            .resource = input.name});
+    report(model, say::unboundInput, input.scope->stanza->place, input.scope->stanza->include->as, name,
+           suffixHint(name, resourceNames(model, *parent)), input.name);
   return kNone;
 }
 
@@ -393,15 +374,11 @@ const std::string* nameMeant(Model& model, Model::Asked::Kind kind, const Scope&
   for (const Model::Asked& each : std::views::filter(model.asked, isNear)) ++asked[each.name];
   const auto meant = std::ranges::find_if(asked, [](const auto& each) { return each.second > 1; });
   if (meant == asked.end() || isOver(model)) return nullptr;
-  const std::string message =
-      kind == Model::Asked::Kind::pass
-          ? fmt::format("parameters of the pass '{}' are asked for under '{}', which is not there, {} times",
-                        name, meant->first, meant->second)
-          : fmt::format("nothing names '{}', and '{}', which is not there, is named {} times", name,
-                        meant->first, meant->second);
-  report(model, resource ? Code::unknownResource : Code::unknownVariable, place, message,
-         {.hint = fmt::format("did you mean '{}'?", meant->first),
-          .resource = resource ? std::string(name) : ""});
+  using Misspelt = text::SentenceFor<std::string_view, std::string_view, int>;
+  const Misspelt what = resource                           ? Misspelt(say::nothingNamesResource)
+                        : kind == Model::Asked::Kind::pass ? Misspelt(say::passAskedUnderOtherName)
+                                                           : Misspelt(say::nothingNamesVariable);
+  report(model, what, place, name, meant->first, meant->second);
   const std::string& known = model.misspelt.emplace_back(meant->first);
   std::erase_if(model.asked, [&](const auto& each) { return each.name == known && isNear(each); });
   return &known;
@@ -485,11 +462,8 @@ std::uint32_t findEntityOrReport(Model& model, Scope& scope, const RefDesc& ref,
     if (hint.empty())
       hint = fmt::format("include a file as that: {{ \"include\": …, \"as\": \"{}\" }}", first);
   }
-  const std::string written = (import ? "@" : "") + name;
-  report(model, import ? Code::unknownImport : Code::unknownResource, ref.place,
-         fmt::format("{} {} the unknown {} '{}'", whoIs(who, pass), verb, import ? "import" : "resource",
-                     written),
-         {.hint = std::move(hint), .resource = written, .pass = std::string(pass)});
+  import ? report(model, say::unknownImport, ref.place, whoIs(who, pass), verb, name, hint, pass)
+         : report(model, say::unknownResource, ref.place, whoIs(who, pass), verb, name, hint, pass);
   return kNone;
 }
 

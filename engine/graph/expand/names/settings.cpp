@@ -13,6 +13,7 @@
 #include "engine/graph/language/names.h"
 #include "engine/text/files/file.h"
 #include "engine/text/nearest.h"
+#include "graph_sentences.h"
 
 namespace weft::graph {
 
@@ -89,9 +90,7 @@ Where placeOf(const Said& said) {
 
 void reportAmbiguous(Model& model, const std::vector<std::string>& meant, std::string_view wanted,
                      std::string_view noun, const Where& by) {
-  report(model, Code::ambiguousName, by, fmt::format("'{}' may mean several {}", wanted, noun),
-         {.found = fmt::format("{}", fmt::join(meant, ", ")),
-          .hint = fmt::format("write more of the name, such as '{}'", meant[0])});
+  report(model, say::ambiguousName, by, wanted, noun, fmt::join(meant, ", "), meant[0]);
 }
 
 // Gives the parameter of `scope`, or of a file that it includes, whose name ends in `wanted` a value; to one that is a file
@@ -112,10 +111,8 @@ Parameter* applySet(Model& model, Scope& scope, const std::string& wanted, const
           full.starts_with(scope.prefix) && (found.empty() || std::ranges::find(found, i) != found.end()))
         names.push_back(full.substr(scope.prefix.size()));
     if (found.empty())
-      report(model, Code::unknownParameter, by, fmt::format("no parameter is called '{}'", wanted),
-             {.expected =
-                  fmt::format("one of those that 'weft params {}' lists", model.scopes.front().desc->path),
-              .hint = suffixHint(wanted, names)});
+      report(model, say::unknownParameter, by, wanted, model.scopes.front().desc->path,
+             suffixHint(wanted, names));
     else
       reportAmbiguous(model, names, wanted, "parameters", by);
     return nullptr;
@@ -133,10 +130,9 @@ Parameter* applySet(Model& model, Scope& scope, const std::string& wanted, const
   if (desc.place.file)
     expected += fmt::format(", as {}:{}:{} says", *desc.place.file, desc.place.line, desc.place.column);
   const std::string text = taken.type == Value::Type::symbol ? taken.symbol : toText(taken);
-  report(model, fits ? Code::numberOutOfRange : Code::badParameterValue, by,
-         fmt::format("parameter '{}': '{}' is {}", parameter.path, text,
-                     fits ? "out of its range" : "not a value for it"),
-         {.expected = std::move(expected), .hint = text::nearestHint(text, desc.choices)});
+  const std::string near = text::nearestHint(text, desc.choices);
+  fits ? report(model, say::settingOutOfRange, by, parameter.path, text, expected, near)
+       : report(model, say::notAValueForIt, by, parameter.path, text, expected, near);
   return nullptr;
 }
 
@@ -188,11 +184,9 @@ void applyDisable(Model& model, const Disable& disable) {
           {source, declared == wanted ? "" : names[i] + wanted.substr(declared.size())});
   if (!found.empty() || isUnread(model.scopes.front(), declared)) return;
   if (!parametersMeant(model, "", wanted).empty())
-    report(model, Code::parameterNotPass, by, fmt::format("'{}' is a parameter, not a pass", wanted),
-           {.hint = fmt::format("--set {}=VALUE", wanted)});
+    report(model, say::parameterNotPass, by, wanted);
   else
-    report(model, Code::unknownPass, by, fmt::format("no pass is called '{}'", wanted),
-           {.hint = suffixHint(declared, names)});
+    report(model, say::unknownPass, by, wanted, suffixHint(declared, names));
 }
 
 // A file of more than three values of which none is for this graph is one mistake, and reported.
@@ -204,23 +198,15 @@ static bool isForeign(Model& model, const Scope& scope, const SetDesc& first) {
       ++count;
     }
   if (count < 4) return false;
-  report(
-      model, Code::unknownParameter, first.place,
-      fmt::format("'{}' is for another graph: no parameter has one of its {} names", *first.place.file,
-                  count),
-      {.expected = fmt::format("some of those that 'weft params {}' lists", model.scopes.front().desc->path),
-       .found = first.name,
-       .hint = "leave it out, or name the graph that it is for"});
+  report(model, say::presetOfOtherGraph, first.place, *first.place.file, count,
+         model.scopes.front().desc->path, first.name);
   return true;
 }
 
 void applySettings(Model& model) {
   const auto [width, height] = std::pair(model.settings.screenWidth, model.settings.screenHeight);
   if (width < 1 || width > kMaxSize || height < 1 || height > kMaxSize)
-    report(model, Code::numberOutOfRange, text::placeOfOption("--size"),
-           "the screen's size is out of its range",
-           {.expected = fmt::format("1 to {} pixels a side", kMaxSize),
-            .found = fmt::format("{}x{}", width, height)});
+    report(model, say::screenOutOfRange, text::placeOfOption("--size"), kMaxSize, width, height);
   // What files say first, the innermost first, so that an including file has the last word; then the command line.
   for (auto scope = model.scopes.rbegin(); scope != model.scopes.rend(); ++scope) {
     text::FileName file;
