@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/text/limits.h"
+#include "glsl_sentences.h"
 
 namespace weft::glsl {
 
@@ -412,22 +413,17 @@ void measure(Words tokens, ShaderSize& size) {
 }  // namespace
 
 bool checkShaderSize(const ShaderSize& size, const ShaderSource& source, text::Diagnostics& diagnostics) {
-  const auto check = [&](std::uint64_t bound, const char* counts, std::uint64_t count,
-                         const text::Place& place, const char* message, const char* fix) {
+  using Measure = text::SentenceFor<std::uint64_t, std::uint64_t, std::string>;
+  const auto check = [&](Measure what, std::uint64_t bound, std::uint64_t count, const text::Place& place) {
     const std::uint64_t most = text::raised(bound);
-    if (count <= most) return true;
-    text::Diagnostic& error = diagnostics.error(text::Code::shaderTooLarge, place, message,
-                                                {.expected = fmt::format("at most {} {}", most, counts),
-                                                 .found = fmt::format("{}", count),
-                                                 .hint = fix});
-    if (const std::string raise = text::hintToRaise(bound); !raise.empty()) error.hint += "; or " + raise;
-    return false;
+    const std::string raise = text::hintToRaise(bound), hint = raise.empty() ? "" : "; or " + raise;
+    if (count > most)
+      diagnostics.add(text::Severity::error,
+                      text::diagnosticOf(what.sentence, fmt::make_format_args(most, count, hint)), place);
+    return count <= most;
   };
-  return check(kMaxShaderBytes, "bytes of one shader with what it includes", size.bytes, {source.file, 0, 0},
-               "the shader is too large", "include less, or move tables into buffers") &&
-         check(kMaxShaderDepth, "brackets, operators or blocks around one another", size.depth,
-               source.placeOf(size.line, size.column), "brackets, operators or blocks are nested too deeply",
-               "split it into several statements");
+  return check(say::shaderTooLarge, kMaxShaderBytes, size.bytes, {source.file, 0, 0}) &&
+         check(say::shaderTooDeep, kMaxShaderDepth, size.depth, source.placeOf(size.line, size.column));
 }
 
 bool isUnusual(const Interface& interface) {

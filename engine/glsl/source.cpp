@@ -13,6 +13,7 @@
 #include "engine/text/hash.h"
 #include "engine/text/limits.h"
 #include "engine/text/nearest.h"
+#include "glsl_sentences.h"
 
 namespace weft::glsl {
 
@@ -144,10 +145,8 @@ class IncludeExpander {
     for (std::uint32_t line = 1; !text.empty(); ++line) {
       const std::string_view code = text::takeLine(text);
       if (const std::size_t zero = code.find('\0'); zero != code.npos && !std::exchange(hasZero, true))
-        diagnostics_.error(Code::shaderDoesNotCompile,
-                           {source_->files[number], line, static_cast<std::uint32_t>(zero + 1)},
-                           "there is a zero byte in the shader",
-                           {.hint = "remove it, or save the file as plain text (UTF-8, not UTF-16)"});
+        diagnostics_.error(say::zeroByte,
+                           {source_->files[number], line, static_cast<std::uint32_t>(zero + 1)});
       while (at < tokens.size() && tokens[at].line < line) ++at;
       const auto wordAt = [&](std::size_t i) {
         return i < tokens.size() && tokens[i].line == line ? tokens[i].text : std::string_view();
@@ -165,8 +164,7 @@ class IncludeExpander {
       if (name == "include")
         include(code.substr(tokens[at + 1].column - 1 + name.size()), place, folder, depth + level - guards);
       else if (name == "version")
-        diagnostics_.error(Code::versionInShader, place, "a shader file has no #version",
-                           {.hint = "remove the line; the engine writes '#version 450 core'"});
+        diagnostics_.error(say::versionInShader, place);
       else if (name != "pragma" || word != "once")
         emit(code, number, line);
       if (name == "if" || name == "ifdef" || name == "ifndef") ++level;
@@ -188,9 +186,7 @@ class IncludeExpander {
   void include(std::string_view rest, const Place& place, const std::string& folder, int depth) {
     const std::optional<std::string> name = quotedFile(rest);
     if (!name) {
-      diagnostics_.error(
-          Code::malformedInclude, place, "#include needs a file name in double quotes",
-          {.expected = "#include \"common/view.glsl\"", .found = fmt::format("#include{}", rest)});
+      diagnostics_.error(say::malformedInclude, place, rest);
       return;
     }
     const std::optional<std::string> path = find(*name, place, folder);
@@ -210,10 +206,7 @@ class IncludeExpander {
         text::readWithin(*path, room, bytes, diagnostics_, Code::missingShaderInclude, place);
     if (!text) missing_.insert(*path);
     if (bytes > room) {
-      diagnostics_.error(Code::malformedInclude, place,
-                         fmt::format("includes expand to more than {} MiB", kMaxText >> 20),
-                         {.found = fmt::format("'{}' of {} bytes", *path, bytes),
-                          .hint = "include the file once, outside #if"});
+      diagnostics_.error(say::includesTooLarge, place, kMaxText >> 20, *path, bytes);
       return;
     }
     if (!text) return;
@@ -243,10 +236,8 @@ class IncludeExpander {
       text::reportOutside(*outside, diagnostics_, place);
       return std::nullopt;
     }
-    diagnostics_.error(Code::missingShaderInclude, place, fmt::format("included file '{}' not found", name),
-                       {.expected = fmt::format("a file beside the including one or below {}",
-                                                fmt::join(loader_.roots_, ", ")),
-                        .hint = hintForFile(name, loader_.roots_)});
+    diagnostics_.error(say::includeNotFound, place, name, fmt::join(loader_.roots_, ", "),
+                       hintForFile(name, loader_.roots_));
     return std::nullopt;
   }
 
@@ -254,9 +245,7 @@ class IncludeExpander {
     std::string chain;
     for (auto it = first; it != stack_.end(); ++it) chain += files_[*it].path + " -> ";
     chain += files_[*first].path;
-    diagnostics_.error(Code::shaderIncludeCycle, place,
-                       fmt::format("shaders include each other in a cycle: {}", chain),
-                       {.hint = "move what both need into a third file"});
+    diagnostics_.error(say::includeCycle, place, chain);
   }
 
   SourceLoader& loader_;
@@ -306,10 +295,10 @@ void SourceLoader::reportMissing(const std::string& path, Diagnostics& diagnosti
   const std::vector<std::string> candidates = asItIs ? std::vector<std::string>{path} : below(roots_, path);
   for (const std::string& each : candidates) files_.touch(each);
   if (const auto outside = outsideOf(candidates)) return text::reportOutside(*outside, diagnostics, place);
-  diagnostics.error(Code::unreadableShader, place, fmt::format("shader '{}' not found", path),
-                    {.expected = roots_.empty() ? "an existing file"
-                                                : fmt::format("a file below {}", fmt::join(roots_, ", ")),
-                     .hint = hintForFile(path, roots_)});
+  diagnostics.error(
+      say::shaderNotFound, place, path,
+      roots_.empty() ? "an existing file" : fmt::format("a file below {}", fmt::join(roots_, ", ")),
+      hintForFile(path, roots_));
 }
 
 std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, Diagnostics& diagnostics,
@@ -335,8 +324,7 @@ std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, 
   }
   if (!text) return nullptr;
   if (text->find_first_not_of(" \t\r\n") == std::string::npos) {
-    diagnostics.error(Code::shaderDoesNotCompile, {*where, 1, 1}, fmt::format("shader '{}' is empty", path),
-                      {.hint = "the least a shader can hold is 'void main() {}'"});
+    diagnostics.error(say::emptyShader, {*where, 1, 1}, path);
     return nullptr;
   }
   return expand(*where, own, *text, diagnostics);

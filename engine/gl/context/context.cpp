@@ -13,6 +13,7 @@
 #include "engine/gl/context/debug.h"
 #include "engine/text/chars.h"
 #include "engine/text/hash.h"
+#include "gl_sentences.h"
 
 namespace weft::gl {
 
@@ -138,12 +139,10 @@ std::unique_ptr<Context> createContext(const ContextOptions& options, text::Diag
     return std::move(opened.context);
   }
   diagnostics.error(
-      text::Code::noContext, {},
-      fmt::format("no OpenGL 4.5 core context could be opened (backend '{}')", nameOf(options.backend)),
-      {.found = fmt::format("{}", fmt::join(failures, "; ")),
-       .hint = options.backend == Backend::glfw
-                   ? "start it in a graphical session or under `xvfb-run -a`; `weft render` needs no display"
-                   : "install libosmesa6 for the software backend, or the GPU's EGL driver"});
+      say::noContext, {}, nameOf(options.backend), fmt::join(failures, "; "),
+      options.backend == Backend::glfw
+          ? "start it in a graphical session or under `xvfb-run -a`; `weft render` needs no display"
+          : "install libosmesa6 for the software backend, or the GPU's EGL driver");
   return nullptr;
 }
 

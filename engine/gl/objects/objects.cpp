@@ -12,6 +12,7 @@
 
 #include "engine/gl/context/debug.h"
 #include "engine/gl/context/state_cache.h"
+#include "gl_sentences.h"
 
 namespace weft::gl {
 
@@ -67,9 +68,7 @@ std::optional<Buffer> Buffer::create(std::uint64_t bytes, GLbitfield flags, std:
   takeErrors();
   glNamedBufferStorage(id, static_cast<GLsizeiptr>(bytes), data, flags);
   if (const std::string errors = takeErrors(); !errors.empty()) {
-    diagnostics.error(text::Code::bufferNotCreated, {},
-                      fmt::format("buffer '{}' of {} bytes cannot be created: {}", label, bytes, errors),
-                      {.resource = std::string(label)});
+    diagnostics.error(say::bufferNotCreated, {}, label, bytes, errors, std::string(label));
     return std::nullopt;
   }
   buffer.bytes_ = bytes;
@@ -197,9 +196,7 @@ void setDefaults(GLuint id, GLenum target, std::uint32_t mips) {
 std::optional<Texture> Texture::create(const TextureDesc& desc, std::string_view label,
                                        text::Diagnostics& diagnostics) {
   const auto fail = [&](const std::string& reason) {
-    diagnostics.error(text::Code::textureNotCreated, {},
-                      fmt::format("texture '{}' ({}) cannot be created: {}", label, sizeText(desc), reason),
-                      {.resource = std::string(label)});
+    diagnostics.error(say::textureNotCreated, {}, label, sizeText(desc), reason, std::string(label));
     return std::nullopt;
   };
   if (const std::string reason = refusal(desc); !reason.empty()) return fail(reason);
@@ -245,12 +242,9 @@ std::optional<Texture> Texture::create(const TextureRef& of, const ViewDesc& vie
   const GLenum format = view.format == 0 ? of.desc.format : view.format;
   glTextureView(id, view.target, of.id, format, view.mip, view.mips, view.layer, view.layers);
   if (!glIsTexture(id)) {
-    diagnostics.error(text::Code::viewNotCreated, {},
-                      fmt::format("view '{}' of a texture ({}) cannot be created: {}", label,
-                                  sizeText(of.desc), takeErrors()),
-                      {.found = fmt::format("{} as {}, mips {} to {}, layers {} to {}", enumName(view.target),
-                                            enumName(format), view.mip, view.mip + view.mips - 1, view.layer,
-                                            view.layer + view.layers - 1)});
+    diagnostics.error(say::viewNotCreated, {}, label, sizeText(of.desc), takeErrors(), enumName(view.target),
+                      enumName(format), view.mip, view.mip + view.mips - 1, view.layer,
+                      view.layer + view.layers - 1);
     return std::nullopt;
   }
   texture.desc_ = of.desc;
@@ -310,10 +304,8 @@ std::optional<Framebuffer> Framebuffer::create(std::span<const Attachment> attac
                          enumName(static_cast<GLenum>(format)), a.mip, a.layer, samples);
   }
   const std::string errors = takeErrors();
-  diagnostics.error(text::Code::incompleteFramebuffer, {},
-                    fmt::format("framebuffer '{}' is incomplete: {}{}{}", label, enumName(status),
-                                errors.empty() ? "" : ", ", errors),
-                    {.found = parts.empty() ? "no attachments" : parts});
+  diagnostics.error(say::incompleteFramebuffer, {}, label, enumName(status), errors.empty() ? "" : ", ",
+                    errors, parts.empty() ? "no attachments" : parts);
   return std::nullopt;
 }
 

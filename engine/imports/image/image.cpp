@@ -12,6 +12,7 @@
 #include "engine/text/chars.h"
 #include "engine/text/files/file.h"
 #include "engine/text/files/file_cache.h"
+#include "imports_sentences.h"
 
 namespace weft::imports {
 
@@ -118,11 +119,8 @@ std::vector<std::uint32_t> numbersOf(const SequencePattern& pattern, text::Diagn
   }
   std::ranges::sort(numbers);
   if (numbers.empty()) {
-    diagnostics.error(
-        text::Code::unreadableImage, place, fmt::format("the sequence '{}' has no pictures", pattern.text),
-        {.expected = fmt::format("files such as {}", pattern.nameOf(1)),
-         .found = ec ? fmt::format("a folder that cannot be listed: {}", ec.message()) : "none",
-         .hint = "write as many # as the numbers have digits, or %d for numbers without leading zeros"});
+    diagnostics.error(say::emptySequence, place, pattern.text, pattern.nameOf(1),
+                      ec ? fmt::format("a folder that cannot be listed: {}", ec.message()) : "none");
   }
   return numbers;
 }
@@ -270,12 +268,8 @@ class ImageProvider : public Provider {
   bool fits(const ImageHeader& header, const std::string& path, text::Diagnostics& diagnostics) const {
     if (textureDescOf(header, request_) == texture_.desc()) return true;
     const gl::TextureDesc& before = texture_.desc();
-    diagnostics.error(
-        text::Code::badImageSize, {path},
-        fmt::format("a picture of the sequence '{}' has another size", pattern_->text),
-        {.expected = fmt::format("{} x {}, as the pictures before", before.width, before.height),
-         .found = fmt::format("{} x {}, or other bits a channel", header.width, header.height),
-         .hint = "save all pictures of a sequence in one size and with equally many bits"});
+    diagnostics.error(say::pictureOfOtherSize, {path}, pattern_->text, before.width, before.height,
+                      header.width, header.height);
     return false;
   }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "engine/runtime/frame/execution.h"
+#include "runtime_sentences.h"
 
 namespace weft::runtime {
 
@@ -10,18 +11,12 @@ bool Execution::canSave(const World& world, text::Diagnostics& diagnostics) cons
   const graph::FlatGraph& graph = *plan().graph;
   for (const graph::ImportSpec& import : graph.imports)
     if (device_.imports.of(import).remembers(world))
-      diagnostics.error(
-          text::Code::outputNotWritten, import.place,
-          fmt::format("no checkpoint can be made: the import '{}' remembers earlier frames", import.name));
+      diagnostics.error(say::importRemembers, import.place, import.name);
   for (std::size_t r = 0; r < graph.resources.size(); ++r)
     if (plan().persistent[r] && graph.resources[r].samples > 1)
-      diagnostics.error(
-          text::Code::outputNotWritten,
-          r < graph.resourcePlaces.size() ? graph.resourcePlaces[r] : text::Place{},
-          fmt::format("no checkpoint can be made: '{}' is kept from frame to frame and has samples, "
-                      "which cannot be read",
-                      graph.resourceNames[r]),
-          {.hint = "keep a copy without samples instead", .resource = graph.resourceNames[r]});
+      diagnostics.error(say::samplesAreKept,
+                        r < graph.resourcePlaces.size() ? graph.resourcePlaces[r] : text::Place{},
+                        graph.resourceNames[r]);
   return diagnostics.errorCount() == before;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "engine/graph/subresource.h"
+#include "runtime_sentences.h"
 
 namespace weft::runtime {
 
@@ -125,8 +126,7 @@ bool ReadBack::createRing(std::uint64_t bytes, text::Diagnostics& diagnostics) {
     slot.mapped = static_cast<const std::byte*>(
         glMapNamedBufferRange(slot.buffer.id(), 0, static_cast<GLsizeiptr>(bytes), kAccess));
     if (slot.mapped) continue;
-    diagnostics.error(text::Code::bufferNotCreated, {}, "the read-back buffer cannot be mapped",
-                      {.hint = "take entries out of \"outputs\""});
+    diagnostics.error(say::readBackNotMapped, {});
     return false;
   }
   return true;

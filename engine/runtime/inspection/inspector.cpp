@@ -11,6 +11,7 @@
 #include "engine/gl/context/state_cache.h"
 #include "engine/graph/subresource.h"
 #include "engine/runtime/prepare/program_request.h"
+#include "runtime_sentences.h"
 
 namespace weft::runtime {
 
@@ -415,10 +416,10 @@ std::optional<CaptureItem> captureItemOf(const graph::Plan& plan, const graph::P
   });
   const bool table = graph.resources[found->resource].kind == graph::ResourceKind::imported_buffer;
   if (last == kNone || table) {
-    diagnostics.error(text::Code::presentsUnwritten, text::placeOfOption(pick.option + " " + pick.text),
-                      table ? fmt::format("'{}' is a table of the scene and no texture", pick.name)
-                            : fmt::format("no pass that runs touches '{}'", pick.name),
-                      {.resource = graph.resourceNames[found->resource]});
+    const text::Where at = text::placeOfOption(pick.option + " " + pick.text);
+    const std::string& name = graph.resourceNames[found->resource];
+    table ? diagnostics.error(say::isSceneTable, at, pick.name, name)
+          : diagnostics.error(say::noPassTouches, at, pick.name, name);
     return std::nullopt;
   }
   return CaptureItem{last,

@@ -15,6 +15,7 @@
 #include "engine/text/chars.h"
 #include "engine/text/nearest.h"
 #include "engine/text/words/words.h"
+#include "runtime_sentences.h"
 
 namespace weft::runtime {
 
@@ -139,20 +140,28 @@ class Checker {
   }
 
  private:
-  void fail(Code code, const text::Place& place, std::string message, text::Says says) {
+  template <class... Args>
+  void fail(text::Saying<Args...> what, const text::Place& place, Args&&... args) {
     failed_ = true;
-    says.pass = spec_.name;
-    diagnostics_.error(code, place, std::move(message), std::move(says));
+    diagnostics_.error<Args...>(what, place, std::forward<Args>(args)...).pass = spec_.name;
   }
-  void failOnce(Code code, const text::Place& place, std::string message, text::Says says) {
+  template <class... Args>
+  void failOnce(text::Saying<Args...> what, const text::Place& place, Args&&... args) {
     failed_ = true;
-    if (!isSaid(code, message)) fail(code, place, std::move(message), std::move(says));
+    addOnce(text::Severity::error, text::diagnosticOf(what.sentence, fmt::make_format_args(args...)), place);
   }
-  // Whether the same was said of another pass, of a shader that both have, say: the mistake is in one place.
-  bool isSaid(Code code, const std::string& message) const {
-    return std::ranges::any_of(diagnostics_.items(), [&](const text::Diagnostic& d) {
-      return d.code == code && d.message == message;
+  // Of repeats of one pass the first is warned of.
+  template <class... Args>
+  void warnOnce(text::Saying<Args...> what, const text::Place& place, Args&&... args) {
+    addOnce(text::Severity::warning, text::diagnosticOf(what.sentence, fmt::make_format_args(args...)),
+            place);
+  }
+  // Unless the same was said of another pass, of a shader that both have, say: the mistake is in one place.
+  void addOnce(text::Severity severity, text::Diagnostic said, const text::Place& place) {
+    const bool known = std::ranges::any_of(diagnostics_.items(), [&](const text::Diagnostic& d) {
+      return d.code == said.code && d.message == said.message;
     });
+    if (!known) diagnostics_.add(severity, std::move(said), place).pass = spec_.name;
   }
 
   const glsl::Interface& of(const gl::StageSource& stage) const {
@@ -270,34 +279,25 @@ class Checker {
     slotMissing_ = true;
     const char* const what = whatIs(slot.name);
     const std::string near = what ? "" : text::nearestName(slot.name, namesInShaders());
-    fail(Code::slotNotInShader, slot.place,
-         what ? fmt::format("slot '{}' is {} in the shader '{}', not {}", slot.name, what, shaders_,
-                            glsl::nameOf(role))
-              : fmt::format("slot '{}' is not in the shader '{}'", slot.name, shaders_),
-         {.expected = fmt::format("{} named '{}'", glsl::nameOf(role), slot.name),
-          .hint = !what && slot.ofSet ? "declare it, or move it from the set to the passes that need it"
-                  : !near.empty()     ? fmt::format("did you mean '{}'?", near)
-                                      : fmt::format("declare `{}`", declarationOf(slot)),
-          .resource = nameOf(graph_.uses[slot.firstUse])});
+    const std::string hint = !what && slot.ofSet
+                                 ? "declare it, or move it from the set to the passes that need it"
+                             : !near.empty() ? fmt::format("did you mean '{}'?", near)
+                                             : fmt::format("declare `{}`", declarationOf(slot));
+    const std::string& resource = nameOf(graph_.uses[slot.firstUse]);
+    if (what)
+      fail(say::slotIsOther, slot.place, slot.name, what, shaders_, glsl::nameOf(role), hint, resource);
+    else
+      fail(say::slotNotInShader, slot.place, slot.name, shaders_, glsl::nameOf(role), hint, resource);
   }
 
   void reportType(const SlotSpec& slot, const FlatUse& use, const std::string& type, std::string expected) {
-    fail(Code::slotTypeMismatch, slot.place,
-         fmt::format("slot '{}' and the shader's {} do not fit", slot.name, type),
-         {.expected = std::move(expected),
-          .found = type,
-          .hint = fmt::format("declare `{}`, or name another resource", declarationOf(slot)),
-          .resource = nameOf(use)});
+    fail(say::slotMisfitsShader, slot.place, slot.name, type, expected, declarationOf(slot), nameOf(use));
   }
 
   // Said where the texture is declared, once for all passes that write colors to it.
   void reportDepth(const FlatUse& use) {
-    failOnce(Code::slotTypeMismatch, graph_.resourcePlaces[use.resource],
-             fmt::format("'{}' has a depth format, and shaders write colors to it", nameOf(use)),
-             {.expected = "a color format, such as rgba16f",
-              .found = graph::infoOf(resourceOf(use).format).name,
-              .hint = "give it a color format, or write gl_FragDepth",
-              .resource = nameOf(use)});
+    failOnce(say::colorsToDepth, graph_.resourcePlaces[use.resource], nameOf(use),
+             graph::infoOf(resourceOf(use).format).name);
   }
 
   // Writing float outputs to integer formats, or the other way round, leaves undefined texels (OpenGL 4.5 core, 15.2.3).
@@ -336,10 +336,7 @@ class Checker {
     std::string fields;
     for (const graph::TableColumn& column : columns)
       fields += fmt::format(" {} {};", column.type, column.name);
-    fail(Code::notAnInstanceTable, place,
-         fmt::format("the block '{}' of '{}' does not fit its table: {}", block->name, shaders_, problem),
-         {.expected = "an array of a struct with fields among" + fields,
-          .hint = "include the file of shaders/scene that declares it, or declare a struct of these fields"});
+    fail(say::blockMisfitsTable, place, block->name, shaders_, problem, fields);
   }
 
   void checkParameters() {
@@ -364,11 +361,7 @@ class Checker {
       if (other.empty()) reportMissing(uniform);
       if (other.empty() || !misnamed_.empty()) continue;
       misnamed_ = other;
-      fail(Code::undeclaredShaderInput, spec_.shaderPlace,
-           fmt::format("the shader '{}' has its parameters in a uniform block '{}'", shaders_, other),
-           {.expected = "a uniform block 'Parameters'",
-            .found = fmt::format("uniform {} {{ … }}", other),
-            .hint = "call it 'Parameters'"});
+      fail(say::parametersMisnamed, spec_.shaderPlace, shaders_, other);
     }
     if (missing || !live) return;  // one misspelling is one mistake
     for (const Declaration* member : members)
@@ -392,24 +385,19 @@ class Checker {
   void reportMissing(const graph::UniformSpec& uniform) {
     const char* const what = whatIs(uniform.name);
     const std::string near = what ? "" : text::nearestName(uniform.name, namesInShaders());
-    fail(Code::parameterNotInShader, uniform.place,
-         fmt::format("parameter '{}' is {} in the shader '{}'", uniform.name,
-                     what ? fmt::format("{}, not a member of the block Parameters,", what) : "not", shaders_),
-         {.hint = (near.empty() ? "" : fmt::format("the shader has '{}': name it so, or ", near)) +
-                  "declare it in `layout(std140) uniform Parameters { … };`"});
+    fail(say::parameterNotInShader, uniform.place, uniform.name,
+         what ? fmt::format("{}, not a member of the block Parameters,", what) : "not", shaders_,
+         (near.empty() ? "" : fmt::format("the shader has '{}': name it so, or ", near)));
   }
 
   void reportMember(const graph::UniformSpec& uniform, const gl::GlslType& type,
                     const std::string& expected) {
     failed_ = true;
     if (std::exchange(misfit_, uniform.name) == uniform.name) return;
-    failOnce(Code::parameterTypeMismatch, uniform.place,
-             fmt::format("parameter '{}' does not fit the shader's {}", uniform.text(), type.name),
-             {.expected = expected,
-              .found = uniform.elements == 0 ? graph::toText(uniform.value)
-                                             : fmt::format("{} items, the first {}", uniform.elements,
-                                                           graph::toText(uniform.value)),
-              .hint = fmt::format("give it {}, or declare the member with another type", expected)});
+    failOnce(say::parameterMisfitsShader, uniform.place, uniform.text(), type.name, expected,
+             uniform.elements == 0
+                 ? graph::toText(uniform.value)
+                 : fmt::format("{} items, the first {}", uniform.elements, graph::toText(uniform.value)));
   }
 
   void checkParameter(const graph::UniformSpec& uniform, const Declaration& declared) {
@@ -444,13 +432,8 @@ class Checker {
 
   // A member that the pass does not set: it would be 0, which mostly gives a black picture.
   void reportUnset(const Declaration& member) {
-    fail(Code::undeclaredShaderInput, spec_.shaderPlace,
-         fmt::format("the shader '{}' reads the parameter '{}', which pass '{}' does not set", shaders_,
-                     member.name, spec_.declared),
-         {.expected = fmt::format("\"parameters\": {{ \"{}\": … }}, of type {}", member.name,
-                                  std::string(member.type) + member.array),
-          .hint = fmt::format("set it, or guard the member and its use with `#ifdef {}`",
-                              glsl::presenceDefineOf(member.name))});
+    fail(say::parameterNotSet, spec_.shaderPlace, shaders_, member.name, spec_.declared,
+         std::string(member.type) + member.array, glsl::presenceDefineOf(member.name));
   }
 
   // What the blocks that the engine fills may have.
@@ -462,9 +445,8 @@ class Checker {
           name == "View" ? viewMemberNames() : std::vector<std::string>{"first_group", "first_invocation"};
       for (const Declaration* member : membersOf(name))
         if (std::ranges::find(names, member->name) == names.end())
-          fail(Code::unknownViewMember, spec_.shaderPlace,
-               fmt::format("the {} block of '{}' has an unknown member '{}'", name, shaders_, member->name),
-               {.hint = text::nearestHint(std::string(member->name), names)});
+          fail(say::unknownViewMember, spec_.shaderPlace, name, shaders_, member->name,
+               text::nearestHint(std::string(member->name), names));
     }
   }
 
@@ -474,14 +456,10 @@ class Checker {
     std::vector<std::string> names;
     for (const SlotSpec& slot : graph_.slotsOf(spec_)) names.push_back(slot.name);
     const std::string nearest = text::nearestName(name, names);
-    fail(
-        Code::undeclaredShaderInput, spec_.shaderPlace,
-        fmt::format("the shader '{}' uses {} '{}', which pass '{}' does not name", shaders_, what, name,
-                    spec_.declared),
-        {.expected = fmt::format("a slot '{}' in \"read\", \"write\" or \"modify\"", name),
-         .hint = !nearest.empty() ? fmt::format("did you mean '{}'?", nearest)
-                                  : fmt::format("add \"{}\": \"RESOURCE\", or guard its use with `#ifdef {}`",
-                                                name, glsl::presenceDefineOf(name))});
+    fail(say::inputNotNamed, spec_.shaderPlace, shaders_, what, name, spec_.declared,
+         !nearest.empty() ? fmt::format("did you mean '{}'?", nearest)
+                          : fmt::format("add \"{}\": \"RESOURCE\", or guard its use with `#ifdef {}`", name,
+                                        glsl::presenceDefineOf(name)));
   }
 
   // What the linked program has besides.
@@ -503,11 +481,10 @@ class Checker {
     }
     for (const auto& loose : reflection.looseUniforms) {
       const std::vector<std::string> names = viewMemberNames();
-      failOnce(Code::parameterNotInShader, spec_.shaderPlace,
-               fmt::format("the shader '{}' has a uniform '{}' outside a block", shaders_, loose.name),
-               {.hint = std::ranges::find(names, loose.name) != names.end()
-                            ? fmt::format("remove it: #include \"common/view.glsl\" has '{}'", loose.name)
-                            : "move it into `layout(std140) uniform Parameters { … };`"});
+      failOnce(say::uniformOutsideBlock, spec_.shaderPlace, shaders_, loose.name,
+               std::ranges::find(names, loose.name) != names.end()
+                   ? fmt::format("remove it: #include \"common/view.glsl\" has '{}'", loose.name)
+                   : "move it into `layout(std140) uniform Parameters { … };`");
     }
   }
 
@@ -515,11 +492,7 @@ class Checker {
   void checkSlices(const graph::FlatPass& pass) {
     const bool compute = !stages_.empty() && stages_[0].stage == GL_COMPUTE_SHADER;
     if (!compute || pass.slices < 2 || linked_->reflection.findUniformBlock("Slice")) return;
-    fail(Code::badSlices, spec_.shaderPlace,
-         fmt::format("the shader '{}' does not know slices, and pass '{}' has {}", shaders_, spec_.name,
-                     pass.slices),
-         {.hint = "include common/slice.glsl and use sliceInvocation() for gl_GlobalInvocationID, or remove "
-                  "\"slices\""});
+    fail(say::slicesNotKnown, spec_.shaderPlace, shaders_, spec_.name, pass.slices);
   }
 
   // Reports work groups beyond the limits of the device. The driver would report them in every frame, and without a place.
@@ -532,13 +505,8 @@ class Checker {
     const passes::WorkGroups groups = passes::workGroupsOf(context);
     for (int axis = 0; axis < 3; ++axis) {
       if (groups.count[axis] <= context.maxGroups[axis]) continue;
-      fail(Code::tooManyWorkGroups, spec_.threadsPlace,
-           fmt::format("pass '{}' has more work groups along {} than the device takes", spec_.name,
-                       "xyz"[axis]),
-           {.expected = fmt::format("at most {} groups of {} threads", context.maxGroups[axis],
-                                    context.groupSize[axis]),
-            .found = fmt::format("{} groups for {} threads", groups.count[axis], spec_.threads[axis]),
-            .hint = fmt::format("raise local_size_{}, or spread the work over the other axes", "xyz"[axis])});
+      fail(say::tooManyWorkGroups, spec_.threadsPlace, spec_.name, "xyz"[axis], context.maxGroups[axis],
+           context.groupSize[axis], groups.count[axis], spec_.threads[axis]);
     }
   }
 
@@ -553,11 +521,7 @@ class Checker {
                !of(stage).find(member, Role::variable);
       });
       if (!reads) continue;
-      return warnOnce(
-          Code::cadenceMisfit, spec_.place,
-          fmt::format("pass '{}' does not run in every frame, and its shader reads '{}', which is 0 there",
-                      spec_.declared, member),
-          {.hint = fmt::format("leave \"update\" out of '{}' if its picture is to move", spec_.declared)});
+      return warnOnce(say::readsTime, spec_.place, spec_.declared, member);
     }
   }
 
@@ -567,19 +531,8 @@ class Checker {
       const Declaration* output = find(slot.name, Role::output);
       if (!output || of(stages_.back()).isLive(*output)) continue;
       const std::string& resource = nameOf(graph_.uses[slot.firstUse]);
-      warnOnce(Code::slotNotInShader, slot.place,
-               fmt::format("pass '{}': the shader '{}' declares its output '{}' and never writes it",
-                           spec_.declared, spec_.shader, slot.name),
-               {.hint = fmt::format("assign '{}' in main(), or remove the slot: what is in '{}' is undefined",
-                                    slot.name, resource),
-                .resource = resource});
+      warnOnce(say::outputNeverWritten, slot.place, spec_.declared, spec_.shader, slot.name, resource);
     }
-  }
-
-  // Of repeats of one pass the first is warned of.
-  void warnOnce(Code code, const text::Place& place, std::string message, text::Says says) {
-    says.pass = spec_.name;
-    if (!isSaid(code, message)) diagnostics_.warning(code, place, std::move(message), std::move(says));
   }
 
   const Plan& plan_;
@@ -614,14 +567,13 @@ void warnOfConditions(const graph::PassSpec& pass, std::span<const gl::StageSour
   for (const glsl::Define& define : defines) names.push_back(define.name);
   for (const gl::StageSource& stage : stages) {
     const glsl::Conditions conditions = glsl::conditionsOf(stage.source->text);
-    const auto warn = [&](const glsl::Token& word, const std::string& message, std::string hint) {
+    const auto warn = [&]<class... Args>(text::Saying<Args...> what, const glsl::Token& word,
+                                         Args&&... args) {
       const text::Place place = stage.source->placeOf(word.line, word.column);
-      if (std::ranges::any_of(diagnostics.items(), [&](const text::Diagnostic& d) {
-            return d.code == Code::undeclaredShaderInput && d.place.inFile() == place;
+      if (std::ranges::none_of(diagnostics.items(), [&](const text::Diagnostic& d) {
+            return d.code == what.sentence.code && d.place.inFile() == place;
           }))
-        return;
-      diagnostics.warning(Code::undeclaredShaderInput, place, message,
-                          {.hint = std::move(hint), .pass = pass.name});
+        diagnostics.warning<Args...>(what, place, std::forward<Args>(args)...).pass = pass.name;
     };
     std::set<std::string_view> seen;
     const auto look = [&](const glsl::Token& word, bool valued) {
@@ -629,11 +581,7 @@ void warnOfConditions(const graph::PassSpec& pass, std::span<const gl::StageSour
       const auto define = std::ranges::find(defines, word.text, &glsl::Define::name);
       if (define != defines.end()) {
         if (define->value == "0" && !conditions.used.contains(word.text))
-          warn(word,
-               fmt::format(
-                   "'{}' is 0 here, and the shader asks only whether it is defined, which it always is",
-                   word.text),
-               fmt::format("write '#if {}' for '#ifdef', '#if !{}' for '#ifndef'", word.text, word.text));
+          warn(say::asksWhetherDefined, word, word.text);
         return;
       }
       if (conditions.made.contains(word.text) || word.text.starts_with("GL_") || word.text.starts_with("__"))
@@ -646,7 +594,7 @@ void warnOfConditions(const graph::PassSpec& pass, std::span<const gl::StageSour
                                                      : "";
       if (meant.empty()) return;
       known.insert(meant);
-      warn(word, fmt::format("nothing defines '{}'", word.text), fmt::format("did you mean '{}'?", meant));
+      warn(say::nothingDefines, word, word.text, meant);
     };
     for (const glsl::Token& word : conditions.valued)
       if (std::ranges::find(conditions.tested, word.text, &glsl::Token::text) == conditions.tested.end())
@@ -663,13 +611,12 @@ void warnOfConditions(const graph::PassSpec& pass, std::span<const gl::StageSour
     const std::string near = known.contains(define.name)
                                  ? ""
                                  : text::nearestName(define.name, std::vector(asked.begin(), asked.end()));
-    const std::string message =
-        fmt::format("pass '{}' defines '{}', which its shaders do not have", pass.declared, define.name);
-    if (near.empty() || std::ranges::find(diagnostics.items(), message, &text::Diagnostic::message) !=
-                            diagnostics.items().end())  // said of another repeat
-      continue;
-    diagnostics.warning(Code::undeclaredShaderInput, pass.place, message,
-                        {.hint = fmt::format("did you mean '{}'?", near), .pass = pass.name});
+    const auto isSaid = [&](const text::Diagnostic& d) {  // of another repeat
+      return d.message == fmt::format(say::defineNotInShaders.message, pass.declared, define.name);
+    };
+    if (!near.empty() && std::ranges::none_of(diagnostics.items(), isSaid))
+      diagnostics.warning(say::defineNotInShaders, pass.place, pass.declared, define.name, near).pass =
+          pass.name;
   }
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "engine/runtime/storage/formats.h"
+#include "runtime_sentences.h"
 
 namespace weft::runtime {
 
@@ -89,12 +90,7 @@ bool checkBlocks(const Plan& plan, text::Diagnostics& diagnostics) {
         resource.bytes <= static_cast<std::uint64_t>(most))
       continue;
     good = false;
-    diagnostics.error(text::Code::bufferNotCreated, {},
-                      fmt::format("buffer '{}' of {} bytes is larger than a shader can see",
-                                  plan.graph->resourceNames[r], resource.bytes),
-                      {.expected = fmt::format("at most {} bytes in one storage block of this device", most),
-                       .hint = "split it into several buffers",
-                       .resource = plan.graph->resourceNames[r]});
+    diagnostics.error(say::bufferTooLarge, {}, plan.graph->resourceNames[r], resource.bytes, most);
   }
   return good;
 }
