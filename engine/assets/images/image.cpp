@@ -13,6 +13,7 @@
 #include <numbers>
 #include <utility>
 
+#include "assets_sentences.h"
 #include "engine/assets/images/image_codecs.h"
 #include "engine/text/files/file.h"
 
@@ -24,10 +25,8 @@ using text::Diagnostics;
 namespace {
 
 void reportUnknownKind(Diagnostics& diagnostics, const std::string& name, std::string expected) {
-  diagnostics.error(
-      Code::unknownImageKind, {name}, fmt::format("'{}' is no kind of image that is known", name),
-      {.expected = std::move(expected),
-       .found = text::lowerExtension(name).empty() ? "no extension" : text::lowerExtension(name)});
+  diagnostics.error(say::unknownImageKind, {name}, name, expected,
+                    text::lowerExtension(name).empty() ? "no extension" : text::lowerExtension(name));
 }
 
 // Solid angle of a texel of row `y` of an equirectangular map, in units of one at the equator.
@@ -162,17 +161,15 @@ ImageKind kindOfName(const std::string& name) {
 }
 
 void reportUnreadable(Diagnostics& diagnostics, const std::string& name, const std::string& why) {
-  diagnostics.error(Code::unreadableImage, {name}, fmt::format("cannot read image '{}': {}", name, why));
+  diagnostics.error(say::cannotReadImage, {name}, name, why);
 }
 
 bool checkSize(Diagnostics& diagnostics, const std::string& name, long long width, long long height) {
   const bool tooLarge = width > kMaxImageSide || height > kMaxImageSide ||
                         width * height > static_cast<long long>(kMaxImageTexels);
   if (width >= 1 && height >= 1 && !tooLarge) return true;
-  diagnostics.error(
-      Code::badImageSize, {name}, fmt::format("image '{}' is {}", name, tooLarge ? "too large" : "empty"),
-      {.expected = fmt::format("1 to {} texels a side, at most {} in all", kMaxImageSide, kMaxImageTexels),
-       .found = fmt::format("{} x {}", width, height)});
+  diagnostics.error(say::badImage, {name}, name, tooLarge ? "too large" : "empty", kMaxImageSide,
+                    kMaxImageTexels, width, height);
   return false;
 }
 
@@ -210,13 +207,7 @@ std::optional<ImageF> decodeEnvironment(std::string_view bytes, const std::strin
                                         Diagnostics& diagnostics) {
   std::optional<ImageF> image = decodeImage(bytes, name, diagnostics);
   if (!image) return {};
-  if (kindOfName(name) == ImageKind::eight_bit)
-    diagnostics.warning(
-        Code::displayReferred, {name},
-        fmt::format("the environment '{}' holds colors of a screen: no light in it is brighter than 1", name),
-        {.expected = "radiance, as .hdr and .exr hold it",
-         .found = "sRGB, which was decoded to linear light",
-         .hint = "take an .hdr or .exr of the place, in which the sun is as bright as it was"});
+  if (kindOfName(name) == ImageKind::eight_bit) diagnostics.warning(say::displayReferred, {name}, name);
   ImageF wide = widenToRgba(std::move(*image));
   for (std::size_t i = 3; i < wide.texels.size(); i += 4) wide.texels[i] = 1;
   sanitizeRadiance(wide, name, diagnostics);

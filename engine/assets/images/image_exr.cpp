@@ -19,6 +19,7 @@
 #include <optional>
 #include <vector>
 
+#include "assets_sentences.h"
 #include "engine/assets/images/image_codecs.h"
 #include "engine/text/files/file.h"
 
@@ -253,8 +254,7 @@ bool saveExr(const std::string& path, const ImageF& image, Diagnostics& diagnost
   }  // which writes where its lines are
   return text::writeFile(path, stream.str(), diagnostics);
 } catch (const std::exception& error) {
-  diagnostics.error(text::Code::outputNotWritten, {path},
-                    fmt::format("cannot encode '{}' as OpenEXR: {}", path, error.what()));
+  diagnostics.error(say::exrNotEncoded, {path}, path, error.what());
   return false;
 }
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "assets_sentences.h"
 #include "engine/assets/images/image_codecs.h"
 #include "engine/text/files/file.h"
 
@@ -201,7 +202,7 @@ bool savePng8(const std::string& path, int width, int height, int channels,
               std::span<const std::uint8_t> texels, Diagnostics& diagnostics) {
   const std::string bytes = encodePng8(width, height, channels, texels);
   if (!bytes.empty()) return text::writeFile(path, bytes, diagnostics);
-  diagnostics.error(text::Code::outputNotWritten, {path}, fmt::format("cannot encode '{}' as PNG", path));
+  diagnostics.error(say::pngNotEncoded, {path}, path);
   return false;
 }
 

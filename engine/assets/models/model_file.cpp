@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "assets_sentences.h"
 #include "engine/assets/models/fbx/fbx.h"
 #include "engine/assets/models/gltf/gltf_document.h"
 #include "engine/assets/models/obj/obj.h"
@@ -28,9 +29,7 @@ std::optional<Model> loadModel(const std::string& path, text::Diagnostics& diagn
   const std::string kind = text::lowerExtension(path);
   const bool made = kind == ".fbx";
   if (!isModelName(path)) {
-    said.error(text::Code::unreadableModel, mine.place(),
-               fmt::format("'{}' is no kind of model that is known", path),
-               {.expected = ".gltf, .glb, .obj or .fbx", .found = kind.empty() ? "no extension" : kind});
+    said.error(say::unknownModelKind, mine.place(), path, kind.empty() ? "no extension" : kind);
   } else if (auto bytes = mine.readModel()) {
     if (made) bytes = glbOfFbx(*bytes, mine);
     good = kind == ".obj" ? bytes && readObj(*bytes, mine, model)
@@ -45,9 +44,7 @@ std::optional<Model> loadModel(const std::string& path, text::Diagnostics& diagn
   if (files) *files = model.files;
   if (!good || mine.gaveUp()) return {};
   if (model.instances.empty()) {
-    diagnostics.error(text::Code::unreadableModel, mine.place(),
-                      fmt::format("the model '{}' has nothing to draw", path),
-                      {.expected = "at least one mesh of triangles in its scene"});
+    diagnostics.error(say::nothingToDraw, mine.place(), path);
     return {};
   }
   windMirrored(model);

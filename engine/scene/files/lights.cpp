@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/scene/files/reading.h"
+#include "scene_sentences.h"
 
 namespace weft::scene {
 
@@ -43,9 +44,7 @@ class LightReader {
     if (const double length = glm::length(direction); length >= 1e-6)
       out = glm::vec3(direction / length);
     else
-      diagnostics_.error(Code::badSceneValue, fields.find("direction")->place,
-                         fmt::format("the direction of {} has no length", what),
-                         {.hint = "give a vector such as [0, 1, 0]"});
+      diagnostics_.error(say::directionWithoutLength, fields.find("direction")->place, what);
   }
 
   glm::vec3 toUnits(double photometric, glm::vec3 color) const {
@@ -91,10 +90,7 @@ class LightReader {
     fields.read("shadow", lamp.shadow);
     const bool aimed = fields.find("direction") != nullptr;
     fields.finish();
-    if ((inner || outer) && !aimed)
-      diagnostics_.error(Code::badSceneValue, value.place,
-                         fmt::format("{} has a cone but no 'direction'", what),
-                         {.hint = "say where the lamp shines: \"direction\": [0, -1, 0]"});
+    if ((inner || outer) && !aimed) diagnostics_.error(say::coneWithoutDirection, value.place, what);
     if (aimed) setCone(value, what, inner.value_or(0), outer.value_or(45), lamp);
     if (hasRoom(value, 1)) scene_.lamps.add(std::move(lamp));
   }
@@ -114,10 +110,7 @@ class LightReader {
 
   void setCone(const JsonValue& value, const std::string& what, double inner, double outer, Lamp& lamp) {
     if (inner > outer) {
-      diagnostics_.error(Code::badSceneValue, value.place,
-                         fmt::format("the inner cone of {} is wider than the outer one", what),
-                         {.expected = fmt::format("an 'inner' of at most {} degrees", outer),
-                          .found = fmt::format("{}", inner)});
+      diagnostics_.error(say::innerConeWider, value.place, what, outer, inner);
       return;
     }
     lamp.cosInner = static_cast<float>(std::cos(inner * std::numbers::pi / 180));

@@ -6,6 +6,7 @@
 
 #include "engine/text/chars.h"
 #include "engine/text/nearest.h"
+#include "scene_sentences.h"
 
 namespace weft::scene {
 
@@ -28,9 +29,7 @@ std::optional<std::uint8_t> readLists(text::JsonFields& fields, const std::strin
     if (const auto list = findDrawList(*name))
       mask = static_cast<std::uint8_t>(mask | maskOf(*list));
     else
-      diagnostics.error(text::Code::unknownSceneList, item.place,
-                        fmt::format("unknown draw list '{}'", *name),
-                        {.hint = text::nearestHint(*name, drawListNames())});
+      diagnostics.error(say::unknownDrawList, item.place, *name, text::nearestHint(*name, drawListNames()));
   }
   return mask;
 }
@@ -42,8 +41,7 @@ std::vector<std::string> readTags(text::JsonFields& fields, const std::string& w
   for (std::size_t i = 0; all && i < all->items.size(); ++i) {
     const auto tag = text::readText(all->items[i], fmt::format("a tag of {}", what), diagnostics);
     if (tag && (tag->empty() || !std::ranges::all_of(*tag, text::isIdentChar)))
-      diagnostics.error(text::Code::badSceneValue, all->items[i].place, fmt::format("'{}' is no tag", *tag),
-                        {.hint = "write letters, digits and _, as a graph can name them"});
+      diagnostics.error(say::noTag, all->items[i].place, *tag);
     if (tag) tags.push_back(*tag);
   }
   return tags;

@@ -19,6 +19,7 @@
 #include "engine/text/chars.h"
 #include "engine/text/files/file.h"
 #include "engine/text/nearest.h"
+#include "scene_sentences.h"
 
 namespace weft::scene {
 
@@ -108,10 +109,7 @@ class Reader {
     if (!root) return {};
     for (const char* key : {"passes", "extends"})
       if (root->find(key)) {
-        fail(
-            Code::wrongType, *root, fmt::format("this file has \"{}\": it is a graph, not a scene", key),
-            {.expected = "a scene, with \"cameras\", \"grid\", \"spheres\", \"models\", \"sun\" or \"lamps\"",
-             .hint = fmt::format("a graph stands without --scene: weft render {} --scene SCENE", name_)});
+        fail(say::graphAsScene, *root, key, name_);
         return {};
       }
     SceneFields fields(*root, "the scene", Code::badSceneValue, diagnostics_);
@@ -226,21 +224,17 @@ class Reader {
       camera.pose.nearPlane = from.nearPlane;
       camera.pose.height = from.height;
       if (node.valid() && transforms.isMoving(node.index))
-        diagnostics_.warning(Code::modelPartLeftOut, {name_},
-                             fmt::format("the motion of camera '{}' was left out", from.name),
-                             {.hint = "a scene file moves a camera along a \"path\""});
+        diagnostics_.warning(say::cameraMotionLeftOut, {name_}, from.name);
       scene_.cameras.add(std::move(camera));
     }
   }
 
-  void fail(Code code, const JsonValue& value, std::string message, text::Says says = {}) {
-    diagnostics_.error(code, value.place, std::move(message), std::move(says));
+  template <class... Args>
+  void fail(text::Saying<Args...> what, const JsonValue& value, Args&&... args) {
+    diagnostics_.error<Args...>(what, value.place, std::forward<Args>(args)...);
   }
 
-  void failNoGrid(const JsonValue& where) {
-    fail(Code::unknownMaterial, where,
-         fmt::format("there is no grid to give the materials of '{}' to", choice_.materials));
-  }
+  void failNoGrid(const JsonValue& where) { fail(say::materialsWithoutGrid, where, choice_.materials); }
 
   Scene finish() {
     scene_.files = files_;
@@ -258,8 +252,8 @@ class Reader {
     if (chosen == cameras.end()) {
       std::vector<std::string> names;
       for (const Camera& camera : cameras) names.push_back(camera.name);
-      fail(Code::badSceneValue, where, fmt::format("the scene has no camera '{}'", name),
-           {.hint = names.empty() ? "name one under \"cameras\"" : text::nearestHint(name, names)});
+      fail(say::unknownCamera, where, name,
+           names.empty() ? "name one under \"cameras\"" : text::nearestHint(name, names));
       return false;
     }
     std::rotate(cameras.begin(), chosen, chosen + 1);
@@ -275,10 +269,7 @@ class Reader {
     fields.read("radius", kSize, ground.radius);
     if (fields.find("albedo")) fields.read("albedo", kUnit, ground.albedo.emplace());
     if (fields.find("radius") && !fields.find("albedo")) {
-      fail(Code::badSceneValue, *fields.find("radius"), "the ground has a radius but no surface",
-           {.expected = "an albedo beside it",
-            .found = "a ground that shows the environment, which ends nowhere",
-            .hint = "give it an \"albedo\", or leave \"radius\" out"});
+      fail(say::radiusWithoutSurface, *fields.find("radius"));
     }
     fields.finish();
     scene_.ground = ground;
@@ -313,8 +304,7 @@ class Reader {
     auto library = text ? readMaterialLibrary(*text, path, diagnostics_) : std::nullopt;
     libraryMissing_ = libraryMissing_ || !library;
     if (!library) return {};
-    if (library->empty())
-      fail(Code::unknownMaterial, value, fmt::format("the material library '{}' is empty", path));
+    if (library->empty()) fail(say::emptyLibrary, value, path);
     for (Material& preset : *library)
       ids.push_back(add(std::move(preset), value.place, {.found = fmt::format("one of '{}'", path)}));
     return ids;
@@ -338,9 +328,9 @@ class Reader {
     if (libraryMissing_) return {};  // it may be one of a library that could not be read
     std::vector<std::string> names;
     for (const auto& [known, id] : byName_) names.push_back(known);
-    fail(Code::unknownMaterial, value, fmt::format("unknown material '{}'", *name),
-         {.hint = names.empty() ? "name a \"library\", or define it under \"materials\""
-                                : text::nearestHint(*name, names)});
+    fail(say::unknownMaterial, value, *name,
+         names.empty() ? "name a \"library\", or define it under \"materials\""
+                       : text::nearestHint(*name, names));
     return {};
   }
 
@@ -377,7 +367,7 @@ class Reader {
     if (!choice_.materials.empty()) {
       ids = readLibraryFile(choice_.materials, value);
     } else if (materials && materials->is(JsonValue::Type::array)) {
-      if (materials->items.empty()) fail(Code::unknownMaterial, *materials, "the grid names no material");
+      if (materials->items.empty()) fail(say::gridNamesNoMaterial, *materials);
       for (const JsonValue& item : materials->items)
         ids.push_back(findMaterial(item, "a material of the grid"));
     } else if (materials) {
@@ -420,22 +410,18 @@ class Reader {
     if (!path) fields.require({"position"});
     fields.finish();
     if (!path) checkDirection(value, what, camera.pose.position, camera.pose.target);
-    if (path && camera.orbitDegreesPerSecond != 0)
-      fail(Code::badSceneValue, *path, fmt::format("{} has both 'path' and 'orbit'", what),
-           {.hint = "keep one"});
+    if (path && camera.orbitDegreesPerSecond != 0) fail(say::pathAndOrbit, *path, what);
     if (path) readPath(*path, what, camera);
     scene_.cameras.add(std::move(camera));
   }
 
   void checkDirection(const JsonValue& value, const std::string& what, glm::dvec3 position,
                       glm::dvec3 target) {
-    if (glm::length(position - target) < 1e-6)
-      fail(Code::badSceneValue, value, fmt::format("{} stands on its target", what),
-           {.hint = "move 'position' or 'target'"});
+    if (glm::length(position - target) < 1e-6) fail(say::standsOnTarget, value, what);
   }
 
   void readPath(const JsonValue& path, const std::string& what, Camera& camera) {
-    if (path.items.empty()) fail(Code::badSceneValue, path, fmt::format("the path of {} is empty", what));
+    if (path.items.empty()) fail(say::pathEmpty, path, what);
     for (std::size_t i = 0; i < path.items.size(); ++i) {
       const std::string keyName = fmt::format("key {} of {}", i, what);
       SceneFields fields(path.items[i], keyName, Code::badSceneValue, diagnostics_);
@@ -448,8 +434,7 @@ class Reader {
       fields.finish();
       checkDirection(path.items[i], keyName, key.position, key.target);
       if (!camera.path.empty() && key.time <= camera.path.back().time)
-        fail(Code::badSceneValue, path.items[i],
-             fmt::format("{} is not later than the one before it", keyName));
+        fail(say::notLater, path.items[i], keyName);
       camera.path.push_back(key);
     }
     if (camera.path.empty()) return;
@@ -547,11 +532,9 @@ class Reader {
       copy.animation = static_cast<std::uint32_t>(row);
       return;
     }
-    fail(Code::unknownAnimation, value, fmt::format("{} has no such animation", what),
-         {.expected =
-              names.empty() ? "none: its file has no animation" : fmt::format("{}", fmt::join(names, ", ")),
-          .found = describe(value),
-          .hint = value.is(JsonValue::Type::string) ? text::nearestHint(value.text, names) : ""});
+    fail(say::unknownAnimation, value, what,
+         names.empty() ? "none: its file has no animation" : fmt::format("{}", fmt::join(names, ", ")),
+         describe(value), value.is(JsonValue::Type::string) ? text::nearestHint(value.text, names) : "");
   }
 
   void addCopies(const JsonValue& value, const std::string& name, const Loaded& loaded, ModelCopy copy,
@@ -575,11 +558,7 @@ class Reader {
       sunOf_ = name;
     } else if (copy.lights && suns > 0 &&
                !sunOf_.empty()) {  // a sun of the scene file takes the place of all
-      diagnostics_.warning(Code::modelPartLeftOut, value.place,
-                           fmt::format("the sun of model '{}' was left out", name),
-                           {.expected = "one model with a directional light, or a 'sun' in the scene file",
-                            .found = fmt::format("the sun of model '{}'", sunOf_),
-                            .hint = "\"lights\": false leaves the lights of a model out"});
+      diagnostics_.warning(say::sunLeftOut, value.place, name, sunOf_);
     }
     grid.forEach([&](std::size_t index, glm::vec3 place) {
       copy.root.name = total > 1 ? fmt::format("{}[{}]", name, index) : name;
@@ -621,8 +600,7 @@ std::optional<std::vector<Material>> readMaterialLibrary(std::string_view text, 
     for (const char* told : {"category", "source"}) fields.text(told);  // to people
     fields.finish();
     if (!material.name.empty() && !names.insert(material.name).second)
-      diagnostics.error(Code::duplicateMaterial, item.place,
-                        fmt::format("a second material '{}'", material.name), {.hint = "rename one"});
+      diagnostics.error(say::secondMaterial, item.place, material.name);
     materials.push_back(std::move(material));
   }
   if (diagnostics.errorCount() > before) return {};

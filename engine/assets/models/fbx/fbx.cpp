@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "assets_sentences.h"
 #include "engine/text/apart.h"
 #include "engine/text/files/file.h"
 
@@ -32,31 +33,20 @@ std::optional<std::string> glbOfFbx(const std::string& bytes, ModelFiles& files)
   const auto goOn = [&] { return files.goOn(LoadStage::decoding, 0); };
   const std::string program = readerProgram();
   if (program.empty()) {
-    files.diagnostics().error(Code::unreadableModel, files.place(), "weft-fbx is not there",
-                              {.expected = WEFT_FBX_INSTALLED});
+    files.diagnostics().error(say::fbxReaderNotThere, files.place(), WEFT_FBX_INSTALLED);
     return {};
   }
   text::ApartEnd end =
       text::runApart({program, std::to_string(seconds), std::to_string(memory)}, bytes, seconds, goOn);
   if (!goOn()) return {};
   const char what = end.said.empty() ? '\0' : end.said.back();
-  if (what == kMadeWithoutLights)
-    files.diagnostics().warning(
-        Code::modelPartLeftOut, files.place(),
-        "the lights of the model were left out: the format says no unit of their brightness",
-        {.hint = "give the scene file a 'sun' and 'lamps'"});
+  if (what == kMadeWithoutLights) files.diagnostics().warning(say::fbxLightsLeftOut, files.place());
   if (what == kMade || what == kMadeWithoutLights) return std::move(end.made);
-  text::Diagnostic& d = files.diagnostics().error(
-      Code::unreadableModel, files.place(),
-      fmt::format("cannot read model '{}': {}", files.path(),
-                  what == kUnreadable ? end.made : "its reader did not survive it"));
-  d.expected = "a sound FBX file of version 7.1 or later";
-  d.hint = "export it again, as .glb if you can";
-  if (what == kUnreadable) return {};
-  d.expected += fmt::format(", read in {} s of processor time and {} MiB", seconds, memory >> 20);
-  d.found = fmt::format("{}, after {:.1f} s of processor time and with {} MiB",
-                        what == kTooLarge ? "no memory left" : end.how, end.seconds, end.mebibytes);
-  d.hint += ", or raise the limits with --limit 2";
+  if (what == kUnreadable)
+    files.diagnostics().error(say::fbxNotRead, files.place(), files.path(), end.made);
+  else
+    files.diagnostics().error(say::fbxReaderDied, files.place(), files.path(), seconds, memory >> 20,
+                              what == kTooLarge ? "no memory left" : end.how, end.seconds, end.mebibytes);
   return {};
 }
 

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "assets_sentences.h"
 #include "engine/assets/models/gltf/gltf_document.h"
 #include "engine/assets/models/parts/mesh_builder.h"
 
@@ -65,8 +66,7 @@ class GltfReader {
     document_.numbers(value, "scale", {&node.local.scale.x, 3});
     document_.numbers(value, "rotation", {&rotation.x, 4});
     if (!normalizeRotation(rotation))
-      document_.fail(*value.find("rotation"), fmt::format("the rotation of node {} has no length", number),
-                     {"a quaternion x, y, z, w"});
+      document_.fail(say::rotationWithoutLength, *value.find("rotation"), number);
     node.local.rotation = toRotation(rotation);
     return node;
   }
@@ -83,9 +83,7 @@ class GltfReader {
     for (std::uint32_t i = 0; i < rows_.size(); ++i)
       for (const JsonValue& item : itemsOf(rows_[i], "children")) {
         std::uint32_t& parent = parents[document_.index("nodes", item)];
-        if (parent != kNoRow)
-          document_.fail(item, fmt::format("a node cannot be a child of node {}", i),
-                         {"one parent for each node", fmt::format("a child of node {} already", parent)});
+        if (parent != kNoRow) document_.fail(say::noChild, item, i, parent);
         parent = i;
       }
     const std::vector<bool> roots = findRoots(parents);
@@ -106,9 +104,8 @@ class GltfReader {
       for (std::size_t c = children.size(); c-- > 0;) work.push_back(document_.index("nodes", children[c]));
     }
     if (const auto missing = std::ranges::find(rowOf_, kNoRow); missing != rowOf_.end())
-      document_.fail(rows_[static_cast<std::size_t>(missing - rowOf_.begin())],
-                     fmt::format("node {} is its own ancestor", missing - rowOf_.begin()),
-                     {"nodes that form trees", "a circle of children"});
+      document_.fail(say::ownAncestor, rows_[static_cast<std::size_t>(missing - rowOf_.begin())],
+                     missing - rowOf_.begin());
   }
 
   // What the scene names. Without a scene, what has no parent.
@@ -126,20 +123,17 @@ class GltfReader {
   void readSkin(const JsonValue& row) {
     ModelSkin& skin = model_.skins.emplace_back();
     const std::vector<JsonValue>& joints = itemsOf(row, "joints");
-    if (joints.empty() || joints.size() > 65535)
-      document_.fail(row, "a skin has no joints, or too many", {"1 to 65535 joints"});
+    if (joints.empty() || joints.size() > 65535) document_.fail(say::jointsOutOfRange, row);
     for (const JsonValue& item : joints) skin.joints.push_back(rowOf_[document_.index("nodes", item)]);
     skin.inverseBind.assign(joints.size(), glm::mat4(1));
     const JsonValue* matrices = row.find("inverseBindMatrices");
     if (!matrices) return;
     const GltfAccessor accessor = document_.accessor(*matrices, "MAT4", true);
     if (accessor.count < joints.size() || accessor.count > 65536 || accessor.type != 5126)
-      document_.fail(*matrices, "the skin's matrices do not fit its joints",
-                     {fmt::format("{} matrices of floats", joints.size()),
-                      fmt::format("{}, componentType {}", accessor.count, accessor.type)});
+      document_.fail(say::matricesMisfitJoints, *matrices, joints.size(), accessor.count, accessor.type);
     const std::vector<float> values = document_.read<float>(accessor);
     if (!std::ranges::all_of(values, [](float v) { return std::isfinite(v); }))
-      document_.fail(*matrices, "a matrix of the skin holds what is no number", {"finite numbers"});
+      document_.fail(say::matrixNotFinite, *matrices);
     for (std::size_t j = 0; j < joints.size(); ++j)
       skin.inverseBind[j] = glm::make_mat4(values.data() + 16 * j);
   }
@@ -174,9 +168,7 @@ class GltfReader {
     for (const Part& part : partsOf(document_.index("meshes", *mesh), skin != kNoRow, node)) {
       const bool skinned = model_.meshes[part.mesh].skinned;
       if (skinned && part.joints > model_.skins[skin].joints.size())
-        document_.fail(node, "vertices are moved by joints that the skin does not have",
-                       {fmt::format("joints below {}", model_.skins[skin].joints.size()),
-                        fmt::format("joint {}", part.joints - 1)});
+        document_.fail(say::noSuchJoints, node, model_.skins[skin].joints.size(), part.joints - 1);
       for (const std::uint32_t each : nodes)
         model_.instances.push_back({each, part.mesh, part.material, skinned ? skin : kNoRow});
     }
@@ -230,9 +222,8 @@ class GltfReader {
     const JsonValue* positions = valueOf(value, {"attributes", "POSITION"});
     const int mode = static_cast<int>(document_.number(value, "mode", 4, 0, 6));
     if (mode < 4 || !positions) {
-      document_.leaveOut(value,
-                         fmt::format("mesh '{}' was left out: {}", name,
-                                     positions ? "points and lines are not drawn" : "it has no positions"));
+      document_.leaveOut(say::meshLeftOut, value, name,
+                         positions ? "points and lines are not drawn" : "it has no positions");
       return {};
     }
     const JsonValue &attributes = *value.find("attributes"), *material = value.find("material"),
@@ -266,9 +257,7 @@ class GltfReader {
   GltfAccessor vertexAccessor(const JsonValue& which, const std::string& name, std::string_view kind,
                               bool floats) {
     const GltfAccessor accessor = document_.accessor(which, kind, floats);
-    if (accessor.count != count_)
-      document_.fail(which, fmt::format("'{}' has not one value for each vertex", name),
-                     {fmt::format("{} elements", count_), fmt::format("{}", accessor.count)});
+    if (accessor.count != count_) document_.fail(say::notOnePerVertex, which, name, count_, accessor.count);
     return accessor;
   }
 
@@ -284,9 +273,7 @@ class GltfReader {
     std::vector<Vector> out(count_);
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (most && !(std::abs(values[i]) <= *most))
-        document_.fail(*which, fmt::format("'{}' of vertex {} is no number that can be used", name, i / N),
-                       {fmt::format("finite numbers within {}", *most), fmt::format("{}", values[i]),
-                        "repair the mesh and export it again"});
+        document_.fail(say::vertexUnusable, *which, name, i / N, *most, values[i]);
       out[i / N][static_cast<int>(i % N)] = values[i];
     }
     return out;
@@ -318,10 +305,8 @@ class GltfReader {
     const bool opaque = textOf(row, "type") == "VEC3";
     const GltfAccessor accessor = vertexAccessor(*where, "COLOR_0", opaque ? "VEC3" : "VEC4", true);
     if (accessor.type != 5126 && !(accessor.normalized && (accessor.type == 5121 || accessor.type == 5123)))
-      return document_.leaveOut(
-          *where, fmt::format("the vertex colors of mesh '{}' were left out", mesh.name),
-          {"floats, or normalized unsigned numbers of 8 or 16 bits",
-           fmt::format("componentType {}{}", accessor.type, accessor.normalized ? ", normalized" : "")});
+      return document_.leaveOut(say::meshColorsLeftOut, *where, mesh.name, accessor.type,
+                                accessor.normalized ? ", normalized" : "");
     std::vector<glm::vec4> colors;
     if (opaque)
       for (const glm::vec3& color : attribute<glm::vec3>(attributes, "COLOR_0", 1e9f))
@@ -352,9 +337,7 @@ class GltfReader {
     }
     for (const RawVertex& v : mesh.vertices)
       if (!glm::all(glm::lessThanEqual(glm::abs(v.position), glm::vec3(kFarthest))))
-        document_.fail(*primitive.find("targets"),
-                       fmt::format("the morph targets move mesh '{}' too far", mesh.name),
-                       {fmt::format("positions within {}", kFarthest)});
+        document_.fail(say::morphedTooFar, *primitive.find("targets"), mesh.name, kFarthest);
   }
 
   // How many joints its vertices name, at least.
@@ -392,9 +375,8 @@ class GltfReader {
     for (std::uint32_t i = 0; !accessor && i < count_; ++i) indices.push_back(i);
     const auto bad = std::ranges::find_if(indices, [&](std::uint32_t i) { return i >= count_; });
     if (bad != indices.end())
-      document_.fail(*value.find("indices"),
-                     fmt::format("index {} of mesh '{}' names no vertex", bad - indices.begin(), mesh.name),
-                     {fmt::format("an index below {}", count_), fmt::format("{}", *bad)});
+      document_.fail(say::indexNamesNoVertex, *value.find("indices"), bad - indices.begin(), mesh.name,
+                     count_, *bad);
     if (mode == 4) {
       indices.resize(indices.size() / 3 * 3);
       mesh.indices = std::move(indices);
@@ -433,17 +415,15 @@ class GltfReader {
     ModelLight light{.name = textOf(value, "name", fmt::format("light {}", number))};
     const std::size_t row = rowOf(kind, {"directional", "point", "spot"});
     if (row == 3) {
-      document_.leaveOut(value, fmt::format("light '{}' was left out", light.name),
-                         {"a 'type' of \"directional\", \"point\" or \"spot\"", fmt::format("\"{}\"", kind)});
+      document_.leaveOut(say::lightLeftOut, value, light.name, kind);
       return {};
     }
     light.kind = static_cast<ModelLightKind>(row);
     light.intensity = document_.number(value, "intensity", 1, 0, 1e12);
     if (document_.numbers(value, "color", {&light.color.x, 3}) &&
         glm::any(glm::lessThan(light.color, glm::vec3(0))))
-      document_.fail(*value.find("color"), "a light's 'color' is negative",
-                     {"3 numbers of at least 0",
-                      fmt::format("{}, {}, {}", light.color[0], light.color[1], light.color[2])});
+      document_.fail(say::negativeLight, *value.find("color"), light.color[0], light.color[1],
+                     light.color[2]);
     if (light.kind == ModelLightKind::sun) return light;
     light.range = document_.number(value, "range", 0, 1e-6, 1e9);
     if (light.kind == ModelLightKind::spot) {
@@ -452,10 +432,7 @@ class GltfReader {
       if (const JsonValue* spot = value.find("spot")) {
         light.inner = document_.number(*spot, "innerConeAngle", 0, 0, kQuarter);
         light.outer = document_.number(*spot, "outerConeAngle", std::numbers::pi / 4, 0, kQuarter);
-        if (light.inner > light.outer)
-          document_.fail(*spot, "the inner cone of a light is wider than the outer one",
-                         {fmt::format("an 'innerConeAngle' of at most {}", light.outer),
-                          fmt::format("{}", light.inner)});
+        if (light.inner > light.outer) document_.fail(say::innerConeWider, *spot, light.outer, light.inner);
       }
     }
     return light;
@@ -471,9 +448,7 @@ class GltfReader {
       return;
     }
     if (brightnessOf(light) > brightnessOf(*other)) std::swap(light, *other);
-    document_.leaveOut(where, fmt::format("the light '{}' was left out", light.name),
-                       {"one directional light: a scene has one sun",
-                        fmt::format("another one, '{}', that is as bright or brighter", other->name)});
+    document_.leaveOut(say::theLightLeftOut, where, light.name, other->name);
   }
 
   void readAnimation(const JsonValue& row) {
@@ -486,10 +461,7 @@ class GltfReader {
                       *node = valueOf(channel, {"target", "node"});
       if (!path || samplers.empty()) continue;
       if (path->text == "weights" && !std::exchange(saidWeights, true))
-        document_.leaveOut(
-            channel, fmt::format("the moving morph targets of animation '{}' were left out", animation.name),
-            {"channels of translation, rotation or scale", "",
-             "meshes are shown with the 'weights' that they or their nodes begin with"});
+        document_.leaveOut(say::morphAnimationLeftOut, channel, animation.name);
       ModelTrack track;
       const std::size_t which = rowOf(path->text, {"translation", "rotation", "scale"});
       if (which == 3 || !node) continue;
@@ -525,18 +497,14 @@ class GltfReader {
     const GltfAccessor output =
         document_.accessor(document_.need(sampler, "output"), rotation ? "VEC4" : "VEC3", true);
     const std::uint64_t values = std::uint64_t{input.count} * (cubic ? 3 : 1);
-    if (output.count != values)
-      document_.fail(sampler, "a sampler has not one value for each time",
-                     {fmt::format("{} values", values), fmt::format("{}", output.count)});
+    if (output.count != values) document_.fail(say::notOnePerTime, sampler, values, output.count);
     // The same accessor may serve any number of tracks.
     GltfDocument::refuseUnless(files_.count(std::uint64_t{input.count} * 4 + values * 16, sampler.place));
     track.times = document_.read<float>(input);
     float before = 0;
     for (const float time : track.times) {
       if (!(time >= before) || !std::isfinite(time))
-        document_.fail(
-            sampler, "the times of an animation do not ascend",
-            {"seconds from 0 on, each later than the one before", fmt::format("{} after {}", time, before)});
+        document_.fail(say::timesDoNotAscend, sampler, time, before);
       before = time;
     }
     const std::vector<float> numbers = document_.read<float>(output);
@@ -546,9 +514,7 @@ class GltfReader {
       const bool isRotation = rotation && (!cubic || i % 3 == 1);
       if (value - value != glm::vec4(0) ||  // infinite, or no number
           (isRotation && !normalizeRotation(value)))
-        document_.fail(sampler,
-                       fmt::format("value {} of an animation is no {}", i, rotation ? "rotation" : "number"),
-                       {"finite numbers, and quaternions with a length"});
+        document_.fail(say::animatedValueUnusable, sampler, i, rotation ? "rotation" : "number");
     }
   }
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "assets_sentences.h"
 #include "engine/text/limits.h"
 
 namespace weft::assets {
@@ -108,9 +109,7 @@ std::string textOf(const JsonValue& object, std::string_view key, std::string ot
 }
 
 void GltfDocument::failFile(std::string_view why, std::string expected, std::string found) {
-  diagnostics_.error(Code::unreadableModel, files_.place(),
-                     fmt::format("cannot read model '{}': {}", files_.path(), why),
-                     {std::move(expected), std::move(found), "export or download the model again"});
+  diagnostics_.error(say::cannotReadModel, files_.place(), files_.path(), why, expected, found);
   throw Refused{};
 }
 
@@ -159,20 +158,15 @@ GltfDocument::GltfDocument(std::string bytes, ModelFiles& files)
 void GltfDocument::checkExtensions() {
   for (const JsonValue& name : rows("extensionsRequired"))
     if (!isKnown(name.text)) {
-      pointTo(name,
-              diagnostics_.error(
-                  Code::unreadableModel, name.place,
-                  fmt::format("the model needs the extension '{}', which Weft does not know", name.text),
-                  {.expected = fmt::format("{}", fmt::join(kKnownExtensions, ", ")),
-                   .hint = "export the model without it, for example uncompressed"}));
+      pointTo(name, diagnostics_.error(say::unknownExtension, name.place, name.text,
+                                       fmt::join(kKnownExtensions, ", ")));
       throw Refused{};
     }
   std::map<std::string, std::pair<const JsonValue*, std::size_t>> unknown;
   collectUnknown(root_, unknown);
   for (const auto& [name, use] : unknown)
-    leaveOut(*use.first, fmt::format("the extension '{}' was left out", name),
-             {fmt::format("{}", fmt::join(kKnownExtensions, ", ")),
-              fmt::format("{} use{} of it", use.second, use.second == 1 ? "" : "s")});
+    leaveOut(say::extensionLeftOut, *use.first, name, fmt::join(kKnownExtensions, ", "), use.second,
+             use.second == 1 ? "" : "s");
 }
 
 std::string GltfDocument::readBuffer(const JsonValue& row, std::string_view binary) {
@@ -184,23 +178,20 @@ std::string GltfDocument::readBuffer(const JsonValue& row, std::string_view bina
     bytes = std::string(binary);
   } else if (uri->text.starts_with("data:")) {
     bytes = decodeDataUri(uri->text);
-    if (!bytes) fail(*uri, "a buffer holds damaged base64", {"data:…;base64,…"});
+    if (!bytes) fail(say::damagedBase64, *uri);
     refuseUnless(files_.count(bytes->size(), uri->place));
   } else {
     bytes = files_.readBeside(uri->text, uri->place, Code::unreadableModel, true);
   }
   refuseUnless(bytes.has_value());
   const std::uint64_t length = whole(row, "byteLength");
-  if (length > bytes->size())
-    fail(row, "a buffer is shorter than it says",
-         {fmt::format("{} bytes", length), fmt::format("{} bytes", bytes->size()),
-          "export or download the model again"});
+  if (length > bytes->size()) fail(say::bufferTooShort, row, length, bytes->size());
   return std::move(*bytes);
 }
 
 const JsonValue& GltfDocument::need(const JsonValue& object, std::string_view key) {
   const JsonValue* found = object.find(key);
-  if (!found) fail(object, fmt::format("'{}' is missing", key), {fmt::format("\"{}\"", key)});
+  if (!found) fail(say::missing, object, key);
   return *found;
 }
 
@@ -208,10 +199,10 @@ std::uint32_t GltfDocument::index(std::string_view table, std::size_t count, con
   if (value.is(JsonValue::Type::number) && value.number >= 0 && value.number < static_cast<double>(count) &&
       value.number == std::floor(value.number))
     return static_cast<std::uint32_t>(value.number);
-  fail(value, fmt::format("there is no such row of '{}'", table),
-       {count == 0 ? fmt::format("none: the file has no '{}'", table)
-                   : fmt::format("an index from 0 to {}", count - 1),
-        describe(value)});
+  fail(say::noSuchRow, value, table,
+       count == 0 ? fmt::format("none: the file has no '{}'", table)
+                  : fmt::format("an index from 0 to {}", count - 1),
+       describe(value));
 }
 
 std::uint64_t GltfDocument::whole(const JsonValue& object, std::string_view key) {
@@ -219,8 +210,7 @@ std::uint64_t GltfDocument::whole(const JsonValue& object, std::string_view key)
   if (!value) return 0;
   if (!value->is(JsonValue::Type::number) || value->number < 0 ||
       value->number > static_cast<double>(kMaxBytes) || value->number != std::floor(value->number))
-    fail(*value, fmt::format("'{}' is no size", key),
-         {fmt::format("a whole number from 0 to {}", kMaxBytes), describe(*value)});
+    fail(say::noSize, *value, key, kMaxBytes, describe(*value));
   return static_cast<std::uint64_t>(value->number);
 }
 
@@ -229,8 +219,7 @@ float GltfDocument::number(const JsonValue& object, std::string_view key, double
   const JsonValue* value = object.find(key);
   if (!value) return static_cast<float>(otherwise);
   if (!value->is(JsonValue::Type::number) || value->number < min || value->number > max)
-    fail(*value, fmt::format("'{}' is out of range", key),
-         {fmt::format("a number from {} to {}", min, max), describe(*value)});
+    fail(say::outOfRange, *value, key, min, max, describe(*value));
   return static_cast<float>(value->number);
 }
 
@@ -241,8 +230,7 @@ bool GltfDocument::numbers(const JsonValue& object, std::string_view key, std::s
     return item.is(JsonValue::Type::number) && std::abs(item.number) <= 1e9;
   };
   if (value->items.size() != out.size() || !std::ranges::all_of(value->items, isSound))
-    fail(*value, fmt::format("'{}' does not hold {} numbers", key, out.size()),
-         {fmt::format("{} numbers within 1e9", out.size()), describe(*value)});
+    fail(say::notSoManyNumbers, *value, key, out.size(), describe(*value));
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<float>(value->items[i].number);
   return true;
 }
@@ -256,10 +244,7 @@ GltfDocument::View GltfDocument::view(const JsonValue& which) {
   }
   const std::string& buffer = buffers_[index("buffers", need(row, "buffer"))];
   const std::uint64_t offset = whole(row, "byteOffset"), length = whole(row, "byteLength");
-  if (offset + length > buffer.size())
-    fail(row, "a buffer view reaches beyond its buffer",
-         {fmt::format("an end of at most {} bytes", buffer.size()),
-          fmt::format("{} bytes from {}", length, offset)});
+  if (offset + length > buffer.size()) fail(say::viewBeyondBuffer, row, buffer.size(), length, offset);
   return {std::string_view(buffer).substr(offset, length), whole(row, "byteStride")};
 }
 
@@ -271,9 +256,8 @@ GltfAccessor GltfDocument::accessor(const JsonValue& which, std::string_view kin
   const std::size_t bytes = bytesOfType(type);
   const bool isUnsigned = type == 5121 || type == 5123 || type == 5125;
   if (textOf(row, "type") != kind || count == 0 || bytes == 0 || !(floats ? type != 5125 : isUnsigned))
-    fail(which, "an accessor is of another kind than is needed here",
-         {fmt::format("\"{}\" of {}", kind, floats ? "floats, or of 8 or 16 bits" : "unsigned whole numbers"),
-          fmt::format("count {}, type \"{}\", componentType {}", count, textOf(row, "type"), type)});
+    fail(say::accessorOfOtherKind, which, kind,
+         floats ? "floats, or of 8 or 16 bits" : "unsigned whole numbers", count, textOf(row, "type"), type);
   if (count > text::raised(kMaxVertices) * 3) {
     text::reportLimit(diagnostics_, row.place, "an accessor has more elements than a model may have corners",
                       kMaxVertices, "vertices of one model, and a third of its corners", count / 3)
@@ -291,17 +275,13 @@ GltfAccessor GltfDocument::accessor(const JsonValue& which, std::string_view kin
     out.stride = elementBytes;
     out.data = unpacked->second.data();
     if (unpacked->second.size() != count * elementBytes)
-      fail(row, "an accessor is of another size than what was packed",
-           {fmt::format("{} bytes", unpacked->second.size()), fmt::format("{}", count * elementBytes)});
+      fail(say::accessorOfOtherSize, row, unpacked->second.size(), count * elementBytes);
   } else if (const JsonValue* name = row.find("bufferView")) {
     const View from = view(*name);
     out.stride = from.stride != 0 ? from.stride : elementBytes;
     if (out.stride < elementBytes || out.stride > 4096 ||
         offset + out.stride * (count - 1) + elementBytes > from.bytes.size())
-      fail(row, "an accessor reaches beyond its buffer view",
-           {fmt::format("an end of at most {} bytes", from.bytes.size()),
-            fmt::format("{} elements of {} bytes, {} apart, from {}", count, elementBytes, out.stride,
-                        offset)});
+      fail(say::accessorBeyondView, row, from.bytes.size(), count, elementBytes, out.stride, offset);
     out.data = from.bytes.data() + offset;
   }
   return out;
@@ -329,13 +309,10 @@ std::vector<T> GltfDocument::read(const GltfAccessor& a) {
   const std::size_t indexBytes = bytesOfType(type);
   if (count > a.count || indexBytes == 0 || type == 5126 || indexOffset + count * indexBytes > from.size() ||
       valueOffset + count * elementBytes > to.size())
-    fail(*sparse, "a sparse accessor reaches beyond what it changes",
-         {fmt::format("at most {} elements, in buffer views that hold them", a.count)});
+    fail(say::sparseBeyondAccessor, *sparse, a.count);
   for (std::size_t i = 0; i < count; ++i) {
     const double at = componentAt(from.data() + indexOffset + i * indexBytes, static_cast<int>(type), false);
-    if (at < 0 || at >= a.count)
-      fail(*a.row, "a sparse accessor changes an element that it does not have",
-           {fmt::format("indices below {}", a.count), fmt::format("{}", at)});
+    if (at < 0 || at >= a.count) fail(say::sparseElementNotThere, *a.row, a.count, at);
     put(static_cast<std::size_t>(at), to.data() + valueOffset + i * elementBytes);
   }
   return out;

@@ -88,15 +88,15 @@ class GltfDocument {
   static void refuseUnless(bool good) {
     if (!good) throw Refused{};
   }
-  [[noreturn]] void fail(const text::JsonValue& where, std::string message, text::Says says) {
-    pointTo(where,
-            diagnostics_.error(text::Code::badModelValue, where.place, std::move(message), std::move(says)));
+  template <class... Args>
+  [[noreturn]] void fail(text::Saying<Args...> what, const text::JsonValue& where, Args&&... args) {
+    pointTo(where, diagnostics_.error<Args...>(what, where.place, std::forward<Args>(args)...));
     throw Refused{};
   }
   // W168
-  void leaveOut(const text::JsonValue& where, std::string message, text::Says says = {}) {
-    pointTo(where, diagnostics_.warning(text::Code::modelPartLeftOut, where.place, std::move(message),
-                                        std::move(says)));
+  template <class... Args>
+  void leaveOut(text::Saying<Args...> what, const text::JsonValue& where, Args&&... args) {
+    pointTo(where, diagnostics_.warning<Args...>(what, where.place, std::forward<Args>(args)...));
   }
 
  private:

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <exception>
 
+#include "assets_sentences.h"
 #include "engine/assets/models/gltf/gltf_document.h"
 
 namespace weft::assets {
@@ -57,8 +58,7 @@ void GltfDocument::unpackDraco(const JsonValue& primitive) {
   } catch (const std::exception& e) {
     why = e.what();
   }
-  if (!mesh)
-    fail(*packed, "a mesh that Draco packed is damaged", {"what KHR_draco_mesh_compression says", why});
+  if (!mesh) fail(say::damagedDraco, *packed, why);
   const auto typeOf = [&](std::size_t row) { return whole(rows("accessors")[row], "componentType"); };
   const auto keep = [&](std::size_t row, std::string unpacked) {
     refuseUnless(files_.count(unpacked.size(), packed->place));
@@ -68,9 +68,7 @@ void GltfDocument::unpackDraco(const JsonValue& primitive) {
     const JsonValue* which = valueOf(primitive, {"attributes", member.key});
     const draco::PointAttribute* attribute =
         mesh->GetAttributeByUniqueId(static_cast<std::uint32_t>(index("attributes", 1 << 20, member.value)));
-    if (!which || !attribute)
-      fail(member.value, fmt::format("'{}' is not in both", member.key),
-           {"an attribute of the primitive and of what Draco packed"});
+    if (!which || !attribute) fail(say::notInBoth, member.value, member.key);
     const std::size_t row = index("accessors", *which);
     keep(row, withComponent(static_cast<int>(typeOf(row)),
                             [&]<class T>(T) { return valuesOf<T>(*mesh, *attribute); }));
@@ -91,17 +89,14 @@ std::string GltfDocument::unpackMeshopt(const JsonValue& packed) {
                              : (triangles || mode == "INDICES") && (stride == 2 || stride == 4) &&
                                    (count % 3 == 0 || !triangles);
   if (!fits || offset + length > buffer.size())
-    fail(packed, "a packed buffer view is not what it says",
-         {"what EXT_meshopt_compression says, within its buffer",
-          fmt::format("mode \"{}\", {} elements of {} bytes, {} bytes from {}", mode, count, stride, length,
-                      offset)});
+    fail(say::viewNotAsSaid, packed, mode, count, stride, length, offset);
   refuseUnless(count <= kMaxModelBytes && files_.count(count * stride, packed.place));
   std::string out(count * stride, 0);
   const auto* from = reinterpret_cast<const unsigned char*>(buffer.data() + offset);
   const int wrong = vertices    ? meshopt_decodeVertexBuffer(out.data(), count, stride, from, length)
                     : triangles ? meshopt_decodeIndexBuffer(out.data(), count, stride, from, length)
                                 : meshopt_decodeIndexSequence(out.data(), count, stride, from, length);
-  if (wrong != 0) fail(packed, "a packed buffer view is damaged", {"what meshoptimizer packed"});
+  if (wrong != 0) fail(say::damagedView, packed);
   if (filter == "OCTAHEDRAL" && (stride == 4 || stride == 8))
     meshopt_decodeFilterOct(out.data(), count, stride);
   else if (filter == "QUATERNION" && stride == 8)
@@ -109,8 +104,7 @@ std::string GltfDocument::unpackMeshopt(const JsonValue& packed) {
   else if (filter == "EXPONENTIAL" && stride % 4 == 0)
     meshopt_decodeFilterExp(out.data(), count, stride);
   else if (filter != "NONE")
-    fail(packed, "there is no such filter for elements of this size",
-         {"OCTAHEDRAL, QUATERNION or EXPONENTIAL", fmt::format("\"{}\" for {} bytes", filter, stride)});
+    fail(say::unknownFilter, packed, filter, stride);
   return out;
 }
 

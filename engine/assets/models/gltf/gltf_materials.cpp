@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "assets_sentences.h"
 #include "engine/assets/models/gltf/gltf_document.h"
 #include "engine/assets/models/parts/mesh_builder.h"
 #include "engine/assets/models/parts/texture_pool.h"
@@ -215,11 +216,7 @@ class MaterialReader {
       const std::size_t most = gloss ? 1 : 2;  // maps are made of two
       auto at = std::ranges::find(uvs, mine);
       if (at == uvs.end() && uvs.size() == most) {
-        document_.leaveOut(
-            *info, fmt::format("'{}' of material {} was left out", map.key, number),
-            {gloss ? "one set of texture coordinates, and one transform, for both maps"
-                   : "at most two sets of texture coordinates, or transforms, for the maps of a material",
-             "one more"});
+        document_.leaveOut(say::materialKeyLeftOut, *info, map.key, number, most);
         continue;
       }
       if (at == uvs.end()) at = uvs.insert(at, mine);

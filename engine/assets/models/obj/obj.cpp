@@ -13,6 +13,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "assets_sentences.h"
 #include "engine/assets/models/parts/mesh_builder.h"
 #include "engine/assets/models/parts/texture_pool.h"
 #include "engine/text/chars.h"
@@ -112,8 +113,7 @@ class MtlReader {
   };
 
   void leaveOut(const std::string& what, const Place& place) {
-    if (said_.insert(what).second)
-      diagnostics_.warning(Code::modelPartLeftOut, place, fmt::format("{} was left out", what));
+    if (said_.insert(what).second) diagnostics_.warning(say::leftOut, place, what);
   }
 
   void readLibrary(const std::string& name, const Place& place) {
@@ -382,9 +382,9 @@ class ObjReader {
     place.line = line_;
     return place;
   }
-  void fail(std::string message, std::string expected, std::string found) {
-    diagnostics_.error(Code::badModelValue, here(), std::move(message),
-                       {.expected = std::move(expected), .found = std::move(found)});
+  template <class... Args>
+  void fail(text::Saying<Args...> what, Args&&... args) {
+    diagnostics_.error<Args...>(what, here(), std::forward<Args>(args)...);
   }
 
   // A line, and those that it goes on in behind '\\'.
@@ -399,8 +399,7 @@ class ObjReader {
       statement += line;
       if (more) statement += ' ';
       if (statement.size() <= kLongestLine) continue;
-      fail("a line of the model is too long", fmt::format("lines of at most {} bytes", kLongestLine),
-           fmt::format("{} bytes", statement.size()));
+      fail(say::lineTooLong, kLongestLine, statement.size());
       return "";
     }
     return statement;
@@ -438,10 +437,7 @@ class ObjReader {
   }
 
   void reportLeftOut() {
-    if (colored_ && colorless_)
-      diagnostics_.warning(Code::modelPartLeftOut, files_.place(),
-                           "the vertex colors were left out: some vertices have none",
-                           {.hint = "export the mesh again, with a color for every vertex"});
+    if (colored_ && colorless_) diagnostics_.warning(say::colorsLeftOut, files_.place());
     for (const auto& [what, where] : leftOut_) {
       line_ = where.first;
       const bool sentence = what.find(' ') != what.npos, drawn = what != "p" && what != "l";
@@ -463,8 +459,7 @@ class ObjReader {
       if (word.starts_with('+')) word.remove_prefix(1);
       const std::optional<float> number = text::numberIn<float>(word);
       if (!number || !(std::abs(*number) <= kFarthest)) {
-        fail("a number of the model cannot be used", fmt::format("finite numbers within {}", kFarthest),
-             fmt::format("'{}'", word));
+        fail(say::numberNotUsable, kFarthest, word);
         return {};
       }
       numbers[i] = *number;
@@ -516,9 +511,7 @@ class ObjReader {
       if (!good) continue;
       corners.push_back(*corner);
       places.emplace_back(positions_[(*corner)[0]]);
-      if (corners.size() > kMaxCorners)
-        return fail("a face of the model has too many corners", fmt::format("at most {}", kMaxCorners),
-                    "more");
+      if (corners.size() > kMaxCorners) return fail(say::tooManyCorners, kMaxCorners);
     }
     if (!good) return leaveOut("faces that name what is not there were left out");
     if (corners.size() < 3) return leaveOut("faces of fewer than three corners were left out");

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <filesystem>
 
+#include "assets_sentences.h"
 #include "engine/text/files/file.h"
 #include "engine/text/json/report.h"
 
@@ -59,9 +60,7 @@ std::optional<std::string> ModelFiles::readBeside(const std::string& uri, const 
   const std::string name = escaped ? text::unescapeUri(uri) : uri;
   const std::string target = resolve(name);
   if (target.empty()) {
-    text::Diagnostic& d =
-        diagnostics_.error(Code::outsideModelFolder, place,
-                           fmt::format("the model names a file outside its folder: '{}'", name));
+    text::Diagnostic& d = diagnostics_.error(say::outsideModelFolder, place, name);
     d.expected = "a path below the folder of the model";
     d.found = fmt::format("'{}'", uri);
     d.hint = "copy the file into the model's folder and name it by its relative path";

@@ -10,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "assets_sentences.h"
 #include "engine/assets/images/image_codecs.h"
 #include "engine/text/hash.h"
 #include "engine/text/limits.h"
@@ -98,10 +99,7 @@ bool TexturePool::countTexels(std::uint64_t texels, const std::string& name, con
 }
 
 void TexturePool::reportMissing(const std::string& name, const std::string& why, const text::Place& place) {
-  diagnostics_.warning(
-      Code::missingModelTexture, place, fmt::format("the model's texture '{}' cannot be used: {}", name, why),
-      {.expected = "a .png, .jpg or .tga image in the folder of the model",
-       .hint = "a color is shown as a magenta checkerboard instead; other maps are left out"});
+  diagnostics_.warning(say::textureCannotBeUsed, place, name, why);
 }
 
 std::uint32_t TexturePool::use(std::uint32_t image, const std::string& name, TextureUse use,
@@ -174,10 +172,7 @@ std::uint32_t TexturePool::rowOf(const Use& use, std::vector<Texture>& textures)
   const bool color = use.use == TextureUse::color;
   if (!image && !color) return kNoRow;
   if (use.use == TextureUse::bump && !isBlue(*image)) {
-    diagnostics_.warning(
-        Code::modelPartLeftOut, use.place,
-        fmt::format("the bump map '{}' was left out: it holds heights, not normals", use.name),
-        {.hint = "make a normal map of it"});
+    diagnostics_.warning(say::bumpMapLeftOut, use.place, use.name);
     return kNoRow;
   }
   static const std::shared_ptr<const Image8> kMissing = makeCheckerboard();
