@@ -6,6 +6,7 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/device_needs.h"
+#include "app_sentences.h"
 #include "engine/glsl/interface.h"
 #include "engine/glsl/tokens.h"
 #include "engine/graph/edit/edit.h"
@@ -107,10 +108,7 @@ std::optional<ShaderStanza> stanzaFor(const std::string& path, glsl::SourceLoade
   const auto [root, file] = rootOf(path);
   const bool compute = file.ends_with(".comp.glsl"), vertex = file.ends_with(".vert.glsl");
   if (!compute && !vertex && !file.ends_with(".frag.glsl")) {
-    diagnostics.error(text::Code::unreadableShader, {path, 1, 1},
-                      fmt::format("'{}' is no stage of a shader", path),
-                      {.expected = "a name that ends in .frag.glsl, .vert.glsl or .comp.glsl",
-                       .hint = "a file that others include is checked with a shader that includes it"});
+    diagnostics.error(say::noShaderStage, {path, 1, 1}, path);
     return std::nullopt;
   }
   ShaderStanza made;
@@ -313,10 +311,8 @@ Checked checkOnce(const CheckOptions& options) {
     });
   if (!off.empty())
     checked.shaders.unread.warning(
-        text::Code::unreadableShader, {options.graph},
-        fmt::format("{} that {} off{}: {}", text::counted(off.size(), "pass"), off.size() == 1 ? "is" : "are",
-                    options.allVariants ? " with this scene" : ", some of which --all switches on",
-                    fmt::join(off, ", ")));
+        say::passesAreOff, {options.graph}, text::counted(off.size(), "pass"), off.size() == 1 ? "is" : "are",
+        options.allVariants ? " with this scene" : ", some of which --all switches on", fmt::join(off, ", "));
   if (vary && options.matrix)
     for (const auto* told : {&checked.matrix->broken, &checked.matrix->lost})
       for (const graph::RefusedVariation& variation : *told)

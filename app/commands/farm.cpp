@@ -10,6 +10,7 @@
 #include "app/commands/render.h"
 #include "app/output/frame_set.h"
 #include "app/output/manifest.h"
+#include "app_sentences.h"
 
 namespace weft::app {
 
@@ -80,9 +81,8 @@ int runFarm(FarmOptions& options) {
     if (options.script.empty())
       options.script = (fs::path(folder) / (slurm ? "farm.sbatch.sh" : "farm.openjd.json")).string();
     if (chunks.size() > kMostTasks) {
-      refuseOutput(options.script,
-                   fmt::format("expected at most {} tasks, found {}", kMostTasks, chunks.size()),
-                   fmt::format("--per-task {}", (options.frames.size() - 1) / kMostTasks + 1), diagnostics);
+      refuseOutput(diagnostics, say::tooManyTasks, options.script, kMostTasks, chunks.size(),
+                   (options.frames.size() - 1) / kMostTasks + 1);
       return 1;
     }
     const auto tasks = filledIn("commands/farm_tasks.sh",

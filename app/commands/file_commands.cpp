@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include "app/commands/commands.h"
+#include "app_sentences.h"
 #include "engine/assets/images/image.h"
 #include "engine/graph/language/names.h"
 #include "engine/graph/read/read.h"
@@ -35,8 +36,7 @@ void formatFile(const std::string& path, bool checkOnly, text::Diagnostics& diag
   if (checkOnly) {
     const auto same = std::ranges::mismatch(*text, laid).in1;
     const auto line = static_cast<std::uint32_t>(1 + std::count(text->begin(), same, '\n'));
-    diagnostics.error(text::Code::laidOutDifferently, {file, line, 1},
-                      "the file is not laid out as `weft format` does it", {.hint = "weft format " + path});
+    diagnostics.error(say::laidOutDifferently, {file, line, 1}, path);
   } else if (text::writeFile(path, laid, diagnostics)) {
     print(text::printable(path) + "\n");
   }
@@ -64,19 +64,15 @@ std::optional<Anchor> findAnchor(const std::string& graphFile, const std::string
   const text::Place place = {graphFile, 1, 1};
   for (const graph::PassDesc& pass : desc->passes)
     if (pass.name == name) {
-      diagnostics.error(text::Code::duplicateName, pass.namePlace,
-                        fmt::format("the graph has a pass '{}'", name),
-                        {.hint = fmt::format("give the new pass another name, such as 'my_{}'", name)});
+      diagnostics.error(say::passThereAlready, pass.namePlace, name);
       return std::nullopt;
     }
   const auto& present = desc->present;
   const bool whole =
       present && !present->mip && !present->layer && !present->face && !present->element && !present->import;
   if (whole && !desc->passes.empty()) return Anchor{desc->passes.back().name, present->name};
-  diagnostics.error(
-      text::Code::presentsNothing, present ? present->place : place,
-      "the graph presents no whole texture of its own",
-      {.expected = "\"present\": \"<texture>\" and a pass", .found = present ? present->text : ""});
+  diagnostics.error(say::presentsNoWholeTexture, present ? present->place : place,
+                    present ? present->text : "");
   return std::nullopt;
 }
 
@@ -90,11 +86,8 @@ int runNew(NewOptions& options) {
   const bool pass = options.what == "pass";
   if (options.graph.empty()) options.graph = dataFolder() + "/graphs/glow.json";
   if (!graph::isIdent(name) || name[0] == '_' || name.size() > 64 || graph::isReservedWord(name)) {
-    diagnostics.error(text::Code::notAName, text::placeOfOption(fmt::format("new {} {}", options.what, name)),
-                      fmt::format("\"{}\" cannot name a {}", name, options.what),
-                      {.expected = fmt::format(
-                           "a letter, then letters, digits and '_', at most 64, and none of the words {}",
-                           fmt::join(graph::kReservedWords, ", "))});
+    diagnostics.error(say::cannotName, text::placeOfOption(fmt::format("new {} {}", options.what, name)),
+                      name, options.what, fmt::join(graph::kReservedWords, ", "));
     return report(diagnostics);
   }
   const auto anchor = pass ? findAnchor(options.graph, name, diagnostics) : Anchor{};
@@ -164,9 +157,7 @@ bool writeAll(const ImportOptions& options, const importing::Converted& made,
 int runImport(ImportOptions& options) {
   text::Diagnostics diagnostics;
   if (!options.name.empty() && (!graph::isIdent(options.name) || options.name.size() > 60)) {
-    diagnostics.error(text::Code::notAName, text::placeOfOption("--name"),
-                      fmt::format("\"{}\" cannot name a graph", options.name),
-                      {.expected = "at most 60 letters, digits and '_', not beginning with a digit"});
+    diagnostics.error(say::cannotNameGraph, text::placeOfOption("--name"), options.name);
     return report(diagnostics);
   }
   // The .vs beside the file is part of what the command line names, unless it is a link to elsewhere or no file at all.

@@ -11,6 +11,7 @@
 #include "app/output/pictures.h"
 #include "app/output/video.h"
 #include "app/session/checkpoints.h"
+#include "app_sentences.h"
 #include "engine/graph/language/names.h"
 #include "engine/runtime/inspection/inspector.h"
 #include "engine/text/hash.h"
@@ -213,9 +214,7 @@ void findParts(const RenderOptions& options, const graph::Plan& plan, FrameRun& 
     if (!item) continue;
     run.parts[i].item = *item;
     if (resourceOf(*plan.graph, *item).kind == graph::ResourceKind::buffer)
-      refuseOutput(run.parts[i].files[0],
-                   fmt::format("'{}' is a buffer and no picture", options.kept[i].name),
-                   "weft dump writes the bytes of buffers", diagnostics);
+      refuseOutput(diagnostics, say::bufferAsPicture, run.parts[i].files[0], options.kept[i].name);
   }
 }
 
@@ -296,14 +295,12 @@ std::vector<Part> matchingParts(const DumpOptions& options, const graph::Plan& p
   for (const std::string& name : plan.graph->resourceNames)
     if (!name.starts_with('@')) names.emplace_back(graph::sharedName(name));
   for (const std::string& pattern : options.patterns) {
-    const bool unread = !graph::suffixMatches(names, pattern).empty();
-    if (runtime::captureItems(plan, {&pattern, 1}).empty())
-      diagnostics.error(
-          text::Code::unknownResource, text::placeOfOption(pattern),
-          unread ? fmt::format("'{}' is not attached in a pass that runs: nobody reads it", pattern)
-                 : fmt::format("no pass that runs writes a resource '{}'", pattern),
-          {.hint = unread ? fmt::format("`weft render -o {}=FILE` reads it", pattern)
-                          : graph::suffixHint(pattern, names)});
+    if (!runtime::captureItems(plan, {&pattern, 1}).empty()) continue;
+    if (graph::suffixMatches(names, pattern).empty())
+      diagnostics.error(say::noPassWrites, text::placeOfOption(pattern), pattern,
+                        graph::suffixHint(pattern, names));
+    else
+      diagnostics.error(say::textureNotAttached, text::placeOfOption(pattern), pattern);
   }
   std::vector<Part> parts;
   for (const runtime::CaptureItem& item : runtime::captureItems(plan, options.patterns)) {
@@ -383,8 +380,7 @@ int runRender(RenderOptions& options) {
     const auto checkSaved = [&] {
       for (const Part& part : run.parts)
         if (!part.saved && !diagnostics.hasErrors())
-          refuseOutput(part.files[0], fmt::format("nothing was in '{}' to write", part.name),
-                       "its import may be missing, or its pass did not run", diagnostics);
+          refuseOutput(diagnostics, say::nothingToWrite, part.files[0], part.name);
     };
     runFrames(*session, world, options, run, checkSaved, diagnostics);
     if (run.signal != 0) return tellInterrupted(run);

@@ -3,6 +3,7 @@
 #include "app/output/pictures.h"
 #include "app/trials/case_file.h"
 #include "app/trials/divergence.h"
+#include "app_sentences.h"
 #include "engine/graph/print/print.h"
 
 namespace weft::app {
@@ -50,9 +51,7 @@ std::optional<std::vector<std::uint8_t>> readMask(const TestCase& test, const as
   auto mask = assets::loadImage8(test.mask, 1, diagnostics);
   if (!mask) return std::nullopt;
   if (mask->width != picture.width || mask->height != picture.height) {
-    diagnostics.error(text::Code::badImageSize, test.place,
-                      fmt::format("the mask '{}' has another size than the picture", test.mask),
-                      {.expected = sizeText(picture), .found = sizeText(*mask)});
+    diagnostics.error(say::maskOfOtherSize, test.place, test.mask, sizeText(picture), sizeText(*mask));
     return std::nullopt;
   }
   for (std::uint8_t& weight : mask->texels) weight = weight >= 128;

@@ -9,6 +9,7 @@
 #include <ranges>
 
 #include "app/session/session.h"
+#include "app_sentences.h"
 #include "engine/assets/models/model_file.h"
 #include "engine/graph/language/names.h"
 #include "engine/graph/print/print.h"
@@ -361,10 +362,7 @@ bool LiveGraph::write(const graph::WriteBack& plan, text::Diagnostics& diagnosti
   ++changes_;
   const bool wefts = std::ranges::any_of(plan.files, isWefts, &graph::WriteBack::File::path);
   for (const graph::WriteBack::File& file : plan.files)
-    if (isWefts(file.path))
-      diagnostics.error(text::Code::cannotWriteBack, {file.path},
-                        fmt::format("'{}' is Weft's own, and is not written over", file.path),
-                        {.hint = "save the changes as a preset, or work on a copy"});
+    if (isWefts(file.path)) diagnostics.error(say::weftsOwn, {file.path}, file.path);
   if (wefts || !graph::saveWriteBack(plan, diagnostics)) return false;
   Moment before = now();
   before.files = reversed(plan);
@@ -382,8 +380,7 @@ bool LiveGraph::saveCamera(const scene::CameraPose& pose, text::Diagnostics& dia
   const text::JsonValue* const cameras = edit.root().find("cameras");
   const text::JsonValue& into = cameras ? *cameras : edit.root();
   if (!edit || !into.is(text::JsonValue::Type::object)) {
-    diagnostics.error(text::Code::cannotWriteBack, {path}, "the scene file cannot take this camera",
-                      {.expected = "a scene file without mistakes, and a camera with perspective"});
+    diagnostics.error(say::cameraNotTaken, {path});
     return false;
   }
   std::string name = "view_1";
@@ -402,9 +399,7 @@ std::optional<std::string> LiveGraph::savePreset(const std::string& name, text::
   const std::string file = presetFolders_.front() + "/" + name + ".json";
   std::error_code ignored;
   if (name.find_first_of("/.") != std::string::npos || text::isThere(file) || isWefts(file)) {
-    diagnostics.error(text::Code::outputNotWritten, {file},
-                      fmt::format("there is a preset '{}' already", name),
-                      {.hint = "give it another name, without '/' and '.'"});
+    diagnostics.error(say::presetThere, {file}, name);
     return std::nullopt;
   }
   nlohmann::ordered_json text = {{"name", name}};

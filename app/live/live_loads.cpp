@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app_sentences.h"
 #include "engine/text/files/file.h"
 
 namespace weft::app {
@@ -85,9 +86,7 @@ std::optional<std::string> firstEnvironment(const std::string& fileOrFolder, tex
   if (!text::isFolder(fileOrFolder)) return fileOrFolder;
   const std::vector<std::string> files = listEnvironments(fileOrFolder);
   if (!files.empty()) return files.front();
-  diagnostics.error(text::Code::unreadableImage, {fileOrFolder},
-                    fmt::format("there is no environment in the folder '{}'", fileOrFolder),
-                    {.expected = "a .hdr or .exr file in it"});
+  diagnostics.error(say::noEnvironmentInFolder, {fileOrFolder}, fileOrFolder);
   return std::nullopt;
 }
 

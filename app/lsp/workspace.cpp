@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app/session/session.h"
+#include "app_sentences.h"
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/edit/edit.h"
 #include "engine/graph/read/read.h"
@@ -101,9 +102,7 @@ void Workspace::read(const std::string& path, Graph& graph) {
   if (const auto text = texts_.of(path); text && text->isLarge()) {
     graph.texts = {{path, text}};
     graph.read = graph.desc = nullptr;
-    graph.readSaid.error(
-        text::Code::limitExceeded, {path, 1, 1}, "the file is too large to be looked at in an editor",
-        {.expected = fmt::format("at most {} bytes", Text::kMaxBytes), .hint = "use `weft check`"});
+    graph.readSaid.error(say::tooLargeForEditor, {path, 1, 1}, Text::kMaxBytes);
     return;
   }
   graph.read = graph::readGraph(path, graph.readSaid);

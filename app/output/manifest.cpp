@@ -13,6 +13,7 @@
 #include <filesystem>
 
 #include "app/output/output_files.h"
+#include "app_sentences.h"
 #include "engine/text/chars.h"
 #include "engine/text/files/file.h"
 #include "engine/text/hash.h"
@@ -70,8 +71,7 @@ bool Manifest::read(text::Diagnostics& diagnostics) {
   if (!text::isThere(path_)) return true;
   std::error_code ec;
   if (!fs::is_regular_file(path_, ec) && !fs::is_directory(path_, ec))
-    return refuseOutput(path_, fmt::format("the manifest '{}' is no plain file", path_),
-                        "name another file with --manifest", diagnostics);
+    return refuseOutput(diagnostics, say::manifestNotPlain, path_, path_);
   const auto bytes = text::readFile(path_, diagnostics, text::Code::outputNotWritten);
   if (!bytes) return false;
   std::string_view rest = *bytes;
@@ -101,12 +101,9 @@ bool Manifest::read(text::Diagnostics& diagnostics) {
       "lines such as {\"frame\":7,\"files\":{\"f_0007.png\":\"…\"},\"settings\":\"…\"}";
   const bool damaged = !done_.empty() || !others_.empty();
   if (damaged)
-    diagnostics.warning(text::Code::unreadableFile, place, "this line of the manifest is damaged",
-                        {.expected = expected, .hint = "it is left out; --skip-done draws its frame again"});
+    diagnostics.warning(say::damagedManifestLine, place, expected);
   else
-    diagnostics.error(
-        text::Code::outputNotWritten, place, fmt::format("'{}' is no manifest of frames", path_),
-        {.expected = expected, .hint = "name another file with --manifest; nothing was added to this one"});
+    diagnostics.error(say::noManifest, place, path_, expected);
   return damaged;
 }
 
@@ -140,10 +137,7 @@ bool Manifest::add(std::uint32_t frame, std::span<const std::string> files, doub
   line.update(about_);
   const int error = addLine(path_, text::dumpJson(line, -1, false) + "\n");
   return error == 0 ||
-         refuseOutput(
-             path_,
-             fmt::format("cannot add frame {} to the manifest '{}': {}", frame, path_, std::strerror(error)),
-             "name a file that can be written to, on a file system that has locks", diagnostics);
+         refuseOutput(diagnostics, say::manifestNotWritten, path_, frame, path_, std::strerror(error));
 }
 
 }  // namespace weft::app

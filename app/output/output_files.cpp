@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app_sentences.h"
 #include "engine/text/files/file.h"
 
 namespace weft::app {
@@ -60,22 +61,12 @@ std::optional<std::string> outputNameOf(const std::string& pattern, std::uint32_
 bool checkOutput(const std::string& pattern, std::uint32_t firstFrame, bool several,
                  text::Diagnostics& diagnostics) {
   const auto first = outputNameOf(pattern, firstFrame);
-  if (!first)
-    return refuseOutput(pattern, fmt::format("'{}' is no pattern for frame numbers", pattern),
-                        "write one %d or %04d, and no other %", diagnostics);
+  if (!first) return refuseOutput(diagnostics, say::badPattern, pattern, pattern);
   if (several && pattern.find('%') == std::string::npos)
-    return refuseOutput(pattern, fmt::format("several frames would all be written to '{}'", pattern),
-                        "put a number into it: f_%04d.png", diagnostics);
+    return refuseOutput(diagnostics, say::framesToOneFile, pattern, pattern);
   if (const std::string kind = text::lowerExtension(*first); kind != ".png" && kind != ".exr")
-    return refuseOutput(pattern, fmt::format("cannot write '{}': unknown kind of image '{}'", *first, kind),
-                        "name a .png or an .exr file", diagnostics);
+    return refuseOutput(diagnostics, say::unknownImageKind, pattern, *first, kind);
   return makeFolderOf(*first, diagnostics);
-}
-
-bool refuseOutput(const std::string& path, const std::string& message, const std::string& hint,
-                  text::Diagnostics& diagnostics) {
-  diagnostics.error(text::Code::outputNotWritten, {path}, message).hint = hint;
-  return false;
 }
 
 std::optional<std::string> filledIn(const std::string& file,
@@ -100,8 +91,7 @@ bool makeFolderOf(const std::string& path, text::Diagnostics& diagnostics) {
   ec.clear();
   fs::create_directories(folder, ec);
   if (!ec) return true;
-  return refuseOutput(path, fmt::format("cannot make the folder '{}': {}", folder.string(), ec.message()),
-                      "name a file in another folder", diagnostics);
+  return refuseOutput(diagnostics, say::folderNotMade, path, folder.string(), ec.message());
 }
 
 bool checkDistinct(std::span<const OutputFile> outputs, text::Diagnostics& diagnostics,
@@ -112,8 +102,8 @@ bool checkDistinct(std::span<const OutputFile> outputs, text::Diagnostics& diagn
   for (const std::string& file : text::filesRead()) seen.push_back({"", plainName(file)});
   for (const OutputFile& output : outputs) {
     if (output.pattern.empty()) continue;
-    const auto refuse = [&](const std::string& message, const char* hint) {
-      refuseOutput(output.pattern, message, hint, diagnostics);
+    const auto refuse = [&]<class... Args>(text::Saying<Args...> what, Args&&... args) {
+      diagnostics.error<Args...>(what, {output.pattern}, std::forward<Args>(args)...);
     };
     std::error_code ec;
     const fs::file_status found = fs::status(output.pattern, ec);
@@ -121,15 +111,13 @@ bool checkDistinct(std::span<const OutputFile> outputs, text::Diagnostics& diagn
     const std::string link = ours ? linkOnTheWay(output.pattern, output.inside) : "";
     const bool plain = !fs::exists(found) || fs::is_regular_file(found);
     if (!link.empty()) {
-      refuse(fmt::format("'{}' is a link, which is not followed", link), "remove it, or name another folder");
+      refuse(say::linkNotFollowed, link);
     } else if (fs::exists(found) && output.over == OutputFile::Over::nothing) {
-      refuse("the file is there already", "remove it, or choose another name or folder");
+      refuse(say::fileThere);
     } else if (!plain && ours) {
-      refuse(
-          fmt::format("there is {} of the name of a file to write", fs::is_fifo(found)        ? "a pipe"
-                                                                    : fs::is_directory(found) ? "a folder"
-                                                                                              : "a device"),
-          "remove it, or name another folder");
+      refuse(say::otherThingThere, fs::is_fifo(found)        ? "a pipe"
+                                   : fs::is_directory(found) ? "a folder"
+                                                             : "a device");
     } else if (plain) {
       const std::string name = plainName(output.pattern);
       const auto same = std::ranges::find_if(seen, [&](const OutputFile& other) {
@@ -137,12 +125,10 @@ bool checkDistinct(std::span<const OutputFile> outputs, text::Diagnostics& diagn
       });
       if (same == seen.end())
         seen.push_back({output.option, name});
+      else if (same->option.empty())
+        refuse(say::overwritesInput, output.option, same->pattern);
       else
-        refuse(same->option.empty() ? fmt::format("{} would write over '{}', which this run reads",
-                                                  output.option, same->pattern)
-                                    : fmt::format("{} and {} would write one file, '{}'", same->option,
-                                                  output.option, output.pattern),
-               "name another file");
+        refuse(say::oneFileForTwo, same->option, output.option, output.pattern);
     }
   }
   return diagnostics.errorCount() == before;

@@ -21,8 +21,12 @@ bool checkOutput(const std::string& pattern, std::uint32_t first, bool several,
                  text::Diagnostics& diagnostics);
 
 // W180 at `path`. Returns false.
-bool refuseOutput(const std::string& path, const std::string& message, const std::string& hint,
-                  text::Diagnostics& diagnostics);
+template <class... Args>
+bool refuseOutput(text::Diagnostics& diagnostics, text::Saying<Args...> what, const std::string& path,
+                  Args&&... args) {
+  diagnostics.error<Args...>(what, {path}, std::forward<Args>(args)...);
+  return false;
+}
 // The text of app/FILE of the data folder with words in it replaced. Nothing after W001: it is not there.
 std::optional<std::string> filledIn(const std::string& file,
                                     const std::vector<std::pair<std::string_view, std::string>>& words,

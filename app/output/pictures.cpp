@@ -7,6 +7,7 @@
 
 #include "app/output/output_files.h"
 #include "app/output/standard_streams.h"
+#include "app_sentences.h"
 #include "engine/text/files/file.h"
 #include "engine/text/json/edit.h"
 #include "engine/text/printable.h"
@@ -98,16 +99,8 @@ void PictureWriter::tell(text::Diagnostics& diagnostics) const {
   std::string found = fmt::format("NaN in {} and infinity in {}", first_.nan, first_.infinite);
   if (const std::uint64_t more = counts_.broken - 1; more > 0)
     found += fmt::format("; {} more of the pictures after it have such pixels", more);
-  diagnostics.warning(
-      text::Code::pictureNotFinite, {first_.file, 0, 0},
-      fmt::format("{} of the picture {} NaN or infinite, the first at x {}, y {} from the upper left",
-                  text::counted(first_.pixels, "pixel"), first_.pixels == 1 ? "is" : "are", first_.x,
-                  first_.y),
-      {.expected = "finite numbers",
-       .found = std::move(found),
-       .hint = "look for a division by 0, a root of what may be negative, or too large a value; `weft view` "
-               "marks them",
-       .resource = first_.resource});
+  diagnostics.warning(say::pictureNotFinite, {first_.file, 0, 0}, text::counted(first_.pixels, "pixel"),
+                      first_.pixels == 1 ? "is" : "are", first_.x, first_.y, found, first_.resource);
 }
 
 std::string encodeBase64(std::string_view bytes) {

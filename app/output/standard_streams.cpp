@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "app_sentences.h"
 #include "engine/text/diagnostic.h"
 #include "engine/text/printable.h"
 
@@ -81,10 +82,8 @@ int finishStreams(int exitCode) {
     text::Diagnostics diagnostics;
     const bool full = outputFailure == ENOSPC || outputFailure == EFBIG;
     diagnostics.error(
-        text::Code::outputNotWritten, {},
-        fmt::format("not everything could be written to standard output: {}", std::strerror(outputFailure)),
-        {.hint = full ? "free some space, or send it somewhere else"
-                      : "send it to a file or a pipe that takes it"});
+        say::outputLost, {}, std::strerror(outputFailure),
+        full ? "free some space, or send it somewhere else" : "send it to a file or a pipe that takes it");
     printError(diagnostics.text());
   }
   // Messages that nobody could read are no success; a reader that left wanted no more of them.

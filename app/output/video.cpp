@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "app/output/output_files.h"
+#include "app_sentences.h"
 #include "engine/text/apart.h"
 #include "engine/text/chars.h"
 #include "engine/text/files/file.h"
@@ -54,12 +55,8 @@ bool isVideo(const std::string& path) {
 std::unique_ptr<Video> Video::start(const std::string& path, std::uint32_t width, std::uint32_t height,
                                     double fps, text::Diagnostics& diagnostics) {
   if (text::lowerExtension(path) == ".mp4" && (width % 2 != 0 || height % 2 != 0)) {
-    refuseOutput(
-        path,
-        fmt::format("cannot write '{}': an .mp4 has an even width and height, not {}x{}", path, width,
-                    height),
-        fmt::format("--size {}x{}, or an .mkv, which takes any size", width + width % 2, height + height % 2),
-        diagnostics);
+    refuseOutput(diagnostics, say::oddSizeOfMp4, path, path, width, height, width + width % 2,
+                 height + height % 2);
     return nullptr;
   }
   std::string line = fmt::format(
@@ -94,7 +91,7 @@ bool Video::run(std::vector<std::string> command, text::Diagnostics& diagnostics
 }
 
 bool Video::refuse(const std::string& why, const std::string& hint, text::Diagnostics& diagnostics) const {
-  return refuseOutput(path_, fmt::format("cannot write '{}': {}", path_, why), hint, diagnostics);
+  return refuseOutput(diagnostics, say::cannotWrite, path_, path_, why, hint);
 }
 
 // Waits for ffmpeg. False after W180, when it failed, or when it ended before the film did.
@@ -107,9 +104,7 @@ bool Video::end(bool early, text::Diagnostics& diagnostics) {
   if (!early && WIFEXITED(status) && WEXITSTATUS(status) == 0) return true;
   const std::string how = WIFSIGNALED(status) ? fmt::format("signal {}", WTERMSIG(status))
                                               : fmt::format("exit code {}", WEXITSTATUS(status));
-  diagnostics.error(text::Code::outputNotWritten, {path_},
-                    fmt::format("cannot write '{}': ffmpeg ended with {}", path_, how),
-                    {.found = lastLines(errors_), .hint = "the lines above are ffmpeg's own"});
+  diagnostics.error(say::ffmpegFailed, {path_}, path_, how, lastLines(errors_));
   return false;
 }
 

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "app/output/output_files.h"
+#include "app_sentences.h"
 #include "engine/runtime/storage/state_stream.h"
 #include "engine/text/chars.h"
 #include "engine/text/hash.h"
@@ -116,9 +117,7 @@ std::uint32_t Checkpoints::begin(std::uint32_t first, text::Diagnostics& diagnos
   auto found = checkpointsIn(folder_, options_.graph);
   if (named_) found = {{first, wish_.where}};
   if (std::error_code ec; wish_.chosen && !saves_ && !named_ && !fs::is_directory(folder_, ec))
-    diagnostics.warning(text::Code::unreadableFile, {folder_},
-                        fmt::format("there is no folder '{}' with checkpoints", folder_),
-                        {.hint = "the run begins with frame 0"});
+    diagnostics.warning(say::noCheckpointFolder, {folder_}, folder_);
   if (!saves_ && found.empty()) return 0;
   std::string kept;  // they change the plan
   for (const graph::Pick& pick : options_.kept) kept += pick.text + "\n";
@@ -142,22 +141,15 @@ std::uint32_t Checkpoints::begin(std::uint32_t first, text::Diagnostics& diagnos
     if (!execution.restore(std::string_view(bytes).substr(Header::kBytes, header.size), world_,
                            runtime::headlessFrame(world_, begin - 1, options_.fps, options_.pointer),
                            diagnostics))
-      diagnostics.error(text::Code::unreadableFile, {path},
-                        fmt::format("the checkpoint '{}' holds no state of this graph", path),
-                        {.hint = "remove it"});
+      diagnostics.error(say::checkpointOfOtherState, {path}, path);
   }
   if (unfit.empty()) return begin;
   if (named_)
-    diagnostics.error(
-        text::Code::unreadableFile, {wish_.where}, "the checkpoint " + unfit[0],
-        {.hint = "name its folder instead: then the run begins with one that fits, or with frame 0"});
+    diagnostics.error(say::checkpointUnfit, {wish_.where}, unfit[0]);
   else
-    diagnostics.warning(
-        text::Code::unreadableFile, {folder_},
-        fmt::format("{} cannot be used: {}{}", text::counted(unfit.size(), "checkpoint"),
-                    fmt::join(std::span(unfit).first(std::min<std::size_t>(unfit.size(), 3)), ", "),
-                    unfit.size() > 3 ? ", …" : ""),
-        {.hint = fmt::format("the run begins with frame {}; remove what you do not need", begin)});
+    diagnostics.warning(say::checkpointsUnfit, {folder_}, text::counted(unfit.size(), "checkpoint"),
+                        fmt::join(std::span(unfit).first(std::min<std::size_t>(unfit.size(), 3)), ", "),
+                        unfit.size() > 3 ? ", …" : "", begin);
   return begin;
 }
 
@@ -168,13 +160,9 @@ bool Checkpoints::save(std::uint32_t frame, text::Diagnostics& diagnostics) {
   std::error_code ec;
   const fs::file_status there = fs::symlink_status(path, ec);
   if (fs::exists(there) && !fs::is_regular_file(there))
-    return refuseOutput(path, fmt::format("'{}' is no plain file, and not replaced", path),
-                        "remove it, or name another folder with --checkpoints", diagnostics);
+    return refuseOutput(diagnostics, say::checkpointNotPlain, path, path);
   const std::optional<std::string> state = session_.renderer.execution()->save(diagnostics);
-  if (!state)
-    return refuseOutput(path,
-                        fmt::format("no checkpoint can be made of frame {}: an import is changing", next),
-                        "leave out --checkpoint", diagnostics);
+  if (!state) return refuseOutput(diagnostics, say::importIsChanging, path, next);
   runtime::StateStream head, end;
   Header{.size = state->size(), .frame = next, .key = key_}.carry(head);
   std::string bytes = std::move(head).bytes() + *state;

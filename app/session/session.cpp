@@ -8,6 +8,7 @@
 #include <set>
 
 #include "app/output/standard_streams.h"
+#include "app_sentences.h"
 #include "engine/assets/images/image.h"
 #include "engine/gl/objects/objects.h"
 #include "engine/graph/compile/compile.h"
@@ -196,8 +197,7 @@ runtime::FrameReport drawFrame(runtime::Renderer& renderer, const runtime::World
 
 bool checkPresents(const Options& options, runtime::Renderer& renderer, text::Diagnostics& diagnostics) {
   if (renderer.execution()->presented().id != 0) return true;
-  diagnostics.error(text::Code::presentsNothing, {options.graph, 1, 1}, "the graph presents nothing to write",
-                    {.hint = "add \"present\": \"<texture>\", and enable a pass that writes it"});
+  diagnostics.error(say::presentsNothing, {options.graph, 1, 1});
   return false;
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "app/session/session.h"
+#include "app_sentences.h"
 #include "engine/text/files/file.h"
 #include "engine/text/json/fields.h"
 
@@ -76,22 +77,16 @@ class CaseReader {
     fields.finish();
     const bool picture =
         fields.find("mask") || fields.find("tolerance") || fields.find("frame") || fields.find("frames");
-    if (test.plan && picture)
-      diagnostics_.error(Code::keysExclude, value.place,
-                         fmt::format("case '{}' compares a plan, which has no picture", test.name),
-                         {.hint = "remove \"frame\", \"frames\", \"mask\" and \"tolerance\", or \"plan\""});
+    if (test.plan && picture) diagnostics_.error(say::pictureKeysOfPlan, value.place, test.name);
     cases.push_back(std::move(test));
   }
 
   void readName(const std::string& name, const text::Place& place, TestCase& test) {
     test.name = name;
     if (!isCaseName(name)) {
-      diagnostics_.error(Code::notAName, place, fmt::format("'{}' is no name for a case", name),
-                         {.expected = "letters, digits, _ and -, because its golden is a file of that name"});
+      diagnostics_.error(say::noCaseName, place, name);
     } else if (!names_.insert(name).second) {
-      diagnostics_.error(Code::duplicateName, place,
-                         fmt::format("there are two cases of the name '{}'", name),
-                         {.hint = "give one of them another name: each has a golden of its own"});
+      diagnostics_.error(say::twoCasesOfName, place, name);
     }
   }
 
@@ -129,10 +124,7 @@ class CaseReader {
   void readSet(const JsonMember& member, TestCase& test) {
     const JsonValue& value = member.value;
     if (value.is(JsonValue::Type::null) || value.is(JsonValue::Type::object)) {
-      diagnostics_.error(
-          Code::wrongType, value.place,
-          fmt::format("the value of the parameter '{}' cannot be {}", member.key, text::nameOf(value.type)),
-          {.expected = "a number, a boolean, a string or a list of numbers"});
+      diagnostics_.error(say::noParameterValue, value.place, member.key, text::nameOf(value.type));
       return;
     }
     // As it would be behind --set NAME=.
@@ -156,8 +148,7 @@ class CaseReader {
   void take(JsonFields& fields, const char* key, const Take& taken) {
     const auto text = fields.text(key);
     if (const std::string wrong = text ? taken(*text) : ""; !wrong.empty())
-      diagnostics_.error(Code::outOfRange, fields.find(key)->textPlace(),
-                         fmt::format("the {}: {}", key, wrong));
+      diagnostics_.error(say::badCaseOption, fields.find(key)->textPlace(), key, wrong);
   }
 
   void readFrames(JsonFields& fields, TestCase& test) {
@@ -168,9 +159,7 @@ class CaseReader {
     for (const JsonValue& item : frames->items)
       if (const auto number = text::readNumber(item, "a frame", kFrame, Code::outOfRange, diagnostics_))
         numbers.insert(static_cast<std::uint32_t>(*number));
-    if (frames->items.empty())
-      diagnostics_.error(Code::outOfRange, frames->place, "\"frames\" is empty, so nothing would be compared",
-                         {.hint = "name a frame, such as [0]"});
+    if (frames->items.empty()) diagnostics_.error(say::noFrames, frames->place);
     if (!numbers.empty()) test.frames.assign(numbers.begin(), numbers.end());
   }
 
@@ -198,14 +187,9 @@ std::vector<std::string> findCaseFiles(const std::string& path, text::Diagnostic
     if (std::string name = at->path().string(); name.ends_with(kSuffix))
       files.push_back(std::move(name));  // also what is no file: reading it says so
   // A case that is not run must not count as one that holds.
-  if (ec)
-    diagnostics.error(Code::unreadableFile, {path},
-                      fmt::format("cannot read a folder in it: {}", ec.message()));
+  if (ec) diagnostics.error(say::cannotReadFolder, {path}, ec.message());
   std::ranges::sort(files);
-  if (files.empty() && !diagnostics.hasErrors())
-    diagnostics.error(
-        Code::unreadableFile, {path}, "the folder has no file of cases",
-        {.hint = fmt::format("write one whose name ends in {}: docs/testing_pictures.md", kSuffix)});
+  if (files.empty() && !diagnostics.hasErrors()) diagnostics.error(say::noCaseFiles, {path}, kSuffix);
   return files;
 }
 

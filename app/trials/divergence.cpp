@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "app_sentences.h"
 #include "engine/text/chars.h"
 #include "engine/text/files/file.h"
 #include "engine/text/printable.h"
@@ -94,9 +95,7 @@ std::optional<PassRecords> readRecords(const std::string& path, text::Diagnostic
   for (std::uint32_t number = 1; !rest.empty(); ++number) {
     const std::string_view line = text::takeLine(rest);
     if (takeRecord(line, number, records)) continue;
-    diagnostics.error(
-        text::Code::wrongType, {path, number, 1}, "this is no line of a record of passes",
-        {.found = text::shortened(text::printable(line)), .hint = "write the file anew: weft test --accept"});
+    diagnostics.error(say::noRecordLine, {path, number, 1}, text::shortened(text::printable(line)));
     return std::nullopt;
   }
   return records;
