@@ -116,8 +116,12 @@ bool Overlay::wantsKeys() const {
   return ImGui::GetIO().WantTextInput;
 }
 
+bool Overlay::listOpen() const {
+  return !ImGui::GetCurrentContext()->OpenPopupStack.empty();
+}
+
 bool Overlay::closePopup() {
-  if (ImGui::GetCurrentContext()->OpenPopupStack.empty()) return false;
+  if (!listOpen()) return false;
   ImGui::ClosePopupToLevel(0, true);
   return true;
 }

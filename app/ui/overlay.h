@@ -47,6 +47,7 @@ class Overlay {
 
   bool wantsMouse() const;
   bool wantsKeys() const;  // a text field has the keyboard
+  bool listOpen() const;   // or a menu
   // Closes the list or menu that is open, between begin() and end(). False when there is none.
   bool closePopup();
 

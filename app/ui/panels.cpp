@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::array<const char*, 9> kTitles = {"Parameters", "Passes",  "Selected",  "Pictures", "Pixel",
                                                 "Times",      "Storage", "Histogram", "Messages"};
-constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoSavedSettings;
+constexpr ImGuiWindowFlags kFixed =
+    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus;
 constexpr double kTipSeconds = 0.4;
 double g_still = 0;  // seconds for which the mouse has not moved, nor had a button down
 
@@ -65,8 +65,20 @@ Panels::~Panels() {
 
 void Panels::open(std::string_view tab) {
   for (std::size_t i = 0; i < kTabCount; ++i)
-    if (tab == names()[i]) wanted_ = static_cast<Tab>(i);
+    if (tab == names()[i]) wanted_.set(i);
   visible_ = true;
+}
+
+std::string Panels::places() const {
+  return fmt::format("{} {} {}", visible_ ? int{*visible_} : -1, names()[shown_[1]], names()[shown_[0]]);
+}
+
+void Panels::restore(std::istream& places) {
+  int shown = -1;
+  std::string tab;
+  if (places >> shown)
+    while (places >> tab) open(tab);
+  visible_ = shown < 0 ? std::nullopt : std::optional(shown > 0);
 }
 
 std::vector<std::string> Panels::names() {
@@ -146,9 +158,9 @@ void Panels::draw(const runtime::FrameReport& report, const LoopState& state,
     explained_ = live_.switches();
   }
   const std::size_t errors = log_.errors();
-  if (std::exchange(errors_, errors) < errors && wide() && visible()) wanted_ = kMessages;
+  if (std::exchange(errors_, errors) < errors && wide() && visible()) wanted_.set(kMessages);
   if (visible() && live_.running()) {
-    const std::optional<Tab> wanted = wanted_;
+    const std::bitset<kTabCount> wanted = wanted_;
     if (strip_ > 0) {
       beginFixed("strip", 0, height_ - line_ - strip_, width_ - column_, strip_);
       drawTabs(1, kPictures, kTabCount, report, diagnostics);
@@ -158,7 +170,7 @@ void Panels::draw(const runtime::FrameReport& report, const LoopState& state,
     beginFixed("column", width_ - column_, 0, column_, height_ - line_);
     drawTabs(0, 0, wide() ? kPictures : kTabCount, report, diagnostics);
     ImGui::End();
-    if (wanted_ == wanted) wanted_.reset();  // else a click wants one, which may have been drawn before
+    wanted_ &= ~wanted;  // a click may want one that was drawn before
   }
   if (inspector_.large && live_.running()) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
@@ -191,7 +203,7 @@ void Panels::drawTabs(std::size_t place, std::size_t first, std::size_t end,
                                                               [&] { drawMessages(true); }};
   if (!ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyScroll)) return;
   for (std::size_t i = first; i < end; ++i) {
-    const ImGuiTabItemFlags flags = wanted_ == static_cast<Tab>(i) ? ImGuiTabItemFlags_SetSelected : 0;
+    const ImGuiTabItemFlags flags = wanted_[i] ? ImGuiTabItemFlags_SetSelected : 0;
     if (!ImGui::BeginTabItem(kTitles[i], nullptr, flags)) continue;
     shown_[place] = static_cast<Tab>(i);
     ImGui::BeginChild(kTitles[i]);

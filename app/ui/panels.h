@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <bitset>
 #include <initializer_list>
 #include <map>
 #include <span>
@@ -91,6 +92,9 @@ class Panels {
   // Brings one to the front by its name, which names() has.
   void open(std::string_view tab);
   static std::vector<std::string> names();
+  // "0", "1", or "-1" while nobody chose whether panels are shown, and the tabs in front: between runs.
+  std::string places() const;
+  void restore(std::istream& places);
   // Brings a pass and what it writes to the front, by its full instance name.
   void select(std::string_view pass);
   // Brings what passes leave at a place of the picture to the front: from its lower left corner, 0 to 1 each way.
@@ -193,7 +197,7 @@ class Panels {
 
   std::optional<bool> visible_;  // as a person chose it
   std::array<Tab, 2> shown_{kParameters, kPictures};
-  std::optional<Tab> wanted_;  // to be brought to the front
+  std::bitset<kTabCount> wanted_;  // to be brought to the front
   float em_ = 14, width_ = 0, height_ = 0;
   float column_ = 0, strip_ = 0, line_ = 0;  // pixels; 0: not there
   std::size_t errors_ = 0;                   // in the log, when it was looked at last

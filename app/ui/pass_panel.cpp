@@ -114,7 +114,7 @@ void Panels::drawPassRow(std::size_t index, text::Diagnostics& diagnostics) {
       closed.SetBool(key, !closed.GetBool(key));
     } else if (!row.passes.empty() && plan.stepOf[row.passes.front()] != graph::kNone) {
       inspector_.select(plan, row.passes.front());
-      wanted_ = kSelected;
+      wanted_.set(kSelected);
     }
   }
   const bool hovered = ImGui::IsItemHovered();

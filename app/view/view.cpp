@@ -23,6 +23,7 @@ bool canBeFixed(const ViewOptions& options, const text::Diagnostics& diagnostics
 int runView(ViewOptions& options) {
   text::Diagnostics diagnostics;
   options.window = true;
+  options.recallPlaces();
   const std::uint32_t last = options.maxFrames ? options.maxFrames - 1 : 0;
   if (!options.screenshot.empty()) checkOutput(options.screenshot, last, false, diagnostics);
   if (!options.record.empty()) checkOutput(options.record, 0, true, diagnostics);
@@ -95,6 +96,7 @@ void addView(CommandLine& line) {
   const auto [command, options] =
       line.add("view", "run a graph in a window (without a display: xvfb-run -a)", runView);
   options.addGraph(command);
+  options.width = options.height = 0;  // as before, unless --size says
   options.addBackend(command);
   options.addMeasurements(command);
   addTaken(

@@ -82,7 +82,52 @@ void setIcon(GLFWwindow* window) {
   glfwSetWindowIcon(window, 1, &icon);
 }
 
+// Unless no screen is there now.
+void moveTo(GLFWwindow* window, int x, int y) {
+  int count = 0, at[4];
+  GLFWmonitor** const screens = glfwGetMonitors(&count);
+  for (GLFWmonitor* screen : std::span(screens, static_cast<std::size_t>(count))) {
+    glfwGetMonitorWorkarea(screen, &at[0], &at[1], &at[2], &at[3]);
+    if (x >= at[0] && y >= at[1] && x < at[0] + at[2] && y < at[1] + at[3]) glfwSetWindowPos(window, x, y);
+  }
+}
+
 }  // namespace
+
+std::string ViewOptions::keptFile(const char* name) const {
+  const bool script = !ui || events || maxFrames > 0 || !record.empty() || !screenshot.empty();
+  return script ? "" : userFile("XDG_STATE_HOME", ".local/state", name);
+}
+
+std::string ViewOptions::kept(const char* name) const {
+  const std::string file = keptFile(name);
+  if (!text::isThere(file)) return "";
+  text::Diagnostics ignored;
+  text::chooseFile(file);
+  return text::readTextFile(file, ignored).value_or("");
+}
+
+void ViewOptions::keep(const char* name, const std::string& text) const {
+  const std::string file = keptFile(name);
+  if (file.empty()) return;
+  text::Diagnostics ignored;  // a home that cannot be written
+  std::error_code none;
+  std::filesystem::create_directories(std::filesystem::path(file).parent_path(), none);
+  text::writeFile(file, text, ignored);
+}
+
+void ViewOptions::recallPlaces() {
+  std::uint32_t size[2] = {1280, 720};
+  std::istringstream lines(kept("places"));
+  std::string hash;
+  if (std::getline(lines, hash) &&
+      hash == fmt::format("{:016x}", text::hashBytes(lines.str().substr(hash.size() + 1)))) {
+    lines >> corner[0] >> corner[1] >> size[0] >> size[1] >> std::ws;
+    std::getline(lines, panelPlaces);
+    std::getline(lines, tables, '\0');
+  }
+  if (width == 0) std::tie(width, height) = std::tie(size[0], size[1]);
+}
 
 Viewer::Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& live, PageServer* server)
     : options_(options), session_(session), live_(live), server_(server) {
@@ -98,9 +143,13 @@ Viewer::Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& li
   }
   addActions();
   setIcon(window_);
+  moveTo(window_, options.corner[0], options.corner[1]);
   renderer_.device().timers.setEnabled(options.profile);
+  std::istringstream places(options.panelPlaces);
+  panels_.restore(places);
   for (const std::string& panel : options.panels) panels_.open(panel);
   if (!overlay_) return;
+  ImGui::LoadIniSettingsFromMemory(options.tables.data(), options.tables.size());
   overlay_->begin();
   ImGui::SetNextWindowPos({ImGui::GetIO().DisplaySize.x / 2, ImGui::GetIO().DisplaySize.y / 2}, 0,
                           {0.5f, 0.5f});
@@ -266,23 +315,28 @@ std::string Viewer::show(const KeyBinding& key) {
 
 std::string Viewer::open(const std::string& file) {
   if (!live_.open(file, diagnostics_)) return "not opened, see the messages: " + file;
-  remember(file);
+  if (text::isThere(file)) remember(file);  // an environment or a scene is still to be read
   return "opened " + file;
 }
 
 void Viewer::remember(const std::string& file) {
-  const std::string list = userFile("XDG_STATE_HOME", ".local/state", "recent");
-  if (!overlay_ || options_.maxFrames || list.empty()) return;
-  text::Diagnostics ignored;  // a home that cannot be written
-  std::error_code none;
-  text::chooseFile(list);
-  if (text::isThere(list)) recent_ = text::linesOf(text::readTextFile(list, ignored).value_or(""));
+  if (const std::string list = options_.kept("recent"); !list.empty()) recent_ = text::linesOf(list);
   const std::string path = text::absolutePath(file);
   std::erase_if(recent_, [&](const std::string& each) { return each == path || each.empty(); });
   recent_.insert(recent_.begin(), path);
   recent_.resize(std::min<std::size_t>(recent_.size(), 12));
-  std::filesystem::create_directories(std::filesystem::path(list).parent_path(), none);
-  text::writeFile(list, fmt::format("{}\n", fmt::join(recent_, "\n")), ignored);
+  options_.keep("recent", fmt::format("{}\n", fmt::join(recent_, "\n")));
+}
+
+void Viewer::keepPlaces() const {
+  if (!overlay_) return;
+  int at[4];
+  glfwGetWindowPos(window_, &at[0], &at[1]);
+  glfwGetWindowSize(window_, &at[2], &at[3]);
+  if (glfwGetWindowMonitor(window_)) std::ranges::copy(before_, at);
+  const std::string text =
+      fmt::format("{}\n{}\n{}", fmt::join(at, " "), panels_.places(), ImGui::SaveIniSettingsToMemory());
+  options_.keep("places", fmt::format("{:016x}\n{}", text::hashBytes(text), text));
 }
 
 void Viewer::edit(const text::Place& place) {
@@ -291,8 +345,9 @@ void Viewer::edit(const text::Place& place) {
 }
 
 void Viewer::close() {
-  if (overlay_ && overlay_->closePopup()) return;
-  if (std::exchange(help_, false) || panels_.closeQuestion() || panels_.hideShown()) return;
+  if (overlay_ && (overlay_->closePopup() || std::exchange(help_, false) || panels_.closeQuestion() ||
+                   panels_.hideShown()))
+    return;
   if (input_.captured()) return toggleFlight();
   glfwSetWindowShouldClose(window_, GLFW_TRUE);
 }
@@ -397,6 +452,7 @@ int Viewer::run(text::Diagnostics said) {
   if (!options_.screenshot.empty() && frame_ > 0) savePicture(*outputNameOf(options_.screenshot, frame_ - 1));
   stopRecording();
   input_.capture(false);
+  keepPlaces();
   say("closed");
   return report(diagnostics_) || broken_ || !live_.good() ? 1 : 0;
 }

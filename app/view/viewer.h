@@ -1,6 +1,8 @@
 // The viewer: a LiveGraph in a window, a camera, panels around the picture, and the loop over them.
 #pragma once
 
+#include <climits>
+
 #include "app/output/frame_look.h"
 #include "app/output/pictures.h"
 #include "app/session/command_line.h"
@@ -30,6 +32,18 @@ struct ViewOptions : Options {
   double uiScale = 0;        // 0: as the screen says
   std::string editor;        // its command; empty: the one of the environment
   std::optional<int> serve;  // the port of a page of the frame, 0 for any
+  // Where things were in the run before: the corner of the window, and what its panels and their tables say.
+  int corner[2] = {INT_MIN, INT_MIN};
+  std::string panelPlaces, tables;
+
+  // Text that is kept between runs, by a name; "" when there is none, and for scripts, which keep nothing.
+  std::string kept(const char* name) const;
+  void keep(const char* name, const std::string& text) const;
+  // Takes up what keepPlaces() kept; a size of the command line stays.
+  void recallPlaces();
+
+ private:
+  std::string keptFile(const char* name) const;
 };
 
 class Viewer {
@@ -56,6 +70,7 @@ class Viewer {
   std::string open(const std::string& file);
   // Files that were opened, the last first, are kept between runs.
   void remember(const std::string& file);
+  void keepPlaces() const;
   void edit(const text::Place& place);
   void close();
   // The command that renders what is seen.

@@ -105,7 +105,7 @@ void WindowInput::onKey(const ui::WindowEvent& event) {
     if (!row) row = keys_.find(written, with);
     if (!row && digit) row = keys_.find(event.key, with);
   }
-  if (row) actions_.push_back(row);
+  if (row && (row->name == "close" || !overlay_ || !overlay_->listOpen())) actions_.push_back(row);
 }
 
 void WindowInput::onButton(const ui::WindowEvent& event) {

@@ -21,11 +21,11 @@ class Session:
     """A viewer under way. Its events are numbered in the order they come: mark() is how many there are, event(…, since) waits for
     one after that."""
 
-    def __init__(self, weft, folder, *arguments, graph="graphs/studio.json", size="320x180", data=True):
+    def __init__(self, weft, folder, *arguments, graph="graphs/studio.json", size="320x180", data=True, events=True):
         self.folder, self.log, self.told = folder, folder / "stderr.txt", folder / "stdout.txt"
         homes = {name: str(folder / "home") for name in ("XDG_CONFIG_HOME", "XDG_STATE_HOME")}
         environment = {**os.environ, **homes, **({"WEFT_DATA": str(folder)} if data else {})}
-        command = [weft, "view", graph, "--size", size, "--program-cache", "none", "--events", *map(str, arguments)]
+        command = [weft, "view", graph, *(["--size", size] if size else []), "--program-cache", "none", *(["--events"] if events else []), *map(str, arguments)]
         count_run()
         with open(self.log, "w") as log, open(self.told, "w") as told:
             self.process = subprocess.Popen(list(map(str, command)), cwd=folder, env=environment, stderr=log, stdout=told)

@@ -394,13 +394,50 @@ def keys(weft, folder, display, report):
         drag(live, (200, 100))
         report.check(live.event("scale 0.5", since) and live.event("scale 1", since), f"the scale does not follow the hand\n{live.lines()[-9:]}")
         live.act("ctrl+o", "open")
+        since = live.mark()
         live.tool("type", "graphs/pair.json")
-        since = live.key("Return")
+        for key in ("Left", "Up", "End", "Return"):
+            live.key(key)
         report.check(live.event("opened graphs/pair.json", since), f"nothing is opened\n{live.lines()[-9:]}")
-        report.check((home / "recent").read_text() == f"{folder}/graphs/pair.json\n{folder}/graphs/keyed.json\n", (home / "recent").read_text())
+        report.check(not any(" action " in line for line in live.lines()[since:]), f"letters of a field do something\n{live.lines()[since:]}")
         live.leave(report)
+        report.check(sorted(path.name for path in home.iterdir()) == ["keys.json", "presets"], "a script leaves something for the next run")
     finally:
         live.stop()
+
+
+def places(weft, folder, report):
+    """The window, its panels and the files that were opened are as they were in the run before; what is damaged is as if it was not there."""
+    home, graph = folder / "home/weft", "graphs/pair.json"
+    shutil.rmtree(home, ignore_errors=True)
+
+    def run(*arguments, do=lambda live: None, **kinds):
+        live = Session(weft, folder, *arguments, graph=graph, events=False, **kinds)
+        try:
+            said = live.open(40, 40) and live.shot() and live.line("weft render .* --size ([^ ]+) .*", live.key("c"))
+            corner = re.search(r"Position: (-?\d+,-?\d+)", " ".join(live.tool("getwindowgeometry", live.window)))
+            do(live)
+            live.leave(report)
+            return said and said[1], corner and corner[1]
+        finally:
+            live.stop()
+
+    def change(live):
+        live.tool("windowmove", live.window, 60, 50)
+        live.tool("mousemove", "--window", live.window, 40, 40)
+        live.key("space")
+        live.tool("windowsize", live.window, 400, 300)
+        report.check(live.until(lambda: " 400x300 " in live.line("weft render .*", live.key("c"))[0]), f"no size\n{live.lines()[-3:]}")
+
+    first = run("--panels", "passes,times", size="", do=change)
+    recent = (home / "recent").read_text()
+    report.check(recent == f"{folder}/graphs/pair.json\n", recent)
+    kept = (home / "places").read_text()
+    report.check("\n60 50 400 300\n0 times passes\n" in kept, kept)
+    report.check(run(size="") == ("400x300", "60,50"), "the window is another in the next run")
+    report.check(run(size="300x200")[0] == "300x200", "--size is not the size")
+    (home / "places").write_text(kept.replace("400", "500"))
+    report.check(run("--panels", "passes", size="")[0] == first[0], "damaged places are taken up")
 
 
 KEYED = """{ "parameters": { "exposure": { "default": 1.0, "min": 0, "max": 4 }, "curve": { "default": "plain", "choices": ["plain", "dark"] },
@@ -447,6 +484,7 @@ def main():
         scan(weft, folder, report)
         compare(weft, folder, display, report)
         keys(weft, folder, display, report)
+        places(weft, folder, report)
     report.end()
 
 
