@@ -14,9 +14,10 @@ uniform sampler2D behind;
 
 // Mean of texels `width` pixels wide.
 vec3 blurredBehind(vec2 at, float width) {
-  width = max(width, 1.0);
+  vec2 size = vec2(textureSize(behind, 0));
+  width = clamp(width, 1.0, 0.25 * min(size.x, size.y));
   float level = log2(width);
-  vec2 off = 0.5 * (width - 1.0) / vec2(textureSize(behind, 0)), turned = vec2(off.x, -off.y);
+  vec2 off = 0.5 * (width - 1.0) / size, turned = vec2(off.x, -off.y);
   return 0.25 * (textureLod(behind, at - off, level) + textureLod(behind, at + off, level) + textureLod(behind, at + turned, level) +
                  textureLod(behind, at - turned, level)).rgb;
 }
@@ -33,9 +34,11 @@ vec3 lightFromBehind(Point point, Response response) {
   vec3 leaves = point.position + into * layers.thickness;
   vec4 clip = view_projection * vec4(leaves, 1.0);
   vec2 at = clip.xy / clip.w * 0.5 + 0.5;
-  // How far the picture is behind, seen as blurred as it would be if it was the sky.
-  float spread = alpha / pixelAngle();
-  spread *= clamp(1.0 - distance(eye, leaves) * textureLod(behind, at, log2(max(4.0 * spread, 1.0))).a, 0.0, 1.0);
+  // How far the picture is behind, seen as blurred as it would be if it was the sky; in parallel views, if it was 1 away.
+  bool parallel = projection[3].w != 0.0;
+  float spread = alpha / pixelAngle(), away = parallel ? dot(eye - leaves, point.to_eye) : distance(eye, leaves);
+  float nearness = textureLod(behind, at, log2(max(4.0 * spread, 1.0))).a;
+  spread *= clamp(1.0 - away * nearness, 0.0, 1.0) / (parallel ? max(nearness, 1e-3) : 1.0);
   // The slopes of GGX have a narrow middle and long tails: two Gaussians, of about 0.7 alpha and 2 alpha (fitted to its characteristic
   // function, x K1(x)). Rays turn by twice that, and four lookups of texels w pixels wide have a variance of about w^2 / 2.
   vec3 light = mix(blurredBehind(at, 1.8 * spread), blurredBehind(at, 5.7 * spread), 0.35);

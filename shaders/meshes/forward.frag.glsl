@@ -3,7 +3,7 @@
 //         material_layers?            see meshes/layers.glsl
 //         behind?                     see meshes/behind.glsl
 //         air?, the lights            see meshes/radiance.glsl
-// modify  radiance   scene-referred; alpha 1, with BLEND premultiplied by the material's: blend "premultiplied"
+// modify  radiance   scene-referred, premultiplied by the material's alpha: blend "premultiplied" where it blends
 //         velocity   screen UV per frame
 //         depth      reversed-Z
 // params, defines    see shading/light.glsl
@@ -11,10 +11,6 @@
 #include "meshes/surface.glsl"
 #include "shading/cook_torrance.glsl"
 #include "meshes/radiance.glsl"
-
-#ifndef BLEND
-#define BLEND 0
-#endif
 
 #ifdef HAS_RADIANCE
 out vec4 radiance;
@@ -29,13 +25,12 @@ void main() {
 #endif
   MeshSurface self = meshSurface();
 #ifdef HAS_RADIANCE
-  vec3 v = normalize(eye - world_position), n = self.normal;
+  vec3 v = towardsEye(world_position), n = self.normal;
   Point point = Point(world_position, n, v, reflect(-v, n), clamp(dot(n, v), 0.0, 1.0), self.occlusion);
   Surface surface = Surface(self.albedo, self.metallic, self.roughness);
   Response response = responseOf(surface, point.nv);
   vec3 light = meshRadiance(self, surface, response, point);
-  float share = BLEND == 1 ? self.alpha : 1.0;
-  radiance = vec4(light * share, share);
+  radiance = vec4(light * self.alpha, self.alpha);
 #endif
 #ifdef HAS_VELOCITY
   velocity = meshVelocity(viewport);

@@ -86,7 +86,7 @@ MeshSurface meshSurface() {
   MeshSurface surface;
   surface.normal = n;
   surface.albedo = color.rgb;
-  surface.alpha = color.a;
+  surface.alpha = self.blends != 0u ? color.a : 1.0;
   surface.emissive = self.emissive * texel[4].rgb;
   surface.lit = self.unlit == 0u ? 1.0 : 0.0;
 #ifdef HAS_VERTEX_COLORS

@@ -12,7 +12,7 @@ struct Material {
   float alpha, alpha_cutoff;
   float normal_scale, occlusion_strength;
   uint albedo_map, normal_map, metallic_roughness_map, occlusion_map, emissive_map;
-  uint blinn_phong, double_sided, unlit;
+  uint blinn_phong, double_sided, unlit, blends;
 };
 layout(std430) readonly buffer materials { Material material[]; };
 

@@ -104,6 +104,12 @@ float sheenReflectance(float cosine) {
   return mix(mix(sheen_table[i], sheen_table[i + 1], share.x), mix(sheen_table[i + 9], sheen_table[i + 10], share.x), share.y);
 }
 
+// What it leaves of the light of what is below.
+float pastSheen(float nv) {
+  if (greatest(layers.sheen) <= 0.0) return 1.0;
+  return 1.0 - greatest(layers.sheen) * max(sheenReflectance(nv), sheenReflectance(0.6));  // 0.6: for light that arrives from everywhere
+}
+
 // ---- all of them
 
 // Along the grooves and across. KHR_materials_anisotropy.
@@ -138,6 +144,7 @@ Response layeredResponse(Surface surface, float nv) {
 #ifdef HAS_BEHIND
   layers.passed = response.diffuse * layers.transmission;
   response.diffuse -= layers.passed;
+  layers.passed *= pastSheen(nv);
 #endif
   return response;
 }
@@ -203,8 +210,7 @@ vec3 layeredAmbient(Point point, Response response, Ambient ambient) {
   vec3 light = (ambient.reflected + (response.multiple + response.diffuse) * ambient.mean) * point.sky_visible;
 #endif
   if (greatest(layers.sheen) <= 0.0) return light;
-  float sheen = sheenReflectance(point.nv), mean = sheenReflectance(0.6);  // of light that arrives from everywhere
-  return light * (1.0 - greatest(layers.sheen) * max(sheen, mean)) + layers.sheen * sheen * ambient.mean * point.sky_visible;
+  return light * pastSheen(point.nv) + layers.sheen * sheenReflectance(point.nv) * ambient.mean * point.sky_visible;
 }
 
 vec3 layeredDirect(Point point, Response response, vec3 l) {

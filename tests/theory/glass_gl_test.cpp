@@ -106,22 +106,27 @@ struct Glass {
 
 constexpr double kEye = 9, kPane = 2, kIor = 1.5, kTan = 0.41421356237309503;  // half of 45 degrees
 
+void putPane(const Glass& glass, MeshScene& made) {
+  scene::Material material{.name = "", .albedo = glass.albedo, .roughness = glass.roughness};
+  material.alpha = 0.5f;  // not of a material that blends
+  material.layers.transmission = 1;
+  material.layers.thickness = glass.thickness;
+  material.layers.absorption = glass.absorption;
+  material.layers.specular = glass.specular;
+  material.layers.layered = true;
+  made.put(made.addSquare(1.6f), material, {0, 0, float(kPane)}, glass.lists);
+}
+
 scene::Scene stripesBehind(const Glass& glass) {
   MeshScene made({0, 0, kEye}, 45);
-  const scene::MeshId stripe = made.addSquare(0.375f), square = made.addSquare(1.6f);
+  const scene::MeshId stripe = made.addSquare(0.375f);
   for (int x = -10; x < 10; ++x)
     for (int y = -5; y <= 5; ++y) {
       const double middle = (x + 0.5) * 0.75;
       made.put(stripe, {.name = "", .albedo = glm::vec3(0), .emissive = glm::vec3(stripeAt(middle))},
                {float(middle), 0.75f * float(y), 0});
     }
-  scene::Material material{.name = "", .albedo = glass.albedo, .roughness = glass.roughness};
-  material.layers.transmission = 1;
-  material.layers.thickness = glass.thickness;
-  material.layers.absorption = glass.absorption;
-  material.layers.specular = glass.specular;
-  material.layers.layered = true;
-  made.put(square, material, {0, 0, float(kPane)}, glass.lists);
+  putPane(glass, made);
   return made.scene;
 }
 
@@ -212,6 +217,24 @@ TEST_CASE("glass transmits what rays find behind it: thin walls, smooth and roug
       CHECK(over < glass.often * count);
     }
   }
+}
+
+TEST_CASE("a light behind rough glass is one blur, however wide") {
+  const CleanScope clean;
+  for (const char* graph : {"graphs/studio.json", "graphs/deferred.json"})
+    for (const float roughness : {0.4f, 0.6f}) {
+      const Shot shot{.graph = graph, .width = 768, .height = 512, .environment = 0};
+      MeshScene made({0, 0, kEye}, 12);
+      made.put(made.addSquare(0.1f), {.name = "", .albedo = glm::vec3(0), .emissive = glm::vec3(100)}, {});
+      putPane({.roughness = roughness}, made);
+      const Taken taken = take(made.scene, shot);
+      const auto at = [&](std::uint32_t column) {
+        return double(taken.radiance[4 * (std::size_t{shot.height} / 2 * shot.width + column)]);
+      };
+      CHECK(at(shot.width / 2) > 0.1);
+      for (std::uint32_t column = shot.width / 2; column + 32 < shot.width; column += 16)
+        CHECK_MESSAGE(at(column + 32) <= 1.02 * at(column), graph, ", ", roughness, ": column ", column);
+    }
 }
 
 TEST_CASE("glass that reflects nothing and lets all through is not seen, in fog neither") {

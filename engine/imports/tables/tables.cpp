@@ -185,7 +185,9 @@ struct Materials : SceneTable<scene::Material> {
         column<Row, &Row::emissiveMap>("emissive_map"),
         column<Row, &Row::blinnPhong>("blinn_phong", "1: specular and shininess are what the file has"),
         column<Row, &Row::doubleSided>("double_sided", "0 or 1"),
-        column<Row, &Row::unlit>("unlit", "1: it shows emissive alone, times its vertex colors")};
+        column<Row, &Row::unlit>("unlit", "1: it shows emissive alone, times its vertex colors"),
+        column<Row, &Row::blend>("blends",
+                                 "1: alpha is coverage; else it is only held against alpha_cutoff")};
   }
   static ImportFacts facts(const WorldFacts& world) {
     return {.exists = true, .count = static_cast<double>(world.scene->materials.size())};

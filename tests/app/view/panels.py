@@ -12,7 +12,7 @@ import shutil
 import signal
 import sys
 
-from pictures import decode
+from pictures import decode, read_png
 from program import Report, temporary_folder
 from screen import Screen
 from window import Session, copy_of_tree, edit, inside_display, save

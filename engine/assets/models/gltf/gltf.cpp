@@ -246,6 +246,7 @@ class GltfReader {
     const std::vector<GltfUv>& uvs = uvs_[part.material];
     readUvs(attributes, uvs[0], mesh, &RawVertex::uv);
     if (uvs.size() > 1) mesh.secondUvs = readUvs(attributes, uvs[1], mesh, &RawVertex::secondUv);
+    if (model_.materials[part.material].samplers[1] & atSecondUv) mesh.tangentUv = &RawVertex::secondUv;
     readColors(attributes, mesh);
     morph(value, weights, mesh);
     if (skinned) part.joints = readWeights(attributes, mesh);

@@ -289,8 +289,8 @@ class MaterialReader {
     if (const JsonValue* volume = extensions.find("KHR_materials_volume")) {
       glm::vec3 left{1};  // of white light, after this distance
       document_.numbers(*volume, "attenuationColor", {&left.x, 3});
-      const float distance = document_.number(*volume, "attenuationDistance", 1e9, 1e-9, 1e9);
-      layers.absorption = -glm::log(glm::clamp(left, 1e-6f, 1.0f)) / distance;
+      const float distance = document_.number(*volume, "attenuationDistance", 1e9, 0, 3.5e38);
+      layers.absorption = -glm::log(glm::clamp(left, 1e-6f, 1.0f)) / std::max(distance, 1e-9f);
     }
     if (const JsonValue* normal = valueOf(extensions, {"KHR_materials_clearcoat", "clearcoatNormalTexture"}))
       layers.coatNormalScale = document_.number(*normal, "scale", 1, -1e3, 1e3);

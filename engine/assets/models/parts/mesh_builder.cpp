@@ -66,8 +66,8 @@ TriangleFrame frameOf(const RawMesh& mesh, std::size_t corner) {
   const RawVertex &a = mesh.vertices[mesh.indices[corner]], &b = mesh.vertices[mesh.indices[corner + 1]],
                   &c = mesh.vertices[mesh.indices[corner + 2]];
   const Vec e1 = Vec(b.position) - Vec(a.position), e2 = Vec(c.position) - Vec(a.position);
-  const double u1 = b.uv[0] - a.uv[0], v1 = a.uv[1] - b.uv[1];
-  const double u2 = c.uv[0] - a.uv[0], v2 = a.uv[1] - c.uv[1];
+  const glm::vec2 ab = b.*mesh.tangentUv - a.*mesh.tangentUv, ac = c.*mesh.tangentUv - a.*mesh.tangentUv;
+  const double u1 = ab.x, v1 = -ab.y, u2 = ac.x, v2 = -ac.y;
   const double area = u1 * v2 - u2 * v1;
   if (area == 0 || !std::isfinite(area)) return {};
   const double sign = area > 0 ? 1 : -1;

@@ -36,6 +36,7 @@ struct RawMesh {
   std::vector<RawVertex> vertices;
   std::vector<std::uint32_t> indices;  // triangles; below the number of vertices
   bool normals = false, colors = false, secondUvs = false, skinned = false;  // what the file has
+  glm::vec2 RawVertex::*tangentUv = &RawVertex::uv;                          // what tangents follow
   bool join = false;  // equal vertices become one: of formats without indices
 };
 
