@@ -262,10 +262,7 @@ def check(picture, graph, everywhere):
             n = (*at, math.sqrt(1 - math.hypot(*at) ** 2))
             if not everywhere and dot(n, TO_LIGHT) < 0.15:
                 continue
-            # The studio looks from a point in every projection.
-            place = (n[0] + SPACING * i, n[1], n[2])
-            v = TO_EYE if graph == "deferred" else unit(tuple(c - p for c, p in zip(CAMERA, place)))
-            right += leaves(brdf, n, v, everywhere)
+            right += leaves(brdf, n, TO_EYE, everywhere)
             seen += picture[row][column][:3]
         worst = max(abs(a - b) for a, b in zip(seen, right)) / max(right)
         print(f"{graph}, {'everywhere' if everywhere else 'one light'}, {name}: {worst:.4f}")
