@@ -480,8 +480,11 @@ class MpvWriter {
       if (isStage(text)) continue;
       const std::string message = fmt::format("a picture has no stage '{}'", text.text);
       if (any)
-        diagnostics_.warning(Code::mpvNotMapped, text.place, message).hint =
-            "the pass runs at its other stages";
+        diagnostics_.add({.severity = text::Severity::warning,
+                          .code = Code::mpvNotMapped,
+                          .message = message,
+                          .place = text.place,
+                          .hint = "the pass runs at its other stages"});
       else
         fail(Code::mpvNotMapped, text.place, message,
              "hook RGB, NATIVE, MAINPRESUB, MAIN, SCALED, PREOUTPUT or OUTPUT");

@@ -12,7 +12,7 @@ namespace weft::importing {
 
 void refuse(text::Diagnostics& diagnostics, text::Code code, const text::Place& place, std::string message,
             std::string hint) {
-  diagnostics.error(code, place, std::move(message)).hint = std::move(hint);
+  diagnostics.add({.code = code, .message = std::move(message), .place = place, .hint = std::move(hint)});
 }
 
 bool checkImageNames(const ConvertOptions& options, std::span<const std::string> known,
@@ -20,10 +20,10 @@ bool checkImageNames(const ConvertOptions& options, std::span<const std::string>
   const std::size_t errors = diagnostics.errorCount();
   for (const auto& [name, file] : options.images)
     if (!contains(known, name))
-      diagnostics
-          .error(text::Code::unknownParameter, text::placeOfOption(fmt::format("--image {}=…", name)),
-                 fmt::format("the file has no image '{}'", name))
-          .hint = known.empty() ? "leave --image out" : text::nearestHint(name, known);
+      diagnostics.add({.code = text::Code::unknownParameter,
+                       .message = fmt::format("the file has no image '{}'", name),
+                       .place = text::placeOfOption(fmt::format("--image {}=…", name)),
+                       .hint = known.empty() ? "leave --image out" : text::nearestHint(name, known)});
   return diagnostics.errorCount() == errors;
 }
 

@@ -287,7 +287,7 @@ int runTest(TestOptions& options) {
   std::vector<TestCase> cases = readCases(options.folder, options, diagnostics);
   const auto isLeftOut = [&](const TestCase& test) { return !isWanted(test, options.only); };
   if (std::ranges::all_of(cases, isLeftOut) && !diagnostics.hasErrors())
-    diagnostics.error(text::Code::unknownWord, text::placeOfOption(cases.empty() ? options.folder : "--only"),
+    diagnostics.error(say::noCase, text::placeOfOption(cases.empty() ? options.folder : "--only"),
                       cases.empty() ? "there are no cases" : "no case has such a name");
   if (diagnostics.hasErrors() || !checkOutputs(options, cases, diagnostics)) {
     report(diagnostics);

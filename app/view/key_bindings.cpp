@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "app_sentences.h"
 #include "engine/text/chars.h"
 #include "engine/text/json/fields.h"
 #include "engine/text/nearest.h"
@@ -71,9 +72,8 @@ void KeyTable::addRow(const text::JsonMember& member, text::Diagnostics& diagnos
     if (!at || !text::expectType(*at, what, Type::string, diagnostics)) return 0;
     const auto found = std::ranges::find(known, at->text);
     if (found == known.end())
-      diagnostics.error(text::Code::unknownWord, at->textPlace(),
-                        fmt::format("{}: '{}' is nothing that a key can do", what, at->text),
-                        {.hint = text::nearestHint(at->text, known)});
+      diagnostics.error(say::nothingForAKey, at->textPlace(), what, at->text,
+                        text::nearestHint(at->text, known));
     return static_cast<std::size_t>(found - known.begin());
   };
   if (value.is(Type::string)) {
@@ -86,9 +86,7 @@ void KeyTable::addRow(const text::JsonMember& member, text::Diagnostics& diagnos
       const auto name = fields.text(verb);
       if (!name) continue;
       if (!row.verb.empty())
-        diagnostics.error(text::Code::keysExclude, fields.find(verb)->place,
-                          fmt::format("{} has '{}' and '{}'", what, row.verb, verb),
-                          {.hint = "write one of them"});
+        diagnostics.error(say::keyDoesTwo, fields.find(verb)->place, what, row.verb, verb);
       row.verb = verb;
       row.name = *name;
     }
@@ -102,9 +100,7 @@ void KeyTable::addRow(const text::JsonMember& member, text::Diagnostics& diagnos
     fields.finish();
     if (row.verb.empty() && !weft && diagnostics.errorCount() == before) fields.require({"do"});
   }
-  if (row.key == 0 && !weft)
-    diagnostics.error(text::Code::unknownWord, member.place.after(1), fmt::format("there is no {}", what),
-                      {.hint = "keys are written \"G\", \"Shift F12\", \"Ctrl Z\", \"PgDn\""});
+  if (row.key == 0 && !weft) diagnostics.error(say::noSuchKey, member.place.after(1), what);
   if (diagnostics.errorCount() > before) return;
   if (row.help.empty() && !row.verb.empty())
     row.help = weft               ? rows_.back().help

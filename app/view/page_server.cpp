@@ -1,5 +1,7 @@
 #include "app/view/page_server.h"
 
+#include "app_sentences.h"
+
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
@@ -48,9 +50,7 @@ std::unique_ptr<PageServer> PageServer::open(int port, text::Diagnostics& diagno
   const int bound = port == 0 ? made->server_->bind_to_any_port("127.0.0.1")
                               : (made->server_->bind_to_port("127.0.0.1", port) ? port : -1);
   if (bound < 0) {
-    diagnostics.error(text::Code::outputNotWritten, text::placeOfOption("--serve"),
-                      fmt::format("port {} cannot be listened on", port),
-                      {.hint = "--serve 0 takes any free port"});
+    diagnostics.error(say::portTaken, text::placeOfOption("--serve"), port);
     return nullptr;
   }
   made->address_ = fmt::format("http://127.0.0.1:{}/?token={}", bound, made->token_);

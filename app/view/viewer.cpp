@@ -117,16 +117,15 @@ void ViewOptions::keep(const char* name, const std::string& text) const {
 }
 
 void ViewOptions::recallPlaces() {
-  std::uint32_t size[2] = {1280, 720};
+  std::uint32_t size[2] = {0, 0};
   std::istringstream lines(kept("places"));
-  std::string hash;
-  if (std::getline(lines, hash) &&
-      hash == fmt::format("{:016x}", text::hashBytes(lines.str().substr(hash.size() + 1)))) {
-    lines >> corner[0] >> corner[1] >> size[0] >> size[1] >> std::ws;
-    std::getline(lines, panelPlaces);
-    std::getline(lines, tables, '\0');
-  }
-  if (width == 0) std::tie(width, height) = std::tie(size[0], size[1]);
+  lines >> corner[0] >> corner[1] >> size[0] >> size[1] >> std::ws;
+  std::getline(lines, panelPlaces);
+  std::getline(lines, tables, '\0');
+  if (width > 0) return;
+  const bool good = std::ranges::all_of(size, [](std::uint32_t each) { return each >= 16 && each <= 16384; });
+  width = good ? size[0] : 1280;
+  height = good ? size[1] : 720;
 }
 
 Viewer::Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& live, PageServer* server)
@@ -334,9 +333,8 @@ void Viewer::keepPlaces() const {
   glfwGetWindowPos(window_, &at[0], &at[1]);
   glfwGetWindowSize(window_, &at[2], &at[3]);
   if (glfwGetWindowMonitor(window_)) std::ranges::copy(before_, at);
-  const std::string text =
-      fmt::format("{}\n{}\n{}", fmt::join(at, " "), panels_.places(), ImGui::SaveIniSettingsToMemory());
-  options_.keep("places", fmt::format("{:016x}\n{}", text::hashBytes(text), text));
+  options_.keep("places", fmt::format("{}\n{}\n{}", fmt::join(at, " "), panels_.places(),
+                                      ImGui::SaveIniSettingsToMemory()));
 }
 
 void Viewer::edit(const text::Place& place) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 
+#include "assets_sentences.h"
 #include "engine/text/chars.h"
 #include "engine/text/files/file.h"
 
@@ -151,7 +152,7 @@ std::optional<CubeLut> readCubeLut(std::string_view text, const std::string& nam
     problem = readLine(splitWords(text::takeLine(text)), file);
   if (problem.message.empty()) problem = checkWhole(file);
   if (problem.message.empty()) return toLut(std::move(file));
-  diagnostics.error(text::Code::notACubeTable, {name, line}, problem.message).found = problem.found;
+  diagnostics.error(say::notACubeTable, {name, line}, problem.message, problem.found);
   return {};
 }
 

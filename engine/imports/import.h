@@ -177,10 +177,11 @@ inline graph::ImportFacts factsOfRows(auto count) {
 // For facts(): an argument that cannot be, without the place, which expansion knows.
 inline text::Diagnostic badArgument(std::string message, std::string expected, std::string found,
                                     std::string hint = {}) {
-  return {{std::move(expected), std::move(found), std::move(hint)},
-          text::Severity::error,
-          text::Code::badImportArgument,
-          std::move(message)};
+  return {.code = text::Code::badImportArgument,
+          .message = std::move(message),
+          .expected = std::move(expected),
+          .found = std::move(found),
+          .hint = std::move(hint)};
 }
 
 }  // namespace weft::imports

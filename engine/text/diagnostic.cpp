@@ -106,22 +106,10 @@ Diagnostic& Diagnostics::add(Diagnostic diagnostic) {
   return items_.back();
 }
 
-Diagnostic& Diagnostics::add(Severity severity, Code code, Where place, std::string message, Says says) {
-  return add({std::move(says), severity, code, std::move(message), std::move(place)});
-}
-
 Diagnostic& Diagnostics::add(Severity severity, Diagnostic said, Where place) {
   said.severity = severity;
   said.place = std::move(place);
   return add(std::move(said));
-}
-
-Diagnostic& Diagnostics::error(Code code, Where place, std::string message, Says says) {
-  return add(Severity::error, code, std::move(place), std::move(message), std::move(says));
-}
-
-Diagnostic& Diagnostics::warning(Code code, Where place, std::string message, Says says) {
-  return add(Severity::warning, code, std::move(place), std::move(message), std::move(says));
 }
 
 void Diagnostics::append(const Diagnostics& others) {

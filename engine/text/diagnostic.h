@@ -71,22 +71,19 @@ Where placeOfOption(std::string option);
 enum class Severity : std::uint8_t { note, warning, error };
 const char* nameOf(Severity severity);  // "note", "warning", "error"
 
-// What one says beside its sentence. All may be empty.
-struct Says {
-  std::string expected{};  // "a number from 0 to 8"
-  std::string found{};     // "\"high\""
-  std::string hint{};      // the fix: "did you mean 'ldr'?"
-  std::string resource{};  // the resource concerned
-  std::string pass{};      // full instance name of the pass concerned
-};
-
-struct Diagnostic : Says {
+struct Diagnostic {
   Severity severity = Severity::error;
   Code code{};
   std::string
       message;  // one sentence, no full stop, names the thing: "pass 'fxaa' reads unknown resource 'ldrr'"
   Where place{};
-  std::string pointer{};  // JSON pointer of the value where its place does not say it: in a binary file
+  // All may be empty.
+  std::string expected{};  // "a number from 0 to 8"
+  std::string found{};     // "\"high\""
+  std::string hint{};      // the fix: "did you mean 'ldr'?"
+  std::string resource{};  // the resource concerned
+  std::string pass{};      // full instance name of the pass concerned
+  std::string pointer{};   // JSON pointer of the value where its place does not say it: in a binary file
 };
 
 // What is said of one kind of mistake: a row of the sentences.json of a room, "texture '{0}' has the unknown format '{1}'". Each text is
@@ -121,8 +118,10 @@ class Diagnostics {
  public:
   // Adds and returns the stored diagnostic so that optional fields can be filled in.
   Diagnostic& add(Diagnostic diagnostic);
-  Diagnostic& add(Severity severity, Code code, Where place, std::string message, Says says = {});
-  Diagnostic& add(Severity severity, Diagnostic said, Where place);
+  template <class... Args>
+  Diagnostic& add(Severity severity, Saying<Args...> what, Where place, Args&&... args) {
+    return add(severity, diagnosticOf(what.sentence, fmt::make_format_args(args...)), std::move(place));
+  }
   template <class... Args>
   Diagnostic& error(Saying<Args...> what, Where place, Args&&... args) {
     return add(Severity::error, diagnosticOf(what.sentence, fmt::make_format_args(args...)),
@@ -133,8 +132,11 @@ class Diagnostics {
     return add(Severity::warning, diagnosticOf(what.sentence, fmt::make_format_args(args...)),
                std::move(place));
   }
-  Diagnostic& error(Code code, Where place, std::string message, Says says = {});
-  Diagnostic& warning(Code code, Where place, std::string message, Says says = {});
+  template <class... Args>
+  Diagnostic& note(Saying<Args...> what, Where place, Args&&... args) {
+    return add(Severity::note, diagnosticOf(what.sentence, fmt::make_format_args(args...)), std::move(place));
+  }
+  Diagnostic& add(Severity severity, Diagnostic said, Where place);
   void append(const Diagnostics& others);
 
   bool hasErrors() const { return errors_ > 0; }

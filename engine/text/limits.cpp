@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "text_sentences.h"
+
 namespace weft::text {
 
 std::string hintToRaise(std::uint64_t bound, std::uint64_t needed) {
@@ -15,11 +17,9 @@ std::string hintToRaise(std::uint64_t bound, std::uint64_t needed) {
 
 Diagnostic& reportLimit(Diagnostics& diagnostics, Where place, std::string message, std::uint64_t bound,
                         std::string_view counts, std::uint64_t needed) {
-  return diagnostics.error(
-      Code::limitExceeded, std::move(place), std::move(message),
-      {.expected = fmt::format("at most {} {}", raised(bound), counts),
-       .found = needed > 0 ? fmt::format("{} {}", needed, counts.substr(0, counts.find(' '))) : "",
-       .hint = hintToRaise(bound, needed)});
+  return diagnostics.error(say::limitExceeded, std::move(place), message, raised(bound), counts,
+                           needed > 0 ? fmt::format("{} {}", needed, counts.substr(0, counts.find(' '))) : "",
+                           hintToRaise(bound, needed));
 }
 
 }  // namespace weft::text

@@ -31,6 +31,7 @@ void main() {
 #ifdef HAS_RADIANCE
 #if LAYERED && defined HAS_MATERIAL_LAYERS
   if (layers_of[row].layered == 0u) discard;
+  self.alpha = 1.0;
 #endif
   float visible = self.occlusion;
 #ifdef HAS_AO

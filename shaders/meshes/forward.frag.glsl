@@ -3,7 +3,7 @@
 //         material_layers?            see meshes/layers.glsl
 //         behind?                     see meshes/behind.glsl
 //         air?, the lights            see meshes/radiance.glsl
-// modify  radiance   scene-referred, premultiplied by the material's alpha: blend "premultiplied" where it blends
+// modify  radiance   scene-referred; alpha 1, with BLEND premultiplied by the material's: blend "premultiplied"
 //         velocity   screen UV per frame
 //         depth      reversed-Z
 // params, defines    see shading/light.glsl
@@ -11,6 +11,10 @@
 #include "meshes/surface.glsl"
 #include "shading/cook_torrance.glsl"
 #include "meshes/radiance.glsl"
+
+#ifndef BLEND
+#define BLEND 0
+#endif
 
 #ifdef HAS_RADIANCE
 out vec4 radiance;
@@ -30,7 +34,8 @@ void main() {
   Surface surface = Surface(self.albedo, self.metallic, self.roughness);
   Response response = responseOf(surface, point.nv);
   vec3 light = meshRadiance(self, surface, response, point);
-  radiance = vec4(light * self.alpha, self.alpha);
+  float share = BLEND == 1 ? self.alpha : 1.0;
+  radiance = vec4(light * share, share);
 #endif
 #ifdef HAS_VELOCITY
   velocity = meshVelocity(viewport);

@@ -53,7 +53,7 @@ MapPlace mapPlace() {
 }
 vec4 mapAt(uint map, MapPlace place) {
 #ifdef HAS_SECOND_UVS
-  if ((map >> 25 & 1u) != 0u) return sampleMap(map, place.uv_2, place.dx_2, place.dy_2);
+  if ((map & kAtSecondUv) != 0u) return sampleMap(map, place.uv_2, place.dx_2, place.dy_2);
 #endif
   return sampleMap(map, place.uv, place.dx, place.dy);
 }

@@ -16,10 +16,13 @@ struct Material {
 };
 layout(std430) readonly buffer materials { Material material[]; };
 
+// Bits of the word of a map, as `materials` has them.
+const uint kItsSampler = 31u << 20, kAtSecondUv = 1u << 25;
+
 #ifdef HAS_MATERIAL_MAPS
 uniform sampler2DArray material_maps[8];
 
-// Where to look a map up whose own sampler does not just repeat it: `how` is the part of its word from bit 20 on. Half a texel of the
+// Where to look a map up whose own sampler does not just repeat it. Half a texel of the
 // level that is seen stays between the place and an edge, so that nothing of the other side is mixed in.
 vec2 placeInMap(uint map, vec2 uv, vec2 dx, vec2 dy) {
   vec2 size = vec2(1.0);
@@ -35,7 +38,7 @@ vec2 placeInMap(uint map, vec2 uv, vec2 dx, vec2 dy) {
 
 // White when `map` is none. The caller gives the derivatives, because not all pixels of a quad may take the same branch here.
 vec4 sampleMap(uint map, vec2 uv, vec2 dx, vec2 dy) {
-  if ((map >> 20 & 31u) != 0u && map != 0xffffffffu) uv = placeInMap(map, uv, dx, dy);
+  if ((map & kItsSampler) != 0u && map != 0xffffffffu) uv = placeInMap(map, uv, dx, dy);
   vec3 at = vec3(uv, float(map & 0xffffu));
   vec4 texel = vec4(1.0);
   for (uint i = 0u; i < 8u; ++i)  // the index of a sampler is the same for all invocations that are here

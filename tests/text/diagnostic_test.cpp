@@ -15,7 +15,9 @@ static Place at(std::uint32_t line, std::uint32_t column) {
 
 TEST_CASE("a diagnostic prints place, code, message and its details") {
   Diagnostics all;
-  Diagnostic& d = all.error(Code::unknownResource, at(12, 7), "pass 'fxaa' reads unknown resource 'ldrr'");
+  Diagnostic& d = all.add({.code = Code::unknownResource,
+                           .message = "pass 'fxaa' reads unknown resource 'ldrr'",
+                           .place = at(12, 7)});
   d.pass = "fxaa";
   d.hint = "did you mean 'ldr'?";
   CHECK(format(all.items()[0]) ==
@@ -40,10 +42,10 @@ TEST_CASE("the place of an option is no file: in text, in JSON and in SARIF") {
   static_assert(sizeof(Place) <= 2 * sizeof(void*) + 8);
   static_assert(!std::is_convertible_v<Where, Place>, "it would lose the option");
   Diagnostics all;
-  all.error(Code::badParameterValue, at(1, 1), "in a file");
-  all.error(Code::badParameterValue, place, "of an option");
-  all.error(Code::badParameterValue, {}, "of nothing");
-  all.error(Code::badParameterValue, placeOfOption(""), "of the command line");
+  all.add({.code = Code::badParameterValue, .message = "in a file", .place = at(1, 1)});
+  all.add({.code = Code::badParameterValue, .message = "of an option", .place = place});
+  all.add({.code = Code::badParameterValue, .message = "of nothing"});
+  all.add({.code = Code::badParameterValue, .message = "of the command line", .place = placeOfOption("")});
   all.sortByPlace();
   CHECK(all.text() ==
         "error[W047]: of nothing\n"
@@ -63,11 +65,11 @@ TEST_CASE("the place of an option is no file: in text, in JSON and in SARIF") {
 
 TEST_CASE("warnings are no errors; sorting drops repeats and keeps the count right") {
   Diagnostics all;
-  all.warning(Code::unknownResource, at(1, 1), "w");
+  all.add({.severity = Severity::warning, .code = Code::unknownResource, .message = "w", .place = at(1, 1)});
   CHECK_FALSE(all.hasErrors());
-  all.error(Code::unreadableFile, at(9, 1), "late");
-  all.error(Code::unreadableFile, at(2, 1), "early");
-  all.error(Code::unreadableFile, at(9, 1), "late");
+  all.add({.code = Code::unreadableFile, .message = "late", .place = at(9, 1)});
+  all.add({.code = Code::unreadableFile, .message = "early", .place = at(2, 1)});
+  all.add({.code = Code::unreadableFile, .message = "late", .place = at(9, 1)});
   all.sortByPlace();
   REQUIRE(all.size() == 3);
   CHECK(all.errorCount() == 2);

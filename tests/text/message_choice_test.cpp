@@ -16,7 +16,11 @@ Place at(std::uint32_t line) {
 
 TEST_CASE("up to the limit everything is reported, in order") {
   Diagnostics all;
-  for (std::uint32_t i = 100; i > 0; --i) all.warning(Code::culledOverwritten, at(i), "warning");
+  for (std::uint32_t i = 100; i > 0; --i)
+    all.add({.severity = Severity::warning,
+             .code = Code::culledOverwritten,
+             .message = "warning",
+             .place = at(i)});
   const Diagnostics chosen = chooseMessages(all);
   CHECK(chosen.size() == 100);
   CHECK(chosen.items().front().place.line == 1);
@@ -26,8 +30,11 @@ TEST_CASE("up to the limit everything is reported, in order") {
 TEST_CASE("beyond it errors stay before warnings, from the first place on, and the rest is counted") {
   Diagnostics all;
   for (std::uint32_t i = 1; i <= 500; ++i) {
-    all.warning(Code::culledOverwritten, at(2 * i), "warning");
-    all.error(Code::unknownKey, at(2 * i + 1), "error");
+    all.add({.severity = Severity::warning,
+             .code = Code::culledOverwritten,
+             .message = "warning",
+             .place = at(2 * i)});
+    all.add({.code = Code::unknownKey, .message = "error", .place = at(2 * i + 1)});
     if (i <= 7)
       all.add(
           {.severity = Severity::note, .code = Code::unknownResource, .message = "note", .place = at(2 * i)});
@@ -55,7 +62,8 @@ TEST_CASE("beyond it errors stay before warnings, from the first place on, and t
 
 TEST_CASE("a thousand errors end the search, and the note says so") {
   Diagnostics all;
-  for (std::uint32_t i = 1; i <= 1000; ++i) all.error(Code::unknownKey, at(i), "error");
+  for (std::uint32_t i = 1; i <= 1000; ++i)
+    all.add({.code = Code::unknownKey, .message = "error", .place = at(i)});
   CHECK(chooseMessages(all).items().back().message ==
         "further messages are left out: 900 errors, 0 warnings, 0 notes; no more were looked for");
 }

@@ -18,21 +18,21 @@ namespace {
 
 constexpr float kAlpha = 0.3f;
 
-enum class Pane { none, glass, solid };
+enum class Pane { none, glass, solid, glass_as_solid };
 
 // A wall at z = 0, a sphere before it, a pane of half the picture at z = 2 and a sphere before that.
 scene::Scene sceneWith(Pane pane) {
   MeshScene made({0, 0, 9}, 45);
   const scene::MeshId square = made.addSquare(9);
   made.put(square, {.name = "", .albedo = {0.8f, 0.5f, 0.3f}, .roughness = 0.9f}, {});
-  const bool glass = pane == Pane::glass;
+  const bool glass = pane == Pane::glass, blend = glass || pane == Pane::glass_as_solid;
   if (pane != Pane::none)
     made.put(square,
              {.name = "",
               .albedo = {0.1f, 0.2f, 0.7f},
               .roughness = 0.4f,
-              .alpha = glass ? kAlpha : 1.0f,
-              .blend = glass},
+              .alpha = blend ? kAlpha : 1.0f,
+              .blend = blend},
              {9, 0, 2}, scene::maskOf(glass ? scene::DrawList::transparent : scene::DrawList::opaque));
   for (const float z : {1.0f, 3.0f})
     made.putSphere({0.3f, z > 2 ? -0.7f : 0.9f, z}, 0.6f,
@@ -80,6 +80,9 @@ TEST_CASE(
     CHECK(spheres > 50);
     CHECK(untouched > 2000);
     CHECK(worst < 1.5e-3);  // halves, about 1
+
+    // A scene may say that it is drawn with what is solid.
+    CHECK(render(shot, Pane::glass_as_solid).radiance == solid.radiance);
 
     // Without the pass there is no glass.
     Shot without = shot;

@@ -264,10 +264,8 @@ void sanitizeRadiance(ImageF& image, const std::string& name, Diagnostics& diagn
         "is lost)",
         tooBright, whole > 0 ? 100 * lost / whole : 0.0);
   diagnostics.add(undefined + negative > 0 ? text::Severity::warning : text::Severity::note,
-                  Code::texelsReplaced, {name},
-                  fmt::format("{} of {} color values are no radiance and were replaced",
-                              undefined + negative + infinite + tooBright, colors),
-                  {.expected = fmt::format("numbers from 0 to {}", kHalfMax), .found = std::move(found)});
+                  say::texelsReplaced, {name}, undefined + negative + infinite + tooBright, colors, kHalfMax,
+                  found);
 }
 
 float decodeSrgb(float encoded) {

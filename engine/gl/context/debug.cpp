@@ -73,8 +73,10 @@ void DebugLog::drain(text::Diagnostics& diagnostics) {
     const bool error = m.severity == GL_DEBUG_SEVERITY_HIGH || m.type == GL_DEBUG_TYPE_ERROR;
     std::string text = fmt::format("OpenGL: {}", m.text);
     if (m.count > 1) text += fmt::format(" (seen {} times)", m.count);
-    diagnostics.add(error ? text::Severity::error : text::Severity::warning, text::Code::driverMessage, {},
-                    std::move(text), {.pass = m.group});
+    diagnostics.add({.severity = error ? text::Severity::error : text::Severity::warning,
+                     .code = text::Code::driverMessage,
+                     .message = std::move(text),
+                     .pass = m.group});
   }
 }
 

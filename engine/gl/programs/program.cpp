@@ -41,8 +41,9 @@ void reportLog(const std::string& log, const glsl::ShaderSource& source, Code co
   mapLog(log, source, code, found, defines);
   diagnostics.append(found);
   if (!found.hasErrors())
-    diagnostics.error(code, {source.file, 0, 0},
-                      failure + (log.empty() ? ", and the driver does not say why" : ": " + log));
+    diagnostics.add({.code = code,
+                     .message = failure + (log.empty() ? ", and the driver does not say why" : ": " + log),
+                     .place = {source.file, 0, 0}});
 }
 
 bool compileStage(const Shader& shader, const StageSource& stage, std::span<const glsl::Define> defines,

@@ -8,6 +8,7 @@
 #include "engine/gl/programs/program_cache.h"
 #include "engine/glsl/interface.h"
 #include "engine/text/apart.h"
+#include "gl_sentences.h"
 
 namespace weft::gl {
 
@@ -116,19 +117,17 @@ bool survivesTrial(Trials& trials, const DeviceInfo& device, std::span<const Sta
     return std::pair(interface.unsure, interface.size.inlined);
   });
   const bool tried = !std::exchange(trials.died, true);
-  text::Diagnostic& error =
-      diagnostics.error(text::Code::driverDied, {largest.source->file, 0, 0},
-                        !tried ? "this shader was not tried"
-                        : end.said.back() == kTrialOpened
-                            ? "the driver did not survive compiling this shader"
-                            : "the driver did not survive making the machine code of this shader");
-  error.expected = fmt::format("at most {} s of processor time for an unusual shader and {} MiB",
-                               trials.seconds, kMaxTrialBytes >> 20);
-  error.found = tried ? fmt::format("{}, after {:.1f} s of processor time and with {} MiB", end.how,
-                                    end.seconds, end.mebibytes)
-                      : "another one that the driver did not survive";
-  error.hint = tried ? "make it smaller, or give it more time with --limit 2 on a slow machine"
-                     : "mend the other one first";
+  diagnostics.error(say::driverDied, {largest.source->file, 0, 0},
+                    !tried ? "this shader was not tried"
+                    : end.said.back() == kTrialOpened
+                        ? "the driver did not survive compiling this shader"
+                        : "the driver did not survive making the machine code of this shader",
+                    trials.seconds, kMaxTrialBytes >> 20,
+                    tried ? fmt::format("{}, after {:.1f} s of processor time and with {} MiB", end.how,
+                                        end.seconds, end.mebibytes)
+                          : "another one that the driver did not survive",
+                    tried ? "make it smaller, or give it more time with --limit 2 on a slow machine"
+                          : "mend the other one first");
   return false;
 }
 

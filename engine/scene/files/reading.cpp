@@ -12,10 +12,7 @@ namespace weft::scene {
 
 void failTooMany(text::Diagnostics& diagnostics, const text::JsonValue& value, std::string message,
                  std::size_t most, std::string found, std::string hint) {
-  diagnostics.error(text::Code::badSceneValue, value.place, std::move(message),
-                    {.expected = fmt::format("at most {} in all", most),
-                     .found = std::move(found),
-                     .hint = std::move(hint)});
+  diagnostics.error(say::tooManyInAll, value.place, message, most, found, hint);
 }
 
 std::optional<std::uint8_t> readLists(text::JsonFields& fields, const std::string& what,

@@ -276,11 +276,10 @@ class Reader {
   }
 
   // The first of a name, after an error, where it is known already.
-  MaterialId add(Material material, const text::Place& place, text::Says says) {
+  MaterialId add(Material material, const text::Place& place, std::string_view found, std::string_view hint) {
     const std::string name = material.name;
     if (byName_.contains(name)) {
-      diagnostics_.error(Code::duplicateMaterial, place, fmt::format("a second material '{}'", name),
-                         std::move(says));
+      diagnostics_.error(say::secondMaterialOfScene, place, name, found, hint);
       return byName_[name];
     }
     const MaterialId id = scene_.materials.add(std::move(material));
@@ -306,7 +305,7 @@ class Reader {
     if (!library) return {};
     if (library->empty()) fail(say::emptyLibrary, value, path);
     for (Material& preset : *library)
-      ids.push_back(add(std::move(preset), value.place, {.found = fmt::format("one of '{}'", path)}));
+      ids.push_back(add(std::move(preset), value.place, fmt::format("one of '{}'", path), ""));
     return ids;
   }
 
@@ -317,7 +316,7 @@ class Reader {
     Material material = readMaterial(fields);
     material.name = name;
     fields.finish();
-    return add(std::move(material), place, {.hint = "rename it; the library has one of this name"});
+    return add(std::move(material), place, "", "rename it; the library has one of this name");
   }
 
   // A name of a known material.

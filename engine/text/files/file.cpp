@@ -242,8 +242,10 @@ std::string dataFolder() {
 std::optional<std::string> readFile(const std::string& path, Diagnostics& diagnostics, Code code,
                                     const Place& place, const ReadProgress& goOn) {
   const auto fail = [&](std::string_view reason, const std::string& hint) {
-    diagnostics.error(code, placeOr(place, path), fmt::format("cannot read '{}': {}", path, reason),
-                      {.hint = hint});
+    diagnostics.add({.code = code,
+                     .message = fmt::format("cannot read '{}': {}", path, reason),
+                     .place = placeOr(place, path),
+                     .hint = hint});
     return std::nullopt;
   };
   const std::optional<Overlay> unsaved = overlayOf(path);

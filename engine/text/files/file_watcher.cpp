@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "engine/text/files/file.h"
+#include "text_sentences.h"
 
 namespace weft::text {
 
@@ -82,11 +83,7 @@ void FileWatcher::armFile(const std::string& absolute, const std::string& given)
 
 void FileWatcher::tell(int error, const std::string& file) {
   if (std::exchange(told_, true)) return;
-  notices_.add(Severity::note, Code::filesNotWatched, {file},
-               fmt::format("changes of '{}' are not seen", file),
-               {.found = fmt::format("inotify: {}", std::strerror(error)),
-                .hint = "make its folder readable, or raise fs.inotify.max_user_watches and "
-                        "max_user_instances with sysctl"});
+  notices_.note(say::changesNotSeen, {file}, file, std::strerror(error));
 }
 
 std::vector<std::string> FileWatcher::poll() {

@@ -36,8 +36,11 @@ std::optional<double> readNumber(const JsonValue& value, std::string_view name, 
   const bool inside = (range.aboveMin ? number > range.min : number >= range.min) && number <= range.max &&
                       (!range.whole || number == std::floor(number));
   if (inside) return number;
-  diagnostics.error(rangeCode, value.place, fmt::format("{} is out of range", name),
-                    {.expected = describeRange(range), .found = describe(value)});
+  diagnostics.add({.code = rangeCode,
+                   .message = fmt::format("{} is out of range", name),
+                   .place = value.place,
+                   .expected = describeRange(range),
+                   .found = describe(value)});
   return {};
 }
 

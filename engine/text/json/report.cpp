@@ -13,6 +13,7 @@
 #include "engine/text/json/edit.h"
 #include "engine/text/limits.h"
 #include "engine/text/printable.h"
+#include "text_sentences.h"
 
 namespace weft::text {
 
@@ -70,11 +71,9 @@ Diagnostics chooseMessages(const Diagnostics& all, bool notes) {
   const bool stopped = enoughErrors(all);
   if (stopped || noteCount + warningCount + errorCount > 0) {
     const std::string raise = hintToRaise(kMaxMessages);
-    chosen.add(Severity::note, Code::messagesLeftOut, {},
-               fmt::format("further messages are left out: {}, {}, {}{}", counted(errorCount, "error"),
-                           counted(warningCount, "warning"), counted(noteCount, "note"),
-                           stopped ? "; no more were looked for" : ""),
-               {.hint = raise.empty() ? "correct these first" : "correct these first, or " + raise});
+    chosen.note(say::messagesLeftOut, {}, counted(errorCount, "error"), counted(warningCount, "warning"),
+                counted(noteCount, "note"), stopped ? "; no more were looked for" : "",
+                raise.empty() ? "" : ", or " + raise);
   }
   return chosen;
 }

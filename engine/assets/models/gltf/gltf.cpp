@@ -243,7 +243,7 @@ class GltfReader {
     // Normals and tangents that are no numbers are made anew.
     mesh.normals = take(attribute<glm::vec3>(attributes, "NORMAL", {}), mesh, &RawVertex::normal);
     take(attribute<glm::vec4>(attributes, "TANGENT", {}), mesh, &RawVertex::tangent);
-    const std::vector<GltfUv>& uvs = uvs_[part.material];
+    const GltfUvs& uvs = uvs_[part.material];
     readUvs(attributes, uvs[0], mesh, &RawVertex::uv);
     if (uvs.size() > 1) mesh.secondUvs = readUvs(attributes, uvs[1], mesh, &RawVertex::secondUv);
     if (model_.materials[part.material].samplers[1] & atSecondUv) mesh.tangentUv = &RawVertex::secondUv;
@@ -525,7 +525,7 @@ class GltfReader {
   Model& model_;
   const bool made_;  // of a file of another format
   MeshBuilder builder_{model_};
-  std::vector<std::vector<GltfUv>> uvs_;  // of the materials
+  std::vector<GltfUvs> uvs_;  // of the materials
   const std::vector<JsonValue>& rows_ = document_.rows("nodes");
   std::vector<std::uint32_t> rowOf_;  // by the file's index of a node: its row in the model
   std::vector<bool> shown_;           // by the file's index: in the scene that is shown

@@ -126,10 +126,10 @@ struct GltfUv {
   float rotation = 0;  // radians
   friend bool operator==(const GltfUv&, const GltfUv&) = default;
 };
+using GltfUvs = std::vector<GltfUv>;
 
 // Puts the materials of a document, and one more for meshes without, into the model; the uvs of each. `made`: of a file of another format.
-std::vector<std::vector<GltfUv>> readMaterials(GltfDocument& document, ModelFiles& files, Model& model,
-                                               bool made);
+std::vector<GltfUvs> readMaterials(GltfDocument& document, ModelFiles& files, Model& model, bool made);
 
 // The file as a Model; `made`: it was made of one of another format, whose paths may be those of another machine and whose
 // vertices are one for each corner. Left out, with W168: points and lines, the motion of morph targets, further uv sets, a second sun, extensions

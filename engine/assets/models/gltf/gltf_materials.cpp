@@ -118,7 +118,7 @@ class MaterialReader {
   MaterialReader(GltfDocument& document, ModelFiles& files, Model& model, bool made)
       : document_(document), files_(files), model_(model), made_(made), pool_(files) {}
 
-  std::vector<std::vector<GltfUv>> read() {
+  std::vector<GltfUvs> read() {
     const std::size_t before = files_.diagnostics().errorCount();
     const std::vector<JsonValue>& rows = document_.rows("materials");
     images_.resize(document_.rows("images").size());
@@ -199,7 +199,7 @@ class MaterialReader {
 
   void readMaterial(const JsonValue& value, std::size_t number) {
     Material material = defaultMaterial(textOf(value, "name", fmt::format("material {}", number)));
-    std::vector<GltfUv> uvs;
+    GltfUvs uvs;
     const JsonValue* gloss = valueOf(value, {"extensions", "KHR_materials_pbrSpecularGlossiness"});
     const bool unlit = valueOf(value, {"extensions", "KHR_materials_unlit"});
     std::array<Image, kMaterialMaps> images;
@@ -334,13 +334,12 @@ class MaterialReader {
   const bool made_;
   TexturePool pool_;
   std::vector<Image> images_;
-  std::vector<std::vector<GltfUv>> uvs_;  // parallel to the materials
+  std::vector<GltfUvs> uvs_;  // parallel to the materials
 };
 
 }  // namespace
 
-std::vector<std::vector<GltfUv>> readMaterials(GltfDocument& document, ModelFiles& files, Model& model,
-                                               bool made) {
+std::vector<GltfUvs> readMaterials(GltfDocument& document, ModelFiles& files, Model& model, bool made) {
   return MaterialReader(document, files, model, made).read();
 }
 

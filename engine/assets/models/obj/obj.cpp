@@ -441,11 +441,9 @@ class ObjReader {
     for (const auto& [what, where] : leftOut_) {
       line_ = where.first;
       const bool sentence = what.find(' ') != what.npos, drawn = what != "p" && what != "l";
-      diagnostics_.warning(Code::modelPartLeftOut, here(),
+      diagnostics_.warning(say::objPartsLeftOut, here(),
                            sentence ? what : fmt::format("statements '{}' of the model were left out", what),
-                           {.expected = "triangles and polygons: v, vt, vn, f, o, g, usemtl, mtllib",
-                            .found = fmt::format("{} of them", where.second),
-                            .hint = drawn ? "" : "points and lines are not drawn"});
+                           where.second, drawn ? "" : "points and lines are not drawn");
     }
   }
 
