@@ -13,7 +13,7 @@ ROUNDS = 60
 # A plan, its programs and textures at these sizes take about 3 MiB: two of them forgotten would show, and several hundred
 # are made. Allocators need some room: runs without a leak move by up to 3 MiB either way.
 BOUND = 6 << 20
-SIZES = ((96, 64), (64, 48), (112, 80), (48, 96), (80, 80))
+SIZES = ((96, 64), (64, 48), (112, 80), (48, 96), (80, 80))  # none is the first size of the window: a window that has its size says nothing
 
 
 def resident(process):
@@ -26,7 +26,7 @@ def main():
     inside_display(report, weft, compare, __file__)
     with temporary_folder() as name:
         folder = pathlib.Path(name)
-        live = Session(weft, folder, "--no-vsync", "--stats", size="96x64", data=False,
+        live = Session(weft, folder, "--no-vsync", "--stats", size="128x96", data=False,
                        graph=str(TOP / "graphs/studio.json"))
         samples, resizes = [], 0
         try:
