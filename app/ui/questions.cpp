@@ -92,11 +92,12 @@ void Panels::drawOpen(const LoopState& state) {
   if (ImGui::InputTextWithHint("##file", "a graph, scene, model, environment or preset", file_, sizeof file_,
                                ImGuiInputTextFlags_EnterReturnsTrue))
     chosen_ = file_;
+  const bool leaves = ImGui::IsItemDeactivated() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
   ImGui::BeginChild("recent", {0, -ImGui::GetFrameHeightWithSpacing()});
   for (const std::string& file : state.recent)
     if (ImGui::Selectable(file.c_str())) chosen_ = file;
   ImGui::EndChild();
-  if (ImGui::Button("Back (Esc)") || !chosen_.empty()) question_ = Question::none;
+  if (ImGui::Button("Back (Esc)") || leaves || !chosen_.empty()) question_ = Question::none;
 }
 
 void Panels::drawQuestion(const LoopState& state, text::Diagnostics& diagnostics) {

@@ -64,6 +64,12 @@ void CameraRig::setMode(Mode mode) {
   mode_ = mode;
 }
 
+void CameraRig::stayAbove(Aim& aim) const {
+  if (!ground || eye_.y < *ground) return;
+  const double least = (*ground + 2 * lens_.nearPlane - aim.pivot.y) / aim.distance;
+  aim.pitch = std::max(aim.pitch, std::min(std::asin(std::clamp(least, -1.0, 1.0)), kPole));
+}
+
 void CameraRig::advance(double seconds, CameraInput in) {
   if (mode_ == Mode::scene) {
     in.move = {0, 0, 0};
@@ -92,8 +98,11 @@ void CameraRig::advance(double seconds, CameraInput in) {
       goal_.distance * std::tan(lens_.fovDegrees * std::numbers::pi / 360) / 360;  // of a pixel in 720
   const glm::dvec3 slid = (glm::cross(back, right) * in.pan.y - right * in.pan.x) * unit;
   goal_.pivot += slid;
+  if (ground) goal_.pivot.y = std::max(goal_.pivot.y, std::min(goal_.pivot.y - slid.y, *ground));
   now_.distance = followed(now_.distance, goal_.distance, goal_.distance - distance, dt);
   now_.pivot = followed(now_.pivot, goal_.pivot, slid, dt);
+  stayAbove(goal_);
+  stayAbove(now_);
   eye_ = now_.pivot + backOf(now_.yaw, now_.pitch) * now_.distance;
 }
 

@@ -50,6 +50,7 @@ class CameraRig {
   bool moving() const;
 
   bool headBob = false;                    // flying: the view rises and sways with the way covered
+  std::optional<double> ground;            // height that a camera above it does not orbit below
   double speed() const { return speed_; }  // flying: world units per second that held keys end up at
 
  private:
@@ -58,6 +59,8 @@ class CameraRig {
     glm::dvec3 pivot{0};
     double yaw = 0, pitch = 0, distance = 1;
   };
+  // Raises an orbit above the ground.
+  void stayAbove(Aim& aim) const;
   // A frame of more than no seconds.
   void fly(const CameraInput& in, double seconds, const glm::dvec3& back, const glm::dvec3& right);
 

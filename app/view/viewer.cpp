@@ -353,8 +353,10 @@ void Viewer::close() {
 std::string Viewer::command() const {
   const graph::Settings& settings = live_.settings();
   const scene::CameraPose pose = rig_.pose();
-  std::string text = fmt::format("weft render {} --size {}x{}", quoted(renderer_.graphPath()),
-                                 settings.screenWidth, settings.screenHeight);
+  const gl::Size size = movingScale_ < 1 ? pixelsAt(renderScale_)  // as it is once the hand rests
+                                         : gl::Size{settings.screenWidth, settings.screenHeight};
+  std::string text =
+      fmt::format("weft render {} --size {}x{}", quoted(renderer_.graphPath()), size.width, size.height);
   const auto add = [&](const char* option, const std::string& value) {
     if (!value.empty()) text += fmt::format(" --{} {}", option, quoted(value));
   };
@@ -503,6 +505,13 @@ void Viewer::chooseScale() {
   if (std::exchange(movingScale_, scale) != scale) say(fmt::format("scale {}", renderScale_ * scale));
 }
 
+gl::Size Viewer::pixelsAt(double scale) const {
+  const auto scaled = [&](std::uint32_t pixels) {
+    return static_cast<std::uint32_t>(std::clamp(std::lround(pixels * scale), 1l, 16384l));
+  };
+  return {scaled(area_.width), scaled(area_.height)};
+}
+
 void Viewer::update(gl::Size size) {
   if (std::exchange(inputs_, input_.events()) != input_.events()) restless_ = kRestlessAfterEvent;
   if (size.width != size_.width || size.height != size_.height)
@@ -511,12 +520,8 @@ void Viewer::update(gl::Size size) {
   // A recording keeps the size it began with.
   chooseScale();
   if (recording_.empty() || recorded_ == 0) {
-    const double scale = std::max(renderScale_ * movingScale_, std::min(renderScale_, 0.25));
-    const auto scaled = [&](std::uint32_t pixels) {
-      return static_cast<std::uint32_t>(std::clamp(std::lround(pixels * scale), 1l, 16384l));
-    };
-    if (live_.resize(scaled(area_.width), scaled(area_.height), diagnostics_))
-      tell(diagnostics_, log_, ui::Log::kChange);
+    const gl::Size pixels = pixelsAt(std::max(renderScale_ * movingScale_, std::min(renderScale_, 0.25)));
+    if (live_.resize(pixels.width, pixels.height, diagnostics_)) tell(diagnostics_, log_, ui::Log::kChange);
   }
   if (const std::string failure = editor_.takeFailure(); !failure.empty()) {
     told_ = failure;
@@ -686,6 +691,8 @@ void Viewer::moveCamera(const FrameClock::Tick& tick) {
       rig_.follow(pose);
   }
   sceneGeneration_ = live_.world().sceneGeneration();
+  const std::optional<scene::Ground>& ground = live_.world().scene().ground;
+  rig_.ground = ground ? std::optional<double>(ground->height) : std::nullopt;
   rig_.advance(tick.delta, input);
 }
 

@@ -90,6 +90,7 @@ class Viewer {
   void showState();
   // Fewer pixels while a hand moves the camera and frames are slow.
   void chooseScale();
+  gl::Size pixelsAt(double scale) const;  // of the picture's place in the window
   // Idle mode: whether something is under way that may not show for a while, and whether a frame is due.
   bool busy();
   bool mustDraw();

@@ -174,6 +174,39 @@ TEST_CASE("no length of a frame and no input makes a pose that is not finite; a 
   CHECK(glm::length(rig.pose().position - start().position) <= rig.speed() * CameraRig::kLongestFrame);
 }
 
+TEST_CASE("an orbit stays above the ground, whatever the hand does; below it or in flight there is none") {
+  std::mt19937 random(7);
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  for (const double fps : {3.0, 60.0}) {
+    CameraRig rig(start());
+    rig.ground = 0.25;
+    double least = 1e9;
+    for (int frame = 0; frame < 3000; ++frame) {
+      CameraInput input;
+      input.turn = {between(-30, 30), between(-60, 40)};
+      if (frame % 7 == 0) input.wheel = between(-4, 4);
+      if (frame % 5 == 0) input.pan = {between(-20, 20), between(-3, 3)};
+      rig.advance(1 / fps, input);
+      least = std::min(least, rig.pose().position.y);
+    }
+    CHECK(least >= 0.25);
+    CHECK(least < 0.25 + 3 * start().nearPlane);  // it came as far down as it may
+  }
+  scene::CameraPose below = start();
+  below.position.y = -1;
+  CameraRig mole(below), bird(start());
+  mole.ground = bird.ground = 0;
+  bird.setMode(Mode::fly);
+  for (int frame = 0; frame < 100; ++frame) {
+    mole.advance(0.01, {.turn = {0, -10}});
+    bird.advance(0.05, {.move = {0, -1, 0}});
+  }
+  CHECK(mole.pose().position.y < -5);
+  CHECK(bird.pose().position.y < 0);
+}
+
 TEST_CASE("the mouse of a frame that took no time, or too much, is not lost") {
   const auto turned = [](double seconds) {
     CameraRig rig(start());
