@@ -65,8 +65,6 @@ struct FlatUse {
   Access access = Access::read;
   bool keep = false;      // a write that stays attached even when nobody reads it
   bool feedback = false;  // modify that also samples its own texel (glTextureBarrier)
-  // Of kind copy: the pass copies texel by texel with glCopyImageSubData, not through framebuffers. Both of its uses say so.
-  bool exact = false;
   friend bool operator==(const FlatUse&, const FlatUse&) = default;
 };
 

@@ -61,9 +61,6 @@ struct PassType {
   // For types without a shader. `framebuffers`: the slots are bound as framebuffers, as a blit needs.
   // `fromSource`: the view of the written texture begins at the level that is read.
   bool framebuffers = false, fromSource = false;
-  // The type uses glCopyImageSubData where source and destination are one level and layer each of 2D textures or arrays of
-  // the graph, with one size, one sample and one color format that is not sRGB (FlatUse::exact). Only with `framebuffers`.
-  bool exactCopies = false;
   bool indirect = false;  // takes a buffer as the arguments of its command
   // Barrier bits (BarrierBit) that the GL command needs besides those of its slots' kinds, on the ranges that the slots
   // name, because it touches them in a way that no slot says.

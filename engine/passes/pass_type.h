@@ -19,9 +19,6 @@ struct BoundTexture {
   GLuint framebuffer = 0;  // with level 0 of that range attached; 0 when the type does not blit
   std::uint32_t width = 1, height = 1;
   GLbitfield planes = GL_COLOR_BUFFER_BIT;
-  // Of an exact copy, which has no framebuffer: which level and layer is meant.
-  GLenum target = GL_TEXTURE_2D;
-  GLint level = 0, layer = 0;
 };
 
 // A range of a buffer.
@@ -47,7 +44,6 @@ struct PassContext {
   BoundTexture source, destination;             // without a shader: what its slots name, of each access one
   BoundBuffer sourceBuffer, destinationBuffer;  // in their place, without a name where a slot has a texture
   bool linear = false;                          // blit: filter of the source slot
-  bool exact = false;                           // blit: as graph::FlatUse::exact
   Geometry geometry;
   std::uint32_t instances = 0;  // draw
   BoundBuffer commands;         // draw, compute: the arguments of the GL command, where it has a name

@@ -63,8 +63,6 @@ TEST_CASE("pass types say what checks and the executor go by") {
     CHECK(type.fixedSlots[1].access == graph::Access::write);
   }
   CHECK(typeOf("blit").framebuffers);
-  CHECK(typeOf("blit").exactCopies);
-  CHECK_FALSE(typeOf("mipmap").exactCopies);
   CHECK_FALSE(typeOf("blit").fromSource);
   CHECK(typeOf("mipmap").fromSource);
   CHECK(typeOf("mipmap").touches != 0);

@@ -1,8 +1,7 @@
 // Holds the recorded calls of a frame against the plan. A frame is one walk over the steps; a headless frame that finishes
 // time-sliced work ahead has more. In every walk each barrier of the plan must be issued, with exactly its bits and where it
-// stands among the steps that run, and no other; a pass with feedback has one texture barrier, all others none; a pass
-// whose uses are exact copies is one glCopyImageSubData, and no other pass has one: the plan's bits depend on that; no call
-// inside a walk may set state to what it is. Nothing is known of the state at the beginning of a walk: uploads, panels and
+// stands among the steps that run, and no other; a pass with feedback has one texture barrier, all others none; no
+// pass calls glCopyImageSubData, for which the specification names no bit; no call inside a walk may set state to what it is. Nothing is known of the state at the beginning of a walk: uploads, panels and
 // read-back may have changed it. Does not: know the executor.
 #pragma once
 
@@ -31,7 +30,6 @@ class GlReplay {
   std::size_t barriers() const { return barriers_; }
   std::size_t stateCalls() const { return stateCalls_; }
   std::size_t textureBarriers() const { return textureBarriers_; }
-  std::size_t exactCopies() const { return exactCopies_; }
   const std::set<std::string>& ran() const { return ran_; }
 
  private:
@@ -60,8 +58,7 @@ class GlReplay {
   std::size_t open_ = kNoStep;  // step that runs now
   std::size_t inner_ = 0;       // groups open inside it
   bool feedback_ = false;       // it had its texture barrier
-  std::string copies_;          // calls that copy, in it
-  std::size_t walks_ = 0, barriers_ = 0, stateCalls_ = 0, textureBarriers_ = 0, exactCopies_ = 0;
+  std::size_t walks_ = 0, barriers_ = 0, stateCalls_ = 0, textureBarriers_ = 0;
 };
 
 }  // namespace weft::runtime::test

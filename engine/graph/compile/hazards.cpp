@@ -32,8 +32,7 @@ inline std::uint16_t storeBit(const FlatUse& use) {
   return use.kind == Kind::storage ? kBarrierStorage : kBarrierImage;
 }
 
-// The bits a use of a pass needs after an earlier store, rule (a). `copy` on a texture means framebuffer blits, an exact one
-// glCopyImageSubData: the specification names no bit for that, and drivers move bytes, fetch or render, so it needs all three.
+// The bits a use of a pass needs after an earlier store, rule (a). `copy` on a texture means framebuffer blits.
 inline std::uint16_t useBits(const FlatUse& use, bool buffer) {
   switch (use.kind) {
     case Kind::sampled:
@@ -50,8 +49,7 @@ inline std::uint16_t useBits(const FlatUse& use, bool buffer) {
     case Kind::depth:
       return use.feedback ? kBarrierFramebuffer | kBarrierTexture : kBarrierFramebuffer;
     case Kind::copy:
-      if (buffer) return kBarrierBufferUpdate;
-      return use.exact ? kBarrierFramebuffer | kBarrierTexture | kBarrierTextureUpdate : kBarrierFramebuffer;
+      return buffer ? kBarrierBufferUpdate : kBarrierFramebuffer;
   }
   return 0;
 }

@@ -106,7 +106,6 @@ class Placer {
       for (; now < plan_.firstStep[r]; ++now) endLifetimes(now);
       beginLifetime(r);
     }
-    preferCopied();
     plan_.arenaBytes = arena_.end();
     plan_.bytesAllocated += plan_.arenaBytes;
     for (const ClassState& state : classes_) plan_.bytesLowerBound += state.bytes * state.peak;
@@ -114,21 +113,6 @@ class Placer {
   }
 
  private:
-  // A shared texture may have the format of any of its resources; the others are views of it. It has the format of its first
-  // resource, or of one that is copied exactly: then the textures of a copy have one format, and the copy is one of equal texels.
-  // Between other formats that are compatible, glCopyImageSubData has to reinterpret them (OpenGL 4.5, Copying Between Images).
-  void preferCopied() {
-    for (const Step& step : plan_.steps) {
-      const FlatPass& pass = graph_.passes[step.pass];
-      if (pass.useCount == 0 || !graph_.uses[pass.firstUse].exact) continue;
-      for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
-        const std::uint32_t r = graph_.uses[u].resource, storage = plan_.storageOf[r];
-        if (storage != kNone && infoOf(graph_.resources[r].format).colorRenderable)
-          plan_.storages[storage].format = graph_.resources[r].format;
-      }
-    }
-  }
-
   void beginLifetime(std::uint32_t index) {
     const std::uint8_t flags = scratch_.flags[index];
     if ((flags & Scratch::kImported) != 0) return;

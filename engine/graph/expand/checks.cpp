@@ -189,8 +189,7 @@ bool checkCopy(const SlotContext& context, const std::vector<SlotWork>& slots) {
   if (known && (depth ? a.format != b.format : integers && infoOf(a.format).kind != infoOf(b.format).kind))
     return refuse(*to, say::formatsDiffer);
   if (known && from->use.planes != to->use.planes) return refuse(*to, say::oneSideStencil);
-  // Texels of one format are moved as they are; all else renders.
-  if (known && !depth && (!oneSize || a.format != b.format || several))
+  if (known && !depth)  // it renders
     for (const SlotWork* each : {from, to})
       if (!infoOf((each == from ? a : b).format).colorRenderable)
         return refuse(*each, say::copyNotRenderable);

@@ -232,32 +232,7 @@ void settleKept(FlatGraph& graph) {
   }
 }
 
-// One level and one layer of a texture that glCopyImageSubData can copy as glBlitFramebuffer does. The texture that an import
-// gives may be a stand-in of another format.
-bool isPlainImage(const FlatUse& use, const FlatResource& r) {
-  return use.kind == Kind::copy && use.mips == 1 && use.layers == 1 && r.kind == ResourceKind::texture &&
-         (r.target == Target::texture_2d || r.target == Target::texture_2d_array) && r.samples == 1 &&
-         !isDepth(r.format) && r.format != Format::srgb8_a8;
-}
-
-// Which copies are exact: all uses of the pass are such images, of one format and one size.
-void settleCopies(FlatGraph& graph) {
-  for (const FlatPass& pass : graph.passes) {
-    if (pass.useCount == 0 || !graph.uses[pass.firstUse].exact || graph.resources.empty()) continue;
-    const std::span uses(&graph.uses[pass.firstUse], pass.useCount);
-    const FlatUse& first = uses.front();
-    const FlatResource& r = graph.resources[first.resource];
-    const auto fits = [&](const FlatUse& use) {
-      const FlatResource& other = graph.resources[use.resource];
-      return isPlainImage(use, other) && other.format == r.format &&
-             sizeAt(other, use.mip) == sizeAt(r, first.mip);
-    };
-    const bool exact = uses.size() > 1 && std::ranges::all_of(uses, fits);
-    for (FlatUse& use : uses) use.exact = exact;
-  }
-}
-
-// Everything that looks at the versions after the last pass: present, outputs, histories and their resets, age(), exact copies.
+// Everything that looks at the versions after the last pass: present, outputs, histories and their resets, age().
 void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred) {
   model.position = static_cast<std::uint32_t>(-1);
   resolvePresent(model);
@@ -265,7 +240,6 @@ void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred) {
   foldDeferred(model, deferred);
   resolveHistories(model);
   settleKept(model.graph);
-  settleCopies(model.graph);
   model.versions.finish();
   inferComparisons(model);
   nameAliases(model);

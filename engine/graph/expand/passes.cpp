@@ -321,7 +321,6 @@ class PassWalk {
       for (std::uint32_t e = work.firstElement; e < work.firstElement + work.elementCount; ++e) {
         FlatUse use = work.use;
         use.feedback = stanza.desc.feedback && use.access == Access::modify;
-        use.exact = stanza.type->exactCopies;  // finishGraph() looks at the shapes
         addUse(model_, work.entity, e, use, pass);
       }
     slot.useCount = static_cast<std::uint32_t>(graph_.uses.size()) - slot.firstUse;

@@ -54,7 +54,6 @@ Json usesData(const Plan& plan, std::uint32_t pass, const std::vector<std::strin
                  {"attached", plan.attached[u] != 0}});
     if (use.history > 0) json["history"] = use.history;
     if (use.feedback) json["feedback"] = true;
-    if (use.exact) json["exact"] = true;
     uses.push_back(std::move(json));
   }
   return uses;
@@ -211,10 +210,9 @@ void addStep(std::string& text, std::size_t index, const Json& step) {
   for (const Json& clear : step["clears"]) addLine(text, 2, "clear {}", wordOf(clear));
   addBarriers(text, step, "barrier_after_clears", "barriers_after_clears");
   for (const Json& use : step["uses"])
-    addLine(text, 2, "{} {}{} {}{}{}{}", wordOf(use["access"]),
+    addLine(text, 2, "{} {}{} {}{}{}", wordOf(use["access"]),
             use.contains("slot") ? wordOf(use["slot"]) + " " : "", wordOf(use["kind"]), wordOf(use["range"]),
-            optionOf(use, "feedback"), optionOf(use, "exact"),
-            use["attached"] ? "" : " (not attached: nobody reads it)");
+            optionOf(use, "feedback"), use["attached"] ? "" : " (not attached: nobody reads it)");
   if (const auto made = step.find("framebuffer"); made != step.end()) {
     std::string attachments;
     for (const Json& color : (*made)["color"]) attachments += " color " + wordOf(color);

@@ -16,8 +16,7 @@ std::unique_ptr<PassType> makeBlit() {
                       graph::FixedSlot::Takes::either},
                      {"destination", graph::Access::write, "the level and layer, or the buffer, to copy to",
                       graph::FixedSlot::Takes::either}},
-      .framebuffers = true,
-      .exactCopies = true};
+      .framebuffers = true};
   return std::make_unique<BuiltinPass>(std::move(reflected), [](const PassContext& context) {
     if (const BoundBuffer& from = context.sourceBuffer, &to = context.destinationBuffer;
         from.name && to.name) {
@@ -25,12 +24,6 @@ std::unique_ptr<PassType> makeBlit() {
       return;
     }
     const BoundTexture &from = context.source, &to = context.destination;
-    if (context.exact) {
-      glCopyImageSubData(from.name, from.target, from.level, 0, 0, from.layer, to.name, to.target, to.level,
-                         0, 0, to.layer, static_cast<GLsizei>(from.width), static_cast<GLsizei>(from.height),
-                         1);
-      return;
-    }
     const bool linear = context.linear && from.planes == GL_COLOR_BUFFER_BIT;
     glBlitNamedFramebuffer(from.framebuffer, to.framebuffer, 0, 0, static_cast<GLint>(from.width),
                            static_cast<GLint>(from.height), 0, 0, static_cast<GLint>(to.width),

@@ -289,10 +289,6 @@ bool StepRunner::bindFixed(const FixedBinding& binding, PreparedPass& pass, text
   bound.name = textureOf(binding, pass, diagnostics);
   if (!pass.framebuffers || !bound.name) return bound.name != 0;
   const graph::FlatResource& shape = plan_.graph->resources[binding.resource];
-  bound.target = glTargetOf(shape.target);
-  bound.level = static_cast<GLint>(binding.mip);
-  bound.layer = std::max(0, binding.layer);
-  if (pass.context.exact) return true;
   const gl::Attachment attachment{.point = gl::attachmentPointOf(glFormatOf(shape.format)),
                                   .texture = bound.name,
                                   .mip = binding.mip,

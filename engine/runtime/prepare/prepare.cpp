@@ -283,7 +283,6 @@ class Preparer {
                          ? GL_COLOR_BUFFER_BIT
                          : ((use.planes & 1) != 0 ? GL_DEPTH_BUFFER_BIT : 0u) |
                                ((use.planes & 2) != 0 ? GL_STENCIL_BUFFER_BIT : 0u);
-      out_.context.exact = use.exact;
       if (from) out_.context.linear = slot->sampler.linear;
       const FlatUse& read = graph_.uses[slot->firstUse];
       if (use.resource != read.resource || use.history != read.history)

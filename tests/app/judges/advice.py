@@ -193,7 +193,7 @@ class Judge:
             shutil.copytree(TOP / "graphs", folder / "graphs")
             (folder / "shaders").symlink_to(TOP / "shaders")
             for names in (["composite"], ["composite", "fxaa"], ["post"], ["post", "lit"], ["post.display"], ["ibl"], ["skybox", "billboards"],
-                          ["post.fxaa.copy"], ["post.bloom"], ["fog", "ibl"], ["lit", "ibl"]):
+                          ["post.fxaa.find_edges"], ["post.bloom"], ["fog", "ibl"], ["lit", "ibl"]):
                 self.follow(" ".join(names), folder / "graphs/studio.json", names)
                 restore(folder)
 

@@ -12,13 +12,12 @@ namespace {
 
 // A store to `r` by the first pass, then one use of it; what the second pass must wait for.
 std::uint16_t bitsBefore(Kind storeKind, Kind useKind, bool buffer, Access access = Access::read,
-                         bool feedback = false, bool exact = false) {
+                         bool feedback = false) {
   FlatBuilder b = emptyGraph();
   const auto r = buffer ? b.buffer("r", 64) : b.texture("r"), shown = b.texture("shown");
   b.pass("store").write(r, storeKind);
   FlatUse use = b.whole(r, useKind, access);
   use.feedback = feedback;
-  use.exact = exact;
   use.keep = true;
   b.pass("use").use(use).write(shown).present(shown);
   const Plan plan = b.compiled();
@@ -32,10 +31,6 @@ TEST_CASE("a use after a store waits for its own bit") {
   CHECK(bitsBefore(Kind::image, Kind::sampled, false) == kBarrierTexture);
   CHECK(bitsBefore(Kind::image, Kind::image, false) == kBarrierImage);
   CHECK(bitsBefore(Kind::image, Kind::copy, false) == kBarrierFramebuffer);
-  // An exact copy, for which the specification names none.
-  constexpr auto kCopies = kBarrierTextureUpdate | kBarrierTexture | kBarrierFramebuffer;
-  CHECK(bitsBefore(Kind::image, Kind::copy, false, Access::read, false, true) == kCopies);
-  CHECK(bitsBefore(Kind::image, Kind::copy, false, Access::modify, false, true) == kCopies);
   CHECK(bitsBefore(Kind::image, Kind::color, false, Access::modify) == kBarrierFramebuffer);
   CHECK(bitsBefore(Kind::image, Kind::color, false, Access::modify, true) ==
         (kBarrierFramebuffer | kBarrierTexture));

@@ -41,18 +41,7 @@ std::uint32_t toGl(std::uint16_t mask) {
 }
 
 // What the GL does, in the terms of 7.12.2.
-enum class Op {
-  texture_fetch,
-  image,
-  uniform,
-  storage,
-  command,
-  attachment,
-  blit,
-  image_copy,
-  clear,
-  buffer_copy
-};
+enum class Op { texture_fetch, image, uniform, storage, command, attachment, blit, clear, buffer_copy };
 
 Op opOf(const FlatUse& use, bool buffer) {
   switch (use.kind) {
@@ -70,7 +59,7 @@ Op opOf(const FlatUse& use, bool buffer) {
     case Kind::depth:
       return Op::attachment;
     case Kind::copy:
-      return buffer ? Op::buffer_copy : use.exact ? Op::image_copy : Op::blit;
+      return buffer ? Op::buffer_copy : Op::blit;
   }
   return Op::blit;
 }
@@ -92,8 +81,6 @@ std::uint32_t bitToSeeShaderWrites(Op op, bool buffer) {
                     : kTextureUpdate;  // writes via Tex(Sub)Image*, ClearTex*Image
     case Op::buffer_copy:
       return kBufferUpdate;  // Copy*SubData, Get*SubData
-    case Op::image_copy:
-      return kTextureUpdate;  // CopyImageSubData, which the section does not name; below it counts in three ways
     case Op::attachment:
     case Op::blit:
       return kFramebuffer;  // reads and writes via framebuffer object attachments
@@ -144,9 +131,6 @@ class Replay {
           const FlatUse& use = graph_.uses[u];
           const Op op = opOf(use, isBuffer(graph_.resources[use.resource]));
           touch(use, op, use.access != Access::read && (op == Op::image || op == Op::storage), step.pass);
-          // No bit is named for it, so that it may go any way on which texels are copied: by a fetch or by rendering, too.
-          if (op == Op::image_copy)
-            for (const Op way : {Op::texture_fetch, Op::attachment}) touch(use, way, false, step.pass);
           // What the pass type does to the range besides.
           for (const Op more : {Op::texture_fetch, Op::image, Op::attachment, Op::clear})
             if (!isBuffer(graph_.resources[use.resource]) &&

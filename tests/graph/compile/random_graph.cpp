@@ -142,12 +142,6 @@ class Generator {
         if ((locked_[r][s] & 2) != 0) versions_[r][s] = 2;
   }
 
-  // Half of the copies of textures.
-  bool isExact(const FlatUse& use) const {
-    return use.kind == Kind::copy && !isBuffer(b_.graph.resources[use.resource]) &&
-           b_.graph.uses.size() % 2 == 0;
-  }
-
   void addRead(bool compute) {
     const auto r = toRead();
     const FlatResource& resource = b_.resource(r);
@@ -161,7 +155,6 @@ class Generator {
     } else {
       lock(use, 1);
     }
-    use.exact = isExact(use);
     b_.use(use);
   }
 
@@ -175,7 +168,6 @@ class Generator {
     use.access = chance(40) && hasVersions(use) ? Access::modify : Access::write;
     use.feedback = use.access == Access::modify && use.kind == Kind::color && chance(20);
     use.keep = chance(10);
-    use.exact = isExact(use);
     lock(use, 2);
     b_.use(use);
   }

@@ -14,7 +14,7 @@ namespace weft::runtime::test::frame_recording_test {
 namespace {
 
 struct Tally {
-  std::size_t frames = 0, walks = 0, barriers = 0, textureBarriers = 0, exactCopies = 0, stateCalls = 0;
+  std::size_t frames = 0, walks = 0, barriers = 0, textureBarriers = 0, stateCalls = 0;
 };
 
 // Runs a frame and judges it. What ran is what the calls show.
@@ -36,7 +36,6 @@ void recordFrame(GlRecorder& recorder, Stage& stage, const std::string& label, T
   tally.walks += replay.walks();
   tally.barriers += replay.barriers();
   tally.textureBarriers += replay.textureBarriers();
-  tally.exactCopies += replay.exactCopies();
   tally.stateCalls += replay.stateCalls();
 }
 
@@ -106,10 +105,9 @@ TEST_CASE("the judge finds a barrier that is missing, moved or has other bits, a
     } else if (calls[i].kind == GlCall::Kind::state && !calls[i].bySideEffect) {
       wrong.insert(wrong.begin() + static_cast<std::ptrdiff_t>(i), calls[i]);
       CHECK(replay.judge(wrong) != "");
-    } else if (calls[i].kind == GlCall::Kind::copy && calls[i].name == "glCopyImageSubData") {
-      ++copies;
-      wrong[i].name = "glBlitNamedFramebuffer";
-      CHECK(replay.judge(wrong) != "");
+    } else if (calls[i].kind == GlCall::Kind::copy && calls[i].name == "glBlitNamedFramebuffer") {
+      wrong[i].name = "glCopyImageSubData";
+      copies += replay.judge(wrong) != "" ? 1 : 0;  // that of 'keep', not the one that presents
     } else if (calls[i].kind == GlCall::Kind::group) {
       wrong.insert(wrong.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                    {.kind = GlCall::Kind::texture_barrier});
@@ -254,7 +252,7 @@ TEST_CASE("the same for the deferred graphs with all that a scene may hold, and 
 }
 
 TEST_CASE(
-    "shader stores before clears of attachments, before exact copies and before mip levels: the bits are in "
+    "shader stores before clears of attachments, before copies and before mip levels: the bits are in "
     "the plan and are issued") {
   const CleanScope clean;
   Tally tally;
@@ -266,12 +264,11 @@ TEST_CASE(
     bits = static_cast<std::uint16_t>(bits | step.barriers);
     if (plan.graph->passNames[step.pass] == "keep") beforeCopy = step.barriers;
   }
-  CHECK(beforeCopy == (graph::kBarrierTextureUpdate | graph::kBarrierTexture | graph::kBarrierFramebuffer));
+  CHECK(beforeCopy == graph::kBarrierFramebuffer);
   CHECK((bits & graph::kBarrierTextureUpdate) != 0);
   CHECK((bits & graph::kBarrierFramebuffer) != 0);
   recordFrames(stage, "stores.json", tally);
   CHECK(tally.barriers > 0);
-  CHECK(tally.exactCopies == tally.frames);
 }
 
 TEST_CASE("the same where histories begin with a texture, an image and a buffer") {
