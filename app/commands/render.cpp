@@ -109,7 +109,7 @@ bool startVideos(const Options& options, runtime::Execution& execution, FrameRun
 
 // Runs the frames of a set and writes them. Where one may look back, those before them run too, from the nearest checkpoint on, so
 // what frame N shows does not depend on the set. `onWritten` is called after each that was drawn.
-void runFrames(DeviceSession& session, runtime::World& world, const Options& options, FrameRun& run,
+void runFrames(DeviceSession& session, const runtime::World& world, const Options& options, FrameRun& run,
                const std::function<void()>& onWritten, text::Diagnostics& diagnostics) {
   if (run.frames.empty()) return;
   runtime::Renderer& renderer = session.renderer;
@@ -140,7 +140,6 @@ void runFrames(DeviceSession& session, runtime::World& world, const Options& opt
     for (Part& part : run.parts) part.saved = false;
     const double before = gl::steadyMs();
     run.last = drawFrame(renderer, world, options, frame, diagnostics);
-    renderer.dropUploaded(world);
     if (run.ran++ == 0) {
       glFinish();
       run.firstMs = gl::steadyMs() - before;

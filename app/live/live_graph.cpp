@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <filesystem>
 #include <map>
 #include <ranges>
@@ -179,9 +178,7 @@ bool LiveGraph::poll(double now, text::Diagnostics& diagnostics) {
 }
 
 bool LiveGraph::pollEnvironment(text::Diagnostics& diagnostics) {
-  auto* provider = renderer_.device().imports.find<imports::EnvironmentProvider>();
-  assert(provider && "the viewer runs with all built-in imports");
-  const auto event = environment_.poll(*provider, diagnostics);
+  const auto event = environment_.poll(diagnostics);
   if (!event) return false;
   runtime::World world = world_;
   if (*event) world.setEnvironment(*event);

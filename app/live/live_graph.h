@@ -28,8 +28,6 @@ class LiveGraph {
   bool pending() const { return (graphStale_ && !scene_.loading()) || !changedEnvironment_.empty(); }
   // Once per frame: takes up an environment that has arrived. True when something came of the last request.
   bool pollEnvironment(text::Diagnostics& diagnostics);
-  // After a frame: frees what the GPU has.
-  void dropUploaded() { renderer_.dropUploaded(world_); }
   // Asks for the next (1) or previous (-1) environment of the folder. False when there is no other.
   bool stepEnvironment(int by);
   // The size of the screen. False when it is what it was.

@@ -12,7 +12,12 @@ namespace weft::app {
 
 namespace {
 
-constexpr float kLoadingShare = 0.8f;  // of the bar; the rest is sending
+std::optional<LoadStatus> statusOf(bool loading, const std::string& path, const assets::Loader& loader) {
+  if (!loading) return std::nullopt;
+  const assets::LoadProgress progress = loader.progress();
+  return LoadStatus{std::filesystem::path(path).filename().string(), assets::nameOf(progress.stage),
+                    progress.done};
+}
 
 std::vector<std::string> listEnvironments(const std::filesystem::path& folder) {
   std::vector<std::string> files;
@@ -76,10 +81,7 @@ const scene::Scene* LiveScene::scene(text::Diagnostics& diagnostics) {
 }
 
 std::optional<LoadStatus> LiveScene::status() const {
-  if (!loading_) return std::nullopt;
-  const assets::LoadProgress progress = loader_.progress();
-  return LoadStatus{std::filesystem::path(path_).filename().string(), assets::nameOf(progress.stage),
-                    progress.done};
+  return statusOf(loading_, path_, loader_);
 }
 
 std::optional<std::string> firstEnvironment(const std::string& fileOrFolder, text::Diagnostics& diagnostics) {
@@ -92,8 +94,6 @@ std::optional<std::string> firstEnvironment(const std::string& fileOrFolder, tex
 
 void LiveEnvironment::request(std::string path) {
   wanted_ = std::move(path);
-  incoming_ = nullptr;
-  sent_ = 0;
   loading_ = true;
   loader_.request(wanted_);
 }
@@ -112,31 +112,19 @@ bool LiveEnvironment::step(int by) {
   return true;
 }
 
-std::optional<LiveEnvironment::Map> LiveEnvironment::poll(imports::EnvironmentProvider& provider,
-                                                          text::Diagnostics& diagnostics) {
-  auto result = loader_.poll();
-  if (result) {
-    loading_ = false;
-    incoming_ = result->as<assets::EnvironmentMap>();
-    said_ = std::move(result->diagnostics);
-  }
-  if (!result && !incoming_) return std::nullopt;
-  const std::optional<float> sent = incoming_ ? provider.send(incoming_, diagnostics) : std::nullopt;
-  if (sent && (sent_ = *sent) < 1) return std::nullopt;
-  if (!incoming_ || sent) diagnostics.append(said_);
-  if (sent)
-    shown_ = wanted_;
-  else
-    provider.stopSending();
-  return sent ? std::exchange(incoming_, nullptr) : (incoming_ = nullptr);
+std::optional<LiveEnvironment::Map> LiveEnvironment::poll(text::Diagnostics& diagnostics) {
+  const auto result = loader_.poll();
+  if (!result) return std::nullopt;
+  loading_ = false;
+  Map map = result->as<assets::EnvironmentMap>();
+  if (map && !imports::EnvironmentProvider::create(*map, diagnostics)) return nullptr;
+  diagnostics.append(result->diagnostics);
+  if (map) shown_ = wanted_;
+  return map;
 }
 
 std::optional<LoadStatus> LiveEnvironment::status() const {
-  const std::string name = std::filesystem::path(wanted_).filename().string();
-  if (incoming_) return LoadStatus{name, "sending", kLoadingShare + (1 - kLoadingShare) * sent_};
-  if (!loading_) return std::nullopt;
-  const assets::LoadProgress progress = loader_.progress();
-  return LoadStatus{name, assets::nameOf(progress.stage), kLoadingShare * progress.done};
+  return statusOf(loading_, wanted_, loader_);
 }
 
 }  // namespace weft::app

@@ -1,4 +1,4 @@
-// What a window loads beside its frames: its scene and its environment. Nothing here waits for the disk, a decoder or the GPU.
+// What a window loads beside its frames: its scene and its environment. Nothing here waits for the disk or a decoder.
 #pragma once
 
 #include <cstdint>
@@ -81,10 +81,10 @@ class LiveScene {
 std::optional<std::string> firstEnvironment(const std::string& fileOrFolder, text::Diagnostics& diagnostics);
 
 // The environment of a window: the file that is shown, the one on its way, and the others of its folder. Loads on the loader
-// thread and sends to the GPU a portion per frame. A failed load changes nothing but what is said.
+// thread. A failed load changes nothing but what is said.
 class LiveEnvironment {
  public:
-  using Map = imports::EnvironmentProvider::Map;
+  using Map = std::shared_ptr<const assets::EnvironmentMap>;
 
   // `path` is already shown.
   void assume(std::string path) { wanted_ = shown_ = std::move(path); }
@@ -93,9 +93,9 @@ class LiveEnvironment {
   // The one `by` files after the last one asked for, in a circle, by name. False when there is no other.
   bool step(int by);
 
-  // Once per frame: something came of the last request. A map is whole on the GPU and to be taken into use at once; null: it
-  // failed, and `diagnostics` says why.
-  std::optional<Map> poll(imports::EnvironmentProvider& provider, text::Diagnostics& diagnostics);
+  // Once per frame: something came of the last request. A map, for which the GPU has room; null: it failed, and `diagnostics` says
+  // why.
+  std::optional<Map> poll(text::Diagnostics& diagnostics);
 
   // What is on its way.
   std::optional<LoadStatus> status() const;
@@ -107,9 +107,6 @@ class LiveEnvironment {
  private:
   std::string shown_, wanted_;
   bool loading_ = false;
-  Map incoming_;            // decoded, being sent
-  text::Diagnostics said_;  // while it was decoded
-  float sent_ = 0;
   assets::Loader loader_{[](const std::string& path, text::Diagnostics& diagnostics,
                             const assets::LoadObserver& observer) -> std::shared_ptr<const void> {
     auto map = assets::loadEnvironmentMap(path, diagnostics, observer);

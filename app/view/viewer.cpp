@@ -626,7 +626,6 @@ void Viewer::frame() {
   report_ = renderer_.frame(live_.world(), in, diagnostics_);
   // While an import is on its way no pass runs, and a click is kept for the frame in which one does.
   if (!readsMouse() || report_.passesRun + report_.passesSkipped > 0) input_.pointerShown();
-  live_.dropUploaded();
   if (report_.slowRun > 0) clock_.worked();
   previousPose_ = in.pose;
   ++frame_;

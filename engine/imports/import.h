@@ -65,8 +65,6 @@ class Provider {
   // Called before a graph is prepared, because files may have changed. `used`: some graph asked for the import since the
   // last call. False: the provider is not needed any more and is destroyed.
   virtual bool renew(bool used) { return used; }
-  // Frees what the world holds of the import when the device has it, too.
-  virtual void dropUploaded(World&) const {}
 };
 
 // One of a table: `Made` has rows(frame), which are those of its generation(frame).

@@ -16,14 +16,6 @@ void World::setEnvironment(std::shared_ptr<const assets::EnvironmentMap> map) {
   ++environmentGeneration_;
 }
 
-std::uint64_t World::dropEnvironmentTexels() {
-  if (!environment_ || environment_->texels.empty()) return 0;
-  const std::uint64_t bytes = environment_->texels.size() * sizeof(environment_->texels[0]);
-  assets::EnvironmentMap rest{environment_->width, environment_->height, {}, environment_->id};
-  environment_ = std::make_shared<const assets::EnvironmentMap>(std::move(rest));
-  return bytes;
-}
-
 WorldFacts World::facts() const {
   WorldFacts facts;
   facts.environment = environment_ || environmentPending();

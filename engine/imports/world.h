@@ -40,8 +40,6 @@ class World {
   // Null: none was loaded.
   const std::shared_ptr<const assets::EnvironmentMap>& environment() const { return environment_; }
   void setEnvironment(std::shared_ptr<const assets::EnvironmentMap> map);
-  // Frees its texels, of which a GPU has a copy; nothing can upload it from here again. How many bytes it held.
-  std::uint64_t dropEnvironmentTexels();
   std::uint64_t environmentGeneration() const { return environmentGeneration_; }
 
   // The first environment is on its way. Until setEnvironment(), or expectEnvironment(false) when it failed, graphs are

@@ -1,4 +1,4 @@
-// Environments sent beside the one in use, and a graph whose first environment is still on its way.
+// Environments on the GPU, and a graph whose first environment is still on its way.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,7 +15,8 @@ using namespace weft::runtime::test;
 
 namespace {
 
-EnvironmentProvider::Map makeMap(std::uint32_t width, std::uint32_t height, std::uint32_t seed) {
+std::shared_ptr<const assets::EnvironmentMap> makeMap(std::uint32_t width, std::uint32_t height,
+                                                      std::uint32_t seed) {
   auto map = std::make_shared<assets::EnvironmentMap>();
   map->width = width;
   map->height = height;
@@ -31,112 +32,78 @@ std::vector<std::vector<float>> levelsOf(const gl::TextureRef& texture) {
   return levels;
 }
 
-// Calls until it is there.
-int sendAll(EnvironmentProvider& textures, const EnvironmentProvider::Map& map,
-            text::Diagnostics& diagnostics) {
-  int calls = 0;
-  float before = 0;
-  for (std::optional<float> sent; !sent || *sent < 1; before = *sent) {
-    sent = textures.send(map, diagnostics);
-    REQUIRE(sent);
-    CHECK(*sent >= before);
-    REQUIRE(++calls < 100000);
-  }
-  return calls;
+// What a graph that imports the environment has of it.
+gl::TextureRef textureOf(Stage& stage) {
+  const auto& imports = stage.execution().plan().graph->imports;
+  const auto import =
+      std::ranges::find(imports, "environment", [](const auto& each) { return each.request.type; });
+  REQUIRE(import != imports.end());
+  return stage.renderer().device().imports.texture(*import, stage.diagnostics);
 }
 
 }  // namespace
 
-TEST_CASE("an environment that was sent in portions is the one uploaded at once, with every level") {
-  context();
+TEST_CASE(
+    "an environment is on the GPU as it is in memory, with every level, and the one before it is gone") {
   const CleanScope scope;
-  text::Diagnostics diagnostics;
-  EnvironmentProvider sent, direct;
+  Stage stage("tests/runtime/graphs/fade.json", 32, 18);
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  std::int64_t alive = 0;
+  std::uint32_t frame = 0;
   for (const auto& map : {makeMap(2048, 1024, 1), makeMap(37, 19, 2), makeMap(1, 1, 3), makeMap(1500, 750, 4),
                           makeMap(1501, 751, 5)}) {  // no powers of two
-    const int calls = sendAll(sent, map, diagnostics);
-    CHECK(static_cast<std::size_t>(calls) >= map->texels.size() * 2 / EnvironmentProvider::kBytesPerFrame);
-    REQUIRE(sent.use(map, diagnostics));
-    REQUIRE(direct.use(map, diagnostics));
-    CHECK(sent.hold()->ref().desc == direct.hold()->ref().desc);
-    CHECK(levelsOf(sent.hold()->ref()) == levelsOf(direct.hold()->ref()));
+    CAPTURE(map->width);
+    stage.world.setEnvironment(map);
+    REQUIRE_MESSAGE(stage.apply(), stage.diagnostics.text());
+    for (int i = 0; i < 40; ++i) stage.run(frame++);
+    const gl::TextureRef texture = textureOf(stage);
+    CHECK(texture.desc.width == map->width);
+    CHECK(texture.desc.mips == gl::mipsOf(map->width, map->height));
+    const auto levels = levelsOf(texture);
+    REQUIRE(levels[0].size() == map->texels.size());
+    CHECK(std::ranges::equal(levels[0], map->texels, {}, {}, assets::halfToFloat));
+    for (const auto& level : levels) CHECK(std::ranges::all_of(level, [](float texel) { return texel > 0; }));
+    if (alive == 0) alive = gl::liveObjects(gl::ObjectKind::texture);
+    CHECK(gl::liveObjects(gl::ObjectKind::texture) == alive);
   }
-  CHECK(diagnostics.empty());
 }
 
-TEST_CASE("the environment in use stays as it is while another is sent, dropped, or replaced on the way") {
-  context();
-  const CleanScope scope;
-  text::Diagnostics diagnostics;
-  EnvironmentProvider textures;
-  const auto a = makeMap(64, 32, 1), b = makeMap(2048, 1024, 2), c = makeMap(32, 16, 3);
-  REQUIRE(textures.use(a, diagnostics));
-  const gl::TextureRef first = textures.hold()->ref();
-  const auto levels = levelsOf(first);
-  const auto objects = gl::liveObjects();
-  textures.send(b, diagnostics);
-  CHECK(textures.hold()->id() == first.id);
-  textures.stopSending();
-  CHECK(gl::liveObjects() == objects);
-  textures.send(b, diagnostics);
-  sendAll(textures, c, diagnostics);
-  CHECK(levelsOf(textures.hold()->ref()) == levels);
-  const auto alive = [] { return gl::liveObjects(gl::ObjectKind::texture); };
-  CHECK(alive() == 2);
-  REQUIRE(textures.use(c, diagnostics));
-  CHECK(textures.hold()->ref().desc.width == 32);
-  CHECK(alive() == 1);
-  // Taken before all of it was sent: uploaded at once. What somebody holds stays.
-  auto held = textures.hold();
-  textures.send(b, diagnostics);
-  REQUIRE(textures.use(b, diagnostics));
-  CHECK(textures.hold()->ref().desc.width == 2048);
-  CHECK(alive() == 2);
-  REQUIRE(textures.use(a, diagnostics));
-  CHECK(alive() == 2);
-  held.reset();
-  CHECK(alive() == 1);
-}
-
-TEST_CASE("an environment that the GPU has is not kept on the CPU, and stays through changes of the graph") {
+TEST_CASE(
+    "an environment stays through changes of the graph, and is uploaded again only when it is another") {
   const CleanScope scope;
   Stage stage("tests/runtime/graphs/fade.json", 32, 18);
   stage.world.setEnvironment(makeMap(64, 32, 1));
   CHECK(stage.world.facts().environmentWidth == 64);
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
-  stage.renderer().dropUploaded(stage.world);
-  CHECK_FALSE(stage.world.environment()->texels.empty());  // no frame has sent it
   stage.run(0);
   const auto picture = stage.renderer().readPresentedFloat()->texels;
-  stage.renderer().dropUploaded(stage.world);
-  CHECK(stage.world.environment()->texels.empty());
-  CHECK(stage.world.dropEnvironmentTexels() == 0);
-  CHECK(stage.world.facts().environmentWidth == 64);
+  const auto texture = textureOf(stage).id;
   stage.run(1);
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   stage.run(2);
+  CHECK(textureOf(stage).id == texture);
   CHECK(stage.renderer().readPresentedFloat()->texels == picture);
   for (const char* name : {"ibl.irradiance_map", "ibl.luminance_rows"}) CHECK_FALSE(stage.ran(name));
   stage.world.setEnvironment(makeMap(64, 32, 9));
   REQUIRE_MESSAGE(stage.apply(), stage.diagnostics.text());
   for (std::uint32_t frame = 3; frame < 25; ++frame) stage.run(frame);
   CHECK(stage.renderer().readPresentedFloat()->texels != picture);
-  CHECK(stage.world.dropEnvironmentTexels() == 64 * 32 * 8);
 }
 
 TEST_CASE("a map that the GPU cannot hold is refused, and the one in use stays") {
-  context();
   const CleanScope scope;
-  text::Diagnostics diagnostics;
-  EnvironmentProvider textures;
-  const auto good = makeMap(8, 4, 1);
-  auto wide = std::make_shared<assets::EnvironmentMap>(assets::EnvironmentMap{1u << 20, 1, {}});
+  Stage stage("tests/runtime/graphs/fade.json", 32, 18);
+  const auto wide = std::make_shared<assets::EnvironmentMap>(assets::EnvironmentMap{1u << 20, 1, {}});
   wide->texels.resize(std::size_t{4} << 20);
-  REQUIRE(textures.use(good, diagnostics));
-  CHECK(!textures.send(wide, diagnostics));
-  CHECK(!textures.use(wide, diagnostics));
+  text::Diagnostics diagnostics;
+  stage.world.setEnvironment(makeMap(8, 4, 1));
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(0);
+  CHECK(!EnvironmentProvider::create(*wide, diagnostics));
   CHECK(diagnostics.contains(text::Code::textureNotCreated));
-  CHECK(textures.hold()->ref().desc.width == 8);
+  stage.world.setEnvironment(wide);
+  CHECK(textureOf(stage).desc.width == 8);
+  CHECK(stage.diagnostics.contains(text::Code::textureNotCreated));
 }
 
 TEST_CASE(
@@ -154,8 +121,6 @@ TEST_CASE(
       const auto pixels = late.pixels();
       for (std::size_t i = 0; i < pixels.size(); ++i) REQUIRE(pixels[i] == (i % 4 == 3 ? 255 : 0));
     }
-    text::Diagnostics diagnostics;
-    sendAll(*late.renderer().device().imports.find<EnvironmentProvider>(), map, diagnostics);
     late.world.setEnvironment(map);
     CHECK(!late.world.environmentPending());
     REQUIRE(late.renderer().apply(late.settings, late.world, late.diagnostics));
@@ -195,11 +160,7 @@ TEST_CASE("the stand-in for an environment has all its levels") {
   Stage stage("graphs/glow.json", 32, 18);
   REQUIRE(stage.load());
   stage.run(0);
-  const auto& imports = stage.execution().plan().graph->imports;
-  const auto import =
-      std::ranges::find(imports, "environment", [](const auto& each) { return each.request.type; });
-  REQUIRE(import != imports.end());
-  const gl::TextureRef texture = stage.renderer().device().imports.texture(*import, stage.diagnostics);
+  const gl::TextureRef texture = textureOf(stage);
   REQUIRE(texture.desc.mips == 11);
   // Over the sphere: rows shrink to the poles. Twice as wide as high, but for the last level.
   const auto meanOf = [](const std::vector<float>& texels) {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <cstring>
@@ -288,11 +287,6 @@ std::optional<StoredImage> loadStored(const std::string& path, bool srgb, Diagno
   std::optional<ImageF> picture = decodeImage(*bytes, path, diagnostics);
   if (picture) picture = widenToRgba(std::move(*picture));
   return stored(picture);
-}
-
-std::uint64_t newEnvironmentId() {
-  static std::atomic<std::uint64_t> last{0};
-  return ++last;
 }
 
 std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, text::Diagnostics& diagnostics,

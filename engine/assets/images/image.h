@@ -53,15 +53,10 @@ enum class LoadStage : std::uint8_t { idle, waiting, reading, decoding, converti
 // then the next stage begins). False gives up. Called on the thread that loads, often.
 using LoadObserver = std::function<bool(LoadStage stage, double done)>;
 
-// Never the same twice.
-std::uint64_t newEnvironmentId();
-
 // An environment as the GPU takes it: equirectangular RGBA halves. Row 0 is +Y; alpha is 1; every value is finite and not negative.
 struct EnvironmentMap {
   std::uint32_t width = 0, height = 0;
-  std::vector<std::uint16_t>
-      texels{};  // width * height * 4 binary16; empty in what stands for a map that a GPU has
-  std::uint64_t id = newEnvironmentId();  // of the picture: a copy, with or without texels, has the same
+  std::vector<std::uint16_t> texels{};  // width * height * 4 binary16
 };
 
 // Empty after errors, and without any when `observer` gave up.

@@ -215,10 +215,6 @@ FrameReport Renderer::frame(const World& world, const FrameInput& input, text::D
   return execution_->frame(world, input, diagnostics);
 }
 
-void Renderer::dropUploaded(World& world) const {
-  device_->imports.dropUploaded(world);
-}
-
 void Renderer::blackOut() {
   const graph::FlatGraph& graph = *execution_->plan().graph;
   const gl::TextureRef texture = execution_->presented();

@@ -93,10 +93,6 @@ class Renderer {
   // Runs nothing and presents black while an import of the graph is still being loaded (World::expectEnvironment).
   FrameReport frame(const World& world, const FrameInput& input, text::Diagnostics& diagnostics);
 
-  // To be called after frame(): frees what the world holds and the GPU has too. Not to be called when others render that
-  // world.
-  void dropUploaded(World& world) const;
-
   Execution* execution() { return execution_.get(); }
   // The running graph, as it was read; null before the first load().
   const graph::GraphDesc* desc() const { return desc_.get(); }

@@ -5,19 +5,6 @@
 
 namespace weft::runtime {
 
-Imports::Imports(std::shared_ptr<const imports::ImportRegistry> registry) : registry_(std::move(registry)) {
-  // Providers of the types that need no arguments, for find().
-  for (const graph::ImportType& type : registry_->reflect()) {
-    graph::ImportRequest request{.type = type.name, .arguments = {}};
-    bool complete = type.array == 0;
-    for (const graph::ImportArgument& argument : type.arguments) {
-      complete = complete && argument.initial.type != graph::Value::Type::none;
-      request.arguments.emplace_back(argument.name, argument.initial);
-    }
-    if (complete) hold(request, graph::keyOf(request)).used = true;
-  }
-}
-
 Imports::Held& Imports::hold(const graph::ImportRequest& request, std::uint64_t key) {
   const imports::Import* import = registry_->find(request.type);
   assert(import && "expansion accepts registered imports only");

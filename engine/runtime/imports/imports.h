@@ -26,7 +26,8 @@ using imports::WorldFacts;
 
 class Imports : public imports::Providers {
  public:
-  explicit Imports(std::shared_ptr<const imports::ImportRegistry> registry);
+  explicit Imports(std::shared_ptr<const imports::ImportRegistry> registry)
+      : registry_(std::move(registry)) {}
   Imports(const Imports&) = delete;
   Imports& operator=(const Imports&) = delete;
 
@@ -62,20 +63,6 @@ class Imports : public imports::Providers {
   // `texture` must live as long as the provider.
   void setStandIn(const graph::ImportSpec& import, gl::TextureRef texture) {
     heldOf(import).standIn = texture;
-  }
-
-  // Frees what the world holds and the device has.
-  void dropUploaded(World& world) const {
-    for (const Held& each : held_) each.provider->dropUploaded(world);
-  }
-
-  // A provider of a class that the caller knows. Types whose arguments all have defaults have one from the start; null: it
-  // went in a prepare(), or there is none yet.
-  template <class T>
-  T* find() {
-    for (Held& each : held_)
-      if (T* found = dynamic_cast<T*>(each.provider.get())) return found;
-    return nullptr;
   }
 
  private:
