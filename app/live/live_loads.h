@@ -1,7 +1,6 @@
 // What a window loads beside its frames: its scene and its environment. Nothing here waits for the disk or a decoder.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>

@@ -263,6 +263,7 @@ struct ImportSpec {
   std::vector<std::string> standIns;  // names of own textures that a list of alternatives offers in its place
   double count = 0;                   // rows of a list or buffer, as ImportFacts::count
   bool changing = false;              // as ImportFacts::changing
+  std::string_view fallback{};        // as ImportFacts::fallback, of one that does not exist
   Place place{};                      // of its declaration; without a file for one that is named only as @x
 };
 

@@ -116,8 +116,10 @@ std::uint32_t elementOf(const ImportRequest& request);
 
 // What is known of an import before anything runs.
 struct ImportFacts {
-  bool exists = false;           // false: has() is 0, `?` slots lose it, alternatives skip it
-  bool fallback = false;         // the runtime has a stand-in: reads need no `?`
+  bool exists = false;  // false: has() is 0, `?` slots lose it, alternatives skip it
+  // A graph whose picture stands in for a texture that does not exist, so that reads need no `?`: a path from the folder that
+  // holds graphs/, which lives as long as the program.
+  std::string_view fallback{};
   Format format = Format::none;  // textures
   std::uint32_t width = 1, height = 1, depth = 1, layers = 1, mips = 1;
   bool layered = false;                      // an array texture, also with one layer

@@ -113,8 +113,6 @@ class Import {
   virtual graph::ImportFacts facts(const graph::ImportRequest&, const WorldFacts&, Files&) const {
     return {.exists = true};
   }
-  // A graph whose picture stands in for a texture that the world lacks: a path from the folder that holds graphs/, or "".
-  virtual std::string standInGraph() const { return {}; }
   // Must make no GL call, because the provider may never be used.
   virtual std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const = 0;
 };

@@ -6,15 +6,6 @@
 
 namespace weft::imports {
 
-namespace {
-
-class Environment : public ImportOf<EnvironmentProvider> {
- public:
-  std::string standInGraph() const override { return "graphs/daylight.json"; }
-};
-
-}  // namespace
-
 std::optional<gl::Texture> EnvironmentProvider::create(const assets::EnvironmentMap& map,
                                                        text::Diagnostics& diagnostics) {
   return gl::Texture::create({.format = GL_RGBA16F,
@@ -33,7 +24,7 @@ graph::ImportType EnvironmentProvider::reflect() {
 
 graph::ImportFacts EnvironmentProvider::facts(const graph::ImportRequest&, const WorldFacts& world, Files&) {
   return {.exists = world.environment,
-          .fallback = true,
+          .fallback = "graphs/daylight.json",
           .format = graph::Format::rgba16f,
           .width = world.environmentWidth,
           .height = world.environmentHeight,
@@ -41,7 +32,7 @@ graph::ImportFacts EnvironmentProvider::facts(const graph::ImportRequest&, const
 }
 
 std::unique_ptr<Import> makeEnvironment() {
-  return std::make_unique<Environment>();
+  return std::make_unique<ImportOf<EnvironmentProvider>>();
 }
 
 gl::TextureRef EnvironmentProvider::texture(const Frame& frame, text::Diagnostics& diagnostics) {

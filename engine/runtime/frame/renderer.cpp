@@ -179,17 +179,17 @@ bool Renderer::prepareStandIns(const graph::FlatGraph& graph, const World& world
   for (std::uint32_t i = 0; i < graph.imports.size(); ++i) {
     const graph::ImportSpec& import = graph.imports[i];
     // No resource has this import when a list of alternatives has something else in its place.
-    if (std::ranges::find(graph.resources, i, &graph::FlatResource::import) == graph.resources.end())
+    if (import.fallback.empty() ||
+        std::ranges::find(graph.resources, i, &graph::FlatResource::import) == graph.resources.end())
       continue;
-    const std::string name = device_->imports.standInGraph(import, world);
-    if (name.empty()) continue;
-    std::unique_ptr<Renderer>& standIn = standIns_[name];
+    std::unique_ptr<Renderer>& standIn = standIns_[std::string(import.fallback)];
     if (!standIn) {
       Options options = options_;
       options.presets.clear();
       options.compile = {};
       auto made = std::make_unique<Renderer>(
-          device_->context, (std::filesystem::path(options_.dataFolder) / name).string(), std::move(options));
+          device_->context, (std::filesystem::path(options_.dataFolder) / import.fallback).string(),
+          std::move(options));
       graph::Settings settings;
       settings.software = device_->context.device().software;
       if (!made->load(settings, world, diagnostics)) return false;

@@ -8,7 +8,7 @@ namespace weft::runtime {
 Imports::Held& Imports::hold(const graph::ImportRequest& request, std::uint64_t key) {
   const imports::Import* import = registry_->find(request.type);
   assert(import && "expansion accepts registered imports only");
-  return held_.emplace_back(Held{.key = key, .import = import, .provider = import->provide(request)});
+  return held_.emplace_back(Held{.key = key, .provider = import->provide(request)});
 }
 
 void Imports::prepare(const graph::FlatGraph& graph) {
@@ -46,13 +46,6 @@ bool Imports::isPending(const graph::FlatGraph& graph, const World& world) {
     if (heldOf(import).provider->isPending(world)) return true;
   }
   return false;
-}
-
-std::string Imports::standInGraph(const graph::ImportSpec& import, const World& world) {
-  const Held& held = heldOf(import);
-  const std::string graph = held.standIn.id == 0 ? held.import->standInGraph() : std::string{};
-  return graph.empty() || held.import->facts(import.request, world.facts(), files_).exists ? std::string{}
-                                                                                           : graph;
 }
 
 }  // namespace weft::runtime

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
-#include <string>
 
 #include "engine/gl/objects/objects.h"
 #include "engine/graph/flat_graph.h"
@@ -58,8 +57,6 @@ class Imports : public imports::Providers {
 
   // Something that `graph` imports is on its way.
   bool isPending(const graph::FlatGraph& graph, const World& world);
-  // The graph whose picture is to replace an import that the world lacks; empty: none is needed.
-  std::string standInGraph(const graph::ImportSpec& import, const World& world);
   // `texture` must live as long as the provider.
   void setStandIn(const graph::ImportSpec& import, gl::TextureRef texture) {
     heldOf(import).standIn = texture;
@@ -68,7 +65,6 @@ class Imports : public imports::Providers {
  private:
   struct Held {
     std::uint64_t key = 0;
-    const imports::Import* import = nullptr;
     std::unique_ptr<imports::Provider> provider;
     gl::TextureRef standIn;  // id 0: there is none
     bool used = false;

@@ -365,7 +365,7 @@ TEST_CASE("an import with a stand-in satisfies a plain read, not an optional one
   const auto factsOf = registry.factsOf;
   registry.factsOf = [factsOf](const ImportRequest& request) {
     ImportFacts facts = factsOf(request);
-    facts.fallback = true;
+    facts.fallback = "graphs/daylight.json";
     return facts;
   };
   const Expanded e = expandText(
@@ -376,6 +376,7 @@ TEST_CASE("an import with a stand-in satisfies a plain read, not an optional one
   CHECK(e.useText("p", "plain") == "@environment");
   CHECK(e.useText("p", "maybe") == "-");
   CHECK(e.useText("p", "list") == "@environment");
+  CHECK(e.graph->imports[0].fallback == "graphs/daylight.json");
 }
 
 TEST_CASE("a depth attachment stays attached for the test of its own pass, unless the test always passes") {

@@ -109,6 +109,7 @@ std::uint32_t internImport(Model& model, ImportRequest request, const ImportType
   ImportSpec& spec = imports[index];
   spec.count = facts.count;
   spec.changing = facts.changing;
+  if (!facts.exists) spec.fallback = facts.fallback;
   if (!spec.place.file && entity.desc) spec.place = entity.desc->place;
   return index;
 }
@@ -116,7 +117,7 @@ std::uint32_t internImport(Model& model, ImportRequest request, const ImportType
 void takeFacts(Model& model, Entity& entity, const ImportType& type, const ImportRequest& request,
                const ImportFacts& facts) {
   entity.exists = facts.exists;
-  entity.fallback = facts.fallback;
+  entity.fallback = !facts.fallback.empty();
   entity.count = facts.count;
   FlatResource& shape = entity.shape;
   shape.kind =
