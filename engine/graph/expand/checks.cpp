@@ -63,8 +63,8 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
       text::SentenceFor<const char*, std::string, const char*, const char*, const char*, std::string>;
   const auto refuseAt = [&](const RefDesc& at, Misfit why) {
     const std::string found = known ? fmt::format("{}, of format {}", at.text, format.name) : at.text;
-    return context.report(why, at.place, nameOf(access), entity.name, nameOf(kind),
-                          buffer ? "buffer" : "texture", rule.takes, found);
+    return context.reportChecked(why, at.place, nameOf(access), entity.name, nameOf(kind),
+                                 buffer ? "buffer" : "texture", rule.takes, found);
   };
   const auto refuse = [&](Misfit why) { return refuseAt(ref, why); };
   if (entity.import != kNone && context.model.graph.imports[entity.import].kind == ImportKind::event)
@@ -136,8 +136,8 @@ bool checkTogether(const SlotContext& context, const SlotWork& a, const SlotWork
   using Clash =
       text::SentenceFor<std::string, std::string, const char*, std::string, std::string, std::string>;
   const auto refuse = [&](Clash why) {
-    return context.report(why, b.slot->ref.place, b.slot->ref.text, b.slot->name, verbOf(a.use.access),
-                          a.slot->ref.text, a.slot->name, context.model.entities[b.entity].name);
+    return context.reportChecked(why, b.slot->ref.place, b.slot->ref.text, b.slot->name, verbOf(a.use.access),
+                                 a.slot->ref.text, a.slot->name, context.model.entities[b.entity].name);
   };
   return twice      ? refuse(say::writtenTwice)
          : modifies ? refuse(say::readAndModified)
@@ -163,8 +163,8 @@ bool checkCopy(const SlotContext& context, const std::vector<SlotWork>& slots) {
                              : fmt::format("'{}' of {}x{}, {}", work.slot->ref.text, shape.width,
                                            shape.height, infoOf(shape.format).name);
     };
-    return context.report(why, side.slot->ref.place, textOf(*from, a), textOf(*to, b),
-                          (&side == to ? target : source).name);
+    return context.reportChecked(why, side.slot->ref.place, textOf(*from, a), textOf(*to, b),
+                                 (&side == to ? target : source).name);
   };
   if (context.type->fromSource) {  // a mipmap reads one level and writes those that follow it
     if (from->entity != to->entity || from->firstElement != to->firstElement || from->use.mips != 1 ||

@@ -94,7 +94,7 @@ struct SlotContext {
   }
   // The same where the sentence was checked before.
   template <class... Own, class... Args>
-  bool report(text::SentenceFor<Own...> what, const Place& place, const Args&... args) const {
+  bool reportChecked(text::SentenceFor<Own...> what, const Place& place, const Args&... args) const {
     return !quiet && report(text::diagnosticOf(what.sentence, fmt::make_format_args(args...)), place);
   }
   bool report(text::Diagnostic said, const Place& place) const;

@@ -113,7 +113,7 @@ void checkKeys(const SlotContext& context, const PassDesc& desc) {
       {hasShader && desc.samples.present() && !desc.raster.present(), desc.samples.place(),
        say::samplesWithoutRaster}};
   for (const auto& [idle, place, what] : rules)
-    if (idle) context.report(what, place);
+    if (idle) context.reportChecked(what, place);
   checkIndirect(context, desc);
   if (!hasShader) return;
   checkShaders(context, desc);
