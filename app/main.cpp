@@ -40,9 +40,9 @@ int main(int argc, char** argv) {
   if (first == weft::gl::kTrialWord) weft::gl::runTrial(argc - 1, argv + 1);
   prepareStreams();
   CommandLine line;
-  for (const auto add : {addRender, addFarm,   addView,    addCheck, addPlan,   addExplain, addDiff,
-                         addReport, addParams, addPresets, addTest,  addFuzz,   addDump,    addFormat,
-                         addNew,    addImport, addLsp,     addBench, addSchema, addTypes})
+  for (const auto add :
+       {addRender, addFarm, addView, addCheck, addPlan, addExplain, addDiff, addReport, addParams, addPresets,
+        addTest, addFuzz, addDump, addFormat, addNew, addImport, addLsp, addSchema, addTypes})
     add(line);
   return finishStreams(line.run(argc, argv));
 }

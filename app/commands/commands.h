@@ -31,7 +31,6 @@ void addFormat(CommandLine& line);
 void addImport(CommandLine& line);
 void addSchema(CommandLine& line);
 void addTypes(CommandLine& line);
-void addBench(CommandLine& line);
 
 // Draws one or two `sides`, writes the page of `weft report` to `path` and says on it that `command` made it. Milliseconds of each step are
 // medians over `repeats` frames; 0: no times. False after errors.

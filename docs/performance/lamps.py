@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What lamps cost in graphs/deferred.json: prints one JSON, each pass in full-screen copies, for 1, 100 and 1,000 lamps.
 
-    docs/performance/lamps.py [--weft PROGRAM] [--size WxH] [--spheres]
+    docs/performance/lamps.py [--build FOLDER] [--size WxH] [--spheres]
 
 A floor with rocks fills the picture. `near`: lamps over the same floor that reach 0.35 each, so more of them are denser; `everywhere`: each lamp
 reaches every pixel, clusters have nothing to rule out. `touched` is how many lamps a pixel goes through, on average, read from a picture
@@ -62,22 +62,24 @@ def touched_in(path):
     return total / pixels, at_end / pixels
 
 
-def run_weft(weft, *line):
-    done = subprocess.run([*weft, *map(str, line)], cwd=TOP, capture_output=True, text=True)
+def run(build, command, *line):
+    programs = {"render": ["app/weft", "render"], "bench": ["tests/bench/weft_bench"]}
+    program, *words = programs[command] if build else ["run", command]
+    done = subprocess.run([pathlib.Path(build or TOP) / program, *words, *map(str, line)], cwd=TOP, capture_output=True, text=True)
     if done.returncode:
         sys.exit(done.stderr)
     return done.stdout
 
 
-def measure(weft, size, lamps, everywhere, spheres, folder):
+def measure(build, size, lamps, everywhere, spheres, folder):
     scene, picture = folder / "scene.json", folder / "touched.png"
     scene.write_text(json.dumps(scene_of(lamps, everywhere, spheres)))
     touched, over = (lamps, 0) if everywhere else (None, 0)
     if not everywhere:
         sets = ["show_lamps=true", "bloom=false", "fxaa=false", "dither=false", "curve=linear", "composite.white=1"]
-        run_weft(weft, "render", GRAPH, "--scene", scene, "--size", size, "--quiet", "-o", picture, *(w for s in sets for w in ("--set", s)))
+        run(build, "render", GRAPH, "--scene", scene, "--size", size, "--quiet", "-o", picture, *(w for s in sets for w in ("--set", s)))
         touched, over = touched_in(picture)
-    bench = json.loads(run_weft(weft, "bench", "--frame", GRAPH, "--scene", scene, "--size", size))
+    bench = json.loads(run(build, "bench", "--frame", GRAPH, "--scene", scene, "--size", size))
     plain = next(each for each in bench["variants"] if each["name"] == "plain")
     row = {"lamps": lamps, "reach": "everywhere" if everywhere else "near", "touched": round(touched, 2) if over <= 0.01 else None,
            "frame_copies": plain["copies"], "passes": {each["pass"]: each["copies"] for each in plain["passes"]}}
@@ -90,16 +92,15 @@ def measure(weft, size, lamps, everywhere, spheres, folder):
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("--weft", help="the program; ./run when absent")
+    parser.add_argument("--build", help="folder of a build; ./run when absent")
     parser.add_argument("--size", default="1280x720")
     parser.add_argument("--spheres", action="store_true")
     arguments = parser.parse_args()
-    weft = [arguments.weft] if arguments.weft else [str(TOP / "run")]
     out = {"graph": GRAPH, "size": arguments.size, "rows": []}
     with tempfile.TemporaryDirectory() as folder:
         for everywhere in (False, True):
             for lamps in GRIDS:
-                device, copy, row = measure(weft, arguments.size, lamps, everywhere, arguments.spheres, pathlib.Path(folder))
+                device, copy, row = measure(arguments.build, arguments.size, lamps, everywhere, arguments.spheres, pathlib.Path(folder))
                 out["device"], row["copy_ms"] = device, copy
                 out["rows"].append(row)
                 missing = [name for name in PASSES if name not in row["passes"] and (lamps > FEW or "clusters" not in name)]

@@ -55,6 +55,7 @@ RUN = """#!/usr/bin/env bash
 case "${{1:-}}" in
   "" | --setup-only | --install-only) echo "not run: ./run $*" ;;
   view) exec xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" {weft} "$@" --max-frames 3 ;;
+  bench) exec {bench} "${{@:2}}" ;;
   *) exec {weft} "$@" ;;
 esac
 """
@@ -98,7 +99,7 @@ class Sandbox:
             path = self.root / "graphs" / name
             assert size in (text := path.read_text()), f"{path} has no {size}"
             path.write_text(text.replace(size, small))
-        write_program(self.root / "run", RUN.format(weft=shlex.quote(str(WEFT))))
+        write_program(self.root / "run", RUN.format(weft=shlex.quote(str(WEFT)), bench=shlex.quote(str(BINARY / "tests/bench/weft_bench"))))
         write_program(self.root / "test", TEST.format(ctest=shlex.quote(shutil.which(CTEST)), binary=shlex.quote(str(BINARY))))
         tools = folder / "tools"
         tools.mkdir()

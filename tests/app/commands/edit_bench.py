@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`weft bench --edit GRAPH` prints what an edit costs: a live change builds no plan, by the viewer's own way. Times are reported, never judged."""
+"""`./run bench --edit GRAPH` prints what an edit costs: a live change builds no plan, by the viewer's own way. Times are reported, never judged."""
 import json
 import sys
 
@@ -10,8 +10,8 @@ TIMES = ["live_us", "live_worst_us", "toggle_us", "toggle_worst_us", "save_us"]
 
 
 def main():
-    weft, report = sys.argv[1], Report()
-    done = run(weft, "bench", "--edit", "graphs/glow.json", "--size", "64x32", "--scene", "scenes/empty.json")
+    bench, report = sys.argv[2], Report()
+    done = run(bench, "--edit", "graphs/glow.json", "--size", "64x32", "--scene", "scenes/empty.json")
     if report.check(done.code == 0 and not done.err, f"exit code {done.code}\n{done.err}"):
         found = json.loads(done.out)
         for key in COUNTS + TIMES:
@@ -21,9 +21,9 @@ def main():
         report.check(all(found[key] > 0 for key in TIMES), f"times: {found}")
         report.check(found["live_plans_built"] == 0, f"a live change: {found}")
         print(done.out)
-    done = run(weft, "bench", "--edit", "graphs/none.json")
+    done = run(bench, "--edit", "graphs/none.json")
     report.check(done.code == 1 and "W001" in done.err, f"a graph that is not there: {done.code} {done.err}")
-    done = run(weft, "bench", "--edit", "graphs/glow.json", "--frame", "graphs/glow.json")
+    done = run(bench, "--edit", "graphs/glow.json", "--frame", "graphs/glow.json")
     report.check(done.code == 2, f"one of both: {done.code} {done.err}")
     report.end()
 

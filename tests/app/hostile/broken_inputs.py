@@ -196,7 +196,6 @@ CASES = [
     (rendered(GLOW, "--disable", "bloom"), 1, "W084", "command line: --disable bloom", "--set bloom=VALUE"),
     (rendered(GLOW, "--disable", "composite"), 1, "W060", r".*/glow\.json:\d+:\d+"),
     (rendered(STUDIO, "--set", "lut=short.cube"), 1, "W154", r"short\.cube:3", "8 rows are needed"),
-    (["bench", "--edit", "no_such.json"], 1, "W001", r"no_such\.json"),
     (rendered(GLOW, "--backend", "vulkan"), 2, None, "--backend"),
     (rendered(GLOW, "--size", "0x36"), 2, None, "--size"),
     (rendered(GLOW, "--size", "99999x99999"), 2, None, "--size"),

@@ -254,7 +254,7 @@ def forgery(weft, folder, report):
              ["render", "plan.json", "--backend", EVIL, "-o", "a.png"], ["render", "plan.json", "--frames", EVIL, "-o", "a.png"],
              ["render", "plan.json", "--fps", EVIL, "-o", "a.png"], ["render", "plan.json", "-o", EVIL],
              ["render", "plan.json", "--environment", EVIL, "-o", "a.png"], ["render", "plan.json", "--environment", EVIL + ".hdr", "-o", "a.png"],
-             ["bench", "--edit", EVIL], ["view", "plan.json", "--panels", EVIL]]
+             ["view", "plan.json", "--panels", EVIL]]
     for arguments in wrong:
         done = limited(weft, *arguments, folder=folder)
         if report.check(done, f"{arguments}: hangs"):

@@ -1,12 +1,15 @@
-// weft bench: what frames and edits cost, as JSON. Times depend on the machine and are not judged.
+// `./run bench`: what frames and edits cost, as JSON. Times depend on the machine and are not judged.
 
+#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <limits>
 
-#include "app/commands/commands.h"
 #include "app/live/live_graph.h"
+#include "app/output/standard_streams.h"
 #include "app/trials/shot.h"
+#include "engine/gl/programs/program_cache.h"
 #include "engine/graph/language/names.h"
 #include "engine/runtime/inspection/frame_profiler.h"
 
@@ -211,39 +214,47 @@ std::optional<Json> benchFrame(const Options& options, DeviceSession& session, c
   return out;
 }
 
-struct BenchOptions : Options {
-  std::string frameGraph, editGraph;
-};
-
-int runBench(BenchOptions& options) {
-  const bool both = options.frameGraph.empty() && options.editGraph.empty();
-  const std::string studio = dataFolder() + "/graphs/studio.json";
+// Of the graphs that are named; of graphs/studio.json both, when none is.
+int bench(const Options& options, std::string frameGraph, std::string editGraph) {
+  const bool both = frameGraph.empty() && editGraph.empty();
+  if (both) frameGraph = editGraph = dataFolder() + "/graphs/studio.json";
   Json out;
   int code = 0;
-  const auto run = [&](const char* name, const std::string& graph, const auto& bench) {
-    if (code != 0 || (graph.empty() && !both)) return;
+  const auto run = [&](const char* name, const std::string& graph, const auto& measureGraph) {
+    if (code != 0 || graph.empty()) return;
     Options one = options;
-    one.graph = both ? studio : graph;
+    one.graph = graph;
     code = runOnDevice({&one}, 1, [&](auto& session, auto& world, text::Diagnostics& diagnostics) {
-      if (const auto found = bench(one, *session, world, diagnostics)) out[name] = *found;
+      if (const auto found = measureGraph(one, *session, world, diagnostics)) out[name] = *found;
       return 0;
     });
   };
-  run("edit", options.editGraph, benchEdits);
-  run("frame", options.frameGraph, benchFrame);
+  run("edit", editGraph, benchEdits);
+  run("frame", frameGraph, benchFrame);
   if (code == 0) print(text::dumpJson(both ? out : *out.begin()) + "\n");
   return code;
 }
 
 }  // namespace
 
-void addBench(CommandLine& line) {
-  const auto [command, options] = line.add("bench", "measure; prints JSON", runBench);
-  addPath(command, "--frame", options.frameGraph, "graph file: its frame in full-screen copies");
-  addPath(command, "--edit", options.editGraph, "graph file: what a changed parameter and a saved file cost")
-      ->excludes("--frame");
-  options.addWorld(command);
-  options.addBackend(command);
-}
-
 }  // namespace weft::app
+
+int main(int argc, char** argv) {
+  using namespace weft::app;
+  if (argc > 1 && argv[1] == std::string_view(weft::gl::kTrialWord)) weft::gl::runTrial(argc - 1, argv + 1);
+  prepareStreams();
+  CLI::App line("Measures; prints JSON", "weft_bench");
+  Options options;
+  std::string frameGraph, editGraph;
+  addPath(line, "--frame", frameGraph, "graph file: its frame in full-screen copies");
+  addPath(line, "--edit", editGraph, "graph file: what a changed parameter and a saved file cost")
+      ->excludes("--frame");
+  options.addWorld(line);
+  options.addBackend(line);
+  try {
+    line.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return line.exit(error) == 0 ? 0 : 2;
+  }
+  return finishStreams(bench(options, frameGraph, editGraph));
+}
