@@ -44,7 +44,7 @@ SUB_ROOMS = {
     },
     "assets": {
         "images": set(),
-        "loading": {"images"},
+        "loading": set(),
         ".": {"images"},
         "models/parts": {".", "images"},
         "models/gltf": {".", "models/parts"},

@@ -12,13 +12,6 @@ namespace weft::app {
 
 namespace {
 
-std::optional<LoadStatus> statusOf(bool loading, const std::string& path, const assets::Loader& loader) {
-  if (!loading) return std::nullopt;
-  const assets::LoadProgress progress = loader.progress();
-  return LoadStatus{std::filesystem::path(path).filename().string(), assets::nameOf(progress.stage),
-                    progress.done};
-}
-
 std::vector<std::string> listEnvironments(const std::filesystem::path& folder) {
   std::vector<std::string> files;
   std::error_code ec, ignored;
@@ -36,15 +29,15 @@ LiveScene::LiveScene(std::string path, scene::SceneChoice choice, std::vector<st
       choice_(std::move(choice)),
       files_(std::move(files)),
       loader_([first = path_, chosen = choice_](const std::string& file, text::Diagnostics&,
-                                                const assets::LoadObserver& observer) {
-        return read(file, file == first ? chosen : scene::SceneChoice{}, observer);
+                                                const std::stop_token& stop) {
+        return read(file, file == first ? chosen : scene::SceneChoice{}, stop);
       }) {}
 
 std::shared_ptr<const LiveScene::Loaded> LiveScene::read(const std::string& path,
                                                          const scene::SceneChoice& choice,
-                                                         const assets::LoadObserver& observer) {
+                                                         const std::stop_token& stop) {
   auto loaded = std::make_shared<Loaded>();
-  loaded->scene = scene::loadScene(path, loaded->said, &loaded->files, choice, observer);
+  loaded->scene = scene::loadScene(path, loaded->said, &loaded->files, choice, stop);
   return loaded;
 }
 
@@ -78,10 +71,6 @@ const scene::Scene* LiveScene::scene(text::Diagnostics& diagnostics) {
   }
   diagnostics.append(arrived_->said);
   return arrived_->scene ? &*arrived_->scene : nullptr;
-}
-
-std::optional<LoadStatus> LiveScene::status() const {
-  return statusOf(loading_, path_, loader_);
 }
 
 std::optional<std::string> firstEnvironment(const std::string& fileOrFolder, text::Diagnostics& diagnostics) {
@@ -121,10 +110,6 @@ std::optional<LiveEnvironment::Map> LiveEnvironment::poll(text::Diagnostics& dia
   diagnostics.append(result->diagnostics);
   if (map) shown_ = wanted_;
   return map;
-}
-
-std::optional<LoadStatus> LiveEnvironment::status() const {
-  return statusOf(loading_, wanted_, loader_);
 }
 
 }  // namespace weft::app

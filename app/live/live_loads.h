@@ -1,6 +1,7 @@
 // What a window loads beside its frames: its scene and its environment. Nothing here waits for the disk or a decoder.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,13 +15,6 @@
 
 namespace weft::app {
 
-// What is on its way.
-struct LoadStatus {
-  std::string name;   // of the file, without folders
-  const char* stage;  // "reading"
-  float done = 0;     // 0 to 1
-};
-
 // The scene of a window: the file that is followed, and its loading beside the frames. Models are read, decoded and converted
 // on a loader thread. What arrived stays until the files change again, so that it can be tried with one graph after another.
 class LiveScene {
@@ -29,6 +23,7 @@ class LiveScene {
   LiveScene(std::string path, scene::SceneChoice choice, std::vector<std::string> files);
 
   const std::string& path() const { return path_; }
+  std::string name() const { return std::filesystem::path(path_).filename().string(); }
   // Everything that was read or should have been, also after errors: what to watch.
   const std::vector<std::string>& files() const { return files_; }
 
@@ -56,8 +51,6 @@ class LiveScene {
   // What arrived, with what is to be said of it; null after errors. Read at once where nothing has.
   const scene::Scene* scene(text::Diagnostics& diagnostics);
 
-  std::optional<LoadStatus> status() const;
-
  private:
   struct Loaded {
     std::optional<scene::Scene> scene;
@@ -65,7 +58,7 @@ class LiveScene {
     text::Diagnostics said;
   };
   static std::shared_ptr<const Loaded> read(const std::string& path, const scene::SceneChoice& choice,
-                                            const assets::LoadObserver& observer = {});
+                                            const std::stop_token& stop = {});
 
   std::string path_;
   scene::SceneChoice choice_;  // of the first file
@@ -96,19 +89,20 @@ class LiveEnvironment {
   // why.
   std::optional<Map> poll(text::Diagnostics& diagnostics);
 
-  // What is on its way.
-  std::optional<LoadStatus> status() const;
+  // Whether wanted() is on its way.
+  bool loading() const { return loading_; }
 
   // To watch: the file that is shown and the one last asked for; empty names for none.
   const std::string& shown() const { return shown_; }
   const std::string& wanted() const { return wanted_; }
+  std::string wantedName() const { return std::filesystem::path(wanted_).filename().string(); }
 
  private:
   std::string shown_, wanted_;
   bool loading_ = false;
   assets::Loader loader_{[](const std::string& path, text::Diagnostics& diagnostics,
-                            const assets::LoadObserver& observer) -> std::shared_ptr<const void> {
-    auto map = assets::loadEnvironmentMap(path, diagnostics, observer);
+                            const std::stop_token& stop) -> std::shared_ptr<const void> {
+    auto map = assets::loadEnvironmentMap(path, diagnostics, stop);
     return map ? std::make_shared<const assets::EnvironmentMap>(std::move(*map)) : nullptr;
   }};
 };

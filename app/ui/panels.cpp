@@ -306,17 +306,16 @@ void Panels::drawAlarm() {
 }
 
 void Panels::drawLoading() {
-  const std::optional<LoadStatus> all[] = {live_.environment().status(), live_.scene().status()};
-  if (!all[0] && !all[1]) return;
+  std::string said;
+  if (live_.environment().loading()) said += "loading " + live_.environment().wantedName() + "\n";
+  if (live_.scene().loading()) said += "loading " + live_.scene().name() + "\n";
+  if (said.empty()) return;
   const float room = width_ - column_, width = std::min(30 * em_, room - em_);
   ImGui::SetNextWindowPos({room / 2, (height_ - line_ - strip_) * 0.9f}, ImGuiCond_Always, {0.5f, 1});
   ImGui::SetNextWindowSize({width, 0});
   ImGui::Begin("Loading", nullptr, kFixed | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing);
-  for (const auto& status : all) {
-    if (!status) continue;
-    ImGui::TextUnformatted(fmt::format("{}: {}", status->name, status->stage).c_str());
-    ImGui::ProgressBar(status->done, {-1, 0}, fmt::format("{:.0f} %", status->done * 100.0f).c_str());
-  }
+  said.pop_back();
+  ImGui::TextUnformatted(said.c_str());
   ImGui::End();
 }
 

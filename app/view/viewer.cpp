@@ -535,7 +535,7 @@ void Viewer::update(gl::Size size) {
     looked = live_.poll(glfwGetTime(), diagnostics_);
   }
   if (!std::exchange(sceneLoads_, live_.scene().loading()) && sceneLoads_)
-    say("loading " + std::filesystem::path(live_.scene().path()).filename().string());
+    say("loading " + live_.scene().name());
   if (looked) {
     ++arrivals_;
     tell(diagnostics_, log_, ui::Log::kFiles);
@@ -562,8 +562,8 @@ void Viewer::showState() {
   const auto add = [&](const std::string& mode) { title += " (" + mode + ")"; };
   if (!live_.running())
     add("waiting: the files have errors");
-  else if (const auto scene = live_.scene().status())
-    add("loading " + scene->name);
+  else if (live_.scene().loading())
+    add("loading " + live_.scene().name());
   else if (!live_.good())
     add("the files have errors");
   if (title == title_) return;
@@ -583,7 +583,7 @@ imports::Pointer Viewer::pointer() {
 bool Viewer::busy() {
   if (!recording_.empty() || rig_.moving() || movingScale_ < 1 || rig_.cuts() != cuts_ || input_.captured() ||
       input_.movesCamera() || input_.waiting() || (server_ && server_->wanted()) ||
-      live_.environment().status() || live_.scene().loading())
+      live_.environment().loading() || live_.scene().loading())
     return true;
   if (readsMouse() && pointer() != pointer_) return true;
   // What moves counts also while it pauses or is out of view, because it will go on.

@@ -46,8 +46,8 @@ std::string readAll(int file) {
   return std::move(bytes).str();
 }
 
-// Until the process closes its end. False when it was silent for too long, or `goOn` ended it.
-bool listen(int end, std::uint64_t seconds, const std::function<bool()>& goOn, std::string& said) {
+// Until the process closes its end. False when it was silent for too long, or stopped.
+bool listen(int end, std::uint64_t seconds, const std::stop_token& stop, std::string& said) {
   using Clock = std::chrono::steady_clock;
   const auto patience = std::chrono::seconds(kClockPerProcessor * seconds);
   for (auto last = Clock::now(); Clock::now() - last < patience;) {
@@ -61,7 +61,7 @@ bool listen(int end, std::uint64_t seconds, const std::function<bool()>& goOn, s
         last = Clock::now();
       }
     }
-    if (goOn && !goOn()) return false;
+    if (stop.stop_requested()) return false;
   }
   return false;
 }
@@ -114,7 +114,7 @@ pid_t startProcess(std::vector<std::string> command, int input, int output, int 
 }
 
 ApartEnd runApart(std::vector<std::string> command, std::string_view input, std::uint64_t seconds,
-                  const std::function<bool()>& goOn) {
+                  const std::stop_token& stop) {
   ApartEnd result;
   const int file = ::memfd_create("apart", MFD_CLOEXEC);
   int ends[2] = {-1, -1};
@@ -123,7 +123,7 @@ ApartEnd runApart(std::vector<std::string> command, std::string_view input, std:
   const pid_t pid = ready ? startProcess(std::move(command), file, ends[1], -1) : -1;
   ::close(ends[1]);
   if (pid >= 0) {
-    const bool ended = listen(ends[0], seconds, goOn, result.said);
+    const bool ended = listen(ends[0], seconds, stop, result.said);
     ::kill(pid, SIGKILL);  // what it tidies up is not waited for
     int status = 0;
     rusage used{};

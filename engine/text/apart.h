@@ -7,7 +7,7 @@
 #include <sys/types.h>
 
 #include <cstdint>
-#include <functional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,9 +23,9 @@ struct ApartEnd {
 };
 
 // The process is gone when this returns: it is ended when it closes its standard output, when it has said nothing for six times
-// `seconds` by the clock, or when `goOn` is false. That is asked with each step, and twenty times a second.
+// `seconds` by the clock, or when `stop` says so, which is looked at with each step, and twenty times a second.
 ApartEnd runApart(std::vector<std::string> command, std::string_view input, std::uint64_t seconds,
-                  const std::function<bool()>& goOn = {});
+                  const std::stop_token& stop = {});
 
 // Starts a program, which is looked for in the PATH when its name has no slash, with these as its standard streams (-1: /dev/null), and
 // returns at once. Ctrl-C does not reach it. -1, and errno says why, when it cannot be started.

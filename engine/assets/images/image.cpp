@@ -290,21 +290,15 @@ std::optional<StoredImage> loadStored(const std::string& path, bool srgb, Diagno
 }
 
 std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, text::Diagnostics& diagnostics,
-                                                 const LoadObserver& observer) try {
-  const auto goOn = [&](LoadStage stage, double done) { return !observer || observer(stage, done); };
-  if (!goOn(LoadStage::reading, 0)) return {};
+                                                 const std::stop_token& stop) try {
   std::optional<ImageF> image;
   {
-    const auto bytes = text::readFile(
-        path, diagnostics, text::Code::unreadableImage, {}, [&](std::uint64_t done, std::uint64_t total) {
-          // What comes without a size (a pipe) fills half of its part of the bar with a MiB, and never all of it.
-          const auto size = static_cast<double>(total > 0 ? total : done + (1u << 20));
-          return goOn(LoadStage::reading, std::min(1.0, static_cast<double>(done) / size));
-        });
-    if (!bytes || !goOn(LoadStage::decoding, 0)) return {};
+    const auto bytes = text::readFile(path, diagnostics, text::Code::unreadableImage, {},
+                                      [&](std::uint64_t, std::uint64_t) { return !stop.stop_requested(); });
+    if (!bytes) return {};
     image = decodeEnvironment(*bytes, path, diagnostics);
   }
-  if (!image || !goOn(LoadStage::converting, 0)) return {};
+  if (!image || stop.stop_requested()) return {};
   return toEnvironmentMap(*image);
 } catch (const std::exception& error) {  // out of memory
   reportUnreadable(diagnostics, path, fmt::format("decoding failed ({})", error.what()));

@@ -6,9 +6,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,22 +46,15 @@ std::optional<ImageF> decodeEnvironment(std::string_view bytes, const std::strin
 // The cleaning step alone: the color channels of `image`, RGB or RGBA and equirectangular, in place.
 void sanitizeRadiance(ImageF& image, const std::string& name, text::Diagnostics& diagnostics);
 
-// Progress and cancellation of a load.
-enum class LoadStage : std::uint8_t { idle, waiting, reading, decoding, converting };
-
-// Told how far a load is: the stage, and how much of it is done (0 to 1; a stage that cannot tell says 0 and
-// then the next stage begins). False gives up. Called on the thread that loads, often.
-using LoadObserver = std::function<bool(LoadStage stage, double done)>;
-
 // An environment as the GPU takes it: equirectangular RGBA halves. Row 0 is +Y; alpha is 1; every value is finite and not negative.
 struct EnvironmentMap {
   std::uint32_t width = 0, height = 0;
   std::vector<std::uint16_t> texels{};  // width * height * 4 binary16
 };
 
-// Empty after errors, and without any when `observer` gave up.
+// Empty after errors, and without any when `stop` ended it.
 std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, text::Diagnostics& diagnostics,
-                                                 const LoadObserver& observer = {});
+                                                 const std::stop_token& stop = {});
 
 // Whether a name is that of an environment, by its end: .hdr or .exr.
 bool isEnvironmentName(const std::string& name);

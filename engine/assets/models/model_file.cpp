@@ -20,9 +20,9 @@ bool isModelName(const std::string& name) {
 }
 
 std::optional<Model> loadModel(const std::string& path, text::Diagnostics& diagnostics,
-                               const LoadObserver& observer, std::vector<std::string>* files) {
+                               const std::stop_token& stop, std::vector<std::string>* files) {
   text::Diagnostics said;
-  ModelFiles mine(path, said, observer);
+  ModelFiles mine(path, said, stop);
   Model model;
   model.name = std::filesystem::path(path).stem().string();
   bool good = false;
@@ -35,6 +35,7 @@ std::optional<Model> loadModel(const std::string& path, text::Diagnostics& diagn
     good = kind == ".obj" ? bytes && readObj(*bytes, mine, model)
                           : bytes && readGltf(std::move(*bytes), mine, model, made);
   }
+  if (stop.stop_requested()) return {};
   for (text::Diagnostic each : said.items()) {
     if (made) each.pointer.clear();  // lines are those of what was made of the file
     if (made && each.place.line > 0) each.place = mine.place();
@@ -42,7 +43,7 @@ std::optional<Model> loadModel(const std::string& path, text::Diagnostics& diagn
   }
   model.files = mine.files();
   if (files) *files = model.files;
-  if (!good || mine.gaveUp()) return {};
+  if (!good) return {};
   if (model.instances.empty()) {
     diagnostics.error(say::nothingToDraw, mine.place(), path);
     return {};

@@ -97,8 +97,8 @@ std::optional<CameraPose> poseOf(const std::string& words, CameraPose pose) {
 class Reader {
  public:
   Reader(const std::string& name, Diagnostics& diagnostics, const SceneChoice& choice,
-         const assets::LoadObserver& observer)
-      : name_(name), diagnostics_(diagnostics), choice_(choice), observer_(observer) {}
+         const std::stop_token& stop)
+      : name_(name), diagnostics_(diagnostics), choice_(choice), stop_(stop) {}
 
   // Everything that was read or should have been, the scene's own file first.
   const std::vector<std::string>& files() const { return files_; }
@@ -456,7 +456,7 @@ class Reader {
     if (!isNew) return loaded.get();
     std::vector<std::string> files;
     text::Diagnostics said;
-    std::optional<assets::Model> model = assets::loadModel(path, said, observer_, &files);
+    std::optional<assets::Model> model = assets::loadModel(path, said, stop_, &files);
     for (text::Diagnostic each : said.items()) {
       if (named && each.place.line == 0) each.place = named->textPlace();
       diagnostics_.add(std::move(each));
@@ -569,14 +569,14 @@ class Reader {
   const std::string name_;
   Diagnostics& diagnostics_;
   const SceneChoice& choice_;
-  const assets::LoadObserver& observer_;
+  const std::stop_token& stop_;
   Scene scene_;
   std::vector<std::string> files_{name_};
   std::map<std::string, MaterialId> byName_;
   std::map<std::string, std::vector<MaterialId>> libraries_;  // by path
   bool libraryMissing_ = false;
   std::map<std::string, std::unique_ptr<Loaded>> models_;  // by path; null: it failed
-  bool modelMissing_ = false;                              // after errors, or because the observer gave up
+  bool modelMissing_ = false;                              // after errors, or because the load was stopped
   std::shared_ptr<MeshData> data_ = std::make_shared<MeshData>();
   std::string sunOf_;  // the model that gave the scene its sun
 };
@@ -608,8 +608,8 @@ std::optional<std::vector<Material>> readMaterialLibrary(std::string_view text, 
 
 std::optional<Scene> loadScene(const std::string& path, Diagnostics& diagnostics,
                                std::vector<std::string>* files, const SceneChoice& choice,
-                               const assets::LoadObserver& observer) {
-  Reader reader(path, diagnostics, choice, observer);
+                               const std::stop_token& stop) {
+  Reader reader(path, diagnostics, choice, stop);
   std::optional<Scene> scene;
   if (assets::isModelName(path))
     scene = reader.readModelFile();

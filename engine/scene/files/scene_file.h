@@ -4,11 +4,11 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "engine/assets/images/image.h"
 #include "engine/scene/scene.h"
 #include "engine/text/diagnostic.h"
 
@@ -24,12 +24,12 @@ struct SceneChoice {
 };
 
 // A model file (.gltf, .glb, .obj, .fbx) is a scene too: the model at its own coordinates with its first animation, cameras that frame
-// its box, and its lights, or a sun. `observer` hears how far the loading of models is, and may end it: empty then, without a message.
+// its box, and its lights, or a sun. `stop` ends the loading of models: empty then, without a message.
 // Paths in the file are relative to it. Empty after any error. `files`, when given, is set to every file that took part or should have,
 // also after errors: what to watch.
 std::optional<Scene> loadScene(const std::string& path, text::Diagnostics& diagnostics,
                                std::vector<std::string>* files = nullptr, const SceneChoice& choice = {},
-                               const assets::LoadObserver& observer = {});
+                               const std::stop_token& stop = {});
 
 // The presets of a material library (materials/*.json): an array of {"name", "albedo", "metallic", "roughness"} and, where known,
 // "category" and "source". W155 for a value out of range, W156 for a name that is there twice.

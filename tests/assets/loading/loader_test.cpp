@@ -9,6 +9,7 @@
 #include <fstream>
 #include <semaphore>
 #include <sstream>
+#include <stop_token>
 #include <thread>
 
 #include "engine/assets/images/image.h"
@@ -33,13 +34,13 @@ static std::string writeHdr(const TemporaryFolder& folder, const std::string& na
   return folder.at(name);
 }
 
-// Holds the loader thread at the first stage of one kind until it is let go.
+// Holds the loader thread, before or after its first load, until it is let go.
 struct Gate {
-  LoadStage at = LoadStage::reading;
+  bool after = false;
   std::binary_semaphore reached{0}, go{0};
   std::atomic<bool> used{false};
-  void operator()(LoadStage stage) {
-    if (stage != at || used.exchange(true)) return;
+  void pass(bool loaded) {
+    if (loaded != after || used.exchange(true)) return;
     reached.release();
     go.acquire();
   }
@@ -48,11 +49,10 @@ struct Gate {
 // What a window's loader of environments does. `gate` may be null.
 static LoadJob environmentJob(Gate* gate = nullptr) {
   return [gate](const std::string& path, text::Diagnostics& diagnostics,
-                const LoadObserver& observer) -> std::shared_ptr<const void> {
-    auto map = loadEnvironmentMap(path, diagnostics, [&](LoadStage stage, double done) {
-      if (gate) (*gate)(stage);
-      return observer(stage, done);
-    });
+                const std::stop_token& stop) -> std::shared_ptr<const void> {
+    if (gate) gate->pass(false);
+    auto map = loadEnvironmentMap(path, diagnostics, stop);
+    if (gate) gate->pass(true);
     return map ? std::make_shared<const EnvironmentMap>(std::move(*map)) : nullptr;
   };
 }
@@ -94,7 +94,6 @@ TEST_CASE("a loaded environment is what the synchronous path gives, rounded to h
     checkSame(*result.as<EnvironmentMap>(), *image);
     CHECK(result.path == path);
     CHECK(result.diagnostics.text() == said.text());
-    CHECK(loader.progress().stage == LoadStage::idle);
   }
   const std::string real = std::string(WEFT_SOURCE_DIR) + "/scenes/environments/spiaggia_di_mondello_1k.hdr";
   checkSame(*load(loader, real).as<EnvironmentMap>(), *loadEnvironment(real, diagnostics));
@@ -112,22 +111,24 @@ TEST_CASE("a request replaces the one before, whether it waits, runs or is finis
   const TemporaryFolder folder;
   const std::string a = writeHdr(folder, "a.hdr", 16, 8), b = writeHdr(folder, "b.hdr", 24, 8),
                     c = writeHdr(folder, "c.hdr", 32, 8);
-  for (const LoadStage stage : {LoadStage::reading, LoadStage::decoding, LoadStage::converting}) {
-    Gate gate{.at = stage};
+  for (const bool after : {false, true}) {
+    Gate gate{.after = after};
     Loader loader(environmentJob(&gate));
     loader.request(a);
     gate.reached.acquire();
     loader.request(b);
-    CHECK(loader.progress().stage == LoadStage::waiting);
     CHECK(!loader.poll());
     loader.request(c);
     gate.go.release();
     CHECK(waitFor(loader).as<EnvironmentMap>()->width == 32);
     CHECK(!loader.poll());
   }
-  Loader loader(environmentJob());
+  Gate gate{.after = true};
+  Loader loader(environmentJob(&gate));
   loader.request(a);
-  while (loader.progress().stage != LoadStage::idle) std::this_thread::yield();
+  gate.reached.acquire();
+  gate.go.release();
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));  // its result is there, as a rule
   CHECK(load(loader, c).as<EnvironmentMap>()->width == 32);
 }
 
@@ -138,7 +139,6 @@ TEST_CASE("a canceled request has no result, and the next one is served") {
   loader.request(writeHdr(folder, "a.hdr", 16, 8));
   gate.reached.acquire();
   loader.cancel();
-  CHECK(loader.progress().stage == LoadStage::idle);
   gate.go.release();
   CHECK(!loader.poll());
   CHECK(load(loader, folder.at("a.hdr")).as<EnvironmentMap>());
@@ -148,8 +148,8 @@ TEST_CASE("a canceled request has no result, and the next one is served") {
 TEST_CASE("a loader may die at any stage of a load, with a request waiting or a result not fetched") {
   const TemporaryFolder folder;
   const std::string path = writeHdr(folder, "a.hdr", 64, 32);
-  for (const LoadStage stage : {LoadStage::reading, LoadStage::decoding, LoadStage::converting}) {
-    Gate gate{.at = stage};
+  for (const bool after : {false, true}) {
+    Gate gate{.after = after};
     {
       Loader loader(environmentJob(&gate));
       loader.request(path);
@@ -159,7 +159,7 @@ TEST_CASE("a loader may die at any stage of a load, with a request waiting or a 
     }
     Loader unfetched(environmentJob());
     unfetched.request(path);
-    while (unfetched.progress().stage != LoadStage::idle) std::this_thread::yield();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   const Loader unused(environmentJob());
 }
@@ -201,76 +201,43 @@ TEST_CASE(
   CHECK(load(loader, good).as<EnvironmentMap>());
 }
 
-TEST_CASE("progress grows through the stages of a load and never falls within it") {
-  const TemporaryFolder folder;
-  const std::string path = writeHdr(folder, "a.hdr", 1024, 512);
-  std::vector<std::pair<LoadStage, double>> seen;
-  text::Diagnostics diagnostics;
-  REQUIRE(loadEnvironmentMap(path, diagnostics, [&](LoadStage stage, double done) {
-    seen.emplace_back(stage, done);
-    return true;
-  }));
-  CHECK(std::ranges::is_sorted(seen));
-  CHECK(seen.front() == std::pair{LoadStage::reading, 0.0});
-  CHECK(seen.back().first == LoadStage::converting);
-  CHECK(std::ranges::count(seen, LoadStage::reading, &std::pair<LoadStage, double>::first) > 2);
-
-  Loader loader(environmentJob());
-  loader.request(path);
-  float before = 0;
-  std::optional<Loader::Result> result;
-  while (!(result = loader.poll())) {
-    const LoadProgress now = loader.progress();
-    if (now.stage == LoadStage::idle) continue;  // finished a moment ago
-    CHECK(now.done >= before);
-    CHECK(now.done <= 1);
-    before = now.done;
-  }
-  CHECK(result->as<EnvironmentMap>());
-}
-
-TEST_CASE("progress of a pipe, which has no size, begins with what came of it") {
+TEST_CASE("a load that is stopped ends without a result or a report, also while its pipe has nothing") {
   const TemporaryFolder folder;
   std::ostringstream whole;
   whole << std::ifstream(writeHdr(folder, "a.hdr", 32, 16), std::ios::binary).rdbuf();
   const std::string bytes = whole.str(), pipe = folder.at("pipe.hdr");
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
   text::chooseFile(pipe);
-  std::binary_semaphore seen{0};
+  std::binary_semaphore ended{0};
   bool inTime = false;
+  std::stop_source source;
   std::jthread writer([&] {
     std::ofstream out(pipe, std::ios::binary);
     out << bytes.substr(0, bytes.size() / 2) << std::flush;
-    inTime = seen.try_acquire_for(std::chrono::seconds(60));  // else half of it would never be told of
-    out << bytes.substr(bytes.size() / 2);
+    source.request_stop();
+    inTime = ended.try_acquire_for(std::chrono::seconds(60));  // else it waits for the rest
   });
-  double last = 0;
   text::Diagnostics diagnostics;
-  const auto map = loadEnvironmentMap(pipe, diagnostics, [&](LoadStage stage, double done) {
-    if (stage != LoadStage::reading) return true;
-    CHECK(done >= last);
-    CHECK(done < 1);
-    if (last == 0 && done > 0) seen.release();
-    last = done;
-    return true;
-  });
+  CHECK(!loadEnvironmentMap(pipe, diagnostics, source.get_token()));
+  ended.release();
   writer.join();
   CHECK(inTime);
-  REQUIRE_MESSAGE(map, diagnostics.text());
-  CHECK(map->width == 32);
+  CHECK(!loadEnvironmentMap(folder.at("a.hdr"), diagnostics, source.get_token()));
+  CHECK(diagnostics.empty());
 }
 
-TEST_CASE("an observer that gives up ends a load at every step, without a result or a report") {
+TEST_CASE("a load may be stopped at any moment") {
   const TemporaryFolder folder;
-  const std::string path = writeHdr(folder, "a.hdr", 600, 300);
-  int steps = 0;
-  text::Diagnostics diagnostics;
-  REQUIRE(loadEnvironmentMap(path, diagnostics, [&](LoadStage, double) { return ++steps > 0; }));
-  REQUIRE(steps > 5);
-  for (int last = 1; last <= steps; ++last) {
-    int step = 0;
-    CHECK(!loadEnvironmentMap(path, diagnostics, [&](LoadStage, double) { return ++step < last; }));
-    CHECK(step == last);
+  const std::string path = writeHdr(folder, "a.hdr", 1024, 512);
+  bool loaded = false;
+  for (auto wait = std::chrono::microseconds(50); !loaded; wait *= 2) {
+    text::Diagnostics diagnostics;
+    std::stop_source source;
+    const std::jthread stopper([&] {
+      std::this_thread::sleep_for(wait);
+      source.request_stop();
+    });
+    loaded = loadEnvironmentMap(path, diagnostics, source.get_token()).has_value();
+    CHECK(diagnostics.empty());
   }
-  CHECK(diagnostics.empty());
 }

@@ -30,15 +30,13 @@ std::optional<std::string> glbOfFbx(const std::string& bytes, ModelFiles& files)
   if (!bytes.starts_with("Kaydara FBX Binary") && !files.isTextInLimit(bytes)) return {};
   const std::uint64_t seconds = text::raised(4 + (bytes.size() >> 20)),
                       memory = text::raised((640ull << 20) + 64 * std::uint64_t{bytes.size()});
-  const auto goOn = [&] { return files.goOn(LoadStage::decoding, 0); };
   const std::string program = readerProgram();
   if (program.empty()) {
     files.diagnostics().error(say::fbxReaderNotThere, files.place(), WEFT_FBX_INSTALLED);
     return {};
   }
-  text::ApartEnd end =
-      text::runApart({program, std::to_string(seconds), std::to_string(memory)}, bytes, seconds, goOn);
-  if (!goOn()) return {};
+  text::ApartEnd end = text::runApart({program, std::to_string(seconds), std::to_string(memory)}, bytes,
+                                      seconds, files.stop());
   const char what = end.said.empty() ? '\0' : end.said.back();
   if (what == kMadeWithoutLights) files.diagnostics().warning(say::fbxLightsLeftOut, files.place());
   if (what == kMade || what == kMadeWithoutLights) return std::move(end.made);

@@ -14,7 +14,7 @@ namespace weft::assets {
 constexpr char kMade = 1, kMadeWithoutLights = 2, kUnreadable = 3, kTooLarge = 4;
 
 // The bytes of a .glb. Its images that are not in it have the paths that the file gives them. Empty after W164, W201 for a text that
-// is too large, or when the observer gave up.
+// is too large, or when the load was stopped.
 std::optional<std::string> glbOfFbx(const std::string& bytes, ModelFiles& files);
 
 }  // namespace weft::assets

@@ -37,7 +37,7 @@ class GltfReader {
     for (const JsonValue& row : document_.rows("skins")) readSkin(row);
     uvs_ = readMaterials(document_, files_, model_, made_);
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      goOn(LoadStage::converting, static_cast<double>(i) / static_cast<double>(rows_.size()));
+      GltfDocument::refuseUnless(!files_.stop().stop_requested());
       if (shown_[i]) readInstances(rows_[i], rowOf_[i]);
     }
     readLights();
@@ -48,8 +48,6 @@ class GltfReader {
   }
 
  private:
-  void goOn(LoadStage stage, double done) const { GltfDocument::refuseUnless(files_.goOn(stage, done)); }
-
   // --- nodes and skins
 
   ModelNode readNode(const JsonValue& value, std::size_t number) {

@@ -123,7 +123,7 @@ class MaterialReader {
     const std::vector<JsonValue>& rows = document_.rows("materials");
     images_.resize(document_.rows("images").size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      GltfDocument::refuseUnless(files_.goOn(LoadStage::decoding, 0));
+      GltfDocument::refuseUnless(!files_.stop().stop_requested());
       readMaterial(rows[i], i);
     }
     model_.materials.push_back(defaultMaterial("default"));

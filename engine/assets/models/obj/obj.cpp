@@ -77,11 +77,11 @@ class MtlReader {
   // How texture coordinates of a material are moved, v upwards: scale in xy, offset in zw.
   glm::vec4 moveOf(std::uint32_t material) const { return rows_[material].move; }
 
-  // Decodes the maps. False when the observer gave up, or after errors.
+  // Decodes the maps. False when the load was stopped, or after errors.
   bool finish() {
     const std::size_t before = diagnostics_.errorCount();
     for (std::size_t i = 0; i < rows_.size(); ++i) finishRow(i);
-    if (!pool_.finish(model_, 0.5) || diagnostics_.errorCount() > before) return false;
+    if (!pool_.finish(model_) || diagnostics_.errorCount() > before) return false;
     for (std::size_t i = 1; i < rows_.size(); ++i) {
       Material& material = model_.materials[i];
       material.blend = material.alpha < 1;
@@ -352,17 +352,16 @@ class ObjReader {
   ObjReader(ModelFiles& files, Model& model) : files_(files), model_(model) {}
 
   bool read(std::string_view bytes) {
-    const std::size_t before = diagnostics_.errorCount(), all = bytes.size();
+    const std::size_t before = diagnostics_.errorCount();
     if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
     while (!bytes.empty() && diagnostics_.errorCount() == before) {
-      if (line_ % 4096 == 0 && !goOn(static_cast<double>(all - bytes.size()) / static_cast<double>(all)))
-        return false;
+      if (line_ % 4096 == 0 && files_.stop().stop_requested()) return false;
       readStatement(takeStatement(bytes));
     }
     reportLeftOut();
     if (diagnostics_.errorCount() > before || !materials_.finish()) return false;
     for (Part& part : parts_) {
-      if (!goOn(1)) return false;
+      if (files_.stop().stop_requested()) return false;
       finishPart(part);
     }
     return diagnostics_.errorCount() == before;
@@ -374,8 +373,6 @@ class ObjReader {
     std::uint32_t node = 0, material = 0;
     std::vector<Corner> corners;  // three for each triangle
   };
-
-  bool goOn(double done) const { return files_.goOn(LoadStage::decoding, done / 2); }
 
   text::Place here() const {
     text::Place place = files_.place();

@@ -10,7 +10,7 @@
 namespace weft::assets {
 
 // Left out, with one W168 of each kind: statements that are not drawn, faces that name what is not there, unknown materials. False after
-// errors, or when the observer gave up.
+// errors, or when the load was stopped.
 bool readObj(std::string_view bytes, ModelFiles& files, Model& model);
 
 }  // namespace weft::assets

@@ -116,10 +116,7 @@ std::optional<std::string> ModelFiles::readCounted(const std::string& path, cons
   const auto goOn = [&](std::uint64_t done, std::uint64_t total) {
     found = std::max(done, total);
     tooLarge = found > left;
-    if (tooLarge) return false;
-    gaveUp_ = gaveUp_ || !this->goOn(LoadStage::reading,
-                                     total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 0);
-    return !gaveUp_;
+    return !tooLarge && !stop_.stop_requested();
   };
   std::optional<std::string> bytes = text::readFile(path, diagnostics, code, place, goOn);
   if (tooLarge) {

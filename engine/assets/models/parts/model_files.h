@@ -5,11 +5,11 @@
 
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "engine/assets/images/image.h"
 #include "engine/text/diagnostic.h"
 #include "engine/text/limits.h"
 
@@ -21,18 +21,17 @@ constexpr std::uint64_t kMaxModelBytes = 512ull << 20, kMaxModelTextBytes = 24ul
 
 class ModelFiles {
  public:
-  // `path` is the model's own file. `observer` may be empty.
-  ModelFiles(std::string path, text::Diagnostics& diagnostics, const LoadObserver& observer)
-      : path_(std::move(path)), diagnostics_(diagnostics), observer_(observer) {}
+  // `path` is the model's own file.
+  ModelFiles(std::string path, text::Diagnostics& diagnostics, std::stop_token stop)
+      : path_(std::move(path)), diagnostics_(diagnostics), stop_(std::move(stop)) {}
 
   const std::string& path() const { return path_; }
   text::Diagnostics& diagnostics() const { return diagnostics_; }
-  // Tells the observer how far the load is. False: it gives up.
-  bool goOn(LoadStage stage, double done) const { return !observer_ || observer_(stage, done); }
+  // Whoever reads looks at it often, and gives up when it says so. On any thread.
+  const std::stop_token& stop() const { return stop_; }
   text::Place place() const { return {path_}; }  // of the model's own file
   // Everything that was read or should have been, each once, the model's own first.
   const std::vector<std::string>& files() const { return files_; }
-  bool gaveUp() const { return gaveUp_; }
 
   // The model's own file; W164, W200 or W201 when it cannot be read.
   std::optional<std::string> readModel();
@@ -64,10 +63,9 @@ class ModelFiles {
 
   std::string path_;
   text::Diagnostics& diagnostics_;
-  const LoadObserver& observer_;
+  std::stop_token stop_;
   std::vector<std::string> files_{path_};
   std::uint64_t bytes_ = 0;
-  bool gaveUp_ = false;
 };
 
 // Bytes of a "data:" URI; empty when they are not in base64, or damaged.

@@ -5,9 +5,7 @@
 #include <webp/decode.h>
 
 #include <algorithm>
-#include <atomic>
 #include <optional>
-#include <thread>
 #include <utility>
 
 #include "assets_sentences.h"
@@ -143,14 +141,9 @@ std::shared_ptr<const Image8> TexturePool::makeImage(const Use& use) const {
   return std::make_shared<const Image8>(std::move(made));
 }
 
-bool TexturePool::decodeAll(double from) {
-  if (!files_.goOn(LoadStage::decoding, from)) return false;
-  const std::size_t count = images_.size();
-  const std::thread::id loader = std::this_thread::get_id();  // on which the observer is asked
-  std::atomic<std::size_t> done = 0;
-  std::atomic<bool> gaveUp = false;
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t number) {
-    if (gaveUp) return;
+bool TexturePool::decodeAll() {
+  tbb::parallel_for(std::size_t{0}, images_.size(), [&](std::size_t number) {
+    if (files_.stop().stop_requested()) return;
     Entry& entry = images_[number];
     if (!entry.bytes.empty())
       if (auto decoded = decodeImage8(entry.bytes, entry.name, entry.found)) {
@@ -158,11 +151,8 @@ bool TexturePool::decodeAll(double from) {
         entry.image = std::make_shared<const Image8>(std::move(*decoded));
       }
     entry.bytes = {};
-    const double share = static_cast<double>(++done) / static_cast<double>(count);
-    if (std::this_thread::get_id() == loader && !files_.goOn(LoadStage::decoding, from + (1 - from) * share))
-      gaveUp = true;
   });
-  return !gaveUp;
+  return !files_.stop().stop_requested();
 }
 
 std::uint32_t TexturePool::rowOf(const Use& use, std::vector<Texture>& textures) {
@@ -185,8 +175,8 @@ std::uint32_t TexturePool::rowOf(const Use& use, std::vector<Texture>& textures)
   return static_cast<std::uint32_t>(row);
 }
 
-bool TexturePool::finish(Model& model, double from) {
-  if (!decodeAll(from)) return false;
+bool TexturePool::finish(Model& model) {
+  if (!decodeAll()) return false;
   for (const Entry& entry : images_)
     if (!entry.image)
       reportMissing(entry.name, entry.found.empty() ? "it is empty" : entry.found.items().front().message,

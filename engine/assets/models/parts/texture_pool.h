@@ -40,8 +40,8 @@ class TexturePool {
   bool hasAlpha(std::uint32_t image) const { return images_[image].channels % 2 == 0; }
 
   // Decodes all images, on the threads of the machine, W167 for damaged ones in the order of their numbers, and gives textures and maps of materials their rows.
-  // The observer hears of stage `decoding` from `from` on. False when it gave up.
-  bool finish(Model& model, double from = 0);
+  // False when the load was stopped.
+  bool finish(Model& model);
 
  private:
   struct Entry {
@@ -64,7 +64,7 @@ class TexturePool {
   // False after W201, once.
   bool countTexels(std::uint64_t texels, const std::string& name, const text::Place& place);
   std::shared_ptr<const Image8> makeImage(const Use& use) const;
-  bool decodeAll(double from);
+  bool decodeAll();
   std::uint32_t rowOf(const Use& use, std::vector<Texture>& textures);
 
   const ModelFiles& files_;
