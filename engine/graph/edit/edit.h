@@ -19,10 +19,8 @@ struct WriteBack {
   struct File {
     std::string path, before, after;
   };
-  std::vector<File> files;              // those that change
-  std::vector<std::string> parameters;  // full names whose values the files say now
-  std::vector<std::string> passes;      // declared names of passes the files disable now
-  Settings rest;                        // the settings with which the edited files give the same graph
+  std::vector<File> files;  // those that change
+  Settings rest;            // the settings with which the edited files give the same graph
 };
 
 // `desc` is what runs (read from its path with `presets`), `settings` what it runs with. A value goes where

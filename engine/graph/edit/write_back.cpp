@@ -254,10 +254,7 @@ class Planner {
       return true;  // the files say so already
     for (const TextEdit& edit :
          editsOfParameter(*now_, presets_, texts_, wanted, files_->parameters[index].desc, paths_))
-      if (take(edit)) {
-        out_.parameters.push_back(wanted.path);
-        return true;
-      }
+      if (take(edit)) return true;
     fail(fmt::format("parameter '{}'", wanted.path), toText(wanted.value), wanted.desc.place);
     return false;
   }
@@ -271,10 +268,7 @@ class Planner {
     std::erase_if(out_.rest.disables, [&](const Disable& each) { return each.name == name; });
     if (giveWanted(*now_)) return true;
     for (const TextEdit& edit : editsOfPass(*now_, presets_, texts_, pass))
-      if (take(edit)) {
-        out_.passes.push_back(pass);
-        return true;
-      }
+      if (take(edit)) return true;
     fail(fmt::format("\"enabled\": false of pass '{}'", pass), "no edit gives the graph that runs");
     return false;
   }

@@ -166,8 +166,6 @@ TEST_CASE("a value is written over the default and nothing else changes") {
   INFO(written.diagnostics.text());
   REQUIRE(written.plan);
   CHECK(written.plan->rest.sets.empty());
-  CHECK(written.plan->parameters ==
-        std::vector<std::string>{"gain", "steps", "tint", "curve", "soft", "sky.own"});
   std::string expected = replaced(kSmall, "\"default\": 1.0", "\"default\": 2.0");
   expected = replaced(expected, "\"default\": 3", "\"default\": 5");
   expected = replaced(expected, "[1.0, 0.5,   0]", "[1.0, 0.25,   0]");
@@ -192,7 +190,6 @@ TEST_CASE("disabled passes: \"enabled\" beside the others, a condition is kept")
   const auto written = writeBack(path, {.disables = {"extra", "blur"}});
   INFO(written.diagnostics.text());
   REQUIRE(written.plan);
-  CHECK(written.plan->passes == std::vector<std::string>{"extra", "blur"});
   std::string expected = replaced(kSmall, "\"e.frag.glsl\",", "\"e.frag.glsl\", \"enabled\": false,");
   expected = replaced(expected, "\"$soft || $steps > 4\"", "\"($soft || $steps > 4) && false\"");
   CHECK(contents(path) == expected);
@@ -225,7 +222,6 @@ TEST_CASE("a disabled include: \"enabled\" in its line, a condition is kept") {
   const auto written = writeBack(path, {.disables = {"one", "two"}});
   INFO(written.diagnostics.text());
   REQUIRE(written.plan);
-  CHECK(written.plan->passes == std::vector<std::string>{"one", "two"});
   CHECK(contents(path) == replaced(replaced(top, "\"as\": \"one\"", "\"as\": \"one\", \"enabled\": false"),
                                    "\"$on\"", "\"$on && false\""));
 
