@@ -106,9 +106,9 @@ void tryAll(const std::string& graph, std::vector<graph::Setting> sets, std::siz
 TEST_CASE(
     "disable: every pass of the deferred graphs, of those with probes and of the studio, alone and in "
     "pairs") {
-  tryAll("graphs/deferred.json", {}, 30);
+  tryAll("graphs/deferred.json", {}, 25);
   tryAll("graphs/deferred.json",
-         {{"ao_method", "hemisphere"}, {"store_positions", "true"}, {"bayer", "true"}}, 30);
+         {{"ao_method", "hemisphere"}, {"store_positions", "true"}, {"bayer", "true"}}, 25);
   tryAll("graphs/deferred_gi.json", {{"probes_debug", "true"}}, 32);
   tryAll("graphs/studio_gi.json", {{"probes_debug", "true"}}, 20);
   tryAll("graphs/studio.json", {{"occlusion", "true"}}, 24);
