@@ -12,7 +12,7 @@
 namespace weft::app::ui {
 
 struct PassRow {
-  std::string name;   // full, as declared: "post.fxaa", "post.fxaa.copy"
+  std::string name;   // full, as declared: "post.fxaa", "post.fxaa.smooth"
   std::string label;  // its last part
   const graph::PassDesc* desc = nullptr;
   std::size_t depth = 0, end = 0;     // of includes around it; behind the rows that it includes

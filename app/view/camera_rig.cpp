@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace weft::app {
@@ -64,10 +65,9 @@ void CameraRig::setMode(Mode mode) {
   mode_ = mode;
 }
 
-void CameraRig::stayAbove(Aim& aim) const {
-  if (!ground || eye_.y < *ground) return;
-  const double least = (*ground + 2 * lens_.nearPlane - aim.pivot.y) / aim.distance;
-  aim.pitch = std::max(aim.pitch, std::min(std::asin(std::clamp(least, -1.0, 1.0)), kPole));
+double CameraRig::lowest() const {
+  if (mode_ != Mode::orbit || !ground || eye_.y < *ground) return -std::numeric_limits<double>::infinity();
+  return std::min(eye_.y, *ground + 2 * lens_.nearPlane);
 }
 
 void CameraRig::advance(double seconds, CameraInput in) {
@@ -79,9 +79,13 @@ void CameraRig::advance(double seconds, CameraInput in) {
   if (in.any()) exact_.reset();
   keys_ = in.move;
   const double dt = std::clamp(seconds, 0.0, kLongestFrame), yaw = now_.yaw, pitch = now_.pitch;
-  const double turned = -in.turn.x * kTurnPerPixel, tilt = goal_.pitch;
+  const double turned = -in.turn.x * kTurnPerPixel, tilt = goal_.pitch, low = lowest();
   goal_.yaw += turned;
-  if (in.turn.y != 0) goal_.pitch = std::clamp(goal_.pitch + in.turn.y * kTurnPerPixel, -kPole, kPole);
+  if (in.turn.y != 0) {
+    const double least = std::asin(std::clamp((low - goal_.pivot.y) / goal_.distance, -1.0, 1.0));
+    goal_.pitch =
+        std::clamp(tilt + in.turn.y * kTurnPerPixel, std::clamp(std::min(least, tilt), -kPole, kPole), kPole);
+  }
   now_.yaw = followed(yaw, goal_.yaw, turned, dt);
   now_.pitch = followed(pitch, goal_.pitch, goal_.pitch - tilt, dt);
   // The axes in the middle of the frame.
@@ -92,18 +96,21 @@ void CameraRig::advance(double seconds, CameraInput in) {
     if (dt > 0) fly(in, dt, back, right);
     return;
   }
-  const double distance = goal_.distance;
+  const double distance = goal_.distance, rise = std::sin(goal_.pitch);
   goal_.distance = std::clamp(distance * std::pow(kZoomPerStep, in.wheel), lens_.nearPlane * 2, kFarthest);
+  // At the ground the wheel and a pan end.
+  if (goal_.pivot.y + rise * goal_.distance < low && rise * (goal_.distance - distance) < 0)
+    goal_.distance = std::clamp((low - goal_.pivot.y) / rise, std::min(distance, goal_.distance),
+                                std::max(distance, goal_.distance));
   const double unit =
       goal_.distance * std::tan(lens_.fovDegrees * std::numbers::pi / 360) / 360;  // of a pixel in 720
-  const glm::dvec3 slid = (glm::cross(back, right) * in.pan.y - right * in.pan.x) * unit;
+  glm::dvec3 slid = (glm::cross(back, right) * in.pan.y - right * in.pan.x) * unit;
+  slid.y = std::max(slid.y, std::min(low - (goal_.pivot.y + rise * goal_.distance), 0.0));
   goal_.pivot += slid;
-  if (ground) goal_.pivot.y = std::max(goal_.pivot.y, std::min(goal_.pivot.y - slid.y, *ground));
   now_.distance = followed(now_.distance, goal_.distance, goal_.distance - distance, dt);
   now_.pivot = followed(now_.pivot, goal_.pivot, slid, dt);
-  stayAbove(goal_);
-  stayAbove(now_);
   eye_ = now_.pivot + backOf(now_.yaw, now_.pitch) * now_.distance;
+  eye_.y = std::max(eye_.y, low);  // between the goals it may be lower than at both
 }
 
 // Speed closes on what the keys ask for: acceleration and friction in one, exact for a constant wish.

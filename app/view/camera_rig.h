@@ -59,8 +59,8 @@ class CameraRig {
     glm::dvec3 pivot{0};
     double yaw = 0, pitch = 0, distance = 1;
   };
-  // Raises an orbit above the ground.
-  void stayAbove(Aim& aim) const;
+  // How low the eye of an orbit may come: a little above the ground, unless it is there or below it already.
+  double lowest() const;
   // A frame of more than no seconds.
   void fly(const CameraInput& in, double seconds, const glm::dvec3& back, const glm::dvec3& right);
 

@@ -63,7 +63,7 @@ def touched_in(path):
 
 
 def run(build, command, *line):
-    programs = {"render": ["app/weft", "render"], "bench": ["tests/bench/weft_bench"]}
+    programs = {"render": ["app/weft", "render"], "bench": ["tests/bench/weft_bench", "bench"]}
     program, *words = programs[command] if build else ["run", command]
     done = subprocess.run([pathlib.Path(build or TOP) / program, *words, *map(str, line)], cwd=TOP, capture_output=True, text=True)
     if done.returncode:

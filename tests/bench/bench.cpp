@@ -1,6 +1,5 @@
 // `./run bench`: what frames and edits cost, as JSON. Times depend on the machine and are not judged.
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <ctime>
@@ -8,6 +7,7 @@
 
 #include "app/live/live_graph.h"
 #include "app/output/standard_streams.h"
+#include "app/session/command_line.h"
 #include "app/trials/shot.h"
 #include "engine/gl/programs/program_cache.h"
 #include "engine/graph/language/names.h"
@@ -214,23 +214,27 @@ std::optional<Json> benchFrame(const Options& options, DeviceSession& session, c
   return out;
 }
 
+struct BenchOptions : Options {
+  std::string frameGraph, editGraph;
+};
+
 // Of the graphs that are named; of graphs/studio.json both, when none is.
-int bench(const Options& options, std::string frameGraph, std::string editGraph) {
-  const bool both = frameGraph.empty() && editGraph.empty();
-  if (both) frameGraph = editGraph = dataFolder() + "/graphs/studio.json";
+int runBench(BenchOptions& options) {
+  const bool both = options.frameGraph.empty() && options.editGraph.empty();
+  if (both) options.frameGraph = options.editGraph = dataFolder() + "/graphs/studio.json";
   Json out;
   int code = 0;
-  const auto run = [&](const char* name, const std::string& graph, const auto& measureGraph) {
+  const auto run = [&](const char* name, const std::string& graph, const auto& bench) {
     if (code != 0 || graph.empty()) return;
     Options one = options;
     one.graph = graph;
     code = runOnDevice({&one}, 1, [&](auto& session, auto& world, text::Diagnostics& diagnostics) {
-      if (const auto found = measureGraph(one, *session, world, diagnostics)) out[name] = *found;
+      if (const auto found = bench(one, *session, world, diagnostics)) out[name] = *found;
       return 0;
     });
   };
-  run("edit", editGraph, benchEdits);
-  run("frame", frameGraph, benchFrame);
+  run("edit", options.editGraph, benchEdits);
+  run("frame", options.frameGraph, benchFrame);
   if (code == 0) print(text::dumpJson(both ? out : *out.begin()) + "\n");
   return code;
 }
@@ -243,18 +247,12 @@ int main(int argc, char** argv) {
   using namespace weft::app;
   if (argc > 1 && argv[1] == std::string_view(weft::gl::kTrialWord)) weft::gl::runTrial(argc - 1, argv + 1);
   prepareStreams();
-  CLI::App line("Measures; prints JSON", "weft_bench");
-  Options options;
-  std::string frameGraph, editGraph;
-  addPath(line, "--frame", frameGraph, "graph file: its frame in full-screen copies");
-  addPath(line, "--edit", editGraph, "graph file: what a changed parameter and a saved file cost")
+  CommandLine line;
+  const auto [command, options] = line.add("bench", "measure; prints JSON", runBench);
+  addPath(command, "--frame", options.frameGraph, "graph file: its frame in full-screen copies");
+  addPath(command, "--edit", options.editGraph, "graph file: what a changed parameter and a saved file cost")
       ->excludes("--frame");
-  options.addWorld(line);
-  options.addBackend(line);
-  try {
-    line.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return line.exit(error) == 0 ? 0 : 2;
-  }
-  return finishStreams(bench(options, frameGraph, editGraph));
+  options.addWorld(command);
+  options.addBackend(command);
+  return finishStreams(line.run(argc, argv));
 }

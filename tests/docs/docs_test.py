@@ -55,7 +55,7 @@ RUN = """#!/usr/bin/env bash
 case "${{1:-}}" in
   "" | --setup-only | --install-only) echo "not run: ./run $*" ;;
   view) exec xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" {weft} "$@" --max-frames 3 ;;
-  bench) exec {bench} "${{@:2}}" ;;
+  bench) exec {bench} "$@" ;;
   *) exec {weft} "$@" ;;
 esac
 """

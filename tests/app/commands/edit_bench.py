@@ -11,7 +11,7 @@ TIMES = ["live_us", "live_worst_us", "toggle_us", "toggle_worst_us", "save_us"]
 
 def main():
     bench, report = sys.argv[2], Report()
-    done = run(bench, "--edit", "graphs/glow.json", "--size", "64x32", "--scene", "scenes/empty.json")
+    done = run(bench, "bench", "--edit", "graphs/glow.json", "--size", "64x32", "--scene", "scenes/empty.json")
     if report.check(done.code == 0 and not done.err, f"exit code {done.code}\n{done.err}"):
         found = json.loads(done.out)
         for key in COUNTS + TIMES:
@@ -21,9 +21,9 @@ def main():
         report.check(all(found[key] > 0 for key in TIMES), f"times: {found}")
         report.check(found["live_plans_built"] == 0, f"a live change: {found}")
         print(done.out)
-    done = run(bench, "--edit", "graphs/none.json")
+    done = run(bench, "bench", "--edit", "graphs/none.json")
     report.check(done.code == 1 and "W001" in done.err, f"a graph that is not there: {done.code} {done.err}")
-    done = run(bench, "--edit", "graphs/glow.json", "--frame", "graphs/glow.json")
+    done = run(bench, "bench", "--edit", "graphs/glow.json", "--frame", "graphs/glow.json")
     report.check(done.code == 2, f"one of both: {done.code} {done.err}")
     report.end()
 

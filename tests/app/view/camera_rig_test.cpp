@@ -194,16 +194,40 @@ TEST_CASE("an orbit stays above the ground, whatever the hand does; below it or 
     CHECK(least >= 0.25);
     CHECK(least < 0.25 + 3 * start().nearPlane);  // it came as far down as it may
   }
+  // Flying while looking down leaves a pivot below the ground.
+  scene::CameraPose down = start();
+  down.target = {3, -2.5, 5};
+  CameraRig digger(down), slider(down);
+  digger.ground = slider.ground = 0;
+  for (int frame = 0; frame < 300; ++frame) {
+    digger.advance(0.02, {.wheel = 0.5});
+    slider.advance(0.02, {.pan = {0, -4}});
+    CHECK(digger.pose().position.y >= 0);
+    CHECK(slider.pose().position.y <= 2);
+  }
+  CHECK(digger.pose().position.y < 3 * down.nearPlane);
+  CHECK(glm::length(glm::normalize(digger.pose().target - digger.pose().position) -
+                    glm::normalize(down.target - down.position)) < 1e-3);  // it looks where it did
+  CHECK(slider.pose().position.y == doctest::Approx(2 * down.nearPlane));
+  for (int frame = 0; frame < 300; ++frame) digger.advance(0.02, {.wheel = -0.5});
+  CHECK(digger.pose().position.y > 20);
+  scene::CameraPose low{.position = {0, 0.01, 0.3}, .target = {0, 0, 0}, .nearPlane = 0.1};
+  CameraRig ant(low);
+  ant.ground = 0;
+  ant.advance(0.02, {.turn = {5, 0}});
+  CHECK(ant.pose().position.y == doctest::Approx(0.01));
   scene::CameraPose below = start();
   below.position.y = -1;
-  CameraRig mole(below), bird(start());
-  mole.ground = bird.ground = 0;
+  CameraRig mole(below), worm(below), bird(start());
+  mole.ground = worm.ground = bird.ground = 0;
   bird.setMode(Mode::fly);
   for (int frame = 0; frame < 100; ++frame) {
     mole.advance(0.01, {.turn = {0, -10}});
+    worm.advance(0.01, {.pan = {0, -10}});
     bird.advance(0.05, {.move = {0, -1, 0}});
   }
   CHECK(mole.pose().position.y < -5);
+  CHECK(worm.pose().target.y < -1);
   CHECK(bird.pose().position.y < 0);
 }
 

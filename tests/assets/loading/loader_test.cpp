@@ -81,7 +81,7 @@ TEST_CASE("a loaded environment is what the synchronous path gives, rounded to h
   const TemporaryFolder folder;
   text::Diagnostics diagnostics;
   const std::string exr = folder.at("a.exr");
-  ImageF odd = makeSky(67, 33, 700.0f);  // beyond 65504 in places; a size that no portion divides
+  ImageF odd = makeSky(67, 33, 700.0f);  // beyond 65504 in places
   odd.texels[5] = -1;
   REQUIRE(saveExr(exr, odd, diagnostics));
   Loader loader(environmentJob());
