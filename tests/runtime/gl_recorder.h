@@ -1,6 +1,6 @@
 // Records the GL calls of the frame loop, in their order, by putting functions of its own into glad's table of function
-// pointers: beginnings and ends of debug groups (a step has one), barriers, copies between textures, and calls that set state. Does not: judge them
-// (gl_replay.h), look into GL, or record draws. One recorder at a time.
+// pointers: beginnings and ends of debug groups (a step has one), barriers, and copies between textures; gl_replay.h judges them.
+// One recorder at a time.
 #pragma once
 
 #include <glad/gl.h>
@@ -12,12 +12,10 @@
 namespace weft::runtime::test {
 
 struct GlCall {
-  enum class Kind : std::uint8_t { group, group_end, barrier, texture_barrier, copy, state };
-  Kind kind = Kind::state;
+  enum class Kind : std::uint8_t { group, group_end, barrier, texture_barrier, copy };
+  Kind kind = Kind::group;
   GLbitfield bits = 0;  // of a barrier
-  std::string name{};   // of a group; of a copy: "glBlitNamedFramebuffer"; of a state: "glBindSampler 3"
-  std::string value{};  // that the state is set to
-  bool bySideEffect = false;  // the call sets another state too, and that is this one
+  std::string name{};   // of a group; of a copy: "glBlitNamedFramebuffer"
 };
 
 class GlRecorder {

@@ -42,7 +42,6 @@ void GlReplay::beginWalk() {
   ++walks_;
   next_ = 0;
   last_ = kNoStep;
-  state_.clear();
 }
 
 std::size_t GlReplay::issuedBefore(std::size_t step) const {
@@ -90,20 +89,11 @@ void GlReplay::issue(GLbitfield bits) {
   if (inside != itsOwn) fail(fmt::format("the barrier of step {} is not where the plan has it", wanted.step));
 }
 
-void GlReplay::set(const GlCall& call) {
-  const auto [at, fresh] = state_.try_emplace(call.name, call.value);
-  if (!call.bySideEffect) {
-    ++stateCalls_;
-    if (!fresh && at->second == call.value) fail(fmt::format("{} {} changes nothing", call.name, call.value));
-  }
-  at->second = call.value;
-}
-
 std::string GlReplay::judge(const std::vector<GlCall>& calls) {
   ran_.clear();
   problem_.clear();
   open_ = kNoStep;
-  walks_ = barriers_ = stateCalls_ = textureBarriers_ = 0;
+  walks_ = barriers_ = textureBarriers_ = 0;
   beginWalk();
   std::size_t end = calls.size();  // of the walks: the barriers at the end of the frame are the last
   if (plan_.finalBarriers != 0) {
@@ -141,9 +131,6 @@ std::string GlReplay::judge(const std::vector<GlCall>& calls) {
       case GlCall::Kind::copy:
         if (open_ != kNoStep && call.name == "glCopyImageSubData")
           fail("a copy for which the plan has no bits");
-        break;
-      case GlCall::Kind::state:
-        set(call);
     }
   }
   if (next_ != wanted_.size()) fail(fmt::format("ends after {} barriers of {}", next_, wanted_.size()));

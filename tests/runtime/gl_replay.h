@@ -1,8 +1,7 @@
 // Holds the recorded calls of a frame against the plan. A frame is one walk over the steps; a headless frame that finishes
 // time-sliced work ahead has more. In every walk each barrier of the plan must be issued, with exactly its bits and where it
 // stands among the steps that run, and no other; a pass with feedback has one texture barrier, all others none; no
-// pass calls glCopyImageSubData, for which the specification names no bit; no call inside a walk may set state to what it is. Nothing is known of the state at the beginning of a walk: uploads, panels and
-// read-back may have changed it. Does not: know the executor.
+// pass calls glCopyImageSubData, for which the specification names no bit. It does not know the executor.
 #pragma once
 
 #include <map>
@@ -28,7 +27,6 @@ class GlReplay {
   // Of the frame judged last.
   std::size_t walks() const { return walks_; }
   std::size_t barriers() const { return barriers_; }
-  std::size_t stateCalls() const { return stateCalls_; }
   std::size_t textureBarriers() const { return textureBarriers_; }
   const std::set<std::string>& ran() const { return ran_; }
 
@@ -43,13 +41,11 @@ class GlReplay {
   void beginStep(std::size_t step);
   void endStep();
   void issue(GLbitfield bits);
-  void set(const GlCall& call);
   void fail(std::string what);
 
   const graph::Plan& plan_;
   std::vector<Barrier> wanted_;               // of one walk, in order
   std::map<std::string, std::size_t> steps_;  // by name
-  std::map<std::string, std::string> state_;
   std::set<std::string> ran_;
   std::string problem_;
   static constexpr std::size_t kNoStep = ~std::size_t{0};
@@ -58,7 +54,7 @@ class GlReplay {
   std::size_t open_ = kNoStep;  // step that runs now
   std::size_t inner_ = 0;       // groups open inside it
   bool feedback_ = false;       // it had its texture barrier
-  std::size_t walks_ = 0, barriers_ = 0, stateCalls_ = 0, textureBarriers_ = 0;
+  std::size_t walks_ = 0, barriers_ = 0, textureBarriers_ = 0;
 };
 
 }  // namespace weft::runtime::test

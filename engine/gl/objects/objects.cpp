@@ -11,7 +11,7 @@
 #include <tuple>
 
 #include "engine/gl/context/debug.h"
-#include "engine/gl/context/state_cache.h"
+#include "engine/gl/context/state.h"
 #include "gl_sentences.h"
 
 namespace weft::gl {
@@ -374,7 +374,7 @@ bool resolveSamples(const TextureRef& from, GLuint to) {
   const auto source = Framebuffer::create({&ends[0], 1}, "samples", ignored),
              target = Framebuffer::create({&ends[1], 1}, "samples", ignored);
   if (!source || !target) return false;
-  StateCache().openMasks();
+  openMasks();
   const GLint width = toInt(from.desc.width), height = toInt(from.desc.height);
   const GLbitfield mask = point == GL_COLOR_ATTACHMENT0  ? GL_COLOR_BUFFER_BIT
                           : point == GL_DEPTH_ATTACHMENT ? GL_DEPTH_BUFFER_BIT

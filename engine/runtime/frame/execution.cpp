@@ -103,7 +103,6 @@ FrameReport Execution::frame(const World& world, const FrameInput& input, text::
 
 void Execution::beginFrame(const World& world, const FrameInput& input) {
   input_ = input;
-  runner_.forgetState();
   device_.timers.beginFrame(static_cast<std::uint32_t>(prepared_.passes.size()));
   device_.imports.beginFrame(world, input);
   readBack_.collect();
@@ -126,7 +125,6 @@ void Execution::runAhead(FrameReport& report, text::Diagnostics& diagnostics) {
     if (!steps_.decideAhead(hashes_, publications_.generations())) break;
     runSteps({}, report, diagnostics);
     publications_.publishFinished();
-    runner_.forgetState();  // an upload may have changed it
     any = true;
   }
   if (!any) return;
@@ -159,18 +157,12 @@ void Execution::runSteps(const StepWatch& watch, FrameReport& report, text::Diag
     }
     if (steps_.runs(step)) {
       steps_.markRan(step);
-      if (watch.before) {
-        watch.before(static_cast<std::uint32_t>(step));
-        runner_.forgetState();
-      }
+      if (watch.before) watch.before(static_cast<std::uint32_t>(step));
       runner_.run(step, passes[step], steps_.slices(step).begins(), diagnostics);
     } else if (planned.barriersAfterClears) {
       glMemoryBarrier(glBarriersOf(planned.barriersAfterClears));
     }
-    if (watch.after) {
-      watch.after(static_cast<std::uint32_t>(step));
-      runner_.forgetState();
-    }
+    if (watch.after) watch.after(static_cast<std::uint32_t>(step));
   }
   steps_.endFrame(hashes_, publications_.generationsBefore(), publications_.generations());
 }

@@ -7,7 +7,7 @@
 #include <set>
 #include <type_traits>
 
-#include "engine/gl/context/state_cache.h"
+#include "engine/gl/context/state.h"
 #include "engine/graph/read/read.h"
 #include "engine/passes/draw/geometry.h"
 #include "engine/runtime/frame/device.h"
@@ -253,7 +253,7 @@ std::optional<assets::Image8> Renderer::readPresented8() {
 
 void Renderer::present(std::uint32_t width, std::uint32_t height, std::uint32_t x, std::uint32_t y) {
   const gl::TextureRef texture = execution_ ? execution_->presented() : gl::TextureRef{};
-  gl::StateCache().openMasks();
+  gl::openMasks();
   gl::releaseBindings();
   if (texture.id == 0) {
     const float black[4] = {0, 0, 0, 1};

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "engine/gl/context/debug.h"
+#include "engine/gl/context/state.h"
 #include "engine/runtime/storage/formats.h"
 
 namespace weft::runtime {
@@ -11,8 +12,6 @@ namespace weft::runtime {
 using graph::kNone;
 
 namespace {
-
-using Call = gl::StateCache::Call;
 
 // In the order of the enumerations.
 // clang-format off
@@ -30,37 +29,35 @@ GLenum glOf(const GLenum (&all)[kCount], Enum value) {
   return all[static_cast<std::size_t>(value)];
 }
 
-void applyBlend(GLuint index, const graph::Blend& blend, gl::StateCache& states) {
+void applyBlend(GLuint index, const graph::Blend& blend) {
   const bool on = !(blend == graph::Blend{});
-  states.blend(index, on);
+  (on ? glEnablei : glDisablei)(GL_BLEND, index);
   if (!on) return;
   const auto& [color, alpha] = blend;
-  states.setAt(Call::blend_equation, index, glBlendEquationSeparatei, index, glOf(kEquations, color.equation),
-               glOf(kEquations, alpha.equation));
-  states.setAt(Call::blend_function, index, glBlendFuncSeparatei, index, glOf(kFactors, color.source),
-               glOf(kFactors, color.destination), glOf(kFactors, alpha.source),
-               glOf(kFactors, alpha.destination));
+  glBlendEquationSeparatei(index, glOf(kEquations, color.equation), glOf(kEquations, alpha.equation));
+  glBlendFuncSeparatei(index, glOf(kFactors, color.source), glOf(kFactors, color.destination),
+                       glOf(kFactors, alpha.source), glOf(kFactors, alpha.destination));
 }
 
 // Of the faces; what the pass only reads is not written.
-void applyStencil(const graph::StencilState* stencil, bool writable, gl::StateCache& states) {
-  states.enable(GL_STENCIL_TEST, stencil != nullptr);
+void applyStencil(const graph::StencilState* stencil, bool writable) {
+  gl::enable(GL_STENCIL_TEST, stencil != nullptr);
   if (!stencil) return;
-  states.set(Call::stencil_mask, glStencilMask, writable ? stencil->writeMask : 0u);
+  glStencilMask(writable ? stencil->writeMask : 0u);
   for (const GLenum side : {GL_FRONT, GL_BACK}) {
     const graph::StencilFace& face = side == GL_BACK ? stencil->back : stencil->front;
-    states.setAt(Call::stencil_test, side == GL_BACK, glStencilFuncSeparate, side, glCompareOf(face.test),
-                 stencil->reference, stencil->readMask);
-    states.setAt(Call::stencil_ops, side == GL_BACK, glStencilOpSeparate, side, glOf(kStencilOps, face.fail),
-                 glOf(kStencilOps, face.depthFail), glOf(kStencilOps, face.pass));
+    glStencilFuncSeparate(side, glCompareOf(face.test), stencil->reference, stencil->readMask);
+    glStencilOpSeparate(side, glOf(kStencilOps, face.fail), glOf(kStencilOps, face.depthFail),
+                        glOf(kStencilOps, face.pass));
   }
 }
 
 // Sets the fixed-function state whole before each pass, so that nothing leaks from one to the next.
-void applyState(const PreparedPass& pass, gl::StateCache& states) {
+void applyState(const PreparedPass& pass) {
   const graph::StateSpec& state = pass.context.spec->state;
   bool depthAttached = false, depthWritable = false, stencilWritable = false;
-  states.colorMask(pass.writesColor ? 15u : 0u);
+  const GLboolean colored = pass.writesColor ? GL_TRUE : GL_FALSE;
+  glColorMask(colored, colored, colored, colored);
   for (const AttachmentBinding& attachment : pass.attachments) {
     const bool depth =
         attachment.point == GL_DEPTH_ATTACHMENT || attachment.point == GL_DEPTH_STENCIL_ATTACHMENT;
@@ -73,47 +70,45 @@ void applyState(const PreparedPass& pass, gl::StateCache& states) {
     const GLuint index = attachment.point - GL_COLOR_ATTACHMENT0;
     const auto said = std::ranges::find(pass.colors, index, &PreparedPass::DrawBuffer::first);
     const graph::ColorState color = said == pass.colors.end() ? graph::ColorState{} : said->second;
-    applyBlend(index, color.blend, states);
-    if (pass.writesColor && color.mask != 15) states.colorMask(index, color.mask);
+    applyBlend(index, color.blend);
+    if (const unsigned mask = color.mask; pass.writesColor && mask != 15)
+      glColorMaski(index, mask & 1, mask >> 1 & 1, mask >> 2 & 1, mask >> 3 & 1);
   }
-  states.enable(GL_FRAMEBUFFER_SRGB, pass.encodesSrgb);
+  gl::enable(GL_FRAMEBUFFER_SRGB, pass.encodesSrgb);
   const std::array<std::int32_t, 4> whole{0, 0, static_cast<std::int32_t>(pass.width),
                                           static_cast<std::int32_t>(pass.height)};
   const auto& viewport = state.viewport ? *state.viewport : whole;
-  states.set(Call::viewport, glViewport, viewport[0], viewport[1], viewport[2], viewport[3]);
+  glViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
   const auto constant = [&](std::size_t i) { return static_cast<GLfloat>(state.blendColor[i]); };
-  states.set(Call::blend_color, glBlendColor, constant(0), constant(1), constant(2), constant(3));
-  applyStencil(state.stencil ? &*state.stencil : nullptr, stencilWritable, states);
-  states.enable(GL_DEPTH_CLAMP, state.depthClamp);
-  states.enable(GL_SAMPLE_ALPHA_TO_COVERAGE, state.alphaToCoverage);
-  states.enable(GL_SAMPLE_MASK, state.sampleMask.has_value());
-  if (state.sampleMask) states.set(Call::sample_mask, glSampleMaski, 0, *state.sampleMask);
-  states.enable(GL_PROGRAM_POINT_SIZE, pass.sizesPoints);
+  glBlendColor(constant(0), constant(1), constant(2), constant(3));
+  applyStencil(state.stencil ? &*state.stencil : nullptr, stencilWritable);
+  gl::enable(GL_DEPTH_CLAMP, state.depthClamp);
+  gl::enable(GL_SAMPLE_ALPHA_TO_COVERAGE, state.alphaToCoverage);
+  gl::enable(GL_SAMPLE_MASK, state.sampleMask.has_value());
+  if (state.sampleMask) glSampleMaski(0, *state.sampleMask);
+  gl::enable(GL_PROGRAM_POINT_SIZE, pass.sizesPoints);
   const bool depthTest = depthAttached && state.depthTest;
-  states.enable(GL_DEPTH_TEST, depthTest);
-  if (depthTest) states.set(Call::depth_func, glDepthFunc, glCompareOf(state.depthCompare));
-  states.depthMask(depthTest && depthWritable && state.depthWrite);
-  states.enable(GL_CULL_FACE, state.cull != graph::Cull::none);
-  if (state.cull != graph::Cull::none)
-    states.set(Call::cull_face, glCullFace, state.cull == graph::Cull::back ? GL_BACK : GL_FRONT);
-  states.set(Call::polygon_mode, glPolygonMode, GL_FRONT_AND_BACK, state.lines ? GL_LINE : GL_FILL);
+  gl::enable(GL_DEPTH_TEST, depthTest);
+  if (depthTest) glDepthFunc(glCompareOf(state.depthCompare));
+  glDepthMask(depthTest && depthWritable && state.depthWrite ? GL_TRUE : GL_FALSE);
+  gl::enable(GL_CULL_FACE, state.cull != graph::Cull::none);
+  if (state.cull != graph::Cull::none) glCullFace(state.cull == graph::Cull::back ? GL_BACK : GL_FRONT);
+  glPolygonMode(GL_FRONT_AND_BACK, state.lines ? GL_LINE : GL_FILL);
   const bool offset = state.offsetFactor != 0 || state.offsetUnits != 0;
-  states.enable(GL_POLYGON_OFFSET_FILL, offset);
+  gl::enable(GL_POLYGON_OFFSET_FILL, offset);
   if (offset)
-    states.set(Call::polygon_offset, glPolygonOffset, static_cast<GLfloat>(state.offsetFactor),
-               static_cast<GLfloat>(state.offsetUnits));
+    glPolygonOffset(static_cast<GLfloat>(state.offsetFactor), static_cast<GLfloat>(state.offsetUnits));
 }
 
 // Confines rendering to the rows of the pass's slices; off for a pass that runs whole.
-void scissorTo(const PreparedPass& pass, gl::StateCache& states) {
+void scissorTo(const PreparedPass& pass) {
   const passes::PassContext& c = pass.context;
   const bool confined = c.sliceCount != c.slices;
-  states.enable(GL_SCISSOR_TEST, confined);
+  gl::enable(GL_SCISSOR_TEST, confined);
   if (!confined) return;
   const auto at = [&](std::uint64_t slice) { return static_cast<GLint>(pass.height * slice / c.slices); };
   const GLint from = at(c.slice);
-  states.set(Call::scissor, glScissor, 0, from, static_cast<GLsizei>(pass.width),
-             at(c.slice + c.sliceCount) - from);
+  glScissor(0, from, static_cast<GLsizei>(pass.width), at(c.slice + c.sliceCount) - from);
 }
 
 }  // namespace
@@ -128,11 +123,11 @@ void StepRunner::run(std::size_t step, PreparedPass& pass, bool clears, text::Di
   if (clears && !pass.clears.empty()) clear(pass, framebuffer, diagnostics);
   if (const std::uint16_t after = plan_.steps[step].barriersAfterClears) glMemoryBarrier(glBarriersOf(after));
   if (framebuffer) {
-    states_.set(Call::framebuffer, glBindFramebuffer, GL_FRAMEBUFFER, framebuffer);
-    applyState(pass, states_);
-    scissorTo(pass, states_);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    applyState(pass);
+    scissorTo(pass);
   } else {
-    states_.openMasks();
+    gl::openMasks();
   }
   if (pass.feedback) glTextureBarrier();
   if (bound) pass.type->execute(pass.context);
@@ -140,7 +135,7 @@ void StepRunner::run(std::size_t step, PreparedPass& pass, bool clears, text::Di
 }
 
 void StepRunner::clear(const PreparedPass& pass, GLuint framebuffer, text::Diagnostics& diagnostics) {
-  states_.openMasks();
+  gl::openMasks();
   for (const ClearCommand& clear : pass.clears) {
     const GpuResource& resource = pool_[clear.use.resource];
     const std::uint32_t copy = resource.copyOf(0, pass.group);
@@ -209,9 +204,8 @@ GLuint StepRunner::textureOf(const Binding& binding, const PreparedPass& pass,
 
 bool StepRunner::bind(PreparedPass& pass, text::Diagnostics& diagnostics) {
   if (pass.meshes) gatherMeshes(pass, diagnostics);
-  if (pass.variant) states_.set(Call::program, glUseProgram, pass.variant->program.id());
-  if (const GLuint vertices = pass.context.geometry.vertexArray)
-    states_.set(Call::vertex_array, glBindVertexArray, vertices);
+  if (pass.variant) glUseProgram(pass.variant->program.id());
+  if (const GLuint vertices = pass.context.geometry.vertexArray) glBindVertexArray(vertices);
   const auto holds = [&](const FirstOf& first) {
     return first.resource == kNone || !pool_[first.resource].hasPublication(first.history, pass.group);
   };
@@ -219,11 +213,10 @@ bool StepRunner::bind(PreparedPass& pass, text::Diagnostics& diagnostics) {
     if (!holds(binding.firstOf)) continue;
     const GLuint texture = textureOf(binding, pass, diagnostics);
     if (binding.access) {
-      states_.setAt(Call::image, binding.unit, glBindImageTexture, binding.unit, texture, 0, binding.layered,
-                    0, binding.access, binding.format);
+      glBindImageTexture(binding.unit, texture, 0, binding.layered, 0, binding.access, binding.format);
     } else {
-      states_.setAt(Call::texture, binding.unit, glBindTextureUnit, binding.unit, texture);
-      states_.setAt(Call::sampler, binding.unit, glBindSampler, binding.unit, binding.sampler);
+      glBindTextureUnit(binding.unit, texture);
+      glBindSampler(binding.unit, binding.sampler);
     }
   }
   for (const BufferBinding& binding : pass.buffers)
@@ -231,8 +224,7 @@ bool StepRunner::bind(PreparedPass& pass, text::Diagnostics& diagnostics) {
   for (const auto& [block, offset] : {std::pair(pass.parametersBlock, pass.parametersOffset),
                                       {pass.viewBlock, pass.viewOffset},
                                       {pass.sliceBlock, pass.sliceOffset}})
-    if (block)
-      states_.bindBuffer(GL_UNIFORM_BUFFER, block->binding, uniforms_.buffer(), offset, block->bytes);
+    if (block) gl::bindBuffer(GL_UNIFORM_BUFFER, block->binding, uniforms_.buffer(), offset, block->bytes);
   bool bound = true;
   for (const FixedBinding& binding : pass.fixed)
     if (holds(binding.firstOf)) bound = bindFixed(binding, pass, diagnostics) && bound;
@@ -258,12 +250,12 @@ void StepRunner::bindBuffer(const BufferBinding& binding, PreparedPass& pass,
     imports::SceneTables& tables = device_.imports.tables();
     const BufferRef table = pass.meshes ? tables.meshes(list, binding.layout, diagnostics)
                                         : tables.spheres(list, binding.layout, diagnostics);
-    states_.bindBuffer(binding.target, binding.index, table.id, 0, 0);
+    gl::bindBuffer(binding.target, binding.index, table.id, 0, 0);
   } else if (binding.import != kNone) {
     const graph::ImportSpec& import = plan_.graph->imports[binding.import];
     const BufferRef table =
         device_.imports.of(import).buffer(device_.imports.frame(), binding.layout, diagnostics);
-    states_.bindBuffer(binding.target, binding.index, table.id, 0, 0);
+    gl::bindBuffer(binding.target, binding.index, table.id, 0, 0);
   } else {
     const GpuResource& resource = pool_[binding.resource];
     const GLuint buffer = resource.buffers[resource.copyOf(binding.history, pass.group)];
@@ -272,7 +264,7 @@ void StepRunner::bindBuffer(const BufferBinding& binding, PreparedPass& pass,
     if (binding.target == GL_DRAW_INDIRECT_BUFFER)
       pass.context.commands = {.name = buffer, .offset = offset, .bytes = bytes};
     else
-      states_.bindBuffer(binding.target, binding.index, buffer, offset, bytes);
+      gl::bindBuffer(binding.target, binding.index, buffer, offset, bytes);
   }
 }
 

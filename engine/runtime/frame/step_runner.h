@@ -1,10 +1,9 @@
 // Runs one step of a plan: clears, the barrier after them, program, bindings, framebuffer, fixed-function state, and the
-// pass type's execute(). Owns framebuffers and the known GL state. Allocates only when a framebuffer is used for the first time.
+// pass type's execute(). Owns framebuffers. Allocates only when a framebuffer is used for the first time.
 #pragma once
 
 #include <vector>
 
-#include "engine/gl/context/state_cache.h"
 #include "engine/graph/plan.h"
 #include "engine/runtime/frame/device.h"
 #include "engine/runtime/prepare/prepared_pass.h"
@@ -23,8 +22,6 @@ class StepRunner {
 
   // `clears`: whether the clears of the step run too; of a pass in slices they run with the first slice.
   void run(std::size_t step, PreparedPass& pass, bool clears, text::Diagnostics& diagnostics);
-  // To be called when other code may have changed the GL state.
-  void forgetState() { states_.forget(); }
   FramebufferCache& framebuffers() { return framebuffers_; }
 
  private:
@@ -46,7 +43,6 @@ class StepRunner {
   ResourcePool& pool_;
   const FrameUniforms& uniforms_;
   FramebufferCache framebuffers_;
-  gl::StateCache states_;
   std::vector<gl::Attachment> scratch_;
 };
 

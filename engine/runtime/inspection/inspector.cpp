@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "engine/gl/context/state_cache.h"
+#include "engine/gl/context/state.h"
 #include "engine/graph/subresource.h"
 #include "engine/runtime/prepare/program_request.h"
 #include "runtime_sentences.h"
@@ -236,7 +236,7 @@ GLuint Inspector::draw(const InspectView& view, std::uint32_t width, std::uint32
   gl::uploadBuffer(uniforms_.id(), 0, bytes);
   if (!vertices_) vertices_ = gl::VertexArray::create("inspector");
 
-  gl::StateCache().openMasks();
+  gl::openMasks();
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   glDisable(GL_BLEND);

@@ -1,5 +1,5 @@
-// The GL calls of whole frames, held against the plan (gl_replay.h): every barrier with exactly its bits in its place, and
-// no state call that sets what is current. Over every bundled graph and preset, and over the frames of a fade.
+// The GL calls of whole frames, held against the plan (gl_replay.h): every barrier with exactly its bits in its place. Over every
+// bundled graph and preset, and over the frames of a fade.
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -14,7 +14,7 @@ namespace weft::runtime::test::frame_recording_test {
 namespace {
 
 struct Tally {
-  std::size_t frames = 0, walks = 0, barriers = 0, textureBarriers = 0, stateCalls = 0;
+  std::size_t frames = 0, walks = 0, barriers = 0, textureBarriers = 0;
 };
 
 // Runs a frame and judges it. What ran is what the calls show.
@@ -36,7 +36,6 @@ void recordFrame(GlRecorder& recorder, Stage& stage, const std::string& label, T
   tally.walks += replay.walks();
   tally.barriers += replay.barriers();
   tally.textureBarriers += replay.textureBarriers();
-  tally.stateCalls += replay.stateCalls();
 }
 
 // In the second frame histories have changed places; what follows repeats the two.
@@ -62,9 +61,7 @@ const std::set<std::string> kParts = {
 
 }  // namespace
 
-TEST_CASE(
-    "the executor issues the plan's barriers, bit for bit, and no redundant state call, over all bundled "
-    "graphs") {
+TEST_CASE("the executor issues the plan's barriers, bit for bit, over all bundled graphs") {
   const CleanScope clean;
   Tally tally;
   std::size_t graphs = 0;
@@ -80,7 +77,7 @@ TEST_CASE(
     recordFrames(stage, graph, tally);
   }
   MESSAGE(graphs << " graphs, " << tally.frames << " frames, " << tally.walks << " walks, " << tally.barriers
-                 << " barriers, " << tally.stateCalls << " state calls");
+                 << " barriers");
   CHECK(tally.barriers > 0);
 }
 
@@ -101,9 +98,6 @@ TEST_CASE("the judge finds a barrier that is missing, moved or has other bits, a
       wrong[i].bits ^= GL_TEXTURE_FETCH_BARRIER_BIT;
       CHECK(replay.judge(wrong) != "");
       wrong.erase(wrong.begin() + static_cast<std::ptrdiff_t>(i));
-      CHECK(replay.judge(wrong) != "");
-    } else if (calls[i].kind == GlCall::Kind::state && !calls[i].bySideEffect) {
-      wrong.insert(wrong.begin() + static_cast<std::ptrdiff_t>(i), calls[i]);
       CHECK(replay.judge(wrong) != "");
     } else if (calls[i].kind == GlCall::Kind::copy && calls[i].name == "glBlitNamedFramebuffer") {
       wrong[i].name = "glCopyImageSubData";
@@ -277,7 +271,7 @@ TEST_CASE("the same where histories begin with a texture, an image and a buffer"
   Stage stage("tests/runtime/graphs/first.json", 64, 64, "scenes/empty.json");
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   recordFrames(stage, "first.json", tally);
-  CHECK(tally.stateCalls > 0);
+  CHECK(tally.walks > 0);
 }
 
 }  // namespace weft::runtime::test::frame_recording_test
