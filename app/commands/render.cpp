@@ -358,10 +358,7 @@ int runRender(RenderOptions& options) {
   if (wrong.hasErrors()) return report(wrong);
   const std::string manifest =
       options.manifest.empty() && options.skipDone ? manifestNameOf(outputs[0].pattern) : options.manifest;
-  if (!manifest.empty()) {
-    text::keepHashes();
-    text::chooseFile(manifest);
-  }
+  if (!manifest.empty()) text::chooseFile(manifest);
   run.checkpoints = options.checkpoints.beside(outputs[0].pattern);
   return runOnDevice({&options}, 1, [&](auto& session, auto& world, text::Diagnostics& diagnostics) {
     runtime::Renderer& renderer = session->renderer;

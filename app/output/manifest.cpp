@@ -28,8 +28,12 @@ namespace {
 
 constexpr std::string_view kBeginning = "{\"frame\":";
 
-std::string hashText(std::uint64_t hash) {
-  return fmt::format("{:016x}", hash);
+// Of a file that the person named; "" of one that cannot be read.
+std::string hashOf(const std::string& file) {
+  text::chooseFile(file);
+  text::Diagnostics unread;
+  const auto bytes = text::readFile(file, unread);
+  return bytes ? fmt::format("{:016x}", text::hashBytes(*bytes)) : "";
 }
 
 // Adds a line in one write, after all that other processes add. An errno.
@@ -118,11 +122,7 @@ bool Manifest::isDone(std::uint32_t frame, std::span<const std::string> files) c
   return found != done_.end() && std::ranges::all_of(files, [&](const std::string& file) {
            const auto hash = found->second.find(nameOf(file));
            std::error_code ec;
-           if (hash == found->second.end() || !fs::is_regular_file(file, ec)) return false;
-           text::chooseFile(file);  // the person named it
-           text::Diagnostics unread;
-           const auto bytes = text::readFile(file, unread);
-           return bytes && *hash == hashText(text::hashBytes(*bytes));
+           return hash != found->second.end() && fs::is_regular_file(file, ec) && *hash == hashOf(file);
          });
 }
 
@@ -132,8 +132,7 @@ bool Manifest::add(std::uint32_t frame, std::span<const std::string> files, doub
                {"files", Json::object()},
                {"settings", settings_},
                {"seconds", std::round(seconds * 1e6) / 1e6}};
-  for (const std::string& file : files)
-    line["files"][nameOf(file)] = hashText(text::keptHash(file).value_or(0));
+  for (const std::string& file : files) line["files"][nameOf(file)] = hashOf(file);
   line.update(about_);
   const int error = addLine(path_, text::dumpJson(line, -1, false) + "\n");
   return error == 0 ||

@@ -28,7 +28,7 @@ class Manifest {
   bool isDone(std::uint32_t frame, std::span<const std::string> files) const;
   // Frames that were written under other settings alone.
   bool hasOther(std::uint32_t frame) const { return !done_.contains(frame) && others_.contains(frame); }
-  // Adds a line for files that were just written (text::keptHash). False after W180.
+  // Adds a line for files that were just written. False after W180.
   bool add(std::uint32_t frame, std::span<const std::string> files, double seconds,
            text::Diagnostics& diagnostics);
 

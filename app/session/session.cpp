@@ -236,15 +236,14 @@ std::uint64_t hashOfSettings(const Options& options, DeviceSession& session) {
     std::error_code ec;
     if (isBelow(file, cacheFolderOf(options)) || (!read.contains(file) && !fs::is_regular_file(file, ec)))
       continue;
-    std::optional<std::uint64_t> hash = text::keptHash(file);
     text::Diagnostics unread;
-    if (const auto bytes = hash || !read.contains(file) ? std::nullopt : text::readFile(file, unread))
-      hash = text::hashBytes(*bytes);
-    if (!hash)
-      hash = text::hashCombine(
-          fs::file_size(file, ec),
-          static_cast<std::uint64_t>(fs::last_write_time(file, ec).time_since_epoch().count()));
-    lines.insert(fmt::format("\n{} {:x}", nameOf(file), *hash));
+    const auto bytes = read.contains(file) ? text::readFile(file, unread) : std::nullopt;
+    const std::uint64_t hash =
+        bytes ? text::hashBytes(*bytes)
+              : text::hashCombine(
+                    fs::file_size(file, ec),
+                    static_cast<std::uint64_t>(fs::last_write_time(file, ec).time_since_epoch().count()));
+    lines.insert(fmt::format("\n{} {:x}", nameOf(file), hash));
   }
   for (const std::string& line : lines) all += line;
   return session.settings.emplace(text::hashBytes(all));

@@ -293,8 +293,7 @@ std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, text::
                                                  const std::stop_token& stop) try {
   std::optional<ImageF> image;
   {
-    const auto bytes = text::readFile(path, diagnostics, text::Code::unreadableImage, {},
-                                      [&](std::uint64_t, std::uint64_t) { return !stop.stop_requested(); });
+    const auto bytes = text::readFile(path, diagnostics, text::Code::unreadableImage, {}, stop);
     if (!bytes) return {};
     image = decodeEnvironment(*bytes, path, diagnostics);
   }

@@ -21,7 +21,6 @@
 #include "data_places.h"
 #include "engine/text/chars.h"
 #include "engine/text/files/pending_file.h"
-#include "engine/text/hash.h"
 #include "engine/text/limits.h"
 #include "engine/text/nearest.h"
 #include "text_sentences.h"
@@ -43,7 +42,6 @@ struct Access {
   std::vector<std::string> folders;    // real paths
   std::map<std::string, bool> chosen;  // by absolute path: whether it may be a pipe, as it was not opened yet
   std::set<std::string> read;          // absolute paths
-  std::optional<std::map<std::string, std::uint64_t>> hashes;  // of bytes, by absolute path
   std::map<std::string, Overlay> overlays;
   std::uint64_t overlaid = 0;  // in the life of the process
 };
@@ -141,13 +139,6 @@ class Descriptor {
   const int descriptor_;
 };
 
-void keepHash(const std::string& path, std::string_view bytes) {
-  if (!Rules()->hashes) return;
-  const std::uint64_t hash = hashBytes(bytes);
-  Rules all;
-  (*all->hashes)[absolutePath(path)] = hash;
-}
-
 // What is opened for reading, or why not.
 struct Opened {
   int descriptor = -1;      // does not block; closed by whoever reads
@@ -205,6 +196,15 @@ Where placeOr(const Place& place, const std::string& path) {
   return isKnown(place) ? place : Place{path};
 }
 
+std::nullopt_t reportUnread(const std::string& path, std::string_view why, const std::string& hint,
+                            Diagnostics& diagnostics, Code code, const Place& place) {
+  diagnostics.add({.code = code,
+                   .message = fmt::format("cannot read '{}': {}", path, why),
+                   .place = placeOr(place, path),
+                   .hint = hint});
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string absolutePath(const std::string& path) {
@@ -240,48 +240,12 @@ std::string dataFolder() {
 }
 
 std::optional<std::string> readFile(const std::string& path, Diagnostics& diagnostics, Code code,
-                                    const Place& place, const ReadProgress& goOn) {
-  const auto fail = [&](std::string_view reason, const std::string& hint) {
-    diagnostics.add({.code = code,
-                     .message = fmt::format("cannot read '{}': {}", path, reason),
-                     .place = placeOr(place, path),
-                     .hint = hint});
-    return std::nullopt;
-  };
-  const std::optional<Overlay> unsaved = overlayOf(path);
-  const Opened opened = unsaved ? Opened{.outside = !mayRead(path)} : openFile(path);
-  if (opened.outside) {
-    reportOutside(path, diagnostics, place);
-    return std::nullopt;
-  }
-  if (unsaved) {
-    if (goOn && !goOn(unsaved->text->size(), unsaved->text->size())) return std::nullopt;
-    return *unsaved->text;
-  }
-  const Descriptor file(opened.descriptor);
-  if (!file) return fail(opened.why, opened.hint);
-  std::string bytes;
-  char chunk[65536];
-  // Bytes of a slow pipe are reported as they come.
-  for (std::uint64_t size = opened.bytes;;) {
-    if (size > kMaxBytes && goOn && !goOn(bytes.size(), size)) return std::nullopt;
-    if (size > kMaxBytes) return fail("it is larger than 4 GiB", "name a smaller file");
-    if (opened.endless && !hasMore(file.get())) {
-      if (goOn && !goOn(bytes.size(), 0)) return std::nullopt;
-      continue;
-    }
-    const ssize_t got = ::read(file.get(), chunk, sizeof chunk);
-    if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
-    if (got < 0) return fail(std::strerror(errno), "");
-    if (got == 0 && opened.endless) overlayFile(path, bytes);  // nobody can read it again
-    if (got == 0) {
-      keepHash(path, bytes);
-      return bytes;
-    }
-    bytes.append(chunk, static_cast<std::size_t>(got));
-    if (goOn && !goOn(bytes.size(), opened.bytes)) return std::nullopt;
-    size = std::max<std::uint64_t>(size, bytes.size());
-  }
+                                    const Place& place, const std::stop_token& stop) {
+  std::uint64_t bytes = 0;
+  auto whole = readWithin(path, kMaxBytes, bytes, diagnostics, code, place, stop);
+  if (!whole && bytes > kMaxBytes)
+    reportUnread(path, "it is larger than 4 GiB", "name a smaller file", diagnostics, code, place);
+  return whole;
 }
 
 void reportTooLarge(const Place& place, std::uint64_t bytes, Diagnostics& diagnostics) {
@@ -290,11 +254,31 @@ void reportTooLarge(const Place& place, std::uint64_t bytes, Diagnostics& diagno
 }
 
 std::optional<std::string> readWithin(const std::string& path, std::uint64_t most, std::uint64_t& bytes,
-                                      Diagnostics& diagnostics, Code code, const Place& place) {
-  return readFile(path, diagnostics, code, place, [&](std::uint64_t done, std::uint64_t total) {
-    bytes = std::max(done, total);
-    return bytes <= most;
-  });
+                                      Diagnostics& diagnostics, Code code, const Place& place,
+                                      const std::stop_token& stop) {
+  const std::optional<Overlay> unsaved = overlayOf(path);
+  const Opened opened = unsaved ? Opened{.outside = !mayRead(path)} : openFile(path);
+  if (opened.outside) {
+    reportOutside(path, diagnostics, place);
+    return std::nullopt;
+  }
+  bytes = unsaved ? unsaved->text->size() : opened.bytes;
+  if (unsaved) return bytes <= most ? std::optional(*unsaved->text) : std::nullopt;
+  const Descriptor file(opened.descriptor);
+  if (!file) return reportUnread(path, opened.why, opened.hint, diagnostics, code, place);
+  std::string read;
+  char chunk[65536];
+  while (bytes <= most && !stop.stop_requested()) {
+    if (opened.endless && !hasMore(file.get())) continue;
+    const ssize_t got = ::read(file.get(), chunk, sizeof chunk);
+    if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+    if (got < 0) return reportUnread(path, std::strerror(errno), "", diagnostics, code, place);
+    if (got == 0 && opened.endless) overlayFile(path, read);  // nobody can read it again
+    if (got == 0) return read;
+    read.append(chunk, static_cast<std::size_t>(got));
+    bytes = std::max<std::uint64_t>(bytes, read.size());
+  }
+  return std::nullopt;
 }
 
 // Each unsaved text has a number of its own, which is no time of a file.
@@ -318,26 +302,12 @@ std::optional<std::string> readTextFile(const std::string& path, Diagnostics& di
 
 bool writeFile(const std::string& path, std::span<const char> bytes, Diagnostics& diagnostics) {
   PendingFile file(path);
-  if (file.write(bytes) && file.putInPlace()) {
-    keepHash(path, {bytes.data(), bytes.size()});
-    return true;
-  }
+  if (file.write(bytes) && file.putInPlace()) return true;
   diagnostics.error(say::cannotWrite, {path, 0, 0}, path,
                     file.error() == EISDIR ? "it is a directory" : std::strerror(file.error()),
                     file.error() == ENOSPC ? "free some space, or name a file on another disk"
                                            : "name a file in an existing folder that can be written to");
   return false;
-}
-
-void keepHashes() {
-  Rules()->hashes.emplace();
-}
-
-std::optional<std::uint64_t> keptHash(const std::string& path) {
-  Rules all;
-  if (!all->hashes) return std::nullopt;
-  const auto found = all->hashes->find(absolutePath(path));
-  return found == all->hashes->end() ? std::nullopt : std::optional(found->second);
 }
 
 void chooseFile(const std::string& path) {

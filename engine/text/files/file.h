@@ -12,11 +12,11 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
 #include <span>
+#include <stop_token>
 #include <string>
 
 #include "engine/text/diagnostic.h"
@@ -25,20 +25,16 @@ namespace weft::text {
 
 constexpr std::uint64_t kMaxTextBytes = 32ull << 20;
 
-// Called between portions with the bytes read so far and the file's size (0 when it has none, as a pipe), and
-// now and then while a pipe has nothing. False ends the reading: readFile returns nothing then and reports
-// nothing.
-using ReadProgress = std::function<bool(std::uint64_t done, std::uint64_t total)>;
-
 // The bytes of the file at `path`, or its unsaved text. On failure reports `code` at `place` (or at the file itself when
-// `place` is empty); W200 when the path leads out of the folders that reading is confined to.
+// `place` is empty); W200 when the path leads out of the folders that reading is confined to. Nothing, and no report, after a stop.
 std::optional<std::string> readFile(const std::string& path, Diagnostics& diagnostics,
                                     Code code = Code::unreadableFile, const Place& place = {},
-                                    const ReadProgress& goOn = {});
+                                    const std::stop_token& stop = {});
 
 // The same of at most `most` bytes; of a larger file `bytes` says how many it has, and nothing is reported.
 std::optional<std::string> readWithin(const std::string& path, std::uint64_t most, std::uint64_t& bytes,
-                                      Diagnostics& diagnostics, Code code, const Place& place);
+                                      Diagnostics& diagnostics, Code code, const Place& place,
+                                      const std::stop_token& stop = {});
 // The same of a JSON file or a .cube table. Code::limitExceeded for more than kMaxTextBytes, of which only the beginning is read.
 std::optional<std::string> readTextFile(const std::string& path, Diagnostics& diagnostics,
                                         Code code = Code::unreadableFile, const Place& place = {});
@@ -94,10 +90,6 @@ void reportOutside(const std::string& path, Diagnostics& diagnostics, const Plac
 
 // What has been opened so far, as absolute paths.
 std::set<std::string> filesRead();
-
-// From now on the bytes of each file that is read or written whole are hashed; and their hash, the last time.
-void keepHashes();
-std::optional<std::uint64_t> keptHash(const std::string& path);
 
 // Takes back all calls of the functions above. For tests.
 void resetFileAccess();

@@ -44,7 +44,6 @@ namespace {
 
 struct Folder : TemporaryFolder {
   Folder() {
-    text::keepHashes();
     for (const char* name : {"f_1.png", "f_2.png"})
       REQUIRE(text::writeFile(at(name), std::string_view(name), said));
   }

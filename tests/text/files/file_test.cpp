@@ -55,14 +55,7 @@ TEST_CASE("a file above 4 GiB is refused before it is read") {
   Diagnostics all;
   REQUIRE(writeFile(path, std::string_view("x"), all));
   fs::resize_file(path, (std::uintmax_t{4} << 30) + 1);  // takes no room: it has a hole
-  std::uint64_t read = 0, size = 0;
-  CHECK_FALSE(readFile(path, all, Code::unreadableImage, {}, [&](std::uint64_t done, std::uint64_t total) {
-    read = done;
-    size = total;
-    return true;
-  }));
-  CHECK(read == 0);
-  CHECK(size == (std::uintmax_t{4} << 30) + 1);
+  CHECK_FALSE(readFile(path, all, Code::unreadableImage));
   REQUIRE(all.size() == 1);
   CHECK(all.items()[0].code == Code::unreadableImage);
   CHECK(all.items()[0].message.ends_with("it is larger than 4 GiB"));
@@ -121,17 +114,6 @@ TEST_CASE("a file that is under way is beside its place, and only one process wr
   REQUIRE(text);
   CHECK(*text == std::string(100'000, text->front()));
   CHECK_FALSE(std::filesystem::exists(folder.at(".a.part")));
-}
-
-TEST_CASE("hashes are kept of what is read and written, from when they are asked for") {
-  const TemporaryFolder folder;
-  Diagnostics all;
-  CHECK_FALSE(keptHash(folder.write("a", "one")));
-  keepHashes();
-  CHECK(readFile(folder.at("a"), all) == "one");
-  CHECK(keptHash(folder.at("./a")) == hashBytes("one"));
-  REQUIRE(writeFile(folder.at("a"), std::string_view("two"), all));
-  CHECK(keptHash(folder.at("a")) == hashBytes("two"));
 }
 
 TEST_CASE("what is written is read back") {

@@ -112,18 +112,8 @@ std::optional<std::string> ModelFiles::readCounted(const std::string& path, cons
                                                    text::Diagnostics& diagnostics) {
   const std::uint64_t left = text::raised(kMaxModelBytes) - std::min(bytes_, text::raised(kMaxModelBytes));
   std::uint64_t found = 0;
-  bool tooLarge = false;
-  const auto goOn = [&](std::uint64_t done, std::uint64_t total) {
-    found = std::max(done, total);
-    tooLarge = found > left;
-    return !tooLarge && !stop_.stop_requested();
-  };
-  std::optional<std::string> bytes = text::readFile(path, diagnostics, code, place, goOn);
-  if (tooLarge) {
-    count(found, isKnown(place) ? place : this->place());
-    return {};
-  }
-  if (bytes && !count(bytes->size(), isKnown(place) ? place : this->place())) return {};
+  std::optional<std::string> bytes = text::readWithin(path, left, found, diagnostics, code, place, stop_);
+  if ((bytes || found > left) && !count(found, isKnown(place) ? place : this->place())) return {};
   return bytes;
 }
 
