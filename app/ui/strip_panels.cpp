@@ -85,16 +85,7 @@ std::vector<Row> rowsOf(const graph::Plan& plan) {
   return rows;
 }
 
-// ---- histogram: the scene's luminance as graphs/post.json puts it out, or else the presented picture ----
-
-// shaders/exposure/histogram.glsl
-constexpr double kBrightest = 16, kBinsPerStop = 8;
-
-const runtime::Output* find(const runtime::Execution& execution, std::string_view name, std::size_t least) {
-  for (const runtime::Output& output : execution.readBack().outputs())
-    if (output.arrived && output.count() >= least && graph::hasSuffix(output.name, name)) return &output;
-  return nullptr;
-}
+// ---- histogram: what the graph puts out, and the presented picture ----
 
 // A bar for each bin. The tallest of all but the ends, which may hold a whole sky, is as high as the plot.
 void drawBars(const char* name, std::span<const float> bins, ImU32 color, float share) {
@@ -108,27 +99,18 @@ void drawBars(const char* name, std::span<const float> bins, ImU32 color, float 
   ImGui::PopStyleColor();
 }
 
-// False, and nothing drawn, when the graph has no such histogram or none has arrived.
-bool drawLuminance(runtime::Execution& execution) {
+// The outputs of the graph that have arrived: a few numbers as a line, more as bars.
+void drawOutputs(runtime::Execution& execution) {
+  constexpr std::size_t kOfLine = 8, kMost = 4096;
   execution.readBack().collect();
-  const runtime::Output* histogram = find(execution, "histogram", 3);
-  if (!histogram) return false;
-  const std::size_t count = histogram->count();  // the first is black
-  const runtime::Output* exposure = find(execution, "exposure", 4);
-  if (exposure && exposure->number(0) > 0 && exposure->number(2) > 0)
-    ImGui::TextDisabled("exposure %+.2f EV, on its way to %+.2f; mean luminance %.3g, %+.2f stops",
-                        std::log2(exposure->number(0)), std::log2(exposure->number(1)), exposure->number(2),
-                        std::log2(exposure->number(2)));
-  std::vector<float> shares(count);
-  double total = 0;
-  for (std::size_t i = 0; i < count; ++i) total += histogram->number(i);
-  for (std::size_t i = 0; i < count && total > 0; ++i)
-    shares[i] = static_cast<float>(histogram->number(i) / total);
-  const std::string name =
-      fmt::format("luminance of the scene: black, then {} to {} stops from 1",
-                  kBrightest - static_cast<double>(count - 2) / kBinsPerStop, kBrightest);
-  drawBars(name.c_str(), shares, IM_COL32(235, 235, 235, 170), 1);
-  return true;
+  for (const runtime::Output& output : execution.readBack().outputs()) {
+    std::vector<float> numbers(output.arrived ? std::min(output.count(), kMost) : 0);
+    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<float>(output.number(i));
+    if (numbers.size() > kOfLine)
+      drawBars(output.name.c_str(), numbers, IM_COL32(235, 235, 235, 170), 0.4f);
+    else if (!numbers.empty())
+      ImGui::TextDisabled("%s", fmt::format("{}: {:.3g}", output.name, fmt::join(numbers, ", ")).c_str());
+  }
 }
 
 }  // namespace
@@ -256,7 +238,7 @@ void Panels::drawStorage() {
 }
 
 void Panels::drawHistogram() {
-  if (drawLuminance(*renderer_.execution())) return;
+  drawOutputs(*renderer_.execution());
   // Again after a while, so that a picture at rest has its own; in idle mode that is drawn for longer.
   if (ImGui::GetTime() - counted_ > 0.1) {
     const auto image = renderer_.readPresented8();
