@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "engine/text/files/file.h"
 #include "engine/text/json/edit.h"
 #include "engine/text/limits.h"
 #include "engine/text/printable.h"
@@ -103,17 +102,6 @@ std::string unescapeUri(std::string_view uri) {
 
 std::string diagnosticsJson(const Diagnostics& diagnostics, int indent) {
   Json all = Json::array();
-  std::string file, text;  // of the last pointer
-  JsonTree tree;
-  const auto pointerOf = [&](const Diagnostic& d) {
-    if (!d.pointer.empty() || d.place.line == 0 || !d.place.file || !d.place.file->ends_with(".json"))
-      return d.pointer;
-    if (Diagnostics unsaid; file != *d.place.file) {
-      text = readTextFile(file = *d.place.file, unsaid).value_or("");
-      tree = parseJsonTree(text);
-    }
-    return pointerAt(tree.root, offsetOf(text, d.place.inFile()));
-  };
   for (const Diagnostic& d : diagnostics.items()) {
     Json each{{"severity", nameOf(d.severity)},
               {"code", nameOf(d.code)},
@@ -123,7 +111,7 @@ std::string diagnosticsJson(const Diagnostics& diagnostics, int indent) {
     if (d.place.option) each["option"] = *d.place.option;
     if (d.place.line > 0) each["line"] = d.place.line;
     if (d.place.line > 0 && d.place.column > 0) each["column"] = d.place.column;
-    for (const auto& [key, value] : {std::pair<const char*, std::string>{"pointer", pointerOf(d)},
+    for (const auto& [key, value] : {std::pair<const char*, std::string>{"pointer", d.pointer},
                                      {"pass", d.pass},
                                      {"resource", d.resource},
                                      {"expected", d.expected},
