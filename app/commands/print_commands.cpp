@@ -26,7 +26,6 @@ struct PlanOptions : Options {
 std::string viewOf(const graph::Plan& plan, const PlanOptions& options) {
   if (options.format == "dot") return graph::dumpDot(plan);
   if (options.format == "json") return graph::dumpJson(plan, options.explain);
-  if (options.format == "expanded") return text::layoutJson(graph::graphFileOf(plan));
   return graph::dumpText(plan, options.explain);
 }
 
@@ -186,9 +185,7 @@ int runTypes(Options&) {
 void addPlan(CommandLine& line) {
   const auto [plan, options] = line.add("plan", "print the plan: order, barriers, storage, bytes", runPlan);
   options.addGraph(plan);
-  addChoice(plan, "--format", options.format,
-            "expanded: a graph file without includes, repeats and conditions; dot: for Graphviz",
-            {"text", "json", "dot", "expanded"});
+  addChoice(plan, "--format", options.format, "dot: for Graphviz", {"text", "json", "dot"});
   plan.add_flag("--explain", options.explain, "say why: passes, barrier bits, shared storage");
 }
 

@@ -24,7 +24,6 @@ std::string shown(const std::string& text) {
 
 // Names of commands before 0.2, and what they are now.
 const std::map<std::string, std::vector<std::string>> kOldNames{{"dot", {"plan", "--format=dot"}},
-                                                                {"expand", {"plan", "--format=expanded"}},
                                                                 {"bisect", {"diff", "--render"}}};
 
 // What every command takes.

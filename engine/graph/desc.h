@@ -176,12 +176,6 @@ struct UsedSet {
   Place declared;  // of its key under "sets"
 };
 
-// The pass or include of the same file beside which a stanza says that it stands.
-struct BesideDesc {
-  std::string name;
-  bool after = false;  // else before it
-};
-
 // What a stanza says of a pass as it is: each instance of it has the same.
 struct PassHead {
   Place place;  // of the stanza's opening brace
@@ -219,7 +213,6 @@ struct PassDesc : PassHead {
   std::optional<RefDesc> view;
   bool feedback = false;
   bool sideEffect = false;
-  std::optional<BesideDesc> beside;
 };
 
 struct OutputDesc {

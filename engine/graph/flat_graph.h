@@ -315,14 +315,7 @@ struct WatchedValue {
   std::uint32_t import = 0, row = 0;
   std::uint32_t column = 0;         // into ImportType::columns
   std::uint8_t part = kWholeValue;  // as ImportValue
-  std::string name;                 // of the column: "view"
   Value shape;                      // any value of that type; of a part, a column
-  std::string text() const { return (row > 0 ? "[" + std::to_string(row) + "]." : ".") + name; }
-};
-
-// Passes that run before others because the file says so: [from, from + fromCount) before [to, to + toCount).
-struct PassOrder {
-  std::uint32_t from = 0, fromCount = 0, to = 0, toCount = 0;
 };
 
 struct FlatGraph {
@@ -332,7 +325,6 @@ struct FlatGraph {
   std::vector<FlatResource> resources;
   FlatUse present;               // resource kNone: nothing
   std::vector<FlatUse> outputs;  // read-backs; which read as passes do
-  std::vector<PassOrder> orders;
   VersionLinks links;
   // names and places, parallel to passes and resources
   std::vector<std::string> passNames, resourceNames;
@@ -370,13 +362,6 @@ struct FlatGraph {
   void forEachSource(std::uint32_t pass, F&& f) const {
     for (const std::uint32_t u : usesOf(pass))
       links.forEachWriter(links.seen[u], [&](std::uint32_t writer) { f(u, links.passOf[writer]); });
-  }
-
-  // The value of an import that a uniform follows while the plan runs, one of them; null: it follows none.
-  const WatchedValue* followedBy(const UniformSpec& uniform) const {
-    const std::vector<std::uint32_t> keys = uniform.dynamic.parameterKeys();
-    return keys.empty() || keys.back() < parameters.size() ? nullptr
-                                                           : &watched[keys.back() - parameters.size()];
   }
 
   BorderColor borderOf(const SlotSpec& slot) const {

@@ -3,6 +3,7 @@
 
 #include "engine/graph/language/expr.h"
 #include "tests/fuzz/fuzz.h"
+#include "tests/graph/language/expr_text.h"
 
 namespace weft::fuzz {
 
@@ -40,9 +41,9 @@ void fuzz(std::string_view input) {
   const auto parsed = graph::Expr::parse(input, {"x.json", 1, 1}, said);
   expectAnswer(parsed.has_value(), said);
   if (!parsed) return;
-  const std::string text = parsed->text();
+  const std::string text = textOf(*parsed);
   const auto again = graph::Expr::parse(text, {"x.json", 1, 1}, said);
-  expect(again && again->text() == text, "an expression that is written as it is read", said);
+  expect(again && textOf(*again) == text, "an expression that is written as it is read", said);
   AnyScope scope;
   parsed->check(scope, said);
   parsed->evaluate(scope, said);

@@ -41,10 +41,6 @@ void fuzz(std::string_view input) {
     const graph::Plan plan = graph::compile(flat);
     if (!graph::checkMemory(plan, said)) continue;
     expect(!graph::dumpText(plan, true).empty() && !graph::dumpJson(plan).empty(), "a text of a plan");
-    const std::string again = graph::graphFileOf(plan);
-    text::Diagnostics found;
-    expect(graph::readGraphText(again, file.path(), found) != nullptr && !found.hasErrors(),
-           "a plan as a graph that can be read", found);
   }
 }
 

@@ -40,9 +40,9 @@ std::vector<BarrierReason> explainBarriers(const Plan& plan);
 // An edge between passes, for random orders and for people; the declared order needs none. One edge per pair and resource, per
 // kind, per sub-resource of one FlatResource. History orders nothing; resources that only share storage order nothing.
 struct Dependency {
-  enum class Type : std::uint8_t { read_after_write, write_after_read, write_after_write, stated };
+  enum class Type : std::uint8_t { read_after_write, write_after_read, write_after_write };
   std::uint32_t from = 0, to = 0;  // passes; `from` runs first
-  std::uint32_t resource = 0;      // kNone: of a stated one
+  std::uint32_t resource = 0;
   Type type = Type::read_after_write;
   friend auto operator<=>(const Dependency&, const Dependency&) = default;
 };

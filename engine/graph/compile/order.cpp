@@ -33,10 +33,6 @@ std::vector<Dependency> dependencies(const FlatGraph& graph, const std::vector<s
                            [&](std::uint32_t s) { f(use.resource, base[use.resource] + s); });
       }
     };
-    for (const PassOrder& order : graph.orders)
-      if (p - order.to < order.toCount)
-        for (std::uint32_t from = order.from; from < order.from + order.fromCount; ++from)
-          add(from, p, kNone, Dependency::Type::stated);
     for (const std::uint32_t u : graph.usesOf(p)) {
       if (!orders(u)) continue;
       graph.links.forEachWriter(graph.links.seen[u], [&](std::uint32_t use) {

@@ -72,7 +72,6 @@ class PassWalk {
 
   void walk(Scope& scope, const std::string& outerWhy) {
     const std::string& why = outerWhy.empty() ? scope.disabledBy : outerWhy;
-    std::vector<Extent> extents;
     for (std::span<const PassDesc> rest = scope.desc->passes; !rest.empty();) {
       if (isOver(model_)) return;
       const PassDesc& desc = rest.front();
@@ -80,37 +79,15 @@ class PassWalk {
       while (count < rest.size() && desc.looped > 0 && rest[count].looped > 0 &&
              rest[count].group == desc.group)
         ++count;
-      const auto begin = static_cast<std::uint32_t>(graph_.passes.size());
       if (desc.include)
         walkInclude(scope, desc, why);
       else
         walkStanzas(scope, rest.first(count), why);
-      extents.insert(extents.end(), count, {begin, static_cast<std::uint32_t>(graph_.passes.size()) - begin});
       rest = rest.subspan(count);
     }
-    noteOrders(*scope.desc, extents);
   }
 
  private:
-  // The passes of a stanza; where stanzas repeat together, those of all of them.
-  struct Extent {
-    std::uint32_t first = 0, count = 0;
-  };
-
-  // What stanzas say of their place, unless an overlay has moved the other one across since.
-  void noteOrders(const GraphDesc& desc, const std::vector<Extent>& extents) {
-    for (std::size_t own = 0; own < desc.passes.size(); ++own) {
-      const std::optional<BesideDesc>& beside = desc.passes[own].beside;
-      if (!beside) continue;
-      const std::size_t other = static_cast<std::size_t>(
-          std::ranges::find(desc.passes, beside->name, &PassDesc::name) - desc.passes.begin());
-      const auto [from, to] = beside->after ? std::pair(other, own) : std::pair(own, other);
-      if (std::max(from, to) < desc.passes.size() && from < to && extents[from].first < extents[to].first)
-        graph_.orders.push_back(
-            {extents[from].first, extents[from].count, extents[to].first, extents[to].count});
-    }
-  }
-
   void walkInclude(Scope& scope, const PassDesc& desc, const std::string& why) {
     const auto child = scope.includes.find(desc.include->as);
     if (child == scope.includes.end() || child->second->stanza != &desc) return;

@@ -120,87 +120,6 @@ ExprPtr makeConstant(Value value, text::Place place) {
   return node;
 }
 
-namespace {
-
-// Canonical text; parentheses only where the grammar needs them. `outer` is the precedence of the
-// surroundings.
-void print(const ExprNode& node, int outer, const Expr::KeyText& called, std::string& out) {
-  const OpInfo info = infoOf(node.op);
-  const bool parens = info.precedence > 0 && info.precedence < outer;
-  const auto list = [&](const char* open, char close) {
-    for (std::size_t i = 0; i < node.children.size(); ++i) {
-      out += i > 0 ? ", " : open;
-      print(*node.children[i], 0, called, out);
-    }
-    out += close;
-  };
-  if (parens) out += '(';
-  switch (node.op) {
-    case ExprOp::constant: {
-      // "-1" binds like a unary minus, and "1.x" is no number.
-      const bool wrap = node.value.type == Value::Type::number && outer > 7;
-      out += wrap ? "(" + toText(node.value) + ")" : toText(node.value);
-      break;
-    }
-    case ExprOp::list:
-      list("[", ']');
-      break;
-    case ExprOp::variable:
-    case ExprOp::identifier:
-    case ExprOp::builtin:
-      out += (node.op == ExprOp::variable ? "$" : "") + node.name;
-      break;
-    case ExprOp::fact:
-      if (node.fact == Fact::value) {
-        out += node.name;
-        if (!node.children.empty()) list("[", ']');
-        out += "." + node.value.symbol;
-        break;
-      }
-      out += fmt::format("{}({}", nameOf(node.fact), node.name);
-      if (!node.children.empty()) list(".mip[", ']');
-      out += ')';
-      break;
-    case ExprOp::age_key:
-    case ExprOp::parameter_key:
-      if (called)
-        out += called(node.key, node.op == ExprOp::age_key);
-      else
-        out += fmt::format(fmt::runtime(node.op == ExprOp::age_key ? "age(#{})" : "$#{}"), node.key);
-      break;
-    case ExprOp::component:
-      print(*node.children[0], info.precedence, called, out);
-      out += '.';
-      out += "xyzw"[node.key];
-      break;
-    case ExprOp::negate:
-    case ExprOp::logical_not:
-      out += info.spelling;
-      print(*node.children[0], info.precedence, called, out);
-      break;
-    case ExprOp::conditional:
-      print(*node.children[0], 2, called, out);
-      out += " ? ";
-      print(*node.children[1], 0, called, out);
-      out += " : ";
-      print(*node.children[2], 1, called, out);
-      break;
-    default:
-      if (info.precedence == 0) {
-        out += info.spelling;
-        list("(", ')');
-        break;
-      }
-      // Comparisons do not chain, so both their sides need a tighter operator.
-      print(*node.children[0], info.precedence + (info.precedence == 4 ? 1 : 0), called, out);
-      out += fmt::format(" {} ", info.spelling);
-      print(*node.children[1], info.precedence + 1, called, out);
-  }
-  if (parens) out += ')';
-}
-
-}  // namespace
-
 Expr::Expr(ExprPtr root, text::Place start) : root_(std::move(root)), start_(std::move(start)) {
   std::vector<std::string> names;
   std::set<std::string_view> seen;
@@ -235,21 +154,31 @@ Expr Expr::listOf(std::vector<Expr> items, text::Place place) {
     children.push_back(item.root_);
   }
   if (value.count == items.size()) return constant(std::move(value), place);
-  return {makeNode(ExprOp::list, place, std::move(children)), place};
+  Expr made(makeNode(ExprOp::list, place, std::move(children)), place);
+  for (const Expr& item : items) made.source_ += (made.source_.empty() ? "[" : ", ") + item.text();
+  made.source_ += ']';
+  return made;
 }
 
 Expr Expr::both(const Expr& a, const Expr& b) {
   const auto says = [](const Expr& expr) { return expr.isConstant() && expr.text() == "false"; };
   if (!a.present() || says(b)) return b;
   if (!b.present() || says(a)) return a;
-  return {makeNode(ExprOp::logical_and, a.place(), {a.root_, b.root_}), a.place()};
+  Expr made(makeNode(ExprOp::logical_and, a.place(), {a.root_, b.root_}), a.place());
+  const auto part = [](const std::string& text) {
+    return text.find_first_of("|?") == std::string::npos ? text : "(" + text + ")";
+  };
+  made.source_ = part(a.text()) + " && " + part(b.text());
+  return made;
 }
 
 std::optional<Expr> Expr::parse(std::string_view text, const text::Place& place,
                                 text::Diagnostics& diagnostics) {
   ExprPtr root = parseExprTree(text, place, diagnostics);
   if (!root) return std::nullopt;
-  return Expr(std::move(root), place);
+  Expr parsed(std::move(root), place);
+  parsed.source_ = text;
+  return parsed;
 }
 
 bool Expr::dynamic() const {
@@ -279,10 +208,8 @@ std::vector<std::uint32_t> Expr::parameterKeys() const {
   return {keys.begin(), keys.end()};
 }
 
-std::string Expr::text(const KeyText& called) const {
-  std::string out;
-  if (root_) print(*root_, 0, called, out);
-  return out;
+std::string Expr::text() const {
+  return !source_.empty() || !root_ ? source_ : toText(root_->value);
 }
 
 const std::vector<std::string>& Expr::variables() const {

@@ -127,9 +127,8 @@ class Expr {
   Expr column(std::uint8_t part) const;
   // The keys of those, each once, ascending.
   std::vector<std::uint32_t> parameterKeys() const;
-  // Canonical text, fit to be parsed again; of a folded expression with `called(key, ofAge)` for each of its keys, where that is given.
-  using KeyText = std::function<std::string(std::uint32_t key, bool ofAge)>;
-  std::string text(const KeyText& called = {}) const;
+  // As the file writes it; not of a folded one.
+  std::string text() const;
   const text::Place& place() const { return start_; }
   // Every $variable it names, each once (for culling conditions, hot reload and `explain`).
   const std::vector<std::string>& variables() const;
@@ -165,6 +164,7 @@ class Expr {
 
   std::shared_ptr<const ExprNode> root_;
   text::Place start_;
+  std::string source_;                                         // "" of a literal
   std::shared_ptr<const std::vector<std::string>> variables_;  // null: there are none
 };
 

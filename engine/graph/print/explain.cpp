@@ -44,12 +44,13 @@ std::string textOf(const FlatGraph& graph, const BarrierAccess& access) {
   return fmt::format("'{}' {} '{}' as {}", pass, verbOf(access.use.access), what, nameOf(access.use.kind));
 }
 
-}  // namespace
-
+// ".mip[2]" or ".mip[2..4]"
 std::string spanText(const char* part, std::uint32_t first, std::uint32_t count) {
   return count == 1 ? fmt::format(".{}[{}]", part, first)
                     : fmt::format(".{}[{}..{}]", part, first, first + count - 1);
 }
+
+}  // namespace
 
 std::string textOf(const FlatGraph& graph, const FlatUse& use) {
   const FlatResource& r = graph.resources[use.resource];
@@ -159,9 +160,7 @@ std::string Explainer::whyHere(std::uint32_t pass) const {
     const char* const why = edge.type == Type::read_after_write   ? "reads its"
                             : edge.type == Type::write_after_read ? "overwrites what it reads,"
                                                                   : "overwrites its";
-    const std::string text = edge.type == Type::stated
-                                 ? "as the file says"
-                                 : fmt::format("{} '{}'", why, graph_.resourceNames[edge.resource]);
+    const std::string text = fmt::format("{} '{}'", why, graph_.resourceNames[edge.resource]);
     auto known = std::ranges::find(reasons, text, [](const auto& each) { return each.first; });
     if (known == reasons.end()) known = reasons.insert(known, {text, {}});
     const std::string& name = graph_.passNames[edge.from];
@@ -356,13 +355,16 @@ class Describer {
     const auto wanted = [&](const std::string& name) { return only.empty() || name == only; };
     for (const DefineSpec& define : spec.defines)
       if (wanted(define.name)) line(1, "define {} {}", define.name, define.text);
-    for (const UniformSpec& uniform : spec.uniforms)
-      if (wanted(uniform.name))
-        line(1, "parameter {} = {}{}{}", uniform.text(), toText(uniform.value),
-             uniform.path.empty() ? "" : fmt::format(" ({})", uniform.path),
-             graph_.followedBy(uniform)  ? ", follows an import"
-             : uniform.dynamic.dynamic() ? ", changes with time"
-                                         : "");
+    for (const UniformSpec& uniform : spec.uniforms) {
+      if (!wanted(uniform.name)) continue;
+      const std::vector<std::uint32_t> keys = uniform.dynamic.parameterKeys();
+      const bool follows = !keys.empty() && keys.back() >= graph_.parameters.size();
+      line(1, "parameter {} = {}{}{}", uniform.text(), toText(uniform.value),
+           uniform.path.empty() ? "" : fmt::format(" ({})", uniform.path),
+           follows                     ? ", follows an import"
+           : uniform.dynamic.dynamic() ? ", changes with time"
+                                       : "");
+    }
     for (const SlotSpec& slot : graph_.slotsOf(spec))
       if (wanted(slot.name)) addSlot(slot, pass);
   }

@@ -36,11 +36,6 @@ std::string dumpDot(const Plan& plan, bool effects = false);
 // same. Passes and resources are the same when their names are. Pictures and shaders are not compared.
 std::string diffText(const Plan& before, const Plan& after);
 
-// A plan as a graph file: what is live in it, without includes, overlays, repeats, conditions, alternatives, parameters and
-// disabled passes. The file gives the same plan; shaders are named, not included. Names become plain: "post.bloom.down[2]"
-// is "post_bloom_down_2", the second version of "hdr" is "hdr_v2". Parameters become their values; age() stays.
-std::string graphFileOf(const Plan& plan);
-
 // Everything that `name` means: the pass or its repeats, the resource and its versions, the parameter. `name` is any unique
 // suffix. Nothing after a report: unknown (W045, with the nearest) or ambiguous (W046).
 std::optional<std::string> describe(const Plan& plan, std::string_view name, text::Diagnostics& diagnostics);
@@ -87,8 +82,6 @@ class Explainer {
 
 // "hdr.mip[2]", "maps.layer[0..3]", "depth.stencil", "taa@-1": a use as a person would write it.
 std::string textOf(const FlatGraph& graph, const FlatUse& use);
-// ".mip[2]" or ".mip[2..4]"
-std::string spanText(const char* part, std::uint32_t first, std::uint32_t count);
 // What an import is, its arguments and its columns: "@lamps", then a line each, two spaces further in.
 std::string textOf(const ImportType& type);
 nlohmann::ordered_json jsonOf(const Value& value);

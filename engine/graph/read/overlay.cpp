@@ -464,8 +464,6 @@ class Applier {
     std::vector<JsonValue>& items = passesOf(*source);
     std::size_t at = beside.index ? *beside.index + (after ? 1 : 0) : items.size();
     JsonValue placed = withSets(withoutPlace(stanza, own), beside.below);
-    JsonMember place = *std::ranges::find(stanza.members, after ? "after" : "before", &JsonMember::key);
-    place.value.text = beside.own;
     if (beside.index && moved.index) {
       const auto there = items.begin() + static_cast<std::ptrdiff_t>(*moved.index);
       if (!mergeStanza(*source, *there, stanza, beside.below)) return;
@@ -473,7 +471,6 @@ class Applier {
       items.erase(there);
       if (*moved.index < at) --at;
     }
-    if (beside.index) placed.members.push_back(std::move(place));
     if (at > 0 && at < items.size() && !joinGroup(placed, items[at - 1], items[at])) return;
     items.insert(items.begin() + static_cast<std::ptrdiff_t>(at), std::move(placed));
   }

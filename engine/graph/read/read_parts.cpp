@@ -643,8 +643,6 @@ std::optional<PassDesc> readPass(ReadContext& context, const JsonValue& value, c
     const std::optional<JsonValue> whole = uses ? withSets(context, value, sets, out) : std::nullopt;
     good = readPassInto(context, whole ? *whole : value, value, out) && whole.has_value() == uses;
   }
-  for (const char* key : {"before", "after"})
-    if (const JsonValue* beside = valueIn(value, key)) out.beside = {beside->text, *key == 'a'};
   context.pass.clear();
   return good ? std::optional(std::move(out)) : std::nullopt;
 }

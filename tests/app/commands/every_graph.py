@@ -167,16 +167,6 @@ def run_on_cpu(sheet, folder, sound, fits):
         sheet.graph("explain", "explain", name, sound=sound)
     sheet.graph("diff", "diff", sheet.path, sound=sound)
     sheet.graph("diff to", "diff", GLOW, code=(0, 1), sound=sound)
-    expanded = sheet.graph("expand", "expand", sound=sound)
-    if sound:
-        # With the shaders that stand beside the graph.
-        shaders = TOP / pathlib.Path(sheet.path).parent / "shaders"
-        if shaders.is_dir():
-            pathlib.Path(folder, "shaders").symlink_to(shaders)
-        file = pathlib.Path(folder, "expanded.json")
-        file.write_text(expanded.out)
-        again = run(sheet.weft, "check", "--no-shaders", file, *sheet.more)
-        sheet.report.check((again.code == 0) == fits, f"{sheet.path}: its expanded form: {again.code}, shaders fit: {fits}\n{again.err[-3000:]}")
     for column, command in (("plan", "plan"), ("plan json", "plan --format json --explain"), ("dot", "dot"), ("params", "params")):
         done = sheet.graph(column, command, sound=sound)
         sheet.report.check(bool(done.out) == sound, f"{column} of {sheet.path} prints {done.out[:200]!r}")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""`weft explain`, `weft diff` and `weft expand` on every bundled graph: an expanded graph gives the same plan, differs in nothing from
-itself, and every pass and resource of a plan can be explained. Buffers fit a storage block of every device, also in large pictures.
+"""`weft explain` and `weft diff`: passes and resources of the bundled graphs can be explained, and a graph differs in nothing from itself.
+Buffers fit a storage block of every device, also in large pictures.
 
     plans.py WEFT
 """
@@ -9,57 +9,14 @@ import pathlib
 import re
 import sys
 
-from program import TOP, Report, run, temporary_folder
+from program import Report, run
 
 HELMET = ["--scene", "scenes/helmet_alone.json"]
 GRAPHS = {"graphs/glow.json": [], "graphs/studio.json": [], "graphs/studio_gi.json": [], "graphs/deferred.json": HELMET, "graphs/deferred_gi.json": HELMET}
 
 
-def plain(name):
-    return re.sub(r"[.\[,]", "_", name).replace("]", "").replace("@", "").replace("#", "_v")
-
-
 def plan_of(weft, graph, *arguments):
     return json.loads(run(weft, "plan", graph, "--format", "json", *arguments).out)
-
-
-def plain_resource(name):
-    """An element stays one: "maps[3]#2" is "maps_v2[3]"."""
-    array, index, version = re.fullmatch(r"@?([^\[#]*)(\[\d+\])?(#\d+)?", name).groups()
-    return array.replace(".", "_") + (version or "").replace("#", "_v") + (index or "")
-
-
-def outline(plan, rename, rename_resource):
-    """What a frame does, with names as these functions give them."""
-    def where(text):
-        name, part, history = re.fullmatch(r"(@?[^@]*?)((?:\.(?:mip|layer)\[[\d.]+\])*(?:\.depth|\.stencil)?)(@-\d+)?", text).groups()
-        return rename_resource(name) + part + (history or "") if name else ""
-    steps = []
-    for step in plan["steps"]:
-        uses = [(u["access"], u["kind"], u["slot"], where(u["range"]), u["attached"]) for u in step["uses"]]
-        frame = step.get("framebuffer")
-        steps.append((rename(step["pass"]), step["update"], step.get("slices", 1), step["barriers"], [where(c) for c in step["clears"]],
-                      uses, frame and (frame["size"], [where(c) for c in frame["color"]], where(frame["depth"]))))
-    return steps, plan["bytes"], plan["storages"], plan["final_barriers"], where(plan["present"])
-
-
-def check_expand(weft, report, graph, arguments, folder):
-    expanded = run(weft, "expand", graph, *arguments)
-    if not report.check(expanded.code == 0 and expanded.out, f"expand {graph}: {expanded.code}\n{expanded.err}"):
-        return
-    file = pathlib.Path(folder, pathlib.Path(graph).name)
-    file.write_text(expanded.out)
-    checked = run(weft, "check", "--no-shaders", file, *arguments)
-    if not report.check(checked.code == 0, f"the expanded {graph} is a graph: {checked.err[:3000]}"):
-        return
-    before, after = outline(plan_of(weft, graph, *arguments), plain, plain_resource), outline(plan_of(weft, file, *arguments), str, str)
-    for what, old, new in zip(("steps", "bytes", "storages", "final barriers", "present"), before, after):
-        if what == "steps":
-            for one, other in zip(old, new):
-                report.check(one == other, f"{graph}, expanded:\n{one}\n{other}")
-        report.check(old == new, f"{graph}, expanded: other {what}" + ("" if what == "steps" else f"\n{old}\n{new}"))
-    report.check(run(weft, "expand", file, *arguments).out == expanded.out, f"{graph}: the expanded file expands to another one")
-    report.check(run(weft, "format", "--check", file).code == 0, f"{graph}: the expanded file is not laid out")
 
 
 def check_explain(weft, report, graph, arguments):
@@ -103,10 +60,8 @@ def check_buffers(weft, report):
 
 def main():
     weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
-    with temporary_folder() as folder:
-        for graph, arguments in GRAPHS.items():
-            check_expand(weft, report, graph, arguments, folder)
-            check_explain(weft, report, graph, arguments)
+    for graph, arguments in GRAPHS.items():
+        check_explain(weft, report, graph, arguments)
     check_diff(weft, report)
     check_buffers(weft, report)
     report.end()

@@ -218,11 +218,6 @@ std::string checkOrder(const Plan& plan) {
   for (std::size_t t = 0; t < plan.steps.size(); ++t) {
     const std::uint32_t p = plan.steps[t].pass;
     if (ran[p] != 0 || plan.stepOf[p] != t) return "pass " + graph.passNames[p] + " runs twice";
-    for (const PassOrder& order : graph.orders)
-      for (std::uint32_t other = order.to;
-           p >= order.from && p < order.from + order.fromCount && other < order.to + order.toCount; ++other)
-        if (ran[other] != 0)
-          return graph.passNames[other] + " runs before " + graph.passNames[p] + ", against the file";
     ran[p] = 1;
     const FlatPass& pass = graph.passes[p];
     for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {

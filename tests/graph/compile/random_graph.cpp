@@ -24,11 +24,6 @@ class Generator {
     for (std::size_t i = 0; i < resources; ++i) addResource(i);
     for (std::size_t p = 0; p < passes; ++p) addPass(p, compute && chance(55));
     finish();
-    // Last, so that it changes no other choice.
-    for (std::size_t more = pick(3), count = b_.graph.passes.size(); more > 0 && count > 1; --more) {
-      const auto from = static_cast<std::uint32_t>(pick(count - 1));
-      b_.graph.orders.push_back({from, 1, from + 1, static_cast<std::uint32_t>(1 + pick(count - from - 1))});
-    }
     return std::move(b_);
   }
 

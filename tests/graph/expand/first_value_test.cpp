@@ -59,13 +59,6 @@ TEST_CASE("a first value that is a texture: its reader depends on it, and it sta
   const Plan plan = compile(e.graph);
   CHECK(plan.stepOf[e.pass("plant")] < plan.stepOf[e.pass("grow")]);
   CHECK(plan.stepOf[e.pass("plant_small")] == kNone);  // cells have one level
-  // As a file it says the same.
-  text::Diagnostics diagnostics;
-  const auto again = readGraphText(graphFileOf(plan), "again.json", diagnostics);
-  REQUIRE_MESSAGE(again, diagnostics.text());
-  const auto flat = expandGraph(*again, testRegistry(), {}, diagnostics);
-  REQUIRE_MESSAGE(flat, diagnostics.text());
-  CHECK(flat->resourceNames[flat->histories[0].firstUse.resource] == "seed");
 }
 
 TEST_CASE("a first value that is a number costs no use") {

@@ -9,6 +9,7 @@
 #include "engine/graph/expand/names/settings.h"
 #include "engine/graph/print/print.h"
 #include "tests/graph/expand/support.h"
+#include "tests/graph/language/expr_text.h"
 
 using namespace weft;
 using namespace weft::graph;
@@ -108,15 +109,15 @@ TEST_CASE("live: a parameter on which nothing but uniforms depends, also through
   CHECK(e.of(text::Code::unusedDeclaration).message.find("'idle'") != std::string::npos);
   CHECK(liveOf(e) == "plain base speed idle mode p.e");
   // What is known stays folded; parameters and ages are leaves.
-  CHECK(e.uniform("p", "a").dynamic.text() == "$#0");
-  CHECK(e.uniform("p", "b").dynamic.text() == "$#1 * 2 + 1");
+  CHECK(textOf(e.uniform("p", "a").dynamic) == "$#0");
+  CHECK(textOf(e.uniform("p", "b").dynamic) == "$#1 * 2 + 1");
   CHECK(e.uniform("p", "b").dynamic.parameterKeys() == std::vector<std::uint32_t>{1});
   CHECK(e.uniform("p", "b").value == Value::number(7));
-  CHECK(e.uniform("p", "c").dynamic.text() == "min(age(#1) / $#2, 1) * ($#1 * 2)");
+  CHECK(textOf(e.uniform("p", "c").dynamic) == "min(age(#1) / $#2, 1) * ($#1 * 2)");
   CHECK(e.uniform("p", "c").dynamic.dynamic());
-  CHECK(e.uniform("p", "d").dynamic.text() == "$#5 == b ? $#0 : 0");
+  CHECK(textOf(e.uniform("p", "d").dynamic) == "$#5 == b ? $#0 : 0");
   CHECK(e.uniform("p", "d").dynamic.parameterKeys() == std::vector<std::uint32_t>{0, 5});
-  CHECK(e.uniform("p", "e").dynamic.text() == "$#7");
+  CHECK(textOf(e.uniform("p", "e").dynamic) == "$#7");
 }
 
 TEST_CASE("live: whatever shapes the plan is structural") {
@@ -236,10 +237,14 @@ Expanded followed(const std::string& parameters, const std::string& head = "", c
 
 // "camera.position" of each, in the order of their keys.
 std::string watchedOf(const Expanded& e) {
+  const Registry registry = testRegistry();
   std::string all;
-  for (const WatchedValue& each : e.graph->watched)
-    all += e.graph->imports[each.import].name + each.text() +
+  for (const WatchedValue& each : e.graph->watched) {
+    const ImportSpec& import = e.graph->imports[each.import];
+    const auto type = std::ranges::find(registry.imports, import.request.type, &ImportType::name);
+    all += import.name + "." + type->columns[each.column].name +
            (each.part == kWholeValue ? " " : "#" + std::to_string(each.part) + " ");
+  }
   return all;
 }
 

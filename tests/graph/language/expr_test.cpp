@@ -7,6 +7,7 @@
 
 #include "tests/graph/allocation_count.h"
 #include "tests/graph/expand/map_scope.h"
+#include "tests/graph/language/expr_text.h"
 
 using namespace weft::graph;
 using weft::text::Code;
@@ -61,10 +62,10 @@ std::string eval(std::string_view text) {
   }
   // What is printed reads back as the same value.
   Diagnostics again;
-  const auto copy = Expr::parse(expr->text(), placeAt(10), again);
-  REQUIRE_MESSAGE(copy, expr->text());
-  CHECK_MESSAGE(copy->evaluate(scope, again) == value, expr->text());
-  CHECK(copy->text() == expr->text());
+  const auto copy = Expr::parse(textOf(*expr), placeAt(10), again);
+  REQUIRE_MESSAGE(copy, textOf(*expr));
+  CHECK_MESSAGE(copy->evaluate(scope, again) == value, textOf(*expr));
+  CHECK(textOf(*copy) == textOf(*expr));
   return toText(value);
 }
 
@@ -134,7 +135,7 @@ TEST_CASE("signs print without parentheses, which would nest deeper; a member of
   const auto print = [](const std::string& text) {
     Diagnostics diagnostics;
     const auto expr = Expr::parse(text, placeAt(10), diagnostics);
-    return expr ? expr->text() : diagnostics.text();
+    return expr ? textOf(*expr) : diagnostics.text();
   };
   for (const std::string& text : {std::string(60, '-') + "$x", std::string(60, '!') + "$x"})
     CHECK(print(text) == text);
@@ -320,7 +321,7 @@ TEST_CASE("folding keeps only what changes from frame to frame") {
   const Expr folded = fade.fold(scope, diagnostics);
   REQUIRE(folded.present());
   CHECK(folded.dynamic());
-  CHECK(folded.text() == "min(age(#4) / 0.25, 1) * 100");
+  CHECK(textOf(folded) == "min(age(#4) / 0.25, 1) * 100");
   const std::function<double(std::uint32_t)> age = [](std::uint32_t key) { return key == 4 ? 0.125 : 0.0; };
   CHECK(folded.evaluateFolded(age) == Value::number(50));
   const std::function<double(std::uint32_t)> never = [](std::uint32_t) {
@@ -332,8 +333,8 @@ TEST_CASE("folding keeps only what changes from frame to frame") {
   CHECK(!fixed.dynamic());
   CHECK(fixed.isConstant());
   CHECK(fixed.evaluateFolded(age) == list({80, 45}));
-  CHECK(parse("$bloom || age(mean) > 1").fold(scope, diagnostics).text() == "true");
-  CHECK(parse("age(mean) > 1 ? [age(mean), 2] : $tiles").fold(scope, diagnostics).text() ==
+  CHECK(textOf(parse("$bloom || age(mean) > 1").fold(scope, diagnostics)) == "true");
+  CHECK(textOf(parse("age(mean) > 1 ? [age(mean), 2] : $tiles").fold(scope, diagnostics)) ==
         "age(#9) > 1 ? [age(#9), 2] : [80, 45]");
   CHECK(diagnostics.empty());
 
@@ -359,12 +360,12 @@ TEST_CASE("a let that contains age is folded into its users") {
   const Expr folded = user.fold(scope, diagnostics);
   REQUIRE(folded.present());
   CHECK(folded.dynamic());
-  CHECK(folded.text() == "min(age(#9) / 0.25, 1) * 101");
+  CHECK(textOf(folded) == "min(age(#9) / 0.25, 1) * 101");
   const std::function<double(std::uint32_t)> age = [](std::uint32_t) { return 0.125; };
   CHECK(folded.evaluateFolded(age) == Value::number(50.5));
   CHECK(parse("$fixed").fold(scope, diagnostics).isConstant());
   // Folding what is folded changes nothing.
-  CHECK(folded.fold(scope, diagnostics).text() == folded.text());
+  CHECK(textOf(folded.fold(scope, diagnostics)) == textOf(folded));
   CHECK(diagnostics.empty());
 }
 
@@ -390,7 +391,7 @@ TEST_CASE("literals and lists made of JSON values") {
   CHECK(number.place().column == 4);
   Diagnostics diagnostics;
   const Expr mixed = Expr::listOf({number, Expr::parse("$n/2", placeAt(9), diagnostics).value()}, placeAt(3));
-  CHECK(mixed.text() == "[2048, $n / 2]");
+  CHECK(textOf(mixed) == "[2048, $n / 2]");
   CHECK(mixed.place().column == 3);
   MapScope scope = makeScope();
   CHECK(mixed.evaluate(scope, diagnostics) == list({2048, 50}));

@@ -118,22 +118,6 @@ TEST_CASE("equal plans differ in nothing; a disabled pass, a moved one and a siz
             "~ resource keys: buffer of 64 bytes before, now buffer of 96 bytes\n"));
 }
 
-TEST_CASE("a plan as a graph file gives the same plan") {
-  const auto plan = planOf(kChain);
-  const std::string file = graphFileOf(*plan);
-  INFO(file);
-  const auto again = planOf(file);
-  std::string expected = dumpText(*plan);
-  // Names become plain.
-  for (const auto& [name, plain] :
-       {std::pair<std::string, std::string>{"down[1]", "down_1"}, {"down[2]", "down_2"}, {"ldr#2", "ldr_v2"}})
-    for (std::size_t at = expected.find(name); at != std::string::npos; at = expected.find(name))
-      expected.replace(at, name.size(), plain);
-  CHECK(dumpText(*again) == expected);
-  // The file is its own expansion.
-  CHECK(graphFileOf(*again) == file);
-}
-
 TEST_CASE("lists of alternatives, imports under names of their own and tables are explained") {
   const auto plan = planOf(R"({
     "name": "names",
@@ -167,26 +151,4 @@ TEST_CASE("lists of alternatives, imports under names of their own and tables ar
   CHECK(has(sky, "name sky: the first that is there of '@environment if $sunny', 'hdr' at chain.json:6:7\n"));
   CHECK(has(sky, "resource @environment: texture rgba16f 2048x1024"));
   CHECK(has(sky, "resource hdr: texture rgba8 8x8"));
-}
-
-TEST_CASE("an expanded graph keeps the values that reset a history") {
-  const auto plan = planOf(R"J({
-    "parameters": { "scale": { "default": 2 } },
-    "resources": {
-      "old": { "texture": "rgba8", "size": 8, "history": 1, "reset": ["@cut", "size(ldr)", "$scale"] },
-      "ldr": { "texture": "rgba8", "size": [8, 4] }
-    },
-    "passes": [
-      { "name": "mix", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "before": "old@-1" },
-        "write": { "result": "ldr" } },
-      { "name": "keep", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "source": "ldr" }, "write": { "result": "old" } }
-    ],
-    "present": "ldr"
-  })J");
-  REQUIRE(plan->graph->histories.size() == 1);
-  CHECK(plan->graph->histories[0].resetValues.size() == 2);
-  const auto again = planOf(graphFileOf(*plan));
-  REQUIRE(again->graph->histories.size() == 1);
-  CHECK(again->graph->histories[0].resetValues == plan->graph->histories[0].resetValues);
-  CHECK(again->graph->histories[0].resetImports.size() == 1);
 }

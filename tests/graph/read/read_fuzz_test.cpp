@@ -11,6 +11,7 @@
 
 #include "engine/graph/read/read.h"
 #include "engine/graph/read/ref_parse.h"
+#include "tests/graph/language/expr_text.h"
 
 using namespace weft::graph;
 using weft::text::Diagnostics;
@@ -133,9 +134,9 @@ TEST_CASE("random soups of tokens: expressions print as what they parse to, refe
     if (expr) {
       ++parsed;
       Diagnostics again;
-      const auto copy = Expr::parse(expr->text(), place, again);
-      REQUIRE_MESSAGE(copy, text, " -> ", expr->text());
-      CHECK_MESSAGE(copy->text() == expr->text(), text);
+      const auto copy = Expr::parse(textOf(*expr), place, again);
+      REQUIRE_MESSAGE(copy, text, " -> ", textOf(*expr));
+      CHECK_MESSAGE(textOf(*copy) == textOf(*expr), text);
     }
     Diagnostics said;
     const bool isRef = parseRef(text, place, said).has_value();

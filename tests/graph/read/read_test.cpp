@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "engine/graph/language/keys.h"
+#include "tests/graph/language/expr_text.h"
 #include "tests/json_pointer.h"
 
 using namespace weft::graph;
@@ -178,9 +179,9 @@ TEST_CASE("every part of a graph arrives in its description") {
   const ResourceDesc& camera = all[6];
   CHECK(camera.import.type == "camera");
   REQUIRE(camera.import.arguments.size() == 4);
-  CHECK(camera.import.arguments[1].expr.text() == "a b/c.cube");
-  CHECK(camera.import.arguments[2].expr.text() == "$lut");
-  CHECK(camera.import.arguments[3].expr.text() == "cpu_radix");
+  CHECK(textOf(camera.import.arguments[1].expr) == "a b/c.cube");
+  CHECK(textOf(camera.import.arguments[2].expr) == "$lut");
+  CHECK(textOf(camera.import.arguments[3].expr) == "cpu_radix");
   CHECK(all[7].alternatives.size() == 2);
   CHECK(all[8].alternatives[0].import);
 
@@ -194,14 +195,14 @@ TEST_CASE("every part of a graph arrives in its description") {
   CHECK(one.slots[0].access == Access::write);  // in file order
   CHECK(one.slots[2].access == Access::modify);
   CHECK(slotOf(one, "source")->mip->first.text() == "k");
-  CHECK(one.parameters[0].value.text() == "k");
+  CHECK(textOf(one.parameters[0].value) == "k");
   CHECK(one.parameters[1].declared->min == 0.0);
-  CHECK(one.defines[0].expr.text() == "j == 0");
+  CHECK(textOf(one.defines[0].expr) == "j == 0");
   REQUIRE(one.state.size() == 4);
   CHECK(one.state[0].name == "blend.result");
   CHECK(one.state[1].name == "blend.velocity");
   CHECK(one.state[2].name == "depth_test");
-  CHECK(one.state[3].expr.text() == "[2, 4]");
+  CHECK(textOf(one.state[3].expr) == "[2, 4]");
   CHECK(one.cadence == Cadence::on_change);
   CHECK(one.geometry == "icosphere");
   CHECK(one.geometryArguments[0].text() == "$count");

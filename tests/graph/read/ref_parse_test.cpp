@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/graph/language/keys.h"
+#include "tests/graph/language/expr_text.h"
 
 using namespace weft::graph;
 using weft::text::Code;
@@ -56,7 +57,7 @@ TEST_CASE("selectors and spans") {
   const RefDesc glow = parse("glow.mip[i-1]");
   REQUIRE(glow.mip);
   CHECK(!glow.mip->range);
-  CHECK(glow.mip->first.text() == "i - 1");
+  CHECK(textOf(glow.mip->first) == "i - 1");
   CHECK(glow.mip->first.place().column == 10);
   const RefDesc rest = parse("sky_map.mip[1..]");
   CHECK(rest.mip->range);
@@ -97,14 +98,14 @@ TEST_CASE("history, words, conditions, optional") {
   CHECK(parse("glow.mip[0]?").optional);
   const RefDesc bloom = parse("glow.mip[0] if $bloom ?");
   CHECK(bloom.optional);
-  CHECK(bloom.condition.text() == "$bloom");
+  CHECK(textOf(bloom.condition) == "$bloom");
   CHECK(bloom.condition.place().column == 16);
   const RefDesc sh = parse("gi.sh as linear if $gi_sampling == textures ?");
-  CHECK(sh.condition.text() == "$gi_sampling == textures");
-  CHECK(parse("a if $b ? $c : $d").condition.text() == "$b ? $c : $d");
+  CHECK(textOf(sh.condition) == "$gi_sampling == textures");
+  CHECK(textOf(parse("a if $b ? $c : $d").condition) == "$b ? $c : $d");
   CHECK(!parse("a if $b ? $c : $d").optional);
   CHECK(parse("a if $b ? $c : $d ?").optional);
-  CHECK(parse("cpu_order if $sort != gpu_bitonic").condition.text() == "$sort != gpu_bitonic");
+  CHECK(textOf(parse("cpu_order if $sort != gpu_bitonic").condition) == "$sort != gpu_bitonic");
 }
 
 TEST_CASE("words with arguments behind 'as'") {
@@ -116,7 +117,7 @@ TEST_CASE("words with arguments behind 'as'") {
   const RefDesc map = parse("a as linear border( 1,-2.5 , 3e2, 0 ) if $b ?");
   CHECK(map.sampler == Sampler{.linear = true, .wrap = Wrap::border});
   CHECK(map.border == BorderColor{1, -2.5f, 300, 0});
-  CHECK(map.condition.text() == "$b");
+  CHECK(textOf(map.condition) == "$b");
   CHECK(map.optional);
   CHECK(!parse("a as compare").sampler.function);
   for (std::size_t i = 0; i < kCompareNames.size(); ++i) {

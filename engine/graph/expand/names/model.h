@@ -251,7 +251,7 @@ bool report(Model& model, text::Saying<Args...> what, const Where& place, Args&&
 }
 // The same where the sentence was checked before.
 template <class... Own, class... Args>
-bool report(Model& model, text::SentenceFor<Own...> what, const Where& place, const Args&... args) {
+bool reportChecked(Model& model, text::SentenceFor<Own...> what, const Where& place, const Args&... args) {
   model.diagnostics.add(text::Severity::error,
                         text::diagnosticOf(what.sentence, fmt::make_format_args(args...)), place);
   return false;

@@ -318,8 +318,7 @@ std::optional<std::uint32_t> Names::importKey(const ImportValue& asked) {
            each.part == asked.part;
   });
   const auto index = static_cast<std::uint32_t>(known - watched.begin());
-  if (known == watched.end())
-    watched.push_back({import, asked.row, found.column, asked.part, found.told->name, shape});
+  if (known == watched.end()) watched.push_back({import, asked.row, found.column, asked.part, shape});
   return static_cast<std::uint32_t>(model_.parameters.size()) + index;
 }
 

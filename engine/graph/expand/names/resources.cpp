@@ -42,10 +42,10 @@ bool checkArgument(Model& model, const Entity& entity, const ImportArgument& arg
                                : numeric        ? "a number"
                                                 : fmt::format("a value like {}", toText(initial));
   using Misfit = text::SentenceFor<std::string, std::string, std::string, std::string, std::string>;
-  return report(model,
-                word && argument.drawList ? Misfit(say::argumentOfUnknownList) : say::argumentDoesNotFit,
-                given.expr.place(), entity.name, argument.name, expected, toText(value),
-                text::nearestHint(value.symbol, words));
+  return reportChecked(
+      model, word && argument.drawList ? Misfit(say::argumentOfUnknownList) : say::argumentDoesNotFit,
+      given.expr.place(), entity.name, argument.name, expected, toText(value),
+      text::nearestHint(value.symbol, words));
 }
 
 // The import that the word of an argument names.
@@ -240,7 +240,7 @@ bool decideTarget(Model& model, Entity& entity) {
                {(shape.samples & (shape.samples - 1)) != 0, desc.samples.place(), say::samplesOutOfRange},
                {cube && shape.layers * 6u > kMaxLayers, desc.layers.place(), say::tooManyCubes}};
   for (const auto& [broken, place, what] : rules)
-    if (broken) return report(model, what, place, entity.name);
+    if (broken) return reportChecked(model, what, place, entity.name);
   if (several) shape.target = Target::texture_2d_multisample;
   if (cube) {
     shape.target = desc.view == "cube" ? Target::texture_cube : Target::texture_cube_array;

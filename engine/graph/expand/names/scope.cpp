@@ -378,7 +378,7 @@ const std::string* nameMeant(Model& model, Model::Asked::Kind kind, const Scope&
   const Misspelt what = resource                           ? Misspelt(say::nothingNamesResource)
                         : kind == Model::Asked::Kind::pass ? Misspelt(say::passAskedUnderOtherName)
                                                            : Misspelt(say::nothingNamesVariable);
-  report(model, what, place, name, meant->first, meant->second);
+  reportChecked(model, what, place, name, meant->first, meant->second);
   const std::string& known = model.misspelt.emplace_back(meant->first);
   std::erase_if(model.asked, [&](const auto& each) { return each.name == known && isNear(each); });
   return &known;
