@@ -1,6 +1,5 @@
 // One sphere, found by intersecting the ray of the pixel; lit by the environment, the sun and lamps.
 // read    air?: fog/fog.glsl; the lights: spheres/light.glsl
-//         silhouettes?   spheres in front of this one whose silhouettes meet its own, see spheres/silhouettes.glsl
 //         front_depth?   only what is behind this depth is drawn; any sampler (texels are fetched)
 // modify  radiance   scene-referred, premultiplied by coverage: blend "premultiplied"
 //         velocity   screen UV per frame; not blended, the nearest sphere's
@@ -9,7 +8,7 @@
 //         SHOW_LAMPS    instead of light, how many lamps each pixel goes through, see shading/show_lamps.glsl
 //
 // Coverage comes from the signed distance in pixels from the pixel's center to the silhouette, which is a conic: exact along its normal, no
-// derivatives. Depth goes with every pixel that is covered at all, at the point of tangency outside the silhouette: the test and the write
+// derivatives; where two cross in a pixel, the spheres blend as if their edges were independent. Depth goes with every pixel that is covered at all, at the point of tangency outside the silhouette: the test and the write
 // of a fragment cannot be parted, and drawn back to front whatever lies behind is there already.
 #include "common/view.glsl"
 #include "fog/fog.glsl"
@@ -18,7 +17,6 @@
 #include "spheres/light.glsl"
 
 mat3 to_world = mat3(right_eye.xyz, up_eye.xyz, cross(right_eye.xyz, up_eye.xyz));
-#include "spheres/silhouettes.glsl"
 
 #ifdef HAS_FRONT_DEPTH
 uniform sampler2D front_depth;
@@ -73,9 +71,6 @@ Hit hitSphere() {
   float outside = 2.0 * q / max(steep + sqrt(max(steep * steep - 4.0 * curve * q, 0.0)), 1e-30);
   float inside = -outside - silhouette_shift;
   float coverage = d2 <= r2 ? 1.0 : halfPlane(inside, abs(outwards));
-#ifdef HAS_SILHOUETTES
-  if (coverage > 0.0 && coverage < 1.0 && square_side == 0.0) coverage = min(coverage * leftBehind(inside, outwards, v, vv), 1.0);
-#endif
   if (square_side > 0.0) {  // small ones only
     vec2 lengths = clamp(0.5 * (square_side + 1.0) - abs(pixels), 0.0, min(square_side, 1.0));
     coverage = mix(lengths.x * lengths.y, coverage, clamp(square_side * inversesqrt(kPi) - 0.8, 0.0, 1.0));

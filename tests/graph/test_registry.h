@@ -127,10 +127,6 @@ inline std::vector<ImportType> testImports() {
        "",
        {argument("of", Value::text("all"), {"all", "opaque", "spheres"}), argument("name", Value::text("")),
         argument("tag", Value::text("")), argument("material_name", Value::text("")), orderArgument()}},
-      {"silhouettes",
-       ImportKind::buffer,
-       "",
-       {drawListArgument(), argument("height", Value::number(720)), viewArgument()}},
       {"cube_lut", ImportKind::texture, "", {argument("file", Value{})}},
       {"image",
        ImportKind::texture,
@@ -176,6 +172,14 @@ inline ImportFacts testFacts(const World& world, const ImportRequest& request) {
     facts.height = 32;
     facts.mips = request.arguments[5].second.truth() ? 7 : 1;
     facts.changing = request.arguments[0].second.symbol.find("##") != std::string::npos;
+    if (request.at("fps").v[0] < 0) {
+      text::Diagnostic problem;  // as the import says it: without a place
+      problem.code = text::Code::badImportArgument;
+      problem.message = "\"fps\" is below 0";
+      problem.expected = "pictures per second, or 0 for one per frame";
+      problem.found = toText(request.at("fps"));
+      facts.problems.push_back(problem);
+    }
   } else if (request.type == "spheres") {
     facts.count = world.spheres;
     facts.bytes = 4800;
@@ -196,14 +200,6 @@ inline ImportFacts testFacts(const World& world, const ImportRequest& request) {
   } else if (request.type == "shadowed_lights") {
     facts.exists = world.shadowedLights > 0;
     facts.count = world.shadowedLights;
-  } else if (request.type == "silhouettes" && request.at("height").v[0] < 1) {
-    text::Diagnostic problem;  // as the import says it: without a place
-    problem.code = text::Code::badImportArgument;
-    problem.message = "import 'silhouettes': argument 'height' does not fit";
-    problem.expected = "the height of the picture, 1 to 65536 pixels";
-    problem.found = toText(request.at("height"));
-    problem.hint = "write \"height\": \"size(hdr).y\", with the picture's name in place of hdr";
-    facts.problems.push_back(problem);
   }
   return facts;
 }

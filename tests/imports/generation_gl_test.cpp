@@ -106,7 +106,7 @@ TEST_CASE("an import has one generation as long as nothing of it changes, and an
       check();
     } else {
       // Views, and what is made for the eye.
-      if (type.name == "camera" || type.name == "draw_order" || type.name == "silhouettes") {
+      if (type.name == "camera" || type.name == "draw_order") {
         const auto check = moves("the camera");
         moment.input.pose.position.y += 1;
         check();

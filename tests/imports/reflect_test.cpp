@@ -83,11 +83,10 @@ TEST_CASE(
     }
     CHECK(importOf(type.name).provide(requestOf(type.name)));
   }
-  CHECK(names ==
-        std::set<std::string>{"camera",          "cube_lut",      "cut",       "draw_list", "draw_order",
-                              "environment",     "ground",        "image",     "joints",    "lamps",
-                              "material_layers", "material_maps", "materials", "meshes",    "mouse",
-                              "silhouettes",     "second_uvs",    "spheres",   "sun",       "vertex_colors"});
+  CHECK(names == std::set<std::string>{"camera", "cube_lut", "cut", "draw_list", "draw_order", "environment",
+                                       "ground", "image", "joints", "lamps", "material_layers",
+                                       "material_maps", "materials", "meshes", "mouse", "second_uvs",
+                                       "spheres", "sun", "vertex_colors"});
   CHECK_FALSE(registry().find("clouds"));
 }
 
@@ -126,17 +125,6 @@ TEST_CASE("a draw order has eight bytes per instance of the list that it names, 
   CHECK(facts.count == 3);
   CHECK(facts.bytes == 24);
   CHECK(factsOf(requestOf("draw_order", "list", "opaque"), {}).bytes == 8);
-}
-
-TEST_CASE(
-    "silhouettes have the rows of the list that they name, and a size that is known when they are found") {
-  const graph::ImportType type = importOf("silhouettes").reflect();
-  CHECK(type.kind == ImportKind::buffer);
-  CHECK(type.columns.empty());
-  const graph::ImportFacts facts = factsOf(requestOf("silhouettes", "list", "opaque"), factsWith(7, 3));
-  CHECK(facts.exists);
-  CHECK(facts.count == 3);
-  CHECK(facts.bytes == 0);
 }
 
 TEST_CASE("a draw list of nothing is told with the nearest word of the scene, unless no scene is known") {
