@@ -98,7 +98,7 @@ void WindowInput::onKey(const ui::WindowEvent& event) {
   const char* letter = glfwGetKeyName(event.key, event.scancode);
   const int written = letter && letter[0] && !letter[1] ? std::toupper(letter[0]) : event.key;
   // Ctrl may be held for the mouse.
-  const bool digit = event.key >= GLFW_KEY_1 && event.key <= GLFW_KEY_9;
+  const bool digit = event.key >= GLFW_KEY_0 && event.key <= GLFW_KEY_9;
   const KeyBinding* row = nullptr;
   for (const WithKey with : {WithKey::control, shift}) {
     if (with == WithKey::control && !(event.mods & GLFW_MOD_CONTROL)) continue;

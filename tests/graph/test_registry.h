@@ -93,6 +93,7 @@ inline std::vector<ImportType> testImports() {
       {"cut", ImportKind::event, "", {}},
       {"mouse", ImportKind::buffer, "", {}},
       {"spheres", ImportKind::buffer, "", {}},
+      {"boxes", ImportKind::buffer, "", {}},
       {.name = "sun",
        .kind = ImportKind::buffer,
        .doc = "",
@@ -215,6 +216,7 @@ inline Registry testRegistry(const World& world = {}) {
                          {"mesh", {}, true},
                          {"octagon", {}},
                          {.name = "points", .arguments = {{"vertices", 0, 2147483647}}, .counted = true},
+                         {.name = "lines", .arguments = {{"vertices", 0, 2147483647}}, .counted = true},
                          {"triangle", {}}};
   registry.factsOf = [world](const ImportRequest& request) { return testFacts(world, request); };
   return registry;

@@ -113,7 +113,8 @@ int countWrong(const std::vector<float>& picture, float moved) {
 }
 
 struct Drawn {
-  explicit Drawn(scene::Scene scene) : stage("tests/imports/graphs/mesh.json", kWidth, kHeight) {
+  explicit Drawn(scene::Scene scene, const std::string& graph = "mesh")
+      : stage("tests/imports/graphs/" + graph + ".json", kWidth, kHeight) {
     stage.world.setScene(std::move(scene));
     REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   }
@@ -150,6 +151,58 @@ TEST_CASE("a pass that runs on change follows meshes that move; another scene re
   drawn.stage.world.setScene(std::move(empty));
   drawn.stage.run(22);
   for (const float value : drawn.stage.read("seen")) REQUIRE(value == 0);
+}
+
+TEST_CASE("boxes are drawn around what is in any list, dashed where a mesh is in front") {
+  context();
+  const CleanScope scope;
+  constexpr float kPixel = kViewHeight / kHeight;
+  scene::Scene scene = sceneOf();
+  scene.spheres.add({.center = {-3, -2.5f, 0}, .radius = 0.9f, .material = scene.materials.idOf(0)});
+  std::vector<scene::Box> boxes{{{-3.9f, -3.4f, -0.9f}, {-2.1f, -1.6f, 0.9f}}};
+  for (const Placed& placed : kPlaced) {
+    const auto turned = glm::rotate(glm::mat4(1), placed.turn, glm::vec3(0, 0, 1));
+    scene::Box mesh, &box = boxes.emplace_back();
+    for (const glm::vec2 corner : kShapes[static_cast<std::size_t>(placed.shape)].corners)
+      mesh.add({corner, 0});
+    for (const glm::vec2 corner :
+         {glm::vec2(mesh.low), glm::vec2(mesh.high), {mesh.low.x, mesh.high.y}, {mesh.high.x, mesh.low.y}})
+      box.add(placed.at + placed.scale * glm::vec3(turned * glm::vec4(corner, 0, 1)));
+  }
+  Drawn drawn(std::move(scene), "boxes");
+  drawn.stage.run(0);
+  const std::vector<float> picture = drawn.stage.read("ldr");
+  const auto colored = [&](int x, int y) {
+    return x >= 0 && y >= 0 && x < int{kWidth} && y < int{kHeight} &&
+           picture[static_cast<std::size_t>((y * int{kWidth} + x) * 4 + 3)] > 0;
+  };
+  // From a point to the outline of a box that is seen from above.
+  const auto distance = [](const scene::Box& box, glm::vec2 point) {
+    const glm::vec2 outside = glm::max(glm::vec2(box.low) - point, point - glm::vec2(box.high));
+    return std::abs(std::min(std::max(outside.x, outside.y), 0.0f) + glm::length(glm::max(outside, 0.0f)));
+  };
+  int stray = 0, missing = 0, gaps = 0;
+  for (int y = 0; y < int{kHeight}; ++y)
+    for (int x = 0; x < int{kWidth}; ++x) {
+      const glm::vec2 point = (glm::vec2(x, y) + 0.5f - glm::vec2(kWidth, kHeight) / 2.0f) * kPixel;
+      float nearest = 100;
+      for (const scene::Box& box : boxes) nearest = std::min(nearest, distance(box, point));
+      if (colored(x, y)) stray += nearest > kPixel;
+      bool around = false;
+      for (int i = 0; i < 9; ++i) around = around || colored(x + i % 3 - 1, y + i / 3 - 1);
+      for (const scene::Box& box : boxes) {
+        if (distance(box, point) > 0.4f * kPixel) continue;
+        const bool hidden = std::ranges::any_of(kPlaced, [&](const Placed& each) {
+          return (each.lists & scene::maskOf(scene::DrawList::opaque)) != 0 && each.at.z > box.high.z &&
+                 isInside(each, point);
+        });
+        gaps += hidden && !colored(x, y);
+        missing += !hidden && !around;
+      }
+    }
+  CHECK(stray == 0);
+  CHECK(missing == 0);
+  CHECK(gaps > 0);
 }
 
 }  // namespace mesh_test

@@ -83,10 +83,11 @@ TEST_CASE(
     }
     CHECK(importOf(type.name).provide(requestOf(type.name)));
   }
-  CHECK(names == std::set<std::string>{"camera", "cube_lut", "cut", "draw_list", "draw_order", "environment",
-                                       "ground", "image", "joints", "lamps", "material_layers",
-                                       "material_maps", "materials", "meshes", "mouse", "second_uvs",
-                                       "spheres", "sun", "vertex_colors"});
+  CHECK(names == std::set<std::string>{"boxes",         "camera",     "cube_lut",    "cut",
+                                       "draw_list",     "draw_order", "environment", "ground",
+                                       "image",         "joints",     "lamps",       "material_layers",
+                                       "material_maps", "materials",  "meshes",      "mouse",
+                                       "second_uvs",    "spheres",    "sun",         "vertex_colors"});
   CHECK_FALSE(registry().find("clouds"));
 }
 
@@ -112,6 +113,11 @@ TEST_CASE("spheres are a table of instances, as many as the world's list has") {
   CHECK(type.arguments.empty());
   CHECK(factsOf(requestOf("spheres"), factsWith(7, 3)).count == 7);
   CHECK(factsOf(requestOf("spheres"), {}).count == 0);
+}
+
+TEST_CASE("boxes are those of all spheres and meshes, whatever their lists") {
+  CHECK(factsOf(requestOf("boxes"), factsWith(7, 3)).count == 10);
+  CHECK(factsOf(requestOf("boxes"), {}).exists);
 }
 
 TEST_CASE("a draw order has eight bytes per instance of the list that it names, and room for one") {

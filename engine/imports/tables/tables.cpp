@@ -1,4 +1,4 @@
-// The imports that are tables of the scene: spheres and meshes of draw lists, and joints, vertex colors, materials and ground;
+// The imports that are tables of the scene: spheres and meshes of draw lists, and joints, vertex colors, materials, ground and boxes;
 // and the mouse. And those that are no tables, but as small: the maps of materials, the order of spheres, and the event of a jump.
 #include <algorithm>
 #include <array>
@@ -272,6 +272,36 @@ struct Ground : SceneTable<scene::Ground> {
   static auto rows(const Frame& frame) { return std::array{frame.world.scene().ground.value_or(Row{})}; }
 };
 
+struct Boxes {
+  using Row = scene::Box;
+  static ImportType reflect() {
+    return {
+        .name = "boxes",
+        .doc = "Around each sphere and each mesh of the scene, one row each, as they stand in the frame."};
+  }
+  static Columns<Row> columns() {
+    return {column<Row, &Row::low>("low", "world; over `high` where a mesh has no vertices"),
+            column<Row, &Row::high>("high", "world")};
+  }
+  static ImportFacts facts(const WorldFacts& world) {
+    return {.exists = true, .count = world.spheresOf({}) + world.meshesOf({})};
+  }
+  static std::vector<Row> rows(const Frame& frame) {
+    const scene::DrawList all = frame.tables.listOf({});
+    std::vector<Row> rows;
+    for (const scene::Instance& each : frame.tables.rows(all))
+      rows.push_back({each.center - each.radius, each.center + each.radius});
+    const auto meshes = frame.tables.meshFrame().bounds(all);
+    rows.insert(rows.end(), meshes.begin(), meshes.end());
+    return rows;
+  }
+  static std::uint64_t generation(const Frame& frame) {
+    const scene::DrawList all = frame.tables.listOf({});
+    return text::hashCombine(frame.tables.generation(all), frame.tables.meshFrame().generation(all));
+  }
+  static bool isStill(const World& world) { return !scene::isMoving(world.scene()); }
+};
+
 struct Mouse {
   using Row = Pointer;
   static ImportType reflect() {
@@ -411,8 +441,8 @@ void addTables(graph::PlugIns<Import>& imports) {
   const auto add = [&]<class... Made>() { (imports.add(std::make_unique<ImportOf<Made>>()), ...); };
   add.operator()<SpheresProvider, MeshesProvider, TableProvider<Materials>, TableProvider<Layers>,
                  TableProvider<Joints>, TableProvider<VertexColors>, TableProvider<SecondUvs>,
-                 TableProvider<Ground>, TableProvider<Mouse>, MaterialMapsProvider, DrawOrderProvider,
-                 CutProvider>();
+                 TableProvider<Ground>, TableProvider<Boxes>, TableProvider<Mouse>, MaterialMapsProvider,
+                 DrawOrderProvider, CutProvider>();
 }
 
 }  // namespace weft::imports

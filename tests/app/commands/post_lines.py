@@ -12,7 +12,8 @@ import sys
 from program import Report, TOP, run, temporary_folder
 
 LINE = re.compile(r'^    \{ "include": "(?:effects/)?(\w+)\.json".*$', re.M)
-SWITCHES = {"depth_of_field": "dof", "taa": "taa", "motion_blur": "motion_blur", "bloom": "bloom", "exposure": "auto_exposure", "fxaa": "fxaa"}
+SWITCHES = {"depth_of_field": "dof", "taa": "taa", "motion_blur": "motion_blur", "bloom": "bloom", "exposure": "auto_exposure", "fxaa": "fxaa", "boxes": "boxes"}
+LAST = ("fxaa", "boxes")  # they change `ldr`
 
 
 def with_lines(text, lines):
@@ -45,9 +46,9 @@ def main():
         checked([lines["composite"]])
         for gone in (*SWITCHES, "fade"):
             checked([line for effect, line in lines.items() if effect != gone], *everything)
-        behind = [lines["composite"], lines["fxaa"]]
+        behind = [lines["composite"], *(lines[effect] for effect in LAST)]
         # The fade stands in each place in turn.
-        effects = [e for e in SWITCHES if e != "fxaa"]
+        effects = [e for e in SWITCHES if e not in LAST]
         # Williams's design: in the rows and their mirror images each effect is next to each other one.
         report.check(len(effects) == 5, f"the rows are made for five effects, not {len(effects)}")
         rows = [[effects[(first + step) % 5] for step in (0, 1, 4, 2, 3)] for first in range(5)]
@@ -55,11 +56,11 @@ def main():
             at = i % (len(order) + 1)
             checked([lines[effect] for effect in (*order[:at], "fade", *order[at:])] + behind, *everything)
 
-        # What moves below the composite, or fxaa above it, reaches the picture no more: a warning names its passes.
+        # What moves below the composite, or one of the last above it, reaches the picture no more: a warning names its passes.
         for effect in (*SWITCHES, "fade"):
             part = "dof" if effect == "depth_of_field" else effect
             moved = [lines[e] for e in lines if e not in (effect, "fxaa", "composite")]
-            moved += [lines["fxaa"], lines["composite"]] if effect == "fxaa" else [lines["composite"], lines[effect], lines["fxaa"]]
+            moved += [lines[effect], lines["composite"]] if effect in LAST else [lines["composite"], lines[effect], lines["fxaa"]]
             post.write_text(with_lines(text, moved))
             only = [word for e, switch in SWITCHES.items() for word in ("--set", f"{switch}={str(e == effect).lower()}")]
             made = run(weft, "check", folder / "graphs/studio.json", "--no-shaders", *only)

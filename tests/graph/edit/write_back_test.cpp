@@ -333,7 +333,7 @@ TEST_CASE("random tweaks of the bundled graph come back from its files, and only
   for (int round = 0; round < 12; ++round) {
     const OverlayFolder folder;
     for (const char* name : {"ibl.json", "daylight.json", "daylight_sun.json", "lit.json",
-                             "mesh_shadows.json", "neighbors.json", "fade.json", "post.json"})
+                             "mesh_shadows.json", "neighbors.json", "fade.json", "post.json", "boxes.json"})
       folder.copy(name);
     for (const auto& effect : fs::directory_iterator(WEFT_SOURCE_DIR "/graphs/effects"))
       folder.copy("effects/" + effect.path().filename().string());

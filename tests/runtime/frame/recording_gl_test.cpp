@@ -56,8 +56,9 @@ std::vector<std::string> bundledIn(const std::string& folder) {
 
 // Parts whose inputs only an includer binds.
 const std::set<std::string> kParts = {
-    "graphs/daylight_sun.json", "graphs/deferred_lit.json", "graphs/fade.json",      "graphs/gi_debug.json",
-    "graphs/lit.json",          "graphs/mesh_shadows.json", "graphs/neighbors.json", "graphs/post.json"};
+    "graphs/boxes.json",        "graphs/daylight_sun.json", "graphs/deferred_lit.json",
+    "graphs/fade.json",         "graphs/gi_debug.json",     "graphs/lit.json",
+    "graphs/mesh_shadows.json", "graphs/neighbors.json",    "graphs/post.json"};
 
 }  // namespace
 
