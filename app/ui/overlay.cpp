@@ -112,8 +112,10 @@ bool Overlay::wantsMouse() const {
   return ImGui::GetIO().WantCaptureMouse;
 }
 
+// WantTextInput alone still holds in the layout after Enter has closed the field.
 bool Overlay::wantsKeys() const {
-  return ImGui::GetIO().WantTextInput;
+  const ImGuiContext& context = *ImGui::GetCurrentContext();
+  return context.IO.WantTextInput && context.ActiveId == context.InputTextState.ID;
 }
 
 bool Overlay::listOpen() const {
