@@ -75,12 +75,14 @@ bool LiveGraph::load(text::Diagnostics& diagnostics) {
 bool LiveGraph::tryLoad(Attempt attempt, text::Diagnostics& diagnostics) {
   runtime::World world = world_;
   text::Diagnostics said;
-  const bool good = tryScene(world, said) && tryGraph(attempt, world, said);
+  const bool scene = tryScene(world, said), good = scene && tryGraph(attempt, world, said);
   if (good || attempt == Attempt::final) diagnostics.append(said);
   if (good) {
     world_ = std::move(world);
     if (!scene_.loading()) scene_.settle();
     ++switches_;
+  } else if (!scene && attempt == Attempt::final && scene_.goBack()) {
+    graphStale_ = untried_ = true;
   }
   watch(&diagnostics);
   return good;
@@ -182,8 +184,11 @@ bool LiveGraph::pollEnvironment(text::Diagnostics& diagnostics) {
   if (!event) return false;
   runtime::World world = world_;
   if (*event) world.setEnvironment(*event);
-  environmentGood_ = *event != nullptr && tryWorld(world, diagnostics);
-  if (!environmentGood_ && world_.environmentPending()) {
+  const bool taken = *event != nullptr && tryWorld(world, diagnostics);
+  // One that was opened and refused leaves the one that is shown as good as it was.
+  if (taken || world_.environmentPending() || environment_.wanted() == environment_.shown())
+    environmentGood_ = taken;
+  if (!taken && world_.environmentPending()) {
     world = world_;
     world.expectEnvironment(false);
     tryWorld(world, diagnostics);
@@ -433,7 +438,7 @@ bool LiveGraph::open(const std::string& file, text::Diagnostics& diagnostics) {
   }
   bool scene = assets::isModelName(file);
   Moment wanted = now(), before = wanted;
-  if (!scene) {
+  if (!scene || !text::isThere(file)) {
     const auto text = text::readTextFile(file, diagnostics);
     if (!text) return false;
     const text::JsonEdit json(*text);

@@ -41,6 +41,13 @@ std::shared_ptr<const LiveScene::Loaded> LiveScene::read(const std::string& path
   return loaded;
 }
 
+bool LiveScene::goBack() {
+  if (!before_) return false;
+  std::tie(path_, choice_, files_) = *std::exchange(before_, {});
+  outdate();
+  return true;
+}
+
 void LiveScene::outdate() {
   outdated_ = true;
   arrived_ = nullptr;
@@ -74,7 +81,11 @@ const scene::Scene* LiveScene::scene(text::Diagnostics& diagnostics) {
 }
 
 std::optional<std::string> firstEnvironment(const std::string& fileOrFolder, text::Diagnostics& diagnostics) {
-  if (!text::isFolder(fileOrFolder)) return fileOrFolder;
+  if (!text::isFolder(fileOrFolder)) {
+    const bool there = text::isThere(fileOrFolder);
+    if (!there) assets::loadEnvironmentMap(fileOrFolder, diagnostics);  // says so
+    return there ? std::optional(fileOrFolder) : std::nullopt;
+  }
   const std::vector<std::string> files = listEnvironments(fileOrFolder);
   if (!files.empty()) return files.front();
   diagnostics.error(say::noEnvironmentInFolder, {fileOrFolder}, fileOrFolder);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -29,11 +30,14 @@ class LiveScene {
 
   // Another file from now on, as when the one before had changed.
   void choose(std::string path) {
+    if (!before_) before_.emplace(path_, choice_, files_);
     path_ = std::move(path);
     files_ = {path_};
     choice_ = {};
     outdate();
   }
+  // The file before, as when it had changed. False unless another one was chosen and is not shown yet.
+  bool goBack();
   // To be called when the files have changed since they were read: what arrived, or is on its way, is out of date.
   void outdate();
   bool outdated() const { return outdated_; }
@@ -41,6 +45,7 @@ class LiveScene {
   void settle() {
     outdated_ = false;
     arrived_ = nullptr;
+    before_.reset();
   }
 
   // Begins to read the scene beside the frames. Even when it is read at once, only arrived() takes it.
@@ -63,13 +68,14 @@ class LiveScene {
   std::string path_;
   scene::SceneChoice choice_;  // of the first file
   std::vector<std::string> files_;
+  std::optional<std::tuple<std::string, scene::SceneChoice, std::vector<std::string>>> before_;
   bool outdated_ = false;
   bool loading_ = false;
   std::shared_ptr<const Loaded> arrived_;  // null: not yet
   assets::Loader loader_;
 };
 
-// The file that `--environment` means: itself, or the first of a folder. Empty after W150: there is none.
+// The file that `--environment` means: itself, or the first of a folder. Empty after W150: it is not there, or there is none.
 std::optional<std::string> firstEnvironment(const std::string& fileOrFolder, text::Diagnostics& diagnostics);
 
 // The environment of a window: the file that is shown, the one on its way, and the others of its folder. Loads on the loader

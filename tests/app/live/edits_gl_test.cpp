@@ -1,5 +1,6 @@
 // Random edits of a running graph and as many undos: every file is byte for byte what it was, and plan and parameters are the same. What
-// undo took back, redo makes again. WEFT_EDITS: how many of each graph (default: 400, and 80 of graphs of many passes).
+// undo took back, redo makes again. WEFT_EDITS: how many of each graph (default: 400, and 80 of graphs of many passes). And files that are
+// opened and refused.
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -7,6 +8,7 @@
 #include <iterator>
 #include <map>
 #include <random>
+#include <thread>
 
 #include "app/live/live_graph.h"
 #include "engine/graph/print/print.h"
@@ -142,4 +144,68 @@ TEST_CASE("random edits and as many undos leave every file as it was") {
   checkEdits("glow.json", all, 1);
   checkEdits("studio.json", wanted ? all : all / 5, 2);
   checkEdits("deferred_gi.json", wanted ? all : all / 5, 3);
+}
+
+TEST_CASE("a scene or an environment that is opened and refused leaves what is shown, and good") {
+  const CleanScope clean;
+  const TemporaryFolder folder;
+  fs::copy(sourcePath("graphs"), folder.at("graphs"), fs::copy_options::recursive);
+  const app::Options options{.graph = folder.at("graphs/glow.json"), .width = kWidth, .height = kHeight};
+  runtime::Renderer renderer(context(), options.graph,
+                             {.dataFolder = WEFT_SOURCE_DIR, .cacheFolder = {}, .presets = {}});
+  app::LiveGraph live(options, renderer, worldOf(),
+                      {.screenWidth = kWidth, .screenHeight = kHeight, .software = true});
+  text::Diagnostics said;
+  REQUIRE_MESSAGE(live.load(said), said.text());
+  double now = 0;
+  const auto until = [&](const auto& holds) {
+    for (int i = 0; i < 60000 && !holds(); ++i) {
+      live.poll(++now, said);
+      live.pollEnvironment(said);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return holds();
+  };
+  const auto refused = [&] { return until([&] { return said.hasErrors(); }); };
+
+  const std::string scene = live.scene().path();
+  for (const char* missing : {"no.hdr", "no.glb", "no.json"}) {
+    said = {};
+    CHECK_FALSE(live.open(folder.at(missing), said));
+    CHECK(said.hasErrors());
+    CHECK(live.good());
+  }
+  for (const auto& [name, text] :
+       {std::pair("no_model.glb", "7"), std::pair("no_scene.json", "{ \"spheres\": 7 }")}) {
+    CAPTURE(name);
+    said = {};
+    CHECK(live.open(folder.write(name, text), said));
+    CHECK(refused());
+    CHECK(live.scene().path() == scene);
+    CHECK(until([&] { return live.good() && !live.scene().outdated(); }));
+    const std::uint64_t switches = live.switches();
+    std::ofstream(options.graph, std::ios::app) << "\n";
+    CHECK(until([&] { return live.switches() > switches; }));  // files are followed as before
+  }
+
+  const std::string map = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n" + std::string(32, 'a');
+  const auto open = [&](const std::string& name, const std::string& text) {
+    said = {};
+    CHECK(live.open(folder.write(name, text), said));
+    CHECK(until([&] { return !live.environment().loading(); }));
+  };
+  open("no_map.hdr", "7");
+  CHECK(said.hasErrors());
+  CHECK(live.good());
+  open("map.hdr", map);
+  CHECK_MESSAGE(said.empty(), said.text());
+  CHECK(live.environment().shown() == folder.at("map.hdr"));
+  open("no_other.hdr", "7");
+  CHECK(said.hasErrors());
+  CHECK(live.good());
+  open("other.hdr", map);
+  folder.write("other.hdr", "7");  // what is shown is not good any more
+  CHECK(until([&] { return !live.good(); }));
+  open("no_third.hdr", "7");
+  CHECK_FALSE(live.good());
 }

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """What the viewer reads again. A file that became a pipe is refused on reload, the last good picture stays and Escape works; so does it
-while an environment's pipe has no writer. A shader that appears before the one in use is taken, and so is that one when it vanishes and
+while an environment's pipe has no writer. An environment that is not there ends the program at its start; one that is opened in the window and
+refused does not count at its end. A shader that appears before the one in use is taken, and so is that one when it vanishes and
 comes back; what it includes is found beside the one it stands in for."""
 import os
+import re
 
 from window import Session, run_parts, save
 
@@ -40,6 +42,34 @@ def waits_for_a_pipe(weft, folder, report):
         live.stop()
 
 
+def refused(weft, folder, report):
+    live = Session(weft, folder, "--environment", "missing.hdr", graph="graphs/glow.json")
+    try:
+        live.until(lambda: not live.alive())
+        report.check(live.process.poll() == 1 and "missing.hdr: error[W150]" in live.said() and not live.lines(),
+                     f"a missing environment: exit code {live.process.poll()}, {live.lines()}\n{live.said()}")
+    finally:
+        live.stop()
+    (folder / "broken.hdr").write_text("no picture")
+    (folder / "broken.glb").write_text("no model")
+    live = Session(weft, folder, graph="graphs/glow.json", size="1100x400")
+    try:
+        if not report.check(live.open(40, 40) and live.shot(), f"no window\n{live.said()}"):
+            return
+        for name, code in (("missing.hdr", "W150"), ("missing.glb", "W001"), ("broken.hdr", "W150"), ("broken.glb", "W002")):
+            said, since = len(live.said()), live.mark()
+            live.act("ctrl+o", "open")
+            live.key("ctrl+a")
+            live.tool("type", name)
+            live.key("Return")
+            report.check(live.event(f"opened {name}", since), f"{name} is not taken\n{live.lines()[-5:]}")
+            report.check(live.until(lambda: re.search(rf"{name}(:\d+)*: error\[{code}\]", live.said()[said:])), f"{name}: no {code} in\n{live.said()[said:]}")
+        report.check(live.event("files good", since), f"the scene before does not come back\n{live.lines()[-5:]}")
+        live.leave(report)
+    finally:
+        live.stop()
+
+
 def appears_and_vanishes(weft, folder, report):
     mine = folder / "mine"
     mine.mkdir()
@@ -65,4 +95,4 @@ def appears_and_vanishes(weft, folder, report):
         live.stop()
 
 
-run_parts(__file__, becomes_a_pipe, waits_for_a_pipe, appears_and_vanishes)
+run_parts(__file__, becomes_a_pipe, waits_for_a_pipe, refused, appears_and_vanishes)
