@@ -2,7 +2,8 @@
 """The viewer's panels in a window of a virtual display: each opens, at content scales 1 and 2, and the picture beside them is on the screen
 as F12 saves it, to the bit. A value and a pass changed on the command line are shown by F8 and written by the second, comments and
 all; Ctrl Z gives the files back byte for byte; files of the installation stay as they are. Esc closes what is on top, and asks
-before changes are lost. Events that come while a frame is drawn are all seen, in their order. Whose a drag is, is judged where it
+before changes are lost; a preset that is saved there draws the same picture again. A right click gives a parameter the value of the file.
+Events that come while a frame is drawn are all seen, in their order. Whose a drag is, is judged where it
 begins, however fast the mouse got there; at rest in idle mode a drag turns the picture."""
 import json
 import os
@@ -13,7 +14,7 @@ import signal
 import sys
 
 from pictures import decode, read_png
-from program import Report, temporary_folder
+from program import Report, run, temporary_folder
 from screen import Screen
 from window import Session, copy_of_tree, edit, inside_display, save
 
@@ -89,6 +90,58 @@ def write_back(weft, folder, report):
             live.act("F8", "write_back")
             report.check("error[W196]" in live.said() and [path.read_text() for path in files] == before, "F8 writes over Weft's own files")
             live.leave(report)
+    finally:
+        live.stop()
+
+
+def preset(weft, folder, report):
+    """A right click takes back one parameter and leaves the other; F8 saves what is changed as a preset, and `render` draws its picture."""
+    home, mine = folder / "home/weft", folder / "mine"
+    shutil.rmtree(home, ignore_errors=True)
+    (mine / "shaders").mkdir(parents=True)
+    (mine / "two.json").write_text(TWO)
+    (mine / "shaders/two.frag.glsl").write_text(TWO_SHADER)
+    live = Session(weft, folder, "--idle", "--panels", "parameters", graph="mine/two.json", size="640x360", data=False)
+
+    def right(y):
+        """Whether a right click there changes something. Keys are taken in order: the panels have seen the click before the key."""
+        live.tool("mousemove", "--window", live.window, 338, y)
+        since = live.mark()
+        live.tool("click", 3)
+        live.act("b", "head_bob")
+        return any(re.fullmatch(r"event \d+ change", line) for line in live.lines()[since:])
+
+    try:
+        if not report.check(live.open(40, 40) and live.rest(0), f"no picture at rest\n{live.said()}"):
+            return
+        shots = [live.shot().read_bytes()]
+        for key, action in (("Up", "step exposure"), ("F2", "toggle bloom")):
+            live.act(key, action)
+            report.check(live.until(lambda: (s := live.shot().read_bytes()) not in shots and not shots.append(s)), f"{action} changes nothing")
+        report.check(not right(350), "a right click beside the parameters changes something")
+        report.check(live.until(lambda: live.shot().read_bytes() == shots[2]), "a right click changes the picture")
+        rows = [y for y in range(40, 200, 6) if right(y)]
+        report.check(len(rows) == 2, f"right clicks change something at {rows}, not at two rows")
+        report.check(live.until(lambda: live.shot().read_bytes() == shots[0]), "right clicks do not give the values of the file")
+        live.act("ctrl+z", "undo")
+        report.check(live.until(lambda: live.shot().read_bytes() not in (shots[0], shots[2])), "Ctrl Z does not take back one right click")
+        live.act("ctrl+z", "undo")
+        report.check(live.until(lambda: live.shot().read_bytes() == shots[2]), "Ctrl Z does not take back both right clicks")
+        live.act("F8", "write_back")
+        live.click(60, 299)
+        live.tool("type", "evening")
+        report.check(live.click(260, 299), f"the button of the preset does nothing\n{live.lines()[-5:]}")
+        file = home / "presets/evening.json"
+        report.check(live.line(f"wrote {re.escape(str(file))}"), f"no preset is written\n{live.lines()[-5:]}\n{live.said()}")
+        report.check(json.loads(file.read_text()) == {"name": "evening", "set": {"exposure": 1.5, "bloom": False}}, file.read_text())
+        report.check((mine / "two.json").read_text() == TWO, "the graph is written, too")
+        report.check(live.until(lambda: live.shot().read_bytes() == shots[2]), "the preset is another picture")
+        command = live.line(r"weft render .* --size ([^ ]+) .*--preset ([^ ]+).*", live.key("c"))
+        live.leave(report)  # nothing is unsaved
+        if report.check(command and command[2] == str(file), f"C does not name the preset\n{live.lines()[-5:]}"):
+            environment = {**os.environ, "XDG_CONFIG_HOME": str(folder / "home")}
+            done = run(weft, "render", mine / "two.json", "--preset", "evening", "--size", command[1], "-o", folder / "evening.png", env=environment)
+            report.check(done.code == 0 and (folder / "evening.png").read_bytes() == shots[2], f"render draws another picture with the preset\n{done.err}")
     finally:
         live.stop()
 
@@ -452,6 +505,12 @@ def places(weft, folder, report):
     report.check(run("--panels", "passes", size="")[0] == first[0], "damaged places are taken up")
 
 
+TWO = """{ "parameters": { "exposure": { "default": 1.0, "min": 0, "max": 2 }, "bloom": { "default": true } },
+  "resources": { "ldr": { "texture": "rgba8", "size": "screen" } },
+  "passes": [ { "name": "two", "type": "fullscreen", "shader": "two.frag.glsl", "write": { "result": "ldr" }, "parameters": { "gain": "$exposure * ($bloom ? 0.5 : 0.25)" } } ],
+  "present": "ldr" }
+"""
+TWO_SHADER = "layout(std140) uniform Parameters { float gain; };\nin vec2 uv;\nout vec4 result;\nvoid main() { result = vec4(gain * uv, 0.25, 1.0); }\n"
 KEYED = """{ "parameters": { "exposure": { "default": 1.0, "min": 0, "max": 4 }, "curve": { "default": "plain", "choices": ["plain", "dark"] },
     "bloom": { "default": true } },
   "resources": { "ldr": { "texture": "rgba8", "size": "screen" }, "seen": { "texture": "rgba8", "size": "screen" } },
@@ -490,6 +549,7 @@ def main():
             old.unlink()
         effects(weft, folder, report)
         pictures(weft, folder, display, report)
+        preset(weft, folder, report)
         save_camera(weft, folder, report)
         write_back(weft, folder, report)
         hidden(weft, folder, report)
