@@ -25,8 +25,8 @@ mkdir -p "$WEFT_KEEP_FILES"
 
 python3 "$top/tests/fuzz/fuzz.py" "$build" "$WEFT_KEEP_FILES"
 
-# The scripts: a report goes to a file and fails the script that caused it (tests/app/program.py), whatever became of the exit code and
-# the output. The viewer's driver stays loaded until leaks are looked for.
+# The scripts: a report goes to a file and fails the script that caused it (run_script.py, tests/app/program.py). The viewer's driver stays
+# loaded until leaks are looked for.
 cc -shared -fPIC -o "$build/keep_drivers.so" "$top/tests/app/hostile/keep_drivers.c"
 cat >"$build/weft_kept" <<END
 #!/bin/sh
@@ -40,18 +40,9 @@ compare="$build/tests/app/weft_compare"
 logs="$build/sanitized"
 rm -rf "$logs"
 mkdir "$logs"
-# run_script LOG SCRIPT ARGUMENTS... (a script below tests/app): reports and output stand in files of this script alone; the output is shown when it is done.
+# run_script LOG SCRIPT ARGUMENTS... (a script below tests/app)
 run_script() {
-  local log="$logs/$1" began=$SECONDS code=0
-  local reports="log_path=$log.report"
-  ASAN_OPTIONS="$ASAN_OPTIONS:verify_asan_link_order=0:$reports" UBSAN_OPTIONS="$UBSAN_OPTIONS:$reports" LSAN_OPTIONS="$LSAN_OPTIONS:$reports" \
-    PYTHONPATH="$top/tests/app" python3 "$top/tests/app/$2.py" "${@:3}" --sanitized >"$log" 2>&1 || code=$?
-  printf -- '-- %s: %s s\n%s\n' "$1" $((SECONDS - began)) "$(cat "$log")"
-  if compgen -G "$log.report.*" >/dev/null; then
-    cat "$log".report.*
-    return 1
-  fi
-  [ "$code" = 0 ] || [ "$code" = 77 ]
+  python3 "$top/tests/app/hostile/run_script.py" "$logs/$1" "${@:2}"
 }
 # runs LOGS...: how often the program was run by these.
 runs() {
