@@ -2,6 +2,8 @@
 For every script of docs/ and tests/ that looks at pictures, shows them, or judges the files that Weft reads and writes."""
 import struct
 import zlib
+from itertools import accumulate, repeat
+from operator import add, and_
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 CHANNELS = {0: 1, 2: 3, 4: 2, 6: 4}
@@ -39,10 +41,17 @@ def decode(data):
     raw, stride, before, out = zlib.decompress(packed), width * channels, bytearray(width * channels), bytearray()
     for y in range(height):
         kind, row = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-        for x in range(stride if kind else 0):
-            a = row[x - channels] if x >= channels else 0
-            b, c = before[x], before[x - channels] if x >= channels else 0
-            row[x] = (row[x] + (0, a, b, (a + b) // 2, paeth(a, b, c) if kind == 4 else 0)[kind]) & 255
+        if kind == 1:
+            for c in range(channels):
+                row[c::channels] = bytes(map(and_, accumulate(row[c::channels]), repeat(255)))
+        elif kind == 2:
+            row = bytearray(map(and_, map(add, row, before), repeat(255)))
+        elif kind:
+            left, corner = [0] * channels, [0] * channels  # of the next texel
+            for x, (value, b) in enumerate(zip(row, before)):
+                a, c = left[x % channels], corner[x % channels]
+                row[x] = left[x % channels] = (value + ((a + b) // 2 if kind == 3 else paeth(a, b, c))) & 255
+                corner[x % channels] = b
         out += row
         before = row
     return width, channels, bytes(out)

@@ -4,6 +4,8 @@ import pathlib
 import struct
 import sys
 import zlib
+from itertools import accumulate, repeat
+from operator import and_
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "docs/gallery"))
 from png import decode, encode  # noqa: E402
@@ -68,8 +70,8 @@ def jpeg(levels):
             dc + ac + segment(0xDA, bytes([1, 1, 0, 0, 63, 0])) + data + b"\xff\xd9")
 
 
-def read_exr(data):
-    """Rows of tuples (R, G, B, A) or (Y,): scan lines of floats or halves, not compressed or ZIP."""
+def read_exr(data, most=None):
+    """The first rows, `most` at least, or all, of tuples (R, G, B, A) or (Y,): scan lines of floats or halves, not compressed or ZIP."""
     assert data[:4] == struct.pack("<I", 20000630)
     at, attributes = 8, {}
     while data[at]:
@@ -89,15 +91,14 @@ def read_exr(data):
     compression = attributes["compression"][0]
     lines = {0: 1, 2: 1, 3: 16}[compression]
     row_bytes = sum(width * (2 if kind == 1 else 4) for _, kind in channels)
-    chunks = -(-height // lines)
+    chunks = -(-min(height, most or height) // lines)
     rows = []
     for place in struct.unpack_from(f"<{chunks}Q", data, at):
         first, size = struct.unpack_from("<ii", data, place)
         raw, wanted = data[place + 8:place + 8 + size], row_bytes * min(lines, top + height - first)
         if size < wanted:  # deflated: differences of bytes, the even ones first
-            mixed = bytearray(zlib.decompress(raw))
-            for i in range(1, len(mixed)):
-                mixed[i] = (mixed[i - 1] + mixed[i] - 128) & 255
+            mixed = bytearray(map(and_, accumulate(zlib.decompress(raw)), repeat(255)))
+            mixed[1::2] = mixed[1::2].translate(bytes(value ^ 128 for value in range(256)))
             half = (len(mixed) + 1) // 2
             raw = bytearray(len(mixed))
             raw[0::2], raw[1::2] = mixed[:half], mixed[half:]

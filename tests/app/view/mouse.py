@@ -47,8 +47,7 @@ class Eyes:
 
     def look(self):
         shot = self.live.shot("shift+F12")
-        rows = read_exr(shot.read_bytes())
-        even, odd, third = rows[0][:3]
+        even, odd, third = read_exr(shot.read_bytes(), 1)[0][:3]
         return {"position": even[:2], "dragged": even[2:], "pressed": odd[:2], "down": odd[2], "eye": third[:3]}
 
     def until(self, **wanted):
@@ -173,7 +172,7 @@ class Clicks:
         self.live = live
 
     def look(self):
-        clicks, *rest = read_exr(self.live.shot("shift+F12").read_bytes())[0][0]
+        clicks, *rest = read_exr(self.live.shot("shift+F12").read_bytes(), 1)[0][0]
         return {"clicks": clicks, "pressed": tuple(rest[:2])}
 
     def come_to(self, number, place):
@@ -183,8 +182,7 @@ class Clicks:
 
 
 def click(live, x, y):
-    live.tool("mousemove", "--window", live.window, x, y)
-    live.tool("click", 1)
+    live.tool("mousemove", "--window", live.window, x, y, "click", 1)
 
 
 def counts_clicks(weft, folder, report):

@@ -193,9 +193,7 @@ def effects(weft, folder, report):
         before = live.mark()
         live.process.send_signal(signal.SIGSTOP)
         for _ in range(3):
-            live.tool("mousemove", "--window", live.window, 331, rows[0])
-            live.tool("click", 1)
-            live.tool("key", "b")
+            live.tool("mousemove", "--window", live.window, 331, rows[0], "click", 1, "key", "b")
         live.process.send_signal(signal.SIGCONT)
         report.check(live.until(lambda: sum(line.endswith("action head_bob") for line in live.lines()[before:]) == 3), "a key is lost")
         changes = [line for line in live.lines()[before:] if line.endswith(" change")]
@@ -280,11 +278,8 @@ TINT = "uniform sampler2D source;\nout vec4 result;\nvoid main() { result = texe
 
 def drag(live, start):
     """To the left."""
-    live.tool("mousemove", "--window", live.window, *start)
-    live.tool("mousedown", 1)
-    for x in (20, 40, 60):
-        live.tool("mousemove", "--window", live.window, start[0] - x, start[1])
-    live.tool("mouseup", 1)
+    move = ("mousemove", "--window", live.window)
+    live.tool(*move, *start, "mousedown", 1, *(word for x in (20, 40, 60) for word in (*move, start[0] - x, start[1])), "mouseup", 1)
 
 
 def at_once(live, rest, start):
@@ -390,8 +385,7 @@ def compare(weft, folder, display, report):
         report.check(live.until(lambda: divided(4)), "not divided in the middle")
         middle, y = width // 2, len(shots[0]) // 2
         live.process.send_signal(signal.SIGSTOP)  # a frame may take longer than a hand: the whole drag arrives in one
-        for step in (("mousemove", middle, y), ("mousedown", 1), ("mousemove", width // 4, y), ("mouseup", 1), ("mousemove", 1200, 300)):
-            live.tool(*step)
+        live.tool("mousemove", middle, y, "mousedown", 1, "mousemove", width // 4, y, "mouseup", 1, "mousemove", 1200, 300)
         live.process.send_signal(signal.SIGCONT)
         report.check(live.until(lambda: divided(2)), "the line does not follow the mouse")
         before = live.act("F11", "full_screen") and live.mark()
