@@ -79,8 +79,8 @@ def measure(build, size, lamps, everywhere, spheres, folder):
         sets = ["show_lamps=true", "bloom=false", "fxaa=false", "dither=false", "curve=linear", "composite.white=1"]
         run(build, "render", GRAPH, "--scene", scene, "--size", size, "--quiet", "-o", picture, *(w for s in sets for w in ("--set", s)))
         touched, over = touched_in(picture)
-    bench = json.loads(run(build, "bench", "--frame", GRAPH, "--scene", scene, "--size", size))
-    plain = next(each for each in bench["variants"] if each["name"] == "plain")
+    bench = json.loads(run(build, "bench", "--frame", GRAPH, "--variant", "plain", "--scene", scene, "--size", size))
+    plain, = bench["variants"]
     row = {"lamps": lamps, "reach": "everywhere" if everywhere else "near", "touched": round(touched, 2) if over <= 0.01 else None,
            "frame_copies": plain["copies"], "passes": {each["pass"]: each["copies"] for each in plain["passes"]}}
     if over > 0.01:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <functional>
 #include <limits>
 
 #include "app/live/live_graph.h"
@@ -158,7 +159,8 @@ graph::Settings settingsWith(const Options& options, const graph::FlatGraph& gra
 
 // Costs of a graph's frame in full-screen copies (graphs/bench_copy.json), both measured in turns, so that the ratio means something on a
 // busy machine: the least of all rounds; on software also in CPU time. Variants: "plain" (effects off but fxaa), "default", and "all".
-std::optional<Json> benchFrame(const Options& options, DeviceSession& session, const runtime::World& world,
+std::optional<Json> benchFrame(const std::vector<std::string>& names, const Options& options,
+                               DeviceSession& session, const runtime::World& world,
                                text::Diagnostics& diagnostics) {
   gl::Context& context = *session.context;
   const bool software = context.device().software;
@@ -176,7 +178,7 @@ std::optional<Json> benchFrame(const Options& options, DeviceSession& session, c
   Json out = headOf(options, context), variants = Json::array();
   Cost unit;
   std::vector<Cost> costs;
-  for (const char* variant : {"plain", "default", "all"}) {
+  for (const std::string& variant : names) {
     runtime::Renderer renderer(context, options.graph, uncached);
     if (!renderer.load(settingsWith(options, *whole->graph, software, variant), world, diagnostics))
       return std::nullopt;
@@ -216,6 +218,7 @@ std::optional<Json> benchFrame(const Options& options, DeviceSession& session, c
 
 struct BenchOptions : Options {
   std::string frameGraph, editGraph;
+  std::vector<std::string> variants = {"plain", "default", "all"};
 };
 
 // Of the graphs that are named; of graphs/studio.json both, when none is.
@@ -234,7 +237,7 @@ int runBench(BenchOptions& options) {
     });
   };
   run("edit", options.editGraph, benchEdits);
-  run("frame", options.frameGraph, benchFrame);
+  run("frame", options.frameGraph, std::bind_front(benchFrame, options.variants));
   if (code == 0) print(text::dumpJson(both ? out : *out.begin()) + "\n");
   return code;
 }
@@ -252,6 +255,8 @@ int main(int argc, char** argv) {
   addPath(command, "--frame", options.frameGraph, "graph file: its frame in full-screen copies");
   addPath(command, "--edit", options.editGraph, "graph file: what a changed parameter and a saved file cost")
       ->excludes("--frame");
+  command.add_option("--variant", options.variants, "of --frame, where not all three; repeatable")
+      ->check(CLI::IsMember(options.variants));
   options.addWorld(command);
   options.addBackend(command);
   return finishStreams(line.run(argc, argv));
