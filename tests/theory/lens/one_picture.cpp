@@ -34,6 +34,11 @@ OnePicture::OnePicture(std::vector<Ball> balls, const scene::CameraKey& camera, 
         const int at = y * width_ + x;
         if (seen[std::size_t(beside)] != seen[std::size_t(at)]) balls_seen_[std::size_t(at)] = kMixed;
       }
+  for (int at = 0; at < width_ * height_; ++at) {
+    const glm::ivec2 pixel(at % width_, at / width_);
+    Box& box = boxes_.try_emplace(balls_seen_[std::size_t(at)], pixel, pixel).first->second;
+    box = {glm::min(box.least, pixel), glm::max(box.most, pixel)};
+  }
 }
 
 OnePicture::View OnePicture::viewOf(const scene::CameraKey& camera) const {
@@ -64,8 +69,9 @@ OnePicture::Hit OnePicture::hitOf(const std::vector<Target>& targets, glm::dvec3
     const double along = glm::dot(targets[i].to, ray), root = along * along - squared * targets[i].outside;
     if (root < 0) continue;
     const double distance = (along - std::sqrt(root)) / squared;
-    if (distance > 0 && distance < hit.distance) hit = {int(i), distance, eye + distance * ray};
+    if (distance > 0 && distance < hit.distance) hit.ball = int(i), hit.distance = distance;
   }
+  if (hit.ball != kSky) hit.position = eye + hit.distance * ray;
   return hit;
 }
 
@@ -86,8 +92,12 @@ int OnePicture::guess(int ball, glm::dvec2 pixel) const {
   const int x = std::clamp(int(std::floor(pixel.x)), 0, width_ - 1);
   const int y = std::clamp(int(std::floor(pixel.y)), 0, height_ - 1);
   int found = y * width_ + x;
+  const auto there = boxes_.find(ball);
+  if (there == boxes_.end()) return found;
+  const auto& [lowest, highest] = there->second;
   double least = 1e30;
-  for (int ring = 0; ring < std::max(width_, height_) && double(ring - 2) * (ring - 2) < least; ++ring)
+  int ring = std::max({0, lowest.x - x, x - highest.x, lowest.y - y, y - highest.y});
+  for (; ring < std::max(width_, height_) && double(ring - 2) * (ring - 2) < least; ++ring)
     for (int j = -ring; j <= ring; ++j)
       for (int i = -ring; i <= ring; i += std::abs(j) == ring ? 1 : 2 * ring) {
         if (x + i < 0 || y + j < 0 || x + i >= width_ || y + j >= height_) continue;

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <glm/glm.hpp>
+#include <map>
 #include <vector>
 
 #include "tests/theory/lab.h"
@@ -53,6 +54,10 @@ class OnePicture {
   View view_;
   std::vector<Target> targets_;  // from the picture's eye, at its moment
   std::vector<int> balls_seen_;  // of each pixel; kMixed where a neighbor sees another
+  struct Box {
+    glm::ivec2 least, most;
+  };
+  std::map<int, Box> boxes_;  // around the pixels that have one ball, or the sky
   Radiance picture_, true_colors_, its_colors_;
   double hidden_ = 0;
 };
