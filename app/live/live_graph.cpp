@@ -75,14 +75,15 @@ bool LiveGraph::load(text::Diagnostics& diagnostics) {
 bool LiveGraph::tryLoad(Attempt attempt, text::Diagnostics& diagnostics) {
   runtime::World world = world_;
   text::Diagnostics said;
+  wentBack_ = false;
   const bool scene = tryScene(world, said), good = scene && tryGraph(attempt, world, said);
   if (good || attempt == Attempt::final) diagnostics.append(said);
   if (good) {
     world_ = std::move(world);
     if (!scene_.loading()) scene_.settle();
     ++switches_;
-  } else if (!scene && attempt == Attempt::final && scene_.goBack()) {
-    graphStale_ = untried_ = true;
+  } else if ((!scene || good_) && attempt == Attempt::final && scene_.goBack()) {
+    wentBack_ = graphStale_ = untried_ = true;
   }
   watch(&diagnostics);
   return good;

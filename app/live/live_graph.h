@@ -75,6 +75,8 @@ class LiveGraph {
   bool running() const { return renderer_.execution() != nullptr; }
   // Whether the files as they are on disk are what is shown.
   bool good() const { return good_ && environmentGood_; }
+  // Whether the last load was refused for a scene that was opened: the one before comes back.
+  bool wentBack() const { return wentBack_; }
   // Count switches to another plan, live parameters that were set, and calls of setParameter and setEnabled.
   std::uint64_t switches() const { return switches_; }
   std::uint64_t livesSet() const { return livesSet_; }
@@ -114,7 +116,7 @@ class LiveGraph {
   LiveEnvironment environment_;
   std::vector<std::string> presetFolders_;
   text::FileWatcher watcher_;
-  bool graphStale_ = false, good_ = false, environmentGood_ = true;
+  bool graphStale_ = false, good_ = false, environmentGood_ = true, wentBack_ = false;
   bool untried_ = false;              // as the files are since the last change
   std::string changedEnvironment_;    // to be loaded again, or empty
   double changedAt_ = 0, quiet_ = 0;  // seconds

@@ -28,8 +28,10 @@ namespace {
 
 constexpr std::string_view kBeginning = "{\"frame\":";
 
-// Of a file that the person named; "" of one that cannot be read.
+// Of a file that the person named; "" of one that cannot be read, and of a pipe.
 std::string hashOf(const std::string& file) {
+  std::error_code ec;
+  if (!fs::is_regular_file(file, ec)) return "";
   text::chooseFile(file);
   text::Diagnostics unread;
   const auto bytes = text::readFile(file, unread);
@@ -121,8 +123,8 @@ bool Manifest::isDone(std::uint32_t frame, std::span<const std::string> files) c
   const auto found = done_.find(frame);
   return found != done_.end() && std::ranges::all_of(files, [&](const std::string& file) {
            const auto hash = found->second.find(nameOf(file));
-           std::error_code ec;
-           return hash != found->second.end() && fs::is_regular_file(file, ec) && *hash == hashOf(file);
+           const std::string now = hashOf(file);
+           return hash != found->second.end() && !now.empty() && *hash == now;
          });
 }
 

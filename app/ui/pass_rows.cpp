@@ -3,6 +3,7 @@
 #include <map>
 
 #include "engine/graph/flat_graph.h"
+#include "engine/graph/language/expr_node.h"
 #include "engine/graph/language/names.h"
 
 namespace weft::app::ui {
@@ -62,12 +63,12 @@ std::string disabledBy(const PassRow& row, const graph::Settings& settings) {
 }
 
 std::string switchParameterOf(const PassRow& row, const graph::FlatGraph& graph) {
-  const std::string condition = row.desc->enabled.present() ? row.desc->enabled.text() : "";
-  if (row.on > 0 || !condition.starts_with('$')) return {};
+  const std::string* const condition = graph::onlyVariableOf(row.desc->enabled);
+  if (row.on > 0 || !condition) return {};
   // As the file names it, or a file around it.
   for (std::string scope = row.name; !scope.empty();) {
     scope.resize(scope.find('.') == std::string::npos ? 0 : scope.rfind('.'));
-    const std::string path = (scope.empty() ? "" : scope + ".") + condition.substr(1);
+    const std::string path = (scope.empty() ? "" : scope + ".") + *condition;
     for (const graph::ParameterSpec& parameter : graph.parameters)
       if (parameter.path == path && parameter.desc.type == graph::ParameterDesc::Type::boolean)
         return parameter.value.truth() ? "" : path;

@@ -538,7 +538,7 @@ void Viewer::update(gl::Size size) {
     say("loading " + live_.scene().name());
   if (looked) {
     ++arrivals_;
-    tell(diagnostics_, log_, ui::Log::kFiles);
+    tell(diagnostics_, log_, live_.wentBack() ? ui::Log::kChange : ui::Log::kFiles);
     restless_ = kRestlessAfterEvent;
     say(live_.good() ? "files good" : "files wrong");
   }

@@ -177,7 +177,7 @@ std::optional<Expr> Expr::parse(std::string_view text, const text::Place& place,
   ExprPtr root = parseExprTree(text, place, diagnostics);
   if (!root) return std::nullopt;
   Expr parsed(std::move(root), place);
-  parsed.source_ = text;
+  if (!parsed.isConstant()) parsed.source_ = text;
   return parsed;
 }
 

@@ -127,7 +127,7 @@ class Expr {
   Expr column(std::uint8_t part) const;
   // The keys of those, each once, ascending.
   std::vector<std::uint32_t> parameterKeys() const;
-  // As the file writes it; not of a folded one.
+  // As the file writes it, of a literal its value; not of a folded one.
   std::string text() const;
   const text::Place& place() const { return start_; }
   // Every $variable it names, each once (for culling conditions, hot reload and `explain`).

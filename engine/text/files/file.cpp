@@ -243,7 +243,7 @@ std::optional<std::string> readFile(const std::string& path, Diagnostics& diagno
                                     const Place& place, const std::stop_token& stop) {
   std::uint64_t bytes = 0;
   auto whole = readWithin(path, kMaxBytes, bytes, diagnostics, code, place, stop);
-  if (!whole && bytes > kMaxBytes)
+  if (!whole && bytes > kMaxBytes && !stop.stop_requested())
     reportUnread(path, "it is larger than 4 GiB", "name a smaller file", diagnostics, code, place);
   return whole;
 }

@@ -169,6 +169,16 @@ def signals(bench):
             report.check(not list((folder / name).glob(".*")), f"{name}: a temporary file stays")
 
 
+def to_a_pipe(bench):
+    """A picture that goes into a pipe has no hash, and nobody waits for it."""
+    pipe = bench.folder / "pipe.png"
+    os.mkfifo(pipe)
+    reader = subprocess.Popen(["cat", pipe], stdout=subprocess.PIPE)
+    bench.works("-o", pipe, "--manifest", "pipe.jsonl")
+    bench.report.check(reader.communicate(timeout=300 * SLOWER)[0].startswith(b"\x89PNG"), "no picture comes through the pipe")
+    bench.report.check(bench.lines("pipe.jsonl")[0]["files"] == {"pipe.png": ""}, "the hash of a pipe")
+
+
 def main():
     weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
     with temporary_folder() as name:
@@ -179,6 +189,7 @@ def main():
         shards(bench, whole)
         signals(bench)
         pictures(bench)
+        to_a_pipe(bench)
     report.end()
 
 

@@ -70,6 +70,29 @@ def refused(weft, folder, report):
         live.stop()
 
 
+def refused_by_the_graph(weft, folder, report):
+    (folder / "few.json").write_text("""{ "resources": { "ldr": { "texture": "rgba8", "size": "screen" } },
+      "passes": [ { "name": "sky", "shader": "sky/sky.frag.glsl", "enabled": "count(@spheres) < 200", "read": ["@environment"],
+                    "write": { "radiance": "ldr" } } ], "present": "ldr" }""")
+    (folder / "many.json").write_text('{ "grid": { "count": [20, 20, 1], "spacing": 1, "radius": 0.4, "materials": "materials/pbr_materials.json" } }')
+    live = Session(weft, folder, graph="few.json", size="1100x400")
+    try:
+        if not report.check(live.open(40, 40) and live.shot(), f"no window\n{live.said()}"):
+            return
+        since = live.mark()
+        live.act("ctrl+o", "open")
+        live.tool("type", "many.json")
+        live.key("Return")
+        report.check(live.event("opened many.json", since) and live.event("files good", since), f"the scene before does not come back\n{live.lines()[-5:]}")
+        report.check("'sky'" in live.said(), f"nothing is said of the scene\n{live.said()}")
+        since = live.mark()
+        (folder / "few.json").write_text((folder / "few.json").read_text() + "\n")
+        report.check(live.event("files good", since), f"the graph is not read again\n{live.lines()[-5:]}")
+        live.leave(report)
+    finally:
+        live.stop()
+
+
 def appears_and_vanishes(weft, folder, report):
     mine = folder / "mine"
     mine.mkdir()
@@ -95,4 +118,4 @@ def appears_and_vanishes(weft, folder, report):
         live.stop()
 
 
-run_parts(__file__, becomes_a_pipe, waits_for_a_pipe, refused, appears_and_vanishes)
+run_parts(__file__, becomes_a_pipe, waits_for_a_pipe, refused, refused_by_the_graph, appears_and_vanishes)

@@ -392,6 +392,8 @@ TEST_CASE("literals and lists made of JSON values") {
   Diagnostics diagnostics;
   const Expr mixed = Expr::listOf({number, Expr::parse("$n/2", placeAt(9), diagnostics).value()}, placeAt(3));
   CHECK(textOf(mixed) == "[2048, $n / 2]");
+  CHECK(mixed.text() == "[2048, $n/2]");  // as the file writes it
+  CHECK(Expr::parse(" (false)", placeAt(9), diagnostics).value().text() == "false");
   CHECK(mixed.place().column == 3);
   MapScope scope = makeScope();
   CHECK(mixed.evaluate(scope, diagnostics) == list({2048, 50}));
