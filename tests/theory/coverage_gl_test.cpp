@@ -177,7 +177,7 @@ TEST_CASE(
         const double product = std::abs(drawn - (1 - (1 - a) * (1 - b)));
         wrong += meet && product > kOff;
         wrong_of_one += !meet && off > kOff;
-        if (meet) worst = std::max(worst, product);
+        worst = std::max(worst, meet ? product : off);
       }
     MESSAGE((outside ? "beside: " : "within: "), kPairs, " pairs, ", both, " pixels with both edges, ", wrong,
             " of them off by more than 16 of 255, worst ", worst * 255, "; others off ", wrong_of_one);
