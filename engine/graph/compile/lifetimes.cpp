@@ -56,6 +56,21 @@ void clearCells(const FlatUse& use, const FlatResource& r, Plan& plan, Scratch& 
   }
 }
 
+// Of what is presented and of the outputs, what nobody writes: it is cleared with the first use of its resource.
+std::vector<const FlatUse*> unwrittenEnds(const FlatGraph& graph, const Scratch& scratch) {
+  std::vector<const FlatUse*> ends;
+  const auto add = [&](const FlatUse& use, std::uint32_t link) {
+    if ((scratch.flags[use.resource] & Scratch::kClear) == 0) return;
+    bool written = true;
+    forEachVersion(graph.links, link, use, graph.resources[use.resource],
+                   [&](std::uint32_t, std::uint32_t writer) { written = written && writer != kNone; });
+    if (!written) ends.push_back(&use);
+  };
+  if (graph.present.resource != kNone) add(graph.present, graph.links.present);
+  for (std::size_t i = 0; i < graph.outputs.size(); ++i) add(graph.outputs[i], graph.links.outputs[i]);
+  return ends;
+}
+
 // Which of the clears go through the framebuffer of their pass.
 void findAttachedClears(const FlatGraph& graph, const Step& step, Plan& plan) {
   const FlatPass& pass = graph.passes[step.pass];
@@ -108,6 +123,8 @@ void findLifetimes(const FlatGraph& graph, Plan& plan, Scratch& scratch) {
     born += first ? 1 : 0;
     plan.lastStep[resource] = step;
   };
+  const std::vector<const FlatUse*> ends =
+      scratch.anyClear ? unwrittenEnds(graph, scratch) : std::vector<const FlatUse*>{};
   std::uint64_t bound = 0;
   unsigned stored = 0;
   for (std::uint32_t t = 0; t < plan.steps.size(); ++t) {
@@ -127,7 +144,10 @@ void findLifetimes(const FlatGraph& graph, Plan& plan, Scratch& scratch) {
       scratch.flags[use.resource] = static_cast<std::uint8_t>(flags);
       stored |= store;
       bound += (flags & Scratch::kGranular) == 0 ? r.bytes : bytesOf(use, r);
-      if ((flags & Scratch::kClear) != 0 && use.history == 0) clearCells(use, r, plan, scratch);
+      if ((flags & Scratch::kClear) == 0 || use.history != 0) continue;
+      clearCells(use, r, plan, scratch);
+      for (const FlatUse* last : ends)
+        if (last->resource == use.resource) clearCells(*last, r, plan, scratch);
     }
     step.clearCount = static_cast<std::uint32_t>(plan.clears.size()) - step.firstClear;
     if (step.clearCount != 0) findAttachedClears(graph, step, plan);

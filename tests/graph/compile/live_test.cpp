@@ -123,6 +123,23 @@ TEST_CASE("a long chain of histories is followed to its end") {
   CHECK(b.compiled().steps.size() == kLinks + 1);
 }
 
+TEST_CASE(
+    "what is presented or an output, and written by nobody, is cleared with the first use of its texture") {
+  for (const bool presented : {true, false}) {
+    FlatBuilder b = emptyGraph();
+    const auto pyramid = b.texture("pyramid", Format::rgba8, 64, 2), shown = b.texture("shown");
+    b.resource(pyramid).hasClear = true;
+    b.pass("a").mip(pyramid, 1, Kind::color, Access::write);
+    b.pass("b").mip(pyramid, 1, Kind::sampled, Access::read).write(shown);
+    b.output(shown);
+    presented ? b.present(pyramid) : b.output(pyramid);
+    const Plan plan = b.compiled();
+    REQUIRE(plan.steps.size() == 2);
+    CHECK(plan.steps[0].clearCount == 2);
+    CHECK(plan.lastStep[pyramid] == plan.steps.size());
+  }
+}
+
 TEST_CASE("an output is a reader at the end of the frame") {
   FlatBuilder b = emptyGraph();
   const auto alone = b.texture("alone"), live = b.texture("live"), later = b.texture("later"),

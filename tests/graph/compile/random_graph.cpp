@@ -177,7 +177,7 @@ class Generator {
     for (std::uint32_t r = 0; r < b_.graph.resources.size(); ++r) {
       const FlatUse whole = b_.whole(r, Kind::copy, Access::read);
       if (!hasVersions(whole)) continue;
-      const bool written = everyCell(whole, [&](std::uint32_t s) { return versions_[r][s] == 2; });
+      const bool written = !everyCell(whole, [&](std::uint32_t s) { return versions_[r][s] != 2; });
       if (written && !isBuffer(b_.resource(r)) && !isDepth(b_.resource(r).format)) shown.push_back(r);
       if (chance(10)) b_.output(r);
     }

@@ -119,7 +119,8 @@ class Machine {
 
   void show() {
     const auto add = [&](const FlatUse& use) { shown_.symbols.push_back(see(use)); };
-    if (graph_.present.resource != kNone) add(graph_.present);
+    if (graph_.present.resource != kNone && plan_.firstStep[graph_.present.resource] != kNone)
+      add(graph_.present);
     for (std::size_t i = 0; i < graph_.outputs.size(); ++i)
       if (plan_.outputLive[i] != 0) add(graph_.outputs[i]);
   }
