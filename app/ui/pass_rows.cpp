@@ -3,7 +3,6 @@
 #include <map>
 
 #include "engine/graph/flat_graph.h"
-#include "engine/graph/language/expr_node.h"
 #include "engine/graph/language/names.h"
 
 namespace weft::app::ui {
@@ -63,7 +62,7 @@ std::string disabledBy(const PassRow& row, const graph::Settings& settings) {
 }
 
 std::string switchParameterOf(const PassRow& row, const graph::FlatGraph& graph) {
-  const std::string* const condition = graph::onlyVariableOf(row.desc->enabled);
+  const std::string* const condition = row.desc->enabled.onlyVariable();
   if (row.on > 0 || !condition) return {};
   // As the file names it, or a file around it.
   for (std::string scope = row.name; !scope.empty();) {

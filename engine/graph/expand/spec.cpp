@@ -314,7 +314,7 @@ void addDefine(const SlotContext& context, PassSpec& spec, const NamedExpr& defi
 std::uint32_t parameterOf(const SlotContext& context, const PassDesc& pass, const PassParameterDesc& desc,
                           const Expr& value) {
   const std::string own = pass.name + "." + desc.name;
-  const std::string* const name = desc.declared ? &own : onlyVariableOf(value);
+  const std::string* const name = desc.declared ? &own : value.onlyVariable();
   const Variable variable = name ? findVariable(context.model, context.names.scope(), *name) : Variable{};
   return variable.kind == Variable::Kind::parameter ? variable.index : kNone;
 }

@@ -217,8 +217,8 @@ const std::vector<std::string>& Expr::variables() const {
   return variables_ ? *variables_ : kNoNames;
 }
 
-const std::string* onlyVariableOf(const Expr& expr) {
-  return expr.root() && expr.root()->op == ExprOp::variable ? &expr.root()->name : nullptr;
+const std::string* Expr::onlyVariable() const {
+  return root_ && root_->op == ExprOp::variable ? &root_->name : nullptr;
 }
 
 bool Expr::says(std::string_view word) const {

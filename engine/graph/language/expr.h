@@ -132,6 +132,8 @@ class Expr {
   const text::Place& place() const { return start_; }
   // Every $variable it names, each once (for culling conditions, hot reload and `explain`).
   const std::vector<std::string>& variables() const;
+  // The name of the one $variable that is all of it; null when it is something else.
+  const std::string* onlyVariable() const;
   // True when the bare `word` stands in it: a repeat index or a choice.
   bool says(std::string_view word) const;
   // Every size(x), mips(x), count(x), has(x), age(x), format(x) it asks, with the name as written (an @ included), in

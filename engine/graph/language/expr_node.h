@@ -113,8 +113,6 @@ int heightOver(const std::vector<ExprPtr>& children);
 std::uint32_t termsOver(const std::vector<ExprPtr>& children);
 // Sets what a node's children decide: height (which the caller has checked), dynamic, live, terms.
 void setChildren(ExprNode& node, std::vector<ExprPtr> children);
-// The name of the only $variable that the expression consists of; null when it is something else.
-const std::string* onlyVariableOf(const Expr& expr);
 
 // The trees of Expr::parse; null after an error.
 ExprPtr parseExprTree(std::string_view text, const text::Place& place, text::Diagnostics& diagnostics);

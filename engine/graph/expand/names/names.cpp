@@ -186,7 +186,7 @@ std::vector<std::string> Names::choicesOf(std::string_view variable) {
     const Variable found = findVariable(model_, *scope, variable);
     if (found.kind == Variable::Kind::parameter) return model_.parameters[found.index].desc->choices;
     const Let* const let = found.kind == Variable::Kind::let ? &model_.lets[found.index] : nullptr;
-    const std::string* const only = let ? onlyVariableOf(let->desc->expr) : nullptr;
+    const std::string* const only = let ? let->desc->expr.onlyVariable() : nullptr;
     if (!only) return {};
     variable = *only;
     scope = let->scope;
