@@ -2,9 +2,9 @@
 """Every shader named by a graph is valid GLSL, in the variants its slots, parameters and defines can ask for.
 
 Usage: shaders_compile.py SOURCE_DIR [GRAPH...]; default: every .json with passes below graphs/, tests/golden and tests/theory.
-Per pass: everything connected, then each optional input, each output and each parameter left out alone, all optional
-ones left out together, and each value of each define (all combinations where they are few; a number has one, `max(…, 1)` stands for 1 and 2). Needs
-glslangValidator; exits 77 (skipped) without it.
+Per pass: everything connected and all optional left out, with the values of the defines in all combinations where these are few, else
+in pairs (a number has one, `max(…, 1)` stands for 1 and 2); each optional input, each output and each parameter left out alone, with the
+first values of all defines and with the last. Needs glslangValidator; exits 77 (skipped) without it.
 """
 import functools
 import itertools
@@ -152,9 +152,10 @@ def variants(stanza, desc, constants):
         base.append({k: v for k, v in everything.items() if k != f"HAS_{define_name(left_out)}"})
     dropped = {f"HAS_{define_name(n)}" for n in optional + parameters}
     base.append({k: v for k, v in everything.items() if k not in dropped})
-    for combination in combinations(list(choices.values())):
+    found = combinations(list(choices.values()))
+    for combination in found:
         extra = {k: v for part in combination for k, v in part.items()}
-        for has in base:
+        for has in base if combination in (found[0], found[-1]) else (base[0], base[-1]):
             yield {**has, **extra}
 
 
@@ -163,13 +164,13 @@ def combinations(choices):
     if math.prod(len(values) for values in choices) <= 64:
         return list(itertools.product(*choices))
     first, last = [values[0] for values in choices], [values[-1] for values in choices]
-    found = [first, last]
+    found = [first]
     for i, values in enumerate(choices):
         for value in values[1:]:
             found += [base[:i] + [value] + base[i + 1:] for base in (first, last)]
     for i, j in itertools.combinations(range(len(choices)), 2):
         found.append([last[k] if k in (i, j) else first[k] for k in range(len(choices))])
-    return found
+    return [*found, last]
 
 
 @functools.cache
