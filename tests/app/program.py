@@ -4,9 +4,11 @@ import os
 import pathlib
 import re
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
+import threading
 
 SANITIZED = "--sanitized" in sys.argv
 # Times that guard against hanging are multiplied by this: also in the ctests that sanitize.sh runs, which get no argument.
@@ -66,11 +68,50 @@ def heed_signals():
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
+class ForkServer:
+    """Starts of one program, each a fork of one process (fork_server.c), which has loaded OSMesa when they draw. A command waits for the one
+    before it: each thread has servers of its own."""
+    LIBRARY = os.environ.get("WEFT_FORK_SERVER_LIBRARY")
+    of_thread = threading.local()
+
+    def __init__(self, weft, draws):
+        self.client, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        with theirs:
+            environment = {"LD_PRELOAD": self.LIBRARY, "WEFT_FORK_SERVER": str(theirs.fileno()), "WEFT_FORK_SERVER_LOADS": "libOSMesa.so.8" if draws else ""}
+            self.process = subprocess.Popen([weft], pass_fds=[theirs.fileno()], env={**os.environ, **environment})
+
+    @classmethod
+    def run(cls, command, folder, timeout):
+        draws = bool(command[1:2]) and command[1] in ("check", "dump", "fuzz", "render", "report", "test") and "--no-shaders" not in command
+        servers = vars(cls.of_thread)
+        server = servers.get((command[0], draws))
+        if not server or server.process.poll() is not None:
+            server = servers[command[0], draws] = cls(command[0], draws)
+        return server.answer(command, folder, timeout)
+
+    def answer(self, command, folder, timeout):
+        words = [len(command), folder, *command, *(f"{name}={value}" for name, value in os.environ.items())]
+        with tempfile.TemporaryFile("w+", errors="replace") as out, tempfile.TemporaryFile("w+", errors="replace") as err:
+            socket.send_fds(self.client, ["".join(f"{word}\0" for word in words).encode(errors="surrogateescape")], [0, out.fileno(), err.fileno()])
+            self.client.settimeout(timeout)
+            try:
+                status = self.client.recv(4)
+            except TimeoutError:
+                self.process.kill()  # and with it what it runs
+                raise subprocess.TimeoutExpired(command, timeout) from None
+            assert status, f"the fork server ended: {command}"
+            out.seek(0)
+            err.seek(0)
+            return subprocess.CompletedProcess(command, os.waitstatus_to_exitcode(int.from_bytes(status, sys.byteorder)), out.read(), err.read())
+
+
 def run(weft, *arguments, before=(), folder=TOP, timeout=900 * SLOWER, **options):
     command = [*map(str, before), str(weft), *map(str, arguments)]
     if pathlib.Path(weft).name != "weft_compare":
         count_run()
     try:
+        if ForkServer.LIBRARY and not before and not options and pathlib.Path(weft).name == "weft":
+            return Run(ForkServer.run(command, folder, timeout))
         return Run(subprocess.run(command, cwd=folder, capture_output=True, text=True, errors="replace", timeout=timeout, **options))
     except subprocess.TimeoutExpired:
         return Run(subprocess.CompletedProcess(command, None, "", f"no end after {timeout} s: {command}"))

@@ -6,13 +6,13 @@ judges/references.py). With --table, or where one is off, prints a row for each.
 """
 import json
 import pathlib
-import subprocess
 import sys
 import tempfile
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent / "app"))
 from pictures import read_png  # noqa: E402
+from program import run  # noqa: E402
 
 
 def rgb_of(path):
@@ -28,10 +28,10 @@ def difference(a, b):
 
 
 def weft(binary, *arguments):
-    process = subprocess.run([binary, *map(str, arguments)], capture_output=True, text=True, timeout=300)
-    if process.returncode != 0:
-        raise SystemExit(f"weft {' '.join(map(str, arguments))}: exit {process.returncode}\n{process.stderr}")
-    return process
+    done = run(binary, *arguments)
+    if done.code != 0:
+        raise SystemExit(f"weft {' '.join(map(str, arguments))}: exit {done.code}\n{done.err}")
+    return done
 
 
 def main():
@@ -48,7 +48,7 @@ def main():
             weft(binary, "import", FOLDER / case["file"], "-o", out, *pictures)
             graph = out / f"{name}.json"
             weft(binary, "format", "--check", graph)
-            said = weft(binary, "check", graph, "--size", size).stderr
+            said = weft(binary, "check", graph, "--size", size).err
             if said:
                 problems.append(f"{name}: check says\n{said}")
             shown = top / f"{name}.png"

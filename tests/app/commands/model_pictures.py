@@ -5,14 +5,13 @@ import base64
 import json
 import pathlib
 import struct
-import subprocess
 import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 from pictures import png, read_png  # noqa: E402
+from program import TOP, run  # noqa: E402
 
-TOP = pathlib.Path(__file__).resolve().parents[3]
 WEFT = sys.argv[1]
 WIDTH, HEIGHT = 96, 64
 TILT = (0.6, 0.0, 0.8)
@@ -56,10 +55,10 @@ class Model:
         self.json["buffers"] = [{"byteLength": len(self.bytes), "uri": uri("application/octet-stream", self.bytes)}]
         path, picture = folder / "m.gltf", folder / "m.png"
         path.write_text(json.dumps(self.json))
-        made = subprocess.run([WEFT, "render", TOP / "graphs" / graph, "--scene", path, "--size", f"{WIDTH}x{HEIGHT}", "--set", "bloom=false",
-                               "--set", "fxaa=false", "--set", "curve=filmic", "--backend", "osmesa", "--preset", TOP / "tests/small_maps.json", *options, "-o", picture], capture_output=True, text=True)
-        if made.returncode != 0 or made.stderr:
-            problems.append(f"{options}: {made.stderr}")
+        made = run(WEFT, "render", TOP / "graphs" / graph, "--scene", path, "--size", f"{WIDTH}x{HEIGHT}", "--set", "bloom=false", "--set", "fxaa=false",
+                   "--set", "curve=filmic", "--backend", "osmesa", "--preset", TOP / "tests/small_maps.json", *options, "-o", picture)
+        if made.code != 0 or made.err:
+            problems.append(f"{options}: {made.err}")
         return [[texel[:3] for texel in row] for row in read_png(picture.read_bytes())]
 
 

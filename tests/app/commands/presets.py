@@ -11,7 +11,8 @@ import subprocess
 import sys
 import tempfile
 
-TOP = pathlib.Path.cwd()
+from program import TOP, run
+
 sys.path.insert(0, str(TOP / "docs/gallery"))
 from png import read_png  # noqa: E402
 
@@ -52,12 +53,12 @@ def main():
             name = preset.stem if preset else f"no preset on {pathlib.Path(graph).stem}"
             over = ["--preset", preset] if preset else []
             over += ["--scene", TOP / scene] if scene else []
-            checked = subprocess.run([WEFT, "check", graph, *over], cwd=TOP, capture_output=True, text=True)
-            expect(f"{name} passes check\n{checked.stderr}", checked.returncode == 0 and not checked.stderr)
+            checked = run(WEFT, "check", graph, *over)
+            expect(f"{name} passes check\n{checked.err}", checked.code == 0 and not checked.err)
             image = folder / f"{name}.png"
-            done = subprocess.run([WEFT, "render", TOP / graph, "--preset", TOP / "tests/small_maps.json", *over, "--size", "128x72", "--frames", "1:1",
-                                   "--program-cache", folder / "programs", "-o", image], cwd=folder, capture_output=True, text=True)
-            expect(f"{name} renders\n{done.stderr}", done.returncode == 0 and image.exists())
+            done = run(WEFT, "render", TOP / graph, "--preset", TOP / "tests/small_maps.json", *over, "--size", "128x72", "--frames", "1:1",
+                       "--program-cache", folder / "programs", "-o", image, folder=folder)
+            expect(f"{name} renders\n{done.err}", done.code == 0 and image.exists())
             if not image.exists():
                 continue
             pixels = pixels_of(image)
