@@ -30,7 +30,8 @@ def main():
             shutil.copytree(TOP / part, folder / part)
         post, text = folder / "graphs/post.json", (TOP / "graphs/post.json").read_text()
         lines = {found[1]: found[0] for found in LINE.finditer(text)}
-        report.check(set(lines) == {*SWITCHES, "fade", "composite"}, f"the effects: {list(lines)}")
+        if not report.check(set(lines) == {*SWITCHES, "fade", "composite"}, f"name each effect in SWITCHES, and in LAST where it changes `ldr`: {list(lines)}"):
+            report.end()
         everything = [word for switch in SWITCHES.values() for word in ("--set", f"{switch}=true")]
 
         def checked(lines, *arguments):
@@ -50,8 +51,9 @@ def main():
         # The fade stands in each place in turn.
         effects = [e for e in SWITCHES if e not in LAST]
         # Williams's design: in the rows and their mirror images each effect is next to each other one.
-        report.check(len(effects) == 5, f"the rows are made for five effects, not {len(effects)}")
-        rows = [[effects[(first + step) % 5] for step in (0, 1, 4, 2, 3)] for first in range(5)]
+        count = len(effects)
+        steps = [step // 2 if step % 2 == 0 else count - step // 2 for step in range(1, count + 1)]
+        rows = [[effects[(first + step) % count] for step in steps] for first in range(count)]
         for i, order in enumerate([*rows, *(row[::-1] for row in rows)]):
             at = i % (len(order) + 1)
             checked([lines[effect] for effect in (*order[:at], "fade", *order[at:])] + behind, *everything)

@@ -123,7 +123,7 @@ class Judge:
 
     def fault(self, kind, label, errors):
         self.found[kind] += 1
-        text = f"{kind}: {label}\n    " + "\n    ".join(map(str, errors[:4]))
+        text = f"{kind}: {label} (drawn by chance from graphs/, so perhaps an old fault)\n    " + "\n    ".join(map(str, errors[:4]))
         if self.tell:
             print(text)
         self.report.check(False, text)

@@ -147,8 +147,10 @@ std::optional<Value> Names::fact(Fact fact, std::string_view resource, std::uint
   const std::uint32_t target = isImport && fact != Fact::has ? index : staticTarget(model_, index, &mip);
   if (fact == Fact::has) return Value::boolean(target != kNone);
   if (target != kNone) return factOfShape(fact, target, mip, level, place);
-  if (!model_.stopped && std::ranges::find(entity.candidates, kNone) == entity.candidates.end())
-    report(model_, say::noAlternativeHolds, place, entity.name, nameOf(fact));
+  // What an alternative misses was reported where it stands, or may be in an include that could not be read.
+  const bool reported =
+      entity.scope->broken || std::ranges::find(entity.candidates, kNone) != entity.candidates.end();
+  if (!model_.stopped && !reported) report(model_, say::noAlternativeHolds, place, entity.name, nameOf(fact));
   return Value{};
 }
 
