@@ -344,7 +344,7 @@ std::string newNameOf(std::string_view name) {
 
 // A call of pow() with a whole number as exponent; but not in a constant, which takes no functions of ISF's.
 bool isWholePower(const std::vector<glsl::Token>& tokens, std::size_t i) {
-  if (!tokens[i].is("pow")) return false;
+  if (!tokens[i].is("pow") || i + 1 == tokens.size() || !tokens[i + 1].is("(")) return false;
   std::size_t end = i + 1;
   for (int open = 0; end < tokens.size() && (open += tokens[end].is("(") - tokens[end].is(")")) > 0;) ++end;
   while (i > 0 && !tokens[i].is("const") && !tokens[i].is(";") && !tokens[i].is("}")) --i;
