@@ -469,9 +469,8 @@ class ShaderTranslator {
         if (!text.isName(at) || std::string_view(",;[=").find(tokens[at + 1].text) == std::string_view::npos)
           continue;
         const std::string_view name = tokens[at].text;
-        const auto isKnown = [&](const std::string& image) { return isBeside(name, image); };
         if (names_.all().contains(name) || contains(kVariables, name) ||
-            std::ranges::any_of(images_, isKnown))
+            std::ranges::any_of(images_, [&](const std::string& image) { return isBeside(name, image); }))
           continue;
         known = false;
         fail(tokens[at], fmt::format("the shader has a uniform '{}' that is no input", name),
@@ -679,11 +678,11 @@ class IsfGraphWriter {
              "write numbers, $WIDTH, $HEIGHT, $input, + - * / % ( ), floor, ceil, min, max, abs");
       return otherwise;
     };
+    constexpr std::array<std::string_view, 13> kWords{"floor", "ceil", "min", "max", "abs", "+", "-",
+                                                      "*",     "/",    "%",   "(",   ")",   ","};
     std::string out;
     bool variable = false;  // behind a '$'
     for (const glsl::Token& token : glsl::splitTokens(size.text)) {
-      constexpr std::array<std::string_view, 13> kWords{"floor", "ceil", "min", "max", "abs", "+", "-",
-                                                        "*",     "/",    "%",   "(",   ")",   ","};
       const std::string name = text::lowered(token.text);
       const auto value = values_.find(token.text);
       const bool known =
@@ -700,8 +699,9 @@ class IsfGraphWriter {
     }
     text::Diagnostics said;
     if (out.empty() && size.text.empty()) return otherwise;
-    if (graph::Expr::parse(out, size.place, said)) return out;
-    return wrong(said.empty() ? "the size is no expression" : said.items()[0].message);
+    const auto expr = graph::Expr::parse(out, size.place, said);
+    if (expr && std::ranges::none_of(kWords, [&](auto word) { return expr->says(word); })) return out;
+    return wrong(said.empty() ? "a function needs its arguments" : said.items()[0].message);
   }
 
   Json sizeOf(const IsfPass& pass) {
