@@ -431,7 +431,7 @@ def check_many_mistakes(weft, report):
         (graph.parent / "shaders").mkdir()
         (graph.parent / "shaders/a.frag.glsl").write_text("uniform sampler2D source;\nout vec4 result;\nvoid main() { result = texelFetch(source, ivec2(0), 0); }\n")
         before = children_cpu()
-        done = run(weft, "check", "--no-shaders", graph, "--format", "json")
+        done = run(weft, "check", "--no-shaders", graph, "--format", "json", stdin=subprocess.DEVNULL)  # a child of this process, not of a fork server
         seconds = children_cpu() - before
         said = json.loads(done.out)["diagnostics"]
         codes = collections.Counter(d["code"] for d in said)

@@ -123,7 +123,7 @@ class Judge:
 
     def fault(self, kind, label, errors):
         self.found[kind] += 1
-        text = f"{kind}: {label} (drawn by chance from graphs/, so perhaps an old fault)\n    " + "\n    ".join(map(str, errors[:4]))
+        text = f"{kind}: {label}\n    " + "\n    ".join(map(str, errors[:4]))
         if self.tell:
             print(text)
         self.report.check(False, text)
@@ -175,7 +175,7 @@ class Judge:
                 made += 1
                 begin, end = place.span("word")
                 path.write_text(text[:begin] + wrong + text[end:])
-                label = f"{kind} '{word}' as '{wrong}' in {path.name} of {root}, line {text.count(chr(10), 0, begin) + 1}"
+                label = f"{kind} '{word}' as '{wrong}' in {path.name} of {root}, line {text.count(chr(10), 0, begin) + 1} (drawn by chance: perhaps an old fault)"
                 errors, result = errors_of(self.weft, graphs / root, [])
                 self.tried["mutants"] += 1
                 self.tried["told"] += bool(errors)
