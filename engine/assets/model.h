@@ -138,6 +138,11 @@ struct SkinVertex {
 };
 static_assert(sizeof(SkinVertex) == 24);
 
+// What a weight of 1 of a morph target adds to a vertex.
+struct MorphTarget {
+  glm::vec3 position{0}, normal{0}, tangent{0};
+};
+
 // Triangles, counter-clockwise seen from outside.
 struct MeshData {
   std::vector<Vertex> vertices;
@@ -145,6 +150,7 @@ struct MeshData {
   // Parallel to vertices, or empty: all are white. Linear; a factor of the material's albedo and alpha.
   std::vector<glm::vec4> colors;
   std::vector<glm::vec2> secondUvs;  // parallel to vertices, or empty: no material asks for them
+  std::vector<MorphTarget> targets;  // of meshes whose weights move, see Mesh::firstTarget
   std::vector<std::uint32_t> indices;
 };
 
@@ -158,6 +164,9 @@ struct Mesh {
   // Per row of the skin, the box of the vertices that this joint moves. A skinned vertex is a mean of what its joints make of
   // it, so it lies in the box of these boxes, each moved by its joint. Empty unless skinned.
   std::vector<Box> jointBounds{};
+  // Targets of vertex v begin at firstTarget + v * targetBounds.size(). The box of what each adds to the positions.
+  std::uint32_t firstTarget = 0;
+  std::vector<Box> targetBounds{};
 };
 
 struct Transform {
@@ -171,7 +180,9 @@ struct ModelNode {
   std::string name;
   std::uint32_t parent = kNoRow;  // an earlier row
   Transform local{};
-  glm::mat3 inner{1};  // before it: what a matrix of the file does, which may shear
+  glm::mat3 inner{1};            // before it: what a matrix of the file does, which may shear
+  bool animated = false;         // by any animation
+  std::vector<float> weights{};  // of its mesh's targets, where an animation moves them
 };
 
 struct ModelInstance {
@@ -206,16 +217,17 @@ struct ModelSkin {
   std::vector<glm::mat4> inverseBind;  // parallel to joints: from the mesh to the joint
 };
 
-enum class TrackPath : std::uint8_t { translation, rotation, scale };
+enum class TrackPath : std::uint8_t { translation, rotation, scale, weights };
 enum class TrackInterpolation : std::uint8_t { linear, step, cubic };
 
 // One property of one node over time. Cubic (glTF's CUBICSPLINE) has three values a key: in-tangent, value, out-tangent.
 struct ModelTrack {
   std::uint32_t node = 0;
   TrackPath path = TrackPath::translation;
+  std::uint32_t target = 0;  // of weights: a track for each
   TrackInterpolation interpolation = TrackInterpolation::linear;
   std::vector<float> times;       // seconds, ascending
-  std::vector<glm::vec4> values;  // a rotation is a quaternion x y z w; translation and scale leave w alone
+  std::vector<glm::vec4> values;  // a rotation is a quaternion x y z w; a weight x; the others leave w alone
 };
 
 struct ModelAnimation {

@@ -94,7 +94,10 @@ Columns<scene::MeshRow> meshColumns() {
   return {column<Row, &Row::transform>("transform", "model to world"),
           column<Row, &Row::previous_transform>("previous_transform", "of the frame before"),
           column<Row, &Row::material>("material", "row of @materials"),
-          column<Row, &Row::first_joint>("first_joint", "of @joints; of a mesh whose weights are not 0")};
+          column<Row, &Row::first_joint>("first_joint", "of @joints; of a mesh whose weights are not 0"),
+          column<Row, &Row::first_weight>("first_weight", "of @morph_weights; of a mesh with targets"),
+          column<Row, &Row::first_target>("first_target", "of @morph_targets, for gl_VertexID 0"),
+          column<Row, &Row::targets>("targets", "of each vertex, one after another; 0: nothing morphs it")};
 }
 
 SceneTables::SceneTables() {

@@ -12,9 +12,8 @@ const std::vector<std::string>& drawListNames() {
 
 std::optional<DrawList> findDrawList(std::string_view name) {
   const std::vector<std::string>& names = drawListNames();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return {};
-  return static_cast<DrawList>(found - names.begin());
+  const auto found = std::ranges::find(names, name);
+  return found == names.end() ? std::nullopt : std::optional(static_cast<DrawList>(found - names.begin()));
 }
 
 glm::mat4 matrixOf(const Transform& transform) {

@@ -70,7 +70,8 @@ struct Node {
   Transform local;     // at time 0, unless an animation says otherwise
   glm::mat3 inner{1};  // before it
   glm::vec3 spin{0};  // turns about this axis, through the node's origin, by its length in radians per second
-  glm::vec3 velocity{0};  // of the parent's units per second
+  glm::vec3 velocity{0};          // of the parent's units per second
+  std::uint32_t firstWeight = 0;  // in Scene::weights, of a morphed mesh of its own or of its parent
 };
 
 struct Skin {
@@ -194,6 +195,7 @@ struct Scene {
   Table<Node> nodes;  // parents before children
   Table<Skin> skins;
   Table<Animation> animations;  // that play
+  std::vector<float> weights;   // at time 0, as Node::local
   Table<MeshInstance> meshInstances;
   Table<Lamp> lamps;
   std::optional<Sun> sun;

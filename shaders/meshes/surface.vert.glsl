@@ -1,5 +1,5 @@
 // A vertex of a mesh, for the fragment shaders that include meshes/surface.glsl. Slots: skeleton?  @joints,
-// vertex_colors?  @vertex_colors, second_uvs?  @second_uvs
+// morph_targets?  @morph_targets, morph_weights?  @morph_weights, vertex_colors?  @vertex_colors, second_uvs?  @second_uvs
 #include "common/view.glsl"
 #include "scene/mesh_vertex.glsl"
 
@@ -26,10 +26,11 @@ flat out float world_scale;  // world units in a unit of the mesh
 
 void main() {
   mat4 transform = meshTransform();
-  vec4 world = transform * vec4(position, 1.0);
+  MorphTarget moves = morphed(false);
+  vec4 world = transform * meshPosition();
   world_position = world.xyz;
-  world_normal = meshNormal(transform, normal);
-  world_tangent = vec4(mat3(transform) * tangent.xyz, tangent.w);
+  world_normal = meshNormal(transform, normal + moves.normal);
+  world_tangent = vec4(mat3(transform) * (tangent.xyz + moves.tangent), tangent.w);
   map_uv = uv;
 #ifdef HAS_SECOND_UVS
   map_uv_2 = second_uv[gl_VertexID].uv;
@@ -41,6 +42,6 @@ void main() {
   world_scale = pow(abs(determinant(mat3(transform))), 1.0 / 3.0);
 #endif
   row = mesh_row[instance].material;
-  previous_clip = previous_view_projection * (meshPreviousTransform() * vec4(position, 1.0));
+  previous_clip = previous_view_projection * (meshPreviousTransform() * meshPreviousPosition());
   gl_Position = view_projection * world;
 }

@@ -8,6 +8,11 @@ struct MeshRow {
   mat4 previous_transform;  // of the frame before
   uint material;            // row of @materials
   uint first_joint;         // row of @joints, of a mesh with weights
+#ifdef HAS_MORPH_TARGETS
+  uint first_weight;        // row of @morph_weights, of a mesh with targets
+  uint first_target;        // row of @morph_targets, for vertex 0
+  uint targets;             // of each vertex, one after another; 0: nothing morphs it
+#endif
 };
 layout(std430) readonly buffer instances { MeshRow mesh_row[]; };
 

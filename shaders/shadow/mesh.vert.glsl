@@ -1,5 +1,5 @@
 // Meshes into a shadow map, seen from the pass's view or the brightest spot, see shadow/from_spot.glsl. Slots: skeleton?  @joints,
-// vertex_colors?  @vertex_colors
+// morph_targets?  @morph_targets, morph_weights?  @morph_weights, vertex_colors?  @vertex_colors
 #include "scene/mesh_vertex.glsl"
 #include "shadow/from_spot.glsl"
 
@@ -17,5 +17,5 @@ void main() {
   own_alpha = vertex_color[gl_VertexID].color.a;
 #endif
   row = mesh_row[instance].material;
-  gl_Position = lightClip((meshTransform() * vec4(position, 1.0)).xyz);
+  gl_Position = lightClip((meshTransform() * meshPosition()).xyz);
 }

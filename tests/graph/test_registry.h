@@ -112,6 +112,8 @@ inline std::vector<ImportType> testImports() {
       {.name = "materials", .kind = ImportKind::buffer, .doc = ""},
       {.name = "material_layers", .kind = ImportKind::buffer, .doc = ""},
       {.name = "joints", .kind = ImportKind::buffer, .doc = ""},
+      {.name = "morph_weights", .kind = ImportKind::buffer, .doc = ""},
+      {.name = "morph_targets", .kind = ImportKind::buffer, .doc = ""},
       {.name = "vertex_colors", .kind = ImportKind::buffer, .doc = ""},
       {.name = "second_uvs", .kind = ImportKind::buffer, .doc = ""},
       {.name = "material_maps", .kind = ImportKind::texture, .doc = "", .array = 8},

@@ -83,11 +83,12 @@ TEST_CASE(
     }
     CHECK(importOf(type.name).provide(requestOf(type.name)));
   }
-  CHECK(names == std::set<std::string>{"boxes",         "camera",     "cube_lut",    "cut",
-                                       "draw_list",     "draw_order", "environment", "ground",
-                                       "image",         "joints",     "lamps",       "material_layers",
-                                       "material_maps", "materials",  "meshes",      "mouse",
-                                       "second_uvs",    "spheres",    "sun",         "vertex_colors"});
+  CHECK(names == std::set<std::string>{"boxes",         "camera",       "cube_lut",    "cut",
+                                       "draw_list",     "draw_order",   "environment", "ground",
+                                       "image",         "joints",       "lamps",       "material_layers",
+                                       "material_maps", "materials",    "meshes",      "morph_targets",
+                                       "morph_weights", "mouse",        "second_uvs",  "spheres",
+                                       "sun",           "vertex_colors"});
   CHECK_FALSE(registry().find("clouds"));
 }
 
@@ -257,9 +258,10 @@ TEST_CASE("what may differ from frame to frame says so; none of the built-in imp
   World still{scene};
   scene.spheres.add({.velocity = {1, 0, 0}, .material = {}});
   World moving{scene};
-  const std::set<std::string> always = {"environment",   "cube_lut",  "cut",        "ground",
-                                        "image",         "joints",    "lamps",      "material_layers",
-                                        "material_maps", "materials", "second_uvs", "vertex_colors"};
+  const std::set<std::string> always = {"environment",   "cube_lut",     "cut",           "ground",
+                                        "image",         "joints",       "lamps",         "material_layers",
+                                        "material_maps", "materials",    "morph_targets", "morph_weights",
+                                        "second_uvs",    "vertex_colors"};
   for (const graph::ImportType& type : registry().reflect()) {
     CAPTURE(type.name);
     const auto provider = importOf(type.name).provide(requestOf(type.name));

@@ -113,8 +113,7 @@ class CubeLutProvider : public Provider {
 
   gl::TextureRef texture(const Frame& frame, text::Diagnostics& diagnostics) override {
     if (file_.empty()) return {};
-    if (stale_) {
-      stale_ = false;
+    if (std::exchange(stale_, false)) {
       const auto table = frame.files.get<assets::CubeLut>(file_, assets::loadCubeLut, diagnostics);
       auto texture = table && table != table_ ? makeLutTexture(*table, file_, diagnostics) : std::nullopt;
       if (texture) {

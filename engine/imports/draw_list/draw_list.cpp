@@ -6,6 +6,7 @@
 
 #include "engine/imports/builtin.h"
 #include "engine/imports/scene_tables.h"
+#include "engine/text/hash.h"
 #include "engine/text/nearest.h"
 
 namespace weft::imports {
@@ -79,17 +80,12 @@ class DrawListProvider : public Provider {
   explicit DrawListProvider(const graph::ImportRequest& request) : list_(selectionOf(request)) {}
   std::uint64_t generation(const Frame& frame) override {
     const scene::DrawList list = frame.tables.listOf(list_);
-    const auto now = std::pair(frame.tables.generation(list), frame.tables.meshFrame().generation(list));
-    if (generation_ == 0 || now != seen_) generation_ = frame.newGeneration();
-    seen_ = now;
-    return generation_;
+    return text::hashCombine(frame.tables.generation(list), frame.tables.meshFrame().generation(list));
   }
   bool isStill(const World& world) const override { return !scene::isMoving(world.scene()); }
 
  private:
   scene::Selection list_;
-  std::pair<std::uint64_t, std::uint64_t> seen_;  // of its spheres and of its meshes
-  std::uint64_t generation_ = 0;
 };
 
 }  // namespace

@@ -84,7 +84,6 @@ class SunProvider : public RowsProvider<SunProvider, SunRow> {
   }
   // Brings the row and the view up to date.
   std::uint64_t generation(const Frame& frame) override {
-    if (std::exchange(frame_, frame.number) == frame.number) return generation_;
     const std::uint64_t changed = frame.world.sceneGeneration();
     const scene::Box bounds = frame.tables.meshFrame().sceneBounds();
     scene::Sun sun = frame.tables.meshFrame().sun().value_or(scene::Sun{.irradiance = glm::vec3(0)});
@@ -107,7 +106,7 @@ class SunProvider : public RowsProvider<SunProvider, SunRow> {
   scene::Sun sun_;
   scene::SunView fitted_;
   scene::Box bounds_;
-  std::uint64_t frame_ = 0, scene_ = 0, generation_ = 0;
+  std::uint64_t scene_ = 0, generation_ = 0;
 };
 
 struct LampRow : scene::Lamp {
@@ -154,29 +153,27 @@ class LampsProvider : public RowsProvider<LampsProvider, LampRow> {
   std::vector<LampRow> rows(const Frame&) const {
     std::vector<LampRow> rows;
     std::int32_t casters = 0;
-    for (const std::uint32_t row : rows_)
-      rows.push_back({lamps_[row], scene::nearPlaneOf(lamps_[row]), lamps_[row].shadow ? casters++ : -1});
+    for (const scene::Lamp& lamp : lamps_)
+      rows.push_back({lamp, scene::nearPlaneOf(lamp), lamp.shadow ? casters++ : -1});
     return rows;
   }
   const scene::ViewData& view(const Frame& frame, const ViewPart& part) override {
     generation(frame);
-    if (part.element < rows_.size()) {
-      const scene::Lamp& lamp = lamps_[rows_[part.element]];
+    if (part.element < lamps_.size()) {
+      const scene::Lamp& lamp = lamps_[part.element];
       view_ = scene::cubeView(lamp.position, scene::nearPlaneOf(lamp), part.face, part.width);
     }
     return view_;
   }
   // Brings the rows up to date.
   std::uint64_t generation(const Frame& frame) override {
-    if (std::exchange(frame_, frame.number) == frame.number) return generation_;
     const scene::MeshFrame& placed = frame.tables.meshFrame();
-    lamps_ = placed.lamps();
     const std::uint64_t now = placed.lightsGeneration();
-    if (std::exchange(placed_, now) == now) return generation_;
-    rows_.clear();
-    for (std::uint32_t row = 0; row < lamps_.size(); ++row)
-      if (lamps_[row].shadow || !casting_) rows_.push_back(row);
-    return generation_ = frame.newGeneration();
+    if (std::exchange(placed_, now) == now) return now;
+    lamps_.clear();
+    for (const scene::Lamp& lamp : placed.lamps())
+      if (lamp.shadow || !casting_) lamps_.push_back(lamp);
+    return now;
   }
   bool isStill(const World& world) const override {
     return !scene::isMoving(world.scene()) ||
@@ -186,10 +183,8 @@ class LampsProvider : public RowsProvider<LampsProvider, LampRow> {
 
  private:
   bool casting_;
-  std::uint64_t frame_ = 0, generation_ = 0;
-  std::uint64_t placed_ = 0;            // generation of the lamps that were seen last
-  std::span<const scene::Lamp> lamps_;  // of this frame
-  std::vector<std::uint32_t> rows_;     // of lamps_ that the import has
+  std::uint64_t placed_ = 0;        // generation of the lamps that were seen last
+  std::vector<scene::Lamp> lamps_;  // those that the import has
   scene::ViewData view_;
 };
 

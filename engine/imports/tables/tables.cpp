@@ -121,6 +121,19 @@ struct Joints : SceneTable<scene::Joint> {
   static bool isStill(const World& world) { return world.scene().skins.size() == 0; }
 };
 
+struct MorphWeights : SceneTable<glm::vec2> {
+  static ImportType reflect() {
+    return {.name = "morph_weights", .doc = "Of the targets in `morph_targets`, one row for each of a node."};
+  }
+  static Columns<Row> columns() {
+    return {column<Row, std::identity{}>("weight", "x in this frame, y in the one before")};
+  }
+  static ImportFacts facts(const WorldFacts& world) { return factsOfRows(world.scene->weights.size()); }
+  static std::span<const Row> rows(const Frame& frame) { return frame.tables.meshFrame().weights(); }
+  static std::uint64_t generation(const Frame& frame) { return frame.tables.meshFrame().jointsGeneration(); }
+  static bool isStill(const World& world) { return world.scene().animations.size() == 0; }
+};
+
 // What only some vertices of the scene have.
 template <class Of, std::vector<Of> scene::MeshData::*kMember>
 struct VertexTable : SceneTable<Of> {
@@ -152,6 +165,17 @@ struct SecondUvs : VertexTable<glm::vec2, &scene::MeshData::secondUvs> {
   }
   static Columns<Row> columns() {
     return {column<Row, std::identity{}>("uv", "0,0 is the top left of the image")};
+  }
+};
+
+struct MorphTargets : VertexTable<assets::MorphTarget, &scene::MeshData::targets> {
+  static ImportType reflect() {
+    return {.name = "morph_targets",
+            .doc = "What animated morph targets add to vertices; rows of `meshes` say where theirs begin."};
+  }
+  static Columns<Row> columns() {
+    return {column<Row, &Row::position>("position", "times the weight, as all"),
+            column<Row, &Row::normal>("normal"), column<Row, &Row::tangent>("tangent")};
   }
 };
 
@@ -405,19 +429,14 @@ class DrawOrderProvider : public Provider {
     return {buffer_.id(), buffer_.bytes()};
   }
   std::uint64_t generation(const Frame& frame) override {
-    const std::uint64_t rows = frame.tables.generation(frame.tables.listOf(list_)),
-                        camera = view_.generation(frame);
-    if (generation_ == 0 || rows != rows_ || camera != camera_) generation_ = frame.newGeneration();
-    rows_ = rows;
-    camera_ = camera;
-    return generation_;
+    const scene::DrawList list = frame.tables.listOf(list_);
+    return text::hashCombine(frame.tables.generation(list), view_.generation(frame));
   }
 
  private:
   scene::Selection list_;
   NamedView view_;
   gl::Buffer buffer_;
-  std::uint64_t generation_ = 0, rows_ = 0, camera_ = 0;
   std::uint64_t sorted_ = 0;  // the generation that the buffer holds
   std::vector<scene::SortElement> elements_, scratch_;
 };
@@ -440,9 +459,10 @@ class CutProvider : public Provider {
 void addTables(graph::PlugIns<Import>& imports) {
   const auto add = [&]<class... Made>() { (imports.add(std::make_unique<ImportOf<Made>>()), ...); };
   add.operator()<SpheresProvider, MeshesProvider, TableProvider<Materials>, TableProvider<Layers>,
-                 TableProvider<Joints>, TableProvider<VertexColors>, TableProvider<SecondUvs>,
-                 TableProvider<Ground>, TableProvider<Boxes>, TableProvider<Mouse>, MaterialMapsProvider,
-                 DrawOrderProvider, CutProvider>();
+                 TableProvider<Joints>, TableProvider<MorphWeights>, TableProvider<MorphTargets>,
+                 TableProvider<VertexColors>, TableProvider<SecondUvs>, TableProvider<Ground>,
+                 TableProvider<Boxes>, TableProvider<Mouse>, MaterialMapsProvider, DrawOrderProvider,
+                 CutProvider>();
 }
 
 }  // namespace weft::imports

@@ -542,12 +542,14 @@ class Reader {
     const double total = grid.total();
     const auto suns = static_cast<std::size_t>(
         std::ranges::count(model.lights, assets::ModelLightKind::sun, &assets::ModelLight::kind));
-    const double rows = total * static_cast<double>(1 + std::max(model.nodes.size(), model.instances.size())),
+    std::size_t each = 1 + std::max(model.nodes.size(), model.instances.size());
+    for (const assets::ModelNode& node : model.nodes) each += node.weights.size();
+    const double rows = total * static_cast<double>(each),
                  lamps = copy.lights ? total * static_cast<double>(model.lights.size() - suns) : 0;
     if (rows + static_cast<double>(scene_.nodes.size()) > static_cast<double>(kMaxNodes))
       return failTooMany(diagnostics_, value,
                          fmt::format("with model '{}' the scene has too many nodes", name), kMaxNodes,
-                         fmt::format("{} copies of {} nodes", total, model.nodes.size() + 1));
+                         fmt::format("{} copies of {} nodes, instances or animated weights", total, each));
     if (lamps + static_cast<double>(scene_.lamps.size()) > static_cast<double>(kMaxLamps))
       return failTooMany(diagnostics_, value,
                          fmt::format("with model '{}' the scene has too many lamps", name), kMaxLamps,

@@ -43,8 +43,8 @@ void MeshFrame::rebuild(const Scene& scene) {
 bool MeshFrame::isMoving(const Scene& scene, const MeshInstance& instance) const {
   assert(instance.node.valid() && instance.mesh.valid() && instance.material.valid() &&
          "an instance names rows of its scene");
-  return isSkinned(scene, instance) ? skinMoves_[instance.skin.index] != 0
-                                    : transforms_.isMoving(instance.node.index);
+  return transforms_.isMoving(instance.node.index) ||
+         (isSkinned(scene, instance) && skinMoves_[instance.skin.index] != 0);
 }
 
 void MeshFrame::addList(const Scene& scene, const Selection& list) {
@@ -68,8 +68,16 @@ void MeshFrame::addList(const Scene& scene, const Selection& list) {
 }
 
 void MeshFrame::fillJoints(const Scene& scene, bool all) {
-  if (!all && std::ranges::find(skinMoves_, 1) == skinMoves_.end()) return;
+  const bool still = weights_.empty() || scene.animations.size() == 0;
+  if (!all && still && std::ranges::find(skinMoves_, 1) == skinMoves_.end()) return;
   jointsGeneration_ = count_;
+  weights_ = std::vector<glm::vec2>(scene.weights.begin(), scene.weights.end());
+  for (const Animation& each : scene.animations.rows())
+    for (std::size_t i = 0; !weights_.empty() && i < each.nodes.size(); ++i)
+      if (const assets::ModelTrack& track = each.tracks->tracks[i]; track.path == assets::TrackPath::weights)
+        weights_[scene.nodes.rows()[each.nodes[i].index].firstWeight + track.target] = {
+            sampleTrack(track, animationTime(each, time_)).x,
+            sampleTrack(track, animationTime(each, previousTime_)).x};
   forRanges(skinMoves_.size(), kFewSkins, [&](std::size_t from, std::size_t to) {
     for (std::size_t s = from; s < to; ++s) {
       const std::vector<glm::mat4>& inverseBind = scene.skins.rows()[s].inverseBind;
@@ -88,16 +96,29 @@ void MeshFrame::fillRow(const Scene& scene, ListTable& table, std::uint32_t row)
   MeshRow& out = table.rows[row];
   out.material = instance.material.index;
   out.mesh = instance.mesh.index;
+  Box moves{glm::vec3(0), glm::vec3(0)};  // by the morph targets
+  if (!mesh.targetBounds.empty()) {
+    out.targets = static_cast<std::uint32_t>(mesh.targetBounds.size());
+    out.first_target = mesh.firstTarget - mesh.firstVertex * out.targets;
+    out.first_weight = scene.nodes.rows()[instance.node.index].firstWeight;
+    for (std::uint32_t t = 0; t < out.targets; ++t) {
+      const float weight = weights_[out.first_weight + t].x;
+      const Box& by = mesh.targetBounds[t];
+      moves.low += glm::min(by.low * weight, by.high * weight);
+      moves.high += glm::max(by.low * weight, by.high * weight);
+    }
+  }
+  const auto grown = [&](const Box& box) { return Box{box.low + moves.low, box.high + moves.high}; };
   if (!isSkinned(scene, instance)) {
     out.transform = transforms_.now()[instance.node.index];
     out.previous_transform = transforms_.previous()[instance.node.index];
-    table.bounds[row] = transformBox(out.transform, mesh.bounds);
+    table.bounds[row] = transformBox(out.transform, grown(mesh.bounds));
     return;
   }
   out.first_joint = firstJoint_[instance.skin.index];
   Box box;
   for (std::size_t j = 0; j < mesh.jointBounds.size(); ++j)
-    box.add(transformBox(joints_[out.first_joint + j].now, mesh.jointBounds[j]));
+    box.add(transformBox(joints_[out.first_joint + j].now, grown(mesh.jointBounds[j])));
   table.bounds[row] = box;
 }
 
@@ -161,6 +182,8 @@ void MeshFrame::update(const Scene& scene, std::uint64_t sceneGeneration, double
   const bool another = sceneGeneration != sceneGeneration_;
   const std::size_t lists = kDrawListCount + chosen.size();
   if (!another && time == time_ && previousTime == previousTime_ && lists == tableOf_.size()) return;
+  time_ = time;
+  previousTime_ = previousTime;
   transforms_.update(scene, sceneGeneration, time, previousTime);
   ++count_;
   if (another) rebuild(scene);
@@ -174,8 +197,6 @@ void MeshFrame::update(const Scene& scene, std::uint64_t sceneGeneration, double
   fillBounds(scene, time, another);
   fillLights(scene, another);
   sceneGeneration_ = sceneGeneration;
-  time_ = time;
-  previousTime_ = previousTime;
 }
 
 }  // namespace weft::scene

@@ -20,6 +20,8 @@ struct MeshRow {
   std::uint32_t material = 0;     // row of Scene::materials
   std::uint32_t first_joint = 0;  // of a skinned mesh
   std::uint32_t mesh = 0;         // row of Scene::meshes
+  // Of a morphed mesh: target t of vertex v of all is row first_target + v * targets + t.
+  std::uint32_t first_weight = 0, first_target = 0, targets = 0;
 };
 
 // Of a skinned mesh: takes a vertex from the bind pose to the world, in this frame and in the one before.
@@ -41,6 +43,8 @@ class MeshFrame {
   std::span<const Box> bounds(DrawList list) const { return tableOf(list).bounds; }
   // Two per joint: now, previous. From the mesh to the world.
   std::span<const Joint> joints() const { return joints_; }
+  // Parallel to Scene::weights: now and previous; of the generation of joints.
+  std::span<const glm::vec2> weights() const { return weights_; }
   // Moves when a row may be another.
   std::uint64_t generation(DrawList list) const { return tableOf(list).generation; }
   std::uint64_t jointsGeneration() const { return jointsGeneration_; }
@@ -82,6 +86,7 @@ class MeshFrame {
   std::vector<std::uint32_t> firstJoint_;                                            // by row of Scene::skins
   std::vector<std::uint32_t> jointNodes_;  // rows, of all skins one after another
   std::vector<Joint> joints_;
+  std::vector<glm::vec2> weights_;
   std::vector<std::uint8_t> skinMoves_;  // by row of Scene::skins
   std::uint64_t jointsGeneration_ = 0, count_ = 0;
   bool spheresMove_ = false;

@@ -20,7 +20,6 @@ glm::vec4 slerp(const glm::vec4& a, const glm::vec4& b, float f) {
   return {q.x, q.y, q.z, q.w};
 }
 
-constexpr std::uint32_t kNoNode = 0xffffffffu;
 constexpr std::size_t kMinPart = 512;  // nodes that are worth a task
 constexpr std::size_t kFewParts = 8, kFewAnimations = 64;
 
@@ -66,24 +65,23 @@ float animationTime(const Animation& animation, double time) {
 
 namespace {
 
-// Writes the properties that an animation moves.
-void applyAnimation(const Animation& animation, double time, std::span<Transform> locals) {
-  const float at = animationTime(animation, time);
-  for (std::size_t i = 0; i < animation.tracks->tracks.size(); ++i) {
-    const ModelTrack& track = animation.tracks->tracks[i];
-    const glm::vec4 v = sampleTrack(track, at);
-    Transform& local = locals[animation.nodes[i].index];
-    if (track.path == TrackPath::rotation)
-      local.rotation = glm::quat(v.w, v.x, v.y, v.z);
-    else
-      (track.path == TrackPath::translation ? local.translation : local.scale) = glm::vec3(v);
-  }
-}
-
+// Writes the properties of nodes that animations move.
 void animate(const Scene& scene, double time, std::span<Transform> locals) {
   const std::span<const Animation> animations = scene.animations.rows();
   forRanges(animations.size(), kFewAnimations, [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from; i < to; ++i) applyAnimation(animations[i], time, locals);
+    for (const Animation& animation : animations.subspan(from, to - from)) {
+      const float at = animationTime(animation, time);
+      for (std::size_t i = 0; i < animation.nodes.size(); ++i) {
+        const ModelTrack& track = animation.tracks->tracks[i];
+        if (track.path == TrackPath::weights) continue;
+        const glm::vec4 v = sampleTrack(track, at);
+        Transform& local = locals[animation.nodes[i].index];
+        if (track.path == TrackPath::rotation)
+          local.rotation = glm::quat(v.w, v.x, v.y, v.z);
+        else
+          (track.path == TrackPath::translation ? local.translation : local.scale) = glm::vec3(v);
+      }
+    }
   });
 }
 
@@ -108,12 +106,11 @@ void WorldTransforms::rebuild(const Scene& scene) {
     if (parent.valid() && moves_[parent.index] != 0) moves_[row] = 1;
     if (moves_[row] != 0) moving_.push_back(static_cast<std::uint32_t>(row));
   }
-  previous_.locals = now_.locals;
   now_.world.resize(nodes.size());
 
   // A part may begin where no later row has a moving parent before it.
   parts_ = {moving_.size()};
-  std::uint32_t leastParent = kNoNode;
+  std::uint32_t leastParent = assets::kNoRow;
   for (std::size_t i = moving_.size(); i-- > 0;) {
     const NodeId parent = nodes[moving_[i]].parent;
     if (parent.valid() && moves_[parent.index] != 0) leastParent = std::min(leastParent, parent.index);
@@ -140,28 +137,19 @@ void WorldTransforms::placeMoving(const Scene& scene, At& at) {
 
 void WorldTransforms::update(const Scene& scene, std::uint64_t sceneGeneration, double time,
                              double previousTime) {
-  bool now = time != now_.time, previous = previousTime != previous_.time;  // what is to be placed
   if (sceneGeneration != generation_) {
     rebuild(scene);
     now_.time = time;
     animate(scene, time, now_.locals);
     for (std::uint32_t row = 0; row < scene.nodes.size(); ++row) placeRow(scene, now_, row);
     placed_ += scene.nodes.size();
-    previous_.world = now_.world;
-    previous_.locals = now_.locals;
-    now = false;
-    previous = previousTime != time;
-  } else if (now &&
-             previousTime == now_.time) {  // the frame before is most often the one that was placed last
-    now_.world.swap(previous_.world);
-    now_.locals.swap(previous_.locals);
-    previous = false;
+    previous_ = now_;
+  } else if (time != now_.time && previousTime == now_.time) {
+    std::swap(now_, previous_);  // the frame before is most often the one that was placed last
   }
   generation_ = sceneGeneration;
-  now_.time = time;
-  previous_.time = previousTime;
-  if (now) placeMoving(scene, now_);
-  if (previous) placeMoving(scene, previous_);
+  if (std::exchange(now_.time, time) != time) placeMoving(scene, now_);
+  if (std::exchange(previous_.time, previousTime) != previousTime) placeMoving(scene, previous_);
 }
 
 }  // namespace weft::scene

@@ -68,8 +68,10 @@ ModelRows addModelTables(Scene& scene, MeshData& data, const assets::Model& mode
   for (Mesh mesh : model.meshes) {
     mesh.firstVertex += firstVertex;
     mesh.firstIndex += firstIndex;
+    mesh.firstTarget += static_cast<std::uint32_t>(data.targets.size());
     rows.meshes.push_back(scene.meshes.add(std::move(mesh)));
   }
+  append(data.targets, model.targets);
   return rows;
 }
 
@@ -92,10 +94,6 @@ std::vector<LabelId> addLabels(Scene& scene, const assets::Model& model, const s
 std::vector<NodeId> addModelCopy(Scene& scene, const ModelRows& rows, const assets::Model& model,
                                  const ModelCopy& copy) {
   const NodeId root = scene.nodes.add(copy.root);
-  std::vector<bool> animated(model.nodes.size());
-  if (copy.animation)
-    for (const assets::ModelTrack& track : model.animations[*copy.animation]->tracks)
-      animated[track.node] = true;
   std::vector<NodeId> nodes;
   nodes.reserve(model.nodes.size());
   for (const assets::ModelNode& from : model.nodes) {
@@ -103,7 +101,10 @@ std::vector<NodeId> addModelCopy(Scene& scene, const ModelRows& rows, const asse
     assert(from.parent == kNoRow || from.parent < nodes.size());
     node.parent = from.parent == kNoRow ? root : nodes[from.parent];
     // A node that does nothing is its parent: a hundred thousand copies of an OBJ have a node each, not three.
-    const bool idle = node.local == Transform{} && node.inner == glm::mat3(1) && !animated[nodes.size()];
+    const bool idle = node.local == Transform{} && node.inner == glm::mat3(1) && !from.animated;
+    node.firstWeight = from.weights.empty() ? scene.nodes.rows()[node.parent.index].firstWeight
+                                            : static_cast<std::uint32_t>(scene.weights.size());
+    append(scene.weights, from.weights);
     nodes.push_back(idle ? node.parent : scene.nodes.add(std::move(node)));
   }
   std::vector<SkinId> skins;

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Pictures of small models against what glTF 2.0 says, computed here texel by texel: wrap modes of samplers, unlit colors, the back of a
-normal map, a scene whose meshes all blend, cameras of a floor and of the file. model_pictures.py WEFT"""
+normal map, a scene whose meshes all blend, moving morph targets, cameras of a floor and of the file. model_pictures.py WEFT"""
 import base64
 import json
 import pathlib
@@ -9,7 +9,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
-from pictures import png, read_png  # noqa: E402
+from pictures import png, read_exr, read_png  # noqa: E402
 from program import TOP, run  # noqa: E402
 
 WEFT = sys.argv[1]
@@ -144,8 +144,90 @@ def check_cameras(folder):
         expect(f"the camera of the file: column {at}", (r > b + 60) == inside)
 
 
+# Weights of two targets at these times, with the tangents that cubic splines also have: (in-tangents, values, out-tangents).
+TIMES = (0.0, 0.4, 1.0)
+KEYS = (((0, 0), (0.0, 0.5), (1, -2)), ((2, 1), (1.0, -0.25), (-3, 2)), ((-1, 0.5), (0.25, 1.25), (0, 0)))
+
+
+def weight_at(how, target, time):
+    """glTF 2.0, appendix C: of an animation that plays round and round."""
+    time %= TIMES[-1]
+    k = max(i for i in range(2) if TIMES[i] <= time)
+    span = TIMES[k + 1] - TIMES[k]
+    t = (time - TIMES[k]) / span
+    (_, before, leaving), (arriving, after, _) = ([row[target] for row in key] for key in KEYS[k:k + 2])
+    if how == "STEP":
+        return before
+    if how == "LINEAR":
+        return (1 - t) * before + t * after
+    return ((2 * t**3 - 3 * t**2 + 1) * before + span * (t**3 - 2 * t**2 + t) * leaving
+            + (-2 * t**3 + 3 * t**2) * after + span * (t**3 - t**2) * arriving)
+
+
+def check_morphs(folder):
+    """The first target moves the right corners by 0.8 to the right, the second all by 0.6 upwards: edges and motion."""
+    red = {"pbrMetallicRoughness": {"baseColorFactor": [0.9, 0, 0, 1]}, "emissiveFactor": [1, 0, 0]}
+    fps, slope = 10, 0.30934  # the tangent of half the camera's angle
+    unit = HEIGHT / 2 / 10 / slope  # pixels
+    for how in ("LINEAR", "STEP", "CUBICSPLINE"):
+        for graph, skinned in (("deferred.json", False), ("studio.json", False), ("deferred.json", True)):
+            model = Model([red], cameras=[{"type": "perspective", "perspective": {"yfov": 0.6, "znear": 0.1}}]).quad(0)
+            model.json["nodes"].append({"camera": 0, "name": "lens", "translation": [0, 0, 10]})
+            primitive = model.json["meshes"][0]["primitives"][0]
+            primitive["targets"] = [{"POSITION": model.accessor("VEC3", 5126, [(0, 0, 0), (0.8, 0, 0), (0.8, 0, 0), (0, 0, 0)])},
+                                    {"POSITION": model.accessor("VEC3", 5126, [(0, 0.6, 0)] * 4)}]
+            if skinned:  # by a joint at the origin
+                primitive["attributes"] |= {"JOINTS_0": model.accessor("VEC4", 5123, [(0, 0, 0, 0)] * 4),
+                                            "WEIGHTS_0": model.accessor("VEC4", 5126, [(1, 0, 0, 0)] * 4)}
+                model.json["nodes"][0]["skin"] = 0
+                model.json["skins"] = [{"joints": [2]}]
+                model.json["nodes"].append({})
+            rows = [row for key in KEYS for row in (key if how == "CUBICSPLINE" else key[1:2])]
+            sampler = {"input": model.accessor("SCALAR", 5126, [(t,) for t in TIMES]), "interpolation": how,
+                       "output": model.accessor("SCALAR", 5126, [(number,) for row in rows for number in row])}
+            model.json["animations"] = [{"samplers": [sampler], "channels": [{"sampler": 0, "target": {"node": 0, "path": "weights"}}]}]
+            for frame in (2, 5, 9, 17):
+                (x, y), before = ([weight_at(how, target, f / fps) for target in (0, 1)] for f in (frame, frame - 1))
+                velocity = folder / "v.exr"
+                also = ("-o", f"velocity={velocity}") if graph == "deferred.json" else ()
+                picture = model.render(folder, "--camera", "lens", "--fps", str(fps), "--frames", str(frame), *also, graph=graph)
+                case = f"{graph}, {how}{', skinned' * skinned}, frame {frame}"
+                left, right, low, top = -1, 1 + 0.8 * x, -1 + 0.6 * y, 1 + 0.6 * y
+                middle = ((left + right) / 2, (low + top) / 2)
+                column, row = (lambda at: int(WIDTH / 2 + at * unit)), (lambda at: int(HEIGHT / 2 - at * unit))
+                for at, inside in ((left, 1), (right, -1)):
+                    for off in (2, -2):
+                        r, _, b = picture[row(middle[1])][column(at) + off]
+                        expect(f"{case}: column {column(at) + off}, edge at {WIDTH / 2 + at * unit:.1f}", (r > b + 60) == (off * inside > 0))
+                for at, inside in ((top, 1), (low, -1)):
+                    for off in (2, -2):
+                        r, _, b = picture[row(at) + off][column(middle[0])]
+                        expect(f"{case}: row {row(at) + off}, edge at {HEIGHT / 2 - at * unit:.1f}", (r > b + 60) == (off * inside > 0))
+                if also:  # of the pixel there, in parts of the picture
+                    px, py = column(middle[0]), row(middle[1])
+                    u = ((px + 0.5 - WIDTH / 2) / unit + 1) / (right + 1)
+                    wanted = (u * 0.8 * (x - before[0]) * unit / WIDTH, 0.6 * (y - before[1]) * unit / HEIGHT)
+                    seen = read_exr(velocity.read_bytes())[py][px][:2]
+                    expect(f"{case}: motion {seen} instead of {wanted}", max(abs(a - b) for a, b in zip(seen, wanted)) < 1e-3)
+
+
+def check_lost_normals(folder):
+    """Half a target takes the normals away: as where the file is morphed when it is read, no NaN."""
+    for graph in ("deferred.json", "studio.json"):
+        model = Model([{"pbrMetallicRoughness": {"baseColorFactor": [0.9, 0.2, 0.1, 1], "metallicFactor": 0}}]).quad(0)
+        primitive = model.json["meshes"][0]["primitives"][0]
+        primitive["targets"] = [{"NORMAL": model.accessor("VEC3", 5126, [(0, 0, -2)] * 4)}]
+        model.json["meshes"][0]["weights"] = [0.5]
+        still = model.render(folder, graph=graph)
+        sampler = {"input": model.accessor("SCALAR", 5126, [(0.0,), (1.0,)]), "output": model.accessor("SCALAR", 5126, [(0.5,), (0.5,)])}
+        model.json["animations"] = [{"samplers": [sampler], "channels": [{"sampler": 0, "target": {"node": 0, "path": "weights"}}]}]
+        moving = model.render(folder, graph=graph)
+        worst = max(abs(a - b) for rows in zip(still, moving) for pixels in zip(*rows) for a, b in zip(*pixels))
+        expect(f"{graph}, normals of length 0: off by {worst} of 255", worst <= 3)
+
+
 with tempfile.TemporaryDirectory() as name:
-    for check in (check_wrap, check_colors, check_second_uvs, check_backs, check_cameras):
+    for check in (check_wrap, check_colors, check_second_uvs, check_morphs, check_lost_normals, check_backs, check_cameras):
         check(pathlib.Path(name))
 print("\n".join(problems) or "model pictures: as glTF says")
 sys.exit(1 if problems else 0)

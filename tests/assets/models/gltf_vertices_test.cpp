@@ -1,4 +1,4 @@
-// Vertex colors, and morph targets by the weights that a file begins with.
+// Vertex colors, and morph targets by the weights that a file begins with, or that move.
 #include <assimp/scene.h>
 
 #include <algorithm>
@@ -169,22 +169,56 @@ TEST_CASE("morph targets move a mesh as far as its weights or its node's say") {
   CHECK(flat.vertices[0].normal[1] == doctest::Approx(-std::sqrt(0.5)));
 }
 
-TEST_CASE("moving morph targets are left out with one warning; the mesh stays as it begins") {
+TEST_CASE("a mesh whose weights an animation moves keeps its targets, and a track has one of them") {
   GltfMaker maker = morphed();
   maker.document["meshes"][0]["weights"] = {1, 0};
-  const json channel = {{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}};
-  maker.document["animations"] = {
-      {{"name", "smile"},
-       {"channels", {channel, channel}},
-       {"samplers", {{{"input", maker.floats({0, 1}, 1)}, {"output", maker.floats({0, 0, 1, 1}, 1)}}}}}};
-  const TemporaryFolder folder;
-  text::Diagnostics diagnostics;
-  const auto model = loadModel(folder.write("m.gltf", maker.gltf()), diagnostics);
-  REQUIRE_MESSAGE(model, diagnostics.text());
-  REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
-  CHECK(diagnostics.items()[0].code == Code::modelPartLeftOut);
-  CHECK(diagnostics.items()[0].message == "the moving morph targets of animation 'smile' were left out");
-  CHECK(model->vertices[2].position == glm::vec3{1, 1, 1});
+  const auto animated = [&](std::vector<float> times, std::vector<float> values, const char* how) {
+    GltfMaker other = maker;
+    const int input = other.floats(times, 1), output = other.floats(values, 1);
+    other.document["animations"] = {
+        {{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}},
+         {"samplers", {{{"input", input}, {"output", output}, {"interpolation", how}}}}}};
+    return other;
+  };
+  const Model model = make(animated({0, 1}, {0.25, 2, 3, 4}, "LINEAR"));
+  CHECK(model.vertices[2].position == glm::vec3{1, 1, 0});
+  REQUIRE(model.targets.size() == 8);
+  const Mesh& mesh = model.meshes[0];
+  CHECK(mesh.targetBounds == std::vector<Box>{{{0, 0, 0}, {0, 0, 1}}, {{1, 0, 0}, {1, 0, 0}}});
+  CHECK(model.targets[mesh.firstTarget + 2 * 2].position == glm::vec3{0, 0, 1});
+  CHECK(model.targets[mesh.firstTarget + 2 * 2].normal == glm::vec3{1, 0, -1});
+  CHECK(model.targets[mesh.firstTarget + 2 * 3 + 1].position == glm::vec3{1, 0, 0});
+  CHECK(model.nodes[model.instances[0].node].weights == std::vector<float>{1, 0});
+  const std::vector<ModelTrack>& tracks = model.animations[0]->tracks;
+  REQUIRE(tracks.size() == 2);
+  for (std::uint32_t t = 0; t < 2; ++t) {
+    CHECK(tracks[t].path == TrackPath::weights);
+    CHECK(tracks[t].target == t);
+    CHECK(tracks[t].times == std::vector<float>{0, 1});
+    CHECK(tracks[t].values ==
+          std::vector<glm::vec4>{{t == 0 ? 0.25f : 2, 0, 0, 0}, {t == 0 ? 3 : 4, 0, 0, 0}});
+  }
+  // In-tangents, values and out-tangents of all targets.
+  const Model cubic = make(animated({0}, {1, 2, 3, 4, 5, 6}, "CUBICSPLINE"));
+  CHECK(cubic.animations[0]->tracks[1].values ==
+        std::vector<glm::vec4>{{2, 0, 0, 0}, {4, 0, 0, 0}, {6, 0, 0, 0}});
+  for (const std::size_t count : {2, 3, 6})
+    CHECK(failureOf(animated({0, 1}, std::vector<float>(count), "STEP")).code == Code::badModelValue);
+  CHECK(failureOf(animated({0, 1}, {0, 0, kNan, 1}, "STEP")).code == Code::badModelValue);
+
+  // Without normals a target takes those of the triangles to those of the moved ones.
+  primitive(maker)["attributes"].erase("NORMAL");
+  const Model flat = make(animated({0, 1}, {0, 2, 3, 4}, "LINEAR"));
+  REQUIRE(flat.targets.size() == 2 * flat.vertices.size());
+  const glm::vec3 turned = glm::normalize(flat.vertices[0].normal + flat.targets[0].normal);
+  CHECK(turned[1] == doctest::Approx(-std::sqrt(0.5)));
+  CHECK(turned[2] == doctest::Approx(std::sqrt(0.5)));
+  // One accessor in a hundred thousand targets is refused here, too.
+  primitive(maker)["attributes"]["POSITION"] = maker.floats(std::vector<float>(30000, 0.5f), 3);
+  primitive(maker)["targets"] = json(100000, {{"POSITION", primitive(maker)["attributes"]["POSITION"]}});
+  primitive(maker)["attributes"].erase("TEXCOORD_0");
+  std::vector<float> many(100000, 0.5f);
+  CHECK(failureOf(animated({0}, many, "STEP")).code == Code::limitExceeded);
 }
 
 TEST_CASE("morph targets that lie") {

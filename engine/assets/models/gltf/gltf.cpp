@@ -35,6 +35,7 @@ class GltfReader {
   void read() {
     readNodes();
     for (const JsonValue& row : document_.rows("skins")) readSkin(row);
+    for (const JsonValue& row : document_.rows("animations")) readAnimation(row);
     uvs_ = readMaterials(document_, files_, model_, made_);
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       GltfDocument::refuseUnless(!files_.stop().stop_requested());
@@ -44,7 +45,6 @@ class GltfReader {
     for (std::size_t i = 0; i < rows_.size(); ++i)
       if (const JsonValue* camera = rows_[i].find("camera"); camera && shown_[i])
         readCamera(document_.rows("cameras")[document_.index("cameras", *camera)], i);
-    for (const JsonValue& row : document_.rows("animations")) readAnimation(row);
   }
 
  private:
@@ -163,7 +163,7 @@ class GltfReader {
     if (!mesh) return;
     const std::uint32_t skin = which ? document_.index("skins", *which) : kNoRow;
     const std::vector<std::uint32_t> nodes = instancesOf(node, row);
-    for (const Part& part : partsOf(document_.index("meshes", *mesh), skin != kNoRow, node)) {
+    for (const Part& part : partsOf(document_.index("meshes", *mesh), skin != kNoRow, node, row)) {
       const bool skinned = model_.meshes[part.mesh].skinned;
       if (skinned && part.joints > model_.skins[skin].joints.size())
         document_.fail(say::noSuchJoints, node, model_.skins[skin].joints.size(), part.joints - 1);
@@ -194,28 +194,32 @@ class GltfReader {
     return rows;
   }
 
-  // A mesh is read once with its joints and once without, and once for each way in which it is morphed, where nodes use it
-  // so.
-  const std::vector<Part>& partsOf(std::uint32_t mesh, bool skinned, const JsonValue& node) {
+  // A mesh is read once with its joints and once without, and once for each way in which it is morphed, or begins to be,
+  // where nodes use it so.
+  const std::vector<Part>& partsOf(std::uint32_t mesh, bool skinned, const JsonValue& node,
+                                   std::uint32_t row) {
     const JsonValue& value = document_.rows("meshes")[mesh];
     // How far morph targets have moved a mesh when nothing animates it: as the node says, else as the mesh does.
     const JsonValue& weighted = node.find("weights") ? node : value;
-    std::vector<float> weights(itemsOf(weighted, "weights").size());
+    std::vector<float> weights(itemsOf(weighted, "weights").size()), &moving = model_.nodes[row].weights;
     document_.numbers(weighted, "weights", weights);
-    const auto [parts, isNew] = parts_.try_emplace({mesh, skinned, weights});
+    const bool moves = !moving.empty();
+    if (moves) weights.resize(moving.size());
+    if (moves) moving = std::exchange(weights, std::vector<float>(moving.size()));
+    const auto [parts, isNew] = parts_.try_emplace({mesh, skinned, moves, weights});
     if (!isNew) return parts->second;
     const std::string name = textOf(value, "name", fmt::format("mesh {}", mesh));
     const std::vector<JsonValue>& primitives = itemsOf(value, "primitives");
     for (std::size_t i = 0; i < primitives.size(); ++i) {
       const std::string each = primitives.size() == 1 ? name : fmt::format("{}[{}]", name, i);
-      const Part part = readPrimitive(primitives[i], each, skinned, weights);
+      const Part part = readPrimitive(primitives[i], each, skinned, weights, moves);
       if (part.mesh != kNoRow) parts->second.push_back(part);
     }
     return parts->second;
   }
 
   Part readPrimitive(const JsonValue& value, const std::string& name, bool skinned,
-                     const std::vector<float>& weights) {
+                     const std::vector<float>& weights, bool moves) {
     document_.unpackDraco(value);
     const JsonValue* positions = valueOf(value, {"attributes", "POSITION"});
     const int mode = static_cast<int>(document_.number(value, "mode", 4, 0, 6));
@@ -246,7 +250,7 @@ class GltfReader {
     if (uvs.size() > 1) mesh.secondUvs = readUvs(attributes, uvs[1], mesh, &RawVertex::secondUv);
     if (model_.materials[part.material].samplers[1] & atSecondUv) mesh.tangentUv = &RawVertex::secondUv;
     readColors(attributes, mesh);
-    morph(value, weights, mesh);
+    morph(value, weights, moves, corners, mesh);
     if (skinned) part.joints = readWeights(attributes, mesh);
     readIndices(value, indices, mode, mesh);
     if (!mesh.indices.empty()) part.mesh = builder_.add(std::move(mesh));
@@ -316,23 +320,30 @@ class GltfReader {
     mesh.colors = take(colors, mesh, &RawVertex::color);
   }
 
-  // The mesh as its targets move it, each by its weight. glTF 2.0, 3.7.2.2.
-  void morph(const JsonValue& primitive, const std::vector<float>& weights, RawMesh& mesh) {
+  // The mesh as its targets move it, each by its weight; where weights are to move, it keeps its targets. glTF 2.0, 3.7.2.2.
+  void morph(const JsonValue& primitive, const std::vector<float>& weights, bool moves, std::uint64_t corners,
+             RawMesh& mesh) {
     const std::vector<JsonValue>& targets = itemsOf(primitive, "targets");
     for (std::size_t t = 0; t < std::min(weights.size(), targets.size()); ++t) {
-      const JsonValue& target = targets[t];
-      if (weights[t] == 0) continue;
-      // The same accessor may serve any number of targets.
-      GltfDocument::refuseUnless(
-          files_.count(std::uint64_t{count_} * sizeof(glm::vec3) * target.members.size(), target.place));
-      const auto add = [&](const char* name, auto RawVertex::*member) {
-        const std::vector<glm::vec3> moves = attribute<glm::vec3>(target, name, kFarthest);
-        for (std::size_t v = 0; v < moves.size(); ++v)
-          for (int c = 0; c < 3; ++c) (mesh.vertices[v].*member)[c] += weights[t] * moves[v][c];
+      if (!moves && weights[t] == 0) continue;
+      // The same accessor may serve any number of targets; each is held here, in the model and in the scene.
+      GltfDocument::refuseUnless(files_.count(
+          (count_ + 2 * (mesh.normals ? count_ : corners)) * sizeof(MorphTarget), targets[t].place));
+      std::vector<MorphTarget>& target = mesh.targets.emplace_back(count_);
+      const auto read = [&](const char* name, glm::vec3 MorphTarget::*member) {
+        const std::vector<glm::vec3> values = attribute<glm::vec3>(targets[t], name, kFarthest);
+        for (std::size_t v = 0; v < values.size(); ++v) target[v].*member = values[v];
       };
-      add("POSITION", &RawVertex::position);
-      if (mesh.normals) add("NORMAL", &RawVertex::normal);
-      if (mesh.normals) add("TANGENT", &RawVertex::tangent);  // of flat ones they are made anew
+      read("POSITION", &MorphTarget::position);
+      if (mesh.normals) read("NORMAL", &MorphTarget::normal);
+      if (mesh.normals) read("TANGENT", &MorphTarget::tangent);  // of flat ones they are made anew
+      if (moves) continue;
+      for (std::size_t v = 0; v < count_; ++v) {
+        mesh.vertices[v].position += weights[t] * target[v].position;
+        mesh.vertices[v].normal += weights[t] * target[v].normal;
+        mesh.vertices[v].tangent += glm::vec4(weights[t] * target[v].tangent, 0);
+      }
+      mesh.targets.pop_back();
     }
     for (const RawVertex& v : mesh.vertices)
       if (!glm::all(glm::lessThanEqual(glm::abs(v.position), glm::vec3(kFarthest))))
@@ -454,23 +465,20 @@ class GltfReader {
     ModelAnimation animation;
     animation.name = textOf(row, "name", fmt::format("animation {}", model_.animations.size()));
     const std::vector<JsonValue>& samplers = itemsOf(row, "samplers");
-    bool saidWeights = false;  // once for an animation, which may have such a channel for every mesh
     for (const JsonValue& channel : itemsOf(row, "channels")) {
       const JsonValue *path = valueOf(channel, {"target", "path"}),
                       *node = valueOf(channel, {"target", "node"});
-      if (!path || samplers.empty()) continue;
-      if (path->text == "weights" && !std::exchange(saidWeights, true))
-        document_.leaveOut(say::morphAnimationLeftOut, channel, animation.name);
-      ModelTrack track;
-      const std::size_t which = rowOf(path->text, {"translation", "rotation", "scale"});
-      if (which == 3 || !node) continue;
-      track.path = static_cast<TrackPath>(which);
-      track.node = rowOf_[document_.index("nodes", *node)];
-      takeApart(model_.nodes[track.node]);
+      if (!path || !node || samplers.empty()) continue;
+      const std::size_t which = rowOf(path->text, {"translation", "rotation", "scale", "weights"});
+      const std::uint32_t moved = document_.index("nodes", *node);
+      const std::size_t targets = which == 3 ? targetsOf(rows_[moved]) : 1;
+      if (which == 4 || targets == 0) continue;
+      ModelTrack track{.node = rowOf_[moved], .path = static_cast<TrackPath>(which)};
+      if (track.path != TrackPath::weights) takeApart(model_.nodes[track.node]);
+      model_.nodes[track.node].animated = true;
       const JsonValue& sampler = document_.need(channel, "sampler");
-      readTrack(samplers[document_.index("samplers", samplers.size(), sampler)], track);
+      readTracks(samplers[document_.index("samplers", samplers.size(), sampler)], targets, track, animation);
       animation.duration = std::max(animation.duration, track.times.back());
-      animation.tracks.push_back(std::move(track));
     }
     model_.animations.push_back(std::make_shared<const ModelAnimation>(std::move(animation)));
   }
@@ -486,19 +494,31 @@ class GltfReader {
     if (glm::dot(rotation, rotation) > 0) node.local.rotation = glm::normalize(rotation);
   }
 
-  void readTrack(const JsonValue& sampler, ModelTrack& track) {
+  // That the mesh of a node has.
+  std::size_t targetsOf(const JsonValue& node) const {
+    const JsonValue* mesh = node.find("mesh");
+    const std::vector<JsonValue>& primitives =
+        itemsOf(mesh ? document_.rows("meshes")[document_.index("meshes", *mesh)] : node, "primitives");
+    return primitives.empty() ? 0 : itemsOf(primitives[0], "targets").size();
+  }
+
+  // One; of weights one for each of `targets`.
+  void readTracks(const JsonValue& sampler, std::size_t targets, ModelTrack& track, ModelAnimation& into) {
     const std::string how = textOf(sampler, "interpolation");
-    const bool cubic = how == "CUBICSPLINE", rotation = track.path == TrackPath::rotation;
+    const bool cubic = how == "CUBICSPLINE", rotation = track.path == TrackPath::rotation,
+               weights = track.path == TrackPath::weights;
     track.interpolation = cubic           ? TrackInterpolation::cubic
                           : how == "STEP" ? TrackInterpolation::step
                                           : TrackInterpolation::linear;
     const GltfAccessor input = document_.accessor(document_.need(sampler, "input"), "SCALAR", true);
-    const GltfAccessor output =
-        document_.accessor(document_.need(sampler, "output"), rotation ? "VEC4" : "VEC3", true);
+    const char* const kind = weights ? "SCALAR" : rotation ? "VEC4" : "VEC3";
+    const GltfAccessor output = document_.accessor(document_.need(sampler, "output"), kind, true);
     const std::uint64_t values = std::uint64_t{input.count} * (cubic ? 3 : 1);
-    if (output.count != values) document_.fail(say::notOnePerTime, sampler, values, output.count);
+    if (output.count != values * targets)
+      document_.fail(say::notOnePerTime, sampler, values * targets, output.count);
     // The same accessor may serve any number of tracks.
-    GltfDocument::refuseUnless(files_.count(std::uint64_t{input.count} * 4 + values * 16, sampler.place));
+    const std::uint64_t bytes = (sizeof(ModelTrack) + std::uint64_t{input.count} * 4) * targets;
+    GltfDocument::refuseUnless(files_.count(bytes + std::uint64_t{output.count} * 16, sampler.place));
     track.times = document_.read<float>(input);
     float before = 0;
     for (const float time : track.times) {
@@ -506,14 +526,20 @@ class GltfReader {
         document_.fail(say::timesDoNotAscend, sampler, time, before);
       before = time;
     }
+    if (weights) model_.nodes[track.node].weights.resize(targets);
     const std::vector<float> numbers = document_.read<float>(output);
-    for (std::size_t i = 0; i < values; ++i) {
-      glm::vec4& value = track.values.emplace_back(0.0f);
-      std::copy_n(numbers.data() + i * output.components, output.components, &value.x);
-      const bool isRotation = rotation && (!cubic || i % 3 == 1);
-      if (value - value != glm::vec4(0) ||  // infinite, or no number
-          (isRotation && !normalizeRotation(value)))
-        document_.fail(say::animatedValueUnusable, sampler, i, rotation ? "rotation" : "number");
+    for (; track.target < targets; ++track.target) {
+      track.values.clear();
+      for (std::size_t i = 0; i < values; ++i) {
+        glm::vec4& value = track.values.emplace_back(0.0f);
+        std::copy_n(numbers.data() + (i * targets + track.target) * output.components, output.components,
+                    &value.x);
+        const bool isRotation = rotation && (!cubic || i % 3 == 1);
+        if (value - value != glm::vec4(0) ||  // infinite, or no number
+            (isRotation && !normalizeRotation(value)))
+          document_.fail(say::animatedValueUnusable, sampler, i, rotation ? "rotation" : "number");
+      }
+      into.tracks.push_back(track);
     }
   }
 
@@ -527,7 +553,7 @@ class GltfReader {
   const std::vector<JsonValue>& rows_ = document_.rows("nodes");
   std::vector<std::uint32_t> rowOf_;  // by the file's index of a node: its row in the model
   std::vector<bool> shown_;           // by the file's index: in the scene that is shown
-  std::map<std::tuple<std::uint32_t, bool, std::vector<float>>, std::vector<Part>> parts_;
+  std::map<std::tuple<std::uint32_t, bool, bool, std::vector<float>>, std::vector<Part>> parts_;
   std::uint32_t count_ = 0;  // of vertices of the primitive that is read
 };
 

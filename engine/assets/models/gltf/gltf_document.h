@@ -132,7 +132,7 @@ using GltfUvs = std::vector<GltfUv>;
 std::vector<GltfUvs> readMaterials(GltfDocument& document, ModelFiles& files, Model& model, bool made);
 
 // The file as a Model; `made`: it was made of one of another format, whose paths may be those of another machine and whose
-// vertices are one for each corner. Left out, with W168: points and lines, the motion of morph targets, further uv sets, a second sun, extensions
+// vertices are one for each corner. Left out, with W168: points and lines, further uv sets, a second sun, extensions
 // that are not known. False after errors, or when the load was stopped.
 bool readGltf(std::string bytes, ModelFiles& files, Model& model, bool made = false);
 

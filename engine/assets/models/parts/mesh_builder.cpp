@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -30,23 +31,35 @@ Vec perpendicular(Vec n) {
   return {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
 }
 
-// glTF 2.0, 3.7.2.1: flat normals where a file has none. A vertex per corner, because corners may not share.
+// glTF 2.0, 3.7.2.1: flat normals where a file has none. A vertex per corner, because corners may not share. A target adds
+// what takes them to those of the triangles that it has moved.
 void makeNormals(RawMesh& mesh) {
-  std::vector<RawVertex> corners;
-  corners.reserve(mesh.indices.size());
-  for (std::uint32_t& index : mesh.indices) {
-    corners.push_back(mesh.vertices[index]);
-    index = static_cast<std::uint32_t>(corners.size() - 1);
-  }
-  for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
-    const Vec a(corners[i].position);
-    const Vec n = glm::cross(Vec(corners[i + 1].position) - a, Vec(corners[i + 2].position) - a);
+  const auto takeApart = [&](auto& rows) {
+    const auto vertices = std::exchange(rows, {});
+    rows.reserve(mesh.indices.size());
+    for (const std::uint32_t index : mesh.indices) rows.push_back(vertices[index]);
+  };
+  takeApart(mesh.vertices);
+  for (std::vector<MorphTarget>& target : mesh.targets) takeApart(target);
+  std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);
+  for (std::size_t i = 0; i + 2 < mesh.vertices.size(); i += 3) {
+    const auto normalOf = [&](const MorphTarget& a, const MorphTarget& b, const MorphTarget& c) {
+      const Vec at = Vec(mesh.vertices[i].position) + Vec(a.position);
+      return glm::cross(Vec(mesh.vertices[i + 1].position) + Vec(b.position) - at,
+                        Vec(mesh.vertices[i + 2].position) + Vec(c.position) - at);
+    };
+    const Vec n = normalOf({}, {}, {});
     for (std::size_t c = i; c < i + 3; ++c) {
-      corners[c].normal = glm::vec3(unit(n, {0, 0, 1}));
-      corners[c].tangent = glm::vec4(0);
+      mesh.vertices[c].normal = glm::vec3(unit(n, {0, 0, 1}));
+      mesh.vertices[c].tangent = glm::vec4(0);
+    }
+    for (std::vector<MorphTarget>& target : mesh.targets) {
+      const Vec moved = normalOf(target[i], target[i + 1], target[i + 2]);
+      const double length = std::max({glm::length(n), 1e-3 * glm::length(moved), 1e-30});
+      for (std::size_t c = i; c < i + 3; ++c)
+        target[c] = {target[c].position, glm::vec3((moved - n) / length)};
     }
   }
-  mesh.vertices = std::move(corners);
 }
 
 void cleanNormals(RawMesh& mesh) {
@@ -86,8 +99,8 @@ void makeTangents(RawMesh& mesh) {
       if (signs[vertex] == -frame.sign) {
         const auto [found, isNew] = mirrored.try_emplace(vertex, static_cast<std::uint32_t>(sums.size()));
         if (isNew) {
-          const RawVertex copy = mesh.vertices[vertex];
-          mesh.vertices.push_back(copy);
+          mesh.vertices.push_back(mesh.vertices[vertex]);
+          for (std::vector<MorphTarget>& target : mesh.targets) target.push_back(target[vertex]);
           sums.emplace_back(0);
           signs.push_back(frame.sign);
         }
@@ -186,6 +199,13 @@ std::uint32_t MeshBuilder::add(RawMesh mesh) {
   row.firstIndex = static_cast<std::uint32_t>(model_.indices.size());
   row.indexCount = static_cast<std::uint32_t>(mesh.indices.size());
   row.skinned = mesh.skinned;
+  row.firstTarget = static_cast<std::uint32_t>(model_.targets.size());
+  row.targetBounds.resize(mesh.targets.size());
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    for (std::size_t t = 0; t < mesh.targets.size(); ++t) {
+      model_.targets.push_back(mesh.targets[t][v]);
+      row.targetBounds[t].add(mesh.targets[t][v].position);
+    }
   const bool skins = mesh.skinned || !model_.skin.empty(), colors = mesh.colors || !model_.colors.empty(),
              uvs = mesh.secondUvs || !model_.secondUvs.empty();
   if (skins) model_.skin.resize(row.firstVertex);
@@ -229,10 +249,8 @@ void windMirrored(Model& model) {
       const std::uint32_t from = copy.firstIndex;
       copy.firstIndex = static_cast<std::uint32_t>(model.indices.size());
       for (std::uint32_t i = 0; i + 2 < copy.indexCount; i += 3)
-        for (const std::uint32_t corner : {0u, 2u, 1u}) {
-          const std::uint32_t index = model.indices[from + i + corner];
-          model.indices.push_back(index);
-        }
+        for (const std::uint32_t corner : {0u, 2u, 1u})
+          model.indices.push_back(model.indices[from + i + corner]);
       model.meshes.push_back(std::move(copy));
     }
     instance.mesh = found->second;

@@ -34,7 +34,8 @@ static_assert(sizeof(RawVertex) == 96);  // no padding: vertices are compared by
 struct RawMesh {
   std::string name;
   std::vector<RawVertex> vertices;
-  std::vector<std::uint32_t> indices;  // triangles; below the number of vertices
+  std::vector<std::vector<MorphTarget>> targets;  // each parallel to vertices
+  std::vector<std::uint32_t> indices;             // triangles; below the number of vertices
   bool normals = false, colors = false, secondUvs = false, skinned = false;  // what the file has
   glm::vec2 RawVertex::*tangentUv = &RawVertex::uv;                          // what tangents follow
   bool join = false;  // equal vertices become one: of formats without indices

@@ -19,6 +19,6 @@ void main() {
   own_alpha = vertex_color[gl_VertexID].color.a;
 #endif
   row = mesh_row[instance].material;
-  vec3 at = (sun_light[0].shadow_matrix * (meshTransform() * vec4(position, 1.0))).xyz;
+  vec3 at = (sun_light[0].shadow_matrix * (meshTransform() * meshPosition())).xyz;
   gl_Position = vec4((at.xy - window[map].corner) / window[map].size * 2.0 - 1.0, at.z, 1.0);
 }

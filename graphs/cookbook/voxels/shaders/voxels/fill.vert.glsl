@@ -11,8 +11,8 @@ flat out uint row;
 
 void main() {
   mat4 transform = meshTransform();
-  world = (transform * vec4(position, 1.0)).xyz;
-  world_normal = meshNormal(transform, normal);
+  world = (transform * meshPosition()).xyz;
+  world_normal = meshNormal(transform, normal + morphed(false).normal);
   map_uv = uv;
   row = mesh_row[instance].material;
   vec3 p = 2.0 * inCube(world) - 1.0;
