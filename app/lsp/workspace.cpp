@@ -97,14 +97,9 @@ bool Workspace::isPreset(const std::string& path, int depth) const {
 
 void Workspace::read(const std::string& path, Graph& graph) {
   const auto isSame = [&](const auto& known) { return texts_.of(known.first) == known.second; };
-  if (!graph.texts.empty() && std::ranges::all_of(graph.texts, isSame)) return;
+  if (graph.read && std::ranges::all_of(graph.texts, isSame)) return;  // what could not be read is read again
   graph.readSaid.clear();
-  if (const auto text = texts_.of(path); text && text->isLarge()) {
-    graph.texts = {{path, text}};
-    graph.read = graph.desc = nullptr;
-    graph.readSaid.error(say::tooLargeForEditor, {path, 1, 1}, Text::kMaxBytes);
-    return;
-  }
+  graph::mostFileBytes = Text::kMaxBytes;
   graph.read = graph::readGraph(path, graph.readSaid);
   if (graph.read || !graph.desc) graph.texts.clear();
   graph.texts[path];

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/graph/language/names.h"
+#include "engine/graph/read/read.h"
 #include "engine/graph/read/read_context.h"
 #include "engine/text/files/file.h"
 #include "engine/text/limits.h"
@@ -614,6 +615,10 @@ std::optional<JsonValue> SourceLoader::parse(const std::string& path, const text
     texts_[path] = found->second;
   } else {
     std::optional<std::string> bytes = text::readTextFile(path, diagnostics_, Code::unreadableFile, from);
+    if (bytes && bytes->size() > mostFileBytes) {
+      diagnostics_.error(say::fileTooLarge, from, mostFileBytes, bytes->size());
+      bytes.reset();
+    }
     if (!bytes) return std::nullopt;
     texts_[path] = std::make_shared<const std::string>(*std::move(bytes));
   }

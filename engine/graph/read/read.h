@@ -12,6 +12,8 @@
 
 namespace weft::graph {
 
+inline std::uint64_t mostFileBytes = ~0ull;  // of one file; fewer in an editor
+
 // Reads `path` and its includes (paths relative to the including file), with presets on top, in this order (overlay.h). Takes
 // the text of a file from `given` where that has its path. Comments are allowed. Null after an error that leaves nothing to
 // expand; otherwise a description, perhaps partial, with the errors in `diagnostics`. A preset that cannot be read is an error

@@ -183,6 +183,14 @@ def check_large(weft, report, folder):
     editor.settle("large.json")
     said = [d["code"] for d in editor.published["large.json"]["diagnostics"]]
     report.check(said and "W201" not in said, f"17 bytes: {said}")
+    # So is one that is included: a message where it is included, and no memory for what is in it.
+    (folder / "below.json").write_text('{"resources": {' + ",".join(f'"r{i}": {{"texture": "rgba8"}}' for i in range(300_000)) + '}, "passes": []}')
+    editor.open("above.json", '{"passes": [\n  { "include": "below.json" }]}')
+    editor.settle("above.json")
+    said = [(d["code"], d["range"]["start"]["line"]) for d in editor.published["above.json"]["diagnostics"]]
+    report.check(("W201", 1) in said, f"an include of 8 MB: {said}")
+    kilobytes = int(re.search(r"VmHWM:\s+(\d+) kB", pathlib.Path(f"/proc/{editor.process.pid}/status").read_text())[1])
+    report.check(kilobytes < 200_000 * SLOWER, f"an include of 8 MB took {kilobytes} kB")
     editor.end()
 
 
