@@ -1,9 +1,9 @@
-// The ground: its surface, lit by sky, sun and the brightest spot; beyond that the environment, darkened by the share of light that is
+// The ground: its surface, lit by sky, sun and the brightest spots; beyond that the environment, darkened by the share of light that is
 // blocked. Spheres have drawn what they block before.
 // read    ground       see scene/ground.glsl
 //         irradiance?, brightest?, sun?   see shading/environment.glsl, ibl/brightest.glsl, scene/sun.glsl
 //         sky?         rgb: share of the sky's light that arrives; the target's size, not `as linear`
-//         lights?      x, y: shares of the sun's and of the brightest spot's; as sky
+//         sun_seen?, spots_seen?   r: share of the sun's; rgba: of each spot's; as sky
 //         light_maps?, light_depths?, scene_bounds?   shadows of meshes, see shading/mesh_shadow.glsl
 //         mesh_sky?    the share of the sky's light that meshes leave, see ground/mesh_sky.frag.glsl; `as linear`, with scene_bounds
 //         air?         see fog/fog.glsl
@@ -12,6 +12,8 @@
 //         depth        near / distance along the view axis (reversed-Z)
 // params  sky_turn     rotation of the environment, in full turns
 #include "fog/fog.glsl"
+#include "ibl/brightest.glsl"
+#include "shading/point.glsl"
 #if defined HAS_RADIANCE && defined HAS_LIGHT_MAPS && defined HAS_LIGHT_DEPTHS && defined HAS_SCENE_BOUNDS
 #define SEES_MESHES 1
 layout(std140) uniform Parameters { float sky_turn; };
@@ -28,8 +30,11 @@ uniform sampler2D mesh_sky;
 #ifdef HAS_SKY
 uniform sampler2D sky;
 #endif
-#ifdef HAS_LIGHTS
-uniform sampler2D lights;
+#ifdef HAS_SUN_SEEN
+uniform sampler2D sun_seen;
+#endif
+#ifdef HAS_SPOTS_SEEN
+uniform sampler2D spots_seen;
 #endif
 
 noperspective in vec2 uv;
@@ -45,7 +50,6 @@ flat in vec3 from_sun;
 #else
 const vec3 from_sun = vec3(0.0);
 #endif
-flat in vec3 from_spot;
 out vec4 radiance;
 #endif
 #ifdef HAS_VELOCITY
@@ -62,24 +66,33 @@ void main() {
   vec3 at = from + ray * t;
 #ifdef HAS_RADIANCE
   vec3 sky_seen = vec3(1.0);
-  vec2 lights_seen = vec2(1.0);
+  LightsSeen seen = kOpen;
 #ifdef HAS_SKY
   sky_seen = textureLod(sky, uv, 0.0).rgb;
 #endif
-#ifdef HAS_LIGHTS
-  lights_seen = textureLod(lights, uv, 0.0).xy;
+#ifdef HAS_SUN_SEEN
+  seen.sun = textureLod(sun_seen, uv, 0.0).r;
+#endif
+#ifdef HAS_SPOTS_SEEN
+  vec4 spots = textureLod(spots_seen, uv, 0.0);
+  seen = LightsSeen(seen.sun, spots.x, spots.yzw);
 #endif
 #if SEES_MESHES
   LightsSeen past_meshes = lightsPastMeshes(at, vec3(0.0, 1.0, 0.0), sky_turn);
-  lights_seen = min(lights_seen, vec2(past_meshes.sun, past_meshes.spot));
+  seen = LightsSeen(min(seen.sun, past_meshes.sun), min(seen.spot, past_meshes.spot), min(seen.others, past_meshes.others));
 #endif
 #if defined HAS_MESH_SKY && defined HAS_SCENE_BOUNDS
   vec4 bounds = boundingSphere();
   sky_seen *= textureLod(mesh_sky, plainUv((at.xz - bounds.xz) / bounds.w), 0.0).r;
 #endif
   const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
-  vec3 arrives = from_sky * sky_seen + from_sun * lights_seen.x + from_spot * lights_seen.y;
-  float all = dot(from_sky + from_sun + from_spot, luminance), left = all > 0.0 ? dot(arrives, luminance) / all : 1.0;
+#ifdef HAS_IRRADIANCE
+  mat4x3 from_spots = spotsFromAbove();
+#else
+  mat4x3 from_spots = mat4x3(0.0);
+#endif
+  vec3 arrives = from_sky * sky_seen + from_sun * seen.sun + from_spots * vec4(seen.spot, seen.others);
+  float all = dot(from_sky + from_sun + from_spots * vec4(1.0), luminance), left = all > 0.0 ? dot(arrives, luminance) / all : 1.0;
   float radius = albedo_radius.w, surface = radius > 0.0 ? 1.0 - smoothstep(0.5 * radius, radius, length(at.xz)) : 0.0;
   float kept = min(left, 1.0);  // of the environment behind
   vec3 reflected = albedo_radius.rgb * arrives;

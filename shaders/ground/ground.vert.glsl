@@ -20,11 +20,10 @@ flat out vec3 from;         // the eye
 flat out vec2 near_height;  // the near plane, the ground's height
 flat out vec4 albedo_radius;  // of its surface
 #ifdef HAS_RADIANCE
-flat out vec3 from_sky;     // irradiance over pi, of each light
+flat out vec3 from_sky;     // irradiance over pi, of the sky without its spots
 #ifdef HAS_SUN
 flat out vec3 from_sun;
 #endif
-flat out vec3 from_spot;
 #endif
 #ifdef HAS_VELOCITY
 flat out mat4x3 before;     // x, y and w in last frame's clip space
@@ -38,14 +37,11 @@ void main() {
   near_height = vec2(near_plane, self.height);
   albedo_radius = vec4(self.albedo, self.radius);
 #ifdef HAS_RADIANCE
-  from_sky = from_spot = vec3(0.0);
+  from_sky = vec3(0.0);
 #ifdef HAS_IRRADIANCE
   vec2 lookup = vec2(0.0, 0.5 / float(textureSize(irradiance, 0).y));
   from_sky = sampleEquirect(irradiance, vec2(0.0), lookup).rgb;
-#ifdef HAS_BRIGHTEST
-  from_spot = min(brightest_light.rgb * (max(towardsBrightest(sky_turn).y, 0.0) / kPi), from_sky);
-  from_sky -= from_spot;
-#endif
+  from_sky = max(from_sky - spotsFromAbove() * vec4(1.0), vec3(0.0));
 #endif
 #ifdef HAS_SUN
   from_sun = sun_light[0].irradiance * (max(sun_light[0].direction.y, 0.0) / kPi);

@@ -1,33 +1,43 @@
-// The brightest spot of the environment, a sun or a lamp, which ibl/prefilter leaves out of the specular map: a light of its own.
+// The brightest spots of the environment, a sun, lamps or windows, which ibl/prefilter leaves out of the specular map: lights of their own.
 // read   brightest?   `as uniform`, written by ibl/brightest.comp
 #ifndef IBL_BRIGHTEST_GLSL
 #define IBL_BRIGHTEST_GLSL
 
 #include "common/equirect.glsl"
+#include "ibl/spot.glsl"
 
 #ifdef HAS_BRIGHTEST
 layout(std140) uniform brightest {
-  vec4 brightest_at;     // towards it, in the map's own orientation; w: radiance above which it was cut out of the map
-  vec4 brightest_light;  // irradiance that was cut out, on a surface facing it; w: its variance along one axis, radians squared
+  Spot spots[kSpots];
+  int spot_count;
 };
 #else
-const vec4 brightest_at = vec4(0.0, 1.0, 0.0, 65504.0), brightest_light = vec4(0.0);  // nothing is cut out
+const Spot spots[kSpots] = Spot[](kNoSpot, kNoSpot, kNoSpot, kNoSpot);
+const int spot_count = 0;
 #endif
-
-const float kWindow = 0.0873;       // radians around the spot that are cut: 5 degrees
-const float kNearCosine = 0.98481;  // of twice as much
 
 // A direction of the environment when it is rotated by `turn` of a full turn.
 vec3 turnedAbout(vec3 at, float turn) {
   float c = cos(turn * 2.0 * kPi), s = sin(turn * 2.0 * kPi);
   return vec3(c * at.x - s * at.z, at.y, s * at.x + c * at.z);
 }
-vec3 towardsBrightest(float turn) { return turnedAbout(brightest_at.xyz, turn); }
+vec3 towardsSpot(int i, float turn) { return turnedAbout(spots[i].at.xyz, turn); }
 
-// Its irradiance over pi on a surface that faces it; w: half the angle of its disc, radians. The same for all pixels.
-vec4 spotIrradiance() { return vec4(brightest_light.rgb / kPi, max(2.0 * sqrt(brightest_light.w), 0.002)); }
+// A spot's irradiance over pi on a surface that faces it; w: half the angle of its disc, radians. The same for all pixels.
+vec4 spotIrradiance(int i) { return vec4(spots[i].light.rgb / kPi, max(2.0 * sqrt(spots[i].light.w), 0.002)); }
 
-// The spot's reflection in a GGX surface: the distribution of half vectors, a GGX tail with a bump on its peak.
+// The part of a shadow map that spot `i` has: its corner and its size. The first has a map of its own; the others share one, a quarter each,
+// with room around it for penumbrae.
+vec3 partOfSpot(int i) { return i > 0 ? vec3(0.5 * vec2(i & 1, i >> 1) + 0.05, 0.4) : vec3(0.0, 0.0, 1.0); }
+
+// 1 for spot `i` alone.
+vec4 onlySpot(int i) { return vec4(equal(ivec4(0, 1, 2, 3), ivec4(i))); }
+
+// What each spot gives to a surface that faces up, of irradiance over pi.
+vec3 spotFromAbove(int i) { return spots[i].light.rgb * (max(spots[i].at.y, 0.0) / kPi); }
+mat4x3 spotsFromAbove() { return mat4x3(spotFromAbove(0), spotFromAbove(1), spotFromAbove(2), spotFromAbove(3)); }
+
+// A spot's reflection in a GGX surface: the distribution of half vectors, a GGX tail with a bump on its peak.
 struct SpotShape {
   float alpha2;    // squared width of the surface's own lobe
   float tail;      // squared width of the tail

@@ -2,8 +2,9 @@
 // read   environment  equirectangular with mips, `as linear wrap`
 //        brightest?   see brightest.glsl
 // define ABOVE  1: of the half above the horizon alone; what is below counts as black
-// write  result       rgba16f; COLUMNS wide: every row is one work group. a: the mean cosine of the spot's light on the coarse grid: a
-//                     times the spot's irradiance / pi is its part of rgb
+// write  result       rgba16f; COLUMNS wide: every row is one work group. a: the mean cosine of the first spot's light on the coarse grid:
+//                     times the spot's irradiance / pi it is its part of rgb
+//        cosines?     rgba16f, as large: yzw of the other spots; x: 0
 //
 // Direct integration over a grid of COLUMNS x COLUMNS / 2 cells of the environment, taken at the level where a texel is as large as a cell,
 // with the exact solid angle of each cell and normalized by the sum of the weights: a constant environment is kept exactly, and the
@@ -20,6 +21,9 @@ const int kRows = COLUMNS / 2, kLit = ABOVE == 1 ? kRows / 2 : kRows;  // rows o
 layout(local_size_x = COLUMNS) in;
 uniform sampler2D environment;
 layout(rgba16f) uniform writeonly image2D result;
+#ifdef HAS_COSINES
+layout(rgba16f) uniform writeonly image2D cosines;
+#endif
 
 shared float weights[kRows * COLUMNS];
 
@@ -63,20 +67,26 @@ void main() {
       sum += weight * vec4(y < kLit ? radiance : vec3(0.0), 2.0);
     }
   }
-  float spot = 0.0;
-#ifdef HAS_BRIGHTEST
-  // The cells that the spot covers have its light: a rectangle as wide as the spot is on average.
-  vec2 cells = vec2(COLUMNS, kRows), at = equirectUv(brightest_at.xyz) * cells;
-  float wide = sqrt(3.0 * brightest_light.w), from_pole = sqrt(max(1.0 - brightest_at.y * brightest_at.y, 1e-4));
-  vec2 reach = clamp(vec2(wide / from_pole * 0.5, wide) * cells / kPi, 1e-3, 0.5 * float(COLUMNS));
-  vec2 first = at - reach, last = at + reach;
-  for (int r = max(int(floor(first.y)), 0); r <= min(int(floor(last.y)), kLit - 1); ++r) {
-    float of_row = min(last.y, float(r + 1)) - max(first.y, float(r)), part = 0.0;
-    for (int c = int(floor(first.x)); c <= int(floor(last.x)); ++c)
-      part += (min(last.x, float(c + 1)) - max(first.x, float(c))) * weights[r * COLUMNS + (c - x + 2 * COLUMNS) % COLUMNS];
-    spot += part * of_row / sin((float(r) + 0.5) * (kPi / float(kRows)));
+  vec4 of_spots = vec4(0.0);
+  for (int i = 0; i < spot_count; ++i) {
+    // The cells that the spot covers have its light: a rectangle as wide as the spot is on average.
+    vec4 spot_at = spots[i].at;
+    vec2 cells = vec2(COLUMNS, kRows), at = equirectUv(spot_at.xyz) * cells;
+    float wide = sqrt(3.0 * spots[i].light.w), from_pole = sqrt(max(1.0 - spot_at.y * spot_at.y, 1e-4));
+    vec2 reach = clamp(vec2(wide / from_pole * 0.5, wide) * cells / kPi, 1e-3, 0.5 * float(COLUMNS));
+    vec2 first = at - reach, last = at + reach;
+    float spot = 0.0;
+    for (int r = max(int(floor(first.y)), 0); r <= min(int(floor(last.y)), kLit - 1); ++r) {
+      float of_row = min(last.y, float(r + 1)) - max(first.y, float(r)), part = 0.0;
+      for (int c = int(floor(first.x)); c <= int(floor(last.x)); ++c)
+        part += (min(last.x, float(c + 1)) - max(first.x, float(c))) * weights[r * COLUMNS + (c - x + 2 * COLUMNS) % COLUMNS];
+      spot += part * of_row / sin((float(r) + 0.5) * (kPi / float(kRows)));
+    }
+    // At a pole a part of the rectangle is outside of the map.
+    of_spots[i] = spot / (2.0 * reach.x * (min(last.y, float(kRows)) - max(first.y, 0.0)));
   }
-  spot /= 2.0 * reach.x * (min(last.y, float(kRows)) - max(first.y, 0.0));  // at a pole a part of the rectangle is outside of the map
+  imageStore(result, ivec2(x, row), vec4(sum.rgb / sum.a, of_spots.x));
+#ifdef HAS_COSINES
+  imageStore(cosines, ivec2(x, row), vec4(0.0, of_spots.yzw));
 #endif
-  imageStore(result, ivec2(x, row), vec4(sum.rgb / sum.a, spot));
 }

@@ -1,5 +1,6 @@
-// Light of the environment: what a lobe reflects of its maps, its brightest spot in closed form, and irradiance.
+// Light of the environment: what a lobe reflects of its maps, its brightest spots in closed form, and irradiance.
 // read    irradiance?, specular?, environment?, brightest?   see shading/environment.glsl; without one its light is missing
+//         spot_cosines?   see there
 //         probes?, sh?   light that other things reflect, see gi/bounce.glsl
 //         air?   fog in front of what is reflected, see fog/sky.glsl
 //         mirrored?, or mirror_light?, probe_light? and theirs   the scene in reflections, see reflections/seen.glsl
@@ -39,6 +40,9 @@ vec3 reflectedEnvironment(Point point, Response response, Lobe lobe, vec3 axis) 
   return radiance;
 }
 
+// Squared width of the lobe with that of its pixel.
+float alpha2OfLobe(Lobe lobe) { return exp2((lobe.specular_level / max(lobe.last_level, 1.0) - 1.0) * 4.0 * kOctaves); }
+
 // |V + L|^2 for light from the spot.
 float spotHalf2(Point point, Lobe lobe) {
   float nl = max(dot(point.normal, lobe.spot), 0.0);
@@ -61,13 +65,24 @@ vec3 reflectedSpot(Point point, Response response, Lobe lobe, float strength) {
 #endif
   return fresnel * lobe.spot_light * strength;
 }
+
+// For a spot after the first. These stay in lookups of `environment`; in `specular` they are at least a pixel wide.
+vec3 reflectedOther(Point point, Response response, Lobe lobe, int i, float seen) {
+  float alpha2 = lobe.spot_shape.alpha2, pixel = 1.5 * max(alpha2OfLobe(lobe) - alpha2, 0.0);
+  lobe.spot = towardsSpot(i, sky_turn);
+  lobe.spot_light = spots[i].light.rgb * (lobe.specular_weight / (2.0 * kPi));
+  lobe.spot_shape = spotShape(sqrt(alpha2), min(0.25 * spots[i].light.w + pixel, 0.25));
+  return reflectedSpot(point, response, lobe, spotStrength(point, lobe) * seen);
+}
 #endif
 
 #ifdef HAS_IRRADIANCE
-// Irradiance over pi of a surface that faces a direction; alpha: its part of spotIrradiance().
-vec4 irradianceTowards(vec3 facing, Lobe lobe) {
-  return sampleEquirect(irradiance, equirectUv(facing) - vec2(sky_turn, 0.0), vec2(0.0, lobe.irradiance_pole));
+// Of a map of irradiance over pi, for a surface that faces a direction.
+vec4 irradianceTowards(sampler2D map, vec3 facing, Lobe lobe) {
+  return sampleEquirect(map, equirectUv(facing) - vec2(sky_turn, 0.0), vec2(0.0, lobe.irradiance_pole));
 }
+
+float spotCosine(sampler2D map, int i, vec3 facing, Lobe lobe) { return dot(irradianceTowards(map, facing, lobe), onlySpot(i)); }
 
 #ifdef HAS_PROBES
 // The part of it that other things reflect.
@@ -84,6 +99,7 @@ vec3 bouncedIrradiance(Point point, Lobe lobe) {
 
 Ambient ambientOf(Point point, Response response, Lobe lobe, LightsSeen seen) {
   Ambient ambient = noAmbient();
+  float aside = 1.0;  // what a lobe sees of the spots past the scene
 #ifdef HAS_SPECULAR
 #if SEES_SCENE
   vec4 scene = seenOfScene(point, response);
@@ -93,18 +109,29 @@ Ambient ambientOf(Point point, Response response, Lobe lobe, LightsSeen seen) {
 #if SEES_SCENE
   ambient.traced = scene.rgb * response.single;
   ambient.open = 1.0 - scene.a;
-  // What a smooth lobe meets hides the spot; a rough one sees it from aside.
-  float spot_seen = seen.spot * mix(1.0, 1.0 / max(ambient.open, 1e-3), smoothstep(0.1, 0.4, response.roughness));
-#else
-  float spot_seen = seen.spot;
+  // What a smooth lobe meets hides the spots; a rough one sees them from aside.
+  aside = mix(1.0, 1.0 / max(ambient.open, 1e-3), smoothstep(0.1, 0.4, response.roughness));
 #endif
 #ifdef HAS_BRIGHTEST
-  ambient.reflected += reflectedSpot(point, response, lobe, spotStrength(point, lobe) * spot_seen);
+  ambient.reflected += reflectedSpot(point, response, lobe, spotStrength(point, lobe) * (seen.spot * aside));
 #endif
 #endif
 #ifdef HAS_IRRADIANCE
-  vec4 mean = irradianceTowards(point.normal, lobe);
-  ambient.mean = max(mean.rgb - spotIrradiance().rgb * (mean.a * (1.0 - seen.spot)), vec3(0.0));
+  vec4 mean = irradianceTowards(irradiance, point.normal, lobe);
+  ambient.mean = mean.rgb - spotIrradiance(0).rgb * (mean.a * (1.0 - seen.spot));
+#endif
+  // One loop for all that the other spots do: in software one costs also where it is not entered.
+  for (int i = 1; i < spot_count; ++i) {
+    float other = otherOf(seen, i);
+#ifdef HAS_SPECULAR
+    ambient.reflected += reflectedOther(point, response, lobe, i, other * aside);
+#endif
+#if defined HAS_IRRADIANCE && defined HAS_SPOT_COSINES
+    ambient.mean -= spotIrradiance(i).rgb * (spotCosine(spot_cosines, i, point.normal, lobe) * (1.0 - other));
+#endif
+  }
+#ifdef HAS_IRRADIANCE
+  ambient.mean = max(ambient.mean, vec3(0.0));
 #ifdef HAS_PROBES
   ambient.mean += bouncedIrradiance(point, lobe);
 #endif

@@ -1,7 +1,7 @@
 // Radiance that leaves a surface towards the eye: of the environment, the sun and lamps. Include a shading model before, such as
 // shading/cook_torrance.glsl; it says what the surface does with light, as ambientRadiance() and directRadiance().
 // read    brdf     see shading/material.glsl
-//         irradiance?, specular?, environment?, brightest?, probes?, sh?   see shading/ambient.glsl
+//         irradiance?, spot_cosines?, specular?, environment?, brightest?, probes?, sh?   see shading/ambient.glsl
 //         sun?, sun_map?, sun_depth?                                       see shading/sun.glsl
 //         lamps?, lamp_maps?, clusters?, slices?                           see shading/lamps.glsl
 //         light_maps?, light_depths?, scene_bounds?   shadows that meshes cast, see shading/mesh_shadow.glsl; in place of sun_map
@@ -23,7 +23,7 @@
 #include "shading/mesh_shadow.glsl"
 LightsSeen lightsSeen(Point point) { return lightsPastMeshes(point.position, point.normal, sky_turn); }
 #else
-LightsSeen lightsSeen(Point point) { return LightsSeen(1.0, 1.0); }
+LightsSeen lightsSeen(Point point) { return kOpen; }
 #endif
 
 struct Light {

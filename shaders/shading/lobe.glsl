@@ -23,7 +23,7 @@ Lobe lobeOf(float roughness, float bend) {
   // Variance along each axis: 2 alpha^2 of the lobe, (2 bend)^2 / 12 of the pixel (a box).
   float wider = sqrt(min(alpha * alpha + bend * bend / 6.0, 1.0)), blurred = sqrt(wider);
   Lobe lobe = Lobe(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, vec3(0.0, 1.0, 0.0), SpotShape(0.0, 1.0, 0.0, 0.0), vec3(0.0),
-                   brightest_at.w, 0.0);
+                   spots[0].at.w, 0.0);
 #ifdef HAS_IRRADIANCE
   lobe.irradiance_pole = 0.5 / float(textureSize(irradiance, 0).y);
 #endif
@@ -53,9 +53,9 @@ Lobe lobeOf(float roughness, float bend) {
   share = max(lobe.specular_weight, fine * min(2.0 * blurred / kSharpest, 1.0));
   lobe.spot_cut = lobe.specular_weight < 1.0 ? (share - lobe.specular_weight) / (1.0 - lobe.specular_weight) : 0.0;
 #endif
-  lobe.spot = towardsBrightest(sky_turn);
-  lobe.spot_light = brightest_light.rgb * (share / (2.0 * kPi));
-  lobe.spot_shape = spotShape(max(alpha, 0.001), min(0.25 * brightest_light.w + bend * bend / 12.0, 0.25));
+  lobe.spot = towardsSpot(0, sky_turn);
+  lobe.spot_light = spots[0].light.rgb * (share / (2.0 * kPi));
+  lobe.spot_shape = spotShape(max(alpha, 0.001), min(0.25 * spots[0].light.w + bend * bend / 12.0, 0.25));
 #endif
   return lobe;
 }

@@ -40,9 +40,12 @@ vec3 ambientWithScene(Ambient ambient, vec3 multiple, vec3 diffuse, float lobe_v
 Ambient noAmbient() { return Ambient(vec3(0.0), vec3(0.0)); }
 #endif
 
-// The visible shares of two lights far away: the sun, and the environment's brightest spot.
+// The visible shares of lights far away: the sun, and the environment's brightest spots.
 struct LightsSeen {
   float sun, spot;
+  vec3 others;
 };
+const LightsSeen kOpen = LightsSeen(1.0, 1.0, vec3(1.0));
+float otherOf(LightsSeen seen, int i) { return i < 2 ? seen.others.x : i < 3 ? seen.others.y : seen.others.z; }
 
 #endif

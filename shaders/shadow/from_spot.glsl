@@ -1,6 +1,7 @@
-// Position of a vertex in the shadow map of the environment's brightest spot; without a spot, in the pass's view.
+// Position of a vertex in the shadow map of one of the environment's brightest spots, outside of it where there is no such spot; without
+// brightest, in the pass's view.
 // read    brightest?   `as uniform`, see ibl/brightest.glsl; with it scene_bounds, see shadow/scene_bounds.glsl
-// params  sky_turn     with it: rotation of the environment, in full turns
+// params  sky_turn, spot   with it: rotation of the environment, in full turns; which spot
 #ifndef SHADOW_FROM_SPOT_GLSL
 #define SHADOW_FROM_SPOT_GLSL
 
@@ -9,11 +10,14 @@
 #include "ibl/brightest.glsl"
 #include "shadow/scene_bounds.glsl"
 
-layout(std140) uniform Parameters { float sky_turn; };
+layout(std140) uniform Parameters {
+  float sky_turn;
+  int spot;
+};
 
 vec4 lightClip(vec3 at) {
-  vec3 map = onMap(mapFrom(towardsBrightest(sky_turn)), at);
-  return vec4(map.xy * 2.0 - 1.0, map.z, 1.0);
+  vec3 map = onMap(inPart(mapFrom(towardsSpot(spot, sky_turn)), partOfSpot(spot)), at);
+  return spot < spot_count ? vec4(map.xy * 2.0 - 1.0, map.z, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
 }
 #else
 vec4 lightClip(vec3 at) { return view_projection * vec4(at, 1.0); }

@@ -1,4 +1,4 @@
-// Meshes into a shadow map, seen from the pass's view or the brightest spot, see shadow/from_spot.glsl. Slots: skeleton?  @joints,
+// Meshes into a shadow map, seen from the pass's view or a bright spot, see shadow/from_spot.glsl. Slots: skeleton?  @joints,
 // morph_targets?  @morph_targets, morph_weights?  @morph_weights, vertex_colors?  @vertex_colors
 #include "scene/mesh_vertex.glsl"
 #include "shadow/from_spot.glsl"

@@ -7,12 +7,13 @@
 // write   radiance, radiance_1   levels 0 and 1, rgba16f; scene-referred, 17 kcd/m2 is 1: a white diffuse surface under a high sun is near
 //                                1 at exposure 0; alpha 0 in level 0, for a sky that is smooth between its texels
 //         rest, rest_1           the same without the sun
-//         sun                    two vec4, `brightest` of ibl/brightest.glsl
+//         sun                    `brightest` of ibl/brightest.glsl
 //         disc                   two vec4: direction and radius of the sun that is seen, radians; its irradiance on a surface that faces it
 // params  elevation  of the sun above the horizon, degrees; the model ends near 2
 //         azimuth    of the sun, degrees from +X towards +Z
 //         turbidity  2 (clear) to 8 (hazy)
 #include "common/equirect_direction.glsl"
+#include "ibl/spot.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f) uniform writeonly image2D radiance;
@@ -27,8 +28,8 @@ layout(rgba16f) uniform writeonly image2D rest_1;
 #endif
 #ifdef HAS_SUN
 layout(std430) writeonly buffer sun {
-  vec4 at;
-  vec4 light;
+  Spot spots[kSpots];
+  int spot_count;
 };
 #endif
 #ifdef HAS_DISC
@@ -129,8 +130,10 @@ void main() {
   vec3 up = normalize(vec3(0.0, 1.0, 0.0) - to_sun.y * to_sun + vec3(1e-6, 0.0, 0.0));
   // Lookups of the map that leave the sun out are cut a little above the sky around it.
   vec3 around = kUnit * colorOf(scale * perez(max(to_sun.y, 0.01), 0.0, 1.0));
-  at = vec4(normalize(to_sun + up * (sqrt(0.5 * kWidth2) * lean)), 1.25 * most(around));
-  light = vec4(sun_light * seen, 0.5 * kWidth2 * (1.0 - 0.5 * lean * (sqrt(2.0) * x + lean)));
+  for (int i = 0; i < kSpots; ++i) spots[i] = kNoSpot;
+  spots[0].at = vec4(normalize(to_sun + up * (sqrt(0.5 * kWidth2) * lean)), 1.25 * most(around));
+  spots[0].light = vec4(sun_light * seen, 0.5 * kWidth2 * (1.0 - 0.5 * lean * (sqrt(2.0) * x + lean)));
+  spot_count = 1;
 #endif
 #ifdef HAS_DISC
   // A high sun is brighter than half floats are: it is drawn larger instead, up to 0.68 degrees.

@@ -2,7 +2,7 @@
 // read    sky        equirectangular with mips, `as linear wrap`; texels wider than a pixel are smoothed, see common/equirect.glsl,
 //                    unless alpha is 0 in level 0
 //         blurred?   the same, prefiltered for roughness in its levels (ibl/prefilter), from roughness 0.1 on instead of it
-//         brightest? the spot that `blurred` lacks, see ibl/brightest.glsl
+//         brightest? the spots that `blurred` lacks, see ibl/brightest.glsl
 //         disc?      the sun that `sky` and `blurred` lack, see sky/daylight.comp.glsl; instead of `brightest`
 //         air?       see fog/sky.glsl
 // write   radiance   scene-referred, linear; alpha 1
@@ -24,12 +24,11 @@ flat in vec2 blurred_lookup;
 flat in vec3 blurred_smooth;
 flat in float blurred_share;
 #ifdef HAS_BRIGHTEST
-flat in vec4 spot_shape;
-flat in vec3 spot_light;
+flat in vec3 spots_blur;
 #endif
 #endif
-flat in vec3 spot;
 #ifdef HAS_DISC
+flat in vec3 sun;
 flat in vec2 disc_edge;
 flat in vec3 disc_radiance;
 #endif
@@ -47,14 +46,23 @@ void main() {
 #ifdef HAS_BLURRED
   color = mix(color, sampleEquirectSmooth(blurred, at, blurred_lookup, blurred_smooth.xy, blurred_smooth.z).rgb, blurred_share);
 #ifdef HAS_BRIGHTEST
-  float cosine = dot(normalize(direction), spot);
-  SpotShape shape = SpotShape(spot_shape.x, spot_shape.y, spot_shape.z, spot_shape.w);
-  color += spot_light * spotDistribution(shape, 0.5 - 0.5 * cosine, 1.0, max(cosine, 0.0), 1.0);
+  for (int i = 0; i < spot_count; ++i) {
+#ifdef HAS_DISC
+    vec3 towards = sun;
+    vec4 light = vec4(disc_light.rgb, spots_blur.z);
+#else
+    vec3 towards = towardsSpot(i, sky_turn);
+    vec4 light = spots[i].light;
+#endif
+    float cosine = dot(normalize(direction), towards);
+    SpotShape shape = spotShape(spots_blur.x, 0.25 * light.w);
+    color += light.rgb * (spots_blur.y * spotDistribution(shape, 0.5 - 0.5 * cosine, 1.0, max(cosine, 0.0), 1.0));
+  }
 #endif
 #endif
 #ifdef HAS_DISC
-  float along = max(dot(direction, spot), 1e-6);
-  color += disc_radiance * smoothstep(0.0, 1.0, disc_edge.x - disc_edge.y * length(direction - along * spot) / along);
+  float along = max(dot(direction, sun), 1e-6);
+  color += disc_radiance * smoothstep(0.0, 1.0, disc_edge.x - disc_edge.y * length(direction - along * sun) / along);
 #endif
 #ifdef HAS_AIR
   color = mix(fog_light.rgb, color, throughFogOfSky(direction));

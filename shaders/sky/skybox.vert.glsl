@@ -16,12 +16,11 @@ flat out vec2 blurred_lookup;
 flat out vec3 blurred_smooth;
 flat out float blurred_share;
 #ifdef HAS_BRIGHTEST
-flat out vec4 spot_shape;  // the members of a SpotShape, which would take four vectors
-flat out vec3 spot_light;  // times spotDistribution and the cosine: radiance
+flat out vec3 spots_blur;  // alpha; what light times spotDistribution is to be multiplied by; variance of the disc
 #endif
 #endif
-flat out vec3 spot;        // towards the sun or the brightest spot
 #ifdef HAS_DISC
+flat out vec3 sun;         // towards it
 flat out vec2 disc_edge;   // the disc is as much as disc_edge.x - disc_edge.y * tan(angle to its middle) is above 0, up to 1
 flat out vec3 disc_radiance;
 #endif
@@ -57,28 +56,22 @@ void main() {
   blurred_share = min(roughness / kSharpest, 1.0);
 #endif
 #ifdef HAS_DISC
-  spot = turnedAbout(disc_at.xyz, sky_turn);
+  sun = turnedAbout(disc_at.xyz, sky_turn);
   // From this least size on, the sum over pixels is within 1 % the same wherever the middle is in its pixel.
-  float pixel = pixelAngle() * max(dot(spot, -transpose(mat3(view))[2]), 0.01), seen = max(disc_at.w, 1.1 * pixel), edge = 1.8 * pixel;
+  float pixel = pixelAngle() * max(dot(sun, -transpose(mat3(view))[2]), 0.01), seen = max(disc_at.w, 1.1 * pixel), edge = 1.8 * pixel;
   disc_edge = vec2(seen / edge + 0.5, 1.0 / edge);
   // Up to a blur as wide as the disc, a mix with the spot.
   float alpha = alphaOfRoughness(roughness), spot_share = clamp(2.0 * alpha / seen - 0.5, 0.0, 1.0);
   disc_radiance = disc_light.rgb * ((1.0 - spot_share) / (kPi * (seen * seen + edge * edge / 20.0)));
-  vec4 light = vec4(disc_light.rgb, 0.25 * seen * seen);
+  float variance = 0.25 * seen * seen;
 #elif defined HAS_BLURRED && defined HAS_BRIGHTEST
-  spot = turnedAbout(brightest_at.xyz, sky_turn);
-  float spot_share = blurred_share, alpha = in_map;
-  vec4 light = brightest_light;
-#else
-  spot = vec3(0.0);
+  float spot_share = blurred_share, alpha = in_map, variance = 0.0;
 #endif
 #if defined HAS_BLURRED && defined HAS_BRIGHTEST
   alpha = clamp(alpha, 1e-3, 0.995);
   float a2 = alpha * alpha;
-  SpotShape shape = spotShape(alpha, 0.25 * light.w);
-  spot_shape = vec4(shape.alpha2, shape.tail, shape.bump, shape.per_core);
   // Lobes of the map are those of V = N, weighted by N.L: over their mean N.L, with cos^2 of the half vector's angle as in ibl/brdf.comp.
   float s = 1.0 + a2, mean = a2 / ((1.0 - a2) * (1.0 - a2)) * (s / a2 - 2.0 - 2.0 * log(0.5 * s / a2));
-  spot_light = light.rgb * (spot_share * 0.25 / (kPi * mean));
+  spots_blur = vec3(alpha, spot_share * 0.25 / (kPi * mean), variance);
 #endif
 }

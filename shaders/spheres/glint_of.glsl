@@ -1,4 +1,4 @@
-// Finds the glint of a sphere, in the vertex shader: see spheres/glint.glsl.
+// Finds the glint of a sphere, in the vertex shader, of the first of the brightest spots: see spheres/glint.glsl.
 #ifndef SPHERES_GLINT_OF_GLSL
 #define SPHERES_GLINT_OF_GLSL
 
@@ -25,7 +25,7 @@ Glint glintOf(inout Lobe lobe, vec3 center, float radius, float bend) {
   if (far2 < 4.0 * radius * radius || projection[3].w != 0.0 || clip.w <= 0.0) return glint;
   // Normals of a pixel span more there, in the plane of incidence.
   float facing = max(dot(normalize(away - radius * n), n), 0.05);
-  float alpha = sqrt(lobe.spot_shape.alpha2), spread = 0.25 * brightest_light.w;
+  float alpha = sqrt(lobe.spot_shape.alpha2), spread = 0.25 * spots[0].light.w;
   float blur = max(facing, 2.0 / 3.0) * sqrt(7.0 / 12.0 * alpha * alpha + spread) / max(bend, 1e-6), share = clamp(2.0 - blur, 0.0, 1.0);
   if (share <= 0.0) return glint;
   SpotShape sharp = spotShape(alpha, min(spread + bend * bend / (12.0 * facing * facing), 0.25));

@@ -15,12 +15,13 @@ Light sphereLight(Point point, Surface surface, Lobe lobe, float glint, uint row
   Response response = responseOf(surface, point.nv);
   LightsSeen seen = lightsSeen(point);
 #ifdef HAS_NEIGHBORS
-  Occlusion occlusion = occlusionOf(listOf(row), point, surface, lobeAxis(point, response), lobe);
+  NeighborList list = listOf(row);
+  Occlusion occlusion = occlusionOf(list, point, surface, lobeAxis(point, response), lobe);
   // The shadow maps may contain spheres too.
   seen.sun = min(seen.sun, occlusion.lights.sun);
   seen.spot = min(seen.spot, occlusion.lights.spot);
   if (lobe.spot.y < 0.0) seen.spot *= 1.0 - surfaceOf(occlusion.plane, point.position);  // the ground hides it
-  Ambient ambient = ambientAmongSpheres(occlusion, point, surface, response, lobe, seen, radius);
+  Ambient ambient = ambientAmongSpheres(list, occlusion, point, surface, response, lobe, seen, radius);
 #else
   Ambient ambient = ambientOf(point, response, lobe, seen);
 #endif

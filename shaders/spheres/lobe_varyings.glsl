@@ -1,5 +1,5 @@
-// What the vertex shader of a sphere finds out once about its reflections, packed into eight vectors: OpenGL promises 15 in all. In software
-// an input costs less than a member of a block, so values that are the same for all spheres are inputs, too.
+// What the vertex shader of a sphere finds out once about its reflections, of spots the first, packed into eight vectors: OpenGL promises
+// 15 in all. In software an input costs less than a member of a block, so values that are the same for all spheres are inputs, too.
 // define  VERTEX_STAGE   in the vertex shader, which calls writeLobe(); fragments call readLobe() and readGlint()
 #ifndef SPHERES_LOBE_VARYINGS_GLSL
 #define SPHERES_LOBE_VARYINGS_GLSL

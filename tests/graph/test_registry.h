@@ -219,6 +219,7 @@ inline Registry testRegistry(const World& world = {}) {
                          {"octagon", {}},
                          {.name = "points", .arguments = {{"vertices", 0, 2147483647}}, .counted = true},
                          {.name = "lines", .arguments = {{"vertices", 0, 2147483647}}, .counted = true},
+                         {.name = "triangles", .arguments = {{"vertices", 0, 2147483647}}, .counted = true},
                          {"triangle", {}}};
   registry.factsOf = [world](const ImportRequest& request) { return testFacts(world, request); };
   return registry;

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <numbers>
 
 #include "tests/theory/lab.h"
@@ -145,13 +146,22 @@ Spot readSpot(Lab& lab, const char* buffer) {
   std::memcpy(&spot, words.data(), sizeof spot);
   return spot;
 }
-Spot spotOf(std::shared_ptr<const weft::assets::ImageF> environment) {
+std::array<Spot, 4> spotsOf(std::shared_ptr<const weft::assets::ImageF> environment) {
   Setup setup{.graph = "tests/theory/irradiance.json", .balls = {{}}};
   setup.environment = std::move(environment);
   Lab lab(setup);
   lab.frame();
   CHECK(lab.reports() == "");
-  return readSpot(lab, "ibl.brightest");
+  std::array<Spot, 4> spots;
+  const std::vector<std::uint32_t> words = lab.readBuffer("ibl.brightest", 33);
+  std::memcpy(&spots, words.data(), sizeof spots);
+  for (std::uint32_t i = 0; i < 4; ++i) CHECK((spots[i].light[0] > 0) == (i < words[32]));
+  return spots;
+}
+Spot spotOf(std::shared_ptr<const weft::assets::ImageF> environment) {
+  const std::array<Spot, 4> spots = spotsOf(std::move(environment));
+  for (std::size_t i = 1; i < 4; ++i) CHECK(spots[i].light[0] == 0);
+  return spots[0];
 }
 
 }  // namespace
@@ -171,6 +181,51 @@ TEST_CASE(
   for (const Spot& none : {spotOf(spotEnvironment(12, 5000)), spotOf(constantEnvironment(3, 3, 3))}) {
     CHECK(none.light[0] == 0);
     CHECK(none.limit == 65504);
+  }
+}
+
+// Discs over an even map: one is too wide for a spot, one has too little light to count beside the first, one is the fifth.
+TEST_CASE(
+    "the brightest spots: up to four, from the brightest on, of those that are small and have enough light") {
+  struct Disc {
+    double longitude, elevation, degrees, radiance;
+    bool found;
+  };
+  const std::vector<Disc> discs = {{10, 50, 1.5, 4000, true},   {80, 35, 2, 2000, true},
+                                   {100, 35, 0.3, 3000, false}, {-60, 20, 1.2, 3500, true},
+                                   {150, 60, 9, 900, false},    {-120, -30, 1.8, 1500, true},
+                                   {178, -50, 1.8, 800, false}};
+  const auto towards = [](double longitude, double elevation) {
+    const double turn = longitude * std::numbers::pi / 180, up = elevation * std::numbers::pi / 180;
+    return Vec3{std::cos(up) * std::cos(turn), std::sin(up), std::cos(up) * std::sin(turn)};
+  };
+  auto image = std::make_shared<weft::assets::ImageF>(weft::assets::ImageF{2048, 1024, 4, {}});
+  for (int y = 0; y < image->height; ++y)
+    for (int x = 0; x < image->width; ++x) {
+      float value = 1;
+      const Vec3 here = equirectDirection(x, y, image->width, image->height);
+      for (const Disc& disc : discs)
+        if (dot(here, towards(disc.longitude, disc.elevation)) >
+            std::cos(disc.degrees * std::numbers::pi / 180))
+          value = static_cast<float>(disc.radiance);
+      image->texels.insert(image->texels.end(), {value, value, value, 1});
+    }
+  const std::array<Spot, 4> spots = spotsOf(image);
+  std::vector<Disc> wanted;
+  for (const Disc& disc : discs)
+    if (disc.found) wanted.push_back(disc);
+  std::ranges::sort(wanted, std::greater(), &Disc::radiance);
+  REQUIRE(wanted.size() == spots.size());
+  for (std::size_t i = 0; i < 4; ++i) {
+    CAPTURE(i);
+    const double angle = wanted[i].degrees * std::numbers::pi / 180,
+                 light = (wanted[i].radiance - spots[i].limit) * std::numbers::pi * angle * angle;
+    const Vec3 direction{spots[i].direction[0], spots[i].direction[1], spots[i].direction[2]};
+    CHECK(dot(direction, towards(wanted[i].longitude, wanted[i].elevation)) >
+          std::cos(0.1 * std::numbers::pi / 180));
+    CHECK(spots[i].light[0] == doctest::Approx(light).epsilon(0.03));
+    CHECK(spots[i].variance == doctest::Approx(angle * angle / 4).epsilon(0.05));
+    CHECK(spots[i].limit == spots[0].limit);
   }
 }
 
@@ -286,12 +341,17 @@ TEST_CASE("irradiance of a loaded map: a small sun counts as much as it is large
   CHECK(worst < 0.022);
 }
 
-// In an even environment the spot has no light, and is at the zenith.
-TEST_CASE("irradiance: alpha is the cosine to the brightest spot, also where that is at the pole") {
-  Lab lab({.graph = "tests/theory/draw_modes.json", .balls = {{}}});
+TEST_CASE("irradiance: the cosine to the brightest spot, also where that is at the pole") {
+  Setup setup{.graph = "tests/theory/irradiance.json", .balls = {{}}};
+  setup.environment = makeEnvironment([](int, int y) {
+    const double value = y == 0 ? 5000 : 1;
+    return std::array{value, value, value};
+  });
+  Lab lab(setup);
   lab.frame();
   CHECK(lab.reports() == "");
   REQUIRE(readSpot(lab, "ibl.brightest").direction[1] > 0.999f);
+  REQUIRE(readSpot(lab, "ibl.brightest").light[0] > 1);
   const Picture map = lab.read("ibl.irradiance");
   double worst = 0;
   for (std::uint32_t y = 0; y < map.height; ++y) {

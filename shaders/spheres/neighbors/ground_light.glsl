@@ -6,14 +6,14 @@
 
 // Irradiance over pi of the ground where nothing stands.
 struct GroundLight {
-  vec3 sky, spot, sun;
+  vec3 sky, spot, sun;  // of spots the first; the others count as sky, see ambientAmongSpheres()
 };
 
 // `up` is the irradiance map's value straight up.
 GroundLight groundLight(Lobe lobe, vec3 up) {
   GroundLight light = GroundLight(up, vec3(0.0), vec3(0.0));
 #ifdef HAS_BRIGHTEST
-  light.spot = min(spotIrradiance().rgb * max(lobe.spot.y, 0.0), up);
+  light.spot = min(spotIrradiance(0).rgb * max(lobe.spot.y, 0.0), up);
   light.sky -= light.spot;
 #endif
 #ifdef HAS_SUN

@@ -1,5 +1,5 @@
 // What the other spheres around a point of a sphere hide: of the sky, of a reflected lobe, of the sun and of the
-// brightest spot.
+// first of the brightest spots.
 // read    neighbors   see spheres/neighbors/listed.glsl
 //         sun?, brightest?   see scene/sun.glsl, ibl/brightest.glsl
 #ifndef SPHERES_NEIGHBORS_OCCLUSION_GLSL
@@ -98,7 +98,7 @@ struct LightDiscs {
   float sun_angle, spot_angle;
 };
 LightDiscs lightDiscs(Lobe lobe) {
-  LightDiscs discs = LightDiscs(vec3(0.0), lobe.spot, 0.0, spotIrradiance().w);
+  LightDiscs discs = LightDiscs(vec3(0.0), lobe.spot, 0.0, spotIrradiance(0).w);
 #ifdef HAS_SUN
   float cosine = sun_light[0].cos_angle;
   discs.sun = sun_light[0].direction;
@@ -140,6 +140,29 @@ void hideLobe(inout LobeOcclusion all, float alpha, float radius, vec3 albedo, v
   all.material.distance_in_radii += hidden * far / radius;
 }
 
+// How much the ground below a point of a sphere counts what another one hides from it: as far as that is above the horizon.
+float weightOnGround(bool is_image, float height, float near) {
+  return is_image ? 1.0 : clamp(height + 1.0, 0.0, 1.0) * near;
+}
+
+// The visible share of the disc of a light past all spheres: from a point, x, and from where its lobe meets the ground, y. What occlusionOf()
+// has of the sun and of the first spot.
+vec2 seenPastSpheres(NeighborList list, Point point, LobeGround ground, float ground_blur, vec3 light, float angle) {
+  vec2 seen = vec2(1.0);
+  for (int i = 0; i < MOST_NEIGHBORS; ++i) {
+    Neighbor ball = neighborOf(list, i);
+    if (ball.radius == 0.0) break;
+    vec3 to = ball.center - point.position, over = ball.center - ground.at;
+    over.y = abs(over.y);
+    float away2 = dot(to, to), near = withinReach(max(sqrt(away2) / ball.radius, 1.0), list.reach);
+    bool is_image = neighborMaterial(list, i).a < 0.0;
+    vec2 weights = vec2(is_image ? 0.0 : near, weightOnGround(is_image, dot(point.normal, to) / ball.radius, near));
+    seen.x *= 1.0 - ballShare(ball.radius, angle, 0.0, light, to, away2) * weights.x;
+    seen.y *= 1.0 - ballShare(ball.radius, angle, ground_blur, light, over, dot(over, over)) * weights.y;
+  }
+  return seen;
+}
+
 // Of a point of a sphere with this surface; `axis` is that of the reflected lobe, of any length. In software a
 // condition skips nothing, but a loop that no lane enters does; so the loop looks for the next sphere that hides
 // anything.
@@ -151,11 +174,10 @@ Occlusion occlusionOf(NeighborList list, Point point, Surface surface, vec3 axis
   vec3 on_ground = coneOnGround(plane, point.position, axis, cone);
   float ground_blur = cone * length(on_ground - point.position);
   float below = plane.exists * mix(shareBelow(axis.y, cone), 0.5 - 0.5 * n.y, alpha);
-  LightsSeen open = LightsSeen(1.0, 1.0);
   SkyOcclusion sky = SkyOcclusion(1.0, vec3(0.0), n, 0.0);
   LobeOcclusion reflected = LobeOcclusion(axis, cone, 1.0, vec3(0.0), OccluderMaterial(vec3(0.0), 0.0, 0.0, 0.0, 0.0));
-  LobeGround ground = LobeGround(below, on_ground, surfaceOf(plane, on_ground), vec4(0.0), open);
-  LightsSeen lights = open;
+  LobeGround ground = LobeGround(below, on_ground, surfaceOf(plane, on_ground), vec4(0.0), kOpen);
+  LightsSeen lights = kOpen;
   LightDiscs discs = lightDiscs(lobe);
 
   int i = -1;
@@ -184,10 +206,9 @@ Occlusion occlusionOf(NeighborList list, Point point, Surface surface, vec3 axis
     bool is_image = packed_material.a < 0.0;  // of the sphere itself in the ground
     float ratio = max(away / ball.radius, 1.0), near = withinReach(ratio, list.reach);
     float share = capShare(ratio, dot(n, to) / away) * near;
-    // The ground sees this sphere itself, and others as far as they are above the horizon.
     vec3 over = ball.center - on_ground;
     over.y = abs(over.y);
-    float over2 = dot(over, over), weight = is_image ? 1.0 : clamp(dot(n, to) / ball.radius + 1.0, 0.0, 1.0) * near;
+    float over2 = dot(over, over), weight = weightOnGround(is_image, dot(n, to) / ball.radius, near);
     ground.hidden += vec4(is_image ? surface.albedo : albedo, 1.0) * (capOnGround(over, ball.radius) * weight);
     hideLights(ground.lights, discs, ball.radius, ground_blur, over, over2, weight);
     if (is_image) {

@@ -210,7 +210,7 @@ TEST_CASE("ground: spheres that are not drawn leave it as it is in a scene witho
     }
     CHECK(whole.passNames().find("lit.ground_contact\n") != std::string::npos);
     for (const char* marks :
-         {"lit.ground_cover\n", "lit.ground_contact\n", "lit.ground_sun\n", "lit.ground_spot\n"})
+         {"lit.ground_cover\n", "lit.ground_contact\n", "lit.ground_sun\n", "lit.ground_spots\n"})
       CHECK(bare.passNames().find(marks) == std::string::npos);
     const Picture drawn = whole.read("hdr"), without = bare.read("hdr"), never = empty.read("hdr");
     CHECK(without.texels == never.texels);

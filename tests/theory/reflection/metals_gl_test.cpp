@@ -149,7 +149,7 @@ TEST_CASE("reflection: the computed sky, with its sun behind and before the eye"
   for (const double azimuth : {-40.0, 140.0}) compare({.azimuth = azimuth, .daylight = true});
 }
 
-TEST_CASE("reflection: rooms with many lights, of which one is taken out at most") {
+TEST_CASE("reflection: rooms with many lights, of which four are taken out at most") {
   std::vector<Box> ceiling, windows;
   for (int i = 0; i < 20; ++i) ceiling.push_back({-170.0 + 18 * i, 30.0 + i % 4 * 12, 6, 2, 25});
   for (int i = 0; i < 12; ++i) windows.push_back({-165.0 + 30 * i, i % 3 * 15.0, 3, 5, 60.0 + 20 * (i % 2)});

@@ -1,4 +1,5 @@
-// Shadows of meshes in the studio against rays to every triangle: what is left of the sun, of the environment's brightest spot and of the sky.
+// Shadows of meshes in the studio against rays to every triangle: what is left of the sun, of the environment's brightest spots and of the sky.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -129,23 +130,32 @@ struct Errors {
   std::array<int, 3> dark{};
 };
 
-// The share that shadows leave of the radiance without them, against the share of `rays` directions that meet nothing.
+// The share of `rays` directions that meet nothing.
+double openShare(const scene::Scene& scene, const Seen& seen, int rays,
+                 const std::function<glm::dvec3()>& direction) {
+  int open = 0;
+  for (int i = 0; i < rays; ++i) open += !isHidden(scene, seen, direction());
+  return double(open) / rays;
+}
+
+// The share that shadows leave of the radiance without them, against the truth; `axes` go to the lights.
 Errors compare(const scene::Scene& scene, const std::vector<float>& with, const std::vector<float>& without,
-               glm::dvec3 axis, int rays, const std::function<glm::dvec3()>& direction) {
+               const std::vector<glm::dvec3>& axes, const std::function<double(const Seen&)>& truthOf) {
   Errors errors;
   for (std::uint32_t y = 1; y < kHigh - 1; ++y)
     for (std::uint32_t x = 1; x < kWide - 1; ++x) {
       const std::size_t texel = 4 * (std::size_t{y} * kWide + x);
       const std::optional<Seen> seen = seenAt(scene, x, y);
-      if (!seen || glm::dot(seen->normal, axis) < 0.1) continue;
-      if (seen->kind == kGround && (x + y) % 4 != 0) continue;  // there is plenty of it
-      // On the ground, where the ray-traced sphere takes nothing by itself.
-      if (seen->kind == kGround && glm::length(glm::cross(kBall - seen->at, axis)) < kBallRadius + 0.15)
+      if (!seen || std::ranges::any_of(axes, [&](glm::dvec3 axis) {
+            // On the ground, where the ray-traced sphere takes nothing by itself.
+            return glm::dot(seen->normal, axis) < 0.1 ||
+                   (seen->kind == kGround &&
+                    glm::length(glm::cross(kBall - seen->at, axis)) < kBallRadius + 0.15);
+          }))
         continue;
+      if (seen->kind == kGround && (x + y) % 4 != 0) continue;  // there is plenty of it
       REQUIRE(without[texel] > 0);
-      int open = 0;
-      for (int i = 0; i < rays; ++i) open += !isHidden(scene, *seen, direction());
-      const double truth = double(open) / rays;
+      const double truth = truthOf(*seen);
       errors.dark[seen->kind] += truth < 0.1;
       errors.all[seen->kind].push_back(std::abs(double(with[texel]) / double(without[texel]) - truth));
     }
@@ -157,6 +167,12 @@ glm::dvec3 inCone(glm::dvec3 axis, double angle, std::mt19937& random) {
   const double cosine = 1 - share(random) * (1 - std::cos(angle)), turn = kTurn * share(random);
   const glm::dvec3 side = glm::normalize(glm::cross(axis, {0.3, 0.1, 1})), up = glm::cross(axis, side);
   return axis * cosine + (side * std::cos(turn) + up * std::sin(turn)) * std::sqrt(1 - cosine * cosine);
+}
+
+// Of a place in an environment of 256 x 128 texels.
+glm::dvec3 towards(double x, double y) {
+  const double turn = kTurn * (x / 256 - 0.5), down = kTurn / 2 * y / 128;
+  return glm::dvec3(std::sin(down) * std::cos(turn), std::cos(down), std::sin(down) * std::sin(turn));
 }
 
 std::vector<float> radianceOf(const scene::Scene& scene, bool shadows,
@@ -182,8 +198,9 @@ TEST_CASE("mesh shadows: what is left of the sun's disc on ground, meshes and sp
     const scene::Scene scene = furniture(sun);
     const auto dark = constantEnvironment(0, 0, 0);
     const glm::dvec3 axis(sun.direction);
-    Errors errors = compare(scene, radianceOf(scene, true, dark), radianceOf(scene, false, dark), axis, 64,
-                            [&] { return inCone(axis, double(degrees) / 720 * kTurn, random); });
+    const auto direction = [&] { return inCone(axis, double(degrees) / 720 * kTurn, random); };
+    Errors errors = compare(scene, radianceOf(scene, true, dark), radianceOf(scene, false, dark), {axis},
+                            [&](const Seen& seen) { return openShare(scene, seen, 64, direction); });
     for (const Kind kind : {kGround, kMesh, kSphere}) {
       std::vector<double>& all = errors.all[kind];
       const double mean = meanOf(all), high = percentileOf(all, 0.99);
@@ -209,15 +226,12 @@ TEST_CASE("mesh shadows: what is left of the environment's brightest spot") {
       const double value = x >= left && x < left + 3 && y >= top && y < top + 3 ? 3000 : 0;
       return std::array{value, value, value};
     });
-    const auto towards = [&](double x, double y) {
-      const double turn = kTurn * (x / 256 - 0.5), down = kTurn / 2 * y / 128;
-      return glm::dvec3(std::sin(down) * std::cos(turn), std::cos(down), std::sin(down) * std::sin(turn));
-    };
     std::uniform_real_distribution<double> share(0, 3);
     const scene::Scene scene = furniture({});
+    const auto direction = [&] { return towards(left + share(random), top + share(random)); };
     Errors errors = compare(scene, radianceOf(scene, true, lit), radianceOf(scene, false, lit),
-                            towards(left + 1.5, top + 1.5), 64,
-                            [&] { return towards(left + share(random), top + share(random)); });
+                            {towards(left + 1.5, top + 1.5)},
+                            [&](const Seen& seen) { return openShare(scene, seen, 64, direction); });
     for (const Kind kind : {kGround, kMesh, kSphere}) {
       std::vector<double>& all = errors.all[kind];
       const double mean = meanOf(all), high = percentileOf(all, 0.99);
@@ -230,18 +244,85 @@ TEST_CASE("mesh shadows: what is left of the environment's brightest spot") {
   }
 }
 
+// The light of each texel of the map, times its solid angle and the cosine, where rays to places in it meet nothing.
+TEST_CASE("mesh shadows: of four windows each casts its own, as a sum over all texels says") {
+  const CleanScope clean;
+  struct Window {
+    int left, top;
+    double radiance;
+  };
+  const std::array<Window, 4> windows = {{{214, 36, 3000}, {150, 30, 2500}, {20, 40, 2000}, {90, 36, 2200}}};
+  const auto windowAt = [&](int x, int y) {
+    std::size_t i = 0;
+    while (i < windows.size() &&
+           (x < windows[i].left || x >= windows[i].left + 3 || y < windows[i].top || y >= windows[i].top + 3))
+      ++i;
+    return i;
+  };
+  const auto map = makeEnvironment([&](int x, int y) {
+    const std::size_t i = windowAt(x, y);
+    const double value = i < windows.size() ? windows[i].radiance : 0;
+    return std::array{value, value, value};
+  });
+  std::vector<glm::dvec3> axes;
+  for (const Window& window : windows) axes.push_back(towards(window.left + 1.5, window.top + 1.5));
+
+  const scene::Scene scene = furniture({});
+  std::vector<std::size_t> missing;  // on the ground: the window whose light is missing, if it is one alone
+  const auto truthOf = [&](const Seen& seen) {
+    double all = 0, left = 0;
+    std::array<int, 4> open{};
+    for (int y = 0; y < 128; ++y)
+      for (int x = 0; x < 256; ++x) {
+        const std::size_t i = windowAt(x, y);
+        if (i == windows.size()) continue;  // black
+        const double solid = std::sin(kTurn / 2 * (y + 0.5) / 128);
+        for (const double down : {1 / 6.0, 0.5, 5 / 6.0})
+          for (const double aside : {1 / 6.0, 0.5, 5 / 6.0}) {
+            const glm::dvec3 way = towards(x + aside, y + down);
+            const double light = windows[i].radiance * solid * std::max(glm::dot(seen.normal, way), 0.0);
+            const bool past = !isHidden(scene, seen, way);
+            all += light;
+            left += past ? light : 0;
+            open[i] += past;
+          }
+      }
+    std::size_t which = windows.size(), hidden = 0;
+    for (std::size_t i = 0; i < windows.size(); ++i)
+      if (open[i] < 81) which = open[i] == 0 ? i : which, ++hidden;
+    if (seen.kind == kGround) missing.push_back(hidden == 1 ? which : windows.size());
+    return left / all;
+  };
+  Errors errors = compare(scene, radianceOf(scene, true, map), radianceOf(scene, false, map), axes, truthOf);
+  std::vector<double>& all = errors.all[kGround];  // others have a gloss, too
+  const double mean = meanOf(all), high = percentileOf(all, 0.99);
+  MESSAGE(all.size(), " points, mean ", mean, ", 99 % below ", high);
+  CHECK(all.size() > 2000);
+  CHECK(mean < kSpot[kGround]);
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    std::vector<double> without;
+    for (std::size_t point = 0; point < missing.size(); ++point)
+      if (missing[point] == i) without.push_back(errors.all[kGround][point]);
+    MESSAGE("window ", i, " alone is hidden from ", without.size(), " points, mean ", meanOf(without));
+    CHECK(without.size() > 15);
+    CHECK(meanOf(without) < kSpot[kGround]);
+  }
+}
+
 TEST_CASE("mesh shadows: what is left of the sky on the ground") {
   const CleanScope clean;
   std::mt19937 random(13);
   std::uniform_real_distribution<double> share(0, 1);
   const scene::Scene scene = furniture({});
   const auto white = constantEnvironment(1, 1, 1);
-  Errors errors =
-      compare(scene, radianceOf(scene, true, white), radianceOf(scene, false, white), {0, 1, 0}, 400, [&] {
-        const double radius2 = share(random), turn = kTurn * share(random);
-        return glm::dvec3(std::sqrt(radius2) * std::cos(turn), std::sqrt(1 - radius2),
-                          std::sqrt(radius2) * std::sin(turn));
-      });
+  Errors errors = compare(scene, radianceOf(scene, true, white), radianceOf(scene, false, white), {{0, 1, 0}},
+                          [&](const Seen& seen) {
+                            return openShare(scene, seen, 400, [&] {
+                              const double radius2 = share(random), turn = kTurn * share(random);
+                              return glm::dvec3(std::sqrt(radius2) * std::cos(turn), std::sqrt(1 - radius2),
+                                                std::sqrt(radius2) * std::sin(turn));
+                            });
+                          });
   std::vector<double>& all = errors.all[kGround];
   const double mean = meanOf(all), high = percentileOf(all, 0.99);
   MESSAGE(all.size(), " points, mean ", mean, ", 99 % below ", high);

@@ -34,8 +34,8 @@ void main() {
   vec3 axis = mix(point.mirror, n, responseOf(surface, point.nv).lean);
   Occlusion all = occlusionOf(listOf(uint(row)), point, surface, axis, lobe);
   shares = vec4(all.sky.seen, all.lobe.seen, all.lights.sun, 1.0);
-  vec4 below = irradianceTowards(vec3(0.0, -1.0, 0.0), lobe);
-  vec4 sky = vec4(irradianceTowards(all.sky.bent, lobe).rgb, 0.0);
+  vec4 below = irradianceTowards(irradiance, vec3(0.0, -1.0, 0.0), lobe);
+  vec4 sky = vec4(irradianceTowards(irradiance, all.sky.bent, lobe).rgb, 0.0);
   around = vec4(irradianceSeen(all.sky, n, lobe, sky, all.lights.spot, below.rgb), 1.0);
   place = vec4(position, 1.0);
   facing = vec4(n, 0.0);
