@@ -33,8 +33,8 @@ vec3 sum = vec3(0.0), bright;
 float weights = 0.0;
 
 // A share of a texel.
-void add(ivec2 at, float taken) {
-  vec3 color = finite(texelFetch(source, min(at, textureSize(source, 0) - 1), 0).rgb);
+void add(vec3 texel, float taken) {
+  vec3 color = finite(texel);
   float peak = peakOf(color), above = brightPeak(peak, bright);
   // The bright part is color * above / peak: one division for it and its weight.
 #if FIREFLY
@@ -52,16 +52,19 @@ vec3 partsOf(int i, int count) {
 }
 
 void main() {
-  ivec2 corner = ivec2(gl_FragCoord.xy) * 2;
+  ivec2 size = textureSize(source, 0);
   bright = brightOf(threshold, knee);
 #if EVEN
-  for (int i = 0; i < 4; ++i) add(corner + ivec2(i & 1, i >> 1), 1.0);
+  // A nearest lookup costs less than a fetch in software.
+  vec2 texel = 1.0 / vec2(size), middle = 2.0 * gl_FragCoord.xy * texel;
+  for (int i = 0; i < 4; ++i) add(textureLod(source, middle + (vec2(i & 1, i >> 1) - 0.5) * texel, 0.0).rgb, 1.0);
 #else
-  ivec2 size = textureSize(source, 0);
+  ivec2 corner = ivec2(gl_FragCoord.xy) * 2;
   vec3 across = partsOf(corner.x / 2, size.x), along = partsOf(corner.y / 2, size.y);
   for (int i = 0; i < 9; ++i) {
     float taken = across[i % 3] * along[i / 3];
-    if (taken > 0.0) add(corner + ivec2(i % 3, i / 3), taken);
+    ivec2 at = min(corner + ivec2(i % 3, i / 3), size - 1);
+    if (taken > 0.0) add(texelFetch(source, at, 0).rgb, taken);
   }
 #endif
   result = vec4(sum / weights, 1.0);
