@@ -80,6 +80,36 @@ TEST_CASE("OBJ: a concave polygon covers its own area") {
             "t.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3 4 5\n"))) == doctest::Approx(4));
 }
 
+TEST_CASE("OBJ: a smoothing group shares the normals that the file lacks") {
+  const TemporaryFolder folder;
+  // Two sides of a cube that share an edge: upwards along z and x.
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 -1\nv 1 1 -1\nvn 0 0 2\nvn 0 1 0\n";
+  const auto mixed = [&](const std::string& faces) {
+    const Model model = loadGood(folder.write("m.obj", corners + faces));
+    std::size_t found = 0;
+    for (const Vertex& v : model.vertices) {
+      CHECK(glm::length(v.normal) == doctest::Approx(1));
+      const float along = glm::dot(v.normal, {std::sqrt(0.5f), 0, std::sqrt(0.5f)});
+      if (along > 0.9999f) {
+        CHECK(v.position.x == 1);
+        CHECK(v.position.z == 0);
+        ++found;
+      }
+    }
+    return found;
+  };
+  CHECK(mixed("s 1\nf 1 2 3 4\nf 2 5 6 3\n") == 2);
+  CHECK(mixed("s 1\no a\nf 1 2 3 4\no b\nf 2 5 6 3\n") == 4);  // also where the mesh ends
+  CHECK(mixed("s 1\nf 1 2 3 4\ns 2\nf 2 5 6 3\n") == 0);
+  CHECK(mixed("f 1 2 3 4\nf 2 5 6 3\n") == 0);
+  CHECK(mixed("s 1\ns off\nf 1 2 3 4\nf 2 5 6 3\n") == 0);
+  CHECK(mixed("s 1\nf 1//1 2//1 3//1 4//1\nf 2 5 6 3\n") == 0);  // its own stay
+  // Negative rows count the normals of the file.
+  const Model model =
+      loadGood(folder.write("m.obj", corners + "s 1\nf 2 5 6 3\nf 1//-2 2//-2 3//-2 4//-2\n"));
+  CHECK(std::ranges::count(model.vertices, glm::vec3(0, 0, 1), &Vertex::normal) == 4);
+}
+
 TEST_CASE("OBJ: what is not drawn is one warning of each kind, and the rest is drawn") {
   const TemporaryFolder folder;
   folder.write("m.mtl", "newmtl m\nKd 1 1 1\nPs 0\nillum 2\nNi 1.5\n");

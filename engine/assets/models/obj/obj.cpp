@@ -339,8 +339,9 @@ std::vector<std::array<std::size_t, 3>> triangulate(std::span<const glm::dvec3> 
   return out;
 }
 
-// Rows of position, uv and normal; kNoRow for a uv or a normal that is not named.
+// Rows of position, uv and normal; kNoRow for a uv or a normal that is not named, and kMade on for normals that are made.
 using Corner = std::array<std::size_t, 3>;
+constexpr std::size_t kMade = std::size_t{kNoRow} + 1;
 struct CornerHash {
   std::size_t operator()(const Corner& corner) const {
     return text::hashCombine(text::hashCombine(corner[0], corner[1]), corner[2]);
@@ -421,7 +422,9 @@ class ObjReader {
     } else if (key == "usemtl") {
       material_ = materials_.rowOf(name, here());
       part_ = nullptr;
-    } else if (key != "s") {
+    } else if (key == "s") {
+      group_ = text::numberIn<std::uint32_t>(name).value_or(0);  // "off"
+    } else {
       leaveOut(std::string(key));
     }
   }
@@ -513,8 +516,20 @@ class ObjReader {
     const std::size_t all = (corners.size() - 2) * 3;
     if (!builder_.hasRoom(all, all, here(), diagnostics_)) return;
     if (!part_) part_ = &partOf();
-    for (const auto& triangle : triangulate(places, work_))
-      for (const std::size_t corner : triangle) part_->corners.push_back(corners[corner]);
+    // The normal of a smoothing group at a position is the mean of its faces there by area; else each triangle has its own.
+    const auto make = [&](Corner& corner, std::size_t row, const glm::dvec3& area) {
+      if (row == made_.size()) made_.emplace_back(0);
+      made_[row] += area;
+      corner[2] = kMade + row;
+    };
+    for (const glm::dvec3 area = areaOf(places); Corner & each : corners)
+      if (each[2] == kNoRow && group_ != 0)
+        make(each, smooth_.try_emplace({each[0], group_, 0}, made_.size()).first->second, area);
+    for (const auto& [a, b, c] : triangulate(places, work_))
+      for (const std::size_t own = made_.size(); const std::size_t i : {a, b, c}) {
+        Corner& corner = part_->corners.emplace_back(corners[i]);
+        if (corner[2] == kNoRow) make(corner, own, areaOf(std::array{places[a], places[b], places[c]}));
+      }
   }
 
   std::uint32_t nodeOf(const std::string& name) {
@@ -531,27 +546,18 @@ class ObjReader {
   }
 
   void finishPart(Part& part) {
-    RawMesh mesh;
-    mesh.name = model_.nodes[part.node].name;
-    mesh.colors = colored_ && !colorless_;
-    mesh.normals = std::ranges::any_of(part.corners, [](const Corner& c) { return c[2] != kNoRow; });
+    RawMesh mesh{.name = model_.nodes[part.node].name, .normals = true, .colors = colored_ && !colorless_};
     const glm::vec4 move = materials_.moveOf(part.material);
     std::unordered_map<Corner, std::uint32_t, CornerHash> known;
-    for (std::size_t i = 0; i < part.corners.size(); ++i) {
-      const auto [position, uv, normal] = part.corners[i];
-      const bool flat = normal == kNoRow && mesh.normals;  // among others that are not
+    for (const Corner& corner : part.corners) {
+      const auto [position, uv, normal] = corner;
       const auto row = static_cast<std::uint32_t>(mesh.vertices.size());
-      mesh.indices.push_back(flat ? row : known.try_emplace(part.corners[i], row).first->second);
+      mesh.indices.push_back(known.try_emplace(corner, row).first->second);
       if (mesh.indices.back() != row) continue;
       RawVertex vertex{.position = positions_[position]};
       if (uv != kNoRow) vertex.uv = {uvs_[uv].x * move.x + move.z, 1 - (1 - uvs_[uv].y) * move.y - move.w};
       if (mesh.colors) vertex.color = glm::vec4(colors_[position], 1);
-      if (normal != kNoRow) vertex.normal = normals_[normal];
-      if (flat) {
-        std::array<glm::dvec3, 3> places;
-        for (std::size_t c = 0; c < 3; ++c) places[c] = positions_[part.corners[i / 3 * 3 + c][0]];
-        vertex.normal = glm::vec3(areaOf(places));
-      }
+      vertex.normal = normal < kMade ? normals_[normal] : glm::vec3(glm::normalize(made_[normal - kMade]));
       mesh.vertices.push_back(vertex);
     }
     part.corners = {};
@@ -567,7 +573,10 @@ class ObjReader {
   std::vector<glm::vec3> positions_, normals_, colors_;
   std::vector<glm::vec2> uvs_;
   bool colored_ = false, colorless_ = false;
-  std::uint32_t node_ = kNoRow, material_ = 0;
+  std::vector<glm::dvec3> made_;  // normals
+  std::unordered_map<Corner, std::size_t, CornerHash>
+      smooth_;  // by position and smoothing group: which of them
+  std::uint32_t node_ = kNoRow, material_ = 0, group_ = 0;
   std::map<std::string, std::uint32_t> nodes_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> partRows_;
   std::vector<Part> parts_;
