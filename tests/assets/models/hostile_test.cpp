@@ -92,6 +92,37 @@ TEST_CASE("indices that name nothing") {
   }
 }
 
+TEST_CASE("values of another type than glTF has") {
+  const auto failureAt = [](const char* pointer, const json& value) {
+    return failureWith([&](GltfMaker& m) {
+      m.document["materials"] = {{{"pbrMetallicRoughness", {{"metallicFactor", 1}}}}};
+      m.document["extras"] = {{"children", "anything"}, {"extensions", 1}};
+      m.document["nodes"][0]["extensions"] = {{"VENDOR_nodes", {{"children", "anything"}}}};
+      m.document[json::json_pointer(pointer)] = value;
+    });
+  };
+  for (const auto& [pointer, value, expected] :
+       std::initializer_list<std::tuple<const char*, json, const char*>>{
+           {"/materials/0/pbrMetallicRoughness", json::array({"not an object"}), "an object"},
+           {"/materials/0/extensions", 1, "an object"},
+           {"/materials/0/extensions/KHR_materials_sheen", "x", "an object"},
+           {"/materials/0/doubleSided", 1, "a boolean"},
+           {"/materials/0/alphaMode", 42, "a string"},
+           {"/materials/0", 5, "an object"},
+           {"/materials", {{"a", 1}}, "an array"},
+           {"/nodes/0/children", 0, "an array"},
+           {"/nodes/0/weights", 0.5, "an array"},
+           {"/meshes/0/primitives/0/attributes", "POSITION", "an object"},
+           {"/scenes", {{"a", 1}}, "an array"},
+           {"/extensionsRequired", {{"VENDOR_a", 1}}, "an array"}}) {
+    CAPTURE(pointer);
+    const text::Diagnostic d = failureAt(pointer, value);
+    CHECK(d.code == Code::badModelValue);
+    CHECK(d.expected == expected);
+    CHECK(d.pointer == pointer);
+  }
+}
+
 TEST_CASE("accessors and views that reach beyond what they stand in") {
   for (const auto& [pointer, value] :
        std::initializer_list<std::pair<const char*, json>>{{"/accessors/0/count", 5},

@@ -144,10 +144,10 @@ class GltfReader {
     const bool flat = textOf(value, "type") == "orthographic";
     const JsonValue& lens = document_.need(value, flat ? "orthographic" : "perspective");
     if (flat)
-      camera.height = 2 * document_.number(lens, "ymag", 1, 1e-9, 1e9);
+      camera.height = 2 * document_.number(lens, {"ymag"}, 1, 1e-9, 1e9);
     else
-      camera.fovDegrees = glm::degrees(document_.number(lens, "yfov", 1, 1e-3, 3.1));
-    camera.nearPlane = std::max(1e-6f, document_.number(lens, "znear", 0.1, 0, 1e9));
+      camera.fovDegrees = glm::degrees(document_.number(lens, {"yfov"}, 1, 1e-3, 3.1));
+    camera.nearPlane = std::max(1e-6f, document_.number(lens, {"znear"}, 0.1, 0, 1e9));
     model_.cameras.push_back(std::move(camera));
   }
 
@@ -222,7 +222,7 @@ class GltfReader {
                      const std::vector<float>& weights, bool moves) {
     document_.unpackDraco(value);
     const JsonValue* positions = valueOf(value, {"attributes", "POSITION"});
-    const int mode = static_cast<int>(document_.number(value, "mode", 4, 0, 6));
+    const int mode = static_cast<int>(document_.number(value, {"mode"}, 4, 0, 6));
     if (mode < 4 || !positions) {
       document_.leaveOut(say::meshLeftOut, value, name,
                          positions ? "points and lines are not drawn" : "it has no positions");
@@ -429,22 +429,19 @@ class GltfReader {
       return {};
     }
     light.kind = static_cast<ModelLightKind>(row);
-    light.intensity = document_.number(value, "intensity", 1, 0, 1e12);
+    light.intensity = document_.number(value, {"intensity"}, 1, 0, 1e12);
     if (document_.numbers(value, "color", {&light.color.x, 3}) &&
         glm::any(glm::lessThan(light.color, glm::vec3(0))))
       document_.fail(say::negativeLight, *value.find("color"), light.color[0], light.color[1],
                      light.color[2]);
     if (light.kind == ModelLightKind::sun) return light;
-    light.range = document_.number(value, "range", 0, 1e-6, 1e9);
-    if (light.kind == ModelLightKind::spot) {
-      light.outer = std::numbers::pi_v<float> / 4;
-      constexpr double kQuarter = 1.5708;  // turn, as files round it
-      if (const JsonValue* spot = value.find("spot")) {
-        light.inner = document_.number(*spot, "innerConeAngle", 0, 0, kQuarter);
-        light.outer = document_.number(*spot, "outerConeAngle", std::numbers::pi / 4, 0, kQuarter);
-        if (light.inner > light.outer) document_.fail(say::innerConeWider, *spot, light.outer, light.inner);
-      }
-    }
+    light.range = document_.number(value, {"range"}, 0, 1e-6, 1e9);
+    if (light.kind != ModelLightKind::spot) return light;
+    constexpr double kQuarter = 1.5708;  // turn, as files round it
+    light.inner = document_.number(value, {"spot", "innerConeAngle"}, 0, 0, kQuarter);
+    light.outer = document_.number(value, {"spot", "outerConeAngle"}, std::numbers::pi / 4, 0, kQuarter);
+    if (light.inner > light.outer)
+      document_.fail(say::innerConeWider, *value.find("spot"), light.outer, light.inner);
     return light;
   }
 

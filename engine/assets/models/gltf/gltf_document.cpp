@@ -19,48 +19,49 @@ using text::JsonValue;
 
 namespace {
 
-constexpr std::uint64_t kMaxBytes = std::uint64_t{1}
-                                    << 40;  // no file is so large; sums of these do not overflow
+constexpr std::uint64_t kMaxBytes = 1ull << 40;  // no file is so large; sums of these do not overflow
 
-// What an element of a mesh may ask for that Weft does, or that changes no picture when it is left out.
-constexpr std::string_view kKnownExtensions[] = {"EXT_mesh_gpu_instancing",
-                                                 "EXT_meshopt_compression",
-                                                 "EXT_texture_webp",
-                                                 "KHR_draco_mesh_compression",
-                                                 "KHR_lights_punctual",
-                                                 "KHR_materials_anisotropy",
-                                                 "KHR_materials_clearcoat",
-                                                 "KHR_materials_emissive_strength",
-                                                 "KHR_materials_ior",
-                                                 "KHR_materials_iridescence",
-                                                 "KHR_materials_pbrSpecularGlossiness",
-                                                 "KHR_materials_sheen",
-                                                 "KHR_materials_specular",
-                                                 "KHR_materials_transmission",
-                                                 "KHR_materials_unlit",
-                                                 "KHR_materials_volume",
-                                                 "KHR_mesh_quantization",
-                                                 "KHR_node_visibility",
-                                                 "KHR_texture_transform",
-                                                 "KHR_xmp",
-                                                 "KHR_xmp_json_ld",
-                                                 "WEFT_blinn_phong"};
+// Lists of words, each with a space before it and a comma behind it. What an element of a mesh may ask for that Weft does, or
+// that changes no picture when it is left out.
+constexpr std::string_view kKnownExtensions =
+    " EXT_mesh_gpu_instancing, EXT_meshopt_compression, EXT_texture_webp, KHR_draco_mesh_compression, "
+    "KHR_lights_punctual, KHR_materials_anisotropy, KHR_materials_clearcoat, "
+    "KHR_materials_emissive_strength, KHR_materials_ior, KHR_materials_iridescence, "
+    "KHR_materials_pbrSpecularGlossiness, KHR_materials_sheen, KHR_materials_specular, "
+    "KHR_materials_transmission, KHR_materials_unlit, KHR_materials_volume, KHR_mesh_quantization, "
+    "KHR_node_visibility, KHR_texture_transform, KHR_xmp, KHR_xmp_json_ld, WEFT_blinn_phong,";
+constexpr std::string_view kShownExtensions = kKnownExtensions.substr(1, kKnownExtensions.size() - 2);
 
-bool isKnown(std::string_view extension) {
-  return std::ranges::find(kKnownExtensions, extension) != std::end(kKnownExtensions);
-}
+// Of what type values are under keys where one of another type would be as good as none; arrays whose items are objects.
+constexpr std::pair<JsonValue::Type, std::string_view> kTypes[] = {
+    {JsonValue::Type::array, " children, extensionsRequired, nodes, weights,"},
+    {JsonValue::Type::object, " attributes, extensions, pbrMetallicRoughness, spot,"},
+    {JsonValue::Type::boolean, " doubleSided, normalized, visible,"},
+    {JsonValue::Type::string, " alphaMode, interpolation,"}};
+constexpr std::string_view kTables = " animations, channels, materials, primitives, scenes, targets,";
 
-// The extensions that values below this one have and Weft does not know: where each is first, and how often.
-void collectUnknown(const JsonValue& value,
-                    std::map<std::string, std::pair<const JsonValue*, std::size_t>>& out) {
+using Uses = std::map<std::string, std::pair<const JsonValue*, std::size_t>>;
+
+// Fails for a value below this one that is of another type than glTF has. `out`: the extensions that Weft does not know, where
+// each is first, and how often. `extensions`: its members are extensions.
+void checkValues(GltfDocument& document, const JsonValue& value, bool extensions, Uses& out) {
   for (const text::JsonMember& member : value.members) {
-    if (member.key == "extensions")
-      for (const text::JsonMember& extension : member.value.members)
-        if (!isKnown(extension.key))
-          ++out.try_emplace(extension.key, &extension.value, std::size_t{0}).first->second.second;
-    if (member.key != "extras") collectUnknown(member.value, out);
+    const std::string word = fmt::format(" {},", member.key);
+    const auto check = [&](const JsonValue& each, JsonValue::Type type, std::string_view keys) {
+      if (!each.is(type) && keys.find(word) != keys.npos)
+        document.fail(say::otherType, each, member.key, nameOf(type), describe(each));
+    };
+    if (extensions && kKnownExtensions.find(word) == kKnownExtensions.npos) {
+      ++out.try_emplace(member.key, &member.value, std::size_t{0}).first->second.second;
+      continue;
+    }
+    check(member.value, JsonValue::Type::object, kKnownExtensions);
+    check(member.value, JsonValue::Type::array, kTables);
+    for (const auto& [type, keys] : kTypes) check(member.value, type, keys);
+    for (const JsonValue& item : member.value.items) check(item, JsonValue::Type::object, kTables);
+    if (member.key != "extras") checkValues(document, member.value, member.key == "extensions", out);
   }
-  for (const JsonValue& item : value.items) collectUnknown(item, out);
+  for (const JsonValue& item : value.items) checkValues(document, item, false, out);
 }
 
 template <class T>
@@ -157,15 +158,12 @@ GltfDocument::GltfDocument(std::string bytes, ModelFiles& files)
 
 void GltfDocument::checkExtensions() {
   for (const JsonValue& name : rows("extensionsRequired"))
-    if (!isKnown(name.text)) {
-      pointTo(name, diagnostics_.error(say::unknownExtension, name.place, name.text,
-                                       fmt::join(kKnownExtensions, ", ")));
-      throw Refused{};
-    }
-  std::map<std::string, std::pair<const JsonValue*, std::size_t>> unknown;
-  collectUnknown(root_, unknown);
+    if (kKnownExtensions.find(fmt::format(" {},", name.text)) == kKnownExtensions.npos)
+      fail(say::unknownExtension, name, name.text, kShownExtensions);
+  Uses unknown;
+  checkValues(*this, root_, false, unknown);
   for (const auto& [name, use] : unknown)
-    leaveOut(say::extensionLeftOut, *use.first, name, fmt::join(kKnownExtensions, ", "), use.second,
+    leaveOut(say::extensionLeftOut, *use.first, name, kShownExtensions, use.second,
              use.second == 1 ? "" : "s");
 }
 
@@ -214,12 +212,12 @@ std::uint64_t GltfDocument::whole(const JsonValue& object, std::string_view key)
   return static_cast<std::uint64_t>(value->number);
 }
 
-float GltfDocument::number(const JsonValue& object, std::string_view key, double otherwise, double min,
-                           double max) {
-  const JsonValue* value = object.find(key);
+float GltfDocument::number(const JsonValue& object, std::initializer_list<std::string_view> keys,
+                           double otherwise, double min, double max) {
+  const JsonValue* value = valueOf(object, keys);
   if (!value) return static_cast<float>(otherwise);
   if (!value->is(JsonValue::Type::number) || value->number < min || value->number > max)
-    fail(say::outOfRange, *value, key, min, max, describe(*value));
+    fail(say::outOfRange, *value, std::data(keys)[keys.size() - 1], min, max, describe(*value));
   return static_cast<float>(value->number);
 }
 

@@ -65,8 +65,9 @@ class GltfDocument {
   std::uint32_t index(std::string_view table, const text::JsonValue& value) {
     return index(table, rows(table).size(), value);
   }
-  // A number of an object, or `otherwise`.
-  float number(const text::JsonValue& object, std::string_view key, double otherwise, double min, double max);
+  // The number at the end of these keys, or `otherwise`.
+  float number(const text::JsonValue& object, std::initializer_list<std::string_view> keys, double otherwise,
+               double min, double max);
   // Reads as many numbers as `out` has, within ±1e9; false when the key is absent.
   bool numbers(const text::JsonValue& object, std::string_view key, std::span<float> out);
 

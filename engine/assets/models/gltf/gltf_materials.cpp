@@ -187,13 +187,13 @@ class MaterialReader {
 
   GltfUv readUv(const JsonValue& info) {
     GltfUv uv;
-    uv.set = static_cast<std::uint32_t>(document_.number(info, "texCoord", 0, 0, 63));
+    uv.set = static_cast<std::uint32_t>(document_.number(info, {"texCoord"}, 0, 0, 63));
     const JsonValue* transform = valueOf(info, {"extensions", "KHR_texture_transform"});
     if (!transform) return uv;
     document_.numbers(*transform, "offset", uv.offset);
     document_.numbers(*transform, "scale", uv.scale);
-    uv.rotation = document_.number(*transform, "rotation", 0, -1e6, 1e6);
-    uv.set = static_cast<std::uint32_t>(document_.number(*transform, "texCoord", uv.set, 0, 63));
+    uv.rotation = document_.number(*transform, {"rotation"}, 0, -1e6, 1e6);
+    uv.set = static_cast<std::uint32_t>(document_.number(*transform, {"texCoord"}, uv.set, 0, 63));
     return uv;
   }
 
@@ -231,26 +231,21 @@ class MaterialReader {
     }
     if (uvs.empty()) uvs.emplace_back();
     uvs_.push_back(std::move(uvs));
-    const auto numberOf = [&](std::initializer_list<std::string_view> object, std::string_view key,
-                              double otherwise, double min, double max) {
-      const JsonValue* of = valueOf(value, object);
-      return of ? document_.number(*of, key, otherwise, min, max) : static_cast<float>(otherwise);
-    };
     std::array<float, 4> factor{1, 1, 1, 1};
     if (const JsonValue* pbr = value.find("pbrMetallicRoughness"))
       document_.numbers(*pbr, "baseColorFactor", factor);
     material.albedo = {factor[0], factor[1], factor[2]};
-    material.metallic = numberOf({"pbrMetallicRoughness"}, "metallicFactor", 1, 0, 1);
-    material.roughness = numberOf({"pbrMetallicRoughness"}, "roughnessFactor", 1, 0, 1);
+    material.metallic = document_.number(value, {"pbrMetallicRoughness", "metallicFactor"}, 1, 0, 1);
+    material.roughness = document_.number(value, {"pbrMetallicRoughness", "roughnessFactor"}, 1, 0, 1);
     if (gloss) factor[3] = readGloss(*gloss, images[0], images[2], material);
-    material.normalScale = numberOf({"normalTexture"}, "scale", 1, -1e3, 1e3);
-    material.occlusionStrength = numberOf({"occlusionTexture"}, "strength", 1, 0, 1);
+    material.normalScale = document_.number(value, {"normalTexture", "scale"}, 1, -1e3, 1e3);
+    material.occlusionStrength = document_.number(value, {"occlusionTexture", "strength"}, 1, 0, 1);
     document_.numbers(value, "emissiveFactor", {&material.emissive.x, 3});
-    material.emissive *=
-        numberOf({"extensions", "KHR_materials_emissive_strength"}, "emissiveStrength", 1, 0, 1e9);
+    material.emissive *= document_.number(
+        value, {"extensions", "KHR_materials_emissive_strength", "emissiveStrength"}, 1, 0, 1e9);
     if (const JsonValue* shine = valueOf(value, {"extensions", "WEFT_blinn_phong"})) {
       document_.numbers(*shine, "specular", {&material.specular.x, 3});
-      material.shininess = document_.number(*shine, "shininess", 0, 0, 10000);
+      material.shininess = document_.number(*shine, {"shininess"}, 0, 0, 10000);
       toMetallicRoughness(material);
     }
     const std::string mode = textOf(value, "alphaMode");
@@ -258,7 +253,7 @@ class MaterialReader {
     material.alpha = material.blend ? factor[3] : 1;
     if (mode == "MASK") {
       // The mask compares factor * texel; Weft's materials compare the texel.
-      const float cutoff = document_.number(value, "alphaCutoff", 0.5, 0, 1e3);
+      const float cutoff = document_.number(value, {"alphaCutoff"}, 0.5, 0, 1e3);
       material.alphaCutoff = factor[3] > 0 ? cutoff / factor[3] : 2;
     }
     const JsonValue* both = value.find("doubleSided");
@@ -277,11 +272,9 @@ class MaterialReader {
 
   void readLayers(const JsonValue& extensions, Material& material) {
     MaterialLayers& layers = material.layers;
-    for (const auto& each : kLayers) {
-      const JsonValue* extension = extensions.find(each.extension);
-      if (extension)
-        layers.*each.value = document_.number(*extension, each.key, layers.*each.value, each.min, each.max);
-    }
+    for (const auto& each : kLayers)
+      layers.*each.value =
+          document_.number(extensions, {each.extension, each.key}, layers.*each.value, each.min, each.max);
     if (const JsonValue* specular = extensions.find("KHR_materials_specular"))
       document_.numbers(*specular, "specularColorFactor", {&layers.specularColor.x, 3});
     if (const JsonValue* sheen = extensions.find("KHR_materials_sheen"))
@@ -289,11 +282,11 @@ class MaterialReader {
     if (const JsonValue* volume = extensions.find("KHR_materials_volume")) {
       glm::vec3 left{1};  // of white light, after this distance
       document_.numbers(*volume, "attenuationColor", {&left.x, 3});
-      const float distance = document_.number(*volume, "attenuationDistance", 1e9, 0, 3.5e38);
+      const float distance = document_.number(*volume, {"attenuationDistance"}, 1e9, 0, 3.5e38);
       layers.absorption = -glm::log(glm::clamp(left, 1e-6f, 1.0f)) / std::max(distance, 1e-9f);
     }
-    if (const JsonValue* normal = valueOf(extensions, {"KHR_materials_clearcoat", "clearcoatNormalTexture"}))
-      layers.coatNormalScale = document_.number(*normal, "scale", 1, -1e3, 1e3);
+    layers.coatNormalScale = document_.number(
+        extensions, {"KHR_materials_clearcoat", "clearcoatNormalTexture", "scale"}, 1, -1e3, 1e3);
     layers.layered = layers != MaterialLayers{};
   }
 
@@ -303,7 +296,7 @@ class MaterialReader {
     document_.numbers(value, "diffuseFactor", factor);
     SpecGloss gloss{.diffuse = {factor[0], factor[1], factor[2]}};
     document_.numbers(value, "specularFactor", {&gloss.specular.x, 3});
-    gloss.glossiness = document_.number(value, "glossinessFactor", 1, 0, 1);
+    gloss.glossiness = document_.number(value, {"glossinessFactor"}, 1, 0, 1);
     const Metallic whole = toMetallic(gloss);
     std::tie(material.albedo, material.metallic, material.roughness) =
         std::tie(whole.albedo, whole.metallic, whole.roughness);
