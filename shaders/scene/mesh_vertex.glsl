@@ -86,7 +86,7 @@ mat4 meshPreviousTransform() {
   return mesh_row[instance].previous_transform;
 }
 
-// Of a direction that is perpendicular to a surface, in the model; what morph targets bring to nothing faces its z.
+// Of a direction that is perpendicular to a surface, in the model. One that morph targets have taken away becomes the z axis.
 vec3 meshNormal(mat4 transform, vec3 direction) {
   mat3 m = mat3(transform);
   if (dot(direction, direction) == 0.0) direction = vec3(0.0, 0.0, 1.0);

@@ -66,7 +66,7 @@ vec3 reflectedSpot(Point point, Response response, Lobe lobe, float strength) {
   return fresnel * lobe.spot_light * strength;
 }
 
-// For a spot after the first. These stay in lookups of `environment`; in `specular` they are at least a pixel wide.
+// Of a spot after the first. Lookups of `environment` keep these; beside `specular`, which lacks them, they are made a pixel wide or more.
 vec3 reflectedOther(Point point, Response response, Lobe lobe, int i, float seen) {
   float alpha2 = lobe.spot_shape.alpha2, pixel = 1.5 * max(alpha2OfLobe(lobe) - alpha2, 0.0);
   lobe.spot = towardsSpot(i, sky_turn);

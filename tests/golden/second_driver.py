@@ -25,7 +25,7 @@ def main():
     drivers = glob.glob("/usr/share/vulkan/icd.d/lvp_icd*.json")
     if not drivers:
         report.skip("no lavapipe in /usr/share/vulkan/icd.d (Debian: mesa-vulkan-drivers)")
-    # In Mesa 22.3 zink crashes when it folds a bound of a loop that is a member of a block; it folds them over drivers in software alone.
+    # Mesa 22.3: zink over a software driver crashes when it inlines a uniform that bounds a loop.
     environment = {**os.environ, "ZINK_INLINE_UNIFORMS": "0", "GALLIUM_DRIVER": "zink", "LIBGL_ALWAYS_SOFTWARE": "1", "VK_ICD_FILENAMES": drivers[0], "VK_DRIVER_FILES": drivers[0]}
     options = ("--backend", "egl", "--program-cache", "none")
     with temporary_folder() as folder:

@@ -140,7 +140,8 @@ void hideLobe(inout LobeOcclusion all, float alpha, float radius, vec3 albedo, v
   all.material.distance_in_radii += hidden * far / radius;
 }
 
-// How much the ground below a point of a sphere counts what another one hides from it: as far as that is above the horizon.
+// Weight of what a sphere hides from the ground below a point: as far as it is above the point's horizon, and all of it
+// where it is the point's own sphere.
 float weightOnGround(bool is_image, float height, float near) {
   return is_image ? 1.0 : clamp(height + 1.0, 0.0, 1.0) * near;
 }

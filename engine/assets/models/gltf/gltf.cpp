@@ -491,7 +491,7 @@ class GltfReader {
     if (glm::dot(rotation, rotation) > 0) node.local.rotation = glm::normalize(rotation);
   }
 
-  // That the mesh of a node has.
+  // How many morph targets the mesh of a node has.
   std::size_t targetsOf(const JsonValue& node) const {
     const JsonValue* mesh = node.find("mesh");
     const std::vector<JsonValue>& primitives =
@@ -499,7 +499,7 @@ class GltfReader {
     return primitives.empty() ? 0 : itemsOf(primitives[0], "targets").size();
   }
 
-  // One; of weights one for each of `targets`.
+  // Adds one track, or one for each morph target where the sampler moves weights.
   void readTracks(const JsonValue& sampler, std::size_t targets, ModelTrack& track, ModelAnimation& into) {
     const std::string how = textOf(sampler, "interpolation");
     const bool cubic = how == "CUBICSPLINE", rotation = track.path == TrackPath::rotation,
