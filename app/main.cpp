@@ -34,7 +34,7 @@ namespace {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   using namespace weft::app;
   const std::string_view first = argc > 1 ? argv[1] : "";
   if (first == weft::gl::kTrialWord) weft::gl::runTrial(argc - 1, argv + 1);
@@ -45,4 +45,6 @@ int main(int argc, char** argv) {
         addTest, addFuzz, addDump, addFormat, addNew, addImport, addLsp, addSchema, addTypes})
     add(line);
   return finishStreams(line.run(argc, argv));
+} catch (...) {  // files half written are removed by now
+  endAtOnce();
 }
