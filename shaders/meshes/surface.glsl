@@ -21,6 +21,8 @@ in vec2 map_uv_2;
 #endif
 in vec4 previous_clip;
 flat in uint row;
+flat in uint normal_map;  // not of `material` here, where pixels beside a triangle read 0 on some drivers: it is derived
+flat in float normal_scale;
 #ifdef HAS_VERTEX_COLORS
 in vec4 own_color;
 #endif
@@ -63,15 +65,15 @@ MeshSurface meshSurface() {
   Material self = material[row];
   MapPlace place = mapPlace();
   vec3 n = normalize(world_normal);
-  uint maps[5] = uint[](self.albedo_map, self.normal_map, self.metallic_roughness_map, self.occlusion_map, self.emissive_map);
+  uint maps[5] = uint[](self.albedo_map, normal_map, self.metallic_roughness_map, self.occlusion_map, self.emissive_map);
   vec4 texel[5];
   for (int i = 0; i < 5; ++i) texel[i] = mapAt(maps[i], place);
   vec4 color = texel[0] * vec4(self.albedo, self.alpha);
 #ifdef HAS_VERTEX_COLORS
   color *= own_color;
 #endif
-  if (self.normal_map != 0xffffffffu) {
-    vec3 tilt = (texel[1].xyz * 2.0 - 1.0) * vec3(self.normal_scale, self.normal_scale, 1.0);
+  if (normal_map != 0xffffffffu) {
+    vec3 tilt = (texel[1].xyz * 2.0 - 1.0) * vec3(normal_scale, normal_scale, 1.0);
     vec3 t = world_tangent.xyz - n * dot(n, world_tangent.xyz);
     if (dot(t, t) > 0.0) {
       t = normalize(t);

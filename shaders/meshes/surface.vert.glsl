@@ -1,6 +1,8 @@
 // A vertex of a mesh, for the fragment shaders that include meshes/surface.glsl. Slots: skeleton?  @joints,
-// morph_targets?  @morph_targets, morph_weights?  @morph_weights, vertex_colors?  @vertex_colors, second_uvs?  @second_uvs
+// morph_targets?  @morph_targets, morph_weights?  @morph_weights, vertex_colors?  @vertex_colors, second_uvs?  @second_uvs,
+// materials  @materials
 #include "common/view.glsl"
+#include "scene/materials.glsl"
 #include "scene/mesh_vertex.glsl"
 
 in vec3 normal;
@@ -17,6 +19,8 @@ out vec2 map_uv_2;
 #endif
 out vec4 previous_clip;
 flat out uint row;        // of @materials
+flat out uint normal_map;  // of that row, as what follows
+flat out float normal_scale;
 #ifdef HAS_VERTEX_COLORS
 out vec4 own_color;       // linear
 #endif
@@ -42,6 +46,8 @@ void main() {
   world_scale = pow(abs(determinant(mat3(transform))), 1.0 / 3.0);
 #endif
   row = mesh_row[instance].material;
+  normal_map = material[row].normal_map;
+  normal_scale = material[row].normal_scale;
   previous_clip = previous_view_projection * (meshPreviousTransform() * meshPreviousPosition());
   gl_Position = view_projection * world;
 }

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Pictures of small models against what glTF 2.0 says, computed here texel by texel: wrap modes of samplers, unlit colors, the back of a
-normal map, a scene whose meshes all blend, moving morph targets, cameras of a floor and of the file. model_pictures.py WEFT"""
+normal map, edges of triangles, a scene whose meshes all blend, moving morph targets, cameras of a floor and of the file. model_pictures.py WEFT"""
 import base64
 import json
+import math
 import pathlib
 import struct
 import sys
@@ -37,6 +38,17 @@ class Model:
         self.json["accessors"].append({"bufferView": len(self.json["bufferViews"]) - 1, "componentType": component, "count": len(rows), "type": kind})
         return len(self.json["accessors"]) - 1
 
+    def ball(self, material, steps=60, **node):
+        """A sphere of radius 1, of 2 * steps * steps triangles."""
+        turns = [math.tau * i / steps for i in range(steps + 1)]
+        points = [(math.sin(a / 2) * math.cos(b), math.cos(a / 2), -math.sin(a / 2) * math.sin(b)) for a in turns for b in turns]
+        corners = [i * (steps + 1) + j + k for i in range(steps) for j in range(steps) for k in (0, steps + 1, 1, 1, steps + 1, steps + 2)]
+        attributes = {name: self.accessor("VEC3", 5126, points) for name in ("POSITION", "NORMAL")}
+        indices = self.accessor("SCALAR", 5123, [(corner,) for corner in corners])
+        self.json["meshes"].append({"primitives": [{"attributes": attributes, "indices": indices, "material": material}]})
+        self.json["nodes"].append({"mesh": len(self.json["meshes"]) - 1, **node})
+        return self
+
     def quad(self, material, normal=(0, 0, 1), low=0.0, high=1.0, **node):
         corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
         span = lambda c: (c + 1) / 2 * (high - low) + low  # noqa: E731
@@ -51,15 +63,19 @@ class Model:
         self.json["nodes"].append({"mesh": len(self.json["meshes"]) - 1, **node})
         return self
 
-    def render(self, folder, *options, graph="deferred.json"):
+    def render(self, folder, *options, **more):
+        return self.render_frames(folder, (0,), *options, **more)[0]
+
+    def render_frames(self, folder, frames, *options, graph="deferred.json"):
         self.json["buffers"] = [{"byteLength": len(self.bytes), "uri": uri("application/octet-stream", self.bytes)}]
-        path, picture = folder / "m.gltf", folder / "m.png"
+        path = folder / "m.gltf"
         path.write_text(json.dumps(self.json))
         made = run(WEFT, "render", TOP / "graphs" / graph, "--scene", path, "--size", f"{WIDTH}x{HEIGHT}", "--set", "bloom=false", "--set", "fxaa=false",
-                   "--set", "curve=filmic", "--backend", "osmesa", "--preset", TOP / "tests/small_maps.json", *options, "-o", picture)
+                   "--set", "curve=filmic", "--backend", "osmesa", "--preset", TOP / "tests/small_maps.json", "--frames", ",".join(map(str, frames)),
+                   *options, "-o", folder / "m_%d.png")
         if made.code != 0 or made.err:
             problems.append(f"{options}: {made.err}")
-        return [[texel[:3] for texel in row] for row in read_png(picture.read_bytes())]
+        return [[[texel[:3] for texel in row] for row in read_png((folder / f"m_{frame}.png").read_bytes())] for frame in frames]
 
 
 def expect(what, good):
@@ -123,9 +139,18 @@ def check_backs(folder):
     metal = {"doubleSided": True, "pbrMetallicRoughness": {"roughnessFactor": 0.3}}
     for camera in ("front", "back"):
         mapped = Model([{**metal, "normalTexture": {"index": 0}}], images=[{"uri": uri("image/png", png([[tuple(texel)]]))}], textures=[{"source": 0}])
-        by_map = mapped.quad(0).render(folder, "--camera", camera)[HEIGHT // 2][WIDTH // 2]
-        by_vertices = Model([metal]).quad(0, normal=normal).render(folder, "--camera", camera)[HEIGHT // 2][WIDTH // 2]
-        expect(f"{camera}: {by_map} by the map, {by_vertices} by the vertices", max(abs(a - b) for a, b in zip(by_map, by_vertices)) <= 2)
+        by_map, by_vertices = (model.quad(0, **more).render(folder, "--camera", camera) for model, more in ((mapped, {}), (Model([metal]), {"normal": normal})))
+        worst = max(abs(a - b) for rows in zip(by_map, by_vertices) for pixels in zip(*rows) for a, b in zip(*pixels))
+        expect(f"{camera}: {worst} of 255 between the map and the vertices", worst <= 4)
+
+
+def check_edges(folder):
+    """Normals that turn within a pixel widen the roughness; triangles that end there do not, whatever maps others have."""
+    model = Model([{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}, {"pbrMetallicRoughness": {"roughnessFactor": 0.4}}],
+                  images=[{"uri": uri("image/png", png([[(0, 0, 0)]]))}], textures=[{"source": 0}])
+    model.quad(0, translation=[-1.2, 0, 0]).ball(1, translation=[1.2, 0, 0]).render(folder, "-o", f"metallic_roughness={folder}/r.exr")
+    seen = [texel[1] for row in read_exr((folder / "r.exr").read_bytes())[27:37] for texel in row[57:67]]
+    expect(f"roughness 0.4 is {min(seen):.3f} to {max(seen):.3f}", max(abs(each - 0.4) for each in seen) < 0.01)
 
 
 def check_cameras(folder):
@@ -186,11 +211,11 @@ def check_morphs(folder):
             sampler = {"input": model.accessor("SCALAR", 5126, [(t,) for t in TIMES]), "interpolation": how,
                        "output": model.accessor("SCALAR", 5126, [(number,) for row in rows for number in row])}
             model.json["animations"] = [{"samplers": [sampler], "channels": [{"sampler": 0, "target": {"node": 0, "path": "weights"}}]}]
-            for frame in (2, 5, 9, 17):
+            frames = (2, 5, 9, 17)
+            also = ("-o", f"velocity={folder}/v_%d.exr") if graph == "deferred.json" else ()
+            pictures = model.render_frames(folder, frames, "--camera", "lens", "--fps", str(fps), *also, graph=graph)
+            for frame, picture in zip(frames, pictures):
                 (x, y), before = ([weight_at(how, target, f / fps) for target in (0, 1)] for f in (frame, frame - 1))
-                velocity = folder / "v.exr"
-                also = ("-o", f"velocity={velocity}") if graph == "deferred.json" else ()
-                picture = model.render(folder, "--camera", "lens", "--fps", str(fps), "--frames", str(frame), *also, graph=graph)
                 case = f"{graph}, {how}{', skinned' * skinned}, frame {frame}"
                 left, right, low, top = -1, 1 + 0.8 * x, -1 + 0.6 * y, 1 + 0.6 * y
                 middle = ((left + right) / 2, (low + top) / 2)
@@ -207,7 +232,7 @@ def check_morphs(folder):
                     px, py = column(middle[0]), row(middle[1])
                     u = ((px + 0.5 - WIDTH / 2) / unit + 1) / (right + 1)
                     wanted = (u * 0.8 * (x - before[0]) * unit / WIDTH, 0.6 * (y - before[1]) * unit / HEIGHT)
-                    seen = read_exr(velocity.read_bytes())[py][px][:2]
+                    seen = read_exr((folder / f"v_{frame}.exr").read_bytes())[py][px][:2]
                     expect(f"{case}: motion {seen} instead of {wanted}", max(abs(a - b) for a, b in zip(seen, wanted)) < 1e-3)
 
 
@@ -227,7 +252,7 @@ def check_lost_normals(folder):
 
 
 with tempfile.TemporaryDirectory() as name:
-    for check in (check_wrap, check_colors, check_second_uvs, check_morphs, check_lost_normals, check_backs, check_cameras):
+    for check in (check_wrap, check_colors, check_second_uvs, check_morphs, check_lost_normals, check_backs, check_edges, check_cameras):
         check(pathlib.Path(name))
 print("\n".join(problems) or "model pictures: as glTF says")
 sys.exit(1 if problems else 0)
