@@ -1,4 +1,5 @@
 // A user shader of mpv: its //! headers with places, then its graph and its shaders. Declared in import.h.
+#include <Imath/half.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -9,7 +10,6 @@
 #include <memory>
 #include <sstream>
 
-#include "engine/assets/images/image.h"
 #include "engine/graph/language/names.h"
 #include "engine/text/chars.h"
 #include "engine/text/nearest.h"
@@ -88,7 +88,7 @@ std::size_t bytesOf(std::string_view kind) {
 float decode(std::uint32_t bits, std::string_view kind) {
   if (kind == "8") return static_cast<float>(bits) / 255.0f;
   if (kind == "16") return static_cast<float>(bits) / 65535.0f;
-  return kind == "16hf" ? assets::halfToFloat(static_cast<std::uint16_t>(bits)) : std::bit_cast<float>(bits);
+  return kind == "16hf" ? imath_half_to_float(static_cast<std::uint16_t>(bits)) : std::bit_cast<float>(bits);
 }
 
 // Fills `texture.image` from hexadecimal digits, or returns what is wrong.

@@ -15,6 +15,7 @@ OTHER_MEANINGS = {
     ("engine/assets/models/gltf/gltf.cpp", "meshes"): "a key of glTF",
     ("engine/assets/models/gltf/gltf.cpp", "materials"): "a key of glTF",
     ("engine/assets/models/gltf/gltf_materials.cpp", "materials"): "a key of glTF",
+    ("engine/assets/models/gltf/gltf_document.cpp", "materials"): "a key of glTF",
     ("engine/assets/models/gltf/gltf.cpp", "joints"): "a key of glTF",
     ("engine/assets/models/gltf/gltf.cpp", "camera"): "a key of glTF",
     ("engine/assets/models/fbx/reader.cpp", "mesh"): "a key of glTF",

@@ -91,7 +91,7 @@ OUTSIDE = {
     "glad/": {"gl", "passes", "imports", "runtime"},
     "GL/": {"gl"},
     "GLFW/": {"gl", "app"},
-    "stb_": {"assets"}, "stb/": {"assets"}, "OpenEXR/": {"assets"}, "Imath/": {"assets"}, "assimp/": {"assets"}, "draco/": {"assets"}, "meshoptimizer": {"assets"}, "webp/": {"assets"},
+    "stb_": {"assets"}, "stb/": {"assets"}, "OpenEXR/": {"assets"}, "Imath/": {"assets", "importers"}, "assimp/": {"assets"}, "draco/": {"assets"}, "meshoptimizer": {"assets"}, "webp/": {"assets"},
     "glm/": {"assets", "scene", "passes", "imports", "runtime", "app"},
     "CLI/": {"app"}, "imgui": {"app"}, "benchmark/": {"app"}, "tbb/": {"assets", "scene"},
 }

@@ -284,8 +284,9 @@ Checked checkOnce(const CheckOptions& options) {
   text::Diagnostics again;
   // Beyond a limit nothing that follows can be trusted, and there may be very much of it.
   const bool over = diagnostics.contains(text::Code::limitExceeded);
-  const auto desc =
-      vary || !(checked.plan || over) ? graph::readGraph(options.graph, options.presets, again) : nullptr;
+  const auto desc = vary || !(checked.plan || over)
+                        ? graph::readGraph(options.graph, again, {.presets = options.presets})
+                        : nullptr;
   if (desc && !checked.plan && options.shaders) checked.shaders.checkFiles(*desc, diagnostics);
   if (vary) {
     graph::MatrixOptions wanted{.pairs = options.matrix};

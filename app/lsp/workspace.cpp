@@ -99,8 +99,7 @@ void Workspace::read(const std::string& path, Graph& graph) {
   const auto isSame = [&](const auto& known) { return texts_.of(known.first) == known.second; };
   if (graph.read && std::ranges::all_of(graph.texts, isSame)) return;  // what could not be read is read again
   graph.readSaid.clear();
-  graph::mostFileBytes = Text::kMaxBytes;
-  graph.read = graph::readGraph(path, graph.readSaid);
+  graph.read = graph::readGraph(path, graph.readSaid, {.mostFileBytes = Text::kMaxBytes});
   if (graph.read || !graph.desc) graph.texts.clear();
   graph.texts[path];
   if (graph.read)

@@ -1,7 +1,5 @@
 #include "app/output/frame_look.h"
 
-#include <cmath>
-
 #include "app/output/pictures.h"
 #include "engine/glsl/source.h"
 #include "engine/graph/print/print.h"
@@ -18,13 +16,8 @@ using Json = nlohmann::ordered_json;
 
 // ---- pictures ----
 
-constexpr int kThumbnail = 160, kGrid = 32;  // texels of the longer side
+constexpr int kThumbnail = 160, kGrid = 28;  // texels of the longer side
 constexpr std::size_t kPicturesOfStep = 24;  // levels and layers that are shown of what one step writes
-
-template <class T>
-std::string base64Of(const std::vector<T>& numbers) {
-  return encodeBase64({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(T)});
-}
 
 Json pictureOf(const assets::Image8& image) {
   const double scale = std::min(1.0, static_cast<double>(kThumbnail) / std::max(image.width, image.height));
@@ -33,7 +26,7 @@ Json pictureOf(const assets::Image8& image) {
   return {{"png", pictureAddress(scale < 1 ? assets::resize(image, width, height, true) : image)}};
 }
 
-// The exact values of every n-th texel, bottom row first: as numbers of two bytes where those hold all of them, else of four.
+// The values of every n-th texel, bottom row first, as numbers of four bytes.
 Json gridOf(const assets::ImageF& values) {
   const int every = (std::max(values.width, values.height) + kGrid - 1) / kGrid;
   const auto channels = static_cast<std::size_t>(values.channels);
@@ -44,17 +37,12 @@ Json gridOf(const assets::ImageF& values) {
       const float* const texel = &values.texels[(row * values.width + x) * channels];
       chosen.insert(chosen.end(), texel, texel + channels);
     }
-  std::vector<std::uint16_t> halves(chosen.size());
-  std::ranges::transform(chosen, halves.begin(), assets::floatToHalf);
-  const bool half = std::ranges::equal(chosen, halves, [](float value, std::uint16_t bits) {
-    return std::isnan(value) || assets::halfToFloat(bits) == value;
-  });
   return {{"width", (values.width + every - 1) / every},
           {"height", (values.height + every - 1) / every},
           {"channels", channels},
           {"every", every},
-          {"half", half},
-          {"values", half ? base64Of(halves) : base64Of(chosen)}};
+          {"values",
+           encodeBase64({reinterpret_cast<const char*>(chosen.data()), chosen.size() * sizeof(float)})}};
 }
 
 Json outputOf(const runtime::CaptureItem& item, runtime::Inspector& inspector,

@@ -413,15 +413,9 @@ function link(parent, t, rest = "") {
   item.append(" " + rest);
 }
 
-// IEEE 754 binary16.
-function numberOfHalf(half) {
-  const exponent = (half >> 10) & 31, fraction = half & 1023, sign = half & 0x8000 ? -1 : 1;
-  if (exponent === 31) return fraction ? NaN : sign * Infinity;
-  return sign * (exponent ? (1 + fraction / 1024) * 2 ** (exponent - 15) : fraction * 2 ** -24);
-}
 function valuesOf(grid) {
   const { buffer } = Uint8Array.from(atob(grid.values), (c) => c.charCodeAt(0));
-  return grid.half ? Array.from(new Uint16Array(buffer), numberOfHalf) : Array.from(new Float32Array(buffer));
+  return Array.from(new Float32Array(buffer));
 }
 
 function drawOutput(parent, outputs) {

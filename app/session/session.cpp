@@ -95,7 +95,7 @@ std::optional<runtime::World> loadWorld(const Options& options, text::Diagnostic
 
 std::shared_ptr<const graph::Plan> makePlan(const Options& options, const runtime::WorldFacts& facts,
                                             bool software, text::Diagnostics& diagnostics) {
-  const auto desc = graph::readGraph(options.graph, options.presets, diagnostics);
+  const auto desc = graph::readGraph(options.graph, diagnostics, {.presets = options.presets});
   if (!desc) return nullptr;
   const auto registry = runtime::makeRegistry({}, facts);
   const auto flat = graph::expandGraph(*desc, registry, settingsOf(options, software), diagnostics);

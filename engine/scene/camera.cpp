@@ -19,6 +19,18 @@ double radicalInverse(std::uint32_t index, std::uint32_t base) {
   return result;
 }
 
+// Depth 1 at `nearPlane`, 0 at nearPlane + reach.
+glm::dmat4 orthographicMatrix(double height, double aspect, double nearPlane, double reach,
+                              glm::dvec2 jitterNdc) {
+  assert(height > 0 && aspect > 0 && reach > 0);
+  glm::dmat4 projection(1);
+  projection[0][0] = 2 / (height * aspect);
+  projection[1][1] = 2 / height;
+  projection[2][2] = 1 / reach;
+  projection[3] = {jitterNdc.x, jitterNdc.y, (nearPlane + reach) / reach, 1};
+  return projection;
+}
+
 }  // namespace
 
 CameraPose poseAt(const Camera& camera, double time) {
@@ -62,17 +74,6 @@ glm::dmat4 projectionMatrix(double fovDegrees, double aspect, double nearPlane, 
   projection[1][1] = f;
   projection[2] = {-jitterNdc.x, -jitterNdc.y, 0, -1};
   projection[3][2] = nearPlane;
-  return projection;
-}
-
-glm::dmat4 orthographicMatrix(double height, double aspect, double nearPlane, double reach,
-                              glm::dvec2 jitterNdc) {
-  assert(height > 0 && aspect > 0 && reach > 0);
-  glm::dmat4 projection(1);
-  projection[0][0] = 2 / (height * aspect);
-  projection[1][1] = 2 / height;
-  projection[2][2] = 1 / reach;
-  projection[3] = {jitterNdc.x, jitterNdc.y, (nearPlane + reach) / reach, 1};
   return projection;
 }
 

@@ -77,9 +77,6 @@ glm::dmat4 viewMatrix(
     const CameraPose& pose);  // straight down shows -Z upwards, straight up shows +Z upwards
 glm::dmat4 projectionMatrix(double fovDegrees, double aspect, double nearPlane,
                             glm::dvec2 jitterNdc = {0, 0});
-// Depth 1 at `nearPlane`, 0 at nearPlane + reach.
-glm::dmat4 orthographicMatrix(double height, double aspect, double nearPlane, double reach,
-                              glm::dvec2 jitterNdc = {0, 0});
 
 // The angle of view, degrees, of a lens of this focal length before a sensor of this height, both in one unit
 // and over 0.

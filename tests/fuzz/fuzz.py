@@ -79,6 +79,7 @@ def main():
     libfuzzer = "fuzzer" in re.search(r"^WEFT_SANITIZE:.*", (build / "CMakeCache.txt").read_text(), re.M)[0]
     names = given.targets or sorted(path.stem[5:] for path in (build / "tests/fuzz").glob("fuzz_*.seeds"))
     os.environ.setdefault("UBSAN_OPTIONS", f"halt_on_error=1:print_stacktrace=1:suppressions={TOP}/tests/app/hostile/ubsan.supp")
+    os.environ.setdefault("LSAN_OPTIONS", f"suppressions={TOP}/tests/gl/lsan.supp:print_suppressions=0")
     bad = 0
     for name in names:
         program, findings = build / f"tests/fuzz/fuzz_{name}", HERE / "found" / name if libfuzzer else build / "fuzz"

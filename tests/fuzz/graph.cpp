@@ -31,7 +31,7 @@ void fuzz(std::string_view input) {
   for (const bool overlay : {false, true}) {
     text::Diagnostics said;
     const std::vector<std::string> presets(overlay ? 1 : 0, file.path());
-    const auto desc = graph::readGraph(overlay ? over : file.path(), presets, said);
+    const auto desc = graph::readGraph(overlay ? over : file.path(), said, {.presets = presets});
     expectAnswer(desc != nullptr, said);
     if (!desc) continue;
     graph::findNameUses(*desc, registry);

@@ -108,7 +108,7 @@ void Lab::make(bool fresh) {
   settings.sets = setup_.sets;
   settings.disables = setup_.disables;
   if (!bench_->desc) {
-    bench_->desc = graph::readGraph(bench_->graph, {}, diagnostics_);
+    bench_->desc = graph::readGraph(bench_->graph, diagnostics_);
     if (bench_->desc) device.sources.setRoots(runtime::shaderRootsOf(bench_->desc->files, WEFT_SOURCE_DIR));
   }
   INFO(diagnostics_.text());

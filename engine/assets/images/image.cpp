@@ -298,7 +298,7 @@ std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, text::
     image = decodeEnvironment(*bytes, path, diagnostics);
   }
   if (!image || stop.stop_requested()) return {};
-  return toEnvironmentMap(*image);
+  return toEnvironmentMap(*std::move(image));
 } catch (const std::exception& error) {  // out of memory
   reportUnreadable(diagnostics, path, fmt::format("decoding failed ({})", error.what()));
   return {};
@@ -309,21 +309,12 @@ bool isEnvironmentName(const std::string& name) {
   return kind == ImageKind::hdr || kind == ImageKind::exr;
 }
 
-EnvironmentMap toEnvironmentMap(const ImageF& image) {
+EnvironmentMap toEnvironmentMap(ImageF image) {
+  image = widenToRgba(std::move(image));
   EnvironmentMap map{static_cast<std::uint32_t>(image.width), static_cast<std::uint32_t>(image.height), {}};
-  const ImageF wide = image.channels == 4 ? ImageF{} : widenToRgba(image);
-  const std::vector<float>& texels = image.channels == 4 ? image.texels : wide.texels;
-  map.texels.resize(texels.size());
-  std::ranges::transform(texels, map.texels.begin(), floatToHalf);
+  map.texels.resize(image.texels.size());
+  std::ranges::transform(image.texels, map.texels.begin(), imath_float_to_half);
   return map;
-}
-
-std::uint16_t floatToHalf(float value) {
-  return imath_float_to_half(value);
-}
-
-float halfToFloat(std::uint16_t half) {
-  return imath_half_to_float(half);
 }
 
 }  // namespace weft::assets

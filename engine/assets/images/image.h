@@ -60,7 +60,7 @@ std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, text::
 bool isEnvironmentName(const std::string& name);
 
 // A picture that decodeEnvironment gives, 3 or 4 channels, rounded to halves.
-EnvironmentMap toEnvironmentMap(const ImageF& image);
+EnvironmentMap toEnvironmentMap(ImageF image);
 
 // What a channel is in the file: .png .jpg .tga of 8 bits, .png of 16 bits, .hdr and .exr.
 enum class StoredType : std::uint8_t { byte, word, real };
@@ -96,11 +96,6 @@ Image8 resize(const Image8& image, int width, int height, bool srgb);
 
 float decodeSrgb(float encoded);  // IEC 61966-2-1; input and output 0..1
 
-// IEEE 754 binary16 <-> binary32. To half rounds to nearest even, overflows to infinity, keeps subnormals; a
-// NaN stays a NaN.
-constexpr float kHalfMax = 65504.0f;
-
-std::uint16_t floatToHalf(float value);
-float halfToFloat(std::uint16_t half);
+constexpr float kHalfMax = 65504.0f;  // the largest half
 
 }  // namespace weft::assets

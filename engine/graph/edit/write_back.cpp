@@ -278,7 +278,7 @@ class Planner {
     FileTexts texts = texts_;
     texts[edit.path] = std::make_shared<const std::string>(edit.text);
     Diagnostics said;
-    auto desc = readGraph(desc_.path, presets_, texts, said);
+    auto desc = readGraph(desc_.path, said, {.presets = presets_, .given = texts});
     if (!desc || said.hasErrors() || !giveWanted(*desc)) return false;
     texts_ = std::move(texts);
     kept_ = std::move(desc);

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "engine/graph/language/names.h"
-#include "engine/graph/read/read.h"
 #include "engine/graph/read/read_context.h"
 #include "engine/text/files/file.h"
 #include "engine/text/limits.h"
@@ -611,12 +610,12 @@ std::shared_ptr<const Source> SourceLoader::file(const std::string& path, const 
 }
 
 std::optional<JsonValue> SourceLoader::parse(const std::string& path, const text::Place& from, bool preset) {
-  if (const auto found = given_.find(path); found != given_.end()) {
+  if (const auto found = options_.given.find(path); found != options_.given.end()) {
     texts_[path] = found->second;
   } else {
     std::optional<std::string> bytes = text::readTextFile(path, diagnostics_, Code::unreadableFile, from);
-    if (bytes && bytes->size() > mostFileBytes) {
-      diagnostics_.error(say::fileTooLarge, from, mostFileBytes, bytes->size());
+    if (bytes && bytes->size() > options_.mostFileBytes) {
+      diagnostics_.error(say::fileTooLarge, from, options_.mostFileBytes, bytes->size());
       bytes.reset();
     }
     if (!bytes) return std::nullopt;

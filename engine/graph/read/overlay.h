@@ -9,8 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/graph/desc.h"
-#include "engine/text/diagnostic.h"
+#include "engine/graph/read/read.h"
 #include "engine/text/json/dom.h"
 
 namespace weft::graph {
@@ -36,11 +35,11 @@ struct Source : FileDesc {
 std::string pathBeside(const text::JsonValue& written);
 std::string identityOf(const std::string& path);
 
-// Opens files, each once. Those in `given` are not looked for on disk.
+// Opens files, each once.
 class SourceLoader {
  public:
-  SourceLoader(text::Diagnostics& diagnostics, const FileTexts& given)
-      : diagnostics_(diagnostics), given_(given) {}
+  SourceLoader(text::Diagnostics& diagnostics, const ReadOptions& options)
+      : diagnostics_(diagnostics), options_(options) {}
 
   // Null after a report (the same file again: null without another).
   std::shared_ptr<const Source> file(const std::string& path, const text::Place& from);
@@ -68,7 +67,7 @@ class SourceLoader {
   bool lay(Source& made, const text::JsonValue& root, const std::string& path, bool preset);
 
   text::Diagnostics& diagnostics_;
-  const FileTexts& given_;
+  const ReadOptions& options_;
   FileTexts texts_;
   std::set<std::string> broken_;  // identities of overlays that failed: they are not looked at again
   std::map<std::string, std::shared_ptr<const Source>> known_;  // by identity; null for files that failed

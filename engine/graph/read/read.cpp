@@ -23,8 +23,8 @@ using Type = JsonValue::Type;
 
 class GraphReader {
  public:
-  GraphReader(Diagnostics& diagnostics, const FileTexts& given)
-      : diagnostics_(diagnostics), loader_(diagnostics, given) {}
+  GraphReader(Diagnostics& diagnostics, const ReadOptions& options)
+      : diagnostics_(diagnostics), loader_(diagnostics, options) {}
 
   std::shared_ptr<const GraphDesc> readWith(const std::string& path, std::span<const std::string> presets) {
     std::shared_ptr<const Source> source = loader_.file(path, {});
@@ -245,11 +245,11 @@ class GraphReader {
 
 }  // namespace
 
-std::shared_ptr<const GraphDesc> readGraph(const std::string& path, std::span<const std::string> presets,
-                                           const FileTexts& given, Diagnostics& diagnostics) {
+std::shared_ptr<const GraphDesc> readGraph(const std::string& path, Diagnostics& diagnostics,
+                                           const ReadOptions& options) {
   Diagnostics said;
-  GraphReader reader(said, given);
-  std::shared_ptr<const GraphDesc> graph = reader.readWith(path, presets);
+  GraphReader reader(said, options);
+  std::shared_ptr<const GraphDesc> graph = reader.readWith(path, options.presets);
   said.sortByPlace();  // in the order of the text, whatever order the reader looked at things
   diagnostics.append(said);
   return graph;
@@ -257,7 +257,7 @@ std::shared_ptr<const GraphDesc> readGraph(const std::string& path, std::span<co
 
 std::shared_ptr<const GraphDesc> readGraphText(std::string_view text, const std::string& name,
                                                Diagnostics& diagnostics) {
-  return readGraph(name, {}, {{name, std::make_shared<const std::string>(text)}}, diagnostics);
+  return readGraph(name, diagnostics, {.given = {{name, std::make_shared<const std::string>(text)}}});
 }
 
 }  // namespace weft::graph

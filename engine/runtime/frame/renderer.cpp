@@ -96,7 +96,7 @@ bool Renderer::setParameter(std::string_view path, const graph::Value& value) {
 
 bool Renderer::load(const graph::Settings& settings, const World& world, text::Diagnostics& diagnostics) {
   text::Diagnostics said;
-  const auto desc = graph::readGraph(graphPath_, options_.presets, said);
+  const auto desc = graph::readGraph(graphPath_, said, {.presets = options_.presets});
   diagnostics.append(said);
   triedFiles_ = desc ? desc->files : std::vector<std::string>{graphPath_};
   refused_.clear();

@@ -1,4 +1,5 @@
 // The kinds of .exr that others write: half floats, every compression, tiles, parts, windows, subsets of channels.
+#include <Imath/half.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfMultiPartOutputFile.h>
@@ -52,7 +53,7 @@ std::string encode(const std::vector<Names>& parts, int compression, bool tiled)
       for (std::size_t c = 0; c < planes.size(); ++c) {
         for (int y = 0; y < kHeight; ++y)
           for (int x = 0; x < kWidth; ++x)
-            planes[c].push_back(floatToHalf(valueAt(x, y, static_cast<int>(c))));
+            planes[c].push_back(imath_float_to_half(valueAt(x, y, static_cast<int>(c))));
         buffer.insert(parts[p][c],
                       Imf::Slice(Imf::HALF, reinterpret_cast<char*>(planes[c].data()), 2, 2 * kWidth));
       }
@@ -87,7 +88,8 @@ int countWrong(const ImageF& image, const std::array<int, 4>& channels) {
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x)
       for (std::size_t c = 0; c < 4; ++c) {
-        const float expected = channels[c] < 0 ? 1.0f : halfToFloat(floatToHalf(valueAt(x, y, channels[c])));
+        const float expected =
+            channels[c] < 0 ? 1.0f : imath_half_to_float(imath_float_to_half(valueAt(x, y, channels[c])));
         wrong += image.texels[static_cast<std::size_t>(y * kWidth + x) * 4 + c] != expected;
       }
   return wrong;

@@ -1,5 +1,6 @@
 #include "engine/assets/loading/loader.h"
 
+#include <Imath/half.h>
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 
@@ -73,7 +74,7 @@ static void checkSame(const EnvironmentMap& map, const ImageF& image) {
   CHECK(map.width == static_cast<std::uint32_t>(image.width));
   CHECK(map.height == static_cast<std::uint32_t>(image.height));
   std::vector<std::uint16_t> expected(image.texels.size());
-  for (std::size_t i = 0; i < expected.size(); ++i) expected[i] = floatToHalf(image.texels[i]);
+  for (std::size_t i = 0; i < expected.size(); ++i) expected[i] = imath_float_to_half(image.texels[i]);
   CHECK(map.texels == expected);
 }
 

@@ -218,6 +218,45 @@ TEST_CASE("every value of a material arrives") {
   CHECK(model.materials[2].alpha == 1);  // ignored where the material is opaque
 }
 
+TEST_CASE("a picture that ends in its first bytes is told, and the model is there") {
+  const std::string whole("RIFF\x10\0\0\0WEBPVP8 ", 16);
+  for (std::size_t size = 0; size <= whole.size(); ++size) {
+    CAPTURE(size);
+    GltfMaker maker;
+    maker.square();
+    maker.document["images"] = {
+        {{"uri", "data:image/webp;base64," + GltfMaker::base64(whole.substr(0, size))}}};
+    maker.document["textures"] = {{{"source", 0}}};
+    maker.document["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    CHECK(make(maker, 1).textures.size() == 1);  // a checkerboard
+  }
+}
+
+TEST_CASE("what says that it blends but lets nothing through is opaque") {
+  const auto blends = [](std::uint8_t texel, float factor, float vertex) {
+    GltfMaker maker;
+    maker.square();
+    const std::uint8_t texels[] = {9, 9, 9, 255, 9, 9, 9, texel};
+    maker.document["images"] = {
+        {{"uri", "data:image/png;base64," + GltfMaker::base64(encodePng8(2, 1, 4, texels))}}};
+    maker.document["textures"] = {{{"source", 0}}};
+    maker.document["materials"] = {
+        {{"alphaMode", "BLEND"},
+         {"pbrMetallicRoughness",
+          {{"baseColorFactor", {1, 1, 1, factor}}, {"baseColorTexture", {{"index", 0}}}}}}};
+    json& primitive = maker.document["meshes"][0]["primitives"][0];
+    primitive["material"] = 0;
+    std::vector<float> colors(16, 1.0f);
+    colors[11] = vertex;
+    primitive["attributes"]["COLOR_0"] = maker.accessor(colors, 4, "VEC4", 5126);
+    return make(maker).materials[0].blend;
+  };
+  CHECK_FALSE(blends(255, 1, 1));
+  CHECK(blends(254, 1, 1));
+  CHECK(blends(255, 0.99f, 1));
+  CHECK(blends(255, 1, 0.99f));
+}
+
 TEST_CASE(
     "uv are moved as KHR_texture_transform says; a material has two uv, maps that want a third are left "
     "out") {

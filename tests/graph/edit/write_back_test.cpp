@@ -38,7 +38,7 @@ class OverlayFolder : public TestFolder {
 std::shared_ptr<const FlatGraph> load(const std::string& path, const Settings& settings,
                                       std::span<const std::string> presets = {}) {
   text::Diagnostics diagnostics;
-  const auto desc = readGraph(path, presets, diagnostics);
+  const auto desc = readGraph(path, diagnostics, {.presets = presets});
   const auto flat = desc ? expandGraph(*desc, testRegistry(), settings, diagnostics) : nullptr;
   INFO(diagnostics.text());
   REQUIRE(flat);
@@ -61,7 +61,7 @@ Written writeBack(const std::string& path, const Settings& settings,
                   std::span<const std::string> presets = {}) {
   Written out;
   text::Diagnostics reading;
-  const auto desc = readGraph(path, presets, reading);
+  const auto desc = readGraph(path, reading, {.presets = presets});
   INFO(reading.text());
   REQUIRE(desc);
   out.plan = planWriteBack(*desc, presets, testRegistry(), settings, out.diagnostics);

@@ -54,7 +54,7 @@ class Folder : public TestFolder {
 inline Expanded expandFile(const std::string& path, const std::vector<std::string>& presets = {},
                            const Settings& settings = {}) {
   Expanded result;
-  const auto desc = readGraph(path, presets, result.diagnostics);
+  const auto desc = readGraph(path, result.diagnostics, {.presets = presets});
   if (desc) result.graph = expandGraph(*desc, testRegistry(), settings, result.diagnostics);
   return result;
 }
@@ -70,7 +70,7 @@ inline Expanded fine(const std::string& path, const std::vector<std::string>& pr
 // "W017 over.json 3:5" of every diagnostic of reading.
 inline std::string wrong(const std::string& path, const std::vector<std::string>& presets = {}) {
   text::Diagnostics diagnostics;
-  readGraph(path, presets, diagnostics);
+  readGraph(path, diagnostics, {.presets = presets});
   std::string out;
   for (const auto& d : diagnostics.items()) {
     out += (out.empty() ? "" : "; ") + text::nameOf(d.code) + " " +

@@ -165,7 +165,7 @@ class Survey {
     auto loaded = scene::loadScene(kSources + scene, diagnostics);
     REQUIRE_MESSAGE(loaded.has_value(), diagnostics.text());
     registry_ = runtime::makeRegistry({}, imports::World(std::move(*loaded)).facts());
-    desc_ = graph::readGraph(kSources + graph, presets, diagnostics);
+    desc_ = graph::readGraph(kSources + graph, diagnostics, {.presets = presets});
     REQUIRE_MESSAGE(desc_, diagnostics.text());
   }
 

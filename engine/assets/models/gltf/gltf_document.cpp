@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::uint64_t kMaxBytes = 1ull << 40;  // no file is so large; sums of these do not overflow
 
-// Lists of words, each with a space before it and a comma behind it. What an element of a mesh may ask for that Weft does, or
-// that changes no picture when it is left out.
+// What an element of a mesh may ask for that Weft does, or that changes no picture when it is left out; each with a space before it
+// and a comma behind it.
 constexpr std::string_view kKnownExtensions =
     " EXT_mesh_gpu_instancing, EXT_meshopt_compression, EXT_texture_webp, KHR_draco_mesh_compression, "
     "KHR_lights_punctual, KHR_materials_anisotropy, KHR_materials_clearcoat, "
@@ -32,13 +32,25 @@ constexpr std::string_view kKnownExtensions =
     "KHR_node_visibility, KHR_texture_transform, KHR_xmp, KHR_xmp_json_ld, WEFT_blinn_phong,";
 constexpr std::string_view kShownExtensions = kKnownExtensions.substr(1, kKnownExtensions.size() - 2);
 
-// Of what type values are under keys where one of another type would be as good as none; arrays whose items are objects.
-constexpr std::pair<JsonValue::Type, std::string_view> kTypes[] = {
-    {JsonValue::Type::array, " children, extensionsRequired, nodes, weights,"},
-    {JsonValue::Type::object, " attributes, extensions, pbrMetallicRoughness, spot,"},
-    {JsonValue::Type::boolean, " doubleSided, normalized, visible,"},
-    {JsonValue::Type::string, " alphaMode, interpolation,"}};
-constexpr std::string_view kTables = " animations, channels, materials, primitives, scenes, targets,";
+bool isKnown(std::string_view extension) {
+  return kKnownExtensions.find(fmt::format(" {},", extension)) != kKnownExtensions.npos;
+}
+
+// Of what type values are under keys where one of another type would be as good as none; of these, arrays of objects.
+using Type = JsonValue::Type;
+constexpr std::pair<std::string_view, Type> kTypes[] = {
+    {"alphaMode", Type::string},     {"attributes", Type::object},
+    {"children", Type::array},       {"doubleSided", Type::boolean},
+    {"extensions", Type::object},    {"extensionsRequired", Type::array},
+    {"interpolation", Type::string}, {"nodes", Type::array},
+    {"normalized", Type::boolean},   {"pbrMetallicRoughness", Type::object},
+    {"spot", Type::object},          {"visible", Type::boolean},
+    {"weights", Type::array},        {"animations", Type::array},
+    {"channels", Type::array},       {"materials", Type::array},
+    {"primitives", Type::array},     {"scenes", Type::array},
+    {"targets", Type::array}};
+constexpr std::string_view kTables[] = {"animations", "channels", "materials",
+                                        "primitives", "scenes",   "targets"};
 
 using Uses = std::map<std::string, std::pair<const JsonValue*, std::size_t>>;
 
@@ -46,19 +58,18 @@ using Uses = std::map<std::string, std::pair<const JsonValue*, std::size_t>>;
 // each is first, and how often. `extensions`: its members are extensions.
 void checkValues(GltfDocument& document, const JsonValue& value, bool extensions, Uses& out) {
   for (const text::JsonMember& member : value.members) {
-    const std::string word = fmt::format(" {},", member.key);
-    const auto check = [&](const JsonValue& each, JsonValue::Type type, std::string_view keys) {
-      if (!each.is(type) && keys.find(word) != keys.npos)
-        document.fail(say::otherType, each, member.key, nameOf(type), describe(each));
+    const auto check = [&](const JsonValue& each, Type type) {
+      if (!each.is(type)) document.fail(say::otherType, each, member.key, nameOf(type), describe(each));
     };
-    if (extensions && kKnownExtensions.find(word) == kKnownExtensions.npos) {
+    if (extensions && !isKnown(member.key)) {
       ++out.try_emplace(member.key, &member.value, std::size_t{0}).first->second.second;
       continue;
     }
-    check(member.value, JsonValue::Type::object, kKnownExtensions);
-    check(member.value, JsonValue::Type::array, kTables);
-    for (const auto& [type, keys] : kTypes) check(member.value, type, keys);
-    for (const JsonValue& item : member.value.items) check(item, JsonValue::Type::object, kTables);
+    if (extensions) check(member.value, Type::object);
+    for (const auto& [key, type] : kTypes)
+      if (key == member.key) check(member.value, type);
+    for (const JsonValue& item : member.value.items)
+      if (std::ranges::find(kTables, member.key) != std::end(kTables)) check(item, Type::object);
     if (member.key != "extras") checkValues(document, member.value, member.key == "extensions", out);
   }
   for (const JsonValue& item : value.items) checkValues(document, item, false, out);
@@ -158,8 +169,7 @@ GltfDocument::GltfDocument(std::string bytes, ModelFiles& files)
 
 void GltfDocument::checkExtensions() {
   for (const JsonValue& name : rows("extensionsRequired"))
-    if (kKnownExtensions.find(fmt::format(" {},", name.text)) == kKnownExtensions.npos)
-      fail(say::unknownExtension, name, name.text, kShownExtensions);
+    if (!isKnown(name.text)) fail(say::unknownExtension, name, name.text, kShownExtensions);
   Uses unknown;
   checkValues(*this, root_, false, unknown);
   for (const auto& [name, use] : unknown)

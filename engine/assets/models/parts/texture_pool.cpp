@@ -37,7 +37,7 @@ std::shared_ptr<const Image8> makeCheckerboard() {
 }
 
 bool isWebp(std::string_view bytes) {
-  return bytes.starts_with("RIFF") && bytes.substr(8).starts_with("WEBP");
+  return bytes.size() >= 12 && bytes.starts_with("RIFF") && bytes.substr(8, 4) == "WEBP";
 }
 
 std::optional<ImageHeader> readTextureHeader(std::string_view bytes, const std::string& name,
