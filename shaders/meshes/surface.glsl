@@ -21,7 +21,7 @@ in vec2 map_uv_2;
 #endif
 in vec4 previous_clip;
 flat in uint row;
-flat in uint normal_map;  // not of `material` here, where pixels beside a triangle read 0 on some drivers: it is derived
+flat in uint normal_map;  // by vertices, since derivatives need it of pixels beside a triangle: there llvmpipe reads 0 from buffers
 flat in float normal_scale;
 #ifdef HAS_VERTEX_COLORS
 in vec4 own_color;
