@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """weft import as a command: what it writes and prints, that it replaces nothing unasked and writes nothing after an error, that
-messages of the shader compiler keep the lines of the original, and that reading can be confined.
+messages of the shader compiler keep the lines of the original, that reading can be confined, and what some functions of the originals compute.
 
     command.py WEFT
 """
@@ -10,7 +10,7 @@ import resource
 import sys
 import tempfile
 
-from pictures import read_png
+from pictures import png, read_png
 from program import TOP, run
 
 WEFT = sys.argv[1]
@@ -29,6 +29,21 @@ vec4 hook() { return HOOKED_texOff(0); }
 //!BIND HOOKED
 vec4 hook() {
   return HOOKED_texOff(0) * gainn;
+}
+"""
+LINEAR_MEAN = """//!HOOK MAIN
+//!BIND HOOKED
+//!DESC mean of two texels in linear light
+vec4 hook() {
+  vec4 a = linearize(HOOKED_texOff(vec2(0.0)));
+  vec4 b = linearize(HOOKED_texOff(vec2(1.0, 0.0)));
+  return delinearize(0.5 * (a + b));
+}
+"""
+CUBIC = """/*{ "ISFVSN": "2", "INPUTS": [ { "NAME": "gain", "TYPE": "float", "DEFAULT": 4.0, "MIN": 0.0, "MAX": 8.0 } ] }*/
+void main() {
+  float x = isf_FragNormCoord.x - 0.5;
+  gl_FragColor = vec4(vec3(0.5 + gain * pow(x, 3.0)), 1.0);
 }
 """
 
@@ -51,6 +66,29 @@ def check_dials(top):
                 assert all(abs(min(255, c * factor) - f) <= 1 for c, f in zip(texel[:3], found)), f"frame {frame}, x {x}: {texel} times {factor} is {found}"
     said = run(WEFT, "render", top / "dials/dials.json", "--set", "gain=2.5", "-o", top / "dials.png")
     assert said.code == 1 and "0 to 2" in said.err + said.out, said.err
+
+
+def check_formulas(top):
+    """linearize() and delinearize() of mpv are sRGB's curve, and pow() of ISF takes a negative number to a whole power."""
+    def linear(level):
+        return level / 255 / 12.92 if level / 255 <= 0.04045 else ((level / 255 + 0.055) / 1.055) ** 2.4
+
+    def shown(value):
+        return 255 * (12.92 * value if value <= 0.0031308 else 1.055 * value ** (1 / 2.4) - 0.055)
+
+    pair = ((250, 4, 128), (10, 0, 60))
+    (top / "two.png").write_bytes(png([[*pair] * 4] * 4))
+    for name, text, options, wanted in (
+            ("mean.glsl", LINEAR_MEAN, ["--image", f"picture={top / 'two.png'}"], lambda x: [shown((linear(a) + linear(b)) / 2) for a, b in zip(*(pair if x < 7 else (pair[1],) * 2))]),
+            ("cubic.fs", CUBIC, [], lambda x: [255 * (0.5 + 4 * ((x + 0.5) / 8 - 0.5) ** 3)] * 3)):
+        (top / name).write_text(text)
+        made = run(WEFT, "import", top / name, "-o", top / "formulas", *options)
+        assert made.code == 0, made.err
+        done = run(WEFT, "render", made.out.strip(), "--size", "8x4", "--quiet", "-o", top / "formula.png")
+        assert done.code == 0 and not done.err, done.err
+        for row in read_png((top / "formula.png").read_bytes()):
+            for x, texel in enumerate(row):
+                assert all(abs(f - w) <= 1 for f, w in zip(texel, wanted(x))), f"{name}, x {x}: {texel} instead of {wanted(x)}"
 
 
 def main():
@@ -127,6 +165,7 @@ def main():
         assert confined.code == 0, confined.err
 
         check_dials(top)
+        check_formulas(top)
         help_text = run(WEFT, "import", "--help").out
         assert "Example: weft import" in help_text, help_text
     print("import: files, refusals, lines and help")

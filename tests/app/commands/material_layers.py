@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Spheres with glTF's material extensions, in one light from one direction and in light from everywhere, against the equations of the
 extensions: KHR_materials_ior, specular, clearcoat, sheen, anisotropy and iridescence. Lobes are integrated here by sampling, thin films wavelength by
-wavelength. material_layers.py WEFT [PICTURE]"""
+wavelength. The maps of the extensions: against spheres whose factors are what the maps hold. material_layers.py WEFT [PICTURE]"""
 import base64
 import functools
 import json
@@ -13,7 +13,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
-from pictures import exr, read_exr  # noqa: E402
+from pictures import exr, png, read_exr  # noqa: E402
 
 TOP = pathlib.Path(__file__).resolve().parents[3]
 WEFT = sys.argv[1]
@@ -37,6 +37,44 @@ SPHERES = [
     ("iridescence", METAL, {"iridescence": {"iridescenceFactor": 1, "iridescenceIor": 1.5, "iridescenceThicknessMaximum": 320}}, 0.08, 0.08),
     ("film on black", BLACK, {"iridescence": {"iridescenceFactor": 0.8, "iridescenceIor": 1.8, "iridescenceThicknessMaximum": 450}}, 0.08, 0.08)]
 
+# Bytes of an sRGB texel and its linear color; a turn of grooves and its direction in bytes; a normal of a coat.
+COLOR = (244, 188, 124)
+LINEAR = [((c / 255 + 0.055) / 1.055) ** 2.4 for c in COLOR]
+GROOVES = (239, 189)
+TURN = math.atan2(2 * GROOVES[1] / 255 - 1, 2 * GROOVES[0] / 255 - 1)
+TILTED = (168, 92, 237)
+FLAT, TILT = (0.0, 0.0, 1.0), tuple(2 * c / 255 - 1 for c in TILTED)
+THIN = {"iridescenceIor": 1.5, "iridescenceThicknessMinimum": 100}
+DENSE = {"attenuationDistance": 0.5, "attenuationColor": [0.9, 0.4, 0.2]}
+CLEAR = {"transmissionFactor": 1}
+GLASS = {"baseColorFactor": [0.8, 0.8, 0.8, 1], "metallicFactor": 0, "roughnessFactor": 0}
+BEFORE = {"glossinessFactor": 0.6, "specularFactor": [0.2, 0.2, 0.2]}
+# name of the map, pbrMetallicRoughness, extensions with factors, extensions with a map whose one texel, 153 / 255 = 0.6, makes the same factors: in
+# the map's channel, with others beside it.
+MAPS = [
+    ("specular", BLACK, {"specular": {"specularFactor": 0.6}}, {"specular": {"specularTexture": (10, 200, 30, 153)}}),
+    ("specularColor", BLACK, {"specular": {"specularColorFactor": LINEAR}}, {"specular": {"specularColorTexture": (*COLOR, 90)}}),
+    ("clearcoat", BLACK, {"clearcoat": {"clearcoatFactor": 0.6}}, {"clearcoat": {"clearcoatFactor": 1, "clearcoatTexture": (153, 20, 30, 90)}}),
+    ("clearcoatRoughness", BLACK, {"clearcoat": {"clearcoatFactor": 1, "clearcoatRoughnessFactor": 0.6}},
+     {"clearcoat": {"clearcoatFactor": 1, "clearcoatRoughnessFactor": 1, "clearcoatRoughnessTexture": (5, 153, 230, 90)}}),
+    ("clearcoatNormal", BLACK, {"specular": {"specularFactor": 0}, "clearcoat": {"clearcoatFactor": 1, "clearcoatRoughnessFactor": 0.5}},
+     {"specular": {"specularFactor": 0}, "clearcoat": {"clearcoatFactor": 1, "clearcoatRoughnessFactor": 0.5, "clearcoatNormalTexture": (*TILTED, 90)}}),
+    ("sheenColor", BLACK, {"sheen": {"sheenColorFactor": LINEAR, "sheenRoughnessFactor": 0.5}},
+     {"sheen": {"sheenColorFactor": [1, 1, 1], "sheenRoughnessFactor": 0.5, "sheenColorTexture": (*COLOR, 90)}}),
+    ("sheenRoughness", BLACK, {"sheen": {"sheenColorFactor": [1, 1, 1], "sheenRoughnessFactor": 0.6}},
+     {"sheen": {"sheenColorFactor": [1, 1, 1], "sheenRoughnessFactor": 1, "sheenRoughnessTexture": (10, 80, 30, 153)}}),
+    ("anisotropy", BLACK, {"anisotropy": {"anisotropyStrength": 0.6, "anisotropyRotation": TURN}},
+     {"anisotropy": {"anisotropyStrength": 1, "anisotropyTexture": (*GROOVES, 153, 90)}}),
+    ("iridescence", METAL, {"iridescence": {**THIN, "iridescenceFactor": 0.6}}, {"iridescence": {**THIN, "iridescenceFactor": 1, "iridescenceTexture": (153, 10, 200, 90)}}),
+    ("iridescenceThickness", METAL, {"iridescence": {**THIN, "iridescenceFactor": 1, "iridescenceThicknessMaximum": 280}},
+     {"iridescence": {**THIN, "iridescenceFactor": 1, "iridescenceThicknessMaximum": 400, "iridescenceThicknessTexture": (10, 153, 220, 90)}}),
+    ("transmission", GLASS, {"transmission": {"transmissionFactor": 0.6}}, {"transmission": {**CLEAR, "transmissionTexture": (153, 10, 220, 90)}}),
+    ("thickness", GLASS, {"transmission": CLEAR, "volume": {**DENSE, "thicknessFactor": 0.6}},
+     {"transmission": CLEAR, "volume": {**DENSE, "thicknessFactor": 1, "thicknessTexture": (10, 153, 220, 90)}}),
+    ("diffuse", {}, {"pbrSpecularGlossiness": {**BEFORE, "diffuseFactor": [*LINEAR, 1]}}, {"pbrSpecularGlossiness": {**BEFORE, "diffuseTexture": (*COLOR, 255)}}),
+    ("specularGlossiness", {}, {"pbrSpecularGlossiness": {"diffuseFactor": [0.1, 0.2, 0.3, 1], "specularFactor": LINEAR, "glossinessFactor": 0.6}},
+     {"pbrSpecularGlossiness": {"diffuseFactor": [0.1, 0.2, 0.3, 1], "specularGlossinessTexture": (*COLOR, 153)}})]
+
 
 def dot(a, b):
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
@@ -57,14 +95,13 @@ def cross(a, b):
 
 TO_LIGHT = unit((0.25, 0.6, 0.75))
 TO_EYE = (0.0, 0.0, 1.0)
-CAMERA = (SPACING * (len(SPHERES) - 1) / 2, 0.0, 200.0)
 
 
 # ---- the scene
 
-def sphere_rows():
+def sphere_rows(down):
     """Positions, which are normals, tangents and triangles of a sphere around Y."""
-    across, down = 160, 80
+    across = 2 * down
     normals, tangents, corners = [], [], []
     for j in range(down + 1):
         for i in range(across + 1):
@@ -78,20 +115,36 @@ def sphere_rows():
     return normals, tangents, corners
 
 
-def write_scene(path, light):
-    normals, tangents, corners = sphere_rows()
-    parts = [b"".join(struct.pack("<3f", *row) for row in normals), b"".join(struct.pack("<4f", *row) for row in tangents),
-             struct.pack(f"<{len(corners)}I", *corners)]
-    views = [{"buffer": 0, "byteOffset": sum(map(len, parts[:i])), "byteLength": len(parts[i])} for i in range(3)]
-    accessors = [{"bufferView": i, "componentType": 5126 if i < 2 else 5125, "count": len(rows), "type": kind}
-                 for i, (rows, kind) in enumerate(((normals, "VEC3"), (tangents, "VEC4"), (corners, "SCALAR")))]
-    materials = [{"pbrMetallicRoughness": base, "extensions": {"KHR_materials_" + key: value for key, value in layers.items()}}
-                 for _, base, layers, *_ in SPHERES]
-    meshes = [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 0, "TANGENT": 1}, "indices": 2, "material": i}]} for i in range(len(SPHERES))]
-    nodes = [{"mesh": i, "translation": [SPACING * i, 0, 0]} for i in range(len(SPHERES))]
-    nodes.append({"camera": 0, "name": "far", "translation": list(CAMERA)})
+def write_scene(path, light, down, *rows):
+    """Rows of spheres, downwards. Of each its material, in which a tuple is a map of that one texel, and its normal in the tangent space of a sphere."""
+    normals, tangents, corners = sphere_rows(down)
+    tilts = sorted({tilt for row in rows for *_, tilt in row})
+    tilted = [[unit(tuple(dot(tilt, axes) for axes in zip(t, cross(n, t), n))) for n, t in zip(normals, tangents)] for tilt in tilts]
+    lists = [(corners, "SCALAR"), (normals, "VEC3"), (tangents, "VEC4"), ([(0.5, 0.5)] * len(normals), "VEC2"), *((found, "VEC3") for found in tilted)]
+    parts = [struct.pack(f"<{len(corners)}I", *corners), *(b"".join(struct.pack(f"<{len(row)}f", *row) for row in found) for found, _ in lists[1:])]
+    views = [{"buffer": 0, "byteOffset": sum(map(len, parts[:i])), "byteLength": len(part)} for i, part in enumerate(parts)]
+    accessors = [{"bufferView": i, "componentType": 5126 if i else 5125, "count": len(found), "type": kind} for i, (found, kind) in enumerate(lists)]
+    materials, images, meshes, nodes = [], [], [], []
+
+    def mapped(value):
+        if isinstance(value, dict):
+            return {key: mapped(inner) for key, inner in value.items()}
+        if not isinstance(value, tuple):
+            return value
+        images.append({"uri": "data:image/png;base64," + base64.b64encode(png([[value]])).decode()})
+        return {"index": len(images) - 1}
+
+    for y, row in enumerate(rows):
+        for x, (base, layers, tilt) in enumerate(row):
+            nodes.append({"mesh": len(meshes), "translation": [SPACING * x, -SPACING * y, 0]})
+            attributes = {"POSITION": 1, "TANGENT": 2, "TEXCOORD_0": 3, "NORMAL": 4 + tilts.index(tilt)}
+            meshes.append({"primitives": [{"attributes": attributes, "indices": 0, "material": len(materials)}]})
+            materials.append({"pbrMetallicRoughness": base, "extensions": {"KHR_materials_" + key: mapped(value) for key, value in layers.items()}})
+    width, height = len(rows[0]), len(rows)
+    nodes.append({"camera": 0, "name": "far", "translation": [SPACING * (width - 1) / 2, -SPACING * (height - 1) / 2, 200]})
     document = {"asset": {"version": "2.0"}, "bufferViews": views, "accessors": accessors, "materials": materials, "meshes": meshes, "nodes": nodes,
-                "cameras": [{"type": "orthographic", "orthographic": {"xmag": SPACING / 2 * len(SPHERES), "ymag": SPACING / 2, "znear": 1, "zfar": 9000}}],
+                "images": images, "textures": [{"source": i} for i in range(len(images))],
+                "cameras": [{"type": "orthographic", "orthographic": {"xmag": SPACING / 2 * width, "ymag": SPACING / 2 * height, "znear": 1, "zfar": 9000}}],
                 "buffers": [{"byteLength": sum(map(len, parts)), "uri": "data:application/octet-stream;base64," + base64.b64encode(b"".join(parts)).decode()}]}
     # An irradiance of 1; without any light a model has a sun.
     lamp = {"type": "directional", "intensity": 10000} if light else {"type": "point", "intensity": 1e-6}
@@ -270,19 +323,44 @@ def check(picture, graph, everywhere):
             problems.append(f"{graph}, {'everywhere' if everywhere else 'one light'}, {name}: off by {worst:.3f}: {[round(s, 4) for s in seen]} instead of {[round(r, 4) for r in right]}")
 
 
+def check_maps(picture):
+    """Both rows look alike. Glass shows some of what is beside it, so it knows its row."""
+    size = len(picture) // 2
+    for i, (name, _, layers, _) in enumerate(MAPS):
+        pairs = [(a, b) for y in range(size) for x in range(size) if math.hypot(x - size / 2, y - size / 2) < size / 3
+                 for a, b in zip(picture[y][i * size + x][:3], picture[size + y][i * size + x][:3])]
+        worst = max(abs(a - b) for a, b in pairs) / max(a for a, _ in pairs)
+        print(f"map {name}: {worst:.4f}")
+        if worst > (0.02 if "transmission" in layers else 0.005):
+            problems.append(f"map {name}: off by {worst:.3f}")
+
+
+def render(folder, graph, rows, pixels, options, picture):
+    made = subprocess.run([WEFT, "render", TOP / f"graphs/{graph}.json", "--scene", folder / "m.gltf", "--camera", "far", "--environment", folder / "e.exr",
+                           "--size", f"{pixels * len(rows[0])}x{pixels * len(rows)}", "--set", "bloom=false", "--backend", "osmesa", *options,
+                           "-o", f"hdr={folder / 'h.exr'}", *(["-o", sys.argv[2] + f"_{picture}.png"] if len(sys.argv) > 2 else [])], capture_output=True, text=True)
+    if made.returncode != 0 or made.stderr:
+        problems.append(f"{graph}: {made.stderr}")
+    return read_exr((folder / "h.exr").read_bytes()) if made.returncode == 0 else None
+
+
 with tempfile.TemporaryDirectory() as folder:
     folder = pathlib.Path(folder)
+    plain = ["--set", "ao=false", "--set", "sun_shadow=none"]
+    spheres = [(base, layers, FLAT) for _, base, layers, *_ in SPHERES]
     for everywhere in (False, True):
-        write_scene(folder / "m.gltf", not everywhere)
+        write_scene(folder / "m.gltf", not everywhere, 80, spheres)
         (folder / "e.exr").write_bytes(exr([[(1.0 if everywhere else 0.0,) * 4] * 16] * 8))
-        for graph, options in (("deferred", ["--set", "ao=false", "--set", "sun_shadow=none"]), ("studio", [])):
-            made = subprocess.run([WEFT, "render", TOP / f"graphs/{graph}.json", "--scene", folder / "m.gltf", "--camera", "far", "--environment", folder / "e.exr",
-                                   "--size", f"{PIXELS * len(SPHERES)}x{PIXELS}", "--set", "bloom=false", "--backend", "osmesa", *options,
-                                   "-o", f"hdr={folder / 'h.exr'}", *(["-o", sys.argv[2] + f"_{graph}_{everywhere}.png"] if len(sys.argv) > 2 else [])],
-                                  capture_output=True, text=True)
-            if made.returncode != 0 or made.stderr:
-                problems.append(f"{graph}: {made.stderr}")
-            if made.returncode == 0:
-                check(read_exr((folder / "h.exr").read_bytes()), graph, everywhere)
+        for graph, options in (("deferred", plain), ("studio", [])):
+            picture = render(folder, graph, [spheres], PIXELS, options, f"{graph}_{everywhere}")
+            if picture:
+                check(picture, graph, everywhere)
+    factors = [(base, layers, TILT if name == "clearcoatNormal" else FLAT) for name, base, layers, _ in MAPS]
+    maps = [(base, layers, FLAT) for _, base, _, layers in MAPS]
+    write_scene(folder / "m.gltf", True, 30, factors, maps)
+    (folder / "e.exr").write_bytes(exr([[(0.4, 0.5, 0.2, 1.0)] * 16] * 8))
+    picture = render(folder, "deferred", [factors, maps], 48, plain, "maps")
+    if picture:
+        check_maps(picture)
 print("\n".join(problems) or "material layers: as the extensions say")
 sys.exit(1 if problems else 0)

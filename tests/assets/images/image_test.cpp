@@ -142,6 +142,9 @@ TEST_CASE("Radiance: what EXPOSURE and COLORCORR multiplied in is taken out; XYZ
   // The white D65 of CIE 15 (0.9505, 1, 1.089), half as bright, in mantissas over 2^7.
   const std::vector<float> white = texelOf("FORMAT=32-bit_rle_xyze\n", std::string("\x7a\x80\x8b\x80", 4));
   for (const float c : white) CHECK(c == doctest::Approx(0.5).epsilon(0.01));
+  // The red of BT.709 under D65 (0.4124, 0.2126, 0.0193), in mantissas over 2^9.
+  const std::vector<float> red = texelOf("FORMAT=32-bit_rle_xyze\n", std::string("\xd3\x6d\x0a\x7f", 4));
+  for (std::size_t c = 0; c < 3; ++c) CHECK(std::abs(red[c] - (c == 0 ? 1.0f : 0.0f)) < 0.005f);
   for (const char* wrong : {"EXPOSURE=0\n", "EXPOSURE=x\n", "COLORCORR=1 1\n", "FORMAT=32-bit_rle_lab\n"})
     CHECK_FALSE(decodeImage(std::string("#?RADIANCE\n") + wrong + "\n-Y 1 +X 1\nabcd", "a.hdr", diagnostics));
 }

@@ -232,41 +232,61 @@ TEST_CASE("a path with backslashes is told so") {
   CHECK(d.hint.find("tex/a.png") != std::string::npos);
 }
 
-TEST_CASE("Draco: the square that was packed, and one that is damaged") {
+TEST_CASE("Draco: the square with joints that was packed, and one that is damaged") {
   draco::TriangleSoupMeshBuilder builder;
   builder.Start(2);
   const int position = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32),
-            uv = builder.AddAttribute(draco::GeometryAttribute::TEX_COORD, 2, draco::DT_FLOAT32);
+            uv = builder.AddAttribute(draco::GeometryAttribute::TEX_COORD, 2, draco::DT_FLOAT32),
+            normal = builder.AddAttribute(draco::GeometryAttribute::NORMAL, 3, draco::DT_FLOAT32),
+            joint = builder.AddAttribute(draco::GeometryAttribute::GENERIC, 4, draco::DT_UINT16),
+            weight = builder.AddAttribute(draco::GeometryAttribute::GENERIC, 4, draco::DT_FLOAT32);
   const float places[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
-              uvs[4][2] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+              uvs[4][2] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}},
+              normals[4][3] = {{0.6f, 0, 0.8f}, {0, -0.8f, 0.6f}, {-0.48f, 0.6f, 0.64f}, {0, 0, -1}},
+              weights[4][4] = {{0.5f, 0.25f, 0.25f}, {0.75f, 0.25f}, {0.625f, 0.375f}, {1}};
+  const std::uint16_t joints[4][4] = {{3, 2, 1, 0}, {1, 0, 0, 0}, {0, 3, 0, 0}, {2, 0, 0, 0}};
   const int faces[2][3] = {{0, 1, 2}, {0, 2, 3}};
   for (std::uint32_t f = 0; f < 2; ++f) {
     const int* c = faces[f];
     builder.SetAttributeValuesForFace(position, draco::FaceIndex(f), places[c[0]], places[c[1]],
                                       places[c[2]]);
     builder.SetAttributeValuesForFace(uv, draco::FaceIndex(f), uvs[c[0]], uvs[c[1]], uvs[c[2]]);
+    builder.SetAttributeValuesForFace(normal, draco::FaceIndex(f), normals[c[0]], normals[c[1]],
+                                      normals[c[2]]);
+    builder.SetAttributeValuesForFace(joint, draco::FaceIndex(f), joints[c[0]], joints[c[1]], joints[c[2]]);
+    builder.SetAttributeValuesForFace(weight, draco::FaceIndex(f), weights[c[0]], weights[c[1]],
+                                      weights[c[2]]);
   }
   const auto mesh = builder.Finalize();
   draco::Encoder encoder;
+  encoder.SetAttributeQuantization(draco::GeometryAttribute::NORMAL, 12);
   draco::EncoderBuffer buffer;
   REQUIRE(encoder.EncodeMeshToBuffer(*mesh, &buffer).ok());
   const std::string packed(buffer.data(), buffer.size());
   const auto makerOf = [&](const std::string& bytes) {
     GltfMaker maker;
-    maker.document["accessors"] = {{{"componentType", 5126}, {"count", mesh->num_points()}, {"type", "VEC3"}},
-                                   {{"componentType", 5126}, {"count", mesh->num_points()}, {"type", "VEC2"}},
-                                   {{"componentType", 5123}, {"count", 6}, {"type", "SCALAR"}}};
+    json attributes, ids;
+    for (const auto& [name, attribute, kind, component] : {std::tuple("POSITION", position, "VEC3", 5126),
+                                                           {"TEXCOORD_0", uv, "VEC2", 5126},
+                                                           {"NORMAL", normal, "VEC3", 5126},
+                                                           {"JOINTS_0", joint, "VEC4", 5123},
+                                                           {"WEIGHTS_0", weight, "VEC4", 5126}}) {
+      attributes[name] = maker.document["accessors"].size();
+      ids[name] = mesh->attribute(attribute)->unique_id();
+      maker.document["accessors"].push_back(
+          {{"componentType", component}, {"count", mesh->num_points()}, {"type", kind}});
+    }
+    maker.document["accessors"].push_back({{"componentType", 5123}, {"count", 6}, {"type", "SCALAR"}});
     const std::size_t view = viewOf(maker, bytes);
-    maker.document["meshes"] = {{{"primitives",
-                                  {{{"attributes", {{"POSITION", 0}, {"TEXCOORD_0", 1}}},
-                                    {"indices", 2},
-                                    {"extensions",
-                                     {{"KHR_draco_mesh_compression",
-                                       {{"bufferView", view},
-                                        {"attributes",
-                                         {{"POSITION", mesh->attribute(position)->unique_id()},
-                                          {"TEXCOORD_0", mesh->attribute(uv)->unique_id()}}}}}}}}}}}};
-    maker.document["nodes"] = {{{"mesh", 0}}};
+    maker.document["meshes"] = {
+        {{"primitives",
+          {{{"attributes", attributes},
+            {"indices", 5},
+            {"extensions",
+             {{"KHR_draco_mesh_compression", {{"bufferView", view}, {"attributes", ids}}}}}}}}}};
+    maker.document["nodes"] = {
+        {{"mesh", 0}, {"skin", 0}}, json::object(), json::object(), json::object(), json::object()};
+    maker.document["skins"] = {{{"joints", {1, 2, 3, 4}}}};
     maker.document["extensionsRequired"] = {"KHR_draco_mesh_compression"};
     return maker;
   };
@@ -276,6 +296,14 @@ TEST_CASE("Draco: the square that was packed, and one that is damaged") {
     const Vertex& v = model.vertices[i];
     CHECK(std::abs(v.uv.x - v.position.x) < 1e-3f);
     CHECK(std::abs(v.uv.y - (1 - v.position.y)) < 1e-3f);
+    std::size_t corner = 0;
+    while (corner < 3 && v.position != glm::vec3(places[corner][0], places[corner][1], 0)) ++corner;
+    const float* n = normals[corner];
+    CHECK(glm::distance(v.normal, glm::vec3(n[0], n[1], n[2])) < 2e-3f);
+    for (std::size_t k = 0; k < 4; ++k) {
+      CHECK(model.skin[i].weights[k] == weights[corner][k]);
+      if (weights[corner][k] > 0) CHECK(model.skin[i].joints[k] == joints[corner][k]);
+    }
   }
   const TemporaryFolder folder;
   for (std::size_t length = 0; length < packed.size(); length += 7) {
@@ -287,7 +315,7 @@ TEST_CASE("Draco: the square that was packed, and one that is damaged") {
   }
 }
 
-TEST_CASE("meshopt: vertices, indices and a filter that were packed, a fallback without bytes, damage") {
+TEST_CASE("meshopt: vertices and indices that were packed, a fallback without bytes, damage") {
   GltfMaker maker = plainSquare();
   // Each view of the square as meshoptimizer packs it.
   const std::string plain = maker.bytes;
@@ -338,6 +366,68 @@ TEST_CASE("meshopt: vertices, indices and a filter that were packed, a fallback 
     text::Diagnostics diagnostics;
     const auto found = loadModel(folder.write("m.gltf", gltfOf(damaged)), diagnostics);
     CHECK(found.has_value() != diagnostics.hasErrors());
+  }
+}
+
+TEST_CASE("meshopt: filters and a sequence of indices give what their encoders took") {
+  const float units[4][4] = {
+      {0.6f, 0, 0.8f, 0}, {0, -0.8f, 0.6f, 0}, {-0.48f, 0.6f, -0.64f, 0}, {0, 0, -1, 0}};
+  const float turns[4][4] = {
+      {0.5f, 0.5f, 0.5f, 0.5f}, {0.1f, -0.5f, 0.7f, 0.5f}, {-0.7f, 0.1f, 0.1f, -0.7f}, {0.8f, 0, -0.6f, 0}};
+  const float places[4][3] = {{-3, 0.3f, 700}, {1e-3f, 2, 5}, {41, -0.07f, 1}, {9, 8, 1000}};
+  const std::uint16_t corners[6] = {3, 0, 2, 1, 2, 0};
+  const auto vertices = [](const auto& encode, std::size_t stride, int bits, const float* values) {
+    std::vector<unsigned char> filtered(4 * stride), out(4096);
+    encode(filtered.data(), 4, stride, bits, values);
+    out.resize(meshopt_encodeVertexBuffer(out.data(), out.size(), filtered.data(), 4, stride));
+    return out;
+  };
+  for (const std::size_t normalStride : {4u, 8u}) {
+    GltfMaker maker = plainSquare();
+    const int rotations = maker.shorts(std::vector<std::uint16_t>(16), 4);
+    // The view of an accessor is as it was packed; its plain bytes stay, and are wrong.
+    const auto pack = [&](int accessor, const std::vector<unsigned char>& bytes, std::size_t stride,
+                          json extension) {
+      json& views = maker.document["bufferViews"];
+      extension.update(views[viewOf(maker, std::string(bytes.begin(), bytes.end()))]);
+      extension["byteStride"] = stride;
+      json& view = views[maker.document["accessors"][accessor]["bufferView"].get<std::size_t>()];
+      if (extension["mode"] == "ATTRIBUTES") view["byteStride"] = stride;
+      view["extensions"]["EXT_meshopt_compression"] = extension;
+    };
+    const auto packVertices = [&](int accessor, const auto& encode, const char* filter, std::size_t stride,
+                                  int bits, const float* values) {
+      pack(accessor, vertices(encode, stride, bits, values), stride,
+           {{"count", 4}, {"mode", "ATTRIBUTES"}, {"filter", filter}});
+    };
+    packVertices(0, meshopt_encodeFilterExp, "EXPONENTIAL", 12, 24, places[0]);
+    packVertices(1, meshopt_encodeFilterOct, "OCTAHEDRAL", normalStride, normalStride == 4 ? 8 : 16,
+                 units[0]);
+    packVertices(rotations, meshopt_encodeFilterQuat, "QUATERNION", 8, 16, turns[0]);
+    std::vector<unsigned char> sequence(4096);
+    sequence.resize(meshopt_encodeIndexSequence(sequence.data(), sequence.size(), corners, 6));
+    pack(3, sequence, 2, {{"count", 6}, {"mode", "INDICES"}});
+    json& accessors = maker.document["accessors"];
+    accessors[1].update({{"componentType", normalStride == 4 ? 5120 : 5122}, {"normalized", true}});
+    accessors[4].update({{"componentType", 5122}, {"normalized", true}});
+    maker.document["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+        {"ROTATION", rotations}};
+    maker.document["extensionsRequired"] = {"EXT_meshopt_compression", "KHR_mesh_quantization"};
+    const Model model = make(maker);
+    REQUIRE(model.indices.size() == 6);
+    for (std::size_t i = 0; i < 6; ++i) {
+      const Vertex& v = model.vertices[model.indices[i]];
+      const float *place = places[corners[i]], *unit = units[corners[i]];
+      CHECK(glm::distance(v.position, glm::vec3(place[0], place[1], place[2])) < 2e-4f);
+      CHECK(glm::distance(v.normal, glm::vec3(unit[0], unit[1], unit[2])) <
+            (normalStride == 4 ? 0.02f : 1e-4f));
+    }
+    REQUIRE(model.instances.size() == 4);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const glm::quat turn(turns[i][3], turns[i][0], turns[i][1], turns[i][2]);
+      const glm::mat3 world(worldOf(model, model.instances[i].node)), wanted = glm::mat3_cast(turn);
+      for (int c = 0; c < 3; ++c) CHECK(glm::distance(world[c], wanted[c]) < 2e-4f);
+    }
   }
 }
 

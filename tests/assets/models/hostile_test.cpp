@@ -326,6 +326,12 @@ TEST_CASE("OBJ files that lie") {
   CHECK(codeOf("v 0 0 0\nv inf 0 0\nv 0 1 0\nf 1 2 3\n") == Code::badModelValue);
   CHECK(codeOf("v 0 0 0 0 0 0\nv 1 0 0 0 nan 0\nv 0 1 0 0 0 0\nf 1 2 3\n") == Code::badModelValue);
   CHECK(codeOf("v 0 0 0\nv 1e300 0 0\nv 0 1 0\nf 1 2 3\n") == Code::badModelValue);
+  text::Diagnostics wires;
+  CHECK_FALSE(loadModel(folder.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2 3\n"), wires));
+  REQUIRE_MESSAGE(wires.size() == 2, wires.text());
+  CHECK(wires.contains(Code::modelPartLeftOut));  // the lines
+  CHECK(wires.contains(Code::unreadableModel));
+  CHECK(wires.text().find("nothing to draw") != std::string::npos);
   std::string corners = "v 0 0 0\nf";
   for (int i = 0; i < 5000; ++i) corners += " 1";
   CHECK(codeOf(corners + "\n") == Code::badModelValue);

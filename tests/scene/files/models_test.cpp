@@ -6,6 +6,7 @@
 
 #include "engine/scene/files/scene_file.h"
 #include "engine/scene/frame/mesh_frame.h"
+#include "tests/assets/models/gltf_maker.h"
 #include "tests/temporary_folder.h"
 
 using namespace weft;
@@ -122,6 +123,22 @@ TEST_CASE("a model is placed, turned, copied, and given lists and a material") {
   CHECK(scene.materials.rows()[rows[7].material].albedo == glm::vec3(0, 0, 1));
   CHECK(glm::distance(rows[7].transform * glm::vec4(1, 0, 0, 1), glm::vec4(-1, 3, 0, 1)) < 1e-5f);
   CHECK(glm::distance(rows[7].previous_transform * glm::vec4(1, 0, 0, 1), glm::vec4(0, 1.5f, -1, 1)) < 1e-5f);
+}
+
+TEST_CASE("what a file says lets light through is drawn as transmissive alone, also where it blends") {
+  const TemporaryFolder folder;
+  for (const auto& [transmission, mode, list] : {std::tuple(1, "OPAQUE", DrawList::transmissive),
+                                                 {1, "BLEND", DrawList::transmissive},
+                                                 {0, "BLEND", DrawList::transparent}}) {
+    weft::test::GltfMaker maker;
+    maker.square().document["meshes"][0]["primitives"][0]["material"] = 0;
+    maker.document["materials"] = {
+        {{"alphaMode", mode},
+         {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", transmission}}}}}}};
+    const Scene scene = loadGood(folder.write("m.gltf", maker.gltf()));
+    REQUIRE(scene.meshInstances.size() == 1);
+    CHECK(scene.meshInstances.rows()[0].lists == maskOf(list));
+  }
 }
 
 TEST_CASE("what is wrong with a model of a scene has a place") {

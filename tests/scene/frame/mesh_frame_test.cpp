@@ -39,6 +39,8 @@ Scene randomTree(int count, unsigned seed) {
     node.local.rotation =
         glm::normalize(glm::quat(number(random), number(random), number(random), number(random)));
     node.local.scale = {1 + number(random) / 2, 1 + number(random) / 2, -1 - number(random) / 2};
+    for (int c = 0; i % 3 == 0 && c < 3; ++c)
+      node.inner[c] += 0.4f * glm::vec3(number(random), number(random), number(random));
     if (random() % 4 == 0) node.spin = {number(random), number(random), number(random)};
     if (random() % 4 == 0) node.velocity = {number(random), number(random), number(random)};
     ids.push_back(scene.nodes.add(node));
@@ -60,7 +62,8 @@ glm::dmat4 worldOf(const Scene& scene, NodeId id, double time) {
       glm::translate(glm::dmat4(1), glm::dvec3(node->local.translation) + glm::dvec3(node->velocity) * time);
   if (speed > 0) local = glm::rotate(local, speed * time, glm::dvec3(node->spin) / speed);
   local = local * glm::mat4_cast(glm::dquat(node->local.rotation));
-  return worldOf(scene, node->parent, time) * glm::scale(local, glm::dvec3(node->local.scale));
+  return worldOf(scene, node->parent, time) * glm::scale(local, glm::dvec3(node->local.scale)) *
+         glm::dmat4(glm::dmat3(node->inner));
 }
 
 double difference(const glm::mat4& a, const glm::dmat4& b) {
