@@ -11,10 +11,12 @@ using text::Code;
 namespace {
 
 // outer includes middle includes inner, which reads `extra`; `top` goes into outer's resources, `read` is inner's reference.
-Expanded expandInside(const std::string& top, const std::string& read, const std::string& bind = "") {
+Expanded expandInside(const std::string& top, const std::string& read, const std::string& bind = "",
+                      const std::string& size = "4") {
   return expandFiles(
       "expand_optional",
-      {{"inner.json", R"J({ "inputs": ["extra ?"], "resources": { "res": { "texture": "rgba8", "size": 4 } },
+      {{"inner.json", R"J({ "inputs": ["extra ?"], "resources": { "res": { "texture": "rgba8", "size": )J" +
+                          size + R"J( } },
     "passes": [ { "name": "go", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "extra": ")J" +
                           read + R"J(" },
                   "write": { "result": "res" }, "defines": { "ANY": "has(extra)" } } ] })J"},
@@ -49,4 +51,10 @@ TEST_CASE("a '?' at a slot that reads an optional input is said twice") {
 TEST_CASE("an input that is bound to what is not there is an error also where it is optional") {
   CHECK(expandInside("", "extra", R"J(, "bind": { "extra": "othr" })J").has(Code::unknownResource));
   CHECK(expandInside("", "extra", R"J(, "bind": ["othr"])J").has(Code::badBind));
+}
+
+TEST_CASE("an optional input without a resource has no size") {
+  const Expanded none = expandInside("", "extra", "", R"J("size(extra)")J");
+  CHECK(none.of(Code::conditionLeavesSlotEmpty).message.find("'middle.extra'") != std::string::npos);
+  CHECK_FALSE(none.graph);
 }
