@@ -134,6 +134,7 @@ TEST_CASE("what a file says lets light through is drawn as transmissive alone, a
     maker.square().document["meshes"][0]["primitives"][0]["material"] = 0;
     maker.document["materials"] = {
         {{"alphaMode", mode},
+         {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.5}}}},
          {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", transmission}}}}}}};
     const Scene scene = loadGood(folder.write("m.gltf", maker.gltf()));
     REQUIRE(scene.meshInstances.size() == 1);
