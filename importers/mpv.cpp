@@ -1,5 +1,4 @@
 // A user shader of mpv: its //! headers with places, then its graph and its shaders. Declared in import.h.
-#include <Imath/half.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -7,6 +6,7 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <glm/gtc/packing.hpp>
 #include <memory>
 #include <sstream>
 
@@ -88,7 +88,7 @@ std::size_t bytesOf(std::string_view kind) {
 float decode(std::uint32_t bits, std::string_view kind) {
   if (kind == "8") return static_cast<float>(bits) / 255.0f;
   if (kind == "16") return static_cast<float>(bits) / 65535.0f;
-  return kind == "16hf" ? imath_half_to_float(static_cast<std::uint16_t>(bits)) : std::bit_cast<float>(bits);
+  return kind == "16hf" ? glm::unpackHalf1x16(static_cast<std::uint16_t>(bits)) : std::bit_cast<float>(bits);
 }
 
 // Fills `texture.image` from hexadecimal digits, or returns what is wrong.

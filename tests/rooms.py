@@ -21,7 +21,7 @@ ROOMS = {
     "passes": {"text", "graph", "glsl", "gl", "scene", "assets"},
     "imports": {"text", "graph", "glsl", "gl", "assets", "scene"},
     "runtime": {"text", "graph", "glsl", "gl", "assets", "scene", "passes", "imports"},
-    "importers": {"text", "graph", "glsl", "assets"},
+    "importers": {"text", "graph", "glsl"},
     "app": {"text", "graph", "glsl", "gl", "assets", "scene", "passes", "imports", "runtime", "importers"},
 }
 # Sub-rooms and which others of their room each may include. "." is the door: files in the room's own folder. Each line may name
@@ -91,8 +91,8 @@ OUTSIDE = {
     "glad/": {"gl", "passes", "imports", "runtime"},
     "GL/": {"gl"},
     "GLFW/": {"gl", "app"},
-    "stb_": {"assets"}, "stb/": {"assets"}, "OpenEXR/": {"assets"}, "Imath/": {"assets", "importers"}, "assimp/": {"assets"}, "draco/": {"assets"}, "meshoptimizer": {"assets"}, "webp/": {"assets"},
-    "glm/": {"assets", "scene", "passes", "imports", "runtime", "app"},
+    "stb_": {"assets"}, "stb/": {"assets"}, "OpenEXR/": {"assets"}, "Imath/": {"assets"}, "assimp/": {"assets"}, "draco/": {"assets"}, "meshoptimizer": {"assets"}, "webp/": {"assets"},
+    "glm/": {"assets", "scene", "passes", "imports", "runtime", "importers", "app"},
     "CLI/": {"app"}, "imgui": {"app"}, "benchmark/": {"app"}, "tbb/": {"assets", "scene"},
 }
 

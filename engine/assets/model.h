@@ -55,6 +55,7 @@ struct Texture {
   std::shared_ptr<const Image8> image;  // 4 channels, row 0 on top
   bool srgb = false;                    // color (albedo, emissive): to be decoded
   std::uint64_t content = 0;            // hash of size, texels and srgb; equal contents are one row
+  bool clear = false;                   // a color whose alpha is below 1 somewhere
 };
 
 // How a texture is looked up, in bits: wrap of u, of v, whether texels are seen as they are where they are magnified, and where.
@@ -161,6 +162,7 @@ struct Mesh {
   std::uint32_t firstIndex = 0, indexCount = 0;  // indices count from firstVertex
   Box bounds{};                                  // of the vertices as they are in the file
   bool skinned = false;
+  bool clear = false;  // the alpha of a vertex color is below 1
   // Per row of the skin, the box of the vertices that this joint moves. A skinned vertex is a mean of what its joints make of
   // it, so it lies in the box of these boxes, each moved by its joint. Empty unless skinned.
   std::vector<Box> jointBounds{};

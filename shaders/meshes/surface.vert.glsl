@@ -1,8 +1,10 @@
 // A vertex of a mesh, for the fragment shaders that include meshes/surface.glsl. Slots: skeleton?  @joints,
 // morph_targets?  @morph_targets, morph_weights?  @morph_weights, vertex_colors?  @vertex_colors, second_uvs?  @second_uvs,
-// materials  @materials
+// materials?  @materials
 #include "common/view.glsl"
+#ifdef HAS_MATERIALS
 #include "scene/materials.glsl"
+#endif
 #include "scene/mesh_vertex.glsl"
 
 in vec3 normal;
@@ -46,8 +48,13 @@ void main() {
   world_scale = pow(abs(determinant(mat3(transform))), 1.0 / 3.0);
 #endif
   row = mesh_row[instance].material;
+#ifdef HAS_MATERIALS
   normal_map = material[row].normal_map;
   normal_scale = material[row].normal_scale;
+#else
+  normal_map = 0xffffffffu;
+  normal_scale = 1.0;
+#endif
   previous_clip = previous_view_projection * (meshPreviousTransform() * meshPreviousPosition());
   gl_Position = view_projection * world;
 }

@@ -1,8 +1,7 @@
 // Environments on the GPU, and a graph whose first environment is still on its way.
-#include <Imath/half.h>
-
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/packing.hpp>
 #include <numbers>
 
 #include "engine/imports/environment/environment.h"
@@ -63,7 +62,7 @@ TEST_CASE(
     CHECK(texture.desc.mips == gl::mipsOf(map->width, map->height));
     const auto levels = levelsOf(texture);
     REQUIRE(levels[0].size() == map->texels.size());
-    CHECK(std::ranges::equal(levels[0], map->texels, {}, {}, imath_half_to_float));
+    CHECK(std::ranges::equal(levels[0], map->texels, {}, {}, glm::unpackHalf1x16));
     for (const auto& level : levels) CHECK(std::ranges::all_of(level, [](float texel) { return texel > 0; }));
     if (alive == 0) alive = gl::liveObjects(gl::ObjectKind::texture);
     CHECK(gl::liveObjects(gl::ObjectKind::texture) == alive);

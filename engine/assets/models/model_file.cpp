@@ -18,19 +18,13 @@ namespace {
 
 // What says that it blends but lets nothing through is opaque: its triangles need no order.
 void closeOpaque(Model& model) {
-  std::vector<bool> open(model.materials.size());
-  for (const ModelInstance& each : model.instances) {
-    const Mesh& mesh = model.meshes[each.mesh];
-    for (std::size_t v = 0; v < mesh.vertexCount && !model.colors.empty(); ++v)
-      if (model.colors[mesh.firstVertex + v].a < 1) open[each.material] = true;
-  }
-  for (std::size_t i = 0; i < open.size(); ++i) {
+  std::vector<bool> clear(model.materials.size());
+  for (const ModelInstance& each : model.instances)
+    if (model.meshes[each.mesh].clear) clear[each.material] = true;
+  for (std::size_t i = 0; i < clear.size(); ++i) {
     Material& material = model.materials[i];
-    if (!material.blend || material.alpha < 1 || open[i]) continue;
-    material.blend = false;
-    if (material.albedoMap == kNoRow) continue;
-    const std::vector<std::uint8_t>& texels = model.textures[material.albedoMap].image->texels;
-    for (std::size_t t = 3; t < texels.size() && !material.blend; t += 4) material.blend = texels[t] < 255;
+    const bool map = material.albedoMap != kNoRow && model.textures[material.albedoMap].clear;
+    material.blend = material.blend && (material.alpha < 1 || map || clear[i]);
   }
 }
 

@@ -217,6 +217,7 @@ std::uint32_t MeshBuilder::add(RawMesh mesh) {
     if (colors) model_.colors.push_back(v.color);
     if (uvs) model_.secondUvs.push_back(v.secondUv);
     row.bounds.add(v.position);
+    row.clear = row.clear || v.color.a < 1;
     for (std::size_t i = 0; row.skinned && i < 4; ++i) {
       const std::size_t joint = v.skin.joints[i];
       if (!(v.skin.weights[i] > 0)) continue;

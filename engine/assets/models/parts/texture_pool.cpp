@@ -170,8 +170,11 @@ std::uint32_t TexturePool::rowOf(const Use& use, std::vector<Texture>& textures)
       image && !use.make ? images_[use.image].content : hashOf(image ? *image : *kMissing), color ? 1 : 0);
   const auto row =
       static_cast<std::size_t>(std::ranges::find(textures, content, &Texture::content) - textures.begin());
-  if (row == textures.size())
-    textures.push_back({use.name, image ? std::move(image) : kMissing, color, content});
+  if (row == textures.size()) {
+    Texture& made = textures.emplace_back(use.name, image ? std::move(image) : kMissing, color, content);
+    for (std::size_t t = 3; color && t < made.image->texels.size() && !made.clear; t += 4)
+      made.clear = made.image->texels[t] < 255;
+  }
   return static_cast<std::uint32_t>(row);
 }
 
