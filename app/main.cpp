@@ -45,6 +45,6 @@ int main(int argc, char** argv) try {
         addTest, addFuzz, addDump, addFormat, addNew, addImport, addLsp, addSchema, addTypes})
     add(line);
   return finishStreams(line.run(argc, argv));
-} catch (...) {  // files half written are removed by now
+} catch (...) {  // half-written files are gone by now
   endAtOnce();
 }

@@ -21,7 +21,8 @@ in vec2 map_uv_2;
 #endif
 in vec4 previous_clip;
 flat in uint row;
-flat in uint normal_map;  // by vertices, since derivatives need it of pixels beside a triangle: there llvmpipe reads 0 from buffers
+// From the vertex shader: derivatives need them in pixels beside the triangle, where llvmpipe reads 0 from buffers.
+flat in uint normal_map;
 flat in float normal_scale;
 #ifdef HAS_VERTEX_COLORS
 in vec4 own_color;

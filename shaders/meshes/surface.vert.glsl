@@ -20,8 +20,8 @@ out vec2 map_uv;
 out vec2 map_uv_2;
 #endif
 out vec4 previous_clip;
-flat out uint row;        // of @materials
-flat out uint normal_map;  // of that row, as what follows
+flat out uint row;        // of @materials; the next two are of that row
+flat out uint normal_map;
 flat out float normal_scale;
 #ifdef HAS_VERTEX_COLORS
 out vec4 own_color;       // linear
