@@ -99,10 +99,12 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("at every size the halo stands where its light is") {
-  // Odd in the picture, or in levels of the pyramid: 360 x 202 is 180, 90, 45, 22, 11 and 101, 50, 25, 12, 6 texels further down.
-  for (const auto& [width, height] : {std::pair{384u, 256u}, {633u, 350u}, {360u, 202u}, {321u, 127u}})
-    for (const double share : {0.3, 0.62}) {
+TEST_CASE("at every size the halo stands where its light is, and has all of it") {
+  // Odd in the picture, or where it is halved; from a texel to the next, and with the default's wide halo in the middle.
+  for (const auto& [width, height] :
+       {std::pair{384u, 256u}, {633u, 350u}, {360u, 202u}, {321u, 127u}, {255u, 383u}, {480u, 270u}})
+    for (const auto& [share, scatter] :
+         {std::pair{0.3, "0.3"}, {0.62, "0.3"}, {0.48, "0.7"}, {0.485, "0.7"}}) {
       const auto x = static_cast<std::uint32_t>(share * width),
                  y = static_cast<std::uint32_t>(share * height);
       const Radiance picture = render({{"bloom", "true"},
@@ -111,7 +113,7 @@ TEST_CASE("at every size the halo stands where its light is") {
                                        {"firefly", "false"},
                                        {"plane.at", fmt::format("[{}, {}]", x, y)},
                                        {"plane.value", "24"},
-                                       {"scatter", "0.3"}},
+                                       {"scatter", scatter}},
                                       width, height);
       double sum = 0, across = 0, along = 0;
       for (std::uint32_t row = 0; row < height; ++row)
@@ -125,6 +127,7 @@ TEST_CASE("at every size the halo stands where its light is") {
       CAPTURE(x);
       CHECK(std::abs(across / sum - x) < 1);
       CHECK(std::abs(along / sum - y) < 1);
+      CHECK(std::abs(sum / kValue - 1) < 0.02);
     }
 }
 
