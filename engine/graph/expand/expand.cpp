@@ -22,7 +22,7 @@ namespace {
 std::optional<FlatUse> resolveFinal(Model& model, Scope& scope, const RefDesc& ref, const std::string& user,
                                     const std::string& name) {
   Names names(model, scope);
-  const SlotDesc slot{{name, ref.place, Access::read}, ref};
+  const SlotDesc slot{SlotHead{name, ref.place, Access::read}, ref};
   const SlotContext context{model, names, nullptr, user, {}};
   const SlotWork work = ref.wordsSize > 0 ? SlotWork() : resolveSlot(context, slot, kNone);
   if (work.array || ref.wordsSize > 0)

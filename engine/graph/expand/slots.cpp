@@ -329,7 +329,7 @@ SlotWork resolveFirst(const SlotContext& context, const SlotWork& work, std::uin
   Entity& entity = model.entities[work.entity];
   if (!entity.firstRef) return {};
   const RefDesc& ref = *entity.firstRef;
-  slot = {{work.slot->name, ref.place, Access::read}, ref};
+  slot = {SlotHead{work.slot->name, ref.place, Access::read}, ref};
   slot.ref.kind = work.use.kind;
   Names names(model, *entity.firstScope);
   const SlotContext inside{model,         names, context.type, context.user, context.pass, context.versions,

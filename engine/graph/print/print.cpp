@@ -384,7 +384,7 @@ std::string diffText(const Plan& before, const Plan& after) {
     if (const auto found = known.find(fact.name); found != known.end())
       pairs[found->second].second = std::move(fact);
     else
-      pairs.push_back({{.name = fact.name, .there = false}, fact});
+      pairs.push_back({PlanFact{.name = fact.name, .there = false}, fact});
   std::string text;
   for (const auto& [a, b] : pairs)
     if ((a.there || b.there) && (a.there != b.there || a.text != b.text))

@@ -647,7 +647,7 @@ bool SourceLoader::mayShare(const JsonValue& set, const text::Place& place) {
 
 // A file without "extends" is a graph; one with it is what it extends, with the others of the list and itself laid over that.
 std::shared_ptr<const Source> SourceLoader::complete(JsonValue root, const std::string& path) {
-  Source source{{.path = path, .files = {path}}, identityOf(path)};
+  Source source{FileDesc{.path = path, .files = {path}}, identityOf(path)};
   const JsonValue* set = root.find("set");
   const JsonValue* extends = root.find("extends");
   if (!extends && set && !root.find("passes")) {
