@@ -45,7 +45,7 @@ Json usesData(const Plan& plan, std::uint32_t pass, const std::vector<std::strin
   Json uses = Json::array();
   for (const std::uint32_t u : graph.usesOf(pass)) {
     const FlatUse& use = graph.uses[u];
-    Json json;
+    Json json = Json::object();  // made here: where there is no memory for one, `[]` would leave half of it
     if (!slots[u].empty()) json["slot"] = slots[u];
     json.update({{"access", nameOf(use.access)},
                  {"kind", nameOf(use.kind)},

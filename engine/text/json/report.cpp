@@ -21,10 +21,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json locationOf(const Place& place) {
-  Json physical;
-  physical["artifactLocation"]["uri"] = uriOf(*place.file);
+  Json physical{{"artifactLocation", {{"uri", uriOf(*place.file)}}}};
   if (place.line > 0) {
-    physical["region"]["startLine"] = place.line;
+    physical["region"] = {{"startLine", place.line}};
     if (place.column > 0) physical["region"]["startColumn"] = place.column;
   }
   return {{"physicalLocation", std::move(physical)}};
