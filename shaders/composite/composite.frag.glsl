@@ -3,7 +3,7 @@
 // gamma, gain), sRGB encoding, table, grain, dither. Steps that are off are not compiled. docs/effects.md has the details.
 // read    color   scene-referred radiance, the target's size, not `as linear`: one texel per pixel
 //         shifted?  the same `as linear`, for ABERRATION
-//         bloom?  scene-referred, any size; `as linear` unless its size is the target's: the blurred bright part, see bloom_part
+//         bloom?  scene-referred, any size; `as linear` unless its size is the target's: the blurred bright part
 //         exposure?  buffer of exposure/adapt.comp.glsl, `as uniform`: a factor beside `ev`; without it, or below 0, there is none
 //         lut?    3D table on encoded values, `as linear`; see lut.glsl. With it the parameter lut_strength, 0..1
 // write   result  display-referred, sRGB encoded
@@ -11,7 +11,6 @@
 //         ev              exposure in stops; +1 doubles [0]
 //         bloom_strength  share of the bright part that its blur replaces, 0..1 [0.05]
 //         white           radiance, after exposure, that becomes white [8]
-//         bloom_part      share of `bloom` from its lower left corner on that is the picture, by axis [1, 1]
 //         threshold, knee what the bright part is, as in bloom/prefilter; both or none [0, 0: everything]
 //         curve           CURVE, see tone_curve.glsl
 //         aberration      define: aberration_px, shift of red and blue against green at the corners, in pixels
@@ -87,7 +86,7 @@ void main() {
   c = finite(c);
 #ifdef HAS_BLOOM
   float peak = peakOf(c);
-  c += settings.bloom * (textureLod(bloom, uv * bloom_part, 0.0).rgb - c * (brightPeak(peak, settings.bright) / peak));
+  c += settings.bloom * (textureLod(bloom, uv, 0.0).rgb - c * (brightPeak(peak, settings.bright) / peak));
 #endif
   c *= settings.exposure;
 #if WHITE_BALANCE

@@ -24,15 +24,12 @@
 #ifdef HAS_EXPOSURE
 layout(std140) uniform exposure { vec4 adapted; };  // a storage block would cost three tenths of a copy in software
 #endif
-#if defined(HAS_EV) || defined(HAS_BLOOM_PART) || defined(HAS_THRESHOLD) || defined(HAS_LUT) || ABERRATION || WHITE_BALANCE || VIGNETTE || GRADING || GRAIN
+#if defined(HAS_EV) || defined(HAS_THRESHOLD) || defined(HAS_LUT) || ABERRATION || WHITE_BALANCE || VIGNETTE || GRADING || GRAIN
 layout(std140) uniform Parameters {
 #ifdef HAS_EV
   float ev;
   float bloom_strength;
   float white;
-#endif
-#ifdef HAS_BLOOM_PART
-  vec2 bloom_part;
 #endif
 #ifdef HAS_THRESHOLD
   float threshold;
@@ -65,9 +62,6 @@ layout(std140) uniform Parameters {
 #endif
 #ifndef HAS_EV
 const float ev = 0.0, bloom_strength = 0.05, white = 8.0;
-#endif
-#ifndef HAS_BLOOM_PART
-const vec2 bloom_part = vec2(1.0);
 #endif
 #ifndef HAS_THRESHOLD
 const float threshold = 0.0, knee = 0.0;
