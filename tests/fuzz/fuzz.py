@@ -49,7 +49,7 @@ def fuzz(program, seeds, learned, findings, seconds):
     inputs = coverage = features = 0
     end = time.monotonic() + seconds
     while (left := int(end - time.monotonic())) > 0:
-        run = subprocess.run([program, f"-max_total_time={left}", "-timeout=20", "-report_slow_units=20", "-rss_limit_mb=2048", "-malloc_limit_mb=4096", "-print_final_stats=1", "-close_fd_mask=1", f"-artifact_prefix={findings}/",
+        run = subprocess.run([program, f"-max_total_time={left}", "-timeout=20", "-report_slow_units=20", "-rss_limit_mb=2048", "-malloc_limit_mb=2049", "-print_final_stats=1", "-close_fd_mask=1", f"-artifact_prefix={findings}/",
                               f"-dict={seeds.with_suffix('.words')}", learned, seeds], capture_output=True, text=True, errors="replace")
         inputs += int((re.findall(r"number_of_executed_units: (\d+)", run.stderr) or [0])[-1])
         coverage, features = max([(coverage, features), *((int(c), int(f)) for c, f in re.findall(r"cov: (\d+) ft: (\d+)", run.stderr))])
