@@ -647,6 +647,7 @@ bool SourceLoader::mayShare(const JsonValue& set, const text::Place& place) {
 
 // A file without "extends" is a graph; one with it is what it extends, with the others of the list and itself laid over that.
 std::shared_ptr<const Source> SourceLoader::complete(JsonValue root, const std::string& path) {
+  // Bases are named: GCC 12 destroys nameless ones twice where a later member throws.
   Source source{FileDesc{.path = path, .files = {path}}, identityOf(path)};
   const JsonValue* set = root.find("set");
   const JsonValue* extends = root.find("extends");
