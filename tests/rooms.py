@@ -107,6 +107,16 @@ def check_tables() -> list[str]:
     return problems
 
 
+def check_page(top: pathlib.Path) -> list[str]:
+    """CONTRIBUTING.md has the table of rooms."""
+    rows, above = {}, set()
+    for room, words in re.findall(r"^\| `(?:engine/)?(\w+)` \| ([\w, ]+)", (top / "CONTRIBUTING.md").read_text(), re.M):
+        rows[room] = set(above) if words.startswith("all above") else set(words.strip().split(", ")) - {"nothing"}
+        above.add(room)
+    return [f"CONTRIBUTING.md: room '{room}' may include {sorted(rows.get(room, ()))}, here {sorted(ROOMS.get(room, ()))}"
+            for room in sorted(ROOMS.keys() | rows.keys()) if rows.get(room) != ROOMS.get(room)]
+
+
 def room_of(name: str) -> tuple[str, str] | None:
     """(room, sub-room) of an include or of a path below the top folder; the sub-room of a file at the door is '.'."""
     parts = name.split("/")
@@ -206,7 +216,7 @@ def check_sizes(top: pathlib.Path) -> tuple[list[str], dict[str, int]]:
 
 def main() -> int:
     top = pathlib.Path(sys.argv[1])
-    problems, arrows = check_tables(), set()
+    problems, arrows = check_tables() + check_page(top), set()
     edges: dict[str, list[str]] = {}
     texts: dict[str, str] = {}
     for path in sorted([path for room in ("engine", "importers", "app") for path in (top / room).rglob("*")]):

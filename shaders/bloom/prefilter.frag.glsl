@@ -42,16 +42,34 @@ void add(vec3 texel, float taken) {
   weights += weight;
 }
 
+vec2 texel;
+vec3 across;
+
+// A row of two or three texels, from `at` on.
+void addRow(vec2 at, float part) {
+  vec3 shares = across * part;
+  // A nearest lookup costs less than a fetch in software.
+  add(textureLod(source, at, 0.0).rgb, shares.x);
+  add(textureLod(source, at + vec2(texel.x, 0.0), 0.0).rgb, shares.y);
+  if (across.z > 0.0) add(textureLod(source, at + vec2(2.0 * texel.x, 0.0), 0.0).rgb, shares.z);
+}
+
+// What of a length from `start` on is in each of three texels; it starts in the first.
+vec3 sharesOf(float start, float side) {
+  float end = start + side;
+  return vec3(min(1.0 - start, side), clamp(end - 1.0, 0.0, 1.0), max(end - 2.0, 0.0));
+}
+
 void main() {
   bright = brightOf(threshold, knee);
-  // In texels of the source: the part of it, and how many it touches along each axis.
+  // In texels of the source: the part of it, from its first texel on.
   vec2 size = vec2(textureSize(source, 0)), side = size / round(gl_FragCoord.xy / uv), low = (gl_FragCoord.xy - 0.5) * side;
-  ivec2 count = 2 + ivec2(notEqual(side, vec2(2.0)));
-  for (int y = 0; y < count.y; ++y)
-    for (int x = 0; x < count.x; ++x) {
-      vec2 texel = floor(low) + vec2(x, y), part = max(min(texel + 1.0, low + side) - max(texel, low), vec2(0.0));
-      // A nearest lookup costs less than a fetch in software.
-      add(textureLod(source, (texel + 0.5) / size, 0.0).rgb, part.x * part.y);
-    }
+  texel = 1.0 / size;
+  vec2 first = (floor(low) + 0.5) * texel, start = fract(low);
+  across = sharesOf(start.x, side.x);
+  vec3 along = sharesOf(start.y, side.y);
+  addRow(first, along.x);
+  addRow(first + vec2(0.0, texel.y), along.y);
+  if (along.z > 0.0) addRow(first + vec2(0.0, 2.0 * texel.y), along.z);
   result = vec4(sum / weights, 1.0);
 }

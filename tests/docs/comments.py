@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Comments in C++, shaders and graphs name only files that exist: `words.h`, `shaders/bounds.h`, `docs/shaders.md`. A name with folders
-must be the end of a path, and a `*` in it stands for anything. Usage: comments.py TOP"""
+must be the end of a path, and a `*` in it stands for anything. A file of shaders/ begins with a comment. Usage: comments.py TOP"""
 import fnmatch
 import pathlib
 import re
@@ -23,7 +23,10 @@ def main() -> int:
         for path in sorted((top / folder).rglob("*")):
             if path.suffix not in SUFFIXES:
                 continue
-            for number, line in enumerate(path.read_text().splitlines(), 1):
+            text = path.read_text()
+            if folder == "shaders" and not text.startswith("//"):
+                problems.append(f"{path.relative_to(top)}:1: begin with what it is, and with its slots and parameters")
+            for number, line in enumerate(text.splitlines(), 1):
                 for comment in COMMENT.findall(line):
                     for name in NAME.findall(comment):
                         names += 1

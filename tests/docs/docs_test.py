@@ -261,6 +261,12 @@ def check_overview():
     return [f"does not name {name}" for name in sorted(names) if name not in text]
 
 
+def check_effects():
+    """docs/effects.md names every effect that comes as an include."""
+    text = (TOP / "docs/effects.md").read_text()
+    return [f"does not name graphs/effects/{path.name}" for path in sorted((TOP / "graphs/effects").glob("*.json")) if f"effects/{path.name}" not in text]
+
+
 def compare_problems(problems, expected):
     """For a page that lists, in a comment, the problems it has."""
     missed = [e for e in expected if not any(e in p for p in problems)]
@@ -352,7 +358,7 @@ def main():
                 if problem:
                     problems.append(f"{name}:{line}: {problem}")
     if TOP / "docs/overview.md" in pages and "pages" in WANTED:
-        problems += [f"docs/overview.md: {p}" for p in check_overview()]
+        problems += [f"docs/overview.md: {p}" for p in check_overview()] + [f"docs/effects.md: {p}" for p in check_effects()]
     if expected := re.search(r"<!-- problems:\n(.*?)-->", "".join(p.read_text() for p in pages), re.S):
         return compare_problems(problems, expected.group(1).split("\n")[:-1])
     print("\n".join(problems) or f"docs: {len(pages)} pages, " + ", ".join(f"{n} {l}" for l, n in sorted(counts.items())))
