@@ -5,6 +5,7 @@
 //         air?, the lights            see meshes/radiance.glsl
 // modify  radiance   scene-referred; alpha 1, with BLEND premultiplied by the material's: blend "premultiplied"
 //         velocity   screen UV per frame
+//         thing      which row of the list it is, from 1 on (r32ui)
 //         depth      reversed-Z
 // params, defines    see shading/light.glsl
 #include "common/view.glsl"
@@ -21,6 +22,10 @@ out vec4 radiance;
 #endif
 #ifdef HAS_VELOCITY
 out vec2 velocity;
+#endif
+#ifdef HAS_THING
+flat in uint mesh_thing;
+out uint thing;
 #endif
 
 void main() {
@@ -39,5 +44,8 @@ void main() {
 #endif
 #ifdef HAS_VELOCITY
   velocity = meshVelocity(viewport);
+#endif
+#ifdef HAS_THING
+  thing = mesh_thing;
 #endif
 }

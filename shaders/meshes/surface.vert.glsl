@@ -23,6 +23,9 @@ out vec4 previous_clip;
 flat out uint row;        // of @materials; the next two are of that row
 flat out uint normal_map;
 flat out float normal_scale;
+#ifdef HAS_THING
+flat out uint mesh_thing;
+#endif
 #ifdef HAS_VERTEX_COLORS
 out vec4 own_color;       // linear
 #endif
@@ -48,6 +51,9 @@ void main() {
   world_scale = pow(abs(determinant(mat3(transform))), 1.0 / 3.0);
 #endif
   row = mesh_row[instance].material;
+#ifdef HAS_THING
+  mesh_thing = instance + 1u;
+#endif
 #ifdef HAS_MATERIALS
   normal_map = material[row].normal_map;
   normal_scale = material[row].normal_scale;

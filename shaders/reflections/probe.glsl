@@ -2,7 +2,7 @@
 // impostors", Computer Graphics Forum 24(3), 2005), in which things end at their back faces.
 // Slots: probe_light   radiance, premultiplied; alpha 0 where nothing is; `as linear`, its levels are means
 //        probe_depth   reversed-Z; `as linear`, so that planes are exact
-//        probe_backs   of back faces; nearest
+//        probe_backs   where the thing that is seen ends: its farthest back face; nearest; 1: it has none
 //        probe_place   `as uniform`, see reflections/place.comp.glsl
 #ifndef REFLECTIONS_PROBE_GLSL
 #define REFLECTIONS_PROBE_GLSL
@@ -13,21 +13,38 @@ layout(std140) uniform probe_place { vec4 probe_at; };  // w: its near plane
 // 0: before what the probe sees at a place, 1: in it, 2: behind it.
 int behindProbed(vec3 place) {
   vec3 a = abs(place);
-  float whole = max(a.x, max(a.y, a.z)) / probe_at.w, back = textureLod(probe_backs, place, 0.0).r * whole;
+  float whole = max(a.x, max(a.y, a.z)) / probe_at.w;
   if (textureLod(probe_depth, place, 0.0).r * whole <= 1.0) return 0;
+  float back = textureLod(probe_backs, place, 0.0).r * whole;
   return back > 0.0 && back < 1.0 ? 1 : 2;
+}
+
+// Whether the same thing is on all sides of a place: the depth of a plane is linear on a face.
+bool isWhole(vec3 place) {
+  vec3 a = abs(place);
+  float far = max(a.x, max(a.y, a.z)), step = 2.0 / float(textureSize(probe_depth, 0).x);
+  place /= far;
+  bvec3 onward = lessThan(a, vec3(far));
+  float here = textureLod(probe_depth, place, 0.0).r, bend = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    vec3 beside = vec3(0.0);
+    beside[i] = onward[i] ? step : 0.0;
+    bend = max(bend, abs(textureLod(probe_depth, place + beside, 0.0).r + textureLod(probe_depth, place - beside, 0.0).r - 2.0 * here));
+  }
+  return bend < 0.02 * here;
 }
 
 // What the ray meets; a is 0 if nothing. `part`: alpha of the ray's cone. `away`: how far it is.
 vec4 probeAlong(vec3 from, vec3 direction, float part, out float away) {
-  const int kSteps = 24;
+  const int kSteps = 96;
   vec3 start = from - probe_at.xyz, met = direction;
   float r = max(length(start), 1e-4), before = 0.0;
-  int was = behindProbed(start);
+  // The ray as the probe sees it goes from `start` almost to `direction`, in steps of equal angles.
+  float whole = acos(clamp(dot(start, direction) / r, -1.0, 1.0));
+  int was = behindProbed(start), steps = int(ceil(whole * float(kSteps) / kPi));
   bool found = false;
-  // Steps of equal length in what is seen of the ray, about.
-  for (int i = 1; i <= kSteps && !found; ++i) {
-    float share = float(i) / (float(kSteps) + 0.4), t = r * share / (1.0 - share);
+  for (int i = 1; i <= steps && !found; ++i) {
+    float angle = whole * float(i) / (float(steps) + 0.4), t = r * sin(angle) / sin(whole - angle);
     int is = behindProbed(start + t * direction);
     if (is != was && (is == 1 || was == 0)) {
       float low = before, high = t;
@@ -39,9 +56,7 @@ vec4 probeAlong(vec3 from, vec3 direction, float part, out float away) {
       }
       met = start + high * direction;
       // What is thin is met where it is whole, not where the ray goes behind its outline.
-      vec4 around = textureGather(probe_depth, met);
-      vec2 least = min(around.xy, around.zw), most = max(around.xy, around.zw);
-      found = is == 1 || min(least.x, least.y) > 0.9 * max(most.x, most.y);
+      found = is == 1 || isWhole(met);
     }
     was = is;
     before = t;

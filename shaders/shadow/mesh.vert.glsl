@@ -7,6 +7,9 @@ in vec2 uv;
 
 out vec2 map_uv;
 flat out uint row;  // of @materials
+#ifdef HAS_THING_IN_FRONT
+flat out uint thing;
+#endif
 #ifdef HAS_VERTEX_COLORS
 out float own_alpha;
 #endif
@@ -17,5 +20,8 @@ void main() {
   own_alpha = vertex_color[gl_VertexID].color.a;
 #endif
   row = mesh_row[instance].material;
+#ifdef HAS_THING_IN_FRONT
+  thing = instance + 1u;
+#endif
   gl_Position = lightClip((meshTransform() * meshPosition()).xyz);
 }

@@ -2,6 +2,7 @@
 // read    air?: fog/fog.glsl; the lights: spheres/light.glsl
 // write or modify  radiance   scene-referred; alpha 1
 //                  velocity   screen UV per frame
+//                  thing      which sphere it is: the complement of its row (r32ui)
 //                  depth      near / distance along the view axis (reversed-Z)
 // params, defines    see shading/light.glsl
 #include "common/view.glsl"
@@ -25,8 +26,14 @@ out vec4 radiance;
 #ifdef HAS_VELOCITY
 out vec2 velocity;
 #endif
+#ifdef HAS_THING
+out uint thing;
+#endif
 
 void main() {
+#ifdef HAS_THING
+  thing = ~readRow();
+#endif
 #ifdef HAS_RADIANCE
   vec3 n = normalize(gl_FrontFacing ? outwards : -outwards), v = normalize(from_eye);
   float nv = clamp(-dot(n, v), 0.0, 1.0);

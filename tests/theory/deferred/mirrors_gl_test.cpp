@@ -122,4 +122,27 @@ TEST_CASE("metals reflect the scene as a path tracer does, within 4 of 255") {
   }
 }
 
+TEST_CASE(
+    "a mirror behind helmets, which are of many shells, shows whole ones and the floor to its horizon") {
+  const CleanScope clean;
+  constexpr std::uint32_t kWidth = 256, kHeight = 144;
+  scene::Scene made = runtime::test::worldOf("scenes/helmets.json").scene();
+  for (std::size_t row = 0; row < made.materials.size(); ++row) {
+    const float part = static_cast<float>(row % 5) / 4;
+    made.materials.edit(made.materials.idOf(row)) = lightOf({6 - 4 * part, 1.5f, 1 + 3 * part});
+  }
+  made.sun.reset();
+  made.lamps = {};
+  made.spheres = {};
+  made.spheres.add({.center = {0.12f, 0.3f, -0.75f},
+                    .radius = 0.3f,
+                    .material = made.materials.add(metalOf(0)),
+                    .lists = scene::maskOf(scene::DrawList::spheres)});
+  const Shown shown = take(made, kWidth, kHeight);
+  const MirrorTracer tracer(made, made.cameras.rows()[0].pose, kWidth, kHeight, skyAt);
+  const Error error = errorsOf(tracer, shown, kWidth, kHeight, 1)[1];
+  MESSAGE(error.on, " of 255, with the map alone ", error.off, ", ", error.count, " pixels");
+  CHECK(error.on < 4);
+}
+
 }  // namespace deferred_mirrors_test
