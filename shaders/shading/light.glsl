@@ -2,9 +2,9 @@
 // shading/cook_torrance.glsl; it says what the surface does with light, as ambientRadiance() and directRadiance().
 // read    brdf     see shading/material.glsl
 //         irradiance?, spot_cosines?, specular?, environment?, brightest?, probes?, sh?   see shading/ambient.glsl
-//         sun?, sun_map?, sun_depth?                                       see shading/sun.glsl
+//         sun?                                                             see shading/sun.glsl
 //         lamps?, lamp_maps?, clusters?, slices?                           see shading/lamps.glsl
-//         light_maps?, light_depths?, scene_bounds?   shadows that meshes cast, see shading/mesh_shadow.glsl; in place of sun_map
+//         light_maps?, light_depths?, scene_bounds?   shadows that meshes cast, see shading/mesh_shadow.glsl
 // params  sky_turn?, lamp_count   see shading/parameters.glsl
 // A variant without sun and lamps has no code for them.
 #ifndef SHADING_LIGHT_GLSL
@@ -19,7 +19,7 @@
 #include "shading/lamps.glsl"
 #endif
 
-#if defined HAS_LIGHT_MAPS && defined HAS_LIGHT_DEPTHS && defined HAS_SCENE_BOUNDS && !defined HAS_SUN_MAP
+#if defined HAS_LIGHT_MAPS && defined HAS_LIGHT_DEPTHS && defined HAS_SCENE_BOUNDS
 #include "shading/mesh_shadow.glsl"
 LightsSeen lightsSeen(Point point) { return lightsPastMeshes(point.position, point.normal, sky_turn); }
 #else

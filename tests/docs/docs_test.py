@@ -211,8 +211,8 @@ def parts_of(language, info, body):
 
 
 def make_small(script):
-    """The commands with fewer frames, a quarter of the width and height of what is wider than 160 pixels, and smaller maps of the sun's shadow."""
-    script = script.replace("--frames 0:59", "--frames 0:2").replace("sun_texels=8192", "sun_texels=1024")
+    """The commands with fewer frames, a quarter of the width and height of what is wider than 160 pixels, and smaller shadow maps."""
+    script = script.replace("--frames 0:59", "--frames 0:2").replace("shadow_texels=8192", "shadow_texels=1024")
     return re.sub(r"(--size )(\d+)x(\d+)", lambda m: f"{m[1]}{int(m[2]) // 4}x{int(m[3]) // 4}" if int(m[2]) > 160 else m[0], script)
 
 

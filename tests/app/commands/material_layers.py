@@ -346,7 +346,7 @@ def render(folder, graph, rows, pixels, options, picture):
 
 with tempfile.TemporaryDirectory() as folder:
     folder = pathlib.Path(folder)
-    plain = ["--set", "ao=false", "--set", "sun_shadow=none"]
+    plain = ["--set", "ao=false", "--set", "mesh_shadows=false"]
     spheres = [(base, layers, FLAT) for _, base, layers, *_ in SPHERES]
     for everywhere in (False, True):
         write_scene(folder / "m.gltf", not everywhere, 80, spheres)

@@ -135,14 +135,14 @@ TEST_CASE("disable: every pass of deferred alone, with meshes, glass, spheres, a
   const CleanScope clean;
   Stage stage = smallStage("graphs/deferred.json", "tests/runtime/scenes/everything.json");
   stage.settings.sets = {
-      {"sun_texels", "256"}, {"lamp_texels", "64"}, {"bayer", "true"}, {"motion_blur", "true"}};
+      {"shadow_texels", "256"}, {"lamp_texels", "64"}, {"bayer", "true"}, {"motion_blur", "true"}};
   tryAll(stage, false);
 }
 
 TEST_CASE("disable: every pass of the probes of deferred_gi alone") {
   const CleanScope clean;
   Stage stage = smallStage("graphs/deferred_gi.json", "tests/runtime/scenes/everything.json");
-  stage.settings.sets = {{"sun_texels", "256"}, {"lamp_texels", "64"}, {"probes_debug", "true"}};
+  stage.settings.sets = {{"shadow_texels", "256"}, {"lamp_texels", "64"}, {"probes_debug", "true"}};
   tryAll(stage, false, "gi", 4);  // as above
 }
 

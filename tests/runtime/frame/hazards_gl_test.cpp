@@ -74,7 +74,7 @@ namespace {
 
 // Barriers do not depend on how large a map is.
 std::vector<graph::Setting> smallShadows() {
-  return {{"sun_texels", "256"}, {"lamp_texels", "64"}};
+  return {{"shadow_texels", "256"}, {"lamp_texels", "64"}};
 }
 
 }  // namespace

@@ -217,7 +217,7 @@ TEST_CASE("the same for the deferred graphs with all that a scene may hold, and 
   const CleanScope clean;
   const std::vector<std::vector<graph::Setting>> ways = {
       {},
-      {{"ao_method", "hemisphere"}, {"clustered", "false"}, {"sun_shadow", "filtered"}},
+      {{"ao_method", "hemisphere"}, {"clustered", "false"}, {"mesh_shadows", "false"}},
       {{"store_positions", "true"}, {"bayer", "true"}, {"motion_blur", "true"}, {"auto_exposure", "true"}}};
   const std::vector<std::vector<graph::Setting>> probes = {{{"probes_debug", "true"}},
                                                            {{"gi_sampling", "buffer"}}};
@@ -228,7 +228,7 @@ TEST_CASE("the same for the deferred graphs with all that a scene may hold, and 
     Stage stage(withSmallMaps(graph), 48, 27, "tests/runtime/scenes/everything.json");
     for (const std::vector<graph::Setting>& sets : with_probes ? probes : ways) {
       stage.settings.sets = sets;
-      for (const auto& [name, texels] : {std::pair("sun_texels", "256"), std::pair("lamp_texels", "64")})
+      for (const auto& [name, texels] : {std::pair("shadow_texels", "256"), std::pair("lamp_texels", "64")})
         stage.settings.sets.push_back({name, texels});
       REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
       std::string label = graph;
