@@ -1,4 +1,5 @@
-// Shadows of meshes in the studio against rays to every triangle: what is left of the sun, of the environment's brightest spots and of the sky.
+// Shadows of meshes in the studio and in the deferred frame against rays to every triangle: what is left of the sun, of the environment's
+// brightest spots and of the sky.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -90,8 +91,18 @@ Hit meetBall(glm::dvec3 from, glm::dvec3 way) {
 // How far shares may be off on average: on the ground, on meshes, on the sphere.
 constexpr std::array<double, 3> kSmallSun = {2e-4, 1.7e-3, 7e-3}, kLargeSun = {1.2e-3, 1.5e-3, 0.0105},
                                 kSpot = {3e-3, 2.4e-3, 1.9e-3}, kSpotBeside = {7.5e-3, 2.4e-3, 1.9e-3};
+constexpr double kGlossy = 6.5e-3;  // of four spots, whose gloss the truth leaves out
 
 enum Kind { kGround, kMesh, kSphere };
+// A graph, and what it shows of the scene.
+struct Frame {
+  std::string graph;
+  std::vector<Kind> shown;
+  std::vector<graph::Setting> sets{};
+};
+const Frame kStudio = {"graphs/studio.json", {kGround, kMesh, kSphere}},
+            kDeferred = {"graphs/deferred.json", {kMesh, kSphere}, {{"ao", "false"}}};
+
 struct Seen {
   glm::dvec3 at, normal;
   Kind kind = kGround;
@@ -139,14 +150,16 @@ double openShare(const scene::Scene& scene, const Seen& seen, int rays,
 }
 
 // The share that shadows leave of the radiance without them, against the truth; `axes` go to the lights.
-Errors compare(const scene::Scene& scene, const std::vector<float>& with, const std::vector<float>& without,
-               const std::vector<glm::dvec3>& axes, const std::function<double(const Seen&)>& truthOf) {
+Errors compare(const Frame& frame, const scene::Scene& scene, const std::vector<float>& with,
+               const std::vector<float>& without, const std::vector<glm::dvec3>& axes,
+               const std::function<double(const Seen&)>& truthOf) {
   Errors errors;
   for (std::uint32_t y = 1; y < kHigh - 1; ++y)
     for (std::uint32_t x = 1; x < kWide - 1; ++x) {
       const std::size_t texel = 4 * (std::size_t{y} * kWide + x);
       const std::optional<Seen> seen = seenAt(scene, x, y);
-      if (!seen || std::ranges::any_of(axes, [&](glm::dvec3 axis) {
+      if (!seen || !std::ranges::count(frame.shown, seen->kind)) continue;
+      if (std::ranges::any_of(axes, [&](glm::dvec3 axis) {
             // On the ground, where the ray-traced sphere takes nothing by itself.
             return glm::dot(seen->normal, axis) < 0.1 ||
                    (seen->kind == kGround &&
@@ -175,13 +188,14 @@ glm::dvec3 towards(double x, double y) {
   return glm::dvec3(std::sin(down) * std::cos(turn), std::cos(down), std::sin(down) * std::sin(turn));
 }
 
-std::vector<float> radianceOf(const scene::Scene& scene, bool shadows,
+std::vector<float> radianceOf(const Frame& frame, const scene::Scene& scene, bool shadows,
                               const std::shared_ptr<const assets::ImageF>& environment) {
-  runtime::test::Stage stage("graphs/studio.json", kWide, kHigh);
+  runtime::test::Stage stage(frame.graph, kWide, kHigh);
   stage.world.setScene(scene);
   stage.world.setEnvironment(
       std::make_shared<const assets::EnvironmentMap>(assets::toEnvironmentMap(*environment)));
-  stage.settings.sets = {{"mesh_shadows", shadows ? "true" : "false"}};
+  stage.settings.sets = frame.sets;
+  stage.settings.sets.push_back({"mesh_shadows", shadows ? "true" : "false"});
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   stage.run();
   return stage.read("hdr");
@@ -199,16 +213,19 @@ TEST_CASE("mesh shadows: what is left of the sun's disc on ground, meshes and sp
     const auto dark = constantEnvironment(0, 0, 0);
     const glm::dvec3 axis(sun.direction);
     const auto direction = [&] { return inCone(axis, double(degrees) / 720 * kTurn, random); };
-    Errors errors = compare(scene, radianceOf(scene, true, dark), radianceOf(scene, false, dark), {axis},
-                            [&](const Seen& seen) { return openShare(scene, seen, 64, direction); });
-    for (const Kind kind : {kGround, kMesh, kSphere}) {
-      std::vector<double>& all = errors.all[kind];
-      const double mean = meanOf(all), high = percentileOf(all, 0.99);
-      MESSAGE(degrees, " degrees, ", int(kind), ": ", all.size(), " points, ", errors.dark[kind],
-              " dark, mean ", mean, ", 99 % below ", high);
-      CHECK(all.size() > 100);
-      CHECK(errors.dark[kind] > 15);
-      CHECK(mean < (degrees < 1 ? kSmallSun : kLargeSun)[kind]);
+    for (const Frame& frame : {kStudio, kDeferred}) {
+      Errors errors =
+          compare(frame, scene, radianceOf(frame, scene, true, dark), radianceOf(frame, scene, false, dark),
+                  {axis}, [&](const Seen& seen) { return openShare(scene, seen, 64, direction); });
+      for (const Kind kind : frame.shown) {
+        std::vector<double>& all = errors.all[kind];
+        const double mean = meanOf(all), high = percentileOf(all, 0.99);
+        MESSAGE(frame.graph, ", ", degrees, " degrees, ", int(kind), ": ", all.size(), " points, ",
+                errors.dark[kind], " dark, mean ", mean, ", 99 % below ", high);
+        CHECK(all.size() > 100);
+        CHECK(errors.dark[kind] > 15);
+        CHECK(mean < (degrees < 1 ? kSmallSun : kLargeSun)[kind]);
+      }
     }
   }
 }
@@ -229,17 +246,19 @@ TEST_CASE("mesh shadows: what is left of the environment's brightest spot") {
     std::uniform_real_distribution<double> share(0, 3);
     const scene::Scene scene = furniture({});
     const auto direction = [&] { return towards(left + share(random), top + share(random)); };
-    Errors errors = compare(scene, radianceOf(scene, true, lit), radianceOf(scene, false, lit),
-                            {towards(left + 1.5, top + 1.5)},
-                            [&](const Seen& seen) { return openShare(scene, seen, 64, direction); });
-    for (const Kind kind : {kGround, kMesh, kSphere}) {
-      std::vector<double>& all = errors.all[kind];
-      const double mean = meanOf(all), high = percentileOf(all, 0.99);
-      MESSAGE(int(kind), ": ", all.size(), " points, ", errors.dark[kind], " dark, mean ", mean,
-              ", 99 % below ", high);
-      CHECK(all.size() > 100);
-      CHECK((errors.dark[kind] > 1 || corner.left != 214));
-      CHECK(mean < (corner.left == 214 ? kSpot : kSpotBeside)[kind]);
+    for (const Frame& frame : {kStudio, kDeferred}) {
+      Errors errors = compare(frame, scene, radianceOf(frame, scene, true, lit),
+                              radianceOf(frame, scene, false, lit), {towards(left + 1.5, top + 1.5)},
+                              [&](const Seen& seen) { return openShare(scene, seen, 64, direction); });
+      for (const Kind kind : frame.shown) {
+        std::vector<double>& all = errors.all[kind];
+        const double mean = meanOf(all), high = percentileOf(all, 0.99);
+        MESSAGE(frame.graph, ", ", int(kind), ": ", all.size(), " points, ", errors.dark[kind],
+                " dark, mean ", mean, ", 99 % below ", high);
+        CHECK(all.size() > 100);
+        CHECK((errors.dark[kind] > 1 || corner.left != 214));
+        CHECK(mean < (corner.left == 214 ? kSpot : kSpotBeside)[kind]);
+      }
     }
   }
 }
@@ -293,12 +312,18 @@ TEST_CASE("mesh shadows: of four windows each casts its own, as a sum over all t
     if (seen.kind == kGround) missing.push_back(hidden == 1 ? which : windows.size());
     return left / all;
   };
-  Errors errors = compare(scene, radianceOf(scene, true, map), radianceOf(scene, false, map), axes, truthOf);
+  Errors errors = compare(kStudio, scene, radianceOf(kStudio, scene, true, map),
+                          radianceOf(kStudio, scene, false, map), axes, truthOf);
   std::vector<double>& all = errors.all[kGround];  // others have a gloss, too
   const double mean = meanOf(all), high = percentileOf(all, 0.99);
   MESSAGE(all.size(), " points, mean ", mean, ", 99 % below ", high);
   CHECK(all.size() > 2000);
   CHECK(mean < kSpot[kGround]);
+  Errors deferred = compare(kDeferred, scene, radianceOf(kDeferred, scene, true, map),
+                            radianceOf(kDeferred, scene, false, map), axes, truthOf);
+  MESSAGE("deferred, meshes with a gloss: mean ", meanOf(deferred.all[kMesh]));
+  CHECK(deferred.all[kMesh].size() > 200);
+  CHECK(meanOf(deferred.all[kMesh]) < kGlossy);
   for (std::size_t i = 0; i < windows.size(); ++i) {
     std::vector<double> without;
     for (std::size_t point = 0; point < missing.size(); ++point)
@@ -315,8 +340,8 @@ TEST_CASE("mesh shadows: what is left of the sky on the ground") {
   std::uniform_real_distribution<double> share(0, 1);
   const scene::Scene scene = furniture({});
   const auto white = constantEnvironment(1, 1, 1);
-  Errors errors = compare(scene, radianceOf(scene, true, white), radianceOf(scene, false, white), {{0, 1, 0}},
-                          [&](const Seen& seen) {
+  Errors errors = compare(kStudio, scene, radianceOf(kStudio, scene, true, white),
+                          radianceOf(kStudio, scene, false, white), {{0, 1, 0}}, [&](const Seen& seen) {
                             return openShare(scene, seen, 400, [&] {
                               const double radius2 = share(random), turn = kTurn * share(random);
                               return glm::dvec3(std::sqrt(radius2) * std::cos(turn), std::sqrt(1 - radius2),
