@@ -30,7 +30,7 @@ SUM = main_of("result = vec4(" + "a + " * 100000 + "a);")
 CASES = "\n".join(f"case {i}: result = vec4({i}.0); break;" for i in range(5000))
 DOUBLE = "float f0(float x) { return x * uv.y; }\n" + chain("float f$(float x) { return f%(x) + f%(x + 1.0); }", 24)
 CALLS = "float f0(float x) { return x * uv.y; }\n" + chain("float f$(float x) { return f%(x) + 1.0; }", 3000)
-SINES = main_of("\n".join(f"a = sin(a) * uv.y + {i}.5;" for i in range(4000)) + "result = vec4(a);")
+SINES = main_of("\n".join(f"a = sin(a) * uv.y + {i}.5;" for i in range(12000)) + "result = vec4(a);")
 # name, shader, code, place behind the file's name, options
 HOSTILE = [
     ("a sum", SUM, "W203", ":5:3", ()),
