@@ -145,4 +145,17 @@ TEST_CASE(
   CHECK(error.on < 4);
 }
 
+TEST_CASE("a mirror that faces the camera shows what is far behind the camera, without a hole") {
+  const CleanScope clean;
+  constexpr std::uint32_t kWidth = 192, kHeight = 108;
+  MeshScene made({0, 0, 6}, 40);
+  made.put(made.addBox({1.5f, 1, 0.05f}), metalOf(0), {0, 0, 0});
+  made.put(made.addBox({20, 10, 0.5f}), lightOf({6, 1.5f, 1}), {0, 0, 16});
+  const Shown shown = take(made.scene, kWidth, kHeight);
+  const MirrorTracer tracer(made.scene, made.scene.cameras.rows()[0].pose, kWidth, kHeight, skyAt);
+  const Error error = errorsOf(tracer, shown, kWidth, kHeight, 1)[0];
+  MESSAGE(error.on, " of 255, with the map alone ", error.off, ", ", error.count, " pixels");
+  CHECK(error.on < 0.2);
+}
+
 }  // namespace deferred_mirrors_test
