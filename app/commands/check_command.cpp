@@ -85,7 +85,7 @@ void addStage(const glsl::ShaderSource& source, bool compute, bool last, ShaderS
   for (const Declaration& declared : shader.declarations)
     if (declared.role == Role::output || shader.isLive(declared))
       addDeclared(declared, compute, last, !source.interfaceWith({}).find(declared.name), made);
-  const glsl::Conditions conditions = glsl::conditionsOf(source.text);
+  const glsl::Conditions& conditions = source.conditions();
   // `compiled`: nothing compiles without.
   const auto define = [&](std::string_view word, int value, bool compiled) {
     const bool own = conditions.made.contains(word) || word.starts_with("HAS_") || word.starts_with("GL_") ||

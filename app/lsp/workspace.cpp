@@ -107,7 +107,6 @@ void Workspace::read(const std::string& path, Graph& graph) {
   for (auto& [file, text] : graph.texts) text = texts_.of(file);
   if (!graph.read || (graph.desc && graph.readSaid.contains(text::Code::notJson))) return;
   graph.desc = graph.read;
-  graph.uses = graph::findNameUses(*graph.desc, registry_);
 }
 
 void Workspace::readAll() {
@@ -121,6 +120,7 @@ void Workspace::readAll() {
     Graph& graph = graphs_[path];
     read(path, graph);
     if (!graph.desc) continue;
+    if (graph.used != graph.desc) graph.uses = graph::findNameUses(*(graph.used = graph.desc), registry_);
     graph.shaderFolders = runtime::shaderRootsOf(graph.desc->files, dataFolder());
     graph::eachPass(*graph.desc, [&](const std::string&, const graph::PassDesc& pass) {
       if (pass.include && pass.include->graph) included.insert(text::absolutePath(pass.include->graph->path));
@@ -177,24 +177,17 @@ void Workspace::check(const std::string& path, Graph& graph) {
   if (!graph.read) return;
   graph.shaderFolders = runtime::shaderRootsOf(graph.read->files, dataFolder());
   const auto flat = graph::expandGraph(*graph.read, registry_, settingsOf(options_, true), graph.said);
-  if (flat && !graph.said.hasErrors()) {
-    graph.plan = std::make_shared<const graph::Plan>(graph::compile(flat));
-    graph.current = graph::checkMemory(*graph.plan, graph.said);
-    checkShaders(graph, *graph.plan);
-  }
-}
-
-// Checks the shaders by what they declare.
-void Workspace::checkShaders(Graph& graph, const graph::Plan& plan) {
-  const graph::FlatGraph& flat = *plan.graph;
+  if (!flat || graph.said.hasErrors()) return;
+  graph.plan = std::make_shared<const graph::Plan>(graph::compile(flat));
+  graph.current = graph::checkMemory(*graph.plan, graph.said);
   glsl::SourceLoader& loader = sources(graph.shaderFolders);
   loader.forgetTouched();
   LoadedSources loaded;
-  for (const graph::Step& step : plan.steps) {
-    const graph::PassType* type = graph::findNamed(registry_.passTypes, flat.specs[step.pass].type);
+  for (const graph::Step& step : graph.plan->steps) {  // its shader, by what it declares
+    const graph::PassType* type = graph::findNamed(registry_.passTypes, flat->specs[step.pass].type);
     if (type->shader == graph::ShaderShape::none) continue;
-    checkDeclared(plan, step.pass, runtime::programRequestOf(flat, plan, step.pass, *type), loader, loaded,
-                  graph.said, graph.said);
+    checkDeclared(*graph.plan, step.pass, runtime::programRequestOf(*flat, *graph.plan, step.pass, *type),
+                  loader, loaded, graph.said, graph.said);
   }
 }
 

@@ -33,7 +33,8 @@ struct Graph {
   text::Diagnostics readSaid;
   // As all of them could be read last; places may be those of older texts.
   std::shared_ptr<const graph::GraphDesc> desc;
-  std::vector<graph::NameUse> uses;  // of `desc`
+  std::shared_ptr<const graph::GraphDesc> used;
+  std::vector<graph::NameUse> uses;  // of `used`: `desc`, after readAll()
   std::vector<std::string> shaderFolders;
   // Of a graph that is open and belongs to no other:
   bool checked = false;
@@ -103,7 +104,6 @@ class Workspace {
   bool isPreset(const std::string& path, int depth = 0) const;
   void read(const std::string& path, Graph& graph);
   void check(const std::string& path, Graph& graph);
-  void checkShaders(Graph& graph, const graph::Plan& plan);
 
   const Options& options_;
   const Texts& texts_;

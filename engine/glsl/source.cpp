@@ -266,7 +266,6 @@ std::shared_ptr<const ShaderSource> SourceLoader::answer(const std::string& key)
 // `own`: the file, whose path is the key; else the name of a text in memory.
 std::shared_ptr<const ShaderSource> SourceLoader::expand(const std::string& key, const FileStamp& own,
                                                          std::string_view text, Diagnostics& diagnostics) {
-  ++expansions_;
   const bool isFile = own.path == key;
   Diagnostics found;
   IncludeExpander expander(*this, found);
@@ -363,6 +362,11 @@ const Interface& ShaderSource::interfaceWith(std::span<const Define> defines) co
 const Interface& ShaderSource::ofAllBranches() const {
   if (!allBranches_) allBranches_ = std::make_shared<const Interface>(readInterface(text, {}, Branches::all));
   return *allBranches_;
+}
+
+const Conditions& ShaderSource::conditions() const {
+  if (!conditions_) conditions_ = std::make_shared<const Conditions>(conditionsOf(text));
+  return *conditions_;
 }
 
 std::string assembleSource(const ShaderSource& source, std::span<const Define> defines) {

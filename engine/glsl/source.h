@@ -20,6 +20,7 @@
 
 namespace weft::glsl {
 
+struct Conditions;
 struct Interface;
 
 struct Define {
@@ -41,6 +42,7 @@ struct ShaderSource {
   // stays valid until another variant of the same text is asked for.
   const Interface& interfaceWith(std::span<const Define> defines) const;
   const Interface& ofAllBranches() const;
+  const Conditions& conditions() const;  // of the text, read when first asked for
   // Where a line of the text (from 1) was written.
   text::Place placeOf(std::uint32_t textLine, std::uint32_t column = 0) const;
   text::Place placeOfMain() const;  // of the first line where there is none
@@ -48,6 +50,7 @@ struct ShaderSource {
  private:
   mutable std::map<std::string, std::shared_ptr<const Interface>> known_;  // by defines
   mutable std::shared_ptr<const Interface> allBranches_;
+  mutable std::shared_ptr<const Conditions> conditions_;
 };
 
 // The GLSL files below folders, as paths relative to their folder, sorted, each once. Folders that may not be read are left
@@ -85,8 +88,6 @@ class SourceLoader {
   // The files to watch: every path that was read or looked for since forgetTouched(), whether or not it exists.
   const std::set<std::string>& touched() const { return files_.touched(); }
   void forgetTouched() { files_.forgetTouched(); }
-  // Files expanded so far, not answered from the cache.
-  std::uint64_t expansions() const { return expansions_; }
 
  private:
   friend class IncludeExpander;
@@ -97,7 +98,6 @@ class SourceLoader {
 
   std::vector<std::string> roots_;
   text::FileCache files_;
-  std::uint64_t expansions_ = 0;
 };
 
 // "#version 450 core", the defines in the given order, then the source, whose first line the driver calls

@@ -566,7 +566,7 @@ void warnOfConditions(const graph::PassSpec& pass, std::span<const gl::StageSour
   std::set<std::string, std::less<>> known, asked;
   for (const glsl::Define& define : defines) names.push_back(define.name);
   for (const gl::StageSource& stage : stages) {
-    const glsl::Conditions conditions = glsl::conditionsOf(stage.source->text);
+    const glsl::Conditions& conditions = stage.source->conditions();
     const auto warn = [&]<class... Args>(text::Saying<Args...> what, const glsl::Token& word,
                                          Args&&... args) {
       const text::Place place = stage.source->placeOf(word.line, word.column);
@@ -577,6 +577,7 @@ void warnOfConditions(const graph::PassSpec& pass, std::span<const gl::StageSour
     };
     std::set<std::string_view> seen;
     const auto look = [&](const glsl::Token& word, bool valued) {
+      asked.emplace(word.text);
       if (!seen.insert(word.text).second) return;
       const auto define = std::ranges::find(defines, word.text, &glsl::Define::name);
       if (define != defines.end()) {
@@ -600,8 +601,6 @@ void warnOfConditions(const graph::PassSpec& pass, std::span<const gl::StageSour
       if (std::ranges::find(conditions.tested, word.text, &glsl::Token::text) == conditions.tested.end())
         look(word, true);
     for (const glsl::Token& word : conditions.tested) look(word, false);
-    for (const auto* list : {&conditions.valued, &conditions.tested})
-      for (const glsl::Token& word : *list) asked.emplace(word.text);
     for (const graph::DefineSpec& define : pass.defines)
       if (conditions.used.contains(define.name) || asked.contains(define.name)) known.insert(define.name);
   }
