@@ -2,8 +2,9 @@
 // read    materials        @materials
 //         material_maps?   @material_maps as linear wrap
 //         vertex_colors?   @vertex_colors
-//         thing_in_front?  as meshes/forward.frag.glsl writes it: nothing else is drawn
+//         thing_in_front?  see in_front.glsl: nothing else is drawn
 // modify  depth            reversed-Z
+#include "in_front.glsl"
 #include "scene/materials.glsl"
 
 in vec2 map_uv;
@@ -12,15 +13,8 @@ flat in uint row;
 in float own_alpha;
 #endif
 
-#ifdef HAS_THING_IN_FRONT
-uniform usampler2D thing_in_front;
-flat in uint thing;
-#endif
-
 void main() {
-#ifdef HAS_THING_IN_FRONT
-  if (texelFetch(thing_in_front, ivec2(gl_FragCoord.xy), 0).r != thing) discard;
-#endif
+  if (isBehindAnother()) discard;
   Material self = material[row];
   float alpha = self.alpha;
 #ifdef HAS_VERTEX_COLORS
