@@ -227,8 +227,7 @@ class ShaderCheck {
   std::set<std::string> variants;  // by what they are made of
   std::set<std::string> passes;    // of live passes, without the index of a repeat
   DeviceNeeds needs;
-  text::Diagnostics
-      unread;  // why shaders were not looked at (--no-shaders): they, or an include, are missing
+  text::Diagnostics unread;  // why shaders were not looked at: they, or an include, are missing
 
  private:
   bool open(text::Diagnostics& diagnostics) {

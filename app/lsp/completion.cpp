@@ -190,7 +190,7 @@ class Completer {
     }
     for (const Graph* graph : workspace_.graphsOf(text_.path()))
       for (const Program& program : workspace_.programsOf(*graph))
-        if (program.name == textOf(stanza, "name")) return program.files;
+        if (program.name == textOf(stanza, "name")) return workspace_.filesOf(program);
     return {};
   }
 
@@ -235,7 +235,7 @@ class Completer {
         for (const JsonMember& each : found->members) add(each.key, ItemKind::variable);
     if (kind == Kind::resource) inputsOf(root);
     for (const Graph* graph : workspace_.graphsOf(text_.path()))
-      for (const graph::NameUse& use : graph->uses) {
+      for (const graph::NameUse& use : workspace_.usesOf(*graph)) {
         // Of a graph that includes this file, what it declares itself: an expression here may use its parameters.
         const bool own = graph->desc->path == text_.path();
         if (use.kind != kind || use.full.starts_with('@')) continue;
@@ -329,15 +329,16 @@ class Completer {
 
   // Those with the ending that the type of the pass asks for; of a draw the stems of two.
   void shaders(std::string_view key) {
-    const graph::PassType* type = graph::findNamed(registry_.passTypes, textOf(*spot_.stanza(), "type"));
-    if (!type) return;
-    const bool compute = type->shader == graph::ShaderShape::compute;
-    const bool stem = type->shader == graph::ShaderShape::draw && key == "shader";
+    // Of the stanza, or of the set: in a pass without a type, that of its shader.
+    const graph::PassType* type = graph::findNamed(registry_.passTypes, textOf(*spot_.values[2], "type"));
+    const bool compute = type && type->shader == graph::ShaderShape::compute;
+    const bool stem = type && type->shader == graph::ShaderShape::draw && key == "shader";
     const std::string ending = key == "vertex" ? ".vert.glsl" : compute ? ".comp.glsl" : ".frag.glsl";
     const std::vector<std::string> all = glsl::shadersBelow(workspace_.shaderFolders(text_));
     for (const std::string& path : all) {
       const std::string both = path.substr(0, path.size() - std::min(path.size(), ending.size()));
-      if (path.ends_with(ending) && (!stem || std::ranges::binary_search(all, both + ".vert.glsl")))
+      if ((path.ends_with(ending) || (!type && key == "shader" && path.ends_with(".comp.glsl"))) &&
+          (!stem || std::ranges::binary_search(all, both + ".vert.glsl")))
         add(stem ? both : path, ItemKind::file);
     }
   }

@@ -62,16 +62,16 @@ Json hover(const Text& text, const std::string& shown, const Range& range) {
 }
 
 Json inJson(const Workspace& workspace, const Text& text, std::size_t offset) {
-  if (const Named named = namedAt(workspace, text, offset); named.graph)
-    return hover(text, ofNamed(workspace, named), named.here);
   const Spot spot = spotAt(text.json(), offset);
-  if (const auto file = fileAt(workspace, text, offset))
-    return hover(text, fmt::format("`{}`\n", file->path), rangeOf(spot.value()));
   const graph::Registry& registry = workspace.registry();
   if (spot.key)
     for (const KeyDoc& each : keysAt(registry, spot))
       if (each.key == spot.key->key)
         return hover(text, fmt::format("**{}**: {}\n", each.key, each.doc), inside(*spot.key));
+  if (const Named named = namedAt(workspace, text, offset); named.graph)
+    return hover(text, ofNamed(workspace, named), named.here);
+  if (const auto file = fileAt(workspace, text, offset))
+    return hover(text, fmt::format("`{}`\n", file->path), rangeOf(spot.value()));
   std::string shown;
   if (!spot.keys.empty() && spot.keys.back() == "import") shown = docOfImport(registry, spot.value().text);
   if (!spot.keys.empty() && spot.keys.back() == "type")

@@ -137,6 +137,7 @@ class Server {
 
   // To be called when no more messages wait: checks what has changed, and publishes diagnostics.
   void settle() {
+    workspace_.look();
     if (changed_.empty()) return;
     workspace_.check();
     std::map<std::string, text::Diagnostics> said = workspace_.diagnostics();

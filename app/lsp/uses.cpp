@@ -28,7 +28,7 @@ std::vector<Location> keysNamed(const Workspace& workspace, const Program& progr
 // Adds every use of what is declared at `declared`.
 void usesInGraphs(const Workspace& workspace, Uses& uses, const Location& declared) {
   for (const Graph* graph : workspace.graphs())
-    for (const graph::NameUse& use : graph->uses)
+    for (const graph::NameUse& use : workspace.usesOf(*graph))
       if (use.name == uses.name && workspace.locate(use.declared, "") == declared)
         if (const auto location = workspace.locate(use.place, uses.name)) {
           uses.locations.insert(*location);
@@ -94,7 +94,7 @@ std::string problemOf(const Workspace& workspace, const Uses& uses, const std::s
   }
   for (const Graph* graph : workspace.graphs()) {
     if (uses.ofShader) break;
-    for (const graph::NameUse& use : graph->uses)
+    for (const graph::NameUse& use : workspace.usesOf(*graph))
       if (use.name == name && use.kind == uses.kind && use.place == use.declared &&
           std::ranges::any_of(uses.locations,
                               [&](const Location& each) { return each.path == *use.place.file; }))
@@ -146,10 +146,11 @@ Named namedAt(const Workspace& workspace, const Text& text, std::size_t offset) 
         if (take(*graph, key.place, key.name)) {
           named.key = key.name;
           named.program = std::move(program);
+          named.program->files = workspace.filesOf(*named.program);
           break;
         }
     // In a list a name is both.
-    for (const graph::NameUse& use : graph->uses)
+    for (const graph::NameUse& use : workspace.usesOf(*graph))
       if (!use.key && take(*graph, use.place, use.name)) named.use = &use;
     if (named.graph) return named;
   }

@@ -95,18 +95,33 @@ bool Workspace::isPreset(const std::string& path, int depth) const {
 
 // ---- reading ----
 
+void Workspace::look() {
+  std::set<std::string> same;
+  for (auto& [path, text] : seen_)
+    if (const auto before = std::exchange(text, texts_.of(path)); before == text) same.insert(path);
+  const auto isOld = [&](const std::string& file) { return !same.contains(text::absolutePath(file)); };
+  std::erase_if(shared_,
+                [&](const auto& each) { return std::ranges::any_of(each.second.graph->files, isOld); });
+}
+
 void Workspace::read(const std::string& path, Graph& graph) {
-  const auto isSame = [&](const auto& known) { return texts_.of(known.first) == known.second; };
+  const auto textOf = [&](const std::string& file) {
+    const auto [text, fresh] = seen_.try_emplace(file);
+    if (fresh) text->second = texts_.of(file);
+    return text->second;
+  };
+  const auto isSame = [&](const auto& known) { return textOf(known.first) == known.second; };
   if (graph.read && std::ranges::all_of(graph.texts, isSame)) return;  // what could not be read is read again
   graph.readSaid.clear();
-  graph.read = graph::readGraph(path, graph.readSaid, {.mostFileBytes = Text::kMaxBytes});
+  graph.read = graph::readGraph(path, graph.readSaid, {.mostFileBytes = Text::kMaxBytes, .shared = &shared_});
   if (graph.read || !graph.desc) graph.texts.clear();
   graph.texts[path];
   if (graph.read)
     for (const std::string& file : graph.read->files) graph.texts[text::absolutePath(file)];
-  for (auto& [file, text] : graph.texts) text = texts_.of(file);
+  for (auto& [file, text] : graph.texts) text = textOf(file);
   if (!graph.read || (graph.desc && graph.readSaid.contains(text::Code::notJson))) return;
   graph.desc = graph.read;
+  graph.uses.reset();
 }
 
 void Workspace::readAll() {
@@ -120,7 +135,6 @@ void Workspace::readAll() {
     Graph& graph = graphs_[path];
     read(path, graph);
     if (!graph.desc) continue;
-    if (graph.used != graph.desc) graph.uses = graph::findNameUses(*(graph.used = graph.desc), registry_);
     graph.shaderFolders = runtime::shaderRootsOf(graph.desc->files, dataFolder());
     graph::eachPass(*graph.desc, [&](const std::string&, const graph::PassDesc& pass) {
       if (pass.include && pass.include->graph) included.insert(text::absolutePath(pass.include->graph->path));
@@ -138,6 +152,11 @@ std::vector<const Graph*> Workspace::graphsOf(const std::string& path) const {
   for (const auto& [root, graph] : graphs_)
     if (graph.desc && graph.texts.contains(path)) found.push_back(&graph);
   return found;
+}
+
+const std::vector<graph::NameUse>& Workspace::usesOf(const Graph& graph) const {
+  if (!graph.uses) graph.uses = graph::findNameUses(*graph.desc, registry_);
+  return *graph.uses;
 }
 
 std::optional<Location> Workspace::locate(const text::Place& place, std::string_view name) const {
@@ -228,16 +247,19 @@ std::vector<std::string> Workspace::shaderFiles(const std::string& shader, const
 std::vector<Program> Workspace::programsOf(const Graph& graph) const {
   std::vector<Program> found;
   graph::eachPass(*graph.desc, [&](const std::string& name, const graph::PassDesc& pass) {
-    if (!pass.include)
-      found.push_back({&graph, &pass, name, keysOf(pass),
-                       shaderFiles(pass.shader, pass.vertexShader, graph.shaderFolders)});
+    if (!pass.include) found.push_back({&graph, &pass, name, keysOf(pass)});
   });
   return found;
+}
+
+std::vector<std::string> Workspace::filesOf(const Program& program) const {
+  return shaderFiles(program.pass->shader, program.pass->vertexShader, program.graph->shaderFolders);
 }
 
 std::vector<Program> Workspace::programs() const {
   std::vector<Program> found;
   for (const Graph* graph : roots_) std::ranges::move(programsOf(*graph), std::back_inserter(found));
+  for (Program& program : found) program.files = filesOf(program);
   return found;
 }
 

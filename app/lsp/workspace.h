@@ -33,8 +33,7 @@ struct Graph {
   text::Diagnostics readSaid;
   // As all of them could be read last; places may be those of older texts.
   std::shared_ptr<const graph::GraphDesc> desc;
-  std::shared_ptr<const graph::GraphDesc> used;
-  std::vector<graph::NameUse> uses;  // of `used`: `desc`, after readAll()
+  mutable std::optional<std::vector<graph::NameUse>> uses;  // of `desc`, once asked for: Workspace::usesOf()
   std::vector<std::string> shaderFolders;
   // Of a graph that is open and belongs to no other:
   bool checked = false;
@@ -56,7 +55,7 @@ struct Program {
   const graph::PassDesc* pass = nullptr;
   std::string name;  // of the pass in the plan
   std::vector<ShaderKey> keys;
-  std::vector<std::string> files;
+  std::vector<std::string> files{};
   bool has(const std::string& file) const { return std::ranges::find(files, file) != files.end(); }
 };
 
@@ -73,6 +72,8 @@ class Workspace {
   const Texts& texts() const { return texts_; }
   const graph::Registry& registry() const { return registry_; }
 
+  // To be called first: files may have changed since the last call.
+  void look();
   // Checks the open graphs that no other open graph includes or extends, and all that include each other in a circle.
   void check();
   // What the last check() said of each file, each message once.
@@ -84,12 +85,15 @@ class Workspace {
   const std::vector<const Graph*>& graphs() const { return roots_; }
   // All that have this file.
   std::vector<const Graph*> graphsOf(const std::string& path) const;
+  // The uses of names in a graph that could be read.
+  const std::vector<graph::NameUse>& usesOf(const Graph& graph) const;
   // A place of a graph, unless the text has another name there now.
   std::optional<Location> locate(const text::Place& place, std::string_view name) const;
 
-  // The programs of all graphs, and of one.
+  // The programs of all graphs; of one, without their files; and the files of one.
   std::vector<Program> programs() const;
   std::vector<Program> programsOf(const Graph& graph) const;
+  std::vector<std::string> filesOf(const Program& program) const;
   // Folders in which the shaders of a file are looked for.
   std::vector<std::string> shaderFolders(const Text& text) const;
   glsl::SourceLoader& sources(const std::vector<std::string>& folders) const;
@@ -110,6 +114,9 @@ class Workspace {
   graph::Registry registry_;
   std::vector<std::string> folders_;
   std::map<std::string, Graph> graphs_;
+  // Texts as look() found them or as they were read since, and what was read of them.
+  std::map<std::string, std::shared_ptr<const Text>> seen_;
+  graph::ReadFiles shared_;
   std::vector<const Graph*> roots_;
   mutable std::map<std::vector<std::string>, glsl::SourceLoader> sources_;  // by folders
 };

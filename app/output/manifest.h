@@ -37,8 +37,7 @@ class Manifest {
 
   std::string path_, settings_;
   nlohmann::ordered_json about_;
-  std::map<std::uint32_t, nlohmann::ordered_json>
-      done_;  // the files of frames with these settings, and their hashes
+  std::map<std::uint32_t, nlohmann::ordered_json> done_;  // files of frames with these settings; hashes
   std::set<std::uint32_t> others_;
 };
 

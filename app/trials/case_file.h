@@ -24,9 +24,8 @@ struct TestCase {
   bool plan = false;  // compares the plan as text, not pictures
   std::vector<std::uint32_t> frames = {0};
   Tolerance tolerance;
-  std::string mask;  // a picture: what is black in it does not count
-  std::map<std::string, text::Place>
-      settingPlaces;  // by the option that stands for the setting: "--set bloom=false"
+  std::string mask;                                  // a picture: what is black in it does not count
+  std::map<std::string, text::Place> settingPlaces;  // by the option for it: "--set bloom=false"
 
   // Beside the case file.
   std::string goldenOf(std::uint32_t frame) const;

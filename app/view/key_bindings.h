@@ -23,8 +23,8 @@ struct KeyBinding {
   WithKey with =
       WithKey::nothing;  // without anything, the key does so with Shift, too, where that has no other row
   std::string keys;      // as a person reads it: "Shift F12"
-  std::string verb,
-      name;  // "do" an action, "toggle" or "step" a parameter, "show" a pick, "open" a file; "": only listed
+  // "do" an action, "toggle" or "step" a parameter, "show" a pick, "open" a file; "": only listed.
+  std::string verb, name;
   double by = 1;                    // of a step
   std::size_t as = 0, channel = 0;  // of what is shown: InspectColors, and 4: distance; InspectChannel
   std::optional<double> low, high;  // values shown black and white

@@ -26,12 +26,11 @@ struct ViewOptions : Options {
   bool waitForAssets = false;       // before the first frame
   bool events = false;              // says what happens, for scripts
   bool idle = false;
-  double renderScale = 1;  // pixels of the scene per pixel of the window
-  std::optional<double>
-      movingScale;  // of that, while the camera is moved; without it by the time of frames, and 1 for scripts
-  double uiScale = 0;        // 0: as the screen says
-  std::string editor;        // its command; empty: the one of the environment
-  std::optional<int> serve;  // the port of a page of the frame, 0 for any
+  double renderScale = 1;             // pixels of the scene per pixel of the window
+  std::optional<double> movingScale;  // of that, while the camera moves; else by time, and 1 for scripts
+  double uiScale = 0;                 // 0: as the screen says
+  std::string editor;                 // its command; empty: the one of the environment
+  std::optional<int> serve;           // the port of a page of the frame, 0 for any
   // Where things were in the run before: the corner of the window, and what its panels and their tables say.
   int corner[2] = {INT_MIN, INT_MIN};
   std::string panelPlaces, tables;

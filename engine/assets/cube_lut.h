@@ -20,8 +20,7 @@ struct CubeLut {
   std::array<float, 3> domainMin{0, 0, 0};  // input that hits the first entry
   std::array<float, 3> domainMax{1, 1, 1};  // input that hits the last entry
   std::vector<float> texels;                // RGB triples, red fastest, size or size^3 of them; finite
-  std::shared_ptr<const CubeLut>
-      shaper{};  // 1D: what is looked up in this table is looked up in that one first
+  std::shared_ptr<const CubeLut> shaper{};  // 1D: what is looked up here is looked up in that one first
 };
 
 std::optional<CubeLut> loadCubeLut(const std::string& path, text::Diagnostics& diagnostics);

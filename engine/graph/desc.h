@@ -115,8 +115,7 @@ struct ResourceDesc {
   // buffer
   Expr bytes;
   // all but alternatives
-  std::optional<RefDesc>
-      sample;  // how it is sampled, unless a slot says; of an input as written, "hdr as linear"
+  std::optional<RefDesc> sample;  // how, unless a slot says; of an input as written, "hdr as linear"
   // both; an input has history, first and reset
   Expr clear;                       // version zero
   Expr history;                     // depth n, absent: 0
@@ -202,8 +201,7 @@ struct PassDesc : PassHead {
   std::vector<SlotDesc> slots;  // in file order
   std::vector<PassParameterDesc> parameters;
   std::vector<NamedExpr> defines;
-  std::vector<NamedExpr>
-      state;  // "cull", "blend" (all slots), "blend.radiance" (one slot), "stencil.pass", …
+  std::vector<NamedExpr> state;  // "cull", "blend" (all slots), "blend.radiance" (one slot), …
   Cadence cadence = Cadence::always;
   Expr period;  // of Cadence::every: frames
   Expr slices, threads, instances, draws, raster, samples, screen;
@@ -274,10 +272,9 @@ struct GraphDesc : FileDesc {
   std::vector<PassDesc> passes;
   std::optional<RefDesc> present;
   std::vector<OutputDesc> outputs;
-  std::vector<SetDesc> sets;  // in order: the last wins
-  std::vector<std::string>
-      unread;       // declared names that were reported and left out: a use is no second error
-  FileTexts texts;  // of the graph that was asked for: all its files; included ones: some
+  std::vector<SetDesc> sets;        // in order: the last wins
+  std::vector<std::string> unread;  // declared names that were reported: a use is no second error
+  FileTexts texts;                  // of the graph that was asked for: all its files; included ones: some
 };
 
 // What a person names to look at in a graph that runs: engine/graph/pick/pick.h.

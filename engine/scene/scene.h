@@ -102,11 +102,9 @@ struct Lamp {
   std::string name;
   glm::vec3 position{0};
   glm::vec3 intensity{1};  // linear RGB radiant intensity: irradiance at distance d is intensity / d²
-  float range =
-      0;  // over 0: no light beyond. A scene file without it: where irradiance falls below kMinIrradiance
-  glm::vec3 direction{0, -1, 0};  // unit, from the lamp; of a spot
-  float cosInner = -1,
-        cosOuter = -1;  // full light within the inner, none outside the outer half angle; -1: all round
+  float range = 0;         // over 0: no light beyond; by default where irradiance falls below kMinIrradiance
+  glm::vec3 direction{0, -1, 0};       // unit, from the lamp; of a spot
+  float cosInner = -1, cosOuter = -1;  // of half angles: full light within, none outside; -1: all round
   bool shadow = false;
   float radius = 0;  // world units: of the ball that shines, for soft shadows
   // What it stands on: position and direction are in this node's coordinates then. Lengths are not scaled. None: the world.

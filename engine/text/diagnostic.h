@@ -74,8 +74,7 @@ const char* nameOf(Severity severity);  // "note", "warning", "error"
 struct Diagnostic {
   Severity severity = Severity::error;
   Code code{};
-  std::string
-      message;  // one sentence, no full stop, names the thing: "pass 'fxaa' reads unknown resource 'ldrr'"
+  std::string message;  // one sentence, no full stop, names the thing: "pass 'fxaa' reads unknown 'ldrr'"
   Where place{};
   // All may be empty.
   std::string expected{};  // "a number from 0 to 8"

@@ -122,8 +122,7 @@ class Buffer : public Owner<ObjectKind::buffer> {
 };
 
 struct Attachment {
-  GLenum point =
-      GL_COLOR_ATTACHMENT0;  // or GL_DEPTH_ATTACHMENT, GL_STENCIL_ATTACHMENT, GL_DEPTH_STENCIL_ATTACHMENT
+  GLenum point = GL_COLOR_ATTACHMENT0;  // or one of depth, stencil or both
   GLuint texture = 0;
   std::uint32_t mip = 0;
   std::int32_t layer = -1;  // -1: the whole level (layered when it has layers); else one layer, face or slice

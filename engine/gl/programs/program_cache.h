@@ -33,10 +33,9 @@ constexpr const char* kTrialWord = "try-program";
 constexpr std::uint64_t kMaxTrialBytes = 768ull << 20;  // that a program may take to compile
 
 struct Trials {
-  std::vector<std::string>
-      command;                // the executable and what comes before kTrialWord; empty: nothing is tried
-  std::uint64_t seconds = 0;  // of processor time for each, whatever was tried before
-  bool died = false;          // from then on nothing is tried: a graph of such shaders is not waited for
+  std::vector<std::string> command;  // the executable and what comes before kTrialWord; empty: no trials
+  std::uint64_t seconds = 0;         // of processor time for each, whatever was tried before
+  bool died = false;  // from then on nothing is tried: a graph of such shaders is not waited for
 };
 
 // False after an error (W204): the driver did not survive the program, or another one before. True also when no process or context

@@ -14,8 +14,7 @@ namespace {
 void thinOut(const std::vector<HazardInterval>& hazards, std::int32_t circle, std::int32_t anchor,
              std::vector<std::int32_t>& points) {
   constexpr std::int32_t kFar = std::numeric_limits<std::int32_t>::max();
-  // Unrolled from anchor + 1 to anchor + circle: the nearest end of the intervals that begin at each
-  // position.
+  // Unrolled from anchor + 1 to anchor + circle: the nearest end of the intervals that begin at each place.
   std::vector<std::int32_t> nearest(static_cast<std::size_t>(circle), kFar);
   for (const HazardInterval& h : hazards) {
     const std::int32_t offset = ((h.lo - anchor - 1) % circle + circle) % circle;

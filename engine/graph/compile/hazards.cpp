@@ -9,8 +9,7 @@
 // The barriers are safe whichever passes run, and have no redundant bits when all passes run, with two exceptions in
 // which safety wins. One is a history none of whose writers is `always`, read after a first writer that does not store
 // and before a later one that does: a frame without writers then needs a bit that a frame with all of them does not.
-// The other is what a time-sliced group writes: its copies change places at times that the plan does not know, so they
-// count as one.
+// The other is what a time-sliced group writes: its copies, which change places at unknown times, count as one.
 #include <algorithm>
 #include <bit>
 #include <limits>

@@ -35,15 +35,13 @@ struct NameUse {
   std::string name;  // one part of a dotted name
   std::string full;  // what it means, as a plan calls it; "@sun" of an import that no file declares
   Place place;       // of the first character
-  bool key =
-      false;  // an item of a list "bind" by what it is bound to: the other use of this place is what it names
-  Place
-      declared;  // of that of the declaration; without a file where there is none. An include without "as" is declared
-                 // by the opening quote of its path
+  bool key = false;  // of an item of a list "bind", what it is bound to; what it names is another use here
+  // Of the first character of the declaration; without a file where there is none. An include without "as" is declared by
+  // the opening quote of its path.
+  Place declared;
 };
 
-// In each file once, by file, place and `key`; declarations are among them. A name that means nothing is left out. The graph may have
-// mistakes.
+// In each file once, by file, place and `key`, with declarations. Names that mean nothing are left out; mistakes do no harm.
 std::vector<NameUse> findNameUses(const GraphDesc& desc, const Registry& registry);
 
 }  // namespace weft::graph

@@ -15,9 +15,9 @@ namespace {
 
 using UseOf = NameUse::Kind;
 
-using NamePlace = std::tuple<std::string, std::uint32_t, std::uint32_t, bool>;
+using NamePlace = std::tuple<std::string_view, std::uint32_t, std::uint32_t, bool>;
 NamePlace orderOf(const Place& place, bool key = false) {
-  return {place.file ? *place.file : "", place.line, place.column, key};
+  return {place.file ? std::string_view(*place.file) : "", place.line, place.column, key};
 }
 
 Place insideOf(const Place& quote) {

@@ -335,8 +335,7 @@ class Evaluator {
     return unknown(node, fmt::format("unknown value '{}'", node.name), EvalScope::NameKind::builtin, "");
   }
 
-  // False, with a message, when one side is a choice parameter and the other a word that is none of its
-  // choices.
+  // False, with a message, when one side is a choice parameter and the other a word that is no choice of it.
   bool choicesFit(const ExprNode& node) {
     return choiceFits(*node.children[0], *node.children[1]) &&
            choiceFits(*node.children[1], *node.children[0]);

@@ -64,9 +64,8 @@ struct ExprNode {
   std::uint8_t part = kWholeValue;  // of a value of an import: as ImportValue
   bool folded = false;              // nothing in it is left to fold
   std::uint32_t key = 0;            // of a parsed fact: bytes from `place` to the resource, without its @
-  std::uint32_t terms =
-      1;              // number of nodes from here down; a node that stands in several places counts in each
-  text::Place place;  // of the token to blame: the operator, the name, the function
+  std::uint32_t terms = 1;          // nodes from here down; one that stands in several places counts in each
+  text::Place place;                // of the token to blame: the operator, the name, the function
   Value value{};
   std::string name{};
   std::vector<std::shared_ptr<const ExprNode>> children{};

@@ -1,5 +1,4 @@
-// Why a plan is as it is, the words that all printed forms share, and what a plan knows of one name, for `weft explain`. Declared in
-// print.h.
+// Why a plan is as it is, words that all printed forms share, what a plan knows of a name (`weft explain`). Declared in print.h.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

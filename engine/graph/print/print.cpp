@@ -373,8 +373,7 @@ std::vector<PlanFact> planFactsOf(const Json& data, const std::set<std::string>&
 std::string diffText(const Plan& before, const Plan& after) {
   const Json was = dataOf(before, false), now = dataOf(after, false);
   const std::set<std::string> kept = findKept(was, now);
-  std::vector<std::pair<PlanFact, PlanFact>>
-      pairs;  // what only one of the plans has is not there in the other
+  std::vector<std::pair<PlanFact, PlanFact>> pairs;  // one is not there where only the other plan has it
   std::map<std::string, std::size_t> known;
   for (PlanFact& fact : planFactsOf(was, kept)) {
     known.emplace(fact.name, pairs.size());

@@ -76,9 +76,8 @@ constexpr std::uint64_t kMaxShared = 262'144;  // values of sets, counted for ea
 struct Spot {
   std::vector<std::string> below;  // the prefixes of the includes that it begins with, from the source down
   std::string own;                 // what is left of the name, in the file at their end
-  std::optional<std::size_t> index =
-      {};               // there, among the members of the section or the stanzas of "passes"
-  Place declared = {};  // of its name there
+  std::optional<std::size_t> index = {};  // there, among members of the section or stanzas of "passes"
+  Place declared = {};                    // of its name there
 };
 
 const JsonValue* sectionOf(const Source& source, std::string_view section) {
@@ -156,8 +155,7 @@ class Applier {
     }
   }
 
-  // In a file that extends no other: its stanzas that say where they stand are laid over the others, in an order in which each
-  // finds what it names.
+  // In a file that extends no other: lays stanzas that say where they stand over the others, each after what it names.
   void place() {
     JsonMember* const passes = memberOf(target_.root, "passes");
     const auto says = [](const JsonValue& stanza) { return anchorOf(stanza) || stanza.find("remove"); };
@@ -226,8 +224,7 @@ class Applier {
 
   // ---- what is below ----
 
-  // The file behind an include, as it is changed so far; null for another stanza, and for a circle, which is the reader's to
-  // report.
+  // The file behind an include, as it is changed so far; null for another stanza, and for a circle, which the reader reports.
   std::shared_ptr<const Source> fileOf(const Source& source, const JsonValue& stanza) const {
     const JsonValue* include = stanza.find("include");
     if (!include || !include->is(Type::string)) return nullptr;
@@ -598,7 +595,8 @@ std::string identityOf(const std::string& path) {
   // What may not be read is not followed either: it is what it is called.
   if (!text::mayRead(path)) return std::filesystem::path(path).lexically_normal().string();
   std::error_code ec;
-  const auto canonical = std::filesystem::weakly_canonical(path, ec);
+  auto canonical = std::filesystem::canonical(path, ec);
+  if (ec) canonical = std::filesystem::weakly_canonical(path, ec);  // slower; of one that is not there
   return ec ? path : canonical.string();
 }
 

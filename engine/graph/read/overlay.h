@@ -20,8 +20,7 @@ constexpr std::size_t kMaxInRow = 64;  // files that include each other, and ove
 // A file, extended and overlaid.
 struct Source : FileDesc {
   std::string identity;  // canonical path, so that two spellings of one file are recognized
-  text::JsonValue root;  // whatever stands in the file; no "extends" and "set", no stanza of an
-                         // overlay
+  text::JsonValue root;  // what stands in the file, without "extends", "set" and stanzas of overlays
   struct Set {
     text::JsonMember member;
     Origin origin = Origin::file;

@@ -24,9 +24,10 @@ using Type = JsonValue::Type;
 class GraphReader {
  public:
   GraphReader(Diagnostics& diagnostics, const ReadOptions& options)
-      : diagnostics_(diagnostics), loader_(diagnostics, options) {}
+      : diagnostics_(diagnostics), loader_(diagnostics, options), shared_(options.shared) {}
 
   std::shared_ptr<const GraphDesc> readWith(const std::string& path, std::span<const std::string> presets) {
+    if (presets.empty()) return readBelow(path, {}).graph;
     std::shared_ptr<const Source> source = loader_.file(path, {});
     for (const std::string& preset : presets)
       if (source)
@@ -35,26 +36,24 @@ class GraphReader {
   }
 
  private:
-  // A file with everything below it: each use of a file counts, because each is expanded for itself.
-  struct Weighed {
-    std::shared_ptr<const GraphDesc> graph;  // null when it could not be read
-    std::uint64_t files = 1, values = 0;
-    std::uint64_t depth = 1;  // of files in a row
-  };
-
-  Weighed readBelow(const std::string& path, const Place& from) {
+  ReadFile readBelow(const std::string& path, const Place& from) {
     const std::string identity = identityOf(path);
     if (const auto known = finished_.find(identity); known != finished_.end()) return known->second;
+    if (identity != path) shared_ = nullptr;  // a file of two names has one description in a graph
+    if (shared_ && shared_->contains(path)) return finished_[identity] = shared_->at(path);
     const std::shared_ptr<const Source> source = loader_.file(path, from);
-    return finished_[identity] = source ? readSource(*source) : Weighed{};
+    const ReadFile made = source ? readSource(*source) : ReadFile{};
+    // Nothing was said so far: all that is below is there, too.
+    if (shared_ && made.graph && diagnostics_.empty()) shared_->emplace(path, made);
+    return finished_[identity] = made;
   }
 
-  Weighed readSource(const Source& source) {
+  ReadFile readSource(const Source& source) {
     open_.emplace_back(source.identity, source.path);
-    Weighed before = std::exchange(weight_, {.graph = nullptr, .values = source.values});
+    ReadFile before = std::exchange(weight_, {.graph = nullptr, .values = source.values});
     std::shared_ptr<const GraphDesc> graph = readRoot(source);
     open_.pop_back();
-    Weighed made = std::exchange(weight_, std::move(before));
+    ReadFile made = std::exchange(weight_, std::move(before));
     made.graph = std::move(graph);
     return made;
   }
@@ -205,7 +204,7 @@ class GraphReader {
     }
     if (exceeds(kMaxInRow, "files in a row", open_.size() + 1, stanza)) return;
     const auto changed = source.changed.find(include.as);
-    Weighed below =
+    ReadFile below =
         changed != source.changed.end() ? readSource(*changed->second) : readBelow(path, stanza.place);
     if (tooMuch_) return;
     // A file that was read before may stand deeper here.
@@ -238,8 +237,9 @@ class GraphReader {
   Diagnostics& diagnostics_;
   SourceLoader loader_;
   std::vector<std::pair<std::string, std::string>> open_;  // identity and path of a chain of includes
-  std::map<std::string, Weighed> finished_;                // by identity
-  Weighed weight_;                                         // of the file that is being read, so far
+  ReadFiles finished_;                                     // by identity
+  ReadFiles* shared_;                                      // ReadOptions::shared
+  ReadFile weight_;                                        // of the file that is being read, so far
   bool tooMuch_ = false;
 };
 

@@ -572,8 +572,7 @@ bool readPassInto(ReadContext& context, const JsonValue& value, const JsonValue&
       out.*each.text = found->text;
       out.*each.place = found->place;
     }
-  // The rest of a stanza whose name cannot be one is checked too. Nothing refers to passes by slots, so no second mistake comes
-  // of another name.
+  // The rest of a stanza whose name cannot be one is checked too: nothing refers to passes by slots.
   if (const JsonValue* name = valueIn(value, "name");
       name && !context.checkName(out.name, name->place, {.noun = "a pass", .ofFile = true})) {
     out.name.insert(0, "_");

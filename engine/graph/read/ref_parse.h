@@ -17,12 +17,10 @@ namespace weft::graph {
 constexpr std::array<std::string_view, 7> kSamplerWords = {"linear", "nearest", "clamp",  "wrap",
                                                            "mirror", "border",  "compare"};
 
-// `text` stands at `place`. Empty after Code::badReference, or Code::badExpression inside an index or a condition; stops at the
-// first.
+// `text` stands at `place`. Empty after one Code::badReference, or Code::badExpression inside an index or a condition.
 std::optional<RefDesc> parseRef(std::string_view text, const Place& place, text::Diagnostics& diagnostics);
 
-// Tells "@cut" and "camera if $progressive" from "size(hdr)" and "$taa ? 1 : 0" where both may stand
-// ("reset").
+// Tells "@cut" and "camera if $progressive" from "size(hdr)" and "$taa ? 1 : 0", which both may stand at "reset".
 bool looksLikeRef(std::string_view text);
 
 // "quad", "icosphere($subdivision)": a word and its arguments. Empty after Code::badExpression or Code::badReference.

@@ -98,15 +98,13 @@ class FrameCadence {
 
   const graph::Plan& plan_;
   std::uint32_t frame_ = 0;
-  std::vector<PassMemory> memories_,
-      latches_;                         // per step; latches: the inputs with which a time-sliced group began
-  std::vector<std::uint32_t> groupOf_;  // per step, kNone
+  std::vector<PassMemory> memories_, latches_;  // per step; latches: of inputs, when a sliced group began
+  std::vector<std::uint32_t> groupOf_;          // per step, kNone
   std::vector<Group> groups_;
   std::vector<SliceRange> slices_;
   std::vector<std::uint8_t> run_, wants_, ran_;  // per step
-  std::vector<std::uint8_t> written_,
-      blocked_;  // per resource, within decide(): a running step writes it; it is not there
-  std::vector<std::uint8_t> alwaysWritten_;  // per resource
+  std::vector<std::uint8_t> written_, blocked_;  // per resource, in decide(): by a running step; not there
+  std::vector<std::uint8_t> alwaysWritten_;      // per resource
 };
 
 }  // namespace weft::runtime

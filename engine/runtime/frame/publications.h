@@ -85,10 +85,9 @@ class Publications {
   FrameInput input_;
   std::uint64_t framesRun_ = 0, nextGeneration_ = 1;
   std::vector<std::uint64_t> generations_, generationsBefore_;  // per resource
-  std::vector<std::uint8_t>
-      publishing_;                    // per resource: a pass that is not `always` publishes it in this frame
-  std::vector<std::uint8_t> turned_;  // per resource: rotated in this round
-  std::vector<std::uint8_t> made_;    // per resource: the world's, or some pass writes it
+  std::vector<std::uint8_t> publishing_;   // per resource: a pass that is not `always` publishes it now
+  std::vector<std::uint8_t> turned_;       // per resource: rotated in this round
+  std::vector<std::uint8_t> made_;         // per resource: the world's, or some pass writes it
   std::vector<std::uint64_t> resetState_;  // per history: hash of what resets it
 };
 

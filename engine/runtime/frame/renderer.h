@@ -59,10 +59,9 @@ assets::Image8 toBytes(const assets::ImageF& picture);
 class Renderer {
  public:
   struct Options {
-    std::string dataFolder;   // holds graphs/ and shaders/
-    std::string cacheFolder;  // of program binaries; empty: none
-    std::vector<std::string>
-        trial{};  // starts a process that tries a large shader first (gl::ProgramCache); empty: none
+    std::string dataFolder;              // holds graphs/ and shaders/
+    std::string cacheFolder;             // of program binaries; empty: none
+    std::vector<std::string> trial{};    // starts a process that tries a large shader; empty: none
     std::vector<std::string> presets{};  // overlays laid over the graph whenever it is read, in order
     PlugIns plugIns{};                   // pass types and imports that graphs may name
     graph::CompileOptions compile{};     // another order or storage, for those who test plans

@@ -19,8 +19,7 @@ struct SceneChoice {
   // Becomes the first, the default one; unknown: W160. A name, or a place to look from, a point to look at and, where they are not
   // those of the first camera, degrees of view and the near plane: "X,Y,Z,X,Y,Z,60,0.1".
   std::string camera;
-  std::string
-      materials;  // path of a library that takes the place of the grid's `materials`; without a grid: W161
+  std::string materials;  // path of a library in place of the grid's `materials`; without a grid: W161
 };
 
 // A model file (.gltf, .glb, .obj, .fbx) is a scene too: the model at its own coordinates with its first animation, cameras that frame

@@ -46,8 +46,7 @@ class WorldTransforms {
   At now_, previous_;
   std::vector<std::uint8_t> moves_;
   std::vector<std::uint32_t> moving_;  // rows that move, ascending
-  std::vector<std::size_t>
-      parts_;  // of moving_, which need nothing of each other: where each begins, and the end
+  std::vector<std::size_t> parts_;     // of moving_, independent ones: where each begins, and the end
   std::uint64_t placed_ = 0;
 };
 

@@ -208,6 +208,10 @@ std::nullopt_t reportUnread(const std::string& path, std::string_view why, const
 }  // namespace
 
 std::string absolutePath(const std::string& path) {
+  // Most are absolute, and a language server asks for thousands.
+  const auto has = [&](const char* part) { return path.find(part) != path.npos; };
+  if (path.starts_with('/') && path.size() > 1 && !path.ends_with('/') && !has("//") && !has("/."))
+    return path;
   std::error_code ec;
   const fs::path absolute = fs::absolute(path, ec);
   std::string text = (ec ? fs::path(path) : absolute).lexically_normal().string();

@@ -21,8 +21,7 @@ namespace weft::text {
 class FileCache {
  public:
   struct Entry {
-    std::vector<FileStamp>
-        stamps;  // of the files that took part, and of places that were looked at before, from before they were read
+    std::vector<FileStamp> stamps;  // from before reading: of the files, and of places looked at before
     std::shared_ptr<const void> made;
     Diagnostics said{};
   };

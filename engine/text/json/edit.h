@@ -12,8 +12,7 @@
 
 namespace weft::text {
 
-// A text and its tree. Each change gives the whole changed text; what it is given as `json` is JSON text. The text must outlive
-// it.
+// A text, which must outlive it, and its tree. Each change gives the whole changed text; `json` is JSON text.
 class JsonEdit {
  public:
   explicit JsonEdit(std::string_view text);

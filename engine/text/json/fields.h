@@ -35,8 +35,7 @@ bool expectType(const JsonValue& value, std::string_view name, JsonValue::Type t
 
 class JsonFields {
  public:
-  // `what` names the object in messages: "camera 'front'". Reports W003 when `object` is not an object; then it has
-  // no members.
+  // `what` names the object in messages: "camera 'front'". Reports W003 when `object` is none; then it has no members.
   JsonFields(const JsonValue& object, std::string what, Code rangeCode, Diagnostics& diagnostics);
 
   // The member, or null.

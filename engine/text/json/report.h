@@ -1,5 +1,4 @@
-// What is printed of many diagnostics, and for other programs: JSON of Weft's own, and SARIF 2.1.0, which code hosts and editors
-// read.
+// What is printed of many diagnostics, and for other programs: JSON of Weft's own, and SARIF 2.1.0 for code hosts and editors.
 #pragma once
 
 #include <cstdint>

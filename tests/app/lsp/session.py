@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """`weft lsp` by a scripted session: each line of session.jsonl is a step, with the places that are asked about and what is expected
-there. Then names of the bundled graphs are renamed, and a folder of shaders comes and goes.
+there. Then names of the bundled graphs are renamed, a folder of shaders comes and goes, and files change under a server.
 
     session.py WEFT
 
@@ -13,6 +13,7 @@ A place is LINE:CHARACTER, both from 0, characters in UTF-16; a range is FROM-TO
 """
 import json
 import pathlib
+import re
 import shutil
 import sys
 
@@ -169,10 +170,69 @@ def check_renames(weft, report, folder):
             report.check((tree(folder) == before) == (new == word), f"{name}: {old} to {new}, and the files are {'other' if new == word else 'the same'}")
 
 
+def check_kept(weft, report, folder):
+    """What a server keeps of files that it has read gives the answers of one that has just begun."""
+    texts = {
+        "part.json": '{"inputs": ["hdr"], "parameters": {"force": {"default": 1, "max": 2}}, "resources": {"own": {"texture": "rgba16f", "size": "size(hdr)"}},\n'
+                     ' "passes": [{"name": "q", "type": "blit", "read": {"source": "hdr"}, "write": {"destination": "own"}}]}',
+        "over.json": '{"inputs": ["hdr"], "resources": {"a": {"texture": "rgba16f", "size": "size(hdr)"}}, "passes": [{"include": "part.json"},\n'
+                     ' {"name": "mix", "type": "blit", "enabled": "$part.force > 0.5", "read": {"source": "part.own"}, "write": {"destination": "a"}}]}',
+        "root.json": '{"resources": {"hdr": {"texture": "rgba16f", "size": "screen", "clear": 0}, "o": {"texture": "rgba16f", "size": "screen"}},\n'
+                     ' "passes": [{"include": "over.json"}, {"include": "part.json", "as": "d"},\n'
+                     '  {"name": "mix", "type": "blit", "read": {"source": "over.a"}, "write": {"destination": "o"}}], "present": "o"}',
+        "also.json": '{"extends": "root.json", "set": {"over.part.force": 2}}'}
+    for name, text in texts.items():
+        (folder / name).write_text(text)
+    open_texts = {}
+
+    def start():
+        editor = Editor(weft, folder)
+        editor.ask("initialize", {"capabilities": {}, "rootUri": editor.uri("")})
+        for name, text in open_texts.items():
+            editor.open(name, text)
+        return editor
+
+    def answers(editor):
+        found = []
+        for name in texts:
+            text = open_texts.get(name) or (folder / name).read_text()
+            for quote in re.finditer('"', text):
+                line = text.count("\n", 0, quote.end())
+                where = editor.at(name, f"{line}:{quote.end() - text.rfind(chr(10), 0, quote.end()) - 1}")
+                found += [editor.ask(f"textDocument/{method}", where).get("result") for method in ("hover", "definition", "references")]
+        said = {name: sorted(json.dumps(d, sort_keys=True) for d in each["diagnostics"]) for name, each in editor.published.items() if each["diagnostics"]}
+        return said, found
+
+    old = start()
+    part, renamed = texts["part.json"], texts["part.json"].replace("force", "other")
+    steps = [("open", "root.json", texts["root.json"]), ("change", "root.json", texts["root.json"] + "\n"), ("save", "part.json", "\n\n" + part),
+             ("change", "root.json", "\n" + texts["root.json"]), ("save", "part.json", renamed), ("save", "part.json", part), ("open", "part.json", part),
+             ("change", "part.json", "\n" + renamed), ("change", "part.json", part[:40]), ("change", "part.json", "\n\n\n" + part),
+             ("save", "over.json", "\n" + texts["over.json"]), ("close", "part.json", None)]
+    for number, (what, name, text) in enumerate(steps):
+        if what == "save":
+            (folder / name).write_text(text)
+            old.change("root.json", [(None, old.texts["root.json"] + " ")])  # nothing tells the server, so it looks when it is asked
+            open_texts["root.json"] = old.texts["root.json"]
+        elif what == "close":
+            old.tell("textDocument/didClose", {"textDocument": {"uri": old.uri(name)}})
+            del open_texts[name]
+        else:
+            open_texts[name] = text
+            old.open(name, text) if what == "open" else old.change(name, [(None, text)])
+        ours = answers(old)
+        if any('"severity": 1' in d for each in ours[0].values() for d in each):
+            continue  # of graphs with errors it knows more: what was before
+        new = start()
+        report.check(ours == answers(new), f"after step {number}, {what} {name}: not what a server says that begins now")
+        new.end()
+    old.end()
+
+
 def main():
     weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
     with temporary_folder() as folder:
-        for name, check in (("session", check_session), ("bundled", check_renames), ("folders", check_new_folder)):
+        for name, check in (("session", check_session), ("bundled", check_renames), ("folders", check_new_folder), ("kept", check_kept)):
             pathlib.Path(folder, name).mkdir()
             check(weft, report, pathlib.Path(folder, name).resolve())
     report.end()

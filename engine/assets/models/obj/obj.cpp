@@ -573,9 +573,8 @@ class ObjReader {
   std::vector<glm::vec3> positions_, normals_, colors_;
   std::vector<glm::vec2> uvs_;
   bool colored_ = false, colorless_ = false;
-  std::vector<glm::dvec3> made_;  // normals
-  std::unordered_map<Corner, std::size_t, CornerHash>
-      smooth_;  // by position and smoothing group: which of them
+  std::vector<glm::dvec3> made_;                                // normals
+  std::unordered_map<Corner, std::size_t, CornerHash> smooth_;  // by position and smoothing group
   std::uint32_t node_ = kNoRow, material_ = 0, group_ = 0;
   std::map<std::string, std::uint32_t> nodes_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> partRows_;

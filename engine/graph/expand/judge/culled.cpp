@@ -137,8 +137,7 @@ class Lines {
   void add(const Model& model, const Line& line) {
     if (isOwn(model, line.entity)) lines_[line.entity].push_back(line);
   }
-  // The `who` of the line nearest above `at` (below it when `below`), at another position, that shares a sub-resource with it; else
-  // kNone.
+  // The `who` of the line nearest above `at` (`below`: below), at another position, that shares a sub-resource with it; or kNone.
   std::uint32_t nearest(const Line& at, bool below) const {
     const Line* best = nullptr;
     eachAt(at, below, [&](const Line& line) {

@@ -207,9 +207,8 @@ struct Model {
   std::vector<WouldUse> would{};  // by position
   std::vector<MissingRead> missing{};
   std::vector<EmptyRepeat> emptied{};
-  std::vector<std::array<std::uint32_t, 3>>
-      historyUses{};                        // use, entity, element: of the last resource, known at the end
-  std::vector<std::uint32_t> positionOf{};  // per pass of the FlatGraph
+  std::vector<std::array<std::uint32_t, 3>> historyUses{};  // use, entity, element: of the last resource
+  std::vector<std::uint32_t> positionOf{};                  // per pass of the FlatGraph
   struct ElementOf {
     std::uint32_t entity, element;
   };
@@ -231,8 +230,7 @@ struct Model {
   bool incomplete = false;             // the reader left something out for its mistakes
   // What passes with mistakes would write: entities; kNone when nobody knows. Whoever misses it makes no second mistake.
   std::set<std::uint32_t> leftOut{};
-  bool toInclude =
-      false;  // the file that was opened has inputs: it is to be included, and its own names are not all
+  bool toInclude = false;                 // the file that was opened has inputs: its own names are not all
   std::uint32_t position = 0;             // of the instance being expanded
   std::uint32_t slot = kNone;             // of it, while it is resolved
   std::vector<std::string> evaluating{};  // what is being evaluated now, for the path of a cycle

@@ -153,8 +153,7 @@ void applyDisable(Model& model, const Disable& disable) {
   const Where by = placeOf(disable);
   const std::string declared = wanted.substr(0, wanted.find('['));
   std::vector<std::string> names;
-  std::vector<std::pair<Scope*, const PassDesc*>>
-      candidates;  // without a scope it is a pass, else an include
+  std::vector<std::pair<Scope*, const PassDesc*>> candidates;  // without a scope: a pass, else an include
   for (Scope& scope : model.scopes) {
     if (scope.parent && declared == wanted) {
       names.push_back(scope.prefix.substr(0, scope.prefix.size() - 1));
