@@ -1,8 +1,7 @@
 #include "engine/assets/models/model_file.h"
 
-#include <fmt/format.h>
-
 #include <filesystem>
+#include <vector>
 
 #include "assets_sentences.h"
 #include "engine/assets/models/fbx/fbx.h"
@@ -26,6 +25,19 @@ void closeOpaque(Model& model) {
     const bool map = material.albedoMap != kNoRow && model.textures[material.albedoMap].clear;
     material.blend = material.blend && (material.alpha < 1 || map || clear[i]);
   }
+}
+
+// Whether a triangle can be seen, wherever nodes, joints and targets are.
+bool hasArea(const Model& model, const Mesh& mesh) {
+  const auto at = [&](std::uint32_t corner) {
+    return glm::dvec3(model.vertices[mesh.firstVertex + model.indices[mesh.firstIndex + corner]].position);
+  };
+  bool found = mesh.skinned || !mesh.targetBounds.empty();
+  for (std::uint32_t i = 0; !found && i + 2 < mesh.indexCount; i += 3) {
+    const glm::dvec3 a = at(i + 1) - at(i), b = at(i + 2) - at(i), area = glm::cross(a, b);
+    found = glm::dot(area, area) > 1e-20 * glm::dot(a, a) * glm::dot(b, b);
+  }
+  return found;
 }
 
 }  // namespace
@@ -60,6 +72,12 @@ std::optional<Model> loadModel(const std::string& path, text::Diagnostics& diagn
   model.files = mine.files();
   if (files) *files = model.files;
   if (!good) return {};
+  std::vector<bool> flat;
+  for (const Mesh& mesh : model.meshes) flat.push_back(!hasArea(model, mesh));
+  if (const auto first = std::ranges::find(flat, true); first != flat.end())
+    diagnostics.warning(say::meshesLeftOut, mine.place(), std::ranges::count(flat, true), flat.size(),
+                        model.meshes[static_cast<std::size_t>(first - flat.begin())].name);
+  std::erase_if(model.instances, [&](const ModelInstance& each) { return flat[each.mesh]; });
   if (model.instances.empty()) {
     diagnostics.error(say::nothingToDraw, mine.place(), path);
     return {};

@@ -1,7 +1,5 @@
 #include "engine/graph/compile/compile.h"
 
-#include <fmt/format.h>
-
 #include <utility>
 
 #include "engine/graph/compile/steps.h"
@@ -97,14 +95,11 @@ bool checkMemory(const Plan& plan, text::Diagnostics& diagnostics) {
   std::uint32_t largest = 0;
   for (std::uint32_t r = 1; r < graph.resources.size(); ++r)
     if (bytesOf(r) > bytesOf(largest)) largest = r;
-  text::Diagnostic& d =
-      diagnostics.error(say::texturesTooLarge,
-                        largest < graph.resourcePlaces.size() ? graph.resourcePlaces[largest] : text::Place{},
-                        graph.name, plan.bytesAllocated);
+  text::Diagnostic& d = diagnostics.error(
+      say::texturesTooLarge,
+      largest < graph.resourcePlaces.size() ? graph.resourcePlaces[largest] : text::Place{}, graph.name,
+      plan.bytesAllocated, most, graph.resourceNames[largest], bytesOf(largest));
   d.resource = graph.resourceNames[largest];
-  d.expected = fmt::format("at most {} bytes", most);
-  d.found = fmt::format("the largest is '{}', {} bytes", d.resource, bytesOf(largest));
-  d.hint = "make them smaller or keep less history";
   if (const std::string raise = text::hintToRaise(kMaxTextureBytes, plan.bytesAllocated); !raise.empty())
     d.hint += "; " + raise;
   return false;

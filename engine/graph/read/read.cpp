@@ -199,7 +199,6 @@ class GraphReader {
       auto& d = diagnostics_.error(say::includesItself, stanza.place, path);
       for (auto file = again; file != open_.end(); ++file) d.found += file->second + " -> ";
       d.found += path;
-      d.hint = "remove one of these includes";
       return;
     }
     if (exceeds(kMaxInRow, "files in a row", open_.size() + 1, stanza)) return;

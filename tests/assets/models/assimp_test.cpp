@@ -65,16 +65,18 @@ TEST_CASE("OBJ: Blinn-Phong as it is, and its conversion") {
   folder.write("m.mtl",
                "newmtl plastic\nKd 0.2 0.4 0.6\nKs 0.5 0.5 0.5\nNs 30\nKe 1 0 0\n"
                "newmtl glass\nKd 1 1 1\nd 0.25\n"
-               "newmtl chrome\nKd 0 0 0\nKs 0.9 0.8 0.7\nNs 200\n");
-  const Model model = loadGood(folder.write("m.obj",
-                                            "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl plastic\nf 1 2 "
-                                            "3\nusemtl glass\nf 1 2 3\nusemtl chrome\nf 1 2 3\n"));
-  REQUIRE(model.instances.size() == 3);
+               "newmtl copper\nKd 0 0 0\nKs 0.9 0.8 0.7\nNs 200\n"
+               "newmtl lacquer\nKd 0 0 0\nKs 0.8 0.8 0.79\nNs 200\n");
+  const Model model =
+      loadGood(folder.write("m.obj",
+                            "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl plastic\nf 1 2 "
+                            "3\nusemtl glass\nf 1 2 3\nusemtl copper\nf 1 2 3\nusemtl lacquer\nf 1 2 3\n"));
+  REQUIRE(model.instances.size() == 4);
   const auto materialOf = [&](const char* name) -> const Material& {
     return *std::ranges::find(model.materials, name, &Material::name);
   };
   const Material &plastic = materialOf("plastic"), &glass = materialOf("glass"),
-                 &chrome = materialOf("chrome");
+                 &copper = materialOf("copper"), &lacquer = materialOf("lacquer");
   CHECK(plastic.blinnPhong);
   CHECK(plastic.albedo == glm::vec3{0.2f, 0.4f, 0.6f});
   CHECK(plastic.specular == glm::vec3{0.5f, 0.5f, 0.5f});
@@ -84,8 +86,10 @@ TEST_CASE("OBJ: Blinn-Phong as it is, and its conversion") {
   CHECK(plastic.roughness == doctest::Approx(0.5));  // (2 / 32) to the fourth root
   CHECK(glass.blend);
   CHECK(glass.alpha == 0.25f);
-  CHECK(chrome.metallic == 1);
-  CHECK(chrome.albedo == glm::vec3{0.9f, 0.8f, 0.7f});
+  CHECK(copper.metallic == 1);
+  CHECK(copper.albedo == glm::vec3{0.9f, 0.8f, 0.7f});
+  CHECK(lacquer.metallic == 0);  // its highlight is as white as any dielectric's
+  CHECK(lacquer.albedo == glm::vec3(0));
 }
 
 TEST_CASE("OBJ: polygons, equal vertices, uv from the top, maps of other machines' paths") {

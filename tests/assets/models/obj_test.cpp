@@ -116,6 +116,12 @@ TEST_CASE("OBJ: what is not drawn is one warning of each kind, and the rest is d
   const std::string square = "mtllib m.mtl\n" + kSquare;
   CHECK(warningsOf(folder, square).empty());
   CHECK(warningsOf(folder, square + "l 1 2\nl 2 3\np 1\n").size() == 2);
+  // Normals and texture coordinates of which the file has none, and one that is far away.
+  const std::string corner = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  CHECK(warningsOf(folder, corner + "f 1/4/7 2/5/8 3/6/9\n").empty());
+  CHECK(warningsOf(folder, corner + "vt 3443870976 0 0\nf 1/1/1 2/1/2 3/1/3\n").empty());
+  const std::string line = "v 0 0 0\nv 3 3 3\nv 5 5 5\n", flat = "o a\nf 1 1 2\nf -1 -2 -3\no b\nf 4 4 4\n";
+  CHECK(warningsOf(folder, square + line + flat).size() == 1);
   CHECK(warningsOf(folder, square + "f 1 2 9\nf 1 2 -7\nf 1/9 2/1 3/1\n").size() == 1);
   CHECK(warningsOf(folder, square + "usemtl other\nf 1 2 3\nusemtl other\nf 1 3 4\n").size() == 1);
   folder.write("m.mtl", "newmtl m\nKd 1 1 1\nmap_Ks x.png\nPs 0.5\nPs 0.5\n");

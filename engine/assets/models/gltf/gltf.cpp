@@ -253,7 +253,7 @@ class GltfReader {
     morph(value, weights, moves, corners, mesh);
     if (skinned) part.joints = readWeights(attributes, mesh);
     readIndices(value, indices, mode, mesh);
-    if (!mesh.indices.empty()) part.mesh = builder_.add(std::move(mesh));
+    part.mesh = builder_.add(std::move(mesh));
     return part;
   }
 

@@ -106,7 +106,6 @@ class MtlReader {
     float strength = 1;
   };
   struct Row {
-    text::Place place;
     std::map<std::string, Map, std::less<>> maps;  // by what they are of: "Kd"
     bool physical = false;                         // it has Pr or Pm
     glm::vec4 move{1, 1, 0, 0};
@@ -140,7 +139,7 @@ class MtlReader {
       // The first of a name stays.
       if (!known_.try_emplace(name, static_cast<std::uint32_t>(rows_.size())).second)
         leaveOut(fmt::format("a second material '{}'", name), place);
-      rows_.push_back({.place = place});
+      rows_.emplace_back();
       model_.materials.push_back({.name = name, .albedo = glm::vec3(0.6f), .roughness = 0.5f});
       return;
     }
@@ -412,7 +411,8 @@ class ObjReader {
     if (key == "f" || key == "fo") return readFace(rest);
     if (key == "mtllib") return materials_.readLibraries(name, here());
     if (key == "vt") {
-      if (const auto numbers = readNumbers<2>(rest, 1)) uvs_.push_back({(*numbers)[0], 1 - (*numbers)[1]});
+      if (const auto numbers = readNumbers<2>(rest, 1, 1e30f))
+        uvs_.push_back({(*numbers)[0], 1 - (*numbers)[1]});
     } else if (key == "vn") {
       if (const auto numbers = readNumbers<3>(rest, 3))
         normals_.push_back({(*numbers)[0], (*numbers)[1], (*numbers)[2]});
@@ -449,15 +449,16 @@ class ObjReader {
 
   // At least `least` numbers, the rest 0.
   template <std::size_t N>
-  std::optional<std::array<float, N>> readNumbers(std::string_view rest, std::size_t least) {
+  std::optional<std::array<float, N>> readNumbers(std::string_view rest, std::size_t least,
+                                                  float most = kFarthest) {
     std::array<float, N> numbers{};
     for (std::size_t i = 0; i < N; ++i) {
       std::string_view word = text::takeWord(rest);
       if (word.empty() && i >= least) break;
       if (word.starts_with('+')) word.remove_prefix(1);
       const std::optional<float> number = text::numberIn<float>(word);
-      if (!number || !(std::abs(*number) <= kFarthest)) {
-        fail(say::numberNotUsable, kFarthest, word);
+      if (!number || !(std::abs(*number) <= most)) {
+        fail(say::numberNotUsable, most, word);
         return {};
       }
       numbers[i] = *number;
@@ -489,8 +490,8 @@ class ObjReader {
     for (std::size_t i = 0; i < 3 && (i == 0 || !word.empty()); ++i) {
       const std::string_view part = word.substr(0, i == 2 ? word.npos : word.find('/'));
       word.remove_prefix(std::min(part.size() + 1, word.size()));
-      if (i > 0 && part.empty()) continue;
       const auto count = static_cast<std::int64_t>(counts[i]);
+      if (i > 0 && (part.empty() || count == 0)) continue;  // of what the file has nothing
       const std::int64_t number = text::numberIn<std::int64_t>(part).value_or(0);
       const std::int64_t at = number > 0 ? number - 1 : count + number;
       if (number == 0 || at < 0 || at >= count) return {};

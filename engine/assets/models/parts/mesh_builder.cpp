@@ -62,13 +62,6 @@ void makeNormals(RawMesh& mesh) {
   }
 }
 
-void cleanNormals(RawMesh& mesh) {
-  for (RawVertex& v : mesh.vertices) {
-    if (!std::isfinite(v.normal.x + v.normal.y + v.normal.z)) v.normal = {0, 0, 0};
-    v.normal = glm::vec3(unit(Vec(v.normal), {0, 0, 1}));
-  }
-}
-
 struct TriangleFrame {
   Vec tangent{0};
   double sign = 0;  // of the bitangent; 0: the triangle has no area in uv
@@ -143,12 +136,15 @@ bool normalizeRotation(glm::vec4& q) {
 }
 
 // The exponent of Blinn–Phong as the width of GGX: alpha² = 2 / (n + 2) (Walter et al. 2007), alpha = roughness². What
-// has no diffuse color but a bright highlight is taken for metal.
+// has no diffuse color but a bright highlight with a color is taken for metal; that of black lacquer is white.
 void toMetallicRoughness(Material& material) {
-  const auto brightestOf = [](const glm::vec3& color) { return std::max({color.x, color.y, color.z}); };
+  const auto [darkest, brightest] =
+      std::minmax({material.specular.x, material.specular.y, material.specular.z});
   material.blinnPhong = true;
   material.roughness = std::pow(2 / (material.shininess + 2), 0.25f);
-  if (brightestOf(material.albedo) >= 0.04f || brightestOf(material.specular) < 0.25f) return;
+  if (std::max({material.albedo.x, material.albedo.y, material.albedo.z}) >= 0.04f || brightest < 0.25f ||
+      darkest > 0.9f * brightest)
+    return;
   material.metallic = 1;
   material.albedo = material.specular;
 }
@@ -186,10 +182,9 @@ bool MeshBuilder::hasRoom(std::uint64_t vertices, std::uint64_t corners, const t
 std::uint32_t MeshBuilder::add(RawMesh mesh) {
   assert(mesh.indices.size() % 3 == 0);
   if (mesh.join) joinVertices(mesh);
-  if (mesh.normals)
-    cleanNormals(mesh);
-  else
-    makeNormals(mesh);
+  if (!mesh.normals) makeNormals(mesh);
+  for (RawVertex& v : mesh.vertices)
+    if (mesh.normals) v.normal = glm::vec3(unit(Vec(v.normal), {0, 0, 1}));
   if (!std::ranges::all_of(mesh.vertices, isSound)) makeTangents(mesh);
 
   Mesh row;

@@ -1,7 +1,5 @@
 #include "engine/assets/models/parts/model_files.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -20,11 +18,9 @@ namespace {
 
 // RFC 3986, 3.1; also "C:" of Windows.
 bool hasScheme(const std::string& name) {
-  const std::size_t colon = name.find(':');
-  if (colon == std::string::npos || colon == 0 || !std::isalpha(static_cast<unsigned char>(name[0])))
-    return false;
-  return std::all_of(name.begin(), name.begin() + static_cast<std::ptrdiff_t>(colon),
-                     [](unsigned char c) { return std::isalnum(c) || c == '+' || c == '-' || c == '.'; });
+  const auto end = std::ranges::find_if_not(
+      name, [](unsigned char c) { return std::isalnum(c) || c == '+' || c == '-' || c == '.'; });
+  return end != name.end() && *end == ':' && std::isalpha(static_cast<unsigned char>(name[0]));
 }
 
 bool leadsOut(const std::filesystem::path& relative) {
@@ -60,16 +56,12 @@ std::optional<std::string> ModelFiles::readBeside(const std::string& uri, const 
   const std::string name = escaped ? text::unescapeUri(uri) : uri;
   const std::string target = resolve(name);
   if (target.empty()) {
-    text::Diagnostic& d = diagnostics_.error(say::outsideModelFolder, place, name);
-    d.expected = "a path below the folder of the model";
-    d.found = fmt::format("'{}'", uri);
-    d.hint = "copy the file into the model's folder and name it by its relative path";
     std::string forward = name;
     std::ranges::replace(forward, '\\', '/');
-    if (forward == name || resolve(forward).empty()) return {};
-    d.message = fmt::format("the model names a file by a path with backslashes: '{}'", name);
-    d.expected = "'/' between the folders of a path";
-    d.hint = fmt::format("write '{}', or export the model again", forward);
+    if (forward == name || resolve(forward).empty())
+      diagnostics_.error(say::outsideModelFolder, place, name, uri);
+    else
+      diagnostics_.error(say::backslashesInPath, place, name, uri, forward);
     return {};
   }
   if (std::ranges::find(files_, target) == files_.end()) files_.push_back(target);
