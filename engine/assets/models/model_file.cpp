@@ -32,12 +32,11 @@ bool hasArea(const Model& model, const Mesh& mesh) {
   const auto at = [&](std::uint32_t corner) {
     return glm::dvec3(model.vertices[mesh.firstVertex + model.indices[mesh.firstIndex + corner]].position);
   };
-  bool found = mesh.skinned || !mesh.targetBounds.empty();
-  for (std::uint32_t i = 0; !found && i + 2 < mesh.indexCount; i += 3) {
+  for (std::uint32_t i = 0; i + 2 < mesh.indexCount; i += 3) {
     const glm::dvec3 a = at(i + 1) - at(i), b = at(i + 2) - at(i), area = glm::cross(a, b);
-    found = glm::dot(area, area) > 1e-20 * glm::dot(a, a) * glm::dot(b, b);
+    if (glm::dot(area, area) > 1e-20 * glm::dot(a, a) * glm::dot(b, b)) return true;
   }
-  return found;
+  return mesh.skinned || !mesh.targetBounds.empty();
 }
 
 }  // namespace

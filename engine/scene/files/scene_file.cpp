@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -159,9 +158,12 @@ class Reader {
     const Box box = frame.sceneBounds();
     const std::vector<double> seen = surfaceSeen(frame);
     const double most = *std::ranges::max_element(seen);
-    std::string first;  // that shows more than an edge of it
+    const glm::dvec3 size(box.high - box.low), sides(size.y * size.z, size.z * size.x, size.x * size.y);
+    std::string first;  // that shows more than an edge of it, and of its box
     for (std::size_t i = 0; i < seen.size(); ++i) {
-      if (first.empty() && seen[i] >= 0.02 * most) first = kViews[i].first;
+      if (first.empty() && seen[i] >= 0.02 * most &&
+          glm::dot(sides, glm::abs(kViews[i].second)) >= 0.005 * std::max({sides.x, sides.y, sides.z}))
+        first = kViews[i].first;
       if (std::ranges::find(loaded->model.cameras, kViews[i].first, &assets::ModelCamera::name) ==
           loaded->model.cameras.end())
         scene_.cameras.add({.name = kViews[i].first, .pose = framePose(box, kViews[i].second)});
@@ -189,12 +191,11 @@ class Reader {
         const bool both = scene_.materials.rows()[row.material].doubleSided;
         for (std::uint32_t i = 0; i + 2 < mesh.indexCount && corners < kMeasuredCorners;
              i += 3, corners += 3) {
-          std::array<glm::dvec3, 3> p;
-          for (std::uint32_t c = 0; c < 3; ++c) {
-            const std::uint32_t v = mesh.firstVertex + data_->indices[mesh.firstIndex + i + c];
-            p[c] = glm::dvec3(row.transform * glm::vec4(data_->vertices[v].position, 1));
-          }
-          const glm::dvec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
+          const auto at = [&](std::uint32_t corner) {
+            const std::uint32_t v = mesh.firstVertex + data_->indices[mesh.firstIndex + i + corner];
+            return glm::dvec3(row.transform * glm::vec4(data_->vertices[v].position, 1));
+          };
+          const glm::dvec3 normal = glm::cross(at(1) - at(0), at(2) - at(0));
           for (std::size_t view = 0; view < seen.size(); ++view) {
             const double facing = -glm::dot(normal, kViews[view].second);
             seen[view] += both ? std::abs(facing) : std::max(facing, 0.0);
@@ -214,9 +215,8 @@ class Reader {
       Camera camera{.name = from.name};
       const glm::dvec3 towards(turnDirection(world, {0, 0, -1}));
       // What it looks at: the model's center, or what it has before the camera.
-      const double distance = glm::dot(glm::dvec3(box.center()) - glm::dvec3(world[3]), towards);
-      const double reach = glm::dot(glm::dvec3(box.high - box.low) * 0.5, glm::abs(towards));
-      const double ahead = distance > 0 ? distance : distance + reach;
+      double ahead = glm::dot(glm::dvec3(box.center()) - glm::dvec3(world[3]), towards);
+      if (ahead <= 0) ahead += glm::dot(glm::dvec3(box.high - box.low) * 0.5, glm::abs(towards));
       camera.pose.position = glm::dvec3(world[3]);
       camera.pose.target = camera.pose.position + towards * std::max(ahead, 10 * from.nearPlane);
       camera.pose.up = glm::dvec3(turnDirection(world, {0, 1, 0}));

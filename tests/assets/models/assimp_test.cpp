@@ -257,7 +257,7 @@ TEST_CASE("FBX, binary and text: the fox, its nodes, weights and animations") {
   }
 }
 
-TEST_CASE("FBX: lights are left out, with a warning") {
+TEST_CASE("FBX: lights, cameras and maps that are not read are left out, each with a warning") {
   const TemporaryFolder folder;
   writeFox(folder.at("fox.fbx"), "fbxa");
   std::string text = readBytes(folder.at("fox.fbx"));
@@ -268,15 +268,29 @@ TEST_CASE("FBX: lights are left out, with a warning") {
   };
   insertAfter("Objects:  {",
               "\tNodeAttribute: 9001, \"NodeAttribute::bulb\", \"Light\" {\n\t\tTypeFlags: \"Light\"\n\t}\n"
-              "\tModel: 9002, \"Model::bulb\", \"Light\" {\n\t\tVersion: 232\n\t}\n");
-  insertAfter("Connections:  {", "\tC: \"OO\",9001,9002\n\tC: \"OO\",9002,0\n");
+              "\tModel: 9002, \"Model::bulb\", \"Light\" {\n\t\tVersion: 232\n\t}\n"
+              "\tNodeAttribute: 9003, \"NodeAttribute::eye\", \"Camera\" {\n\t\tTypeFlags: \"Camera\"\n\t}\n"
+              "\tModel: 9004, \"Model::eye\", \"Camera\" {\n\t\tVersion: 232\n\t}\n"
+              "\tTexture: 9005, \"Texture::holes\", \"\" {\n\t\tRelativeFilename: \"holes.png\"\n\t}\n");
+  const std::size_t named = text.find("\tMaterial: ");
+  REQUIRE(named != std::string::npos);
+  const std::string material = text.substr(named + 11, text.find(',', named) - named - 11);
+  insertAfter("Connections:  {",
+              "\tC: \"OO\",9001,9002\n\tC: \"OO\",9002,0\n\tC: \"OO\",9003,9004\n\tC: \"OO\",9004,0\n"
+              "\tC: \"OP\",9005," +
+                  material + ", \"TransparentColor\"\n");
   text::Diagnostics diagnostics;
   const auto model = loadModel(folder.write("lit.fbx", text), diagnostics);
   REQUIRE_MESSAGE(model, diagnostics.text());
   CHECK(model->lights.empty());
-  REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
-  CHECK(diagnostics.items()[0].code == Code::modelPartLeftOut);
-  CHECK(diagnostics.items()[0].message.find("light") != std::string::npos);
+  REQUIRE_MESSAGE(diagnostics.size() == 3, diagnostics.text());
+  for (const char* what : {"light", "camera", "map Opacity"})
+    CHECK_MESSAGE(std::ranges::any_of(diagnostics.items(),
+                                      [&](const text::Diagnostic& d) {
+                                        return d.code == Code::modelPartLeftOut &&
+                                               d.message.find(what) != std::string::npos;
+                                      }),
+                  diagnostics.text());
 }
 
 TEST_CASE("FBX files that are damaged anywhere") {

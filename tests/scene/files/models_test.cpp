@@ -91,6 +91,18 @@ TEST_CASE("a model file is a scene: framed, lit, with cameras all round") {
   REQUIRE(top);
   CHECK(findCamera(*top, "")->name == "top");
   CHECK(top->cameras.size() == 6);
+  // Kerbs far apart, lower than a pixel from the front, however many of them turn to it.
+  const TemporaryFolder folder;
+  std::string kerbs;
+  for (int i = 0; i < 40; ++i)
+    for (const char* corner : {"-50 0 ", "50 0 ", "50 0.3 ", "-50 0.3 "})
+      kerbs += "v " + std::string(corner) + std::to_string(10 * i) + "\n";
+  for (int i = 0; i < 40; ++i)
+    kerbs += fmt::format("f {} {} {} {}\n", 4 * i + 1, 4 * i + 2, 4 * i + 3, 4 * i + 4);
+  kerbs += "f 1 157 158 2\n";
+  const auto low = loadScene(folder.write("kerbs.obj", kerbs), diagnostics);
+  REQUIRE(low);
+  CHECK(findCamera(*low, "")->name == "top");
   CHECK_FALSE(loadScene(kTop + "scenes/models/rock.obj", diagnostics, nullptr, {.camera = "tpo"}));
   REQUIRE(diagnostics.size() == 1);
   CHECK(diagnostics.items()[0].hint == "did you mean 'top'?");

@@ -38,8 +38,7 @@ std::optional<std::string> glbOfFbx(const std::string& bytes, ModelFiles& files)
   text::ApartEnd end = text::runApart({program, std::to_string(seconds), std::to_string(memory)}, bytes,
                                       seconds, files.stop());
   const char what = end.said.empty() ? '\0' : end.said.back();
-  if (what == kMadeWithoutLights) files.diagnostics().warning(say::fbxLightsLeftOut, files.place());
-  if (what == kMade || what == kMadeWithoutLights) return std::move(end.made);
+  if (what == kMade) return std::move(end.made);
   if (what == kUnreadable)
     files.diagnostics().error(say::fbxNotRead, files.place(), files.path(), end.made);
   else

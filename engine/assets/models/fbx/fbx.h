@@ -11,7 +11,7 @@
 namespace weft::assets {
 
 // What the process says at its end.
-constexpr char kMade = 1, kMadeWithoutLights = 2, kUnreadable = 3, kTooLarge = 4;
+constexpr char kMade = 1, kUnreadable = 2, kTooLarge = 3;
 
 // The bytes of a .glb. Its images that are not in it have the paths that the file gives them. Empty after W164, W201 for a text that
 // is too large, or when the load was stopped.

@@ -46,8 +46,8 @@ float unitOf(float value, float otherwise) {
   return std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) : otherwise;
 }
 
-// What Assimp has read, as the bytes of a .glb. Left out: lights, cameras and further uv sets. Blinn–Phong materials have the
-// extension WEFT_blinn_phong, and bump maps the member "bump", which the glTF reader knows.
+// What Assimp has read, as the bytes of a .glb. Blinn–Phong materials have the extension WEFT_blinn_phong, bump maps the member
+// "bump", and the members of "extras" are what was left out: the glTF reader knows them.
 class GltfWriter {
  public:
   explicit GltfWriter(const aiScene& scene) : scene_(scene) {}
@@ -58,20 +58,20 @@ class GltfWriter {
       json_["materials"].push_back(materialOf(*scene_.mMaterials[i]));
     addNodes();
     for (unsigned i = 0; i < scene_.mNumAnimations; ++i) addAnimation(*scene_.mAnimations[i]);
+    if (scene_.HasLights()) json_["extras"]["each light, whose unit the format does not say,"] = true;
+    if (scene_.HasCameras()) json_["extras"]["each camera"] = true;
     json_["asset"]["version"] = "2.0";
     json_["buffers"] = {{{"byteLength", binary_.size()}}};
     json_["bufferViews"][0]["byteLength"] = binary_.size();
     std::string text = json_.dump(-1, ' ', false, Json::error_handler_t::replace);
     text.resize((text.size() + 3) / 4 * 4, ' ');
     std::string out = "glTF";
-    const auto word = [&](std::size_t value) {
-      const auto bits = static_cast<std::uint32_t>(value);
-      out.append(reinterpret_cast<const char*>(&bits), sizeof bits);
+    const auto add = [&](std::initializer_list<std::size_t> words) {  // of 4 bytes, the lowest first
+      for (const std::size_t word : words) out.append(reinterpret_cast<const char*>(&word), 4);
     };
-    for (const std::size_t value : {std::size_t{2}, 28 + text.size() + binary_.size(), text.size()})
-      word(value);
+    add({2, 28 + text.size() + binary_.size(), text.size()});
     out += "JSON" + text;
-    word(binary_.size());
+    add({binary_.size()});
     return out.append("BIN\0", 4) += binary_;
   }
 
@@ -163,8 +163,14 @@ class GltfWriter {
       shine["shininess"] = std::isfinite(shininess) ? std::clamp(shininess, 0.0f, 10000.0f) : 0;
     }
     setTexture(from, {aiTextureType_DIFFUSE, aiTextureType_BASE_COLOR}, "baseColorTexture", surface);
-    setTexture(from, {aiTextureType_EMISSIVE}, "emissiveTexture", out);
-    setTexture(from, {aiTextureType_NORMALS, aiTextureType_HEIGHT}, "normalTexture", out);
+    setTexture(from, {aiTextureType_EMISSIVE, aiTextureType_EMISSION_COLOR}, "emissiveTexture", out);
+    setTexture(from, {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA, aiTextureType_HEIGHT},
+               "normalTexture", out);
+    for (const auto type :
+         {aiTextureType_SPECULAR, aiTextureType_OPACITY, aiTextureType_SHININESS, aiTextureType_METALNESS,
+          aiTextureType_DIFFUSE_ROUGHNESS, aiTextureType_AMBIENT_OCCLUSION, aiTextureType_DISPLACEMENT})
+      if (from.GetTextureCount(type) > 0)
+        json_["extras"][std::string("each map ") + aiTextureTypeToString(type)] = true;
     return out;
   }
 
@@ -197,9 +203,8 @@ class GltfWriter {
     Json& rows = json_["nodes"];
     if (rows[row].contains("mesh")) {
       rows[row]["children"].push_back(rows.size());
-      const Json name = rows[row]["name"];
-      row = rows.size();
-      rows.push_back({{"name", name}});
+      rows.push_back({{"name", Json(rows[row]["name"])}});
+      row = rows.size() - 1;
     }
     rows[row].update(known->second);
   }
@@ -222,6 +227,7 @@ class GltfWriter {
       attributes["TEXCOORD_0"] =
           each(from.mTextureCoords[0], [](const aiVector3D& uv) { return glm::vec2(uv.x, 1 - uv.y); });
     if (from.HasVertexColors(0)) attributes["COLOR_0"] = each(from.mColors[0], toLinear);
+    if (from.mNumAnimMeshes > 0) json_["extras"]["each shape key"] = true;
     if (from.mNumBones > 0 && from.mNumBones <= 65535) made["skin"] = addSkin(from, attributes);
     const Json primitive = {
         {"attributes", attributes}, {"indices", accessor(indices)}, {"material", from.mMaterialIndex}};
@@ -244,9 +250,7 @@ class GltfWriter {
         const aiVertexWeight& weight = bone.mWeights[w];
         if (weight.mVertexId >= from.mNumVertices || !std::isfinite(weight.mWeight)) continue;
         glm::vec4& mine = weights[weight.mVertexId];
-        int least = 0;
-        for (int i = 1; i < 4; ++i)
-          if (mine[i] < mine[least]) least = i;
+        const auto least = static_cast<int>(std::min_element(&mine.x, &mine.x + 4) - &mine.x);
         if (mine[least] >= weight.mWeight) continue;
         mine[least] = weight.mWeight;
         joints[weight.mVertexId][least] = b;
@@ -308,7 +312,7 @@ char convert(const std::string& bytes, std::string& out) try {
                                                      aiProcess_Triangulate | aiProcess_SortByPType, "fbx");
   if (importer.GetException()) std::rethrow_exception(importer.GetException());
   out = scene ? GltfWriter(*scene).write() : importer.GetErrorString();
-  return !scene ? kUnreadable : scene->mNumLights > 0 ? kMadeWithoutLights : kMade;
+  return scene ? kMade : kUnreadable;
 } catch (const std::bad_alloc&) {
   return kTooLarge;
 } catch (const std::exception& error) {

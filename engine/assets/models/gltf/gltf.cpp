@@ -33,6 +33,8 @@ class GltfReader {
       : document_(document), files_(files), model_(model), made_(made) {}
 
   void read() {
+    if (const JsonValue* leftOut = made_ ? document_.root().find("extras") : nullptr)
+      for (const auto& each : leftOut->members) document_.leaveOut(say::leftOut, each.value, each.key);
     readNodes();
     for (const JsonValue& row : document_.rows("skins")) readSkin(row);
     for (const JsonValue& row : document_.rows("animations")) readAnimation(row);
@@ -459,8 +461,8 @@ class GltfReader {
   }
 
   void readAnimation(const JsonValue& row) {
-    ModelAnimation animation;
-    animation.name = textOf(row, "name", fmt::format("animation {}", model_.animations.size()));
+    ModelAnimation animation{.name =
+                                 textOf(row, "name", fmt::format("animation {}", model_.animations.size()))};
     const std::vector<JsonValue>& samplers = itemsOf(row, "samplers");
     for (const JsonValue& channel : itemsOf(row, "channels")) {
       const JsonValue *path = valueOf(channel, {"target", "path"}),
@@ -517,8 +519,7 @@ class GltfReader {
     const std::uint64_t bytes = (sizeof(ModelTrack) + std::uint64_t{input.count} * 4) * targets;
     GltfDocument::refuseUnless(files_.count(bytes + std::uint64_t{output.count} * 16, sampler.place));
     track.times = document_.read<float>(input);
-    float before = 0;
-    for (const float time : track.times) {
+    for (float before = 0; const float time : track.times) {
       if (!(time >= before) || !std::isfinite(time))
         document_.fail(say::timesDoNotAscend, sampler, time, before);
       before = time;

@@ -259,9 +259,8 @@ class MtlReader {
           either->name, TextureUse::numbers, either->place);
       material.samplers[2] = either->sampler;
     }
-    bool first = true;
     for (const auto& [of, map] : row.maps) {
-      if (!std::exchange(first, false) && row.move != map.move)
+      if (&map != &row.maps.begin()->second && row.move != map.move)
         leaveOut(
             fmt::format("'-o' or '-s' of the map '{}' of the material '{}', unlike that of its other maps,",
                         of, material.name),

@@ -230,10 +230,9 @@ void windMirrored(Model& model) {
   std::vector<bool> mirrors(model.nodes.size());
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const ModelNode& node = model.nodes[i];
-    const glm::vec3 scale = node.local.scale;
-    const bool own = (scale.x < 0) != ((scale.y < 0) != (scale.z < 0));
-    const bool inner = glm::determinant(node.inner) < 0;
-    mirrors[i] = own != (inner != (node.parent != kNoRow && mirrors[node.parent]));
+    const glm::vec3 side = glm::sign(node.local.scale);
+    const bool own = side.x * side.y * side.z * glm::determinant(node.inner) < 0;
+    mirrors[i] = own != (node.parent != kNoRow && mirrors[node.parent]);
   }
   std::map<std::uint32_t, std::uint32_t> turned;
   for (ModelInstance& instance : model.instances) {

@@ -56,9 +56,7 @@ std::optional<Image8> decodeImage8(std::string_view bytes, const std::string& na
   Image8 image{.channels = 4};
   std::uint8_t* texels = WebPDecodeRGBA(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(),
                                         &image.width, &image.height);
-  if (texels)
-    image.texels.assign(texels, texels + std::size_t{4} * static_cast<std::size_t>(image.width) *
-                                             static_cast<std::size_t>(image.height));
+  if (texels) image.texels.assign(texels, texels + 4 * image.width * image.height);  // of 16383 at most
   WebPFree(texels);
   if (!texels) reportUnreadable(found, name, "it is damaged");
   return texels ? std::optional(std::move(image)) : std::nullopt;
