@@ -13,7 +13,7 @@ noperspective out vec2 at, at_half;
 flat out vec2 lens;
 
 void main() {
-  gl_Position = workCorner(tile, SCALE);
+  gl_Position = workCorner(tile, SCALE, false);
   at = gl_Position.xy * 0.5 + 0.5;
   at_half = at * viewport / float(SCALE) / vec2(textureSize(blurred, 0));
   lens = vec2(infinity, infinity * focus / near_plane);

@@ -14,6 +14,6 @@
 #endif
 
 void main() {
-  gl_Position = workCorner(tile, FULL_SIZE == 1 ? SCALE : 1);
+  gl_Position = workCorner(tile, FULL_SIZE == 1 ? SCALE : 1, false);
   gl_Position.z = float(DEPTH);
 }

@@ -10,12 +10,12 @@
 uniform sampler2D tiles;
 #endif
 
-// `target` texels of a target for one of the fields.
-vec4 workCorner(int tile, int target) {
+// `target` texels of a target for one of the fields. `everywhere`: also the tiles without work.
+vec4 workCorner(int tile, int target, bool everywhere) {
   ivec2 fields = (ivec2(viewport) + target - 1) / target,
         grid = max((fields + tile - 1) / tile, ivec2(1)), at = tileOf(grid);
 #ifdef HAS_TILES
-  bool wanted = texelFetch(tiles, at, 0).r > 0.0;
+  bool wanted = everywhere || texelFetch(tiles, at, 0).r > 0.0;
 #else
   const bool wanted = true;
 #endif
