@@ -52,7 +52,7 @@ void main() {
   float own_share = middle.a;
   own_radius = texelFetch(discs, pixel, 0).g / max(own_share, 1e-4);
   per_radius = 1.0 / max(own_radius, 1e-4);
-  Search search = searchOver(own_radius, rings);
+  Search search = searchOver(own_radius, rings, true);
   if (own_radius <= kLeastRadius) search.texels = search.outermost = -1;
   if (search.texels >= 0) {
     Texels texels = texelsOf(reachOf(search, own_radius));

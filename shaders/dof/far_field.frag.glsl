@@ -27,7 +27,7 @@ void main() {
   // Small discs of the near field are blended over the sharp picture: their surface continues into the focus.
   float blur = smoothstep(kNearStart, 3.0, -radius);
 #else
-  float blur = blurOf(radius);
+  float blur = sharedBlur(radius);
 #endif
   vec4 layer = textureLod(blurred, at_half, 0.0);
   blur = layer.a > 0.0 ? blur : 0.0;

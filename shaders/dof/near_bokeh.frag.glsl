@@ -75,7 +75,8 @@ void main() {
   for (int layer = 0; layer < 2; ++layer) {
     over = layer == 0;
     if (over ? radius <= 1.3 * own_radius : own_radius <= 0.0) continue;
-    Search search = searchOver(over ? radius : min(radius, 1.4 * own_radius), rings);
+    // The fill is as wide as the own disc asks for.
+    Search search = searchOver(over ? radius : min(radius, 1.4 * own_radius), rings, !over || own_radius <= 0.0);
     per_ring = min(sqrt(search.samples / (0.5 * float(FIRST_RING))) / search.span, 1.0);
     own_disc = texelsOf(reachOf(search, own_radius));
     all = Gathered(vec4(0.0), vec4(0.0), 0.0, 0.0);
@@ -84,10 +85,10 @@ void main() {
       result = all.spread / max(all.spread.a, 1.0);
       continue;
     }
-    // The shares add up as long as they fit, as for one slanted surface. Where the own surface does not fill the rest, what is visible
-    // beside it replaces what it hides.
+    // The shares add up as long as they fit, as for one slanted surface. The own surface and what is visible beside it divide the rest.
     float rest = 1.0 - result.a, beside = all.behind.a + all.farther;
-    float hidden = min(rest - min(all.spread.a, rest), beside / all.places), own_share = rest - hidden;
+    float seen = beside / all.places, hidden = rest * seen / max(seen + min(all.spread.a, rest), 1e-6);
+    float own_share = rest - hidden;
     result += all.spread * (own_share / max(all.spread.a, 1e-6)) + all.behind * (hidden / max(beside, 1e-6));
   }
 }

@@ -58,15 +58,16 @@ vec2 whichSet() {
   return step(0.25, fract(0.5 * vec2(at.x + at.y, at.y)));
 }
 
-Search searchOver(float radius, int rings) {
+// `filled`: the fill closes the gaps of this pixel.
+Search searchOver(float radius, int rings, bool filled) {
   Search search;
   search.last = textureSize(source, 0) - 1;
   search.roundness = roundnessOf(blades);
   bool each = RINGS == 0 || radius <= EACH_TEXEL;
   // Where a pixel's own samples are too far apart, the sets differ. Then no level is finer than two pixels, the distance between pixels of
   // one set: so a texel counts equally in all sets.
-  float gap = RINGS == 1 ? gapOf(radius, rings) : 0.0, variance = RINGS == 1 ? fillVariance(radius, gap) : 0.0;
-  search.differs = gap > FINE_GAP ? 1.0 : 0.0;
+  float gap = RINGS == 1 ? gapOf(radius, rings) : 0.0, variance = RINGS == 1 && filled ? fillVariance(radius, gap) : 0.0;
+  search.differs = gap > FINE_GAP && filled ? 1.0 : 0.0;
   search.level = gap > FINE_GAP ? min(gap > kCoarseGap ? 2.0 : 1.0, COARSEST) : 0.0;
   search.shift = (whichSet().x - 0.5) * 0.5 * search.differs;
   search.half_share = 0.65 - 0.15 * clamp(0.5 * radius - 1.4, 0.0, 1.0);

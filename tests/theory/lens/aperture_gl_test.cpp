@@ -161,6 +161,27 @@ TEST_CASE("aperture: a near field before things nearer to the focus is what 64 p
   CHECK(full.above32 < 0.00007);
 }
 
+TEST_CASE("aperture: rods narrower than their discs let through what is sharp behind them") {
+  // Rods of small balls, five pixels wide with discs of 19, aslant before the three spheres, which are in focus.
+  View view{.balls = closeScene(), .width = 320, .height = 180};
+  view.balls.resize(3);
+  for (int rod = 0; rod < 4; ++rod)
+    for (int i = 0; i < 60; ++i)
+      view.balls.push_back(
+          {.center = {0.4f * (float(rod) - 1.6f) + 0.006f * float(i - 30), 0.4f + 0.035f * float(i - 30), 4},
+           .radius = 0.03f,
+           .albedo = {0.8f, 0.3f, 0.1f},
+           .metallic = 0});
+  const Lens lens{.focus = 6.5};
+  const Difference difference = differenceOf(throughLens(view, lens, {}), byWeft(view, lens, {}));
+  MESSAGE("mean ", difference.mean, ", 99th percentile ", difference.percentile99,
+          ", above 32: ", 100 * difference.above32, " %");
+  // Measured: 1.04, 12.1 and 0.264 %. With the mean of all that is visible within a disc behind the rods: 1.20, 16.9 and 0.432 %.
+  CHECK(difference.mean < 1.08);
+  CHECK(difference.percentile99 < 12.5);
+  CHECK(difference.above32 < 0.0029);
+}
+
 TEST_CASE("aperture: fog through a lens is what 64 places on the lens see, each through its own fog") {
   // Focused on the three spheres at 7: the blue one before them has discs of 12 pixels, those behind of 9, the sky of 14. The fog hides three quarters
   // of what is behind.
