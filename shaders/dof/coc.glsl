@@ -30,8 +30,8 @@ const float kLeastShare = 2e-3;
 // The weight of the blur for a radius in pixels of the full picture: below half a pixel the picture stays sharp.
 float blurOf(float radius) { return smoothstep(0.5, 1.5, abs(radius)); }
 
-// The weight of a picture from the fields beside the sharp one, for a radius in pixels of the full picture: together they have the variance of
-// the disc, of which fields and their filtering have that of a disc of nearly two pixels.
-float sharedBlur(float radius) { return clamp(0.27 * radius * radius, 0.0, 1.0); }
+// The weight of a picture from the fields beside the sharp one, for a radius in pixels of the full picture. Where fields have half its size,
+// both together have the variance of the disc: fields and their filtering have that of a disc of nearly two pixels.
+float sharedBlur(float radius) { return SCALE == 2 ? clamp(0.27 * radius * radius, 0.0, 1.0) : blurOf(radius); }
 
 #endif

@@ -141,6 +141,7 @@ TEST_CASE("MTL: holes, roughness and metal from maps, clamping, scale and offset
                "newmtl m\nKd 0.2 0.6 0.2\nmap_d holes.png\n"
                "newmtl soft\nmap_Kd gray.png\nmap_d soft.png\n"
                "newmtl rough\nmap_Pr -clamp on gray.png\nmap_Pm holes.png\n"
+               "newmtl shown\nKd 0 0 0\nKs 1 1 1\nmap_Kd gray.png\n"
                "newmtl moved\nmap_Kd -s 2 3 1 -o 0.5 0.25 0 gray.png\n");
   const Model model = loadGood(folder.write(
       "m.obj", "mtllib m.mtl\n" + kSquare + "usemtl moved\nf 1/1 2/2 3/3\nusemtl soft\nf 1/1 2/2 3/3\n"));
@@ -152,6 +153,7 @@ TEST_CASE("MTL: holes, roughness and metal from maps, clamping, scale and offset
   CHECK(named(model, "soft").blend);
   CHECK(model.textures[named(model, "soft").albedoMap].image->texels ==
         std::vector<std::uint8_t>{51, 51, 51, 100, 204, 204, 204, 200});
+  CHECK(named(model, "shown").metallic == 1);  // as lacquer it would hide its map
   const Material& rough = named(model, "rough");
   CHECK_FALSE(rough.blinnPhong);
   CHECK(rough.roughness == 1);

@@ -196,8 +196,7 @@ class GltfReader {
     return rows;
   }
 
-  // A mesh is read once with its joints and once without, and once for each way in which it is morphed, or begins to be,
-  // where nodes use it so.
+  // A mesh is read once with its joints, once without, and once for each way in which nodes morph it, or begin to.
   const std::vector<Part>& partsOf(std::uint32_t mesh, bool skinned, const JsonValue& node,
                                    std::uint32_t row) {
     const JsonValue& value = document_.rows("meshes")[mesh];

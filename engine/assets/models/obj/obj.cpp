@@ -221,7 +221,8 @@ class MtlReader {
   void finishRow(std::size_t number) {
     Row& row = rows_[number];
     Material& material = model_.materials[number];
-    if (!row.physical && !row.maps.contains("Pr") && !row.maps.contains("Pm")) toMetallicRoughness(material);
+    if (!row.physical && !row.maps.contains("Pr") && !row.maps.contains("Pm"))
+      toMetallicRoughness(material, row.maps.contains("Kd"));
     const auto take = [&](std::string_view of) {
       const auto found = row.maps.find(of);
       return found == row.maps.end() ? nullptr : &found->second;

@@ -136,14 +136,14 @@ bool normalizeRotation(glm::vec4& q) {
 }
 
 // The exponent of Blinn–Phong as the width of GGX: alpha² = 2 / (n + 2) (Walter et al. 2007), alpha = roughness². What
-// has no diffuse color but a bright highlight with a color is taken for metal; that of black lacquer is white.
-void toMetallicRoughness(Material& material) {
+// has no diffuse color but a bright highlight with a color, or a color map, is taken for metal; that of black lacquer is white.
+void toMetallicRoughness(Material& material, bool mapped) {
   const auto [darkest, brightest] =
       std::minmax({material.specular.x, material.specular.y, material.specular.z});
   material.blinnPhong = true;
   material.roughness = std::pow(2 / (material.shininess + 2), 0.25f);
   if (std::max({material.albedo.x, material.albedo.y, material.albedo.z}) >= 0.04f || brightest < 0.25f ||
-      darkest > 0.9f * brightest)
+      (!mapped && darkest > 0.9f * brightest))
     return;
   material.metallic = 1;
   material.albedo = material.specular;
@@ -230,8 +230,9 @@ void windMirrored(Model& model) {
   std::vector<bool> mirrors(model.nodes.size());
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const ModelNode& node = model.nodes[i];
-    const glm::vec3 side = glm::sign(node.local.scale);
-    const bool own = side.x * side.y * side.z * glm::determinant(node.inner) < 0;
+    const glm::vec3 scale = node.local.scale;
+    const bool own =
+        ((scale.x < 0) != (scale.y < 0)) != ((scale.z < 0) != (glm::determinant(node.inner) < 0));
     mirrors[i] = own != (node.parent != kNoRow && mirrors[node.parent]);
   }
   std::map<std::uint32_t, std::uint32_t> turned;

@@ -42,7 +42,7 @@ struct RawMesh {
 };
 
 // Of a Blinn–Phong material, from its albedo, specular and shininess: what passes see of it that shade otherwise.
-void toMetallicRoughness(Material& material);
+void toMetallicRoughness(Material& material, bool mapped);
 
 // A vertex that more than four joints move: by the heaviest four, adding up to 1.
 SkinVertex heaviest(const std::array<std::uint32_t, 8>& joints, const std::array<float, 8>& weights);
