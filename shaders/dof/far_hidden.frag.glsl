@@ -34,7 +34,7 @@ void main() {
     seen += ring * ((1.0 - seen.a) * min(0.25, 1.0 / max(ring.a, 1.0)));
     direction = turned(direction, vec2(0.92387953, 0.38268343));
   }
-  if (seen.a > 0.0) seen = mix(seen / seen.a, all / all.a, clamp(2.0 * radii / (all.a * disc) - 1.0, 0.0, 1.0));
+  if (seen.a > 0.0) seen = mix(seen / seen.a, all / all.a, clamp(2.0 * radii / max(all.a * disc, 1e-7) - 1.0, 0.0, 1.0));
   // Small discs leave gaps, through which the background shows in part, see far_field.frag.glsl. Behind larger ones the sharp picture must
   // not show: the near field covers it except for rounding, which a bright light would turn into a spot.
   float trust = seen.a > 0.0 || float(SCALE) * disc >= 3.0 ? 1.0 : 0.0;
