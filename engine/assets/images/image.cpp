@@ -118,7 +118,7 @@ std::optional<ImageHeader> readHeader(std::string_view bytes, const std::string&
                                       Diagnostics& diagnostics) {
   const ImageKind kind = kindOfName(name);
   if (kind == ImageKind::unknown)
-    reportUnknownKind(diagnostics, name, ".hdr, .exr, .png, .jpg, .jpeg or .tga");
+    reportUnknownKind(diagnostics, name, ".hdr, .exr, .png, .jpg, .jpeg, .webp or .tga");
   else if (bytes.empty())
     reportUnreadable(diagnostics, name, "the file is empty");
   if (kind == ImageKind::unknown || bytes.empty()) return {};
@@ -154,8 +154,8 @@ ImageKind kindOfName(const std::string& name) {
   const std::string extension = text::lowerExtension(name);
   if (extension == ".hdr") return ImageKind::hdr;
   if (extension == ".exr") return ImageKind::exr;
-  if (extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".tga")
-    return ImageKind::eight_bit;
+  for (const char* picture : {".png", ".jpg", ".jpeg", ".webp", ".tga"})
+    if (extension == picture) return ImageKind::eight_bit;
   return ImageKind::unknown;
 }
 
@@ -194,7 +194,7 @@ std::optional<Image8> loadImage8(const std::string& path, int channels, Diagnost
   const std::optional<std::string> bytes = text::readFile(path, diagnostics, Code::unreadableImage);
   if (!bytes) return {};
   if (kindOfName(path) != ImageKind::eight_bit) {
-    reportUnknownKind(diagnostics, path, ".png, .jpg, .jpeg or .tga");
+    reportUnknownKind(diagnostics, path, ".png, .jpg, .jpeg, .webp or .tga");
     return {};
   }
   return readHeader(*bytes, path, diagnostics)

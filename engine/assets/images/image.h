@@ -1,6 +1,6 @@
 // Pictures as CPU data: decoding, saving, cleaning an environment map. Row 0 is the top row, as in the files.
 // Every failure is a Diagnostic: W150 (cannot be read), W151 (unknown kind of file), W152 (empty or too
-// large), W153 (warning, or note when none was worse than too bright: texels were replaced), W180 (cannot be written). Nothing throws, corrupt bytes never
+// large; a warning where an .exr has nothing in its display window), W153 (warning, or note when none was worse than too bright: texels were replaced), W180 (cannot be written). Nothing throws, corrupt bytes never
 // crash. Thread safe: no state is shared between calls.
 #pragma once
 
@@ -31,12 +31,12 @@ using Image8 = ImageOf<std::uint8_t>;  // as stored: sRGB encoded for pictures
 constexpr int kMaxImageSide = 32768;
 constexpr std::size_t kMaxImageTexels = std::size_t{1} << 27;  // 16384 x 8192
 
-// .hdr (RGB), .exr (RGBA; RGB and gray are widened), .png .jpg .jpeg .tga (channels as stored, 8 or 16 bit;
+// .hdr (RGB), .exr (RGBA; RGB and gray are widened), .png .jpg .jpeg .webp .tga (channels as stored, 8 or 16 bit;
 // color is decoded from sRGB, alpha is not). The kind comes from the extension of `name`, case-insensitive.
 std::optional<ImageF> decodeImage(std::string_view bytes, const std::string& name,
                                   text::Diagnostics& diagnostics);
 
-// .png .jpg .jpeg .tga; `channels` 1 to 4, or 0 for what the file has. 16-bit files are reduced.
+// .png .jpg .jpeg .webp .tga; `channels` 1 to 4, or 0 for what the file has. 16-bit files are reduced.
 std::optional<Image8> loadImage8(const std::string& path, int channels, text::Diagnostics& diagnostics);
 
 // decodeImage, made RGBA (alpha 1) and fit for rgba16f: NaN and negative become 0, infinite becomes 65504, and light beyond
@@ -62,7 +62,7 @@ bool isEnvironmentName(const std::string& name);
 // A picture that decodeEnvironment gives, 3 or 4 channels, rounded to halves.
 EnvironmentMap toEnvironmentMap(ImageF image);
 
-// What a channel is in the file: .png .jpg .tga of 8 bits, .png of 16 bits, .hdr and .exr.
+// What a channel is in the file: .png .jpg .webp .tga of 8 bits, .png of 16 bits, .hdr and .exr.
 enum class StoredType : std::uint8_t { byte, word, real };
 
 struct ImageHeader {
@@ -90,8 +90,7 @@ bool savePng8(const std::string& path, int width, int height, int channels,
 // 32-bit float, ZIP scanlines; 1, 3 or 4 channels.
 bool saveExr(const std::string& path, const ImageF& image, text::Diagnostics& diagnostics);
 
-// `image` with 4 channels, `width` x `height` texels over 0; repeated at its edges. `srgb`: color is averaged as light, alpha
-// never is encoded.
+// `image` of 4 channels with `width` x `height` texels, over 0; it repeats at its edges. `srgb`: color is averaged as light.
 Image8 resize(const Image8& image, int width, int height, bool srgb);
 
 float decodeSrgb(float encoded);  // IEC 61966-2-1; input and output 0..1

@@ -17,14 +17,12 @@ void reportUnreadable(text::Diagnostics& diagnostics, const std::string& name, c
 // True when the size is sound; else adds W152.
 bool checkSize(text::Diagnostics& diagnostics, const std::string& name, long long width, long long height);
 
-// Of .png, .jpg and .tga.
+// Of .png, .jpg, .webp and .tga.
 std::optional<ImageHeader> readPictureHeader(std::string_view bytes, const std::string& name,
                                              text::Diagnostics& diagnostics);
-// How a .jpg or .png lies as the camera held it, 1 to 8 (JEITA CP-3451, Exif 2.3, tag 0x0112); 1, as stored, where the file says
-// nothing that can be read.
+// How a picture lies as the camera held it, 1 to 8 (JEITA CP-3451, Exif 2.3, tag 0x0112); 1, as stored, where it does not say.
 int orientationOf(std::string_view bytes);
-// As stored, of bytes whose header was read. `channels` 1 to 4, or 0 for what the file has; T is std::uint8_t or std::uint16_t, whatever
-// the file has.
+// As stored, of bytes whose header was read. `channels` 1 to 4, or 0 for what the file has; T is std::uint8_t or std::uint16_t.
 template <class T>
 std::optional<ImageOf<T>> decodePicture(std::string_view bytes, int channels, const std::string& name,
                                         text::Diagnostics& diagnostics);

@@ -224,6 +224,11 @@ std::optional<ImageF> readExr(std::string_view bytes, const std::string& name, b
   if (!opening) return {};
   const Imath::Box2i& shown = opening->display;
   if (!decodes) return ImageF{static_cast<int>(widthOf(shown)), static_cast<int>(heightOf(shown)), 4};
+  const auto textOf = [](const Imath::Box2i& b) {
+    return fmt::format("({}, {}) to ({}, {})", b.min.x, b.min.y, b.max.x, b.max.y);
+  };
+  if (!shown.intersects(opening->data))
+    diagnostics.warning(say::nothingInWindow, {name}, name, textOf(shown), textOf(opening->data));
   return cropToDisplay(readData(*opening), *opening);
 } catch (const std::exception& error) {  // what is wrong with the file
   reportUnreadable(diagnostics, name, error.what());

@@ -1,8 +1,9 @@
-// .png, .jpg and .tga through stb_image and stb_image_write. Declared in image_codecs.h and image.h.
+// .png, .jpg and .tga through stb_image and stb_image_write, .webp through libwebp. Declared in image_codecs.h and image.h.
 #include <fmt/format.h>
 #include <stb/stb_image.h>
 #include <stb/stb_image_resize.h>
 #include <stb/stb_image_write.h>
+#include <webp/decode.h>
 
 #include <cassert>
 #include <cstddef>
@@ -98,6 +99,37 @@ int stbSize(std::string_view bytes) {
   return static_cast<int>(bytes.size());
 }
 
+bool isWebp(std::string_view bytes) {
+  return bytes.size() >= 12 && bytes.starts_with("RIFF") && bytes.substr(8, 4) == "WEBP";
+}
+
+std::string readWebpHeader(std::string_view bytes, ImageHeader& header) {
+  WebPBitstreamFeatures features;
+  if (WebPGetFeatures(stbData(bytes), bytes.size(), &features) != VP8_STATUS_OK) return "it is damaged";
+  header = {features.width, features.height, features.has_alpha ? 4 : 3};
+  return features.has_animation ? "it moves; save one picture of it" : "";
+}
+
+// Gray is what stb_image makes of colors.
+std::optional<Image8> decodeWebp(std::string_view bytes, int channels) {
+  Image8 image{.channels = channels};
+  const bool clear = channels % 2 == 0;
+  const std::unique_ptr<std::uint8_t, decltype(&WebPFree)> texels(
+      (clear ? WebPDecodeRGBA : WebPDecodeRGB)(stbData(bytes), bytes.size(), &image.width, &image.height),
+      &WebPFree);
+  if (!texels) return {};
+  const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
+                    from = clear ? 4 : 3, to = static_cast<std::size_t>(channels);
+  image.texels.assign(texels.get(), texels.get() + count * from);
+  for (std::size_t i = 0; to < 3 && i < count; ++i) {
+    const std::uint8_t* const t = texels.get() + i * from;
+    image.texels[i * to] = static_cast<std::uint8_t>((77 * t[0] + 150 * t[1] + 29 * t[2]) >> 8);
+    if (clear) image.texels[i * to + 1] = t[3];
+  }
+  image.texels.resize(count * to);
+  return image;
+}
+
 void appendBytes(void* out, void* bytes, int count) {
   static_cast<std::string*>(out)->append(static_cast<const char*>(bytes), static_cast<std::size_t>(count));
 }
@@ -107,15 +139,15 @@ void appendBytes(void* out, void* bytes, int count) {
 std::optional<ImageHeader> readPictureHeader(std::string_view bytes, const std::string& name,
                                              Diagnostics& diagnostics) {
   ImageHeader header;
-  const bool jpeg = isJpeg(bytes), png = bytes.starts_with("\x89PNG");
-  std::string problem = jpeg ? checkJpeg(bytes) : "";
+  const bool jpeg = isJpeg(bytes), png = bytes.starts_with("\x89PNG"), webp = isWebp(bytes);
+  std::string problem = jpeg ? checkJpeg(bytes) : webp ? readWebpHeader(bytes, header) : "";
   if (bytes.starts_with("#?")) problem = "it holds a Radiance picture; rename it to .hdr";
   if (bytes.size() > 0x7fffffffu) problem = "the file is larger than 2 GiB";  // stb_image counts bytes in int
-  if (problem.empty() &&
+  if (problem.empty() && !webp &&
       !stbi_info_from_memory(stbData(bytes), stbSize(bytes), &header.width, &header.height, &header.channels))
     problem = fmt::format("its header is not valid ({})", stbi_failure_reason());
   if (problem.empty() && !checkSize(diagnostics, name, header.width, header.height)) return {};
-  if (problem.empty() && !jpeg && !png) problem = checkTga(bytes);
+  if (problem.empty() && !jpeg && !png && !webp) problem = checkTga(bytes);
   if (!problem.empty()) {
     reportUnreadable(diagnostics, name, problem);
     return {};
@@ -124,16 +156,18 @@ std::optional<ImageHeader> readPictureHeader(std::string_view bytes, const std::
   return header;
 }
 
-// In a .jpg it is in the segment APP1, in a .png in the chunk eXIf; there a list of entries of 12 bytes.
+// In a .jpg it is in the segment APP1, in a .png in the chunk eXIf, in a .webp in EXIF; there a list of entries of 12 bytes.
 int orientationOf(std::string_view bytes) {
   std::string_view exif;
-  if (bytes.starts_with("\x89PNG")) {
-    for (std::size_t at = 8; at + 12 <= bytes.size() && exif.empty();) {
-      std::size_t size = 0;
-      for (std::size_t i = 0; i < 4; ++i) size = size << 8 | byteAt(bytes, at + i);
-      if (bytes.substr(at + 4, 4) == "eXIf") exif = bytes.substr(at + 8, size);
-      at += size + 12;
+  const bool webp = isWebp(bytes);
+  if (webp || bytes.starts_with("\x89PNG")) {
+    for (std::size_t at = webp ? 12 : 8; at + 8 <= bytes.size() && exif.empty();) {
+      std::size_t size = 0;  // of a .webp the lowest byte first, behind the name
+      for (std::size_t i = 0; i < 4; ++i) size = size << 8 | byteAt(bytes, webp ? at + 7 - i : at + i);
+      if (bytes.substr(webp ? at : at + 4, 4) == (webp ? "EXIF" : "eXIf")) exif = bytes.substr(at + 8, size);
+      at += webp ? 8 + size + size % 2 : 12 + size;
     }
+    if (exif.starts_with("Exif")) exif = exif.substr(std::min<std::size_t>(6, exif.size()));
   } else if (bytes.starts_with("\xff\xd8")) {
     for (std::size_t at = 2; at + 4 <= bytes.size() && bytes[at] == '\xff' && bytes[at + 1] != '\xda';) {
       const std::string_view segment =
@@ -167,10 +201,17 @@ std::optional<ImageOf<T>> decodePicture(std::string_view bytes, int channels, co
     return function(stbData(bytes), stbSize(bytes), &width, &height, &stored, channels);
   };
   T* read = nullptr;
-  if constexpr (sizeof(T) == 1)
+  if constexpr (sizeof(T) == 1) {
+    if (ImageHeader header; isWebp(bytes)) {
+      readWebpHeader(bytes, header);
+      auto image = decodeWebp(bytes, channels == 0 ? header.channels : channels);
+      if (!image) reportUnreadable(diagnostics, name, "its texels are not valid");
+      return image;
+    }
     read = load(stbi_load_from_memory);
-  else
+  } else {
     read = load(stbi_load_16_from_memory);
+  }
   const std::unique_ptr<T, decltype(&stbi_image_free)> texels(read, &stbi_image_free);
   if (!texels) {
     reportUnreadable(diagnostics, name, fmt::format("its texels are not valid ({})", stbi_failure_reason()));

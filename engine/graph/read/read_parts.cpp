@@ -190,8 +190,8 @@ constexpr std::pair<std::string_view, Expr ResourceDesc::*> kResourceValues[] = 
 // A string that is a path, and no expression: of an argument that holds a path, unless it begins with '$', and "photo.png" under
 // another key. Whoever knows the arguments says what is wrong with that.
 bool isPath(std::string_view key, std::string_view text) {
-  constexpr std::string_view kEndings[] = {".png", ".jpg", ".jpeg", ".exr", ".hdr", ".cube",
-                                           ".tga", ".bmp", ".gltf", ".glb", ".obj", ".json"};
+  constexpr std::string_view kEndings[] = {".png", ".jpg",  ".jpeg", ".exr", ".hdr", ".cube",
+                                           ".tga", ".webp", ".gltf", ".glb", ".obj", ".json"};
   if (key == "file" || key.ends_with("_file")) return !text.starts_with('$');
   return text.find('$') == std::string_view::npos &&
          std::ranges::any_of(kEndings, [&](std::string_view ending) { return text.ends_with(ending); });

@@ -178,9 +178,9 @@ class ImageProvider : public Provider {
         .name = "image",
         .kind = graph::ImportKind::texture,
         .doc =
-            "A picture file as a 2D texture of its size, upright, with four channels: .png .jpg .tga as "
-            "rgba8 or rgba16, .hdr .exr as rgba32f; or a sequence of numbered files. Not there when `file` "
-            "is empty.",
+            "A picture file as a 2D texture of its size, upright, with four channels: .png .jpg .webp .tga "
+            "as rgba8 or rgba16, .hdr .exr as rgba32f; or a sequence of numbered files. Not there when "
+            "`file` is empty.",
         .arguments = {
             argument("file", Value::text(""),
                      "path of the file; of a sequence with #### or %04d for the number"),

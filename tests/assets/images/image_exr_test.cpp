@@ -198,6 +198,8 @@ TEST_CASE(
       text::Diagnostics diagnostics;
       const auto image = decodeImage(encodeByHand(data, display, bottomFirst), "a.exr", diagnostics);
       REQUIRE_MESSAGE(image, diagnostics.text());
+      // What shows nothing is read, as a frame of a sequence may be empty, but not in silence.
+      CHECK(diagnostics.contains(text::Code::badImageSize) == (data[0] == 20));
       REQUIRE(image->width == 16);
       REQUIRE(image->height == 8);
       int wrong = 0;

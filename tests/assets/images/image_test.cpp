@@ -1,6 +1,7 @@
 #include "engine/assets/images/image.h"
 
 #include <doctest/doctest.h>
+#include <webp/encode.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +21,30 @@ static ImageF makeRamp(int width, int height, int channels) {
   return image;
 }
 
+static std::string webpOf(const std::vector<std::uint8_t>& texels, int width, int height, int channels) {
+  std::uint8_t* encoded = nullptr;
+  const auto encode = channels == 4 ? WebPEncodeLosslessRGBA : WebPEncodeLosslessRGB;
+  const std::size_t size = encode(texels.data(), width, height, width * channels, &encoded);
+  REQUIRE(size > 0);
+  std::string bytes(reinterpret_cast<const char*>(encoded), size);
+  WebPFree(encoded);
+  return bytes;
+}
+
+static std::string sizeOf(std::size_t size) {
+  return {static_cast<char>(size), static_cast<char>(size >> 8), '\0', '\0'};
+}
+
+// A simple .webp in the extended format: with these flags, and chunks behind its picture. developers.google.com/speed/webp/docs/riff_container
+static std::string extended(const std::string& simple, int width, int height, char flags,
+                            const std::string& chunks) {
+  const std::string picture = simple.substr(12), body = "WEBPVP8X" + sizeOf(10) + flags +
+                                                        std::string(3, '\0') + static_cast<char>(width - 1) +
+                                                        std::string(2, '\0') + static_cast<char>(height - 1) +
+                                                        std::string(2, '\0') + picture + chunks;
+  return "RIFF" + sizeOf(body.size()) + body;
+}
+
 TEST_CASE("PNG bytes come back as they were, for every channel count, top row first") {
   const TemporaryFolder folder;
   text::Diagnostics diagnostics;
@@ -36,6 +61,70 @@ TEST_CASE("PNG bytes come back as they were, for every channel count, top row fi
   }
   CHECK(loadImage8(folder.at("a.png"), 3, diagnostics)->channels == 3);
   CHECK(diagnostics.empty());
+}
+
+TEST_CASE("PNG: the one gray of tRNS is transparent, in every depth") {
+  // "Portable Network Graphics", 11.3.2.1. Two texels, 0 and the largest number, of which the second is named.
+  const TemporaryFolder folder;
+  for (const int bits : {1, 2, 4, 8, 16}) {
+    CAPTURE(bits);
+    const int most = (1 << bits) - 1;
+    std::string row(1, '\0');  // no filter
+    if (bits == 16)
+      row += std::string("\0\0\xff\xff", 4);
+    else
+      row += bits == 8 ? std::string("\0\xff", 2) : std::string(1, static_cast<char>(most << (8 - 2 * bits)));
+    const auto count = static_cast<char>(row.size());
+    const std::string stream = std::string("\x78\x01\x01", 3) + count + '\0' + static_cast<char>(~count) +
+                               '\xff' + row + std::string(4, '\0');
+    const auto chunk = [](const std::string& name, const std::string& data) {
+      return std::string(3, '\0') + static_cast<char>(data.size()) + name + data + std::string(4, '\0');
+    };
+    const std::string header =
+        std::string("\0\0\0\2\0\0\0\1", 8) + static_cast<char>(bits) + std::string(4, '\0');
+    const std::string key{static_cast<char>(most >> 8), static_cast<char>(most)};
+    text::Diagnostics diagnostics;
+    const auto image =
+        loadImage8(folder.write("a.png", "\x89PNG\r\n\x1a\n" + chunk("IHDR", header) + chunk("tRNS", key) +
+                                             chunk("IDAT", stream) + chunk("IEND", "")),
+                   4, diagnostics);
+    REQUIRE_MESSAGE(image, diagnostics.text());
+    CHECK(image->texels == std::vector<std::uint8_t>{0, 0, 0, 255, 255, 255, 255, 0});
+  }
+}
+
+TEST_CASE("WebP: texels as they were, in as many channels as are asked for") {
+  const TemporaryFolder folder;
+  text::Diagnostics diagnostics;
+  const std::vector<std::uint8_t> clear = {10, 20, 30, 255, 200, 100, 50, 128},
+                                  solid = {10, 20, 30, 200, 100, 50};
+  folder.write("clear.webp", webpOf(clear, 2, 1, 4));
+  folder.write("solid.WEBP", webpOf(solid, 2, 1, 3));
+  const auto texelsOf = [&](const char* name, int channels) {
+    const auto image = loadImage8(folder.at(name), channels, diagnostics);
+    REQUIRE_MESSAGE(image, diagnostics.text());
+    return image->texels;
+  };
+  CHECK(texelsOf("clear.webp", 0) == clear);
+  CHECK(texelsOf("solid.WEBP", 0) == solid);
+  CHECK(texelsOf("clear.webp", 3) == solid);
+  CHECK(texelsOf("solid.WEBP", 4) == std::vector<std::uint8_t>{10, 20, 30, 255, 200, 100, 50, 255});
+  // What stb_image makes of the same colors.
+  REQUIRE(savePng8(folder.at("clear.png"), 2, 1, 4, clear, diagnostics));
+  for (const int channels : {1, 2})
+    CHECK(texelsOf("clear.webp", channels) == texelsOf("clear.png", channels));
+  const auto light = loadImage(folder.at("clear.webp"), diagnostics);
+  REQUIRE(light);
+  CHECK(light->texels[4] == doctest::Approx(0.577580).epsilon(1e-5));
+  CHECK(light->texels[7] == doctest::Approx(128 / 255.0));
+  CHECK(diagnostics.empty());
+
+  const std::string whole = webpOf(clear, 2, 1, 4);
+  for (std::size_t size = 0; size < whole.size() - 1; ++size)
+    CHECK_FALSE(loadImage8(folder.write("cut.webp", whole.substr(0, size)), 4, diagnostics));
+  text::Diagnostics moving;
+  CHECK_FALSE(loadHeader(folder.write("moving.webp", extended(whole, 2, 1, '\x2', "")), moving));
+  CHECK(moving.text().find("moves") != std::string::npos);
 }
 
 TEST_CASE("a PNG as floats is decoded from sRGB, its alpha is not") {
@@ -149,7 +238,7 @@ TEST_CASE("Radiance: what EXPOSURE and COLORCORR multiplied in is taken out; XYZ
     CHECK_FALSE(decodeImage(std::string("#?RADIANCE\n") + wrong + "\n-Y 1 +X 1\nabcd", "a.hdr", diagnostics));
 }
 
-TEST_CASE("a .jpg and a .png stand upright, as their Exif orientation says") {
+TEST_CASE("a .jpg, a .png and a .webp stand upright, as their Exif orientation says") {
   const TemporaryFolder folder;
   // Exif 2.3, table of tag 0x0112: where the first row and the first column as stored are seen.
   struct Seen {
@@ -172,7 +261,7 @@ TEST_CASE("a .jpg and a .png stand upright, as their Exif orientation says") {
         static_cast<std::string*>(out)->append(static_cast<char*>(data), static_cast<std::size_t>(count));
       },
       &jpeg, kWide, kHigh, 3, texels.data(), 95);
-  const std::string png = encodePng8(kWide, kHigh, 3, texels);
+  const std::string png = encodePng8(kWide, kHigh, 3, texels), webp = webpOf(texels, kWide, kHigh, 3);
   for (int orientation = 1; orientation <= 8; ++orientation) {
     const char value = static_cast<char>(orientation);
     const std::string big =
@@ -183,7 +272,8 @@ TEST_CASE("a .jpg and a .png stand upright, as their Exif orientation says") {
                                std::string("Exif\0\0", 6) + big + jpeg.substr(2);
     const std::string inPng = png.substr(0, 33) + std::string("\0\0\0\x1a", 4) + "eXIf" + little +
                               std::string(4, '\0') + png.substr(33);
-    for (const auto& [name, bytes] : {std::pair{"a.jpg", inJpeg}, {"a.png", inPng}}) {
+    const std::string inWebp = extended(webp, kWide, kHigh, '\x8', "EXIF" + sizeOf(26) + little);
+    for (const auto& [name, bytes] : {std::pair{"a.jpg", inJpeg}, {"a.png", inPng}, {"a.webp", inWebp}}) {
       CAPTURE(name);
       CAPTURE(orientation);
       text::Diagnostics diagnostics;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <webp/decode.h>
 
 #include <algorithm>
 #include <optional>
@@ -36,32 +35,6 @@ std::shared_ptr<const Image8> makeCheckerboard() {
   return std::make_shared<const Image8>(std::move(image));
 }
 
-bool isWebp(std::string_view bytes) {
-  return bytes.size() >= 12 && bytes.starts_with("RIFF") && bytes.substr(8, 4) == "WEBP";
-}
-
-std::optional<ImageHeader> readTextureHeader(std::string_view bytes, const std::string& name,
-                                             text::Diagnostics& found) {
-  if (!isWebp(bytes)) return readPictureHeader(bytes, name, found);
-  WebPBitstreamFeatures features;
-  if (WebPGetFeatures(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), &features) == 0)
-    return ImageHeader{features.width, features.height, features.has_alpha ? 4 : 3, StoredType::byte};
-  reportUnreadable(found, name, "it is damaged");
-  return {};
-}
-
-std::optional<Image8> decodeImage8(std::string_view bytes, const std::string& name,
-                                   text::Diagnostics& found) {
-  if (!isWebp(bytes)) return decodePicture<std::uint8_t>(bytes, 4, name, found);
-  Image8 image{.channels = 4};
-  std::uint8_t* texels = WebPDecodeRGBA(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(),
-                                        &image.width, &image.height);
-  if (texels) image.texels.assign(texels, texels + 4 * image.width * image.height);  // of 16383 at most
-  WebPFree(texels);
-  if (!texels) reportUnreadable(found, name, "it is damaged");
-  return texels ? std::optional(std::move(image)) : std::nullopt;
-}
-
 bool isBlue(const Image8& image) {
   double sums[4] = {};
   for (std::size_t i = 0; i < image.texels.size(); ++i) sums[i % 4] += image.texels[i];
@@ -72,7 +45,7 @@ bool isBlue(const Image8& image) {
 
 std::uint32_t TexturePool::put(std::string bytes, const std::string& name, const text::Place& place) {
   Entry entry{.bytes = std::move(bytes), .name = name, .place = place};
-  if (const auto size = readTextureHeader(entry.bytes, name, entry.found)) {
+  if (const auto size = readPictureHeader(entry.bytes, name, entry.found)) {
     entry.texels = static_cast<std::uint64_t>(size->width) * static_cast<std::uint64_t>(size->height);
     entry.channels = size->channels;
     if (!countTexels(entry.texels, name, place)) return kNoRow;
@@ -144,7 +117,7 @@ bool TexturePool::decodeAll() {
     if (files_.stop().stop_requested()) return;
     Entry& entry = images_[number];
     if (!entry.bytes.empty())
-      if (auto decoded = decodeImage8(entry.bytes, entry.name, entry.found)) {
+      if (auto decoded = decodePicture<std::uint8_t>(entry.bytes, 4, entry.name, entry.found)) {
         entry.content = hashOf(*decoded);
         entry.image = std::make_shared<const Image8>(std::move(*decoded));
       }
