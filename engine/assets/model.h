@@ -69,8 +69,7 @@ enum MapSampler : std::uint8_t {
   atSecondUv = 32
 };
 
-// What glTF's extensions say of a material: its dielectric reflection, a coat, a sheen, brushed grooves, a thin film. As it
-// is here it is nothing.
+// What glTF's extensions say of a material: its dielectric reflection, a coat, a sheen, brushed grooves, a film. By default nothing.
 struct MaterialLayers {
   glm::vec3 specularColor{1};
   float specular = 1, ior = 1.5f;  // of the dielectric; the factor counts at grazing angles, too
@@ -93,8 +92,7 @@ constexpr std::size_t kMaterialMaps = 17;
 
 struct Material {
   std::string name;
-  glm::vec3 albedo{
-      0.5f};  // linear; F0 of a metal. Like all numbers here a factor of its map, where there is one
+  glm::vec3 albedo{0.5f};  // linear; F0 of a metal. Like all numbers here a factor of its map, if any
   float metallic = 0;
   float roughness = 0.5f;  // perceptual
   glm::vec3 emissive{0};   // linear, scene-referred
@@ -108,8 +106,7 @@ struct Material {
   float shininess = 0;
   bool doubleSided = false;
   bool unlit = false;  // shows `emissive` and its map alone; all else is black
-  // Rows of the textures of the model, or of the scene, or kNoRow. Channels are those of glTF: roughness is g, metallic b,
-  // occlusion r.
+  // Rows of the textures of the model, or of the scene, or kNoRow. Channels as in glTF: roughness g, metallic b, occlusion r.
   std::uint32_t albedoMap = kNoRow, normalMap = kNoRow, metallicRoughnessMap = kNoRow, occlusionMap = kNoRow,
                 emissiveMap = kNoRow;
   MaterialLayers layers{};

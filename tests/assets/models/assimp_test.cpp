@@ -283,6 +283,8 @@ TEST_CASE("FBX: lights, cameras and maps that are not read are left out, each wi
   const auto model = loadModel(folder.write("lit.fbx", text), diagnostics);
   REQUIRE_MESSAGE(model, diagnostics.text());
   CHECK(model->lights.empty());
+  CHECK(std::ranges::count(diagnostics.items(), "give the scene file a 'sun' and 'lamps'",
+                           &text::Diagnostic::hint) == 1);
   REQUIRE_MESSAGE(diagnostics.size() == 3, diagnostics.text());
   for (const char* what : {"light", "camera", "map Opacity"})
     CHECK_MESSAGE(std::ranges::any_of(diagnostics.items(),
@@ -291,6 +293,63 @@ TEST_CASE("FBX: lights, cameras and maps that are not read are left out, each wi
                                                d.message.find(what) != std::string::npos;
                                       }),
                   diagnostics.text());
+}
+
+TEST_CASE("FBX: shape keys are left out with a warning, and the mesh is drawn as it rests") {
+  const TemporaryFolder folder;
+  const Model model = loadGood(folder.write("m.fbx", R"(; FBX 7.4.0 project file
+FBXHeaderExtension:  {
+	FBXVersion: 7400
+}
+Objects:  {
+	Geometry: 1, "Geometry::", "Mesh" {
+		Vertices: *9 {
+			a: 0,0,0,1,0,0,0,1,0
+		}
+		PolygonVertexIndex: *3 {
+			a: 0,1,-3
+		}
+	}
+	Geometry: 2, "Geometry::smile", "Shape" {
+		Version: 100
+		Indexes: *1 {
+			a: 2
+		}
+		Vertices: *3 {
+			a: 0,4,0
+		}
+		Normals: *3 {
+			a: 0,0,0
+		}
+	}
+	Deformer: 3, "Deformer::face", "BlendShape" {
+		Version: 100
+	}
+	Deformer: 4, "SubDeformer::smile", "BlendShapeChannel" {
+		Version: 100
+		DeformPercent: 50
+		FullWeights: *1 {
+			a: 100
+		}
+	}
+	Model: 5, "Model::head", "Mesh" {
+		Version: 232
+	}
+}
+Connections:  {
+	C: "OO",5,0
+	C: "OO",1,5
+	C: "OO",3,1
+	C: "OO",4,3
+	C: "OO",2,4
+}
+)"),
+                               1);
+  REQUIRE(model.vertices.size() == 3);
+  for (const Vertex& vertex : model.vertices) CHECK(vertex.position.y <= 1);
+  text::Diagnostics diagnostics;
+  REQUIRE(loadModel(folder.at("m.fbx"), diagnostics));
+  CHECK(diagnostics.items()[0].message.find("shape key") != std::string::npos);
 }
 
 TEST_CASE("FBX files that are damaged anywhere") {

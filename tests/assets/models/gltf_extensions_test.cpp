@@ -84,6 +84,37 @@ TEST_CASE("samplers: wrap of both axes and what is magnified") {
                            std::span(material.samplers).first(3)));  // of albedo, normal, metallic-roughness
 }
 
+TEST_CASE("maps of which a mesh lacks the texture coordinates are one warning that names them") {
+  GltfMaker maker = plainSquare();
+  maker.document["images"] = {
+      {{"uri", "data:image/png;base64," +
+                   GltfMaker::base64(encodePng8(1, 1, 3, std::array<std::uint8_t, 3>{1, 2, 3}))}}};
+  maker.document["textures"] = {{{"source", 0}}};
+  maker.document["materials"] = {
+      {{"name", "painted"}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}},
+      {{"name", "plain"}}};
+  json& primitives = maker.document["meshes"][0]["primitives"];
+  primitives[0]["material"] = 0;
+  CHECK(make(maker).instances.size() == 1);
+  const auto said = [&] {
+    const TemporaryFolder folder;
+    text::Diagnostics diagnostics;
+    CHECK(loadModel(folder.write("m.gltf", maker.gltf()), diagnostics));
+    REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
+    CHECK(diagnostics.items()[0].code == Code::modelPartLeftOut);
+    CHECK(diagnostics.items()[0].message.find("'painted'") != std::string::npos);
+    return diagnostics.items()[0].expected;
+  };
+  maker.document["materials"][0]["normalTexture"] = {{"index", 0}, {"texCoord", 3}};
+  CHECK(said() == "TEXCOORD_3");
+  maker.document["materials"][0].erase("normalTexture");
+  primitives[0]["attributes"].erase("TEXCOORD_0");
+  primitives.push_back(primitives[0]);
+  CHECK(said() == "TEXCOORD_0");
+  for (json& each : primitives) each["material"] = 1;
+  CHECK(make(maker).instances.size() == 2);  // no map: nothing is lost
+}
+
 TEST_CASE("layers: what the extensions of a material say; what changes nothing is none") {
   Model model = withMaterial(
       {{"extensions",

@@ -276,7 +276,7 @@ TEST_CASE(
        {"emissiveTexture", {{"index", 0}}}}};
   maker.document["meshes"][0]["primitives"][0]["material"] = 0;
   maker.document["extensionsRequired"] = {"KHR_texture_transform"};
-  const Model model = make(maker, 1);
+  const Model model = make(maker, 2);  // the third uv, and the second, which the mesh lacks
   CHECK(model.materials[0].emissiveMap == kNoRow);
   CHECK(model.materials[0].occlusionMap != kNoRow);
   CHECK(model.materials[0].samplers[0] == repeat);

@@ -126,6 +126,13 @@ TEST_CASE("OBJ: what is not drawn is one warning of each kind, and the rest is d
   CHECK(warningsOf(folder, square + "usemtl other\nf 1 2 3\nusemtl other\nf 1 3 4\n").size() == 1);
   folder.write("m.mtl", "newmtl m\nKd 1 1 1\nmap_Ks x.png\nPs 0.5\nPs 0.5\n");
   CHECK(warningsOf(folder, square).size() == 2);
+  // Maps of faces without texture coordinates, once for a material.
+  text::Diagnostics diagnostics;
+  REQUIRE(savePng8(folder.at("x.png"), 1, 1, 3, std::array<std::uint8_t, 3>{1, 2, 3}, diagnostics));
+  folder.write("m.mtl", "newmtl m\nmap_Kd x.png\nnewmtl n\nKd 1 1 1\n");
+  CHECK(warningsOf(folder, square).empty());
+  CHECK(warningsOf(folder, square + "f 1 2 3\no b\nf 1 3 4\nusemtl n\nf 1 2 3\n").size() == 1);
+  folder.write("m.mtl", "newmtl m\nKd 1 1 1\nmap_Ks x.png\nPs 0.5\nPs 0.5\n");
   CHECK(areaOf(loadGood(folder.write("m.obj", square + "f 1 2 9\n"), 3)) == doctest::Approx(4));
 }
 

@@ -58,8 +58,10 @@ class GltfWriter {
       json_["materials"].push_back(materialOf(*scene_.mMaterials[i]));
     addNodes();
     for (unsigned i = 0; i < scene_.mNumAnimations; ++i) addAnimation(*scene_.mAnimations[i]);
-    if (scene_.HasLights()) json_["extras"]["each light, whose unit the format does not say,"] = true;
-    if (scene_.HasCameras()) json_["extras"]["each camera"] = true;
+    if (scene_.HasLights())
+      json_["extras"]["each light, whose unit the format does not say,"] =
+          "give the scene file a 'sun' and 'lamps'";
+    if (scene_.HasCameras()) json_["extras"]["each camera"] = "";
     json_["asset"]["version"] = "2.0";
     json_["buffers"] = {{{"byteLength", binary_.size()}}};
     json_["bufferViews"][0]["byteLength"] = binary_.size();
@@ -170,7 +172,7 @@ class GltfWriter {
          {aiTextureType_SPECULAR, aiTextureType_OPACITY, aiTextureType_SHININESS, aiTextureType_METALNESS,
           aiTextureType_DIFFUSE_ROUGHNESS, aiTextureType_AMBIENT_OCCLUSION, aiTextureType_DISPLACEMENT})
       if (from.GetTextureCount(type) > 0)
-        json_["extras"][std::string("each map ") + aiTextureTypeToString(type)] = true;
+        json_["extras"][std::string("each map ") + aiTextureTypeToString(type)] = "";
     return out;
   }
 
@@ -227,7 +229,7 @@ class GltfWriter {
       attributes["TEXCOORD_0"] =
           each(from.mTextureCoords[0], [](const aiVector3D& uv) { return glm::vec2(uv.x, 1 - uv.y); });
     if (from.HasVertexColors(0)) attributes["COLOR_0"] = each(from.mColors[0], toLinear);
-    if (from.mNumAnimMeshes > 0) json_["extras"]["each shape key"] = true;
+    if (from.mNumAnimMeshes > 0) json_["extras"]["each shape key"] = "";
     if (from.mNumBones > 0 && from.mNumBones <= 65535) made["skin"] = addSkin(from, attributes);
     const Json primitive = {
         {"attributes", attributes}, {"indices", accessor(indices)}, {"material", from.mMaterialIndex}};

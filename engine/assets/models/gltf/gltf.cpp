@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -34,7 +35,8 @@ class GltfReader {
 
   void read() {
     if (const JsonValue* leftOut = made_ ? document_.root().find("extras") : nullptr)
-      for (const auto& each : leftOut->members) document_.leaveOut(say::leftOut, each.value, each.key);
+      for (const auto& each : leftOut->members)
+        document_.leaveOut(say::leftOut, each.value, each.key, each.value.text);
     readNodes();
     for (const JsonValue& row : document_.rows("skins")) readSkin(row);
     for (const JsonValue& row : document_.rows("animations")) readAnimation(row);
@@ -247,9 +249,16 @@ class GltfReader {
     mesh.normals = take(attribute<glm::vec3>(attributes, "NORMAL", {}), mesh, &RawVertex::normal);
     take(attribute<glm::vec4>(attributes, "TANGENT", {}), mesh, &RawVertex::tangent);
     const GltfUvs& uvs = uvs_[part.material];
-    readUvs(attributes, uvs[0], mesh, &RawVertex::uv);
-    if (uvs.size() > 1) mesh.secondUvs = readUvs(attributes, uvs[1], mesh, &RawVertex::secondUv);
-    if (model_.materials[part.material].samplers[1] & atSecondUv) mesh.tangentUv = &RawVertex::secondUv;
+    Material& surface = model_.materials[part.material];
+    const bool mapped = std::ranges::any_of(surface.maps(), [](auto* map) { return *map != kNoRow; });
+    for (std::size_t i = 0; i < uvs.size(); ++i) {
+      const bool found = readUvs(attributes, uvs[i], mesh, i == 0 ? &RawVertex::uv : &RawVertex::secondUv);
+      if (i == 1) mesh.secondUvs = found;
+      if (!found && mapped && mapless_.insert(part.material).second)
+        document_.leaveOut(say::mapsWithoutUv, value, surface.name, name,
+                           made_ ? "uv" : fmt::format("TEXCOORD_{}", uvs[i].set));
+    }
+    if (surface.samplers[1] & atSecondUv) mesh.tangentUv = &RawVertex::secondUv;
     readColors(attributes, mesh);
     morph(value, weights, moves, corners, mesh);
     if (skinned) part.joints = readWeights(attributes, mesh);
@@ -551,7 +560,8 @@ class GltfReader {
   std::vector<std::uint32_t> rowOf_;  // by the file's index of a node: its row in the model
   std::vector<bool> shown_;           // by the file's index: in the scene that is shown
   std::map<std::tuple<std::uint32_t, bool, bool, std::vector<float>>, std::vector<Part>> parts_;
-  std::uint32_t count_ = 0;  // of vertices of the primitive that is read
+  std::set<std::uint32_t> mapless_;  // materials that meshes without their uv have
+  std::uint32_t count_ = 0;          // of vertices of the primitive that is read
 };
 
 }  // namespace

@@ -21,8 +21,7 @@ namespace {
 
 constexpr std::uint64_t kMaxBytes = 1ull << 40;  // no file is so large; sums of these do not overflow
 
-// What an element of a mesh may ask for that Weft does, or that changes no picture when it is left out; each with a space before it
-// and a comma behind it.
+// What a file may ask for that Weft does, or that changes no picture; each with a space before it and a comma behind it.
 constexpr std::string_view kKnownExtensions =
     " EXT_mesh_gpu_instancing, EXT_meshopt_compression, EXT_texture_webp, KHR_draco_mesh_compression, "
     "KHR_lights_punctual, KHR_materials_anisotropy, KHR_materials_clearcoat, "

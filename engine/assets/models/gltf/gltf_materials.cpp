@@ -246,7 +246,7 @@ class MaterialReader {
     if (const JsonValue* shine = valueOf(value, {"extensions", "WEFT_blinn_phong"})) {
       document_.numbers(*shine, "specular", {&material.specular.x, 3});
       material.shininess = document_.number(*shine, {"shininess"}, 0, 0, 10000);
-      toMetallicRoughness(material, valueOf(value, {"pbrMetallicRoughness", "baseColorTexture"}) != nullptr);
+      toMetallicRoughness(material);
     }
     const std::string mode = textOf(value, "alphaMode");
     material.blend = mode == "BLEND";

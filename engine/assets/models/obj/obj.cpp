@@ -77,6 +77,13 @@ class MtlReader {
   // How texture coordinates of a material are moved, v upwards: scale in xy, offset in zw.
   glm::vec4 moveOf(std::uint32_t material) const { return rows_[material].move; }
 
+  // Of faces without texture coordinates.
+  void reportUvs(std::uint32_t row, const std::string& mesh) {
+    if (const std::string& name = model_.materials[row].name;
+        !rows_[row].maps.empty() && said_.insert(name).second)
+      diagnostics_.warning(say::mapsWithoutUv, files_.place(), name, mesh, "'vt' at each corner");
+  }
+
   // Decodes the maps. False when the load was stopped, or after errors.
   bool finish() {
     const std::size_t before = diagnostics_.errorCount();
@@ -112,7 +119,7 @@ class MtlReader {
   };
 
   void leaveOut(const std::string& what, const Place& place) {
-    if (said_.insert(what).second) diagnostics_.warning(say::leftOut, place, what);
+    if (said_.insert(what).second) diagnostics_.warning(say::leftOut, place, what, "");
   }
 
   void readLibrary(const std::string& name, const Place& place) {
@@ -221,8 +228,6 @@ class MtlReader {
   void finishRow(std::size_t number) {
     Row& row = rows_[number];
     Material& material = model_.materials[number];
-    if (!row.physical && !row.maps.contains("Pr") && !row.maps.contains("Pm"))
-      toMetallicRoughness(material, row.maps.contains("Kd"));
     const auto take = [&](std::string_view of) {
       const auto found = row.maps.find(of);
       return found == row.maps.end() ? nullptr : &found->second;
@@ -234,6 +239,7 @@ class MtlReader {
     };
     const Map *color = take("Kd"), *holes = take("d"), *rough = take("Pr"), *metal = take("Pm");
     use(&Material::albedoMap, 0, color, TextureUse::color);
+    if (!row.physical && !rough && !metal) toMetallicRoughness(material);
     if (holes && holes->image != kNoRow) {
       // Its alpha, or its brightness where it has none.
       const int channel = pool_.hasAlpha(holes->image) ? 3 : 0;
@@ -549,6 +555,8 @@ class ObjReader {
   void finishPart(Part& part) {
     RawMesh mesh{.name = model_.nodes[part.node].name, .normals = true, .colors = colored_ && !colorless_};
     const glm::vec4 move = materials_.moveOf(part.material);
+    if (std::ranges::any_of(part.corners, [](const Corner& each) { return each[1] == kNoRow; }))
+      materials_.reportUvs(part.material, mesh.name);
     std::unordered_map<Corner, std::uint32_t, CornerHash> known;
     for (const Corner& corner : part.corners) {
       const auto [position, uv, normal] = corner;

@@ -137,13 +137,13 @@ bool normalizeRotation(glm::vec4& q) {
 
 // The exponent of Blinn–Phong as the width of GGX: alpha² = 2 / (n + 2) (Walter et al. 2007), alpha = roughness². What
 // has no diffuse color but a bright highlight with a color, or a color map, is taken for metal; that of black lacquer is white.
-void toMetallicRoughness(Material& material, bool mapped) {
+void toMetallicRoughness(Material& material) {
   const auto [darkest, brightest] =
       std::minmax({material.specular.x, material.specular.y, material.specular.z});
   material.blinnPhong = true;
   material.roughness = std::pow(2 / (material.shininess + 2), 0.25f);
   if (std::max({material.albedo.x, material.albedo.y, material.albedo.z}) >= 0.04f || brightest < 0.25f ||
-      (!mapped && darkest > 0.9f * brightest))
+      (material.albedoMap == kNoRow && darkest > 0.9f * brightest))
     return;
   material.metallic = 1;
   material.albedo = material.specular;

@@ -41,8 +41,8 @@ struct RawMesh {
   bool join = false;  // equal vertices become one: of formats without indices
 };
 
-// Of a Blinn–Phong material, from its albedo, specular and shininess: what passes see of it that shade otherwise.
-void toMetallicRoughness(Material& material, bool mapped);
+// Of a Blinn–Phong material, from its albedo, its map, specular and shininess: what passes see of it that shade otherwise.
+void toMetallicRoughness(Material& material);
 
 // A vertex that more than four joints move: by the heaviest four, adding up to 1.
 SkinVertex heaviest(const std::array<std::uint32_t, 8>& joints, const std::array<float, 8>& weights);

@@ -16,8 +16,7 @@
 
 namespace weft::assets {
 
-// What of a material an image is. A bump map of OBJ is a height, but most exporters write normal maps there: it is taken where it is
-// blue.
+// What of a material an image is. A bump map is a height, but most exporters write normal maps there: it is taken where it is blue.
 enum class TextureUse : std::uint8_t { color, numbers, bump };
 
 // A texel, RGBA as stored, of one of each of two images; white where there is no image.
