@@ -103,8 +103,7 @@ inline std::uint32_t subresourceCount(const FlatUse& use, const FlatResource& r)
   return std::uint32_t{use.mips} * use.layers * static_cast<std::uint32_t>(std::popcount(planes));
 }
 
-// Calls f(number) for each sub-resource that `use` covers, ascending. An f that returns a bool ends the
-// walk with false.
+// Calls f(number) for each sub-resource that `use` covers, ascending. An f that returns a bool ends the walk with false.
 template <class F>
 void forEachSubresource(const FlatUse& use, const FlatResource& r, F&& f) {
   const auto goesOn = [&](std::uint32_t index) {
@@ -140,8 +139,7 @@ void forEachVersion(const VersionLinks& links, std::uint32_t link, const FlatUse
 
 // ---- bytes ----
 
-// Bytes of the part of `r` that `use` covers (one copy). Planes of a depth-stencil texel count half the texel
-// each.
+// Bytes of the part of `r` that `use` covers (one copy). Planes of a depth-stencil texel count half the texel each.
 std::uint64_t bytesOf(const FlatUse& use, const FlatResource& r);
 
 // An output brings to the CPU the bytes of a buffer, or, of a texture, as many 32-bit numbers per texel as its format has

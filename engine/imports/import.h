@@ -39,8 +39,7 @@ class Provider {
   virtual gl::TextureRef texture(const Frame&, text::Diagnostics&) { return {}; }
   // `layout` is for types that reflect `columns`: how the reading shader lays a row out.
   virtual BufferRef buffer(const Frame&, const RowLayout&, text::Diagnostics&) { return {}; }
-  // Of types that reflect `columns`: what one has in row part.element, for a picture of the part's size. False: there is no such
-  // row.
+  // Of types that reflect `columns`: what one has in row part.element, for a picture of the part's size. False: no such row.
   virtual bool value(const Frame&, const ViewPart&, std::uint32_t /*column*/, Numbers&) { return false; }
   // Valid until the next call.
   virtual const scene::ViewData& view(const Frame& frame, const ViewPart& part);

@@ -33,8 +33,7 @@ namespace weft::imports {
 // The storage block that has the rows of a draw pass's list, although no slot names it.
 constexpr const char* kInstancesBlock = "instances";
 
-// Byte offsets of a table's columns within one element of a storage block, in the order of the columns; -1: the shader has no
-// such field.
+// Byte offsets of a table's columns within one element of a storage block, in the order of the columns; -1: no such field.
 struct RowLayout {
   std::uint32_t stride = 0;
   std::vector<std::int32_t> offsets;

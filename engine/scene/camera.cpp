@@ -64,8 +64,7 @@ glm::dmat4 viewMatrix(const CameraPose& pose) {
   return glm::lookAt(pose.position, pose.target, vertical ? glm::dvec3(0, 0, back > 0 ? -1 : 1) : pose.up);
 }
 
-// Upchurch and Desbrun, "Tightening the Precision of Perspective Rendering", 2012: reversed, far plane at
-// infinity.
+// Upchurch and Desbrun, "Tightening the Precision of Perspective Rendering", 2012: reversed, far plane at infinity.
 glm::dmat4 projectionMatrix(double fovDegrees, double aspect, double nearPlane, glm::dvec2 jitterNdc) {
   assert(fovDegrees > 0 && fovDegrees < 180 && aspect > 0 && nearPlane > 0);
   const double f = 1 / std::tan(fovDegrees * kRadiansPerDegree / 2);

@@ -45,8 +45,7 @@ struct Camera {
 CameraPose poseAt(const Camera& camera, double time);
 bool isMoving(const Camera& camera);
 
-// What common/view.glsl declares, spelled the same. Matrices are column-major, world to view, view to clip
-// and so on.
+// What common/view.glsl declares, spelled the same. Matrices are column-major, world to view, view to clip and so on.
 struct ViewData {
   glm::mat4 view{1}, projection{1}, view_projection{1}, inverse_view_projection{1};
   // The previous frame's view with the previous projection, but this frame's jitter: the difference of the
@@ -78,12 +77,10 @@ glm::dmat4 viewMatrix(
 glm::dmat4 projectionMatrix(double fovDegrees, double aspect, double nearPlane,
                             glm::dvec2 jitterNdc = {0, 0});
 
-// The angle of view, degrees, of a lens of this focal length before a sensor of this height, both in one unit
-// and over 0.
+// The angle of view, degrees, of a lens of this focal length before a sensor of this height, both in one unit and over 0.
 double fovOfLens(double focalLength, double sensorHeight);
 
-// Offset of frame `frame` in [-0.5, 0.5) pixels: Halton (2, 3) with period `count`; zero when count is 0
-// or 1.
+// Offset of frame `frame` in [-0.5, 0.5) pixels: Halton (2, 3) with period `count`; zero when count is 0 or 1.
 glm::vec2 jitterAt(std::uint32_t frame, std::uint32_t count);
 
 }  // namespace weft::scene

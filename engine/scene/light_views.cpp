@@ -12,8 +12,7 @@ SunView sunView(const Sun& sun, const Box& bounds, std::uint32_t texels) {
   assert(texels > 0);
   const glm::dvec3 low = bounds.empty() ? glm::dvec3(-0.5) : glm::dvec3(bounds.low);
   const glm::dvec3 high = bounds.empty() ? glm::dvec3(0.5) : glm::dvec3(bounds.high);
-  // The radius is that of a ball around the box, so that it is the same from every side; in steps of a sixteenth of its
-  // power of two.
+  // The radius of a ball around the box, so that it is the same from every side; in steps of a sixteenth of its power of two.
   const double ball = std::max(glm::length(high - low) / 2, 1e-4);
   const double step = std::exp2(std::floor(std::log2(ball))) / 16;
   // A texel more on each side than what is inside, for filters and for the snapping.

@@ -80,8 +80,7 @@ struct Skin {
 };
 using SkinId = Id<Skin>;
 
-// An animation that plays, round and round. Copies of a model share the tracks and have nodes of their own: no two animations move
-// the same node.
+// An animation that plays, round and round. Copies of a model share tracks, not nodes: no two animations move the same node.
 struct Animation {
   std::shared_ptr<const assets::ModelAnimation> tracks;
   std::vector<NodeId> nodes;  // the node that a track moves, parallel to tracks->tracks

@@ -80,8 +80,7 @@ struct Device {
   std::string name;
 };
 
-// Hardware first, otherwise in the driver's order. Empty with a reason in `failures` when devices cannot be
-// listed.
+// Hardware first, otherwise in the driver's order. Empty with a reason in `failures` when devices cannot be listed.
 std::vector<Device> listDevices(std::vector<std::string>& failures) {
   EGLDeviceEXT handles[32];
   EGLint count = 0;

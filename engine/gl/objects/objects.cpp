@@ -63,8 +63,7 @@ std::optional<Buffer> Buffer::create(std::uint64_t bytes, GLbitfield flags, std:
   GLuint id = 0;
   glCreateBuffers(1, &id);
   Buffer buffer(id);
-  // workarounds.md: storage-flag-without-storage. Errors from before are in the debug log and would be taken
-  // for ours.
+  // workarounds.md: storage-flag-without-storage. Errors from before are in the debug log and would be taken for ours.
   takeErrors();
   glNamedBufferStorage(id, static_cast<GLsizeiptr>(bytes), data, flags);
   if (const std::string errors = takeErrors(); !errors.empty()) {

@@ -148,8 +148,7 @@ BlockMember readMember(GLuint program, bool storage, GLuint index, const std::st
       {GL_TYPE, GL_OFFSET, GL_ARRAY_SIZE, GL_ARRAY_STRIDE, GL_MATRIX_STRIDE, GL_IS_ROW_MAJOR});
   BlockMember member;
   member.name = withoutIndex(nameOf(program, interface, index));
-  // With an instance name, members are called "Block.member" (and an array of blocks "Block[0]", members
-  // "Block.member").
+  // With an instance name, members are called "Block.member" (and an array of blocks "Block[0]", members "Block.member").
   const std::string prefix = block.substr(0, block.find('[')) + ".";
   if (member.name.starts_with(prefix)) member.name.erase(0, prefix.size());
   member.type = static_cast<GLenum>(type);

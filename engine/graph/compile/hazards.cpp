@@ -321,8 +321,7 @@ class Collector {
     due_ |= bits;
   }
 
-  // What step t requires becomes intervals. Only a store after the step's own clear must wait for
-  // barriersAfterClears.
+  // What step t requires becomes intervals. Only a store after the step's own clear must wait for barriersAfterClears.
   void emitIntervals(std::int32_t t) {
     for (unsigned rest = due_; rest != 0; rest &= rest - 1) {
       const auto bit = static_cast<std::size_t>(std::countr_zero(rest));

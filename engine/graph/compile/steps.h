@@ -76,8 +76,7 @@ using HazardCauses = std::array<std::vector<HazardCause>, kBarrierBitCount>;
 void collectHazards(const FlatGraph& graph, const Plan& plan, const CompileScratch& scratch,
                     HazardIntervals& hazards, HazardCauses* causes);
 
-// Positions for one bit, ascending and as late as possible. Every interval has one, and none can be left out.
-// `circle` is 2 (S + 1).
+// Positions for one bit, ascending and as late as possible. Every interval has one, and none can be left out. `circle` is 2 (S + 1).
 std::vector<std::int32_t> chooseBarrierPositions(const std::vector<HazardInterval>& hazards,
                                                  std::int32_t circle);
 

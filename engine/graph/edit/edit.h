@@ -32,8 +32,7 @@ std::optional<WriteBack> planWriteBack(const GraphDesc& desc, std::span<const st
                                        const Registry& registry, const Settings& settings,
                                        text::Diagnostics& diagnostics);
 
-// Replaces the files, each whole (W180). False, and no file is changed, after W195: one is not what it was
-// when it was read.
+// Replaces the files, each whole (W180). False, and no file is changed, after W195: one is not what it was when it was read.
 bool saveWriteBack(const WriteBack& plan, text::Diagnostics& diagnostics);
 
 // The stanzas of a graph and of all that it includes, with their full names.

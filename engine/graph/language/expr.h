@@ -76,8 +76,7 @@ class EvalScope {
                                     const text::Place&) {
     return std::nullopt;
   }
-  // The choices of a choice parameter, or empty: `$draw == bilboard` is then an error with the nearest
-  // choice.
+  // The choices of a choice parameter, or empty: `$draw == bilboard` is then an error with the nearest choice.
   virtual std::vector<std::string> choicesOf(std::string_view /*variable*/) { return {}; }
   virtual std::vector<std::string> candidates(NameKind) { return {}; }
   // A key by which a folded age() finds its resource at run time; nullopt for an unknown resource.
@@ -136,11 +135,9 @@ class Expr {
   const std::string* onlyVariable() const;
   // True when the bare `word` stands in it: a repeat index or a choice.
   bool says(std::string_view word) const;
-  // Every size(x), mips(x), count(x), has(x), age(x), format(x) it asks, with the name as written (an @ included), in
-  // order.
+  // Every size(x), mips(x), count(x), has(x), age(x), format(x) it asks, with the name as written (an @ included), in order.
   std::vector<std::pair<Fact, std::string_view>> facts() const;
-  // True when evaluating it needs no scope: a literal of the file, or a folded expression without age() and
-  // live parameters.
+  // True when evaluating it needs no scope: a literal of the file, or a folded expression without age() and live parameters.
   bool isConstant() const;
 
   // The value, or type none after an error was reported; a misspelt variable is reported and read as the nearest. age() is an error here unless `scope.fact` answers

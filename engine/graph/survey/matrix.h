@@ -32,8 +32,7 @@ struct Matrix {
   std::vector<RefusedVariation> needed;
   // Whatever else is refused: a value that a parameter offers, and passes whose errors do not tell that they are disabled.
   std::vector<RefusedVariation> broken;
-  // Variations in which a pass does not reach the picture, or reads what is written below it, and which the graph as it is
-  // has not.
+  // Variations in which a pass does not reach the picture, or reads what is written below it, and which the graph as it is has not.
   std::vector<RefusedVariation> lost;
 };
 

@@ -15,8 +15,7 @@ std::unique_ptr<PassType> makeMipmap() {
       .fixedSlots = {{"source", graph::Access::read, "the finest level, already written"},
                      {"result", graph::Access::write, "the levels below it"}},
       .fromSource = true,
-      // The specification names no bit for glGenerateTextureMipmap. Drivers fetch, render or copy, so it needs all three
-      // bits.
+      // The specification names no bit for glGenerateTextureMipmap. Drivers fetch, render or copy, so it needs all three bits.
       .touches = graph::kBarrierFramebuffer | graph::kBarrierTexture | graph::kBarrierTextureUpdate};
   // The executor hands over one view that starts at the source level and ends at the last level written.
   return std::make_unique<BuiltinPass>(std::move(reflected), [](const PassContext& context) {

@@ -69,8 +69,7 @@ bool FrameCadence::wants(std::size_t step, const std::vector<std::uint64_t>& own
   const Cadence cadence = plan_.passOf(step).cadence;
   if (cadence == Cadence::always) return true;
   if (cadence == Cadence::every && frame_ % plan_.passOf(step).period == 0) return true;
-  // While a group is under way, any change of what it has read would make the rest of its result another picture, also for
-  // `once`.
+  // While a group is under way, any change of what it has read would make the rest of its result another picture, also for `once`.
   if (groupOf_[step] != kNone && (groups_[groupOf_[step]].active || groups_[groupOf_[step]].finished))
     return differs(step, latches_[step], true, own, generations);
   return differs(step, memories_[step], cadence == Cadence::on_change, own, generations);

@@ -77,8 +77,7 @@ class Execution {
   // The parameters. Live ones can be set between two frames.
   FrameUniforms& uniforms() { return uniforms_; }
   const FrameUniforms& uniforms() const { return uniforms_; }
-  // The graph's live "outputs" with the latest values that have arrived, which are one or a few frames old. frame() renews
-  // them.
+  // The graph's live "outputs" with the latest values that have arrived, which are one or a few frames old. frame() renews them.
   ReadBack& readBack() { return readBack_; }
   const ReadBack& readBack() const { return readBack_; }
   // What ran in the last frame.

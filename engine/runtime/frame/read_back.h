@@ -40,8 +40,7 @@ struct Output {
 
 class ReadBack {
  public:
-  // The copies of so many frames can be on their way. Outputs arrive fewer frames later than that, unless the GPU is further
-  // behind.
+  // The copies of so many frames can be on their way. Outputs arrive fewer frames later than that, unless the GPU is further behind.
   static constexpr std::size_t kRing = 4;
 
   // Finds the outputs of a plan, and makes buffers for them. When they are those of `before` (which may be null), shares its

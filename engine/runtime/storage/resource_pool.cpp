@@ -161,8 +161,7 @@ void ResourcePool::fill(const Plan& plan, std::uint32_t resource, const graph::V
   }
 }
 
-// First shares the storage of resources of the same name, so that passes find their textures where they were; then whatever
-// fits.
+// First shares the storage of resources of the same name, so that passes find their textures where they were; then whatever fits.
 void ResourcePool::shareTextures(const Plan& plan, const std::vector<std::string>& owners,
                                  const ResourcePool& before, Textures& textures) const {
   std::unordered_set<const PhysicalTexture*> shared;

@@ -69,8 +69,7 @@ struct SceneGrid {
 
 constexpr std::size_t kMaxLamps = 65536;
 
-// The keys `nits`, `sun`, `lamps` and `lamp_grids` of a scene file, with their units. What is wrong is W160, or what JsonFields
-// reports.
+// The keys `nits`, `sun`, `lamps` and `lamp_grids` of a scene file, with their units. Mistakes: W160, or what JsonFields reports.
 void readLights(SceneFields& fields, Scene& scene, text::Diagnostics& diagnostics);
 
 }  // namespace weft::scene

@@ -1,5 +1,4 @@
-// What views see of the frame's meshes: rows in the order in which they are drawn, and the draw commands for them. All views of a
-// frame are culled at once.
+// What views see of the frame's meshes: rows in the order in which they are drawn, and their draw commands, for all views at once.
 #pragma once
 
 #include <cstdint>

@@ -8,8 +8,7 @@
 
 namespace weft::scene {
 
-// Calls `run(from, to)` for ranges that make up 0 to `count`; for one, on this thread, where `count` is at most `few`: then threads
-// cost more than they bring.
+// Calls `run(from, to)` for ranges that make up 0 to `count`; for one, on this thread, where `count` is at most `few`.
 template <class Run>
 void forRanges(std::size_t count, std::size_t few, const Run& run) {
   if (count == 0) return;

@@ -72,8 +72,7 @@ std::string dataFolder();
 
 // ---- which files may be read ----
 
-// The person named this path on the command line: it is never outside, and may be a pipe. A folder that is
-// named so is an allowed one.
+// The person named this path on the command line: it is never outside, and may be a pipe. A folder named so is allowed.
 void chooseFile(const std::string& path);
 
 // Confines reading to `folder`, and to all other folders that were given to this function or to allowFolder().

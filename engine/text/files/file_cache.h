@@ -25,8 +25,7 @@ class FileCache {
     std::shared_ptr<const void> made;
     Diagnostics said{};
   };
-  // What `read(path, diagnostics)` makes of the file, an optional<T>. Null after errors; the errors of a file that has not
-  // changed are reported again.
+  // What `read(path, diagnostics)` makes of the file, an optional<T>. Null after errors, which are reported again each time.
   template <class T, class Read>
   std::shared_ptr<const T> get(const std::string& path, const Read& read, Diagnostics& diagnostics) {
     touch(path);

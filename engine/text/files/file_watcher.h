@@ -26,8 +26,7 @@ class FileWatcher {
   // keeps what happened before. Not to be read.
   int descriptor() const { return descriptor_; }
 
-  // Replaces the set. Names that were watched before keep what has happened to them and was not asked for
-  // yet.
+  // Replaces the set. Names that were watched before keep what has happened to them and was not asked for yet.
   void watch(std::vector<std::string> files);
 
   // The names, as given to watch(), of the files that changed; each once, sorted. Never blocks.

@@ -310,8 +310,7 @@ class Writer {
            kColumns;
   }
 
-  // The width of the longest key in the rows up to the next blank line, where some values are objects or
-  // lists.
+  // The width of the longest key in the rows up to the next blank line, where some values are objects or lists.
   static int paddingOf(std::span<const Item> items) {
     int longest = 0, shortest = kColumns;
     bool table = false;
