@@ -1,7 +1,7 @@
 // Pictures as CPU data: decoding, saving, cleaning an environment map. Row 0 is the top row, as in the files.
 // Every failure is a Diagnostic: W150 (cannot be read), W151 (unknown kind of file), W152 (empty or too
-// large; a warning where an .exr has nothing in its display window), W153 (warning, or note when none was worse than too bright: texels were replaced), W180 (cannot be written). Nothing throws, corrupt bytes never
-// crash. Thread safe: no state is shared between calls.
+// large; a warning where an .exr has nothing in its display window), W153 (warning, or note when none was worse than too bright:
+// texels were replaced), W180 (cannot be written). Nothing throws, corrupt bytes never crash. Thread safe: no state is shared.
 #pragma once
 
 #include <cstddef>
