@@ -162,7 +162,7 @@ class Reader {
     std::string first;  // that shows more than an edge of it, and of its box
     for (std::size_t i = 0; i < seen.size(); ++i) {
       if (first.empty() && seen[i] >= 0.02 * most &&
-          glm::dot(sides, glm::abs(kViews[i].second)) >= 0.005 * std::max({sides.x, sides.y, sides.z}))
+          glm::dot(sides, glm::abs(kViews[i].second)) >= 0.06 * std::max({sides.x, sides.y, sides.z}))
         first = kViews[i].first;
       if (std::ranges::find(loaded->model.cameras, kViews[i].first, &assets::ModelCamera::name) ==
           loaded->model.cameras.end())

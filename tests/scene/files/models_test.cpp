@@ -103,6 +103,20 @@ TEST_CASE("a model file is a scene: framed, lit, with cameras all round") {
   const auto low = loadScene(folder.write("kerbs.obj", kerbs), diagnostics);
   REQUIRE(low);
   CHECK(findCamera(*low, "")->name == "top");
+  // A ruler that lies is seen from above, a shoe box from the front, a stick along z from the side.
+  const auto firstOf = [&](const std::string& w, const std::string& h, const std::string& d) {
+    std::string box;
+    for (const std::string& z : {std::string("0"), d})
+      box += "v 0 0 " + z + "\nv " + w + " 0 " + z + "\nv " + w + " " + h + " " + z + "\nv 0 " + h + " " + z +
+             "\n";
+    box += "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 4 1 5 8\n";
+    const auto scene = loadScene(folder.write("box.obj", box), diagnostics);
+    REQUIRE(scene);
+    return findCamera(*scene, "")->name;
+  };
+  CHECK(firstOf("31", "0.17", "3.4") == "top");
+  CHECK(firstOf("30", "10", "20") == "front");
+  CHECK(firstOf("2.5", "8.5", "69") == "left");
   CHECK_FALSE(loadScene(kTop + "scenes/models/rock.obj", diagnostics, nullptr, {.camera = "tpo"}));
   REQUIRE(diagnostics.size() == 1);
   CHECK(diagnostics.items()[0].hint == "did you mean 'top'?");
