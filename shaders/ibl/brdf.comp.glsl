@@ -12,8 +12,7 @@
 // integrand is even in it). Against 300 x 300 nodes both channels are within 0.001, their sum within 0.13 %.
 //
 // The lobe of a slanted surface is longer in the plane of incidence than across it, and rough ones lean to the normal. The prefiltered
-// map has the lobes of V = N; it is read with the mean direction of the true lobe and the geometric mean of its variances in the plane
-// and across it.
+// map has the round lobes of V = N: see roundLobe().
 //
 // Of four rows (where there are 512) one is integrated; the others are interpolated by the cubic through the four nearest (Catmull and Rom,
 // 1974). The table is even in the roughness and continues beyond 1, so that the first and the last rows have neighbors.
@@ -35,23 +34,11 @@ const vec2 kStep = vec2(cos(0.0625 * 3.14159265), sin(0.0625 * 3.14159265));
 
 shared vec4 integrated[16][8];
 
-// Variance along one axis of the lobe of V = N, weighted by N.L: (1 - m^2) / 2 with its mean cosine m, in closed form.
-// c = cos^2 of the half vector's angle has the density a2 / (1 + (a2 - 1) c)^2, and N.L = 2 c - 1.
-float varianceOf(float alpha) {
-  float a2 = alpha * alpha, s = 1.0 + a2, reach = s * (1.0 / a2 - 2.0 / s), bent = log(0.5 * s / a2);
-  float once = reach - 2.0 * bent, twice = s * reach - 4.0 * s * bent + 2.0 * s - 4.0 * a2;
-  float mean = twice / (once * (1.0 - a2));
-  return 0.5 * (1.0 - mean * mean);
-}
-
-// Width of the lobe of V = N that has this variance, from 0.005 on: narrower ones are not in the map.
-float alphaOfVariance(float variance, int steps) {
-  vec2 range = vec2(log2(0.005), log2(0.995));
-  for (int i = 0; i < steps; ++i) {
-    float middle = 0.5 * (range.x + range.y);
-    range = varianceOf(exp2(middle)) < variance ? vec2(middle, range.y) : vec2(range.x, middle);
-  }
-  return exp2(range.x);
+// The round lobe that stands for a slanted one: how far it leans from the mirror direction to the normal, and its width as a share of alpha.
+// Fitted to brute force under twelve maps; tests/theory/reflection holds it.
+vec2 roundLobe(float nv, float alpha) {
+  float a2 = alpha * alpha, x = a2 * (3.6 * alpha + 4.1 * (1.0 - alpha) * (1.0 - nv) / (nv + 0.65 * alpha));
+  return vec2(x / (x + 1.0 - a2 * a2), (0.5 + 0.41 * nv * nv) * (0.95 + 1.7 * alpha));
 }
 
 vec4 integrate(float nv, float roughness, int quarters) {
@@ -66,40 +53,29 @@ vec4 integrate(float nv, float roughness, int quarters) {
   float masking = sqrt(1.0 + a2 * (sv * sv) / (nv * nv));  // 1 + 2 Lambda(V)
 
   vec2 sum = vec2(0.0);
-  vec3 light = vec3(0.0);  // mean direction towards the light in the plane of incidence; mean square across it
   for (int i = 0; i < kHeights; ++i) {
     float t = kNode[i];
     float z = lowest + cap * t * t;
     float ring = sqrt(max(1.0 - z * z, 0.0));
     float hz = w.y + z;
     vec2 part = vec2(0.0);
-    vec3 part_light = vec3(0.0);
     vec2 around = kFirst;
     // Four midpoints at once, mirrored at the azimuths pi / 4 and pi / 2.
     for (int j = 0; j < quarters; ++j) {
       vec4 hx = alpha * (w.x + ring * vec4(around, -around)), hy = (alpha * ring) * around.yxyx;
       vec4 scale = inversesqrt(hx * hx + hy * hy + hz * hz);
       vec4 vh = clamp((hx * sv + hz * nv) * scale, 0.0, 1.0), twice = 2.0 * vh * scale;
-      vec4 lx = twice * hx - sv, ly = twice * hy, lz = max(twice * hz - nv, 0.0);
+      vec4 lz = max(twice * hz - nv, 0.0);
       // G2 / G1(V) = (1 + 2 Lambda(V) + 1) / (1 + 2 Lambda(V) + 1 + 2 Lambda(L)), both parts times N.L
       vec4 shadowing = (masking + 1.0) * lz / (masking * lz + sqrt(mix(vec4(a2), vec4(1.0), lz * lz)));
       vec4 m = 1.0 - vh, m2 = m * m, fresnel = m2 * m2 * m;
       part += vec2(dot(shadowing, 1.0 - fresnel), dot(shadowing, fresnel));
-      part_light += vec3(dot(shadowing, lx), dot(shadowing, lz), dot(shadowing, ly * ly));
       around = vec2(around.x * kStep.x - around.y * kStep.y, around.x * kStep.y + around.y * kStep.x);
     }
     sum += part * (kWeight[i] * 2.0 * t);
-    light += part_light * (kWeight[i] * 2.0 * t);
   }
-  light /= sum.x + sum.y;
-
-  // V leans to +X, so the mirror direction is (-sv, nv).
-  float rise = light.y * sv + light.x * nv, lean = clamp(rise / max(rise - light.x, 1e-6), 0.0, 1.0);
-  float across = light.z, along = max(1.0 - dot(light.xy, light.xy) - across, 0.0);
-  float like = alphaOfVariance(sqrt(along * across), 3 * quarters);
-  // Mirrors, whose variance is beyond the precision of floats: the lobe is nv times as wide across the plane.
-  if (alpha < 0.005) like = alpha * sqrt(nv);
-  return vec4(sum * (cap / ((1.0 + w.y) * float(kAzimuths))), lean, placeOfAlpha(like) - placeOfAlpha(alpha));
+  vec2 like = roundLobe(nv, alpha);
+  return vec4(sum * (cap / ((1.0 + w.y) * float(kAzimuths))), like.x, placeOfAlpha(like.y) - 1.0);
 }
 
 void main() {

@@ -7,7 +7,8 @@
 //                         does not show the pattern of the samples; below it the lobe is sharper
 //
 // Samples of the normal distribution, each read at the level whose texels match the sample's share of the sphere
-// (Krivanek and Colbert, EGSR 2008) and weighted by N.L. All texels of a row have the same samples but for a
+// (Krivanek and Colbert, EGSR 2008) and weighted by N.L. There are more of them in the tail, each with less of the light: few
+// of equal weight would show there as stars. All texels of a row have the same samples but for a
 // rotation: their map coordinates relative to the texel are computed once per work group.
 #include "common/equirect.glsl"
 #include "common/slice.glsl"
@@ -34,7 +35,7 @@ void fillTable(float theta, int count) {
   float texel = 2.0 * kPi / base.x * kPi / base.y;  // solid angle at the equator
   float cos_n = cos(theta), sin_n = sin(theta);
   for (int i = int(gl_LocalInvocationID.x); i < count; i += 64) {
-    float u = (float(i) + 0.5) / float(count);
+    float t = 1.0 - (float(i) + 0.5) / float(count), u = 1.0 - t * t, heavy = 2.0 * t;
     float phi = 2.0 * kPi * fract(kGolden * float(i));
     float cos2_h = (1.0 - u) / (1.0 + (a2 - 1.0) * u);
     float cos_l = 2.0 * cos2_h - 1.0;              // N.L of V = N reflected about the sampled normal
@@ -45,12 +46,12 @@ void fillTable(float theta, int count) {
     vec3 local = vec3(sin_l * cos(phi), sin_l * sin(phi), cos_l);
     vec3 direction = vec3(sin_n * local.z + cos_n * local.x, cos_n * local.z - sin_n * local.x, local.y);
     vec2 at = equirectUv(direction);
-    float share = 1.0 / (float(count) * pdf);
+    float share = heavy / (float(count) * pdf);
     float lod = 0.5 * log2(share / (texel * max(length(direction.xz), 0.05))) + spread;
     lod = clamp(lod, 0.0, float(textureQueryLevels(environment) - 1));
     float half_texel = 0.5 * exp2(ceil(lod)) / base.y;
     at.y = clamp(at.y, min(half_texel, 0.5), max(1.0 - half_texel, 0.5));
-    table[i] = vec4(at.x - 0.5, at.y, lod, max(cos_l, 0.0));
+    table[i] = vec4(at.x - 0.5, at.y, lod, heavy * max(cos_l, 0.0));
   }
 }
 

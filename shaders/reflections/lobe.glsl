@@ -103,7 +103,7 @@ vec4 reflectedPicture(Point point, Response response, int set, int sets, int ray
     if (seen.a <= 0.0) continue;
     // The map is that of the whole lobe, of which this ray hides a part that may be brighter or darker.
     if (spread > 0.0) {
-      if (!found) mean = prefiltered(axis, levelOfAlpha(alpha, levels) + response.level_shift * float(levels - 1), levels);
+      if (!found) mean = prefiltered(axis, levelOfAlpha(alpha, levels), levels);
       seen.rgb += seen.a * spread * (mean - prefiltered(l, levelOfAlpha(part, levels), levels));
     }
     found = true;

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A mirror dome on a plate, as geometry and as a normal map, some pixels wide, against the means of 8 x 8 pixels of a large picture,
-by Hable's curve, of whose steps there may be 6.
+"""Metal domes of several roughnesses, in one column as geometry and in the other as normal maps of plates, 10 to 20 pixels wide: against the
+means of 8 x 8 pixels of a large picture, and the columns against each other, by Hable's curve, of whose steps there may be 6.
 normal_pixels.py WEFT"""
 import base64
 import json
@@ -16,7 +16,8 @@ from pictures import decode, png  # noqa: E402
 
 TOP = pathlib.Path(__file__).resolve().parents[3]
 WEFT = sys.argv[1]
-WIDE, HIGH, SIDE = 60, 40, 256  # the small picture; texels of the normal map
+ROUGH = (0, 0.1, 0.2, 0.35, 0.5)
+SIDE = 256  # texels of the normal map
 problems = []
 
 
@@ -38,8 +39,8 @@ def dome():
 def write_scene(folder):
     plate = [(x / 2, y / 2, 0, 0, 0, 1, (x + 1) / 2, (1 - y) / 2) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
     shapes = [dome(), (plate, [0, 1, 2, 0, 2, 3])]
-    data, views, accessors, meshes = b"", [], [], []
-    for mesh, (rows, corners) in enumerate(shapes):
+    data, views, accessors, made = b"", [], [], []
+    for rows, corners in shapes:
         attributes = {}
         for name, kind, first, size in (("POSITION", "VEC3", 0, 3), ("NORMAL", "VEC3", 3, 3), ("TEXCOORD_0", "VEC2", 6, 2), ("", "SCALAR", 0, 1)):
             part = (b"".join(struct.pack(f"<{size}f", *row[first:first + size]) for row in rows) if name else
@@ -49,8 +50,9 @@ def write_scene(folder):
             data += part
             if name:
                 attributes[name] = len(accessors) - 1
-        meshes.append({"primitives": [{"attributes": attributes, "indices": len(accessors) - 1, "material": mesh}]})
-    metal = {"pbrMetallicRoughness": {"baseColorFactor": [0.9, 0.9, 0.9, 1], "metallicFactor": 1, "roughnessFactor": 0}}
+        made.append({"attributes": attributes, "indices": len(accessors) - 1})
+    metals = [{"pbrMetallicRoughness": {"baseColorFactor": [0.9, 0.9, 0.9, 1], "metallicFactor": 1, "roughnessFactor": rough}} for rough in ROUGH]
+    meshes = [{"primitives": [made[column] | {"material": len(ROUGH) * column + i}]} for i in range(len(ROUGH)) for column in (0, 1)]
     texels = []
     for y in range(SIDE):
         row = []
@@ -60,19 +62,22 @@ def write_scene(folder):
             row.append(tuple(round(127.5 + 127.5 * c) for c in n))
         texels.append(row)
     (folder / "n.png").write_bytes(png(texels))
-    document = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}], "bufferViews": views, "accessors": accessors, "meshes": meshes,
-                "nodes": [{"mesh": 0, "translation": [-0.6, 0, 0]}, {"mesh": 1, "translation": [0.6, 0, 0]}],
-                "materials": [metal, metal | {"normalTexture": {"index": 0}}], "textures": [{"source": 0}], "images": [{"uri": "n.png"}],
+    nodes = [{"mesh": 2 * i + column, "translation": [1.2 * column - 0.6, 1.2 * (len(ROUGH) / 2 - i - 0.5), 0]} for i in range(len(ROUGH)) for column in (0, 1)]
+    document = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(len(nodes)))}], "bufferViews": views, "accessors": accessors,
+                "meshes": meshes, "nodes": nodes, "materials": metals + [metal | {"normalTexture": {"index": 0}} for metal in metals],
+                "textures": [{"source": 0}], "images": [{"uri": "n.png"}],
                 "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}]}
     (folder / "domes.gltf").write_text(json.dumps(document))
-    (folder / "scene.json").write_text(json.dumps({
-        "cameras": {"front": {"position": [0, 0, 8], "target": [0, 0, 0], "fov": 12}}, "models": {"domes": {"file": "domes.gltf"}}}))
+    (folder / "scene.json").write_text(json.dumps({  # from so far away that both columns are seen alike
+        "cameras": {"front": {"position": [0, 0, 80], "target": [0, 0, 0], "fov": math.degrees(2 * math.atan(0.6 * len(ROUGH) / 80))}},
+        "models": {"domes": {"file": "domes.gltf"}}}))
 
 
-def render(folder, times):
+def render(folder, cell):
+    """A picture with cells of so many pixels, 1.2 units, in two columns: linear light."""
     out = folder / "out.png"
-    subprocess.run([WEFT, "render", "graphs/deferred.json", "--scene", folder / "scene.json", "--set", "curve=filmic", "--set", "fxaa=false", "--set", "bloom=false",
-                    "--environment", "scenes/environments/spiaggia_di_mondello_1k.hdr", "--size", f"{WIDE * times}x{HIGH * times}", "-o", out],
+    subprocess.run([WEFT, "render", "graphs/deferred.json", "--scene", folder / "scene.json", "--set", "curve=filmic", "--set", "fxaa=false", "--set", "bloom=false", "--set", "ao=false",
+                    "--environment", "scenes/environments/spiaggia_di_mondello_1k.hdr", "--size", f"{2 * cell}x{len(ROUGH) * cell}", "-o", out],
                    cwd=TOP, check=True)
     _, channels, texels = decode(out.read_bytes())
     return [LINEAR[c] for i, c in enumerate(texels) if i % channels < 3]
@@ -85,28 +90,34 @@ def shown(light):
     return 255 * (12.92 * light if light <= 0.0031308 else 1.055 * light ** (1 / 2.4) - 0.055)
 
 
-def far_off(small, large, center):
-    """Mean difference of 255 over what is inside the dome."""
-    sum_of, count, per_unit = 0, 0, HIGH / (16 * math.tan(math.radians(6)))
-    for y in range(HIGH):
-        for x in range(WIDE):
-            if math.hypot((x + 0.5 - WIDE / 2) / per_unit - center, (y + 0.5 - HIGH / 2) / per_unit) > 0.36:
-                continue
-            for c in range(3):
-                cells = (large[((8 * y + j) * 8 * WIDE + 8 * x + i) * 3 + c] for j in range(8) for i in range(8))
-                sum_of += abs(shown(small[(y * WIDE + x) * 3 + c]) - shown(sum(cells) / 64))
-                count += 1
-    return sum_of / count
+def compare(cell, small, large):
+    """Of each roughness: mean differences of 255 inside the domes, of both columns and between them."""
+    for row, rough in enumerate(ROUGH):
+        off, count = [0, 0, 0], 0
+        for y in range(cell):
+            for x in range(cell):
+                if math.hypot(x + 0.5 - cell / 2, y + 0.5 - cell / 2) > 0.3 * cell:
+                    continue
+                for c in range(3):
+                    seen = []
+                    for column in (0, 1):
+                        left, top = column * cell + x, row * cell + y
+                        seen.append(shown(small[(top * 2 * cell + left) * 3 + c]))
+                        cells = (large[((8 * top + j) * 16 * cell + 8 * left + i) * 3 + c] for j in range(8) for i in range(8))
+                        off[column] += abs(seen[-1] - shown(sum(cells) / 64))
+                    off[2] += abs(seen[1] - seen[0])
+                    count += 1
+        line = f"{cell * 2 // 3} pixels, roughness {rough}: " + ", ".join(
+            f"{name} {part / count:.2f}" for name, part in zip(("geometry", "normal map", "between them"), off))
+        print(line)
+        if max(off if rough else off[:2]) > 6 * count:  # mirrors show the steps of the normal map's 8 bits
+            problems.append(line + " of 255, not below 6")
 
 
 with tempfile.TemporaryDirectory() as folder:
     folder = pathlib.Path(folder)
     write_scene(folder)
-    small, large = render(folder, 1), render(folder, 8)
-    for name, center in (("geometry", -0.6), ("normal map", 0.6)):
-        off = far_off(small, large, center)
-        print(f"{name}: {off:.2f} of 255")
-        if off > 6:
-            problems.append(f"{name}: {off:.2f} of 255 from 64 samples per pixel, not below 6")
+    for cell in (15, 24, 30):
+        compare(cell, render(folder, cell), render(folder, 8 * cell))
 print("\n".join(problems) or "normals in pixels: as many samples show them")
 sys.exit(1 if problems else 0)
