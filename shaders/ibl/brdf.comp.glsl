@@ -35,7 +35,7 @@ const vec2 kStep = vec2(cos(0.0625 * 3.14159265), sin(0.0625 * 3.14159265));
 shared vec4 integrated[16][8];
 
 // The round lobe that stands for a slanted one: how far it leans from the mirror direction to the normal, and its width as a share of alpha.
-// Fitted to brute force under twelve maps; tests/theory/reflection holds it.
+// Fitted to brute force under twelve maps; tests/theory/reflection holds five of them.
 vec2 roundLobe(float nv, float alpha) {
   float a2 = alpha * alpha, x = a2 * (3.6 * alpha + 4.1 * (1.0 - alpha) * (1.0 - nv) / (nv + 0.65 * alpha));
   return vec2(x / (x + 1.0 - a2 * a2), (0.5 + 0.41 * nv * nv) * (0.95 + 1.7 * alpha));
@@ -74,7 +74,7 @@ vec4 integrate(float nv, float roughness, int quarters) {
     }
     sum += part * (kWeight[i] * 2.0 * t);
   }
-  vec2 like = roundLobe(nv, alpha);
+  vec2 like = roundLobe(nv, alpha);  // places are logarithms, 1 for an alpha of 1: a share is a difference of places
   return vec4(sum * (cap / ((1.0 + w.y) * float(kAzimuths))), like.x, placeOfAlpha(like.y) - 1.0);
 }
 

@@ -52,7 +52,7 @@ vec3 lightFromBehind(Point point, Response response) {
   vec2 edge = min(at, 1.0 - at);
   float inside = clamp(20.0 * min(edge.x, edge.y), 0.0, 1.0);
   point.mirror = into;
-  response.level_shift = 0.0;  // that is of what is mirrored
+  response.level_shift = 0.0;  // it is that of a mirrored lobe
   if (inside < 1.0) light = mix(clear * reflectedEnvironment(point, response, lobeOf(sqrt(alpha), 0.0), into), light, inside);
 #endif
   return light * exp(-layers.absorption * layers.thickness);
