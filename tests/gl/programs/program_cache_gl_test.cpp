@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <cstring>
 #include <filesystem>
@@ -323,6 +324,27 @@ TEST_CASE_FIXTURE(Fixture, "a process that does not come to an end is ended") {
                       .trialSeconds = 1});
   CHECK_FALSE(cache.get(fragmentOf(kUnusual), diagnostics));
   CHECK(diagnostics.contains(Code::driverDied));
+}
+
+TEST_CASE_FIXTURE(
+    Fixture,
+    "each of many programs has its own time, of the processor: no verdict hangs on others or on load") {
+  // Each takes 0.6 of its one second, and waits for longer than that.
+  const char* const kBusy =
+      "printf o; cat >/dev/null; sleep 1.1\n"
+      "while read -r _ _ _ _ _ _ _ _ _ _ _ _ _ user system _ </proc/$$/stat && [ $((user + system)) -lt 60 "
+      "]; do :; done\n"
+      "printf d";
+  ProgramCache cache(context().device(), loader,
+                     {.capacity = 8, .folder = "", .trial = {"/bin/sh", "-c", kBusy}, .trialSeconds = 1});
+  for (const int size : {200, 201}) {
+    const std::string text = fmt::format(
+        "out vec4 result;\nvoid main() {{\n  float a[{}];\n  result = vec4(a[int(gl_FragCoord.x)]);\n}}\n",
+        size);
+    CHECK(cache.get(fragmentOf(text), diagnostics));
+  }
+  CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
+  CHECK(cache.stats().trials == 2);
 }
 
 TEST_CASE_FIXTURE(Fixture, "functions in a circle are reported where they stand") {
