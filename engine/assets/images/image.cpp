@@ -15,6 +15,7 @@
 #include "assets_sentences.h"
 #include "engine/assets/images/image_codecs.h"
 #include "engine/text/files/file.h"
+#include "engine/text/limits.h"
 
 namespace weft::assets {
 
@@ -163,13 +164,16 @@ void reportUnreadable(Diagnostics& diagnostics, const std::string& name, const s
   diagnostics.error(say::cannotReadImage, {name}, name, why);
 }
 
-bool checkSize(Diagnostics& diagnostics, const std::string& name, long long width, long long height) {
-  const bool tooLarge = width > kMaxImageSide || height > kMaxImageSide ||
-                        width * height > static_cast<long long>(kMaxImageTexels);
-  if (width >= 1 && height >= 1 && !tooLarge) return true;
-  diagnostics.error(say::badImage, {name}, name, tooLarge ? "too large" : "empty", kMaxImageSide,
-                    kMaxImageTexels, width, height);
-  return false;
+bool checkSize(Diagnostics& diagnostics, const std::string& name, long long width, long long height,
+               int texel) {
+  const bool empty = std::min(width, height) < 1, never = empty || std::max(width, height) > kMaxImageSide;
+  const std::uint64_t most = text::raised(kMaxImageBytes),
+                      bytes = never ? ~0ull : static_cast<std::uint64_t>(width * height * texel);
+  if (bytes > most)
+    diagnostics.error(say::badImage, {name}, name, empty ? "empty" : "too large", kMaxImageSide,
+                      most / static_cast<unsigned>(texel), width, height,
+                      text::hintToRaise(kMaxImageBytes, bytes));
+  return bytes <= most;
 }
 
 std::optional<ImageHeader> loadHeader(const std::string& path, Diagnostics& diagnostics) {
@@ -179,7 +183,7 @@ std::optional<ImageHeader> loadHeader(const std::string& path, Diagnostics& diag
 
 std::optional<ImageF> decodeImage(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
   const std::optional<ImageHeader> header = readHeader(bytes, name, diagnostics);
-  if (!header) return {};
+  if (!header || !checkSize(diagnostics, name, header->width, header->height)) return {};
   const auto linear = [](const auto& encoded) {
     return encoded ? std::optional(linearize(*encoded)) : std::nullopt;
   };

@@ -29,7 +29,7 @@ using ImageF = ImageOf<float>;         // linear light
 using Image8 = ImageOf<std::uint8_t>;  // as stored: sRGB encoded for pictures
 
 constexpr int kMaxImageSide = 32768;
-constexpr std::size_t kMaxImageTexels = std::size_t{1} << 27;  // 16384 x 8192
+constexpr std::uint64_t kMaxImageBytes = 512ull << 20;  // as a texture holds it: 8192 x 4096 floats
 
 // .hdr (RGB), .exr (RGBA; RGB and gray are widened), .png .jpg .jpeg .webp .tga (channels as stored, 8 or 16 bit;
 // color is decoded from sRGB, alpha is not). The kind comes from the extension of `name`, case-insensitive.

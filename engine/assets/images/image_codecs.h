@@ -14,8 +14,9 @@ enum class ImageKind : std::uint8_t { unknown, hdr, exr, eight_bit };
 ImageKind kindOfName(const std::string& name);
 // Adds "cannot read NAME: WHY" as W150.
 void reportUnreadable(text::Diagnostics& diagnostics, const std::string& name, const std::string& why);
-// True when the size is sound; else adds W152.
-bool checkSize(text::Diagnostics& diagnostics, const std::string& name, long long width, long long height);
+// True when the size is sound, with that many bytes a texel; else adds W152.
+bool checkSize(text::Diagnostics& diagnostics, const std::string& name, long long width, long long height,
+               int texel = 16);
 
 // Of .png, .jpg, .webp and .tga.
 std::optional<ImageHeader> readPictureHeader(std::string_view bytes, const std::string& name,

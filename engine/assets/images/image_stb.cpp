@@ -146,13 +146,14 @@ std::optional<ImageHeader> readPictureHeader(std::string_view bytes, const std::
   if (problem.empty() && !webp &&
       !stbi_info_from_memory(stbData(bytes), stbSize(bytes), &header.width, &header.height, &header.channels))
     problem = fmt::format("its header is not valid ({})", stbi_failure_reason());
-  if (problem.empty() && !checkSize(diagnostics, name, header.width, header.height)) return {};
+  const bool word = problem.empty() && stbi_is_16_bit_from_memory(stbData(bytes), stbSize(bytes));
+  if (word) header.type = StoredType::word;
+  if (problem.empty() && !checkSize(diagnostics, name, header.width, header.height, word ? 8 : 4)) return {};
   if (problem.empty() && !jpeg && !png && !webp) problem = checkTga(bytes);
   if (!problem.empty()) {
     reportUnreadable(diagnostics, name, problem);
     return {};
   }
-  if (stbi_is_16_bit_from_memory(stbData(bytes), stbSize(bytes))) header.type = StoredType::word;
   return header;
 }
 

@@ -320,10 +320,8 @@ GLint toInt(std::uint32_t value) {
   return static_cast<GLint>(value);
 }
 
-GLsizei byteCount(const Extent& extent, GLenum format, GLenum type) {
-  const std::uint64_t bytes = std::uint64_t{extent.width} * extent.height * texelBytes(format, type);
-  assert(bytes <= 0x7fffffff);
-  return static_cast<GLsizei>(bytes);
+std::size_t byteCount(const Extent& extent, GLenum format, GLenum type) {
+  return std::size_t{extent.width} * extent.height * texelBytes(format, type);
 }
 
 }  // namespace
@@ -396,7 +394,7 @@ void uploadTexture(const TextureRef& texture, std::uint32_t mip, std::uint32_t l
                    GLenum type, std::span<const std::byte> data) {
   const Extent extent = extentOf(texture.desc, mip);
   assert(mip < texture.desc.mips && layer < extent.layers && texture.desc.samples == 1);
-  assert(data.size() == static_cast<std::size_t>(byteCount(extent, format, type)));
+  assert(data.size() == byteCount(extent, format, type));
   const GLsizei width = toInt(extent.width), height = toInt(extent.height);
   if (texture.desc.target == GL_TEXTURE_2D)
     glTextureSubImage2D(texture.id, toInt(mip), 0, 0, width, height, format, type, data.data());
@@ -409,10 +407,14 @@ std::vector<std::byte> readTexture(const TextureRef& texture, std::uint32_t mip,
                                    GLenum format, GLenum type) {
   const Extent extent = extentOf(texture.desc, mip);
   assert(mip < texture.desc.mips && layer < extent.layers && texture.desc.samples == 1);
-  const GLsizei bytes = byteCount(extent, format, type);
-  std::vector<std::byte> data(static_cast<std::size_t>(bytes));
-  glGetTextureSubImage(texture.id, toInt(mip), 0, 0, toInt(layer), toInt(extent.width), toInt(extent.height),
-                       1, format, type, bytes, data.data());
+  std::vector<std::byte> data(byteCount(extent, format, type));
+  const auto row = static_cast<std::uint32_t>(data.size() / extent.height),
+             some = std::max(1u, (64u << 20) / row);
+  for (std::uint32_t y = 0; y < extent.height; y += some) {  // OpenGL counts the bytes of one call in 31 bits
+    const std::uint32_t rows = std::min(some, extent.height - y);
+    glGetTextureSubImage(texture.id, toInt(mip), 0, toInt(y), toInt(layer), toInt(extent.width), toInt(rows),
+                         1, format, type, toInt(rows * row), &data[std::size_t{y} * row]);
+  }
   return data;
 }
 

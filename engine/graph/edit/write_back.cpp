@@ -102,8 +102,7 @@ std::optional<std::string> putInSet(const std::string& text, const std::string& 
                          after);
 }
 
-// The file that changes go into when the graph is laid over others: the last preset, or the graph's own when it extends
-// another; else nothing.
+// The file that changes go into when the graph is laid over others: the last preset, or the graph's own when it extends another; else nothing.
 std::optional<std::string> overlayOf(const GraphDesc& desc, std::span<const std::string> presets) {
   if (!presets.empty()) return presets.back();
   return !desc.top.empty() && desc.top == desc.path ? std::optional(desc.path) : std::nullopt;

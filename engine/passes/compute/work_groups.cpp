@@ -11,8 +11,7 @@ WorkGroups workGroupsOf(const PassContext& context) {
     groups.count[axis] = (context.spec->threads[axis] + size - 1) / size;
   }
   // Long one-dimensional work may need more groups than one axis allows, so it is folded into rows. A shader that
-  // supports this computes its index from gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x and checks its
-  // range.
+  // supports this computes its index from gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x and checks its range.
   if (groups.count[0] > context.maxGroups[0] && groups.count[1] == 1) {
     groups.count[1] = (groups.count[0] + context.maxGroups[0] - 1) / context.maxGroups[0];
     groups.count[0] = context.maxGroups[0];

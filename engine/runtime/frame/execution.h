@@ -86,8 +86,7 @@ class Execution {
   // Whether a frame may differ by which frames ran before it: by a live history, by an import that remembers, or by results
   // that are kept and were made of something that moves. If not, headless frame n may be the first to run.
   bool remembers(const World& world) const;
-  // Whether anything in the draw lists that are drawn can have another place in another frame of the last frame's world, in
-  // view or not.
+  // Whether anything in the draw lists that are drawn can have another place in another frame of the last frame's world, in view or not.
   bool drawsMotion() const;
   // Whether a pass reads an import that follows the mouse.
   bool followsPointer() const;

@@ -65,8 +65,7 @@ const graph::Value* clearOf(const FlatGraph& graph, std::uint32_t resource) {
 
 // Finds the passes of a new plan that are equal to passes of the running plan, so that what was prepared for those (program,
 // bindings, views, attachments) can be kept. Passes are matched by their instance names, resources by the slots that use them.
-// Compares descriptions and the identity of storage only: shader files and values of uniforms, which are written anew, do not
-// count.
+// Compares descriptions and the identity of storage only: shader files and values of uniforms, which are written anew, do not count.
 class PassKeeper {
  public:
   PassKeeper(const Plan& plan, const Plan& before) : plan_(plan), before_(before) {

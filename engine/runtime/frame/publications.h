@@ -38,8 +38,7 @@ class Publications {
   void refreshImports(text::Diagnostics& diagnostics);
   // Sets histories back to their first value when what resets them has changed.
   void resetHistories(text::Diagnostics& diagnostics);
-  // Sets the age of what the passes of this frame will publish to 0. True when there is something. To be called when the
-  // cadence has decided.
+  // Sets the age of what the passes of this frame will publish to 0. True when there is something. To be called when the cadence has decided.
   bool announce();
   // Before the steps of a round run: keeps the generations that the cadence saw.
   void beginRound();

@@ -190,8 +190,7 @@ class Checker {
     return members;
   }
 
-  // True when something for which `is` holds may be declared: here, in a branch that is not taken, or in a text that could not be
-  // read whole.
+  // True when something for which `is` holds may be declared: here, in a branch that is not taken, or in a text that could not be read whole.
   template <class F>
   bool maybe(Role role, F&& is) const {
     return std::ranges::any_of(stagesFor(role), [&](const gl::StageSource& stage) {
@@ -226,8 +225,7 @@ class Checker {
   }
   bool isSlot(std::string_view name) const { return graph_.hasSlot(spec_, name); }
 
-  // What the name is in the shaders, in any branch: the outputs of a vertex shader are the inputs of what follows it. Null when it
-  // is nothing.
+  // What the name is in the shaders, in any branch: the outputs of a vertex shader are the inputs of what follows it. Null when it is nothing.
   const char* whatIs(std::string_view name) const {
     for (auto stage = stages_.rbegin(); stage != stages_.rend(); ++stage)
       if (const Declaration* found = stage->source->ofAllBranches().find(name))

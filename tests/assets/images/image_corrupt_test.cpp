@@ -9,6 +9,7 @@
 
 #include "engine/assets/images/image.h"
 #include "engine/text/files/file.h"
+#include "engine/text/limits.h"
 #include "tests/assets/images/save_hdr.h"
 #include "tests/load_image.h"
 #include "tests/temporary_folder.h"
@@ -136,7 +137,24 @@ TEST_CASE("absurd sizes in a header are refused before anything is allocated") {
         text::Code::badImageSize);
   CHECK(imageFailure(folder.write("b.hdr", hdr("-Y 30000 +X 30000"))).code == text::Code::badImageSize);
   CHECK(imageFailure(folder.write("c.hdr", hdr("-Y 0 +X 10"))).code == text::Code::badImageSize);
-  CHECK(imageFailure(folder.write("d.hdr", hdr("-Y 16384 +X 8192"))).code == text::Code::unreadableImage);
+  // What a texture holds of it counts: 4, 8 or 16 bytes a texel. --limit raises it.
+  CHECK(imageFailure(folder.write("d.hdr", hdr("-Y 4096 +X 8192"))).code == text::Code::unreadableImage);
+  const std::string more = folder.write("m.hdr", hdr("-Y 4097 +X 8192"));
+  CHECK(imageFailure(more).code == text::Code::badImageSize);
+  CHECK(imageFailure(more).hint == "raise the limits with --limit 2, if that is meant");
+  text::limitsRaised = 2;
+  CHECK(imageFailure(more).code == text::Code::unreadableImage);
+  text::limitsRaised = 1;
+  for (const char depth : {8, 16}) {
+    using namespace std::string_literals;
+    const std::string png = "\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\x40\0\0\0\x20\0"s + depth +
+                            "\x02\0\0\0\0\0\0\0\0\0\0\0IDAT\0\0\0\0"s;
+    text::Diagnostics header, floats;
+    CHECK(loadHeader(folder.write("p.png", png), header).has_value() == (depth == 8));
+    CHECK(header.contains(text::Code::badImageSize) == (depth == 16));
+    CHECK_FALSE(decodeImage(png, "p.png", floats));
+    CHECK(floats.contains(text::Code::badImageSize));
+  }
   CHECK(imageFailure(folder.write("e.hdr", hdr("+X 4 -Y 4"))).code == text::Code::unreadableImage);
   CHECK(imageFailure(folder.write("f.hdr", hdr("-Y -4 +X -4"))).code == text::Code::unreadableImage);
   CHECK(imageFailure(folder.write("g.hdr", hdr("+X 4 -X 4"))).code == text::Code::unreadableImage);

@@ -99,6 +99,17 @@ TEST_CASE("every target takes an upload and gives it back, level by level and la
   CHECK(extentOf(descs[4], 1).layers == 2);
 }
 
+TEST_CASE("what is read back in several parts is whole") {
+  CleanScope clean;
+  const Texture large = makeTexture({.format = GL_R32UI, .width = 4096, .height = 4100});
+  std::vector<std::uint32_t> numbers(4096 * 4100);
+  for (std::uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
+  uploadTexture(large.ref(), 0, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, bytesOf(numbers));
+  const auto back = readTexture(large.ref(), 0, 0, GL_RED_INTEGER, GL_UNSIGNED_INT);
+  REQUIRE(back.size() == 4 * numbers.size());
+  CHECK(std::memcmp(back.data(), numbers.data(), back.size()) == 0);
+}
+
 TEST_CASE("odd rows, integers and depth come back exactly") {
   CleanScope clean;
   const Texture bytes = makeTexture({.format = GL_R8, .width = 3, .height = 2});

@@ -193,8 +193,7 @@ Cause causeOf(const Model& model, const MissingRead& missing, const Writers& wri
   return cause;
 }
 
-// However many passes read it, one that writes it is missing: said at the first that lives, as an error; as a warning
-// where all are culled.
+// However many passes read it, one that writes it is missing: said at the first that lives, as an error; as a warning where all are culled.
 void report(Model& model, const Liveness& live, const std::vector<Cause>& reads) {
   const FlatGraph& graph = model.graph;
   const auto isLive = [&](const Cause& each) {
